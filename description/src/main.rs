@@ -7,7 +7,9 @@ use std::io::BufRead;
 use std::process::ExitCode;
 
 use stm32_metapac::metadata::ir::{BitOffset, IR};
-use stm32_metapac::metadata::{METADATA, Peripheral, PeripheralRccRegister};
+use stm32_metapac::metadata::{
+    METADATA, Peripheral, PeripheralRccKernelClock, PeripheralRccRegister,
+};
 
 /// A fact: its kind, the peripheral, what of it, and its value; and whether no description is
 /// said to have it.
@@ -45,8 +47,32 @@ impl<'l> Fact<'l> {
             "pin" => self.is_pin(),
             "request" => self.is_request(),
             "bits" => peripheral(self.of).is_some_and(|p| registers::has(p, self.part, self.value)),
+            "kind" => self.is_kind() == Some(true),
             _ => false,
         }
+    }
+
+    /// What a timer, SPI or DMA controller is, and the bus whose clock it has.
+    fn is_kind(&self) -> Option<bool> {
+        let found = peripheral(self.of)?;
+        let registers = found.registers.as_ref()?;
+        let bus = match &found.rcc.as_ref()?.kernel_clock {
+            _ if self.of.starts_with("DMA") => 0,
+            // Its buses have one clock.
+            _ if METADATA.name.starts_with("STM32G0") => self.value[0],
+            PeripheralRccKernelClock::Clock(name) if name.starts_with("PCLK2") => 2,
+            PeripheralRccKernelClock::Clock(name) if name.starts_with("PCLK1") => 1,
+            // A choice is the bus's clock after a reset.
+            PeripheralRccKernelClock::Mux(_) => 1,
+            PeripheralRccKernelClock::Clock(_) => return None,
+        };
+        let kind = match &self.of[..3] {
+            "DMA" => registers.kind,
+            "SPI" if registers.version.starts_with("v3") => "queues",
+            "SPI" => "no queues",
+            _ => registers.block,
+        };
+        Some(kind == self.part && bus == self.value[0])
     }
 
     fn is_in_rcc(
@@ -135,6 +161,10 @@ fn place(of: &PeripheralRccRegister) -> Option<[u32; 2]> {
 
 /// The number in the NVIC of a peripheral's interrupt.
 fn interrupt(name: &str, signal: &str) -> Option<u32> {
+    if name == "PVD" {
+        let mut all = METADATA.interrupts.iter();
+        return Some(all.find(|at| at.name.starts_with(name))?.number);
+    }
     let mut signals = peripheral(name)?.interrupts.iter();
     let found = signals.find(|found| found.signal == signal)?;
     let mut all = METADATA.interrupts.iter();

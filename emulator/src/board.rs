@@ -22,13 +22,12 @@ use mlx90333::FRAME_LEN;
 use scene::Scene;
 
 use crate::chip::{Chip, Fault, Ps, ResetCause, SensorEnd};
-use crate::machine::{Machine, Observer, Stop};
+use crate::machine::{Machine, Stop};
 use crate::meter::Meter;
 use crate::notice::Notice;
 use crate::program::Program;
 use crate::watch::{Said, Watch};
 
-/// A sensor on its wires: host-sim's slave.
 #[derive(Debug, Default)]
 struct Wired {
     slave: Slave,
@@ -71,7 +70,8 @@ impl SensorEnd for Wired {
     }
 }
 
-/// The emulated board and what hangs on it.
+/// The emulated board and what hangs on it, as host-sim's runs see it. What goes wrong is kept for
+/// [`Board::check`]; after that it stands still.
 #[derive(Debug)]
 pub(crate) struct Board {
     pub(crate) machine: Machine,
@@ -94,8 +94,13 @@ pub(crate) struct Board {
     pub(crate) world_waits: Option<Ps>,
     /// No tick has ended since the world moved on last.
     pub(crate) is_late: bool,
-    /// A tick has ended, and the world has moved on since.
-    has_ticked: bool,
+    /// How often the world has moved on.
+    moves: u64,
+    /// How the ticks have kept their time.
+    pub(crate) meter: Meter,
+    /// Whether a reset is no fault.
+    pub(crate) bears_resets: bool,
+    fault: Option<Fault>,
 }
 
 /// Longer than the slowest tick with anything that may delay it: a fault handler waits for
@@ -111,7 +116,6 @@ fn read(receiver: &mut Receiver, bytes: &[u8]) -> Result<Vec<Received>, Fault> {
     Ok(received)
 }
 
-/// The packets of what was received.
 pub(crate) fn packets(received: &[Received]) -> Vec<Packet> {
     let packets = received.iter().filter_map(|received| match received {
         Received::Packet(packet) => Some(*packet),
@@ -143,7 +147,10 @@ impl Board {
             reset: None,
             world_waits: None,
             is_late: false,
-            has_ticked: false,
+            moves: 0,
+            meter: Meter::default(),
+            bears_resets: false,
+            fault: None,
         };
         match board.machine.run(PATIENCE, &mut board.sensors, &mut ())? {
             Stop::Ready => {}
@@ -159,9 +166,9 @@ impl Board {
     }
 
     /// Runs to the end of the next tick, through resets if they are borne.
-    pub(crate) fn tick(&mut self, observer: &mut impl Observer) -> Result<(), Fault> {
+    fn pass_tick(&mut self) -> Result<(), Fault> {
         self.inputs();
-        if std::mem::take(&mut self.has_ticked) {
+        if self.moves > 0 {
             for (side, sensor) in self.sensors.iter_mut().enumerate() {
                 if let Some(said) = sensor.moved() {
                     self.machine.say_again(side, &said)?;
@@ -170,7 +177,9 @@ impl Board {
         }
         let limit = self.machine.now + self.world_waits.unwrap_or(PATIENCE);
         loop {
-            let stop = self.machine.run(limit, &mut self.sensors, observer)?;
+            let stop = self
+                .machine
+                .run(limit, &mut self.sensors, &mut self.meter)?;
             self.is_late = stop == Stop::Time;
             match stop {
                 Stop::Tick => break,
@@ -182,11 +191,10 @@ impl Board {
             self.drain()?;
         }
         self.outputs();
-        self.has_ticked = true;
+        self.moves += 1;
         self.drain()
     }
 
-    /// Resets the chip now.
     pub(crate) fn reset_now(&mut self, cause: ResetCause) -> Result<(), Fault> {
         self.was_reset(cause);
         self.machine.reset(cause)
@@ -254,7 +262,6 @@ impl Board {
         Ok(sent == bytes.len())
     }
 
-    /// Fetches what the program has sent to a PC.
     pub(crate) fn packets(&mut self) -> Result<Vec<Packet>, Fault> {
         let Machine { rtt, memories, .. } = &self.machine;
         let ring = rtt.packets(memories)?;
@@ -268,12 +275,10 @@ impl Board {
         read(&mut self.line, &bytes)
     }
 
-    /// Has the other end of the serial line send bytes.
     pub(crate) fn serial_write(&mut self, bytes: &[u8]) {
         self.machine.disturb(|chip| chip.serial_write(bytes));
     }
 
-    /// What the other end of the serial line has received since the last call.
     pub(crate) fn serial_read(&mut self) -> Vec<u8> {
         self.machine.with_chip(Chip::serial_read)
     }
@@ -283,7 +288,6 @@ impl Board {
         self.machine.with_chip(|chip| chip.signals())
     }
 
-    /// What was logged and not taken yet.
     pub(crate) fn logged(&self) -> &[u8] {
         &self.log
     }
@@ -344,39 +348,14 @@ impl Board {
             }
         }
     }
-}
-
-/// The board as host-sim's runs see it. What goes wrong is kept for
-/// [`Emulated::check`]; after that the board stands still.
-#[derive(Debug)]
-pub(crate) struct Emulated {
-    pub(crate) board: Board,
-    /// How the ticks have kept their time.
-    pub(crate) meter: Meter,
-    /// Whether a reset is no fault.
-    pub(crate) bears_resets: bool,
-    fault: Option<Fault>,
-}
-
-impl Emulated {
-    /// A board before its first tick.
-    pub(crate) fn new(board: Board) -> Self {
-        Self {
-            board,
-            meter: Meter::default(),
-            bears_resets: false,
-            fault: None,
-        }
-    }
 
     /// Fails with the fault that has stopped the board; a reset is one too.
     pub(crate) fn check(&self) -> Result<(), Fault> {
         self.fault.clone().map_or(Ok(()), Err)
     }
 
-    /// What has been logged since the last call.
     pub(crate) fn take_log(&mut self) -> Vec<u8> {
-        std::mem::take(&mut self.board.log)
+        std::mem::take(&mut self.log)
     }
 
     fn attempt<T: Default>(&mut self, work: impl FnOnce(&mut Self) -> Result<T, Fault>) -> T {
@@ -390,39 +369,35 @@ impl Emulated {
     }
 
     fn run_tick(&mut self, events: &mut Vec<Event>) -> Result<(), Fault> {
-        self.board.tick(&mut self.meter)?;
-        let board = &mut self.board;
-        if let Some(cause) = board.reset
+        self.pass_tick()?;
+        if let Some(cause) = self.reset
             && !self.bears_resets
         {
             return Err(Fault::Reset(cause));
         }
-        let Machine { rtt, memories, .. } = &board.machine;
+        let Machine { rtt, memories, .. } = &self.machine;
         self.meter.logged(rtt.log().writer(memories)?);
-        for (place, said) in board.watch.said(&board.machine.memories)? {
+        for (place, said) in self.watch.said(memories)? {
             match said {
                 Said::Decision(decision) => events.push(Event::Decision(place, decision)),
-                Said::Notice(notice) => board.notices.push((place, notice)),
+                Said::Notice(notice) => self.notices.push((place, notice)),
             }
         }
         Ok(())
     }
 }
 
-impl Bench for Emulated {
+impl Bench for Board {
     fn tick(&mut self, events: &mut Vec<Event>) {
-        self.attempt(|emulated| emulated.run_tick(events));
+        self.attempt(|board| board.run_tick(events));
     }
 
     fn look(&mut self, snapshot: &mut Snapshot) {
-        self.attempt(|emulated| {
-            let board = &emulated.board;
-            board.watch.look(&board.machine.memories, snapshot)
-        });
+        self.attempt(|board| board.watch.look(&board.machine.memories, snapshot));
     }
 
     fn slave_mut(&mut self, n: usize) -> Option<&mut Slave> {
-        let sensor = self.board.sensors.get_mut(n)?;
+        let sensor = self.sensors.get_mut(n)?;
         Some(&mut sensor.slave)
     }
 

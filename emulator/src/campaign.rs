@@ -24,9 +24,90 @@ mod subject;
 mod table;
 mod words;
 
-pub use draw::Plan;
+use std::path::{Path, PathBuf};
+
+use clap::Args;
+use host_sim::Error;
+use host_sim::output::write_whole;
+
 pub use injection::Kind;
 pub use outcome::{Ending, RunRow};
 pub use page::{described, page};
-pub use shard::{Scenes, Shard, run};
-pub use table::{ShardTable, merge, read, rows};
+pub use table::{merge, read};
+
+use crate::scenario::Several;
+use draw::Plan;
+use shard::Shard;
+use table::{ShardTable, rows};
+
+/// Which runs are made, and where their rows are kept.
+#[derive(Debug, Args)]
+pub struct Choice {
+    #[command(flatten)]
+    several: Several,
+    /// A run for every word of RAM of the only scene's program, of which it flips a bit
+    #[arg(long, requires = "program")]
+    words: bool,
+    /// What the rows call it
+    #[arg(long, default_value = "host-sim")]
+    subject: String,
+    /// The number of the first run
+    #[arg(long, default_value_t = 0)]
+    first: u64,
+    /// How many runs; with --words no more than there are words
+    #[arg(long, default_value_t = u64::MAX, required_unless_present = "words")]
+    runs: u64,
+    /// Which shard
+    #[arg(long, default_value_t = 0)]
+    shard: u64,
+    /// Of how many
+    #[arg(long, default_value_t = 1)]
+    shards: u64,
+    /// The table of the shard: rows that it has are not run again
+    #[arg(long, value_name = "FILE")]
+    out: PathBuf,
+}
+
+impl Choice {
+    /// Makes the runs of a shard that its table does not have yet.
+    ///
+    /// # Errors
+    /// [`Error`] for a scene, a program or a table that is wrong.
+    pub fn run(self) -> Result<(), Error> {
+        let Several { scenes, program } = self.several;
+        let programs = program.into_iter().map(Some);
+        let programs = programs.chain(std::iter::repeat(None));
+        let shard = Shard {
+            first: self.first,
+            end: self.first.saturating_add(self.runs),
+            remainder: self.shard,
+            shards: self.shards.max(1),
+        };
+        let plan = if self.words { Plan::Words } else { Plan::Drawn };
+        let mut table = ShardTable::open(&self.out)?;
+        let done = table.done.clone();
+        let scenes = scenes.into_iter().zip(programs).collect();
+        shard::run(&self.subject, &scenes, plan, shard, &done, |row| {
+            table.add(&row)
+        })
+    }
+}
+
+/// Makes the page of these tables, if it is wanted; how many runs there are.
+///
+/// # Errors
+/// [`Error::Work`] names the harmful ones; [`Error::Input`] for a table that is none.
+pub fn reliability(tables: &[PathBuf], out: Option<&Path>) -> Result<String, Error> {
+    let tables: Result<Vec<_>, Error> = tables.iter().map(|path| rows(path)).collect();
+    let rows = merge(tables?)?;
+    if let Some(out) = out {
+        write_whole(out, page(&rows).map_err(Error::Work)?.as_bytes())?;
+    }
+    let harmful = rows.iter().filter(|row| row.outcome == Ending::Harmful);
+    let harmful: Vec<String> = harmful.map(described).collect();
+    if harmful.is_empty() {
+        Ok(format!("{} runs, none harmful", rows.len()))
+    } else {
+        Err(Error::Work(harmful.join("\n")))
+    }
+}

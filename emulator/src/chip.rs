@@ -72,7 +72,6 @@ const SUPPLY_IRQ: u16 = 1;
 /// Everything on the chip but the core and its memories.
 #[derive(Debug)]
 pub(crate) struct Chip {
-    /// Which chip it is.
     pub(crate) model: &'static Model,
     /// The time up to which everything has happened, and at which accesses happen.
     pub(crate) now: Ps,
@@ -102,7 +101,6 @@ pub(crate) struct Chip {
 }
 
 impl Chip {
-    /// A chip as its supply comes.
     pub(crate) fn new(model: &'static Model) -> Result<Self, Fault> {
         let rcc = Rcc::new(model.rcc);
         let clocks = rcc.clocks()?;
@@ -154,7 +152,6 @@ impl Chip {
         Ok(())
     }
 
-    /// A cycle of the core now.
     pub(crate) const fn cycle(&self) -> Ps {
         self.clocks.core
     }
@@ -191,9 +188,6 @@ impl Chip {
 
     /// Lets everything happen that is due by `now`; `sensors` hang on the wires, the
     /// left one first. Returns what resets the chip.
-    ///
-    /// # Errors
-    /// The first fault since the last call.
     pub(crate) fn advance(
         &mut self,
         now: Ps,
@@ -256,7 +250,6 @@ impl Chip {
         self.lines[side].say_again(said)
     }
 
-    /// The clock of a side's SPI.
     fn spi_clock(&self, side: usize) -> Ps {
         self.clocks.bus(self.model.spis[side])
     }

@@ -1,9 +1,10 @@
 //! host-sim and the emulated board side by side, tick by tick.
 
 use std::collections::BTreeMap;
-use std::ops::Range;
+use std::fmt;
 use std::path::Path;
 
+use clap::ValueEnum;
 use config::AnyConfig;
 use firmware::{Event, EventRecord, Packet};
 use host_sim::Error;
@@ -13,34 +14,43 @@ use host_sim::loaded::Loaded;
 use host_sim::run::Run;
 use host_sim::trace::Row;
 use scene::Numbers;
-use wire::{Flags, TaggedCommand, TickRecord};
+use wire::{Flags, TickRecord};
 
-use crate::board::Emulated;
 use crate::counters::Started;
 use crate::deployment::{flashed, image};
-use crate::emulate::{pwm_counts, start};
+use crate::emulate::pwm_counts;
 use crate::program::Program;
+use crate::session::Session;
 
 /// By how much the mean period of the ticks may be off: the tick rates that no
 /// divider makes exactly are met within 2e-5.
 const PERIOD_ERROR: f64 = 3e-5;
 
 /// Who fetches the log from the board.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum Probe {
-    /// A probe, all the time.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, ValueEnum)]
+pub(crate) enum Probe {
+    /// A probe, all the time
     #[default]
     Attached,
-    /// Nobody ever; the log's ring is full after half a second.
+    /// Nobody ever; the log's ring is full after half a second
     Absent,
     /// A probe that has asked the program to wait for it where the ring is full, as
-    /// probe-rs does, and was then pulled: after half a second, with the ring full.
+    /// probe-rs does, and is then pulled: after half a second, with the ring full
     Pulled,
+}
+
+impl From<Probe> for Circumstances {
+    fn from(probe: Probe) -> Self {
+        Self {
+            probe,
+            ..Self::default()
+        }
+    }
 }
 
 /// How a board is run.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Circumstances {
+pub(crate) struct Circumstances {
     /// Who fetches its log.
     pub probe: Probe,
     /// Whether every counter that wraps starts just below its wrap, and must pass it.
@@ -59,7 +69,7 @@ pub(crate) type Seen = (Row, Vec<Decided>);
 /// A scene on the PC, in the board's number format, and on the board.
 pub(crate) struct Pair {
     pub(crate) host: Run,
-    pub(crate) target: Run<Emulated>,
+    pub(crate) target: Session,
     /// Whether the scene uses contact.
     pub(crate) feels: bool,
     classifies: bool,
@@ -83,7 +93,7 @@ impl Pair {
         }
         let scene = &loaded.scene;
         let host = Run::with_pwm(scene, classifier, pwm_counts(scene, model))?;
-        let target = start(scene, host.classes().to_vec(), program)?;
+        let target = Session::running(scene, host.classes().to_vec(), program)?;
         Ok(Self {
             host,
             target,
@@ -94,9 +104,6 @@ impl Pair {
 
     /// One tick of both, of which the `n`-th must be the same, with the touches of the PC
     /// numbered as on the board; how many decisions fell.
-    ///
-    /// # Errors
-    /// [`Error::Work`] says what is not the same.
     pub(crate) fn tick(&mut self, n: u64, touch: impl Fn(u16) -> u16) -> Result<u64, Error> {
         let found = self.tick_board()?;
         self.follow(n, found, touch)
@@ -104,9 +111,9 @@ impl Pair {
 
     /// One tick of the board alone.
     pub(crate) fn tick_board(&mut self) -> Result<Seen, Error> {
-        let row = self.target.tick();
-        self.target.module_mut().check()?;
-        Ok((row, self.target.decisions().collect()))
+        self.target.tick()?;
+        let run = &self.target.run;
+        Ok((*run.row(), run.decisions().collect()))
     }
 
     /// One tick of the PC, the `n`-th, as [`Self::tick`]; the board was ahead.
@@ -143,24 +150,6 @@ impl Pair {
         Ok(found_decisions.len() as u64)
     }
 
-    /// Has the PC alone go through these ticks, where the board was before, with the requests of
-    /// each before it; all that it has sent.
-    pub(crate) fn replay(
-        &mut self,
-        ticks: Range<u32>,
-        requests: &[(u32, TaggedCommand)],
-    ) -> Vec<Packet> {
-        let mut sent = Vec::new();
-        for tick in ticks {
-            for (_, request) in requests.iter().filter(|(at, _)| *at == tick) {
-                self.host.module_mut().request(*request);
-            }
-            self.host.tick();
-            sent.extend(self.host.module_mut().take_packets());
-        }
-        sent
-    }
-
     /// The records and events of each tick, as far as PC and board must agree about them: the
     /// lower bits of a word are no measurement, contact that nothing uses is not computed, and
     /// some events are the board's own.
@@ -192,7 +181,7 @@ impl Pair {
 
 /// What was compared, and found equal to the last bit.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub struct Agreement {
+pub(crate) struct Agreement {
     /// Rows of the trace.
     pub ticks: u64,
     /// Decisions.
@@ -207,6 +196,16 @@ pub struct Agreement {
     pub wrapped: usize,
 }
 
+impl fmt::Display for Agreement {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(
+            f,
+            "PC and board agree to the last bit in {} ticks, {} decisions",
+            self.ticks, self.decisions
+        )
+    }
+}
+
 /// Runs the scene in `path` on the PC, in the board's number format, and on the
 /// board under these circumstances; every number of every row of the trace and every decision
 /// must be the same, to the last bit, but that touches may be numbered from elsewhere. The
@@ -215,10 +214,7 @@ pub struct Agreement {
 /// Contact is compared where the scene uses it: host-sim's trace shows it
 /// wherever there is an obstacle, the board computes it only for RCP, CIA or a
 /// classifier that listens during contact.
-///
-/// # Errors
-/// [`Error::Work`] names the first tick and column that differ.
-pub fn compare(
+pub(crate) fn compare(
     path: &Path,
     program: &Path,
     circumstances: Circumstances,
@@ -246,7 +242,7 @@ pub(crate) fn compare_loaded(
     let scene = &loaded.scene;
     let named = |fault: &dyn std::fmt::Display| Error::Work(format!("{}: {fault}", path.display()));
 
-    let board = &mut pair.target.module_mut().board;
+    let board = pair.target.board_mut();
     let started = wraps.then(|| Started::new(program, board, scene));
     let mut started = started.transpose()?;
     if probe == Probe::Pulled {
@@ -260,7 +256,7 @@ pub(crate) fn compare_loaded(
     let mut agreement = Agreement::default();
     for n in 1..=pair.host.ticks() {
         if gone_at == Some(n) {
-            pair.target.module_mut().board.lose_reader()?;
+            pair.target.board_mut().lose_reader()?;
         }
         let touch = |number| {
             started
@@ -272,17 +268,17 @@ pub(crate) fn compare_loaded(
         agreement.ticks = n;
         agreement.touches = agreement.touches.max(pair.host.row().touch[0].into());
         if let Some(started) = &mut started {
-            started.look(&pair.target.module_mut().board)?;
+            started.look(pair.target.board_mut())?;
         }
     }
-    let board = pair.target.module_mut();
+    let board = pair.target.board_mut();
     let period = board.meter.figures.period.mean() * 1e-12 * f64::from(scene.tick_hz);
     if (period - 1.0).abs() > PERIOD_ERROR {
         let fault = format!("a tick lasts {period} times as long as it should");
         return Err(named(&fault));
     }
-    agreement.stack = board.board.machine.stack_used()?;
-    agreement.missed = board.board.missed()?;
+    agreement.stack = board.machine.stack_used()?;
+    agreement.missed = board.missed()?;
     if let Some(started) = started {
         agreement.wrapped = started.wrapped().map_err(|left| named(&left))?;
     }

@@ -27,12 +27,11 @@ const TIM5: u32 = 0x4000_0C00;
 
 /// A counter that wraps, or what has to begin in step with one.
 struct Counter {
-    /// What it counts.
+    /// What it counts; nothing: it is in step with another.
     what: &'static str,
     place: Place,
-    /// Where the wrap is to be seen in RAM; nothing: it is another counter's.
-    seen: Option<&'static str>,
-    /// Bits.
+    /// Where in RAM the wrap is to be seen, if it is not another's.
+    seen: &'static str,
     width: u32,
     /// Whether it wraps from the largest number with a sign.
     is_signed: bool,
@@ -40,38 +39,35 @@ struct Counter {
     start: fn(i64) -> i64,
 }
 
+/// One that is not seen elsewhere than where it is.
+const fn counter(
+    what: &'static str,
+    path: &'static str,
+    width: u32,
+    start: fn(i64) -> i64,
+) -> Counter {
+    Counter {
+        what,
+        place: Place::Ram(path),
+        seen: path,
+        width,
+        is_signed: false,
+        start,
+    }
+}
+
+/// A part of the encoder's total.
+const fn total(what: &'static str, path: &'static str) -> Counter {
+    Counter {
+        is_signed: true,
+        ..counter(what, path, 32, |_| -100)
+    }
+}
+
 impl Counter {
-    /// One in RAM without a sign.
-    const fn in_ram(
-        what: &'static str,
-        path: &'static str,
-        width: u32,
-        start: fn(i64) -> i64,
-    ) -> Self {
-        Self {
-            what,
-            place: Place::Ram(path),
-            seen: Some(path),
-            width,
-            is_signed: false,
-            start,
-        }
-    }
-
-    /// What begins in step with another.
-    const fn in_step(path: &'static str, width: u32, start: fn(i64) -> i64) -> Self {
-        Self {
-            seen: None,
-            ..Self::in_ram("", path, width, start)
-        }
-    }
-
-    /// A part of the encoder's total, in step with it.
-    const fn of_total(path: &'static str) -> Self {
-        Self {
-            is_signed: true,
-            ..Self::in_step(path, 32, TOTAL)
-        }
+    /// Whether it wraps by itself, and is not in step with another.
+    const fn is_seen(&self) -> bool {
+        !self.what.is_empty()
     }
 
     const fn mask(&self) -> u32 {
@@ -105,49 +101,41 @@ const TICKS: fn(i64) -> i64 = |tick_hz| -(tick_hz * 3 / 4);
 const CLOCK: fn(i64) -> i64 = |_| -40_000_000;
 /// Where a whisker that protracts soon goes.
 const ENCODER: fn(i64) -> i64 = |_| -50;
-const TOTAL: fn(i64) -> i64 = |_| -100;
 
 const COUNTERS: [Counter; 14] = [
-    Counter::in_ram("ticks", "TICKS.v", 32, TICKS),
-    Counter::in_step("IDLE.fed", 32, TICKS),
-    Counter::in_step("IDLE.logged", 32, TICKS),
+    counter("ticks", "TICKS.v", 32, TICKS),
+    counter("", "IDLE.fed", 32, TICKS),
+    counter("", "IDLE.logged", 32, TICKS),
     // The next full second.
-    Counter::in_step("module.second", 32, |tick_hz| tick_hz / 4),
-    Counter::in_ram(TOUCHES, "touches.last", 16, |_| -4),
+    counter("", "module.second", 32, |tick_hz| tick_hz / 4),
+    counter(TOUCHES, "touches.last", 16, |_| -4),
     Counter {
-        what: "the clock that measures the ticks",
         place: Place::Tim5,
-        seen: Some("INNER.timing.begun"),
-        width: 32,
-        is_signed: false,
-        start: CLOCK,
+        ..counter(
+            "the clock that measures the ticks",
+            "INNER.timing.begun",
+            32,
+            CLOCK,
+        )
     },
-    Counter::in_step("INNER.clock.now", 32, CLOCK),
+    counter("", "INNER.clock.now", 32, CLOCK),
     Counter {
-        what: "the encoder's timer",
         place: Place::TimerOf("servo.angle.timer.ptr"),
-        seen: Some("servo.angle.last"),
-        width: 16,
-        is_signed: false,
-        start: ENCODER,
+        ..counter("the encoder's timer", "servo.angle.last", 16, ENCODER)
     },
-    Counter::in_step("servo.angle.last", 16, ENCODER),
-    Counter {
-        what: "the encoder's total",
-        seen: Some("servo.angle.counts"),
-        ..Counter::of_total("servo.angle.counts")
-    },
-    Counter::of_total("servo.counts"),
+    counter("", "servo.angle.last", 16, ENCODER),
+    total("the encoder's total", "servo.angle.counts"),
+    total("", "servo.counts"),
     // Where rest is.
-    Counter::of_total("servo.home.first"),
-    Counter::of_total("servo.home.second"),
-    Counter::of_total("servo.home.third"),
+    total("", "servo.home.first"),
+    total("", "servo.home.second"),
+    total("", "servo.home.third"),
 ];
 
 /// What each counts, its bits, and how many counts before its wrap it starts, at 2,000 ticks
 /// a second.
 pub(crate) fn described() -> impl Iterator<Item = (&'static str, u32, i64)> {
-    let wrap = COUNTERS.iter().filter(|counter| counter.seen.is_some());
+    let wrap = COUNTERS.iter().filter(|counter| counter.is_seen());
     wrap.map(|counter| (counter.what, counter.width, -(counter.start)(2_000)))
 }
 
@@ -157,7 +145,7 @@ mod tests {
 
     #[test]
     fn each_starts_before_its_wrap_and_is_beyond_after_it() {
-        for counter in COUNTERS.iter().filter(|counter| counter.seen.is_some()) {
+        for counter in COUNTERS.iter().filter(|counter| counter.is_seen()) {
             let first = counter.first(2_000);
             let left = -(counter.start)(2_000) as u32;
             let at = |count: u32| first.wrapping_add(count) & counter.mask();

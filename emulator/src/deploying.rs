@@ -1,87 +1,47 @@
 //! Scenes and models deployed to a board: right ones, wrong ones, and such as were interrupted.
 
+mod case;
+
 use std::path::Path;
 
-use firmware::boards::{BoardFacts, Region, SlotHeader, newest_first};
-use firmware::{ConfigError, Header, Part, Refusal, decode};
-use host_sim::loaded::Loaded;
-use host_sim::{Error, files};
-use scene::Integrator;
-use tactile::{Axis, CRC_BYTES, ModelBuf, ModelParts, Quantiser, TableParts, checksum};
+use firmware::boards::{Region, SlotHeader, newest_first};
+use firmware::{ConfigError, Header, Refusal, decode};
+use host_sim::Error;
+use tactile::ModelBuf;
 use whisking::Fix;
-use wire::{Command, CommandStatus, Load, WhiskerId};
+use wire::{Command, CommandStatus, Load};
 
-use crate::compare::{Agreement, Circumstances, compare_loaded};
 use crate::damaged;
-use crate::deployment::{Deployment, flashed_for};
-use crate::loading::{ask, load, load_watched, must, refuses};
-use crate::program::Program;
+use crate::deployment::Deployment;
+use crate::loading::{load, load_watched, refuses};
+use crate::scenario;
 use crate::session::Session;
+use case::{Case, Flashed, Way, missing, pass, running, says, stop};
 
 /// How long PC and board are compared, s, and how long after what changes nothing.
 const COMPARED_S: f64 = 8.0;
 const SHORT_S: f64 = 1.0;
 /// How long a board that was deployed to is watched, s: it whisks and may touch.
 const WATCHED_S: f64 = 2.0;
-/// How long a whisker takes to come to rest, s.
-const TO_REST_S: f64 = 0.3;
 /// How long one that has a model may take to decide, s.
 const PATIENCE_S: f64 = 6.0;
-
-/// Where the header of a model has its version and its length.
-const VERSION: usize = 4;
-const LENGTH: usize = 12;
-
-/// A scene without a model, the world that it is in, and what is flashed for it.
-#[derive(Debug, Clone, Copy)]
-pub struct Boards<'p> {
-    /// The scene.
-    pub scene: &'p Path,
-    /// That of the world.
-    pub world: &'p Path,
-    /// The board's program.
-    pub program: &'p Path,
-}
-
-/// A scene, what a board has of it, and that in its flash.
-struct Flashed {
-    loaded: Loaded,
-    deployment: Deployment,
-    flash: Vec<u8>,
-}
-
-/// By what requests go.
-#[derive(Debug, Clone, Copy)]
-enum Way {
-    Probe,
-    Serial,
-}
-
-/// A board that has a scene without a model, and the same scene with one.
-struct Case<'p> {
-    path: &'p Path,
-    program: Program,
-    /// Whether the program brings its scene with it, and so was built of the parts of that.
-    is_lean: bool,
-    old: Flashed,
-    new: Flashed,
-}
 
 /// Deploys the scene with the model in `model` to a board that has it without, by a probe and by
 /// the serial port: PC and board must then agree to the last bit, in decisions too, as they must
 /// before. What was interrupted after any word, and configurations that are wrong, must leave the
 /// scene before, and what is wrong must be refused with its reason: configurations before
 /// anything is written, too. Returns what was seen, a line each.
-///
-/// # Errors
-/// [`Error::Work`] says what did not happen.
-pub fn deploying(bench: Boards<'_>, model: &Path) -> Result<Vec<String>, Error> {
-    let case = Case::new(bench, model)?;
+pub(crate) fn deploying(
+    on: &scenario::Flashed,
+    world: &Path,
+    model: &Path,
+) -> Result<Vec<String>, Error> {
+    let case = Case::new(on, world, model)?;
     let mut lines = Vec::new();
     let without = case.agree(&case.old, &case.old.flash, COMPARED_S)?;
-    lines.push(agreed("without a model", without));
+    lines.push(format!("without a model: {without}"));
     let with = case.agree(&case.new, &case.new.flash, COMPARED_S)?;
-    lines.push(agreed("with a model", with));
+    lines.push(format!("with a model: {with}"));
     if without.decisions != 0 || with.decisions == 0 {
         return Err(Error::Work(lines.join("\n")));
     }
@@ -105,7 +65,7 @@ pub fn deploying(bench: Boards<'_>, model: &Path) -> Result<Vec<String>, Error> 
         let said = case.keeps(Way::Probe, &wrong, usize::MAX, Some(error))?;
         lines.push(format!("{said}; the scene before runs, as on the PC"));
     }
-    for (what, model, why) in wrong_models(&case.new.deployment.model, case.facts()?)? {
+    for (what, model, why) in damaged::models(&case.new.deployment.model, case.facts()?)? {
         lines.push(format!("{what}: {}", case.refuses(&model, why)?));
     }
     lines.push(case.refuses_another()?);
@@ -113,221 +73,16 @@ pub fn deploying(bench: Boards<'_>, model: &Path) -> Result<Vec<String>, Error> 
     Ok(lines)
 }
 
-fn agreed(what: &str, of: Agreement) -> String {
-    format!(
-        "{what}: PC and board agree to the last bit in {} ticks, {} decisions",
-        of.ticks, of.decisions
-    )
-}
-
-/// What is wrong with a model, the model, and why a board must refuse it.
-type Wrong = (&'static str, Vec<u8>, Refusal);
-
-/// Models that a board must refuse.
-fn wrong_models(right: &[u8], facts: &BoardFacts) -> Result<Vec<Wrong>, Error> {
-    let changed = |at: usize, by: &[u8]| {
-        let mut model = right.to_vec();
-        for (byte, other) in model.iter_mut().skip(at).zip(by) {
-            *byte ^= other;
-        }
-        model
-    };
-    let mut long = right.to_vec();
-    let [slot, _] = facts.flash.slots;
-    let length = slot.model.bytes + 4;
-    for (byte, other) in long.iter_mut().skip(LENGTH).zip(length.to_le_bytes()) {
-        *byte = other;
-    }
-    let mut contradictory = right.to_vec();
-    // Of the tables of samples none is left, and the sum is right.
-    contradictory[8] = 0;
-    let (body, sum) = contradictory.split_at_mut(right.len() - CRC_BYTES);
-    sum.copy_from_slice(&checksum(body).to_le_bytes());
-    let many = facts.max_classes + 1;
-    Ok(vec![
-        ("something else", changed(0, &[1]), Refusal::Strange),
-        ("another version", changed(VERSION, &[1]), Refusal::Version),
-        ("too long", long, Refusal::TooLong),
-        (
-            "a bit flipped",
-            changed(right.len() / 2, &[4]),
-            Refusal::Damaged,
-        ),
-        ("no table", contradictory, Refusal::Content),
-        ("too many classes", plain(many, 2)?, Refusal::Classes),
-        ("three channels", plain(2, 3)?, Refusal::Channels),
-    ])
-}
-
-/// A model of so many classes and channels, of which all are alike.
-fn plain(classes: usize, channels: usize) -> Result<Vec<u8>, Error> {
-    let names: Vec<String> = (0..classes).map(|class| format!("class {class}")).collect();
-    let quantiser = Quantiser {
-        origin: 0.0,
-        exponent: 0,
-        low: 0,
-        high: 16_384,
-    };
-    let axis = |channel| Axis {
-        channel,
-        bins: 2,
-        low: 0,
-        high: 16_384,
-    };
-    let axes: Vec<Axis> = (0..channels).map(axis).collect();
-    let entries = vec![1_024; 2 * classes];
-    let tables: Vec<_> = axes
-        .iter()
-        .map(|axis| TableParts::of_channel(axis, &entries))
-        .collect();
-    let model = ModelBuf::new(&ModelParts {
-        names: &names,
-        block: 20,
-        channels: &vec![quantiser; channels],
-        tables: &tables,
-        floors: None,
-        touch: None,
-    });
-    let model = model.map_err(|error| Error::Work(error.to_string()))?;
-    Ok(model.as_bytes().to_vec())
-}
-
-/// Lets time pass; the lines that the board has logged, and whether a motor was driven.
-fn pass(session: &mut Session, seconds: f64) -> Result<(Vec<String>, bool), Error> {
-    let begun = session.now_s();
-    let (mut lines, mut driven) = (Vec::new(), false);
-    while session.now_s() - begun < seconds {
-        session.tick()?;
-        lines.extend(session.log());
-        driven |= session.drives();
-    }
-    Ok((lines, driven))
-}
-
-fn missing(what: &str, lines: &[String]) -> Error {
-    Error::Work(format!("not so: {what}\n  {}", lines.join("\n  ")))
-}
-
-fn says(lines: &[String], refusal: Refusal) -> bool {
-    let at = lines.iter().position(|line| line.contains("limit 34 "));
-    let why = at.and_then(|at| lines.get(at + 1));
-    why.is_some_and(|line| line.contains(refusal.text()))
-}
-
-/// The CRC of the configuration that a board runs by.
-fn running(session: &mut Session) -> Result<u32, Error> {
-    Ok(ask(session, Command::Scene)?.values[0].cast_unsigned())
-}
-
-/// Stops a board that whisks, once its whisker is at rest: that is where it starts from.
-fn stop(session: &mut Session) -> Result<(), Error> {
-    ask(session, Command::Setpoint(WhiskerId::default(), 0))?;
-    pass(session, TO_REST_S)?;
-    ask(session, Command::Stop)?;
-    session.tick()
-}
-
-impl Flashed {
-    fn new(loaded: Loaded, model: Option<&ModelBuf>, program: &Program) -> Result<Self, Error> {
-        let deployment = Deployment::of(&loaded.scene, model, program.model()?.facts)?;
-        let mut program = program.clone();
-        deployment.flash(&mut program)?;
-        Ok(Self {
-            flash: Session::of(&loaded.scene, &program)?.flash()?,
-            loaded,
-            deployment,
-        })
-    }
-
-    fn crc(&self) -> Result<u32, Error> {
-        let header = Header::of(&self.deployment.config);
-        let header = header.map_err(|error| Error::Work(error.to_string()))?;
-        Ok(header.crc)
-    }
-}
-
-impl<'p> Case<'p> {
-    fn new(bench: Boards<'p>, model: &Path) -> Result<Self, Error> {
-        let path = bench.scene;
-        let old = Loaded::new(path)?.in_world(bench.world)?;
-        let new = old.clone().with_model(model)?;
-        let (_, model) = files::load_model(model)?;
-        let program = flashed_for(&old.scene, path, bench.program)?;
-        Ok(Self {
-            path,
-            is_lean: Program::load(bench.program)?.brings_scene()?,
-            old: Flashed::new(old, None, &program)?,
-            new: Flashed::new(new, Some(&model), &program)?,
-            program,
-        })
-    }
-
-    fn facts(&self) -> Result<&'static BoardFacts, Error> {
-        Ok(self.program.model()?.facts)
-    }
-
-    /// The program with these scenes and models.
-    fn with(&self, flash: &[u8]) -> Result<Program, Error> {
-        let mut program = self.program.clone();
-        program.add(program.scenes()?.start, flash)?;
-        Ok(program)
-    }
-
-    /// PC and board must agree about a scene, where the board's flash is so.
-    fn agree(&self, scene: &Flashed, flash: &[u8], seconds: f64) -> Result<Agreement, Error> {
-        let circumstances = Circumstances {
-            duration_s: Some(seconds),
-            ..Circumstances::default()
-        };
-        let program = self.with(flash)?;
-        compare_loaded(scene.loaded.clone(), self.path, &program, circumstances)
-    }
-
-    /// Configurations that a board must refuse; to one whose image has the parts of its scene alone,
-    /// that of another integrator is one.
-    fn wrong_configs(&self) -> Result<Vec<(Vec<u8>, ConfigError)>, Error> {
-        let mut wrong = damaged::configs(&self.new.deployment.config);
-        if self.is_lean {
-            let mut scene = self.old.loaded.scene.clone();
-            let mut error = None;
-            if let Some(whisking) = &mut scene.whisking {
-                let (other, part) = match whisking.integrator {
-                    Integrator::Exact => (Integrator::Euler, Part::Euler),
-                    Integrator::Euler => (Integrator::Exact, Part::Exact),
-                };
-                whisking.integrator = other;
-                error = Some(ConfigError::NotBuilt(part));
-            }
-            let config = Deployment::of(&scene, None, self.facts()?)?.config;
-            wrong.extend(error.map(|error| (config, error)));
-        }
-        Ok(wrong)
-    }
-
-    /// A board with the old scene whose motor was on, and is off, its whisker at rest.
-    fn stopped(&self, way: Way) -> Result<Session, Error> {
-        let program = self.with(&self.old.flash)?;
-        let mut session = Session::of(&self.old.loaded.scene, &program)?;
-        if let Way::Serial = way {
-            session = session.by_serial();
-        }
-        let (lines, driven) = pass(&mut session, 0.5)?;
-        if !driven || !says(&lines, Refusal::Absent) {
-            return Err(missing("a board without a model whisks", &lines));
-        }
-        stop(&mut session)?;
-        Ok(session)
-    }
-
+impl Case<'_> {
     /// Nothing is loaded while a motor is armed, nor what there is no room for.
     fn refuses_to_load(&self) -> Result<String, Error> {
         let right = self.new.deployment.load();
         let program = self.with(&self.old.flash)?;
         let mut session = Session::of(&self.old.loaded.scene, &program)?;
-        must(&mut session, Command::Load(right), CommandStatus::Armed)?;
+        session.must(Command::Load(right), CommandStatus::Armed)?;
         pass(&mut session, 0.5)?;
         let is_driven = session.drives();
-        must(&mut session, Command::Load(right), CommandStatus::Armed)?;
+        session.must(Command::Load(right), CommandStatus::Armed)?;
         let mut session = self.stopped(Way::Probe)?;
         let [slot, _] = self.facts()?.flash.slots;
         let room = Load {
@@ -345,10 +100,10 @@ impl<'p> Case<'p> {
             with_model(room.model + 2),
             with_model(u16::MAX),
         ] {
-            must(&mut session, Command::Load(load), CommandStatus::OutOfRange)?;
+            session.must(Command::Load(load), CommandStatus::OutOfRange)?;
         }
-        must(&mut session, Command::Word(0, 0), CommandStatus::NotHere)?;
-        must(&mut session, Command::Restart, CommandStatus::NotHere)?;
+        session.must(Command::Word(0, 0), CommandStatus::NotHere)?;
+        session.must(Command::Restart, CommandStatus::NotHere)?;
         for (config, error) in self.wrong_configs()? {
             refuses(&mut session, &config, error)?;
         }
@@ -408,7 +163,7 @@ impl<'p> Case<'p> {
         if !driven || !says(&lines, refusal) || !has("touch ") || has("decision") {
             return Err(missing(refusal.text(), &lines));
         }
-        let answer = ask(&mut session, Command::Model)?.values;
+        let answer = session.ask(Command::Model)?.values;
         if answer != [0, -i32::from(refusal.code())] || running(&mut session)? != self.new.crc()? {
             return Err(Error::Work(format!("{refusal:?}: answered {answer:?}")));
         }
@@ -484,7 +239,7 @@ impl<'p> Case<'p> {
         let wrong = |error: tactile::ModelError| Error::Work(error.to_string());
         let model = ModelBuf::from_bytes(&right.model).map_err(wrong)?;
         let (lines, _) = pass(&mut session, PATIENCE_S)?;
-        let [crc, classes] = ask(&mut session, Command::Model)?.values;
+        let [crc, classes] = session.ask(Command::Model)?.values;
         let is_it = crc.cast_unsigned() == model.crc() && classes as usize == model.classes();
         let is_named = |line: &&String| {
             let mut names = model.names().chain(["unknown"]);
@@ -522,12 +277,11 @@ impl<'p> Case<'p> {
         }
         Ok([
             format!("deployed: {by}, first {first}"),
-            agreed(
+            format!(
                 "deployed by the serial port and by a probe, the scene before after each word but \
-                 the last",
-                deployed,
+                 the last: {deployed}"
             ),
-            agreed("deployed again, cut off in the middle of the model", again),
+            format!("deployed again, cut off in the middle of the model: {again}"),
         ])
     }
 }

@@ -13,7 +13,6 @@ use wire::{Load, LoadedWord};
 
 use crate::program::Program;
 
-/// What is deployed.
 #[derive(Debug, Clone)]
 pub(crate) struct Deployment {
     /// The configuration, with its header.
@@ -23,10 +22,6 @@ pub(crate) struct Deployment {
 }
 
 /// A scene, and a program as it is flashed for it.
-///
-/// # Errors
-/// [`Error::Input`] for a scene that is wrong, [`Error::Work`] for a program that cannot be run,
-/// or a scene that its board does not take.
 pub(crate) fn flashed(scene: &Path, program: &Path) -> Result<(Loaded, Program), Error> {
     let loaded = Loaded::new(scene)?;
     let program = flashed_for(&loaded.scene, scene, program)?;
@@ -35,9 +30,6 @@ pub(crate) fn flashed(scene: &Path, program: &Path) -> Result<(Loaded, Program),
 
 /// A program as it is flashed for `scene`, which stands in the file `path`: one that brings no
 /// scene with it has this one in its first slot.
-///
-/// # Errors
-/// As [`flashed`].
 pub(crate) fn flashed_for(scene: &Scene, path: &Path, program: &Path) -> Result<Program, Error> {
     let mut program = Program::load(program)?;
     if !program.brings_scene()? {
@@ -69,9 +61,6 @@ pub(crate) fn image(
 
 impl Deployment {
     /// A scene that decides by `model`, for a board.
-    ///
-    /// # Errors
-    /// [`Error::Work`] says why the board does not take it.
     pub(crate) fn of(
         scene: &Scene,
         model: Option<&ModelBuf>,
@@ -90,9 +79,6 @@ impl Deployment {
     }
 
     /// Has it lie in the first slot of a program that is flashed.
-    ///
-    /// # Errors
-    /// [`Error::Work`] if there is no room for it.
     pub(crate) fn flash(&self, program: &mut Program) -> Result<(), Error> {
         let [slot, _] = program.model()?.facts.flash.slots;
         let header = SlotHeader::linked(self.model_crc());

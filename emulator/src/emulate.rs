@@ -12,7 +12,7 @@ use host_sim::run::Run;
 use host_sim::world::World;
 use scene::{Scene, SensorMode};
 
-use crate::board::{Board, Emulated};
+use crate::board::Board;
 use crate::chip::{Chip, Fault, Model};
 use crate::deployment::{flashed, image};
 use crate::program::Program;
@@ -32,16 +32,13 @@ pub(crate) fn pwm_counts(scene: &Scene, model: &Model) -> u16 {
 
 /// A scene on the emulated board before its first tick; `classes` are those of
 /// the program's classifier.
-///
-/// # Errors
-/// [`Error::Work`] for what the board cannot go along with, a scene that it refuses among it.
 pub(crate) fn start(
     scene: &Scene,
     classes: Vec<String>,
     program: &Program,
-) -> Result<Run<Emulated>, Error> {
+) -> Result<Run<Board>, Error> {
     let mut run = start_without(scene, classes, program)?;
-    let log = run.module_mut().board.logged();
+    let log = run.module_mut().logged();
     let lines = program.log_decoder()?.lines(log);
     if lines.iter().any(|line| line.contains(NO_SCENE)) {
         return Err(Error::Work(lines.join("\n")));
@@ -53,14 +50,11 @@ pub(crate) fn start(
 pub(crate) const NO_SCENE: &str = "no scene: ";
 
 /// As [`start`], of a board that may have no scene, or refuse it.
-///
-/// # Errors
-/// [`Error::Work`] for what the board cannot go along with.
 pub(crate) fn start_without(
     scene: &Scene,
     classes: Vec<String>,
     program: &Program,
-) -> Result<Run<Emulated>, Error> {
+) -> Result<Run<Board>, Error> {
     let model = program.model()?;
     // What hangs on the board.
     image(scene, None, model.facts)?;
@@ -72,12 +66,7 @@ pub(crate) fn start_without(
     if let Some(baud) = scene.telemetry.serial_baud {
         board.machine.with_chip(|chip| chip.attach_serial(baud));
     }
-    Ok(Run::of(
-        scene,
-        Box::new(Emulated::new(board)),
-        classes,
-        world,
-    ))
+    Ok(Run::of(scene, Box::new(board), classes, world))
 }
 
 /// Runs the scene in `path` on the board that `program` was built for; writes

@@ -9,7 +9,6 @@
 //! latched excites in the next tick, whichever side it is on. Contact that comes just
 //! after a latch waits a tick more, which is the world's and not the board's.
 
-use std::fmt;
 use std::path::Path;
 
 use host_sim::Error;
@@ -17,110 +16,73 @@ use host_sim::trace::Row;
 use mlx90333::Word;
 use scene::Scene;
 
-use crate::chip::{Ps, SIDE_NAMES};
+use crate::chip::SIDE_NAMES;
 use crate::deployment::flashed;
-use crate::emulate::start;
 use crate::program::Program;
-
-/// The ticks from a latch to the excitation that it brings.
-pub const EXPECTED: u64 = 1;
-
-/// How long contact on one side took to excite the other.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Latency {
-    /// 0 left, 1 right: where the contact was.
-    from: usize,
-    /// The tick in which the sensor latched it, counted from 1.
-    latched: u64,
-    /// Ticks from there to that of the excitation.
-    pub ticks: u64,
-    /// From the latch to the end of that tick.
-    time: Ps,
-}
-
-impl fmt::Display for Latency {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self {
-            from,
-            latched,
-            ticks,
-            time,
-        } = self;
-        let (from, to) = (SIDE_NAMES[*from], SIDE_NAMES[1 - from]);
-        let us = *time as f64 / 1e6;
-        write!(
-            f,
-            "contact {from}, latched in tick {latched}, excites the {to} after {ticks} tick, {us:.1} us"
-        )
-    }
-}
+use crate::session::Session;
+use crate::talk::wrong;
 
 /// Runs the scene in `path`, which has two sides, CIA and an obstacle a side, until
-/// contact has excited the other side; then again with the obstacles exchanged.
-///
-/// # Errors
-/// [`Error::Work`] if the scene is no such one, both sides touch at once, nothing touches
-/// or nothing is excited, or a tick goes wrong.
-pub fn measure(path: &Path, program: &Path) -> Result<[Latency; 2], Error> {
+/// contact has excited the other side; then again with the obstacles exchanged. Returns how long
+/// that took.
+pub(crate) fn measure(path: &Path, program: &Path) -> Result<Vec<String>, Error> {
     let (loaded, program) = flashed(path, program)?;
     let mut scene = loaded.scene;
-    let first = once(&scene, &program)?;
+    if scene.head.sides.count() < 2 || scene.cia.is_none() {
+        return wrong("the scene has no CIA between two sides");
+    }
+    let (first, said) = once(&scene, &program)?;
     if let Some(obstacle) = &mut scene.plant.obstacle {
         obstacle.obstacle_deg.reverse();
     }
-    let second = once(&scene, &program)?;
-    if first.from == second.from {
-        let what = "the same side touches first with the obstacles exchanged";
-        return Err(Error::Work(what.to_owned()));
+    let (second, also) = once(&scene, &program)?;
+    if first == second {
+        return wrong("the same side touches first with the obstacles exchanged");
     }
-    Ok([first, second])
+    Ok(vec![said, also])
 }
 
-fn once(scene: &Scene, program: &Program) -> Result<Latency, Error> {
-    let wrong = |what: &str| Error::Work(format!("latency: {what}"));
-    if scene.head.sides.count() < 2 || scene.cia.is_none() {
-        return Err(wrong("the scene has no CIA between two sides"));
-    }
-    let mut run = start(scene, Vec::new(), program)?;
-    let mut before = *run.row();
-    let mut contact: Option<(Contact, Ps)> = None;
-    for n in 1..=run.ticks() {
-        let row = run.tick();
-        let emulated = run.module_mut();
-        emulated.check()?;
-        let board = &emulated.board;
-        if contact.is_none() {
-            let found = Contact::of(&row, &before).map_err(wrong)?;
-            // Its frame was begun in the tick before this one.
-            contact = found.map(|found| (found, board.latched(found.side)));
-            if contact.is_some() && n == 1 {
-                return Err(wrong("there is contact from the start"));
-            }
+/// The side of the first contact, and how long it took.
+fn once(scene: &Scene, program: &Program) -> Result<(usize, String), Error> {
+    let mut session = Session::running(scene, Vec::new(), program)?;
+    let mut before = *session.run.row();
+    for n in 1..=session.run.ticks() {
+        session.tick()?;
+        let row = *session.run.row();
+        let Some(contact) = Contact::of(&row, &before).map_err(work)? else {
+            before = row;
+            continue;
+        };
+        if n == 1 {
+            return wrong("there is contact from the start");
         }
-        if let Some((found, latch)) = &mut contact {
-            if found.excites(&row) {
-                return Ok(Latency {
-                    from: found.side,
-                    latched: n - 1 - found.waited,
-                    ticks: 1 + found.waited,
-                    time: board.machine.now - *latch,
-                });
-            }
-            found.waited += 1;
+        if !contact.excites(&row) {
+            return wrong("excitation comes in another tick");
         }
-        before = row;
+        let side = contact.side;
+        // Its frame was begun in the tick before this one.
+        let (latched, now) = (session.board_mut().latched(side), session.machine().now);
+        let us = (now - latched) as f64 / 1e6;
+        let said = format!(
+            "contact {}, latched in tick {}, excites the {} after 1 tick, {us:.1} us",
+            SIDE_NAMES[side],
+            n - 1,
+            SIDE_NAMES[1 - side]
+        );
+        return Ok((side, said));
     }
-    Err(wrong("no contact excites the other side"))
+    wrong("no contact excites the other side")
 }
 
-/// The first contact.
+fn work(what: &str) -> Error {
+    Error::Work(what.to_owned())
+}
+
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Contact {
     side: usize,
     /// g of the other side before it.
     gain: f64,
-    /// Ticks since the one that used it.
-    waited: u64,
 }
 
 impl Contact {
@@ -136,7 +98,6 @@ impl Contact {
         Ok(Some(Self {
             side,
             gain: before.g[1 - side],
-            waited: 0,
         }))
     }
 

@@ -119,14 +119,12 @@ impl Machine {
         })
     }
 
-    /// Works on the chip from outside.
     pub(crate) fn with_chip<T>(&mut self, work: impl FnOnce(&mut Chip) -> T) -> T {
         let mut chip = self.shared.chip();
         chip.now = self.now;
         work(&mut chip)
     }
 
-    /// Why no tick ends.
     pub(crate) fn stands_still(&self) -> Fault {
         if self.is_locked_up {
             Fault::LockUp { pc: self.core.pc() }
@@ -144,9 +142,6 @@ impl Machine {
 
     /// Changes the supply to so many mV. The chip is in reset while that is too low; its RAM
     /// keeps its contents.
-    ///
-    /// # Errors
-    /// If the flash cannot keep up with the clock any more.
     pub(crate) fn set_supply(&mut self, supply_mv: u32) -> Result<Option<ResetCause>, Fault> {
         let held = self.disturb(|chip| chip.set_supply(supply_mv))?;
         if let Some(cause) = held {
@@ -157,9 +152,6 @@ impl Machine {
     }
 
     /// A side's sensor has said this so far in the frame that is under way.
-    ///
-    /// # Errors
-    /// [`Fault::Memory`] if what was said lies outside of RAM.
     pub(crate) fn say_again(&mut self, side: usize, said: &[u8]) -> Result<(), Fault> {
         let places = self.shared.chip().say_again(side, said);
         let mut bytes = places.into_iter().zip(said);

@@ -11,11 +11,9 @@ use rsemu::core::space::{
 use crate::chip::{Chip, Fault, Memory, Model, Ps};
 use crate::program::Program;
 
-/// Where the flash begins.
 pub(crate) const FLASH: u32 = 0x0800_0000;
 /// A byte of flash that is erased.
 const ERASED: u8 = 0xFF;
-/// Where RAM begins.
 pub(crate) const RAM: u32 = 0x2000_0000;
 
 /// Where peripherals can be: those on buses, ports with a bus of their own, the debug unit.
@@ -134,7 +132,6 @@ impl MemOps for FlashStores {
     }
 }
 
-/// Flash and RAM.
 #[derive(Debug, Clone)]
 pub(crate) struct Memories {
     flash: Arc<RamStore>,
@@ -214,7 +211,6 @@ impl Memories {
         Ok(space)
     }
 
-    /// Bytes of flash.
     pub(crate) const fn flash_len(&self) -> u32 {
         self.flash_len
     }
@@ -225,7 +221,6 @@ impl Memories {
         self.ram.read_at(offset, bytes).map_err(refused).map(drop)
     }
 
-    /// A word of RAM.
     pub(crate) fn word(&self, address: u32) -> Result<u32, Fault> {
         let mut bytes = [0; 4];
         self.read(address, &mut bytes)?;
@@ -245,7 +240,6 @@ impl Memories {
         done.map_err(refused).map(drop)
     }
 
-    /// Erases flash.
     pub(crate) fn erase(&self, place: Range<u32>) -> Result<(), Fault> {
         let ones = vec![ERASED; place.len()];
         let offset = place.start - FLASH;
@@ -266,7 +260,6 @@ impl Memories {
             .map(drop)
     }
 
-    /// Bytes of flash.
     pub(crate) fn flashed_bytes(&self, address: u32, length: usize) -> Result<Vec<u8>, Fault> {
         let outside = || Fault::Memory(format!("{address:#010x} is not in flash"));
         let offset = address.checked_sub(FLASH).ok_or_else(outside)?;

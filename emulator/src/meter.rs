@@ -4,7 +4,6 @@
 use crate::chip::Ps;
 use crate::machine::{Observer, Spent};
 
-/// A figure over many ticks.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub(crate) struct Tally {
     count: u64,
@@ -51,7 +50,6 @@ pub(crate) struct Figures {
     pub whole: Tally,
 }
 
-/// Takes the figures.
 #[derive(Debug, Default)]
 pub(crate) struct Meter {
     pub(crate) figures: Figures,

@@ -2,7 +2,6 @@
 
 use firmware::{Event, Place};
 
-/// What a module reports.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Notice {
     /// The sensor of a whisker has a fault: its motor is off.

@@ -8,7 +8,6 @@ use crate::program::Program;
 /// What cortex-m-rt fills the stack with (its feature `paint-stack`).
 const PAINT: u32 = 0xCCCC_CCCC;
 
-/// Where a program's stack lies.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct Stack {
     /// The lowest address.
@@ -18,7 +17,6 @@ pub(crate) struct Stack {
 }
 
 impl Stack {
-    /// Of `program`.
     pub(crate) fn new(program: &Program) -> Result<Self, Fault> {
         Ok(Self {
             end: program.symbol("_stack_end")?,
@@ -27,9 +25,6 @@ impl Stack {
     }
 
     /// The most bytes it has held since the reset.
-    ///
-    /// # Errors
-    /// [`Fault::Program`] if it was not painted or ran over its end.
     pub(crate) fn used(self, memories: &Memories) -> Result<u32, Fault> {
         if memories.word(self.end)? != PAINT {
             let what = "the stack was not painted, or ran over its end";

@@ -10,7 +10,6 @@ use rtt::LogDecoder;
 
 use crate::chip::{Fault, MODELS, Model};
 
-/// An ELF file as it came from the linker.
 #[derive(Debug, Clone)]
 pub(crate) struct Program {
     bytes: Vec<u8>,
@@ -23,7 +22,6 @@ fn bad(what: impl std::fmt::Display) -> Fault {
 }
 
 impl Program {
-    /// Reads an ELF file.
     pub(crate) fn load(path: &Path) -> Result<Self, Fault> {
         let named = |fault: &dyn std::fmt::Display| bad(format!("{}: {fault}", path.display()));
         let bytes = std::fs::read(path).map_err(|error| named(&error))?;
@@ -63,7 +61,6 @@ impl Program {
         model.ok_or_else(|| bad("it is of no board that is emulated"))
     }
 
-    /// The file.
     pub(crate) fn bytes(&self) -> &[u8] {
         &self.bytes
     }
@@ -75,7 +72,6 @@ impl Program {
             .map(|(at, contents)| (*at, contents.as_slice()))
     }
 
-    /// What turns its log into lines.
     pub(crate) fn log_decoder(&self) -> Result<LogDecoder, Fault> {
         Ok(LogDecoder::new(&self.bytes)?)
     }
@@ -86,7 +82,6 @@ impl Program {
         Ok(a.erased.start..b.erased.end().max(b.model.end()))
     }
 
-    /// Whether it brings a scene with it.
     pub(crate) fn brings_scene(&self) -> Result<bool, Fault> {
         let places = self.scenes()?;
         let mut segments = self.segments();
@@ -94,9 +89,6 @@ impl Program {
     }
 
     /// Has `contents` lie at an address where scenes and models do, when it is flashed.
-    ///
-    /// # Errors
-    /// [`Fault::Program`] where they lie elsewhere.
     pub(crate) fn add(&mut self, at: u32, contents: &[u8]) -> Result<(), Fault> {
         let places = self.scenes()?;
         if at < places.start || at as usize + contents.len() > places.end as usize {
@@ -107,7 +99,6 @@ impl Program {
         Ok(())
     }
 
-    /// The address of a symbol.
     pub(crate) fn symbol(&self, name: &str) -> Result<u32, Fault> {
         Ok(rtt::symbol(&self.bytes, name)?)
     }

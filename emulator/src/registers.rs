@@ -7,7 +7,6 @@ use host_sim::Error;
 
 use crate::chip::{Fact, FactKind, MODELS, Model, facts};
 
-/// The beginning of the page.
 const HEAD: &str = include_str!("registers/head.md");
 
 /// What the description of a chip has not: the board's program, kind and peripheral, and who
@@ -27,7 +26,6 @@ const ALONE: [(&str, FactKind, &str, &str); 2] = [
     ),
 ];
 
-/// A chip on the page.
 struct Chip {
     program: &'static str,
     title: &'static str,
@@ -57,7 +55,6 @@ const CHIPS: [Chip; 3] = [
     },
 ];
 
-/// What a kind is called in the table.
 const fn word(kind: FactKind) -> &'static str {
     match kind {
         FactKind::Chip => "chip",
@@ -68,6 +65,7 @@ const fn word(kind: FactKind) -> &'static str {
         FactKind::Pin => "pin",
         FactKind::Request => "request",
         FactKind::Bits => "bits",
+        FactKind::Kind => "kind",
     }
 }
 
@@ -188,7 +186,6 @@ fn of_chip(chip: &Chip, model: &Model) -> String {
     text
 }
 
-/// A gate or a reset, if there is one.
 fn cell(model: &Model, fact: Option<&Fact>) -> String {
     let Some(fact) = fact else {
         return String::new();
@@ -203,7 +200,6 @@ fn hex(address: u32) -> String {
     format!("0x{:04X}_{:04X}", address >> 16, address & 0xFFFF)
 }
 
-/// The register of some bits.
 fn register(fact: &Fact) -> &str {
     fact.part.split('.').next().unwrap_or_default()
 }

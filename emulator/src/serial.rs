@@ -1,9 +1,7 @@
 //! The serial line as a board has it: what it says, what it does with what is asked for, and
 //! that the tick takes no longer for it.
 
-mod cost;
 mod lines;
-mod talk;
 
 use std::path::Path;
 
@@ -13,96 +11,104 @@ use host_sim::loaded::Loaded;
 use scene::Scene;
 use wire::{Command, CommandStatus, Flags, TaggedCommand, TickRecord, WhiskerId};
 
-use crate::board::packets;
 use crate::compare::Pair;
+use crate::cost::{Asks, MEASURED_S, Price, cost};
 use crate::deployment::{flashed, flashed_for};
-use talk::{Talk, replies, wrong};
+use crate::talk::{Talk, wrong};
 
-/// For how long an answer is waited for, and the records of a part are taken, s.
-const PART_S: f64 = 0.1;
 /// For how long records are compared, s.
 const RECORDS_S: f64 = 0.5;
 
 /// A baud that does not carry the records of the scene.
-pub const SLOW_BAUD: u32 = 115_200;
+const SLOW_BAUD: u32 = 115_200;
+
+/// By how many instructions a tick may be longer for the port: what the compiler does otherwise
+/// where another part of the program differs.
+const MORE: f64 = 2.0;
 
 /// Talks with a board that runs the scene in `path` by the program that has its serial port,
 /// one with [`SLOW_BAUD`] and one without. Returns what was found.
-///
-/// # Errors
-/// [`Error::Work`] says what is not as it should be.
-pub fn talk(path: &Path, [program, slow, without]: [&Path; 3]) -> Result<Vec<String>, Error> {
+pub(crate) fn talk(
+    path: &Path,
+    [program, slow, without]: [&Path; 3],
+) -> Result<Vec<String>, Error> {
     let mut said = converse(path, program)?;
     said.push(refuse_records(path, slow)?);
-    said.extend(cost::cost(path, program, without)?);
+    said.extend(prices(path, program, without)?);
     Ok(said)
 }
 
 /// All that is said at a baud that carries records.
 fn converse(path: &Path, program: &Path) -> Result<Vec<String>, Error> {
     let (mut loaded, program) = flashed(path, program)?;
-    let pair = Pair::new(&mut loaded, &program)?;
+    let mut talk = Talk::new(Pair::new(&mut loaded, &program)?, true);
     let scene = &loaded.scene;
-    let mut talk = Talk {
-        pair,
-        ticks: 0,
-        part: (PART_S * f64::from(scene.tick_hz)) as u32,
-        tag: 0,
-    };
-    let mut said = vec![lines::compare(&mut talk, scene)?];
-    said.push(compare_packets(&mut talk, scene)?);
-    said.push(commands(&mut talk)?);
-    said.push(garbage(&mut talk)?);
-    Ok(said)
+    Ok(vec![
+        lines::compare(&mut talk, scene)?,
+        compare_packets(&mut talk, scene)?,
+        commands(&mut talk)?,
+        garbage(&mut talk)?,
+    ])
+}
+
+/// Says a line, and lets a part of the time pass; the lines that came and are replies.
+fn say(talk: &mut Talk, line: &str) -> Result<Vec<String>, Error> {
+    write(talk, format!("{line}\n").as_bytes(), talk.part)
+}
+
+/// Sends bytes, and lets so many ticks pass; the lines that came and begin with no time: replies.
+fn write(talk: &mut Talk, bytes: &[u8], ticks: u32) -> Result<Vec<String>, Error> {
+    let from = talk.lines.len();
+    talk.pair.target.serial_write(bytes);
+    talk.pass(ticks)?;
+    let is_reply = |line: &&String| !line.starts_with(|first: char| first.is_ascii_digit());
+    let new = talk.lines.iter().skip(from);
+    Ok(new.filter(is_reply).cloned().collect())
+}
+
+fn exchange(talk: &mut Talk, exchanges: &[(&str, &str)]) -> Result<(), Error> {
+    for (line, expected) in exchanges {
+        let replies = say(talk, line)?;
+        if replies != [*expected] {
+            return wrong(format!(
+                "{line:?} was answered by {replies:?}, not {expected:?}"
+            ));
+        }
+    }
+    Ok(())
 }
 
 /// Records and events by the line are those of the same module on the PC, and none is lost.
 fn compare_packets(talk: &mut Talk, scene: &Scene) -> Result<String, Error> {
-    // Where the lines were compared both had as many ticks.
-    let first = talk.ticks;
-    let (hello, _) = talk.ask(Command::Hello)?;
+    let hello = talk.ask(Command::Hello)?;
     if hello.values != [scene.tick_hz as i32, scene.whiskers() as i32] {
         return wrong(format!("{hello:?}"));
     }
-    let (before, _) = talk.ask(Command::Status)?;
-    let mut found = Vec::new();
-    let mut requests = Vec::new();
-    let left = WhiskerId::default();
+    let lost = talk.ask(Command::Status)?.values[0];
+    let from = talk.packets.len();
+    let first = talk.ask(Command::Stream(true))?.sequence;
+    talk.pass(talk.pair.target.ticks_of(RECORDS_S))?;
     // A command in between leaves no gap.
-    for command in [
-        Command::Stream(true),
-        Command::Gain(left, 1 << 23),
-        Command::Stream(false),
-    ] {
-        let (answer, meanwhile) = talk.ask(command)?;
-        requests.push((answer.sequence, TaggedCommand { tag: 0, command }));
-        found.extend(meanwhile);
-        if command == Command::Stream(true) {
-            let ticks = (RECORDS_S * f64::from(scene.tick_hz)) as u32;
-            found.extend(packets(&talk.pass(ticks)?));
-        }
+    talk.ask(Command::Gain(WhiskerId::default(), 1 << 23))?;
+    talk.pass(talk.part)?;
+    let last = talk.ask(Command::Stream(false))?.sequence;
+    talk.pass(talk.part)?;
+    let until = talk.packets.len();
+    if talk.ask(Command::Status)?.values[0] != lost {
+        return wrong("records were lost");
     }
-    let (after, none) = talk.ask(Command::Status)?;
-    if before.values[0] != after.values[0] || !none.is_empty() {
-        return wrong(format!("lost: {before:?}, {after:?}; too many: {none:?}"));
+    talk.pass(talk.part)?;
+    let is_answer = |packet: &Packet| matches!(packet, Packet::Answer(_));
+    if !talk.packets[until..].iter().all(is_answer) {
+        return wrong("records after the last");
     }
-    let expected = talk.pair.replay(first..talk.ticks, &requests);
-    let [found, expected] = [found, expected].map(|packets| talk.pair.by_tick(&packets));
-    if let Some((on_board, on_pc)) = found.iter().zip(&expected).find(|(a, b)| a != b) {
-        return wrong(format!(
-            "sent on the PC, on the board\n  {on_pc:?}\n  {on_board:?}"
-        ));
-    }
-    let (first, last) = (requests[0].0, requests[2].0);
+    let expected = talk.follow()?;
+    let found = &talk.packets[from..until];
+    let [records, events] = talk.same([found, &expected], scene.whiskers(), false)?;
     let ticks = (last - first) as usize;
-    if found.len() != expected.len() || found.len() != ticks || ticks == 0 {
-        return wrong(format!(
-            "packets of {} ticks came, the PC has {}, {ticks} were asked for",
-            found.len(),
-            expected.len()
-        ));
+    if records != ticks * scene.whiskers() || ticks == 0 {
+        return wrong(format!("{records} records of {ticks} ticks"));
     }
-    let events = found.values().flatten().count() - ticks * scene.whiskers();
     Ok(format!(
         "records of {ticks} ticks and {events} events as on the PC, none lost"
     ))
@@ -110,7 +116,7 @@ fn compare_packets(talk: &mut Talk, scene: &Scene) -> Result<String, Error> {
 
 /// Commands as lines: what is answered, and what the records then say.
 fn commands(talk: &mut Talk) -> Result<String, Error> {
-    let exchanges = [
+    const BEGIN: [(&str, &str); 9] = [
         ("arm", "ok arm"),
         ("gain left 0.5", "ok gain"),
         ("gain left 2.01", "refused gain: value out of range"),
@@ -121,45 +127,38 @@ fn commands(talk: &mut Talk) -> Result<String, Error> {
         ("jump", "refused jump: unknown command, try help"),
         ("stream on", "ok stream"),
     ];
-    for (line, expected) in exchanges {
-        let replies = talk.say(line)?;
-        if replies != [expected] {
-            return wrong(format!(
-                "{line:?} was answered by {replies:?}, not {expected:?}"
-            ));
-        }
-    }
+    const END: [(&str, &str); 3] = [
+        ("arm", "ok arm"),
+        ("release left", "ok release"),
+        ("stream off", "ok stream"),
+    ];
     let last = |talk: &mut Talk| -> Result<TickRecord, Error> {
-        let received = packets(&talk.pass(talk.part)?);
-        let last = received.iter().rev().find_map(|packet| match packet {
-            Packet::Record(record) => Some(*record),
-            _ => None,
-        });
+        let from = talk.packets.len();
+        talk.pass(talk.part)?;
+        let last = talk.packets[from..]
+            .iter()
+            .rev()
+            .find_map(|packet| match packet {
+                Packet::Record(record) => Some(*record),
+                _ => None,
+            });
         last.map_or_else(|| wrong("no record after `stream on`"), Ok)
     };
+    exchange(talk, &BEGIN)?;
     let held = last(talk)?;
     // 70 degrees are θ = 0.2.
     if (wire::unit(held.setpoint) - 0.2).abs() > 2e-4 || !held.flags.contains(Flags::ARMED) {
         return wrong(format!("armed, to be held at 70 degrees: {held:?}"));
     }
-    talk.say("stop")?;
+    say(talk, "stop")?;
     let stopped = last(talk)?;
     if stopped.flags.contains(Flags::ARMED) || stopped.duty != 0 {
         return wrong(format!("stopped: {stopped:?}"));
     }
-    for (line, expected) in [
-        ("arm", "ok arm"),
-        ("release left", "ok release"),
-        ("stream off", "ok stream"),
-    ] {
-        let replies = talk.say(line)?;
-        if replies != [expected] {
-            return wrong(format!("{line:?} was answered by {replies:?}"));
-        }
-    }
+    exchange(talk, &END)?;
     Ok(format!(
         "{} commands by line answered and carried out",
-        exchanges.len() + 4
+        BEGIN.len() + 1 + END.len()
     ))
 }
 
@@ -180,15 +179,14 @@ fn garbage(talk: &mut Talk) -> Result<String, Error> {
         (&whole[..5], 0),
         (&flipped[..], 2),
     ] {
-        talk.write(bytes);
-        let replies = replies(&talk.pass(talk.part / 4)?);
+        let replies = write(talk, bytes, talk.part / 4)?;
         let refused = replies.iter().filter(|reply| reply.starts_with("refused"));
         if refused.count() != refusals {
             return wrong(format!("{bytes:?} was answered by {replies:?}"));
         }
     }
-    let (hello, _) = talk.ask(Command::Hello)?;
-    let replies = talk.say("status")?;
+    let hello = talk.ask(Command::Hello)?;
+    let replies = say(talk, "status")?;
     let is_status = |reply: &String| reply.starts_with("ok status ");
     if hello.status != CommandStatus::Done || !replies.iter().any(is_status) {
         return wrong(format!("after garbage: {hello:?}, {replies:?}"));
@@ -201,26 +199,40 @@ fn refuse_records(path: &Path, program: &Path) -> Result<String, Error> {
     let mut loaded = Loaded::new(path)?;
     loaded.scene.telemetry.serial_baud = Some(SLOW_BAUD);
     let program = flashed_for(&loaded.scene, path, program)?;
-    let pair = Pair::new(&mut loaded, &program)?;
-    let part = (PART_S * f64::from(loaded.scene.tick_hz)) as u32;
-    let mut talk = Talk {
-        pair,
-        ticks: 0,
-        part,
-        tag: 0,
-    };
-    talk.pass(part)?;
-    let replies = talk.say("stream on")?;
+    let mut talk = Talk::new(Pair::new(&mut loaded, &program)?, true);
+    talk.pass(talk.part)?;
+    let replies = say(&mut talk, "stream on")?;
     let is_refused = |reply: &String| reply.starts_with("refused stream: records of every tick");
     if replies.len() != 1 || !replies.iter().all(is_refused) {
         return wrong(format!("at {SLOW_BAUD} baud: {replies:?}"));
     }
-    let (answer, packets) = talk.ask(Command::Stream(true))?;
-    if answer.status != CommandStatus::TooSlow || !packets.is_empty() {
+    let answer = talk.ask(Command::Stream(true))?;
+    talk.pass(talk.part)?;
+    if answer.status != CommandStatus::TooSlow || talk.packets.len() != 1 {
         return wrong(format!("at {SLOW_BAUD} baud: {answer:?}"));
     }
-    if talk.say("arm")? != ["ok arm"] {
-        return wrong(format!("at {SLOW_BAUD} baud `arm` is not answered"));
-    }
+    exchange(&mut talk, &[("arm", "ok arm")])?;
     Ok(format!("records are refused at {SLOW_BAUD} baud"))
+}
+
+/// What the serial port costs a tick, without records and with records that go there in place of
+/// to a probe: nothing.
+fn prices(path: &Path, program: &Path, without: &Path) -> Result<Vec<String>, Error> {
+    let (mut loaded, program) = flashed(path, program)?;
+    let scene = &mut loaded.scene;
+    scene.duration_s = MEASURED_S;
+    let mut silent = scene.clone();
+    silent.telemetry.serial_baud = None;
+    let without = flashed_for(&silent, path, without)?;
+    let prices = [
+        ("a serial port", [Asks::Nobody, Asks::Nobody]),
+        ("a serial port with records", [Asks::Serial, Asks::Probe]),
+    ];
+    let prices = prices.map(|(what, [with_port, without_port])| Price {
+        what,
+        with: (&program, with_port),
+        without: (&without, without_port),
+        most: MORE,
+    });
+    cost(scene, &prices)
 }

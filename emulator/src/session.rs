@@ -1,35 +1,42 @@
-//! A board that runs a scene, for a program that talks with it as with one on a bench: by what
-//! a probe reads from its RAM and writes into it.
+//! A board that runs a scene, for who talks with it as with one on a bench: by what a probe reads
+//! from its RAM and writes into it, or by its serial line.
 
 use std::ops::Range;
 use std::path::Path;
 
 use firmware::Packet;
 use host_sim::Error;
+use host_sim::received::Received;
 use host_sim::run::Run;
 use scene::{Scene, Texture};
-use wire::TaggedCommand;
+use wire::{Answer, Command, CommandStatus, TaggedCommand};
 
-use crate::board::{self, Emulated};
-use crate::chip::Ps;
-use crate::emulate::start_without;
+use crate::board::{self, Board};
+use crate::chip::{Fault, Ps};
+use crate::emulate::{start, start_without};
+use crate::machine::Machine;
 use crate::program::Program;
 use rtt::LogDecoder;
 
 /// Picoseconds in a second.
 const PS: f64 = 1e12;
 
+/// Ticks that an answer may take, as flash that is erased takes a second.
+pub(crate) const PATIENCE: u32 = 10_000;
+
 /// A board, started and before its first tick.
 pub struct Session {
-    run: Run<Emulated>,
+    pub(crate) run: Run<Board>,
     decoder: LogDecoder,
     board: &'static str,
     /// Where scenes and models lie.
     place: Range<u32>,
-    /// Longer than any tick takes.
-    most_wait: Ps,
+    sides: usize,
+    pub(crate) tick_hz: u32,
     /// Whether requests go by the serial line.
     is_by_serial: bool,
+    /// That of the last request.
+    tag: u16,
 }
 
 impl Session {
@@ -55,15 +62,29 @@ impl Session {
 
     /// The same of what is flashed.
     pub(crate) fn of(scene: &Scene, program: &Program) -> Result<Self, Error> {
+        // Decisions are in the log, by their names.
+        Self::around(start_without(scene, Vec::new(), program)?, scene, program)
+    }
+
+    /// A board that runs `scene`, and says its classes by their names.
+    pub(crate) fn running(
+        scene: &Scene,
+        classes: Vec<String>,
+        program: &Program,
+    ) -> Result<Self, Error> {
+        Self::around(start(scene, classes, program)?, scene, program)
+    }
+
+    fn around(run: Run<Board>, scene: &Scene, program: &Program) -> Result<Self, Error> {
         Ok(Self {
-            // Decisions are in the log, by their names.
-            run: start_without(scene, Vec::new(), program)?,
+            run,
             decoder: program.log_decoder()?,
             board: program.model()?.program,
             place: program.scenes()?,
-            // Ticks are not equally long.
-            most_wait: (1.5 * PS / f64::from(scene.tick_hz)) as Ps,
+            sides: scene.head.sides.count(),
+            tick_hz: scene.tick_hz,
             is_by_serial: false,
+            tag: 0,
         })
     }
 
@@ -75,11 +96,41 @@ impl Session {
         }
     }
 
-    /// Whether a motor is driven.
-    pub fn drives(&mut self) -> bool {
-        let machine = &mut self.run.module_mut().board.machine;
-        let duties = machine.with_chip(|chip| chip.motor_duties());
+    pub(crate) fn board_mut(&mut self) -> &mut Board {
+        self.run.module_mut()
+    }
+
+    pub(crate) fn machine(&mut self) -> &mut Machine {
+        &mut self.board_mut().machine
+    }
+
+    pub(crate) fn period(&self) -> Ps {
+        1_000_000_000_000 / Ps::from(self.tick_hz)
+    }
+
+    /// So much of the scene's time, ticks.
+    pub(crate) fn ticks_of(&self, seconds: f64) -> u32 {
+        (seconds * f64::from(self.tick_hz)).round() as u32
+    }
+
+    /// By how much of its period the motor of each side is driven. One side may have all three
+    /// outputs.
+    pub(crate) fn efforts(&mut self) -> Vec<f64> {
+        let duties = self.machine().with_chip(|chip| chip.motor_duties());
+        let share = |(on, period): (u32, u32)| f64::from(on) / f64::from(period.max(1));
+        if self.sides == 1 {
+            return vec![duties.into_iter().map(share).fold(0.0, f64::max)];
+        }
+        duties.into_iter().take(self.sides).map(share).collect()
+    }
+
+    pub(crate) fn drives(&mut self) -> bool {
+        let duties = self.machine().with_chip(|chip| chip.motor_duties());
         duties.iter().any(|(on, _)| *on > 0)
+    }
+
+    pub(crate) fn drives_all(&mut self) -> bool {
+        self.efforts().iter().all(|effort| *effort > 0.0)
     }
 
     /// What lies in the flash where scenes and models do.
@@ -87,24 +138,27 @@ impl Session {
     /// # Errors
     /// [`Error::Work`] if it cannot be read.
     pub fn flash(&mut self) -> Result<Vec<u8>, Error> {
-        let memories = &self.run.module_mut().board.machine.memories;
-        Ok(memories.flashed_bytes(self.place.start, self.place.len())?)
+        let place = self.place.clone();
+        let memories = &self.machine().memories;
+        Ok(memories.flashed_bytes(place.start, place.len())?)
     }
 
     /// From now on a reset that the program or the watchdog makes is no fault, and the world
     /// moves on where no tick ends; or no more.
     pub fn bear_resets(&mut self, bears: bool) {
-        let emulated = self.run.module_mut();
-        emulated.bears_resets = bears;
-        emulated.board.world_waits = bears.then_some(self.most_wait);
+        // Ticks are not equally long.
+        let most_wait = self.period() * 3 / 2;
+        let board = self.board_mut();
+        board.bears_resets = bears;
+        board.world_waits = bears.then_some(most_wait);
         if !bears {
-            emulated.board.reset = None;
+            board.reset = None;
         }
     }
 
     /// Whether the board was reset since the last call.
     pub fn was_reset(&mut self) -> bool {
-        self.run.module_mut().board.reset.take().is_some()
+        self.board_mut().reset.take().is_some()
     }
 
     /// One tick of the board, and of the world around it.
@@ -112,8 +166,13 @@ impl Session {
     /// # Errors
     /// [`Error::Work`] says what has stopped the board.
     pub fn tick(&mut self) -> Result<(), Error> {
+        Ok(self.pass_tick()?)
+    }
+
+    /// The same, for who asks what was not followed.
+    pub(crate) fn pass_tick(&mut self) -> Result<(), Fault> {
         self.run.tick();
-        Ok(self.run.module_mut().check()?)
+        self.board_mut().check()
     }
 
     /// Writes a request; whether there was room for it.
@@ -121,13 +180,45 @@ impl Session {
     /// # Errors
     /// [`Error::Work`] if the program's memory is not as it should be.
     pub fn request(&mut self, request: TaggedCommand) -> Result<bool, Error> {
-        let board = &mut self.run.module_mut().board;
         let frame = wire::frame(&request);
         if self.is_by_serial {
-            board.serial_write(&frame);
+            self.serial_write(&frame);
             return Ok(true);
         }
-        Ok(board.request(&frame)?)
+        Ok(self.board_mut().request(&frame)?)
+    }
+
+    /// Writes a request with a number of its own, for which there must be room.
+    pub(crate) fn send(&mut self, command: Command) -> Result<TaggedCommand, Error> {
+        self.tag += 1;
+        let tag = self.tag;
+        let request = TaggedCommand { tag, command };
+        if self.request(request)? {
+            return Ok(request);
+        }
+        Err(Error::Work(format!("{command:?}: no room for it")))
+    }
+
+    pub(crate) fn ask(&mut self, command: Command) -> Result<Answer, Error> {
+        let TaggedCommand { tag, .. } = self.send(command)?;
+        for _ in 0..PATIENCE {
+            self.tick()?;
+            if let Some(answer) = answer_to(tag, &self.packets()?) {
+                return Ok(answer);
+            }
+        }
+        Err(Error::Work(format!("{command:?}: no answer")))
+    }
+
+    /// Asks for something, which must become of it.
+    pub(crate) fn must(&mut self, command: Command, status: CommandStatus) -> Result<(), Error> {
+        let found = self.ask(command)?.status;
+        if found == status {
+            return Ok(());
+        }
+        Err(Error::Work(format!(
+            "{command:?}: found {found:?}, expected {status:?}"
+        )))
     }
 
     /// What the board has sent since the last call.
@@ -135,27 +226,32 @@ impl Session {
     /// # Errors
     /// As [`Session::request`].
     pub fn packets(&mut self) -> Result<Vec<Packet>, Error> {
-        let board = &mut self.run.module_mut().board;
+        Ok(board::packets(&self.received()?))
+    }
+
+    /// The same, and lines where it goes by the serial line.
+    pub(crate) fn received(&mut self) -> Result<Vec<Received>, Error> {
         if self.is_by_serial {
-            return Ok(board::packets(&board.received()?));
+            return Ok(self.board_mut().received()?);
         }
-        Ok(board.packets()?)
+        let packets = self.board_mut().packets()?.into_iter();
+        Ok(packets.map(Received::Packet).collect())
     }
 
     /// Has the other end of the board's serial line, which has the scene's baud, send bytes
     /// from now on.
     pub fn serial_write(&mut self, bytes: &[u8]) {
-        self.run.module_mut().board.serial_write(bytes);
+        self.board_mut().serial_write(bytes);
     }
 
     /// What the other end has received since the last call.
     pub fn serial_read(&mut self) -> Vec<u8> {
-        self.run.module_mut().board.serial_read()
+        self.board_mut().serial_read()
     }
 
     /// The lines that it has logged since the last call.
     pub fn log(&mut self) -> Vec<String> {
-        let bytes = self.run.module_mut().take_log();
+        let bytes = self.board_mut().take_log();
         self.decoder.lines(&bytes)
     }
 
@@ -171,11 +267,19 @@ impl Session {
 
     /// Time on the chip, s.
     pub fn now_s(&mut self) -> f64 {
-        self.run.module_mut().board.machine.now as f64 / PS
+        self.machine().now as f64 / PS
     }
 
     /// The name of the board's program.
     pub const fn board(&self) -> &'static str {
         self.board
     }
+}
+
+/// The answer to the request with this number, among packets.
+pub(crate) fn answer_to(tag: u16, packets: &[Packet]) -> Option<Answer> {
+    packets.iter().find_map(|packet| match packet {
+        Packet::Answer(answer) if answer.tag == tag => Some(*answer),
+        _ => None,
+    })
 }

@@ -5,14 +5,13 @@ use std::path::Path;
 
 use firmware::Packet;
 use host_sim::Error;
-use host_sim::trace::Row;
 use scene::{PlantKind, Scene};
-use wire::{Answer, Command, CommandStatus, Flags, TaggedCommand, TickRecord, WhiskerId};
+use wire::{Command, CommandStatus, Flags, TickRecord, WhiskerId};
 
-use crate::board::Board;
 use crate::compare::Pair;
+use crate::cost::{Asks, MEASURED_S, Price, cost};
 use crate::deployment::{flashed, flashed_for};
-use crate::emulate::start;
+use crate::talk::{Talk, wrong};
 use crate::tuning::tune;
 
 /// Most instructions of a tick for a whisker's record, where the core has an FPU and where it
@@ -24,10 +23,6 @@ const STREAMING_NO_FPU: f64 = 265.0;
 /// The same where nothing is asked for: a look at that queue's fellow for requests, and the events
 /// of a tick noted for a record.
 const QUIET: f64 = 14.0;
-
-/// For how long each program is measured, and every part of the conversation, s.
-const MEASURED_S: f64 = 1.0;
-const PART_S: f64 = 0.1;
 
 /// By how much a record may be away from the world, degrees: a step of its numbers, and of
 /// the encoder.
@@ -41,46 +36,36 @@ const ONE: i32 = 1 << 24;
 
 /// Talks with the board that runs the scene in `path`, once with a program that has
 /// telemetry and once `without`. Returns what was found.
-///
-/// # Errors
-/// [`Error::Work`] says what is not as it should be.
-pub fn talk(path: &Path, program: &Path, without: &Path) -> Result<Vec<String>, Error> {
+pub(crate) fn talk(path: &Path, program: &Path, without: &Path) -> Result<Vec<String>, Error> {
     let mut said = converse(path, program)?;
     said.extend(tune(path, program)?);
-    said.extend(cost(path, program, without)?);
+    said.extend(prices(path, program, without)?);
     Ok(said)
 }
 
 /// What a PC wants of the board, in this order, a part of the time each.
 fn script(scene: &Scene) -> Vec<(Command, CommandStatus)> {
-    let whisks = scene.whisking.is_some();
     let left = WhiskerId::default();
     let nowhere = WhiskerId { side: 5, number: 9 };
-    let motor = |status| {
-        if whisks {
+    let [done, out_of_range] = [CommandStatus::Done, CommandStatus::OutOfRange].map(|status| {
+        if scene.whisking.is_some() {
             status
         } else {
             CommandStatus::NoWhisker
         }
-    };
+    });
     let mut script = vec![
         (Command::Hello, CommandStatus::Done),
         (Command::Stream(true), CommandStatus::Done),
-        (Command::Gain(left, ONE / 2), motor(CommandStatus::Done)),
-        (
-            Command::Gain(left, 2 * ONE + ONE / 100),
-            motor(CommandStatus::OutOfRange),
-        ),
+        (Command::Gain(left, ONE / 2), done),
+        (Command::Gain(left, 2 * ONE + ONE / 100), out_of_range),
         (Command::Gain(nowhere, ONE), CommandStatus::NoWhisker),
-        (Command::Setpoint(left, ONE / 5), motor(CommandStatus::Done)),
-        (
-            Command::Setpoint(left, 3 * ONE),
-            motor(CommandStatus::OutOfRange),
-        ),
-        (Command::Release(left), motor(CommandStatus::Done)),
-        (Command::Clear(left), motor(CommandStatus::Done)),
-        (Command::Stop, motor(CommandStatus::Done)),
-        (Command::Arm, motor(CommandStatus::Done)),
+        (Command::Setpoint(left, ONE / 5), done),
+        (Command::Setpoint(left, 3 * ONE), out_of_range),
+        (Command::Release(left), done),
+        (Command::Clear(left), done),
+        (Command::Stop, done),
+        (Command::Arm, done),
     ];
     if scene.plant.kind == PlantKind::Ideal {
         // Ideal motors on the pins follow the pattern generator, as a debugger reads it,
@@ -94,150 +79,35 @@ fn script(scene: &Scene) -> Vec<(Command, CommandStatus)> {
     script
 }
 
-/// The board, and all it has sent.
-struct Talk {
-    pair: Pair,
-    whiskers: u32,
-    part: u32,
-    packets: Vec<Packet>,
-    /// Of each tick: the angles before the world moved on, and what was so after it.
-    worlds: Vec<([f64; 2], Row)>,
-    tag: u16,
-    asked: Vec<TaggedCommand>,
-    is_apart: bool,
-}
-
-impl Talk {
-    fn board(&mut self) -> &mut Board {
-        &mut self.pair.target.module_mut().board
-    }
-
-    /// Lets so many ticks pass. Records must say what is so in the world, until a motor was
-    /// stopped, after which it is not known where its whisker rests, or what was sent was not read.
-    fn pass(&mut self, ticks: u32) -> Result<(), Error> {
-        for _ in 0..ticks {
-            self.tick()?;
-            let packets = self.board().packets()?;
-            for packet in &packets {
-                if let Packet::Record(record) = packet
-                    && !self.is_apart
-                {
-                    self.same_as_world(record)?;
-                }
-            }
-            self.packets.extend(packets);
-        }
-        Ok(())
-    }
-
-    fn tick(&mut self) -> Result<(), Error> {
-        let before = self.pair.target.row().angle_deg;
-        self.worlds.push((before, self.pair.target.tick()));
-        Ok(self.pair.target.module_mut().check()?)
-    }
-
-    /// Asks for something, and lets a part of the time pass.
-    fn ask(&mut self, command: Command) -> Result<Answer, Error> {
-        self.tag += 1;
-        self.is_apart |= command == Command::Stop;
-        let request = TaggedCommand {
-            tag: self.tag,
-            command,
-        };
-        if !self.board().request(&wire::frame(&request))? {
-            return Err(Error::Work("no room for a request".to_owned()));
-        }
-        self.asked.push(request);
-        self.pass(self.part)?;
-        self.answer()
-    }
-
-    /// The answer to the last request.
-    fn answer(&self) -> Result<Answer, Error> {
-        let answers = self.packets.iter().filter_map(answered);
-        let answers: Vec<_> = answers.filter(|answer| answer.tag == self.tag).collect();
-        match answers[..] {
-            [answer] => Ok(answer),
-            _ => Err(Error::Work(format!(
-                "request {}: answered {answers:?}",
-                self.tag
-            ))),
-        }
-    }
-
-    /// A record must have the angle that the encoder has read in its tick, before the world moved
-    /// on, the codes that its sensor has got, and z as a debugger reads it.
-    fn same_as_world(&self, record: &TickRecord) -> Result<(), Error> {
-        let Some((before, row)) = self.worlds.get(record.sequence.wrapping_sub(1) as usize) else {
-            return Err(Error::Work(format!("of a tick to come: {record:?}")));
-        };
-        let side = usize::from(record.flags.contains(Flags::RIGHT));
-        let off = (f64::from(wire::degrees(record.measured)) - before[side]).abs();
-        let codes = [row.x[side], row.y[side]];
-        let are_codes = record.codes().map(f64::from) == codes;
-        // A scene that does not whisk has none.
-        let z = if row.z[side].is_nan() {
-            0.0
-        } else {
-            row.z[side]
-        };
-        let is_z = (f64::from(wire::unit(record.z)) - z).abs() <= Z_STEP;
-        if (record.flags.contains(Flags::RUNNING) && off > ANGLE_DEG) || !are_codes || !is_z {
-            return Err(Error::Work(format!(
-                "at {} degrees with codes {codes:?} and z {z}: {record:?}",
-                before[side]
-            )));
-        }
-        Ok(())
-    }
-
-    /// The records from this packet on.
-    fn records(&self, first: usize) -> impl Iterator<Item = &TickRecord> {
-        self.packets
-            .iter()
-            .skip(first)
-            .filter_map(|packet| match packet {
-                Packet::Record(record) => Some(record),
-                Packet::Answer(_) | Packet::Event(_) => None,
-            })
-    }
-}
-
 /// A scene on a board that is asked for this and that: the answers must be right, the
 /// records those of the same module on the PC, and where they are not read whole records be lost,
 /// and counted.
 fn converse(path: &Path, program: &Path) -> Result<Vec<String>, Error> {
     let (mut loaded, program) = flashed(path, program)?;
-    let pair = Pair::new(&mut loaded, &program)?;
+    let mut talk = Talk::new(Pair::new(&mut loaded, &program)?, false);
     let scene = &loaded.scene;
-    let mut talk = Talk {
-        pair,
-        whiskers: scene.whiskers() as u32,
-        part: (PART_S * f64::from(scene.tick_hz)) as u32,
-        packets: Vec::new(),
-        worlds: Vec::new(),
-        tag: 0,
-        asked: Vec::new(),
-        is_apart: false,
-    };
     talk.pass(talk.part)?;
-    let wrong = |what: String| Err(Error::Work(what));
 
     // Bytes that are no request, and half of one: the next is understood all the same.
-    talk.board().request(&[0xA5; 17])?;
+    talk.pair.target.board_mut().request(&[0xA5; 17])?;
     talk.pass(2)?;
+    let mut stopped = None;
     for (command, status) in script(scene) {
+        if command == Command::Stop {
+            stopped = Some(talk.packets.len());
+        }
         let answer = talk.ask(command)?;
-        if answer.status != status || answer.command != command.number() {
-            return wrong(format!("{command:?}: {answer:?}"));
-        }
+        talk.pass(talk.part)?;
         let expected = [scene.tick_hz as i32, scene.whiskers() as i32];
-        if command == Command::Hello && answer.values != expected {
+        let is_right = answer.status == status
+            && answer.command == command.number()
+            && (command != Command::Hello || answer.values == expected);
+        if !is_right {
             return wrong(format!("{command:?}: {answer:?}"));
         }
-        let driven = talk.records(0).last().map(|record| record.duty != 0);
-        if command == Command::Stop && driven != Some(false) {
-            return wrong("driven after it was to stop".to_owned());
+        let driven = records(&talk.packets).last();
+        if command == Command::Stop && driven.is_none_or(|record| record.duty != 0) {
+            return wrong("driven after it was to stop");
         }
     }
     let mut names = vec![name(&mut talk, Command::Name)?];
@@ -248,15 +118,55 @@ fn converse(path: &Path, program: &Path) -> Result<Vec<String>, Error> {
     if names != [vec![scene.name.clone()], classes].concat() {
         return wrong(format!("it says that its scene and classes are {names:?}"));
     }
-    let lost = lose(&mut talk)?;
-    let [records, events] = equal(&mut talk)?;
+    // Where a stopped whisker rests is not known, nor what was sent and not read.
+    let known = stopped.unwrap_or(talk.packets.len());
+    let lost = lose(&mut talk, scene.whiskers() as u32)?;
+    for record in records(&talk.packets[..known]) {
+        same_as_world(&talk, record)?;
+    }
+    let expected = talk.follow()?;
+    let whiskers = scene.whiskers();
+    let [records, events] = talk.same([&talk.packets, &expected], whiskers, true)?;
     Ok(vec![
         format!(
             "{} requests answered, {records} records and {events} events as on the PC",
-            talk.asked.len()
+            talk.requests.len()
         ),
         format!("{lost} records lost while none were read, and counted"),
     ])
+}
+
+fn records(packets: &[Packet]) -> impl DoubleEndedIterator<Item = &TickRecord> {
+    packets.iter().filter_map(|packet| match packet {
+        Packet::Record(record) => Some(record),
+        Packet::Answer(_) | Packet::Event(_) => None,
+    })
+}
+
+/// A record must have the angle that the encoder has read in its tick, before the world moved
+/// on, the codes that its sensor has got, and z as a debugger reads it.
+fn same_as_world(talk: &Talk, record: &TickRecord) -> Result<(), Error> {
+    let Some((before, row)) = talk.worlds.get(record.sequence.wrapping_sub(1) as usize) else {
+        return wrong(format!("of a tick to come: {record:?}"));
+    };
+    let side = usize::from(record.flags.contains(Flags::RIGHT));
+    let off = (f64::from(wire::degrees(record.measured)) - before[side]).abs();
+    let codes = [row.x[side], row.y[side]];
+    let are_codes = record.codes().map(f64::from) == codes;
+    // A scene that does not whisk has none.
+    let z = if row.z[side].is_nan() {
+        0.0
+    } else {
+        row.z[side]
+    };
+    let is_z = (f64::from(wire::unit(record.z)) - z).abs() <= Z_STEP;
+    if (record.flags.contains(Flags::RUNNING) && off > ANGLE_DEG) || !are_codes || !is_z {
+        return wrong(format!(
+            "at {} degrees with codes {codes:?} and z {z}: {record:?}",
+            before[side]
+        ));
+    }
+    Ok(())
 }
 
 /// A name, as the board says it where eight letters from one on are asked for so.
@@ -272,130 +182,63 @@ fn name(talk: &mut Talk, command: impl Fn(u8) -> Command) -> Result<String, Erro
     }
 }
 
-/// Nothing is read for a part of the time. What is lost must be whole ticks, the board's own
+/// Nothing is read for two parts. What is lost must be whole ticks, the board's own
 /// count that of the gap, and the record after the gap say so.
-fn lose(talk: &mut Talk) -> Result<u32, Error> {
+fn lose(talk: &mut Talk, whiskers: u32) -> Result<u32, Error> {
     let before = talk.ask(Command::Status)?.values[0];
-    talk.is_apart = true;
+    talk.pass(talk.part)?;
     for _ in 0..2 * talk.part {
         talk.tick()?;
     }
     let first = talk.packets.len();
     talk.pass(talk.part)?;
     let after = talk.ask(Command::Status)?.values[0];
+    talk.pass(talk.part)?;
     let counted = after.wrapping_sub(before).cast_unsigned();
 
-    let whiskers = talk.whiskers;
     let mut gap = 0;
-    let records: Vec<_> = talk.records(first).collect();
+    let records: Vec<_> = records(&talk.packets[first..]).collect();
     for pair in records.windows(2) {
         let side = |record: &TickRecord| u32::from(record.flags.contains(Flags::RIGHT));
         let place = |record: &TickRecord| record.sequence * whiskers + side(record);
         let missing = place(pair[1]) - place(pair[0]) - 1;
         if pair[1].flags.contains(Flags::LOST) != (missing > 0) {
-            return Err(Error::Work(format!("{missing} lost before {:?}", pair[1])));
+            return wrong(format!("{missing} lost before {:?}", pair[1]));
         }
         gap += missing;
     }
     if gap != counted || gap == 0 {
-        return Err(Error::Work(format!(
-            "{gap} records lost, {counted} counted"
-        )));
+        return wrong(format!("{gap} records lost, {counted} counted"));
     }
     Ok(gap)
 }
 
-/// Runs the same on the PC: every record and every event must be the same, but in ticks of which
-/// something was lost. Returns how many there were.
-fn equal(talk: &mut Talk) -> Result<[usize; 2], Error> {
-    let mut requests = Vec::new();
-    for answer in talk.packets.iter().filter_map(answered) {
-        let asked = talk.asked.iter().filter(|asked| asked.tag == answer.tag);
-        requests.extend(asked.map(|asked| (answer.sequence, *asked)));
-    }
-    let expected = talk.pair.replay(0..talk.worlds.len() as u32, &requests);
-    let mut expected = talk.pair.by_tick(&expected);
-    let (mut records, mut events) = (0, 0);
-    for (tick, found) in talk.pair.by_tick(&talk.packets) {
-        let expected = expected.remove(&tick).unwrap_or_default();
-        let count = found.iter().filter(|packet| is_record(packet)).count();
-        let is_whole = count == talk.whiskers as usize;
-        if found != expected && (is_whole || found.iter().any(|found| !expected.contains(found))) {
-            return Err(Error::Work(format!(
-                "tick {tick}: sent on the PC, on the board\n  {expected:?}\n  {found:?}"
-            )));
-        }
-        records += count;
-        events += found.len() - count;
-    }
-    Ok([records, events])
-}
-
-const fn is_record(packet: &Packet) -> bool {
-    matches!(packet, Packet::Record(_))
-}
-
-const fn answered(packet: &Packet) -> Option<Answer> {
-    match packet {
-        Packet::Answer(answer) => Some(*answer),
-        Packet::Record(_) | Packet::Event(_) => None,
-    }
-}
-
-/// Mean instructions of the tick's handler without telemetry, with telemetry that is
-/// not asked for, with a record a whisker, and with records that find no room; limits hold for the
-/// last three.
-fn cost(path: &Path, program: &Path, without: &Path) -> Result<Vec<String>, Error> {
+/// What telemetry costs that is not asked for, with a record a whisker, and with records that
+/// find no room.
+fn prices(path: &Path, program: &Path, without: &Path) -> Result<Vec<String>, Error> {
     let (mut loaded, program) = flashed(path, program)?;
     let scene = &mut loaded.scene;
     scene.duration_s = MEASURED_S;
     let mut silent = scene.clone();
     silent.telemetry.rtt = false;
     let without = flashed_for(&silent, path, without)?;
-    let mut means = Vec::new();
-    for (elf, streams, reads) in [
-        (&without, false, true),
-        (&program, false, true),
-        (&program, true, true),
-        (&program, true, false),
-    ] {
-        let mut run = start(scene, Vec::new(), elf)?;
-        if streams {
-            let command = Command::Stream(true);
-            let bytes = wire::frame(&TaggedCommand { tag: 1, command });
-            run.module_mut().board.request(&bytes)?;
-        }
-        for _ in 0..run.ticks() {
-            run.tick();
-            let emulated = run.module_mut();
-            emulated.check()?;
-            drop(emulated.take_log());
-            if reads {
-                emulated.board.packets()?;
-            }
-        }
-        means.push(run.module_mut().meter.figures.tick.mean());
-    }
     let has_fpu = program.model()?.facts.has_fpu;
     let each = if has_fpu { STREAMING } else { STREAMING_NO_FPU };
-    let streaming_most = each * scene.whiskers() as f64;
-    let [without, quiet, streaming, full] = means[..] else {
-        return Err(Error::Work("four programs".to_owned()));
-    };
-    let mut said = Vec::new();
-    for (what, mean, most) in [
-        ("that is not asked for", quiet, QUIET),
-        ("with a record a whisker", streaming, streaming_most),
-        ("with records that find no room", full, streaming_most),
-    ] {
-        let more = mean - without;
-        said.push(format!(
-            "telemetry {what}: {more:.1} instructions a tick beside {without:.1}"
-        ));
-        if more > most {
-            let said = said.join("\n");
-            return Err(Error::Work(format!("{said}\nat most {most} are allowed")));
-        }
-    }
-    Ok(said)
+    let streaming = each * scene.whiskers() as f64;
+    let prices = [
+        ("telemetry that is not asked for", Asks::Nobody, QUIET),
+        ("with a record a whisker", Asks::Probe, streaming),
+        (
+            "with records that find no room",
+            Asks::ProbeInVain,
+            streaming,
+        ),
+    ];
+    let prices = prices.map(|(what, asks, most)| Price {
+        what,
+        with: (&program, asks),
+        without: (&without, Asks::Nobody),
+        most,
+    });
+    cost(scene, &prices)
 }

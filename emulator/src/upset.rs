@@ -17,7 +17,6 @@ pub(crate) const REGISTERS: [&str; 17] = [
     "pc", "xpsr",
 ];
 
-/// What can befall it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Upset {
     /// It executes nothing for so long while the peripherals go on: a tick that is too long.
@@ -34,9 +33,6 @@ pub(crate) enum Upset {
 
 impl Upset {
     /// Lets it happen now; for how long the core is held.
-    ///
-    /// # Errors
-    /// [`Fault::Memory`] where there is no RAM.
     pub(crate) fn happen(self, core: &Core, memories: &Memories) -> Result<Ps, Fault> {
         match self {
             Self::Held(time) => return Ok(time),
@@ -52,7 +48,6 @@ impl Upset {
     }
 }
 
-/// An upset that is still to come.
 #[derive(Debug, Default)]
 pub(crate) struct Planned {
     /// Before which instruction of the next tick's handler, counted from 1.

@@ -19,7 +19,6 @@ use crate::program::Program;
 mod name {
     use crate::notice::Notice;
 
-    /// The module.
     pub(super) const MODULE: &str = "INNER";
     /// The queues between the tick and idle, and in them that of the events with their ticks.
     pub(super) const QUEUES: &str = "__rtic_internal_local_init_queues";
@@ -28,9 +27,7 @@ mod name {
     /// In a queue: its ring, and where the next goes.
     pub(super) const RING: &str = "buffer";
     pub(super) const TAIL: &str = "tail";
-    /// Contact π of each side.
     pub(super) const CONTACT: &str = "contact";
-    /// The pattern generator.
     pub(super) const STATE: [&str; 2] = ["motion", "state"];
     /// In it: the sides, and the gate of each.
     pub(super) const SIDES: &str = "sides";
@@ -63,12 +60,10 @@ mod name {
     ];
     /// In an event: the whisker, and the decision if it is one.
     pub(super) const PLACED: [&str; 2] = ["__0", "__1"];
-    /// In the whisker.
     pub(super) const SIDE: &str = "side";
     pub(super) const WHISKER: &str = "whisker";
 }
 
-/// A number at an address.
 #[derive(Debug, Clone, Copy)]
 struct Variable {
     address: u32,

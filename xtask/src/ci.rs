@@ -3,7 +3,7 @@
 
 use std::path::Path;
 
-use crate::emulate::{Emulated, Probe, Task};
+use crate::emulate::Emulated;
 use crate::firmware::{Board, EVERY_PART};
 use crate::run::{Fault, cargo, run, take_built_programs};
 use crate::steps::Steps;
@@ -122,14 +122,14 @@ fn board() -> Result<(), Fault> {
 /// What the first board does with one side, by a program made for it.
 fn first_board() -> Result<(), Fault> {
     let one_side = [
-        Task::Compare(Probe::Attached),
-        Task::Deadlines(0.05),
-        Task::Overload,
-        Task::Starting,
-        Task::Supply,
-        Task::Telemetry,
-        Task::Damage,
-        Task::SensorLoss,
+        "compare",
+        "deadlines --minutes 0.05",
+        "overload",
+        "starting",
+        "supply",
+        "telemetry",
+        "damage",
+        "sensor-loss",
     ];
     let first = Emulated::linked(Board::ALL[0]);
     emulate::emulate(&first, Path::new(emulate::FULL), &one_side)
@@ -142,17 +142,17 @@ fn other_boards() -> Result<(), Fault> {
     emulate::compare_in_fixed_point(board)?;
     let board = Emulated::deployed(board)?;
     // The scene in which records cost most.
-    emulate::emulate(&board, Path::new(emulate::WORLD), &[Task::Telemetry])?;
-    let coupled = [Task::Compare(Probe::Absent), Task::Latency];
+    emulate::emulate(&board, Path::new(emulate::WORLD), &["telemetry"])?;
+    let coupled = ["compare --probe absent", "latency"];
     emulate::emulate(&board, Path::new(emulate::CIA), &coupled)?;
-    let both_sides = [Task::Deadlines(0.05), Task::SensorLoss, Task::Telemetry];
+    let both_sides = ["deadlines --minutes 0.05", "sensor-loss", "telemetry"];
     emulate::emulate(&board, &emulate::noisiest()?, &both_sides)?;
-    emulate::emulate(&board, Path::new(emulate::FULL), &[Task::Serial])?;
+    emulate::emulate(&board, Path::new(emulate::FULL), &["serial"])?;
     emulate::compare_with_slow_sensors(&board)?;
     emulate::compare_with_zeros(&board)?;
-    let in_short = [Task::Compare(Probe::Pulled), Task::SensorLoss];
+    let in_short = ["compare --probe pulled", "sensor-loss"];
     let [small, smallest] = [Emulated::deployed(small)?, Emulated::deployed(smallest)?];
     emulate::emulate(&small, Path::new(emulate::FULL), &in_short)?;
     emulate::emulate(&smallest, Path::new(emulate::FULL), &in_short)?;
-    emulate::emulate(&smallest, Path::new(emulate::BENCH), &[Task::Deploying])
+    emulate::emulate(&smallest, Path::new(emulate::BENCH), &["deploying"])
 }

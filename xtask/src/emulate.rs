@@ -3,51 +3,10 @@
 pub(crate) mod variants;
 
 use std::path::{Path, PathBuf};
-
-use clap::ValueEnum;
+use std::process::Command;
 
 use crate::firmware::{self, Board};
 use crate::run::{Fault, absolute, listing, output, run, top, workspace_program};
-
-/// Who fetches the log from a board.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub(crate) enum Probe {
-    /// A probe
-    Attached,
-    /// Nobody
-    Absent,
-    /// A probe that is pulled while the program waits for it
-    Pulled,
-}
-
-/// What is done with a scene.
-#[derive(Debug, Clone)]
-pub(crate) enum Task {
-    /// Writes its files there.
-    Run(PathBuf),
-    /// Compares every tick with host-sim, with such a probe at the board's log.
-    Compare(Probe),
-    /// Measures how the board keeps its time, over so many minutes.
-    Deadlines(f64),
-    /// Makes ticks too long on purpose.
-    Overload,
-    /// Resets the chip in every way that nobody asked for.
-    Starting,
-    /// Lets the supply dip and the clock stop.
-    Supply,
-    /// Has a PC talk to it.
-    Telemetry,
-    /// Talks with it over its serial line.
-    Serial,
-    /// Flips bits in what nothing writes.
-    Damage,
-    /// Breaks the sensors' wires on purpose.
-    SensorLoss,
-    /// Measures how long contact on one side takes to excite the other.
-    Latency,
-    /// Deploys scenes and models to it, right ones and wrong.
-    Deploying,
-}
 
 /// A board, and how it gets its scenes.
 #[derive(Debug)]
@@ -85,60 +44,58 @@ impl Emulated {
     }
 }
 
-/// Does `tasks` with `scene`, one after the other.
-pub(crate) fn emulate(on: &Emulated, scene: &Path, tasks: &[Task]) -> Result<(), Fault> {
+/// Puts a board with `scene` through `scenarios` of the emulator, one after the other: each is its
+/// name, with its options.
+pub(crate) fn emulate(on: &Emulated, scene: &Path, scenarios: &[&str]) -> Result<(), Fault> {
     let program = on.program(scene)?;
-    tasks
-        .iter()
-        .try_for_each(|task| one(on, scene, (&program, task)))
+    for scenario in scenarios {
+        let mut command = workspace_program("emulator");
+        command.arg("scenario").args(scenario.split(' '));
+        match *scenario {
+            "telemetry" => {
+                let without = on.program(&variants::without_telemetry(scene)?)?;
+                command.arg("--without").arg(without);
+            }
+            "serial" => {
+                serial(on, scene, &program, &mut command)?;
+                run(&mut command)?;
+                continue;
+            }
+            "deploying" => {
+                command.arg("--world").arg(top().join(WORLD));
+                command.arg("--model").arg(top().join(MODEL));
+            }
+            _ => {}
+        }
+        run(command.arg(absolute(scene)?).arg("--program").arg(&program))?;
+    }
+    Ok(())
 }
 
-/// Does a task with a scene and its program.
-fn one(on: &Emulated, scene: &Path, (program, task): (&Path, &Task)) -> Result<(), Fault> {
+/// Writes the files of a run of `scene` to `out`.
+pub(crate) fn files(on: &Emulated, scene: &Path, out: &Path) -> Result<(), Fault> {
     let mut command = workspace_program("emulator");
-    match task {
-        Task::Run(out) => command.args(["run", "--out"]).arg(absolute(out)?),
-        Task::Compare(Probe::Attached) => command.arg("compare"),
-        Task::Compare(Probe::Absent) => command.args(["compare", "--probe", "absent"]),
-        Task::Compare(Probe::Pulled) => command.args(["compare", "--probe", "pulled"]),
-        Task::Deadlines(minutes) => command.args(["deadlines", "--minutes", &minutes.to_string()]),
-        Task::Overload => command.arg("overload"),
-        Task::Starting => command.arg("starting"),
-        Task::Supply => command.arg("supply"),
-        Task::Telemetry => {
-            let without = on.program(&variants::without_telemetry(scene)?)?;
-            command.args(["telemetry", "--without"]).arg(without)
-        }
-        Task::Serial => return serial(on, scene, program),
-        Task::Damage => command.arg("damage"),
-        Task::SensorLoss => command.arg("sensor-loss"),
-        Task::Latency => command.arg("latency"),
-        Task::Deploying => {
-            command
-                .args(["deploying", "--world"])
-                .arg(top().join(WORLD));
-            command.arg("--model").arg(top().join(MODEL))
-        }
-    };
-    run(command.arg(absolute(scene)?).arg("--program").arg(program))
+    command.args(["run", "--out"]).arg(absolute(out)?);
+    command.arg(absolute(scene)?);
+    run(command.arg("--program").arg(on.program(scene)?))
 }
 
 /// Bits a second that carry the records of one whisker at 2 kHz, and of two; and the
 /// ST-LINK's default, that carries neither.
 const SERIAL_BAUDS: [u32; 3] = [921_600, 2_000_000, 115_200];
 
-/// Talks with a board over its serial line at two of [`SERIAL_BAUDS`]; `without` is the program
-/// of the scene itself.
-fn serial(on: &Emulated, scene: &Path, without: &Path) -> Result<(), Fault> {
+/// The options by which a board talks over its serial line at two of [`SERIAL_BAUDS`]; `without`
+/// is the program of the scene itself.
+fn serial(on: &Emulated, scene: &Path, without: &Path, to: &mut Command) -> Result<(), Fault> {
     let [one, two, slow] = SERIAL_BAUDS;
     let is_one = variants::whiskers(scene)? == 1;
     let fast = variants::with_serial(scene, if is_one { one } else { two })?;
     let slow = variants::with_serial(scene, slow)?;
-    let mut command = workspace_program("emulator");
-    command.arg("serial").arg(absolute(&fast)?);
-    command.arg("--program").arg(on.program(&fast)?);
-    command.arg("--slow").arg(on.program(&slow)?);
-    run(command.arg("--without").arg(without))
+    to.arg(absolute(&fast)?);
+    to.arg("--program").arg(on.program(&fast)?);
+    to.arg("--slow").arg(on.program(&slow)?);
+    to.arg("--without").arg(without);
+    Ok(())
 }
 
 /// Draws what both sides do in `scenes`, on the board, to the SVG file `out`.
@@ -152,12 +109,12 @@ pub(crate) fn picture(board: Board, scenes: &[PathBuf], out: &Path) -> Result<()
     run(command.arg("--out").arg(absolute(out)?))
 }
 
-/// What [`Task::Deadlines`] measures, as `what,mean,worst` lines.
+/// What the scenario `deadlines` measures, as `what,mean,worst` lines.
 pub(crate) fn deadlines(board: Board, scene: &Path, minutes: f64) -> Result<String, Fault> {
     let program = firmware::build(board, scene)?;
     let mut command = workspace_program("emulator");
-    command.arg("--quiet");
-    command.args(["deadlines", "--csv", "--minutes", &minutes.to_string()]);
+    command.args(["--quiet", "scenario", "deadlines", "--csv"]);
+    command.args(["--minutes", &minutes.to_string()]);
     output(command.arg(top().join(scene)).arg("--program").arg(program))
 }
 
@@ -180,7 +137,7 @@ pub(crate) fn compare_all(on: &Emulated) -> Result<(), Fault> {
     compare_with_slow_sensors(on)
 }
 
-const COMPARE: &[Task] = &[Task::Compare(Probe::Attached)];
+const COMPARE: &[&str] = &["compare"];
 
 /// Everything that one side can run at once; [`noisiest`] gives it to both.
 pub(crate) const FULL: &str = "scenes/full.toml";

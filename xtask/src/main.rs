@@ -196,9 +196,14 @@ struct Emulate {
     #[command(flatten)]
     what: EmulateWhat,
     /// Who fetches the log meanwhile
-    #[arg(long, requires = "check", conflicts_with = "all", value_enum)]
-    #[arg(default_value_t = emulate::Probe::Attached)]
-    probe: emulate::Probe,
+    #[arg(
+        long,
+        requires = "check",
+        conflicts_with = "all",
+        default_value = "attached"
+    )]
+    #[arg(value_parser = ["attached", "absent", "pulled"])]
+    probe: String,
     /// Compare every scene in scenes/
     #[arg(long, requires = "check", conflicts_with = "scene")]
     all: bool,
@@ -207,7 +212,8 @@ struct Emulate {
     minutes: f64,
 }
 
-/// One of them is done; only the first writes files.
+/// One of them is done; only the first writes files. Each other is a scenario of the emulator
+/// of the same name.
 #[derive(clap::Args)]
 #[group(required = true, multiple = false)]
 #[allow(
@@ -257,30 +263,36 @@ struct EmulateWhat {
 
 impl Emulate {
     fn run(self) -> Result<(), run::Fault> {
-        let what = self.what;
-        let task = match what.out {
-            Some(out) => emulate::Task::Run(out),
-            None if what.check => emulate::Task::Compare(self.probe),
-            None if what.overload => emulate::Task::Overload,
-            None if what.sensor_loss => emulate::Task::SensorLoss,
-            None if what.latency => emulate::Task::Latency,
-            None if what.starting => emulate::Task::Starting,
-            None if what.supply => emulate::Task::Supply,
-            None if what.damage => emulate::Task::Damage,
-            None if what.telemetry => emulate::Task::Telemetry,
-            None if what.deploying => emulate::Task::Deploying,
-            None if what.serial => emulate::Task::Serial,
-            None => emulate::Task::Deadlines(self.minutes),
-        };
         let on = if self.any_scene {
             emulate::Emulated::deployed(self.board)?
         } else {
             emulate::Emulated::linked(self.board)
         };
-        match self.scene {
-            Some(scene) => emulate::emulate(&on, &scene, &[task]),
-            None => emulate::compare_all(&on),
+        let Some(scene) = self.scene else {
+            return emulate::compare_all(&on);
+        };
+        let what = self.what;
+        if let Some(out) = what.out {
+            return emulate::files(&on, &scene, &out);
         }
+        let compare = format!("compare --probe {}", self.probe);
+        let deadlines = format!("deadlines --minutes {}", self.minutes);
+        let scenarios = [
+            (what.check, &*compare),
+            (what.deadlines, &*deadlines),
+            (what.overload, "overload"),
+            (what.sensor_loss, "sensor-loss"),
+            (what.latency, "latency"),
+            (what.starting, "starting"),
+            (what.supply, "supply"),
+            (what.damage, "damage"),
+            (what.deploying, "deploying"),
+            (what.telemetry, "telemetry"),
+            (what.serial, "serial"),
+        ];
+        let wanted = scenarios.into_iter().filter(|(is_wanted, _)| *is_wanted);
+        let names: Vec<&str> = wanted.map(|(_, name)| name).collect();
+        emulate::emulate(&on, &scene, &names)
     }
 }
 

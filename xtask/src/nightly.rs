@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::time::{SystemTime, UNIX_EPOCH};
 
-use crate::emulate::{Emulated, Probe, Task};
+use crate::emulate::Emulated;
 use crate::firmware::{Board, EVERY_PART};
 use crate::run::{Fault, cargo, installed, run, target};
 use crate::steps::Steps;
@@ -76,30 +76,30 @@ fn boards() -> Result<(), Fault> {
         let (linked, deployed) = (Emulated::linked(board), Emulated::deployed(board)?);
         for on in [&linked, &deployed] {
             emulate::compare_all(on)?;
-            emulate::emulate(on, Path::new(emulate::BENCH), &[Task::Deploying])?;
+            emulate::emulate(on, Path::new(emulate::BENCH), &["deploying"])?;
         }
         let mut scenes = vec![PathBuf::from(emulate::FULL)];
         if board.facts.max_sides > 1 {
-            emulate::emulate(&linked, Path::new(emulate::CIA), &[Task::Latency])?;
+            emulate::emulate(&linked, Path::new(emulate::CIA), &["latency"])?;
             let both = emulate::noisiest()?;
-            emulate::emulate(&linked, &both, &[Task::Compare(Probe::Attached)])?;
+            emulate::emulate(&linked, &both, &["compare"])?;
             scenes.push(both);
         }
         for scene in &scenes {
             let tasks = [
-                Task::Compare(Probe::Absent),
-                Task::Compare(Probe::Pulled),
-                Task::Deadlines(10.0),
-                Task::Overload,
-                Task::Starting,
-                Task::Supply,
-                Task::Telemetry,
-                Task::Damage,
-                Task::SensorLoss,
+                "compare --probe absent",
+                "compare --probe pulled",
+                "deadlines --minutes 10",
+                "overload",
+                "starting",
+                "supply",
+                "telemetry",
+                "damage",
+                "sensor-loss",
             ];
             emulate::emulate(&linked, scene, &tasks)?;
             // What the port costs is seen where the program is the same with it and without.
-            emulate::emulate(&deployed, scene, &[Task::Serial])?;
+            emulate::emulate(&deployed, scene, &["serial"])?;
         }
     }
     Ok(())

@@ -13,9 +13,8 @@ const TO_S: f64 = 0.5;
 /// The longest that is taken away again, s.
 const LONGEST_S: f64 = 0.4;
 
-/// What is injected in the runs.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Plan {
+pub(super) enum Plan {
     /// What a run's number draws.
     Drawn,
     /// A bit of the word of RAM that has the run's number; which bit, and when, is drawn.
@@ -33,7 +32,6 @@ pub(super) struct Has {
     pub(super) tick_hz: u32,
 }
 
-/// The random numbers of a run.
 pub(super) fn random(run: u64) -> Xoshiro256PlusPlus {
     Xoshiro256PlusPlus::seed_from_u64(run)
 }

@@ -7,8 +7,9 @@ use rand_core::Rng;
 use rand_xoshiro::Xoshiro256PlusPlus;
 use serde::{Deserialize, Serialize};
 
+use super::on_board::OnBoard;
 use super::subject::Subject;
-use crate::chip::Fault;
+use crate::chip::{Chip, Fault};
 
 /// A fault that can be injected.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
@@ -119,20 +120,38 @@ impl Kind {
     }
 
     /// Whether it happens once, and is not taken away again.
-    pub(super) const fn is_momentary(self) -> bool {
-        matches!(
-            self,
-            Self::RamBit
-                | Self::CoreBit
-                | Self::RegisterBit
-                | Self::DmaStopped
-                | Self::ClockStopped
-                | Self::Late
-        )
+    pub(super) fn is_momentary(self) -> bool {
+        Self::CHIP.contains(&self)
+    }
+
+    /// What the sensor's frames then get, where `byte` is one of theirs.
+    const fn on_the_wire(self, byte: u8) -> Option<WireFault> {
+        Some(match self {
+            Self::SensorSilent | Self::SensorLoose => WireFault::Silent,
+            Self::SensorLow => WireFault::LineLow,
+            Self::SensorLowTail => WireFault::LowAfterStart,
+            Self::SensorFrozen => WireFault::Frozen,
+            // By a half of the range: beyond what a whisker does.
+            Self::SensorJumps => WireFault::Shift(0x8000),
+            Self::SumWrong => WireFault::BadSum,
+            Self::BusError => WireFault::Bus,
+            Self::ByteLost => WireFault::ByteLost(byte),
+            Self::ByteDoubled => WireFault::ByteDoubled(byte),
+            _ => return None,
+        })
+    }
+
+    const fn at_the_motor(self) -> Option<Wire> {
+        Some(match self {
+            Self::EncoderStuck | Self::EncoderLoose => Wire::Encoder,
+            Self::EncoderExchanged => Wire::EncoderChannels,
+            Self::WindingOpen | Self::WindingLoose => Wire::Winding(0),
+            Self::WindingExchanged => Wire::Windings,
+            _ => return None,
+        })
     }
 }
 
-/// A fault, and when and where it is injected.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct Injection {
     pub(super) kind: Kind,
@@ -157,13 +176,10 @@ impl Injection {
     }
 
     /// Does what is to be done before `tick`, counted from 1; `random` is that of the run.
-    ///
-    /// # Errors
-    /// What the emulated chip cannot go along with.
     pub(super) fn apply(
         &self,
         tick: u64,
-        subject: &mut dyn Subject,
+        subject: &mut Subject<'_>,
         random: &mut Xoshiro256PlusPlus,
     ) -> Result<(), Fault> {
         let begins = tick == self.start;
@@ -175,95 +191,70 @@ impl Injection {
         // A loose contact changes every 8 ticks in the mean.
         let flips = begins || random.next_u64().is_multiple_of(8);
         let closed = random.next_u64().is_multiple_of(2);
-        match self.kind {
-            Kind::EncoderStuck => self.wire(subject, Wire::Encoder, lasts),
-            Kind::EncoderExchanged => self.wire(subject, Wire::EncoderChannels, lasts),
-            Kind::EncoderLoose if flips || ends => {
-                self.wire(subject, Wire::Encoder, lasts && !closed);
-            }
-            Kind::WindingOpen => self.wire(subject, Wire::Winding(0), lasts),
-            Kind::WindingLoose if flips || ends => {
-                self.wire(subject, Wire::Winding(0), lasts && !closed);
-            }
-            Kind::WindingExchanged => self.wire(subject, Wire::Windings, lasts),
-            Kind::Held => {
-                if let Some(motor) = subject.motor(self.whisker) {
-                    motor.block(lasts);
+        let is_there = match self.kind {
+            Kind::EncoderLoose | Kind::WindingLoose | Kind::SensorLoose => {
+                if !(flips || ends) {
+                    return Ok(());
                 }
+                lasts && !closed
             }
-            Kind::Pushed => {
-                // The torque at standstill is 6.6 mN·m at the whisker.
-                let share = (self.detail % 4001) as f64 / 1000.0 - 2.0;
-                if let Some(motor) = subject.motor(self.whisker) {
-                    motor.set_load_nm(if lasts { share * 6.6e-3 } else { 0.0 });
-                }
+            // Now and then.
+            Kind::SensorJumps => lasts && random.next_u64().is_multiple_of(16),
+            _ => lasts,
+        };
+        if let Some(fault) = self.kind.on_the_wire((self.detail % 8) as u8) {
+            if let Some(slave) = subject.slave(self.whisker) {
+                slave.set_fault(is_there.then_some(fault));
             }
-            Kind::SensorSilent => self.frames(subject, lasts.then_some(WireFault::Silent)),
-            Kind::SensorLoose if flips || ends => {
-                let open = lasts && !closed;
-                self.frames(subject, open.then_some(WireFault::Silent));
+        } else if let Some(wire) = self.kind.at_the_motor() {
+            match subject.motor(self.whisker) {
+                Some(motor) if is_there => motor.cut(wire),
+                Some(motor) => motor.mend(wire),
+                None => {}
             }
-            Kind::SensorLow => self.frames(subject, lasts.then_some(WireFault::LineLow)),
-            Kind::SensorLowTail => {
-                self.frames(subject, lasts.then_some(WireFault::LowAfterStart));
+        } else if self.kind.is_momentary() {
+            match subject.board() {
+                Some(board) if begins => self.befall(board)?,
+                _ => {}
             }
-            Kind::SensorFrozen => self.frames(subject, lasts.then_some(WireFault::Frozen)),
-            Kind::SensorJumps => {
-                // Now and then, by a half of the range: beyond what a whisker does.
-                let jumps = lasts && random.next_u64().is_multiple_of(16);
-                self.frames(subject, jumps.then_some(WireFault::Shift(0x8000)));
+        } else if let Some(motor) = subject.motor(self.whisker)
+            && Kind::MOTOR.contains(&self.kind)
+        {
+            // The torque at standstill is 6.6 mN·m at the whisker.
+            let share = (self.detail % 4001) as f64 / 1000.0 - 2.0;
+            match self.kind {
+                Kind::Held => motor.block(lasts),
+                _ => motor.set_load_nm(if lasts { share * 6.6e-3 } else { 0.0 }),
             }
-            Kind::SumWrong => self.frames(subject, lasts.then_some(WireFault::BadSum)),
-            Kind::BusError => self.frames(subject, lasts.then_some(WireFault::Bus)),
-            Kind::ByteLost => {
-                let byte = (self.detail % 8) as u8;
-                self.frames(subject, lasts.then_some(WireFault::ByteLost(byte)));
-            }
-            Kind::ByteDoubled => {
-                let byte = (self.detail % 8) as u8;
-                self.frames(subject, lasts.then_some(WireFault::ByteDoubled(byte)));
-            }
-            Kind::SensorNoise if begins || ends => {
-                // From one frame in a thousand to every second one.
-                let share = 0.5 * 0.001_f64.powf((self.detail % 1001) as f64 / 1000.0);
-                if let Some(slave) = subject.slave(self.whisker) {
+        } else if let Some(slave) = subject.slave(self.whisker) {
+            match self.kind {
+                Kind::SensorNoise if begins || ends => {
+                    // From one frame in a thousand to every second one.
+                    let share = 0.5 * 0.001_f64.powf((self.detail % 1001) as f64 / 1000.0);
                     slave.disturb(0.0, if lasts { share } else { 0.0 }, self.detail);
                 }
-            }
-            Kind::ErrorWord => {
-                let bit = 1 << (self.detail % 16);
-                if let Some(slave) = subject.slave(self.whisker) {
-                    slave.set_error_word(if lasts {
-                        Faults::new(bit)
-                    } else {
-                        Faults::NONE
-                    });
+                Kind::ErrorWord => {
+                    let bits = if lasts { 1 << (self.detail % 16) } else { 0 };
+                    slave.set_error_word(Faults::new(bits));
                 }
+                _ => {}
             }
-            Kind::RamBit if begins => subject.flip_ram(self.detail)?,
-            Kind::CoreBit if begins => subject.flip_core(self.detail),
-            Kind::RegisterBit if begins => subject.flip_register(self.detail)?,
-            Kind::DmaStopped if begins => subject.stop_dma()?,
-            Kind::ClockStopped if begins => subject.stop_clock()?,
-            Kind::Late if begins => subject.hold(self.detail),
-            _ => {}
         }
         Ok(())
     }
 
-    fn wire(&self, subject: &mut dyn Subject, wire: Wire, cut: bool) {
-        if let Some(motor) = subject.motor(self.whisker) {
-            if cut {
-                motor.cut(wire);
-            } else {
-                motor.mend(wire);
+    fn befall(&self, board: &mut OnBoard<'_>) -> Result<(), Fault> {
+        match self.kind {
+            Kind::RamBit => board.flip_ram(self.detail)?,
+            Kind::CoreBit => board.flip_core(self.detail),
+            Kind::RegisterBit => board.flip_register(self.detail),
+            Kind::DmaStopped => board.session.machine().with_chip(Chip::stop_dma),
+            Kind::ClockStopped => {
+                let machine = board.session.machine();
+                machine.disturb(|chip| chip.stop_clock(true))?;
             }
+            _ => board.hold(self.detail),
         }
-    }
-
-    fn frames(&self, subject: &mut dyn Subject, fault: Option<WireFault>) {
-        if let Some(slave) = subject.slave(self.whisker) {
-            slave.set_fault(fault);
-        }
+        Ok(())
     }
 }

@@ -17,7 +17,6 @@ const HUNG_S: f64 = 0.75;
 /// Steps of a PWM by which a duty may be rounded.
 const ROUNDING: f64 = 1e-3;
 
-/// What must not be.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
 pub(super) enum Harm {
     #[error("driven with more than the duty limit")]
@@ -38,7 +37,6 @@ pub(super) enum Harm {
     LockedUp,
 }
 
-/// What is known of a whisker.
 #[derive(Debug, Clone, Copy, Default)]
 struct Whisker {
     sensor_is_lost: bool,
@@ -63,7 +61,6 @@ impl Whisker {
     }
 }
 
-/// Looks at every tick of a run.
 #[derive(Debug)]
 pub(super) struct Judge {
     whiskers: Vec<Whisker>,

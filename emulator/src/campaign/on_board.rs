@@ -1,46 +1,29 @@
 //! A scene as a board's program on its emulated chip, of which bits can be inverted.
 
 use host_sim::Error;
-use host_sim::bus::Slave;
 use host_sim::loaded::Loaded;
-use host_sim::motor::SimMotor;
-use host_sim::run::Run;
 
-use super::subject::{Seen, Subject, number, seen};
+use super::subject::{Seen, number, seen};
 use super::words::{STACK, Words};
-use crate::board::Emulated;
 use crate::chip::Fault;
-use crate::emulate::start;
 use crate::program::Program;
+use crate::session::Session;
 use crate::upset::{MIDDLE, REGISTERS, Upset};
-use rtt::LogDecoder;
 
-/// A scene on an emulated board.
 pub(super) struct OnBoard<'p> {
-    run: Run<Emulated>,
+    pub(super) session: Session,
     words: &'p Words,
-    decoder: LogDecoder,
-    sides: usize,
-    tick_hz: u32,
-    changed: Option<String>,
+    /// The word or register that was changed.
+    pub(super) changed: Option<String>,
 }
 
 impl<'p> OnBoard<'p> {
-    /// # Errors
-    /// As [`start`].
     pub(super) fn new(loaded: &Loaded, program: &Program, words: &'p Words) -> Result<Self, Error> {
-        let mut run = start(&loaded.scene, loaded.classes()?, program)?;
-        let emulated = run.module_mut();
-        emulated.bears_resets = true;
-        // Ticks are not equally long.
-        let period = 1e12 / f64::from(loaded.scene.tick_hz);
-        emulated.board.world_waits = Some((1.5 * period) as u64);
+        let mut session = Session::running(&loaded.scene, loaded.classes()?, program)?;
+        session.bear_resets(true);
         Ok(Self {
-            run,
+            session,
             words,
-            decoder: program.log_decoder()?,
-            sides: loaded.scene.head.sides.count(),
-            tick_hz: loaded.scene.tick_hz,
             changed: None,
         })
     }
@@ -58,48 +41,32 @@ const fn parts(detail: u64) -> [u32; 4] {
     ]
 }
 
-impl Subject for OnBoard<'_> {
-    fn tick(&mut self) -> Result<Seen, Fault> {
-        self.run.tick();
-        let mut seen = seen(&self.run, 1);
-        let emulated = self.run.module_mut();
-        emulated.check()?;
-        let board = &mut emulated.board;
+impl OnBoard<'_> {
+    pub(super) fn tick(&mut self) -> Result<Seen, Fault> {
+        self.session.pass_tick()?;
+        let mut seen = seen(&self.session.run, 1);
+        let board = self.session.board_mut();
         let notices = std::mem::take(&mut board.notices).into_iter();
         seen.notices = notices
             .map(|(place, notice)| (number(place, 1), notice))
             .collect();
         seen.reset = board.reset.take();
         seen.is_late = board.is_late;
-        let duties = board.machine.with_chip(|chip| chip.motor_duties());
-        let share = |(on, period): (u32, u32)| f64::from(on) / f64::from(period.max(1));
-        for n in 0..self.sides {
-            let motor = self.run.motor_mut(n);
+        seen.effort = self.session.efforts();
+        for n in 0..seen.effort.len() {
+            let motor = self.session.run.motor_mut(n);
             seen.displaced_deg
                 .extend(motor.map(|motor| motor.displaced_deg()));
         }
-        seen.effort = if self.sides == 1 {
-            // It may have all three outputs.
-            vec![duties.into_iter().map(share).fold(0.0, f64::max)]
-        } else {
-            duties.into_iter().take(self.sides).map(share).collect()
-        };
         Ok(seen)
     }
 
-    fn motor(&mut self, whisker: usize) -> Option<&mut SimMotor> {
-        self.run.motor_mut(whisker)
-    }
-
-    fn slave(&mut self, whisker: usize) -> Option<&mut Slave> {
-        self.run.slave_mut(whisker)
-    }
-
-    fn flip_ram(&mut self, detail: u64) -> Result<(), Fault> {
+    /// Inverts a bit of RAM, between two ticks or within the next.
+    pub(super) fn flip_ram(&mut self, detail: u64) -> Result<(), Fault> {
         let (word, name) = self.words.pick(detail as u32);
         let [bit, byte, within, instruction] = parts(detail);
         let (address, bits) = (word + byte % 4, 1_u8 << (bit % 8));
-        let machine = &mut self.run.module_mut().board.machine;
+        let machine = self.session.machine();
         // What lies on the stack between two ticks is idle's, and little.
         let within = within % 2 == 0 || name == STACK;
         if within {
@@ -118,7 +85,8 @@ impl Subject for OnBoard<'_> {
         Ok(())
     }
 
-    fn flip_core(&mut self, detail: u64) {
+    /// Inverts a bit of a register of the core within the next tick.
+    pub(super) fn flip_core(&mut self, detail: u64) {
         let [bit, register, _, instruction] = parts(detail);
         let register = register % REGISTERS.len() as u32;
         let name = REGISTERS
@@ -135,44 +103,28 @@ impl Subject for OnBoard<'_> {
             register: register as u8,
             bits: 1 << bit,
         };
-        let machine = &mut self.run.module_mut().board.machine;
+        let machine = self.session.machine();
         machine.upset_next_tick(instruction.into(), upset);
         self.changed = Some(format!("{name} bit {bit}"));
     }
 
-    fn flip_register(&mut self, detail: u64) -> Result<(), Fault> {
-        let board = &mut self.run.module_mut().board;
-        self.changed = board.machine.with_chip(|chip| chip.flip(detail));
-        Ok(())
+    /// Inverts a bit of a peripheral's register.
+    pub(super) fn flip_register(&mut self, detail: u64) {
+        self.changed = self.session.machine().with_chip(|chip| chip.flip(detail));
     }
 
-    fn stop_dma(&mut self) -> Result<(), Fault> {
-        let board = &mut self.run.module_mut().board;
-        board.machine.with_chip(crate::chip::Chip::stop_dma);
-        Ok(())
-    }
-
-    fn stop_clock(&mut self) -> Result<(), Fault> {
-        let machine = &mut self.run.module_mut().board.machine;
-        machine.disturb(|chip| chip.stop_clock(true))?;
-        Ok(())
-    }
-
-    fn hold(&mut self, detail: u64) {
+    /// Holds the core within the next tick.
+    pub(super) fn hold(&mut self, detail: u64) {
         // From a tenth of a tick to ten ticks, which the watchdog bears.
         let share = 0.1 * 100.0_f64.powf((detail % 1001) as f64 / 1000.0);
-        let time = share * 1e12 / f64::from(self.tick_hz);
-        let machine = &mut self.run.module_mut().board.machine;
+        let time = share * 1e12 / f64::from(self.session.tick_hz);
+        let machine = self.session.machine();
         machine.upset_next_tick(MIDDLE, Upset::Held(time as u64));
     }
 
-    fn changed(&self) -> Option<String> {
-        self.changed.clone()
-    }
-
-    fn complaints(&mut self) -> Vec<String> {
-        let bytes = self.run.module_mut().take_log();
-        let lines = self.decoder.lines(&bytes).into_iter();
+    /// Errors and warnings of the log since the last call.
+    pub(super) fn complaints(&mut self) -> Vec<String> {
+        let lines = self.session.log().into_iter();
         lines
             .filter(|line| line.contains("ERROR") || line.contains("WARN"))
             .collect()

@@ -46,7 +46,6 @@ pub struct RunRow {
     pub noticed_ms: Option<f64>,
 }
 
-/// What is known of a run at its end.
 #[derive(Debug, Default)]
 pub(super) struct Findings {
     pub(super) harm: Option<(u64, Harm)>,
@@ -59,7 +58,6 @@ pub(super) struct Findings {
 }
 
 impl Findings {
-    /// Ending and reason.
     pub(super) fn verdict(&self) -> (Ending, String) {
         if let Some((tick, harm)) = &self.harm {
             return (Ending::Harmful, format!("{harm}, tick {tick}"));

@@ -26,7 +26,6 @@ fn name(value: impl serde::Serialize) -> String {
         .unwrap_or_default()
 }
 
-/// The runs with an outcome.
 fn with(rows: &[RunRow], outcome: Ending) -> impl Iterator<Item = &RunRow> {
     rows.iter().filter(move |row| row.outcome == outcome)
 }
@@ -50,7 +49,6 @@ fn noticed(rows: &[&RunRow]) -> String {
     }
 }
 
-/// A variable without its indices.
 fn without_indices(name: &str) -> String {
     let mut kept = String::new();
     let mut inside = false;

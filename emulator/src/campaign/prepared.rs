@@ -12,13 +12,12 @@ use super::draw::{self, Has, Plan, RUN_S};
 use super::judge::{Harm, Judge};
 use super::on_board::OnBoard;
 use super::outcome::{Findings, RunRow};
-use super::subject::{OnPc, Seen, Subject};
+use super::subject::{Seen, Subject};
 use super::words::Words;
 use crate::chip::Fault;
 use crate::deployment::flashed;
 use crate::program::Program;
 
-/// A scene, ready to be run again and again.
 pub(super) struct Prepared {
     loaded: Loaded,
     board: Option<(Program, Words)>,
@@ -43,9 +42,6 @@ const PARKED: f64 = 0.5;
 const RECOVERED_S: f64 = 1.4;
 
 impl Prepared {
-    /// # Errors
-    /// [`Error`] for a scene or a program that is wrong, and where not even the undisturbed
-    /// run can be made.
     pub(super) fn new(scene: &Path, program: Option<&Path>) -> Result<Self, Error> {
         let (loaded, board) = match program {
             None => (Loaded::new(scene)?, None),
@@ -76,23 +72,16 @@ impl Prepared {
         Ok(prepared)
     }
 
-    fn subject(&self) -> Result<Box<dyn Subject + '_>, Error> {
-        Ok(match &self.board {
-            None => Box::new(OnPc::new(&self.loaded)?),
-            Some((program, words)) => Box::new(OnBoard::new(&self.loaded, program, words)?),
-        })
+    fn subject(&self) -> Result<Subject<'_>, Error> {
+        let board = self.board.as_ref();
+        Subject::new(&self.loaded, board.map(|(program, words)| (program, words)))
     }
 
-    /// How many words of RAM its program has.
     pub(super) fn words(&self) -> u64 {
         let words = self.board.as_ref().map(|(_, words)| words.len());
         words.unwrap_or(0) as u64
     }
 
-    /// Makes a run.
-    ///
-    /// # Errors
-    /// [`Error`] where the scene cannot be started.
     pub(super) fn run(&self, subject_name: &str, number: u64, plan: Plan) -> Result<RunRow, Error> {
         let mut random = draw::random(number);
         let injection = draw::injection(plan, number, self.has, &mut random);
@@ -105,7 +94,7 @@ impl Prepared {
         let mut disturbed: Vec<Seen> = Vec::new();
         for tick in 1..=self.ticks {
             let done = catch_unwind(AssertUnwindSafe(|| {
-                injection.apply(tick, &mut *subject, &mut random)?;
+                injection.apply(tick, &mut subject, &mut random)?;
                 subject.tick()
             }));
             let seen = match done {
@@ -119,7 +108,7 @@ impl Prepared {
                     break;
                 }
             };
-            let complaints = subject.complaints();
+            let complaints = subject.board().map(OnBoard::complaints).unwrap_or_default();
             let panicked = format!("fault board {} ", number::PANIC);
             if complaints.iter().any(|line| line.contains(&panicked)) {
                 findings.harm = Some((tick, Harm::Panicked));
@@ -174,7 +163,7 @@ impl Prepared {
             ticks: injection.ticks,
             outcome,
             reason,
-            changed: subject.changed(),
+            changed: subject.board().and_then(|board| board.changed.clone()),
             noticed_ms,
         })
     }
@@ -220,7 +209,6 @@ fn extent(angles: &[f64]) -> f64 {
     (highest - lowest).max(0.0)
 }
 
-/// What is noticed first of a tick.
 fn first_notice(seen: &Seen, complaints: &[String]) -> Option<String> {
     let notice = seen.notices.first();
     let notice = notice.map(|(_, notice)| format!("{notice:?}"));

@@ -13,26 +13,19 @@ use super::prepared::Prepared;
 /// Of the numbers from `first` on, up to `end`, those that leave `remainder` on division by
 /// `shards`.
 #[derive(Debug, Clone, Copy)]
-pub struct Shard {
-    /// The first number.
-    pub first: u64,
-    /// The first number that is no more among them.
-    pub end: u64,
-    /// Which shard.
-    pub remainder: u64,
-    /// Of how many.
-    pub shards: u64,
+pub(super) struct Shard {
+    pub(super) first: u64,
+    pub(super) end: u64,
+    pub(super) remainder: u64,
+    pub(super) shards: u64,
 }
 
 /// Where scenes run: a scene's file and, on a board, the program that was built for it.
-pub type Scenes = Vec<(PathBuf, Option<PathBuf>)>;
+pub(super) type Scenes = Vec<(PathBuf, Option<PathBuf>)>;
 
 /// Runs what is left of a shard on `subject`; `done` are the numbers of those that were run
 /// before, and every other row goes to `take` as soon as it is there.
-///
-/// # Errors
-/// [`Error`] for a scene or a program that is wrong, and what `take` brings.
-pub fn run(
+pub(super) fn run(
     subject: &str,
     scenes: &Scenes,
     plan: Plan,

@@ -8,10 +8,12 @@ use host_sim::motor::SimMotor;
 use host_sim::run::Run;
 use host_sim::trace::Row;
 
+use super::on_board::OnBoard;
+use super::words::Words;
 use crate::chip::{Fault, ResetCause};
 use crate::notice::Notice;
+use crate::program::Program;
 
-/// What can be seen of a tick from outside.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Seen {
     /// Setpoints and angles.
@@ -46,85 +48,66 @@ impl Seen {
     }
 }
 
-/// A scene that runs. Without a chip there is nothing of one to be changed.
-pub(super) trait Subject {
-    /// One tick.
-    ///
-    /// # Errors
-    /// What the emulated chip cannot go along with.
-    fn tick(&mut self) -> Result<Seen, Fault>;
+/// A scene that runs: on this PC, or on a board.
+pub(super) enum Subject<'p> {
+    OnPc { run: Box<Run>, per_side: usize },
+    OnBoard(Box<OnBoard<'p>>),
+}
+
+impl<'p> Subject<'p> {
+    pub(super) fn new(
+        loaded: &Loaded,
+        board: Option<(&Program, &'p Words)>,
+    ) -> Result<Self, Error> {
+        Ok(match board {
+            None => Self::OnPc {
+                run: Box::new(Run::new(&loaded.scene, loaded.classifier()?)?),
+                per_side: loaded.scene.head.whiskers_per_side,
+            },
+            Some((program, words)) => {
+                Self::OnBoard(Box::new(OnBoard::new(loaded, program, words)?))
+            }
+        })
+    }
+
+    /// One tick, as far as the emulated chip goes along.
+    pub(super) fn tick(&mut self) -> Result<Seen, Fault> {
+        let (run, per_side) = match self {
+            Self::OnPc { run, per_side } => (run, *per_side),
+            Self::OnBoard(board) => return board.tick(),
+        };
+        run.tick();
+        let mut seen = seen(run, per_side);
+        let mut n = 0;
+        while let Some(motor) = run.motor_mut(n) {
+            seen.effort.push(motor.effort());
+            seen.displaced_deg.push(motor.displaced_deg());
+            n += 1;
+        }
+        Ok(seen)
+    }
 
     /// A whisker's motor; none where motors are ideal.
-    fn motor(&mut self, whisker: usize) -> Option<&mut SimMotor>;
-
-    /// A whisker's sensor.
-    fn slave(&mut self, whisker: usize) -> Option<&mut Slave>;
-
-    /// Inverts a bit of RAM.
-    ///
-    /// # Errors
-    /// [`Fault`] where there is none.
-    fn flip_ram(&mut self, _detail: u64) -> Result<(), Fault> {
-        Ok(())
+    pub(super) fn motor(&mut self, whisker: usize) -> Option<&mut SimMotor> {
+        match self {
+            Self::OnPc { run, .. } => run.motor_mut(whisker),
+            Self::OnBoard(board) => board.session.run.motor_mut(whisker),
+        }
     }
 
-    /// Inverts a bit of a register of the core within the next tick.
-    fn flip_core(&mut self, _detail: u64) {}
-
-    /// Inverts a bit of a peripheral's register.
-    ///
-    /// # Errors
-    /// [`Fault`] where there is none.
-    fn flip_register(&mut self, _detail: u64) -> Result<(), Fault> {
-        Ok(())
+    pub(super) fn slave(&mut self, whisker: usize) -> Option<&mut Slave> {
+        match self {
+            Self::OnPc { run, .. } => run.slave_mut(whisker),
+            Self::OnBoard(board) => board.session.run.slave_mut(whisker),
+        }
     }
 
-    /// Stops the DMA of a sensor.
-    ///
-    /// # Errors
-    /// [`Fault`] where there is none.
-    fn stop_dma(&mut self) -> Result<(), Fault> {
-        Ok(())
-    }
-
-    /// Stops the clock that the chip is fed with.
-    ///
-    /// # Errors
-    /// [`Fault`] where its core stands still for it.
-    fn stop_clock(&mut self) -> Result<(), Fault> {
-        Ok(())
-    }
-
-    /// Holds the core within the next tick.
-    fn hold(&mut self, _detail: u64) {}
-
-    /// The word or register that was changed.
-    fn changed(&self) -> Option<String> {
-        None
-    }
-
-    /// Errors and warnings of the log since the last call.
-    fn complaints(&mut self) -> Vec<String> {
-        Vec::new()
-    }
-}
-
-/// A scene on this PC.
-pub(super) struct OnPc {
-    run: Run,
-    whiskers: usize,
-    per_side: usize,
-}
-
-impl OnPc {
-    /// # Errors
-    /// As [`Run::new`].
-    pub(super) fn new(loaded: &Loaded) -> Result<Self, Error> {
-        Ok(Self {
-            run: Run::new(&loaded.scene, loaded.classifier()?)?,
-            whiskers: loaded.scene.whiskers(),
-            per_side: loaded.scene.head.whiskers_per_side,
-        })
+    /// What has a chip that can be changed.
+    pub(super) fn board(&mut self) -> Option<&mut OnBoard<'p>> {
+        match self {
+            Self::OnPc { .. } => None,
+            Self::OnBoard(board) => Some(board),
+        }
     }
 }
 
@@ -147,27 +130,5 @@ pub(super) fn seen<B: host_sim::bench::Bench + ?Sized>(run: &Run<B>, per_side: u
             .collect(),
         decisions: decisions.collect(),
         ..Seen::default()
-    }
-}
-
-impl Subject for OnPc {
-    fn tick(&mut self) -> Result<Seen, Fault> {
-        self.run.tick();
-        let mut seen = seen(&self.run, self.per_side);
-        for n in 0..self.whiskers {
-            if let Some(motor) = self.run.motor_mut(n) {
-                seen.effort.push(motor.effort());
-                seen.displaced_deg.push(motor.displaced_deg());
-            }
-        }
-        Ok(seen)
-    }
-
-    fn motor(&mut self, whisker: usize) -> Option<&mut SimMotor> {
-        self.run.motor_mut(whisker)
-    }
-
-    fn slave(&mut self, whisker: usize) -> Option<&mut Slave> {
-        self.run.slave_mut(whisker)
     }
 }

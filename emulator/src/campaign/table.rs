@@ -9,20 +9,17 @@ use host_sim::output;
 
 use super::outcome::RunRow;
 
-/// A table that grows.
 #[derive(Debug)]
-pub struct ShardTable {
+pub(super) struct ShardTable {
     path: PathBuf,
     writer: csv::Writer<File>,
-    done: Vec<u64>,
+    /// The runs that it had when it was opened.
+    pub(super) done: Vec<u64>,
 }
 
 impl ShardTable {
     /// Opens the table in `path`, or begins one.
-    ///
-    /// # Errors
-    /// [`Error::Input`] if what it has is not such a table, [`Error::Write`].
-    pub fn open(path: &Path) -> Result<Self, Error> {
+    pub(super) fn open(path: &Path) -> Result<Self, Error> {
         output::check(path)?;
         let done = if path.exists() {
             rows(path)?.into_iter().map(|row| row.run).collect()
@@ -47,27 +44,14 @@ impl ShardTable {
         })
     }
 
-    /// The runs that it had when it was opened.
-    pub fn done(&self) -> &[u64] {
-        &self.done
-    }
-
-    /// Adds a row.
-    ///
-    /// # Errors
-    /// [`Error::Write`].
-    pub fn add(&mut self, row: &RunRow) -> Result<(), Error> {
+    pub(super) fn add(&mut self, row: &RunRow) -> Result<(), Error> {
         let written = self.writer.serialize(row);
         let written = written.and_then(|()| self.writer.flush().map_err(Into::into));
         written.map_err(|error| Error::write(&self.path, error.into()))
     }
 }
 
-/// The rows of the table in `path`.
-///
-/// # Errors
-/// [`Error::Input`] if it is no such table.
-pub fn rows(path: &Path) -> Result<Vec<RunRow>, Error> {
+pub(super) fn rows(path: &Path) -> Result<Vec<RunRow>, Error> {
     let read = File::open(path).map_err(csv::Error::from).and_then(read);
     read.map_err(|error| Error::file(path, error))
 }

@@ -4,7 +4,6 @@ use crate::chip::Fault;
 use crate::debug_info::DebugInfo;
 use crate::program::Program;
 
-/// What words of the stack are called.
 pub(super) const STACK: &str = "stack";
 /// Bytes at the top of the stack, which a tick with a decision uses.
 const STACK_BYTES: u32 = 1024;
@@ -18,8 +17,6 @@ pub(super) struct Words {
 }
 
 impl Words {
-    /// # Errors
-    /// [`Fault::Program`] for a program without debug information.
     pub(super) fn new(program: &Program) -> Result<Self, Fault> {
         let info = DebugInfo::new(program)?;
         let mut words = Vec::new();
@@ -43,7 +40,6 @@ impl Words {
         Ok(Self { words })
     }
 
-    /// How many there are.
     pub(super) const fn len(&self) -> usize {
         self.words.len()
     }

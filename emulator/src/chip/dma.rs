@@ -10,7 +10,6 @@ use super::fields::Field;
 use channels::Channels;
 use streams::Streams;
 
-/// Which kind.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Version {
     /// Streams, each of which selects a request.
@@ -48,7 +47,6 @@ impl Dma {
         };
     }
 
-    /// Disables a stream or channel.
     pub(super) fn stop(&mut self, stream: usize) {
         match self {
             Self::Streams(streams) => streams.stop(stream),

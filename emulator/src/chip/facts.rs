@@ -5,8 +5,11 @@
 use super::fields::Field;
 use super::map::Unit;
 use super::rcc::Bus;
+use super::timers::Kind;
 use super::wiring::{PWM, Pin, Request, SERIAL};
-use super::{Model, dma, flash, gpio, lines, mux, power, remap, spi, timer, usart, watchdog};
+use super::{
+    Model, SUPPLY_IRQ, dma, flash, gpio, lines, mux, power, remap, spi, timer, usart, watchdog,
+};
 
 /// What a fact is of.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -27,9 +30,10 @@ pub(crate) enum FactKind {
     Request,
     /// A register, from the base of its peripheral, and bits of it.
     Bits,
+    /// The kind of a peripheral, and the bus whose clock it has: 1 or 2; of a DMA none.
+    Kind,
 }
 
-/// A fact.
 #[derive(Debug, Clone)]
 pub(crate) struct Fact {
     pub(crate) kind: FactKind,
@@ -84,7 +88,6 @@ fn name(model: &Model, unit: Unit) -> &'static str {
     }
 }
 
-/// What is known of a unit's registers.
 fn fields(model: &Model, unit: Unit) -> Vec<Field> {
     match unit {
         Unit::Tim(n) => timer::fields(model.timers[n].0),
@@ -106,7 +109,6 @@ fn fields(model: &Model, unit: Unit) -> Vec<Field> {
     }
 }
 
-/// All facts of a chip.
 pub(crate) fn facts(model: &Model) -> Vec<Fact> {
     let mut facts = vec![
         fact(FactKind::Chip, "flash", "", [model.flash, 0]),
@@ -125,6 +127,7 @@ pub(crate) fn facts(model: &Model) -> Vec<Fact> {
             facts.extend(gates(model, of, bus, bit));
         }
     }
+    facts.extend(kinds(model));
     facts.extend(wired(model));
     // Of several alike one is enough; that the others are is in their addresses' list.
     let mut known: Vec<Vec<Field>> = Vec::new();
@@ -137,6 +140,34 @@ pub(crate) fn facts(model: &Model) -> Vec<Fact> {
         }
     }
     facts
+}
+
+/// The kinds of timers, SPIs and DMA controllers.
+fn kinds(model: &Model) -> Vec<Fact> {
+    let kind = |unit, kind: &str, bus: Option<Bus>| {
+        let bus = bus.map_or(0, |bus| if bus == Bus::Apb2 { 2 } else { 1 });
+        fact(FactKind::Kind, name(model, unit), kind, [bus, 0])
+    };
+    let timers = model.timers.iter().enumerate().map(|(n, (of, bus))| {
+        let word = match of {
+            Kind::Basic => "TIM_BASIC",
+            Kind::General => "TIM_GP16",
+            Kind::Wide => "TIM_GP32",
+            Kind::Advanced => "TIM_ADV",
+        };
+        kind(Unit::Tim(n), word, Some(*bus))
+    });
+    let spis = model.spis.iter().enumerate().map(|(n, bus)| {
+        let has_queues = model.spi_version == spi::Version::Queues;
+        let word = if has_queues { "queues" } else { "no queues" };
+        kind(Unit::Spi(n), word, Some(*bus))
+    });
+    let dmas = model.dmas.iter().enumerate().map(|(n, version)| {
+        let has_channels = *version == dma::Version::Channels;
+        let word = if has_channels { "bdma" } else { "dma" };
+        kind(Unit::Dma(n), word, None)
+    });
+    timers.chain(spis).chain(dmas).collect()
 }
 
 fn gates(model: &Model, of: &str, bus: Bus, bit: u32) -> impl Iterator<Item = Fact> {
@@ -161,7 +192,10 @@ fn wired(model: &Model) -> Vec<Fact> {
     let timer = |n| name(model, Unit::Tim(n));
     let interrupt =
         |of, part: &str, number: u16| fact(FactKind::Interrupt, of, part, [number.into(), 0]);
-    let mut facts = vec![interrupt(timer(wiring.tick), "UP", wiring.tick_irq)];
+    let mut facts = vec![
+        interrupt(timer(wiring.tick), "UP", wiring.tick_irq),
+        interrupt("PVD", "by EXTI", SUPPLY_IRQ),
+    ];
     for (n, side) in wiring.sides.iter().enumerate() {
         let (spi, dma) = (name(model, Unit::Spi(n)), name(model, Unit::Dma(side.dma)));
         let frame = interrupt(dma, &channel(model, side.dma, side.rx), side.end_of_frame);

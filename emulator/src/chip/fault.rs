@@ -6,39 +6,25 @@ pub enum Fault {
     /// The program touched a register that is not modelled: to carry on would
     /// be to guess.
     #[error("{} of {address:#010x} at pc {pc:#010x}: not modelled", if *.write { "write" } else { "read" })]
-    Unmodelled {
-        /// The register.
-        address: u32,
-        /// Written or read.
-        write: bool,
-        /// Where the core was.
-        pc: u32,
-    },
+    Unmodelled { address: u32, write: bool, pc: u32 },
     /// The clock tree is set up wrong.
     #[error("clock tree: {0}")]
     Clock(&'static str),
     /// A peripheral is used in a way that is not modelled, or that its manual forbids.
     #[error("{peripheral}: {what}")]
     Misused {
-        /// Which.
         peripheral: &'static str,
-        /// How.
         what: &'static str,
     },
     /// The sensor's wires are driven in a way that the sensor does not bear.
     #[error("{side} sensor's wires: {what}")]
     Wires {
-        /// Whose.
         side: &'static str,
-        /// How.
         what: &'static str,
     },
     /// The core has locked up: a fault within a fault handler.
     #[error("the core locked up at pc {pc:#010x}")]
-    LockUp {
-        /// Where.
-        pc: u32,
-    },
+    LockUp { pc: u32 },
     /// Nothing will ever happen again.
     #[error("the core sleeps and nothing will wake it")]
     Asleep,

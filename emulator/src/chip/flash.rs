@@ -18,7 +18,6 @@ const KEYS: [u32; 2] = [0x4567_0123, 0xCDEF_89AB];
 const PG: u32 = 1 << 0;
 const ERASES: u32 = 1 << 1;
 
-/// Where the flash begins.
 const BASE: u32 = 0x0800_0000;
 
 /// What is known of a version's registers.
@@ -26,7 +25,6 @@ pub(super) fn fields(version: Version) -> Vec<Field> {
     version.layout().fields()
 }
 
-/// The interface.
 #[derive(Debug, Clone)]
 pub(super) struct Flash {
     waits: Plain,

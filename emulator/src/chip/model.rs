@@ -20,7 +20,6 @@ pub(crate) enum CoreKind {
     M4F,
 }
 
-/// A chip on its board.
 #[derive(Debug)]
 pub(crate) struct Model {
     /// The board's program.

@@ -284,10 +284,6 @@ impl Rcc {
     }
 
     /// The clocks that the registers make.
-    ///
-    /// # Errors
-    /// [`Fault::Clock`] if the system clock is switched to one that does not
-    /// run or is out of the chip's range.
     pub(super) fn clocks(&self) -> Result<Clocks, Fault> {
         (self.layout.clocks)(self)
     }
@@ -307,9 +303,6 @@ const BUS_TOO_FAST: Fault = Fault::Clock("a peripheral bus runs too fast");
 
 /// The core's clock, Hz: of the internal oscillator, the external one and the PLL, whose
 /// `switches` are in this order, the one that is selected.
-///
-/// # Errors
-/// [`STOPPED`] if it does not run.
 fn core_hz(
     rcc: &Rcc,
     selected: u32,

@@ -29,9 +29,6 @@ impl Chip {
     }
 
     /// Reads the bits of `mask` of a register, at the time in [`Chip::now`].
-    ///
-    /// # Errors
-    /// [`Fault::Unmodelled`], without the place in the program.
     pub(crate) fn read(&mut self, address: u32, mask: u32) -> Result<u32, Fault> {
         let now = self.now;
         let found = self.find(address).and_then(|(unit, clocked, offset)| {
@@ -69,10 +66,6 @@ impl Chip {
     }
 
     /// Writes the bits of `mask` into a register, at the time in [`Chip::now`].
-    ///
-    /// # Errors
-    /// [`Fault::Unmodelled`], without the place in the program; what a wrong
-    /// clock tree brings.
     pub(crate) fn write(&mut self, address: u32, value: u32, mask: u32) -> Result<(), Fault> {
         let now = self.now;
         let unmodelled = Fault::Unmodelled {

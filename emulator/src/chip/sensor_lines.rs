@@ -132,9 +132,6 @@ impl SensorLines {
     }
 
     /// A byte began: the first of a frame makes the sensor latch.
-    ///
-    /// # Errors
-    /// [`Fault::Wires`] if it comes too early or too fast.
     pub(super) fn begin(
         &mut self,
         began: Ps,

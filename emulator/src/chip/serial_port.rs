@@ -55,9 +55,6 @@ impl Chip {
     }
 
     /// Brings the bytes that are due now over the line.
-    ///
-    /// # Errors
-    /// If the two ends differ in the length of a bit.
     pub(super) fn carry_serial(&mut self) -> Result<(), Fault> {
         let now = self.now;
         let wires = &self.model.wiring.serial;

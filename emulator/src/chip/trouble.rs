@@ -10,9 +10,6 @@ const HIGHEST: u32 = 0;
 
 impl Chip {
     /// The supply is so many mV from now on. Returns what holds the chip in reset.
-    ///
-    /// # Errors
-    /// [`Fault::Clock`] if the flash cannot keep up with the clock any more.
     pub(crate) fn set_supply(&mut self, supply_mv: u32) -> Result<Option<ResetCause>, Fault> {
         self.power.supply_mv = supply_mv;
         let held = self.power.holds_in_reset();
@@ -42,9 +39,6 @@ impl Chip {
     }
 
     /// The clock from outside stops, or is there again. Returns whether the chip runs by it.
-    ///
-    /// # Errors
-    /// [`Fault::Clock`] if the core stands still for it.
     pub(crate) fn stop_clock(&mut self, stopped: bool) -> Result<bool, Fault> {
         let had = self.rcc.stop_outside(stopped);
         self.follow_clocks()?;
@@ -57,9 +51,6 @@ impl Chip {
     }
 
     /// Takes the clocks that the registers make, where the flash keeps up with them.
-    ///
-    /// # Errors
-    /// [`Fault::Clock`] if they make none, or it does not.
     pub(super) fn follow_clocks(&mut self) -> Result<(), Fault> {
         let clocks = self.rcc.clocks()?;
         let wait_states = self.flash.read(0, self.now).unwrap_or(0) & LATENCY;

@@ -101,7 +101,8 @@ impl Started {
                         .with_chip(|chip| chip.write(TIM5 + CNT, first, u32::MAX))?;
                 }
             }
-            for leaf in counter.seen.into_iter().flat_map(all) {
+            let seen = counter.is_seen().then_some(counter.seen);
+            for leaf in seen.into_iter().flat_map(all) {
                 if counter.what == TOUCHES {
                     started.touches = first;
                 }
@@ -125,9 +126,6 @@ impl Started {
     }
 
     /// How many have wrapped.
-    ///
-    /// # Errors
-    /// What those count that have not.
     pub(crate) fn wrapped(&self) -> Result<usize, String> {
         let left = self.seen.iter().filter(|seen| !seen.is_beyond);
         let left: Vec<&str> = left.map(|seen| seen.counter.what).collect();

@@ -8,7 +8,6 @@ use gimli::{
 use super::{DebugInfo, Place, Type, bad, number};
 use crate::chip::Fault;
 
-/// Where RAM begins.
 const RAM: u32 = 0x2000_0000;
 
 /// A number in RAM.

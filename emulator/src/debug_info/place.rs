@@ -35,7 +35,6 @@ const WRAPPERS: [&str; 5] = ["value", "__0", "inner", "val", "buffer"];
 const PRESENT: [&str; 2] = ["Some", "Ok"];
 
 impl DebugInfo {
-    /// The static variable of that name.
     pub(crate) fn variable(&self, name: &str) -> Result<Place<'_>, Fault> {
         for unit in 0..self.units.len() {
             let mut entries = self.units[unit].entries();
@@ -84,7 +83,6 @@ impl Place<'_> {
         }
     }
 
-    /// What a wrapper wraps.
     fn unwrapped(self) -> Result<Option<Self>, Fault> {
         for name in WRAPPERS {
             if let Some((offset, of)) = self.info.member(self.of, name)? {
@@ -104,7 +102,6 @@ impl Place<'_> {
         Ok(unit.entry(self.of.at).map_err(bad)?.tag())
     }
 
-    /// Bytes it takes.
     pub(crate) fn size(self) -> Result<u32, Fault> {
         if self.tag()? == DW_TAG_array_type {
             let (stride, length) = (self.element(0)?.size()?, self.length()?);
@@ -117,7 +114,6 @@ impl Place<'_> {
             .ok_or_else(|| bad("a type without a size"))
     }
 
-    /// How many elements an array has.
     pub(crate) fn length(self) -> Result<u32, Fault> {
         let length = self.info.children(self.of, |entry| {
             if entry.tag() != DW_TAG_subrange_type {
@@ -134,7 +130,6 @@ impl Place<'_> {
             .ok_or_else(|| bad("an array without a length"))
     }
 
-    /// An element of an array.
     pub(crate) fn element(self, index: u32) -> Result<Self, Fault> {
         if self.tag()? != DW_TAG_array_type {
             return match self.unwrapped()? {

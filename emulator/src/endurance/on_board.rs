@@ -12,10 +12,12 @@ use crate::compare::{Circumstances, compare};
 /// Runs the scene in `path` for so many hours on the board that `program` was built for, every
 /// counter started just below its wrap, and on the PC from zero. Every tick and every decision
 /// must be the same, no tick may be missed, and every counter must wrap.
-///
-/// # Errors
-/// [`Error::Work`] says what was otherwise; as [`compare`].
-pub fn on_board(path: &Path, program: &Path, subject: &str, hours: f64) -> Result<ShardRow, Error> {
+pub(super) fn on_board(
+    path: &Path,
+    program: &Path,
+    subject: &str,
+    hours: f64,
+) -> Result<ShardRow, Error> {
     let begun = Instant::now();
     let scene = Loaded::new(path)?.scene;
     let circumstances = Circumstances {

@@ -26,10 +26,7 @@ const PAGES: u64 = 256;
 /// tick must be one; no sensor and no motor may have a fault; memory must not grow; whiskers
 /// must range, and decisions be made and be right, in the last hour as in the first (in the
 /// last quarter as in the first, of less than four hours).
-///
-/// # Errors
-/// [`Error::Work`] says what was otherwise, and when; as [`Run::new`].
-pub fn on_pc(path: &Path, seed: u64, hours: f64) -> Result<ShardRow, Error> {
+pub(super) fn on_pc(path: &Path, seed: u64, hours: f64) -> Result<ShardRow, Error> {
     let begun = Instant::now();
     let mut loaded = Loaded::new(path)?;
     loaded.scene.seed = seed;

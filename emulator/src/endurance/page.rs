@@ -61,8 +61,7 @@ fn speed(rows: &[&ShardRow]) -> f64 {
     hours * 60.0 / took_s
 }
 
-/// The page of these shards.
-pub fn page(rows: &[ShardRow]) -> String {
+pub(super) fn page(rows: &[ShardRow]) -> String {
     let mut page = String::from(HEAD);
     let is_on_pc = |row: &ShardRow| row.subject == on_pc::NAME;
     on_the_pc(&mut page, &Group::all(rows, is_on_pc));

@@ -6,43 +6,29 @@ use host_sim::Error;
 use host_sim::output::write_whole;
 use serde::{Deserialize, Serialize};
 
-/// A shard that has ended well.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct ShardRow {
+pub(super) struct ShardRow {
     /// Where it ran: `host-sim`, or the board's name.
-    pub subject: String,
-    /// The scene's name.
-    pub scene: String,
+    pub(super) subject: String,
+    pub(super) scene: String,
     /// The seed in place of the scene's own.
-    pub seed: u64,
-    /// Simulated hours.
-    pub hours: f64,
-    /// Ticks.
-    pub ticks: u64,
-    /// Decisions.
-    pub decisions: u64,
+    pub(super) seed: u64,
+    pub(super) hours: f64,
+    pub(super) ticks: u64,
+    pub(super) decisions: u64,
     /// Decisions an hour in its first part; on boards parts are one.
-    pub first_rate: Option<f64>,
-    /// The same in its last part.
-    pub last_rate: Option<f64>,
+    pub(super) first_rate: Option<f64>,
+    pub(super) last_rate: Option<f64>,
     /// The share of right ones in its first part; nothing: nothing was decided.
-    pub first_right: Option<f64>,
-    /// The same in its last part.
-    pub last_right: Option<f64>,
-    /// Touches that were reported.
-    pub touches: u64,
-    /// Counters that have wrapped.
-    pub wrapped: u64,
-    /// How long it took, s.
-    pub took_s: f64,
+    pub(super) first_right: Option<f64>,
+    pub(super) last_right: Option<f64>,
+    pub(super) touches: u64,
+    pub(super) wrapped: u64,
+    pub(super) took_s: f64,
 }
 
 impl ShardRow {
-    /// Writes it to a file of its own.
-    ///
-    /// # Errors
-    /// [`Error::Write`].
-    pub fn write(&self, path: &Path) -> Result<(), Error> {
+    pub(super) fn write(&self, path: &Path) -> Result<(), Error> {
         let mut writer = csv::Writer::from_writer(Vec::new());
         let written = writer.serialize(self).map_err(Into::into);
         let bytes =
@@ -53,10 +39,7 @@ impl ShardRow {
 }
 
 /// The row that a shard has left in `path`.
-///
-/// # Errors
-/// [`Error::Input`] if it is no such file.
-pub fn row(path: &Path) -> Result<ShardRow, Error> {
+pub(super) fn row(path: &Path) -> Result<ShardRow, Error> {
     let read = csv::Reader::from_path(path);
     let row = read.and_then(|mut reader| reader.deserialize().next().transpose());
     let row = row.map_err(|error| Error::file(path, error))?;

@@ -10,7 +10,6 @@ const RANGE_DEG: f64 = 5.0;
 const DEVIATIONS: f64 = 5.0;
 const SHARE: f64 = 0.01;
 
-/// A part of a run.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Span {
     ticks: u64,
@@ -41,12 +40,10 @@ impl Span {
         self.right += right.count() as u64;
     }
 
-    /// Decisions an hour.
     pub(super) fn rate(&self, tick_hz: f64) -> f64 {
         self.decisions as f64 * 3600.0 * tick_hz / self.ticks.max(1) as f64
     }
 
-    /// The share of right decisions.
     pub(super) fn right(&self) -> Option<f64> {
         (self.decisions > 0).then(|| self.right as f64 / self.decisions as f64)
     }

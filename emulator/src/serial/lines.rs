@@ -4,10 +4,9 @@
 use firmware::lines::Context;
 use firmware::{Event, Place};
 use host_sim::Error;
-use host_sim::received::Received;
 use scene::Scene;
 
-use super::talk::{Talk, wrong};
+use crate::talk::{Talk, wrong};
 
 /// For how long, s: some touches of every texture.
 const LINES_S: f64 = 3.0;
@@ -19,7 +18,6 @@ const PULSE_S: f64 = 0.01;
 /// before it, and it itself, at any baud that carries records.
 const LATE_S: f64 = 0.003;
 
-/// A line that is due.
 struct Due {
     /// The tick of its event.
     tick: u32,
@@ -31,21 +29,22 @@ struct Due {
 /// Lets both run; every touch and decision on the PC must be a line of the board, in time, and
 /// shown by its pins.
 pub(super) fn compare(talk: &mut Talk, scene: &Scene) -> Result<String, Error> {
-    let ticks = (LINES_S * f64::from(scene.tick_hz)) as u32;
-    let pulse = (PULSE_S * f64::from(scene.tick_hz)) as u32;
+    let [ticks, pulse, late] = [LINES_S, PULSE_S, LATE_S].map(|s| talk.pair.target.ticks_of(s));
     let mut due: Vec<Due> = Vec::new();
     let (mut at, mut healths) = (0, 0);
     let mut shown = [false; 2];
     let (mut touching, mut decided) = (Vec::new(), None);
     let mut raised = 0;
     for _ in 0..ticks {
-        talk.pair.host.tick();
-        let tick = talk.ticks + 1;
+        let from = talk.lines.len();
+        talk.pass(1)?;
+        talk.follow()?;
+        let tick = talk.ticks;
         due.extend(expected(talk, scene, tick));
-        for received in talk.pass(1)? {
-            let Received::Line(line) = received else {
-                return wrong(format!("not asked for: {received:?}"));
-            };
+        if let Some(packet) = talk.packets.first() {
+            return wrong(format!("not asked for: {packet:?}"));
+        }
+        for line in &talk.lines[from..] {
             let (_, text) = line.split_once(' ').unwrap_or_default();
             if text.starts_with("start ") || text.starts_with("health ") {
                 healths += u32::from(text.starts_with("health "));
@@ -55,7 +54,7 @@ pub(super) fn compare(talk: &mut Talk, scene: &Scene) -> Result<String, Error> {
             let Some(next) = due.get_mut(at) else {
                 return wrong(format!("not so on the PC: {line:?}"));
             };
-            if line != next.line {
+            if *line != next.line {
                 return wrong(format!("said {line:?}, on the PC {:?}", next.line));
             }
             next.came = Some(tick);
@@ -63,7 +62,7 @@ pub(super) fn compare(talk: &mut Talk, scene: &Scene) -> Result<String, Error> {
         }
         // Idle, which follows the tick, had brought the pins to what was so in the last one.
         if scene.telemetry.pins {
-            let found = talk.pair.target.module_mut().board.signals();
+            let found = talk.pair.target.board_mut().signals();
             if found != shown {
                 return wrong(format!(
                     "in tick {tick} the pins are {found:?}, not {shown:?}"
@@ -75,7 +74,6 @@ pub(super) fn compare(talk: &mut Talk, scene: &Scene) -> Result<String, Error> {
             raised += u32::from(is_decided);
         }
     }
-    let late = (LATE_S * f64::from(scene.tick_hz)) as u32;
     let overdue = due
         .iter()
         .find(|line| line.came.unwrap_or(talk.ticks) > line.tick + late);

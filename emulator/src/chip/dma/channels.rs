@@ -66,7 +66,6 @@ pub(in crate::chip) struct Channels {
 }
 
 impl Channels {
-    /// Disables a channel.
     pub(super) fn stop(&mut self, channel: usize) {
         if let Some(channel) = self.channels.get_mut(channel) {
             channel.ccr &= !EN;

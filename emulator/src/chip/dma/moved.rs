@@ -1,6 +1,5 @@
 //! What a DMA controller moves.
 
-/// A byte to be moved.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(in crate::chip) struct Move {
     pub(in crate::chip) peripheral: u32,

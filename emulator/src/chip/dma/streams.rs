@@ -69,7 +69,6 @@ pub(in crate::chip) struct Streams {
 }
 
 impl Streams {
-    /// Disables a stream.
     pub(super) fn stop(&mut self, stream: usize) {
         if let Some(stream) = self.streams.get_mut(stream) {
             stream.cr &= !EN;

@@ -141,7 +141,6 @@ impl Layout {
         Some(first..first + self.unit)
     }
 
-    /// What is known of the registers.
     pub(super) fn fields(&self) -> Vec<Field> {
         let mut fields = vec![whole("ACR", ACR), whole("KEYR", self.keyr)];
         let errors: &[(&str, u32)] = match self.version {

@@ -1,0 +1,186 @@
+//! A board that has a scene without a model, to which the same scene is deployed with one.
+
+use std::path::Path;
+
+use firmware::boards::BoardFacts;
+use firmware::{ConfigError, Header, Part, Refusal};
+use host_sim::loaded::Loaded;
+use host_sim::{Error, files};
+use scene::Integrator;
+use tactile::ModelBuf;
+use wire::{Command, WhiskerId};
+
+use crate::compare::{Agreement, Circumstances, compare_loaded};
+use crate::damaged;
+use crate::deployment::{Deployment, flashed_for};
+use crate::program::Program;
+use crate::scenario;
+use crate::session::Session;
+
+/// How long a whisker takes to come to rest, s.
+const TO_REST_S: f64 = 0.3;
+
+/// A scene, what a board has of it, and that in its flash.
+pub(super) struct Flashed {
+    pub(super) loaded: Loaded,
+    pub(super) deployment: Deployment,
+    pub(super) flash: Vec<u8>,
+}
+
+/// By what requests go.
+#[derive(Debug, Clone, Copy)]
+pub(super) enum Way {
+    Probe,
+    Serial,
+}
+
+/// A board that has a scene without a model, and the same scene with one.
+pub(super) struct Case<'p> {
+    pub(super) path: &'p Path,
+    pub(super) program: Program,
+    /// Whether the program brings its scene with it, and so was built of the parts of that.
+    is_lean: bool,
+    pub(super) old: Flashed,
+    pub(super) new: Flashed,
+}
+
+/// Lets time pass; the lines that the board has logged, and whether a motor was driven.
+pub(super) fn pass(session: &mut Session, seconds: f64) -> Result<(Vec<String>, bool), Error> {
+    let begun = session.now_s();
+    let (mut lines, mut driven) = (Vec::new(), false);
+    while session.now_s() - begun < seconds {
+        session.tick()?;
+        lines.extend(session.log());
+        driven |= session.drives();
+    }
+    Ok((lines, driven))
+}
+
+pub(super) fn missing(what: &str, lines: &[String]) -> Error {
+    Error::Work(format!("not so: {what}\n  {}", lines.join("\n  ")))
+}
+
+pub(super) fn says(lines: &[String], refusal: Refusal) -> bool {
+    let at = lines.iter().position(|line| line.contains("limit 34 "));
+    let why = at.and_then(|at| lines.get(at + 1));
+    why.is_some_and(|line| line.contains(refusal.text()))
+}
+
+/// The CRC of the configuration that a board runs by.
+pub(super) fn running(session: &mut Session) -> Result<u32, Error> {
+    Ok(session.ask(Command::Scene)?.values[0].cast_unsigned())
+}
+
+/// Stops a board that whisks, once its whisker is at rest: that is where it starts from.
+pub(super) fn stop(session: &mut Session) -> Result<(), Error> {
+    session.ask(Command::Setpoint(WhiskerId::default(), 0))?;
+    pass(session, TO_REST_S)?;
+    session.ask(Command::Stop)?;
+    session.tick()
+}
+
+impl Flashed {
+    pub(super) fn new(
+        loaded: Loaded,
+        model: Option<&ModelBuf>,
+        program: &Program,
+    ) -> Result<Self, Error> {
+        let deployment = Deployment::of(&loaded.scene, model, program.model()?.facts)?;
+        let mut program = program.clone();
+        deployment.flash(&mut program)?;
+        Ok(Self {
+            flash: Session::of(&loaded.scene, &program)?.flash()?,
+            loaded,
+            deployment,
+        })
+    }
+
+    pub(super) fn crc(&self) -> Result<u32, Error> {
+        let header = Header::of(&self.deployment.config);
+        let header = header.map_err(|error| Error::Work(error.to_string()))?;
+        Ok(header.crc)
+    }
+}
+
+impl<'p> Case<'p> {
+    pub(super) fn new(
+        on: &'p scenario::Flashed,
+        world: &Path,
+        model: &Path,
+    ) -> Result<Self, Error> {
+        let path = &on.scene;
+        let old = Loaded::new(path)?.in_world(world)?;
+        let new = old.clone().with_model(model)?;
+        let (_, model) = files::load_model(model)?;
+        let program = flashed_for(&old.scene, path, &on.program)?;
+        Ok(Self {
+            path,
+            is_lean: Program::load(&on.program)?.brings_scene()?,
+            old: Flashed::new(old, None, &program)?,
+            new: Flashed::new(new, Some(&model), &program)?,
+            program,
+        })
+    }
+
+    pub(super) fn facts(&self) -> Result<&'static BoardFacts, Error> {
+        Ok(self.program.model()?.facts)
+    }
+
+    /// The program with these scenes and models.
+    pub(super) fn with(&self, flash: &[u8]) -> Result<Program, Error> {
+        let mut program = self.program.clone();
+        program.add(program.scenes()?.start, flash)?;
+        Ok(program)
+    }
+
+    /// PC and board must agree about a scene, where the board's flash is so.
+    pub(super) fn agree(
+        &self,
+        scene: &Flashed,
+        flash: &[u8],
+        seconds: f64,
+    ) -> Result<Agreement, Error> {
+        let circumstances = Circumstances {
+            duration_s: Some(seconds),
+            ..Circumstances::default()
+        };
+        let program = self.with(flash)?;
+        compare_loaded(scene.loaded.clone(), self.path, &program, circumstances)
+    }
+
+    /// Configurations that a board must refuse; to one whose image has the parts of its scene alone,
+    /// that of another integrator is one.
+    pub(super) fn wrong_configs(&self) -> Result<Vec<(Vec<u8>, ConfigError)>, Error> {
+        let mut wrong = damaged::configs(&self.new.deployment.config);
+        if self.is_lean {
+            let mut scene = self.old.loaded.scene.clone();
+            let mut error = None;
+            if let Some(whisking) = &mut scene.whisking {
+                let (other, part) = match whisking.integrator {
+                    Integrator::Exact => (Integrator::Euler, Part::Euler),
+                    Integrator::Euler => (Integrator::Exact, Part::Exact),
+                };
+                whisking.integrator = other;
+                error = Some(ConfigError::NotBuilt(part));
+            }
+            let config = Deployment::of(&scene, None, self.facts()?)?.config;
+            wrong.extend(error.map(|error| (config, error)));
+        }
+        Ok(wrong)
+    }
+
+    /// A board with the old scene whose motor was on, and is off, its whisker at rest.
+    pub(super) fn stopped(&self, way: Way) -> Result<Session, Error> {
+        let program = self.with(&self.old.flash)?;
+        let mut session = Session::of(&self.old.loaded.scene, &program)?;
+        if let Way::Serial = way {
+            session = session.by_serial();
+        }
+        let (lines, driven) = pass(&mut session, 0.5)?;
+        if !driven || !says(&lines, Refusal::Absent) {
+            return Err(missing("a board without a model whisks", &lines));
+        }
+        stop(&mut session)?;
+        Ok(session)
+    }
+}

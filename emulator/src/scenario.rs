@@ -1,0 +1,219 @@
+//! What a board is put through, in one table: each scenario says what is disturbed, how long it
+//! runs and what is expected. Most are steps that one runner makes; what measures, or talks with
+//! the board, is a function.
+
+mod broken;
+mod step;
+mod supply;
+mod trouble;
+
+use std::path::{Path, PathBuf};
+
+use clap::Args;
+use host_sim::Error;
+use host_sim::loaded::Loaded;
+use host_sim::progress::Verbosity;
+
+use crate::compare::{self, Probe};
+use crate::deployment::flashed;
+use crate::program::Program;
+use crate::session::Session;
+use crate::{deadlines, deploying, latency, serial, telemetry};
+use step::Case;
+
+/// A scene and what is flashed for it; to a program that brings no scene with it this one is
+/// deployed.
+#[derive(Debug, Args)]
+pub struct Flashed {
+    /// The scene file
+    pub scene: PathBuf,
+    /// The program: built for it, or for any scene
+    #[arg(long, value_name = "ELF")]
+    pub program: PathBuf,
+}
+
+/// Scenes, and the programs that were built for them.
+#[derive(Debug, Args)]
+pub struct Several {
+    /// The scene files
+    #[arg(required = true)]
+    pub scenes: Vec<PathBuf>,
+    /// The programs, in the same order; none: on the PC, where that can be done
+    #[arg(long, value_name = "ELF")]
+    pub program: Vec<PathBuf>,
+}
+
+/// What a scenario is given.
+#[derive(Debug, Args)]
+pub struct Given {
+    /// What is flashed
+    #[command(flatten)]
+    pub flashed: Flashed,
+    /// The program of the same scene without telemetry, or without a serial port
+    #[arg(long, value_name = "ELF")]
+    without: Option<PathBuf>,
+    /// The program of the same scene at a baud that cannot carry records
+    #[arg(long, value_name = "ELF")]
+    slow: Option<PathBuf>,
+    /// The scene in whose world a board is that is deployed to
+    #[arg(long, value_name = "SCENE")]
+    world: Option<PathBuf>,
+    /// The model that is deployed
+    #[arg(long, value_name = "FILE")]
+    model: Option<PathBuf>,
+    /// Who fetches the log while PC and board are compared
+    #[arg(long, value_enum, default_value_t)]
+    probe: Probe,
+    /// Over how many minutes of simulated time deadlines are measured
+    #[arg(long, default_value_t = 10.0)]
+    minutes: f64,
+    /// Prints them as a table of comma-separated values
+    #[arg(long)]
+    csv: bool,
+    /// No progress on standard error
+    #[arg(skip = Verbosity::Normal)]
+    pub verbosity: Verbosity,
+}
+
+impl Given {
+    fn parts(&self) -> (&Path, &Path) {
+        (&self.flashed.scene, &self.flashed.program)
+    }
+}
+
+enum What {
+    /// Steps on one board, or each case on its own.
+    Steps(fn(&Loaded, &Program) -> Result<Vec<Case>, Error>),
+    /// More than that; what was seen.
+    Work(fn(&Given) -> Result<Vec<String>, Error>),
+}
+
+/// A scenario.
+pub struct Scenario {
+    /// Its name.
+    pub name: &'static str,
+    /// What it does, and when it fails.
+    pub what: &'static str,
+    how: What,
+}
+
+/// All of them.
+pub const ALL: [Scenario; 11] = [
+    Scenario {
+        name: "compare",
+        what: "Runs the scene on PC and board and compares every tick",
+        how: What::Work(|given| {
+            let (scene, program) = given.parts();
+            compare::compare(scene, program, given.probe.into()).map(|agreed| {
+                let scene = scene.display();
+                vec![format!(
+                    "{scene}: {agreed}; {} bytes of stack",
+                    agreed.stack
+                )]
+            })
+        }),
+    },
+    Scenario {
+        name: "deadlines",
+        what: "Measures how the board keeps its time; fails if it misses a tick",
+        how: What::Work(|given| {
+            let (scene, program) = given.parts();
+            deadlines::measure(scene, program, given.minutes, given.csv, given.verbosity)
+        }),
+    },
+    Scenario {
+        name: "latency",
+        what: "Measures how long contact on one side takes to excite the other; fails if it does \
+               so in another tick than the one that reads it",
+        how: What::Work(|given| {
+            let (scene, program) = given.parts();
+            latency::measure(scene, program)
+        }),
+    },
+    Scenario {
+        name: "overload",
+        what: "Makes ticks too long; fails if deadline counter or watchdog do not act",
+        how: What::Steps(|loaded, _| Ok(trouble::overload(&loaded.scene))),
+    },
+    Scenario {
+        name: "starting",
+        what: "Resets the chip in every way that was not asked for; fails if a motor is driven \
+               after it before the user button is pressed",
+        how: What::Steps(|loaded, _| Ok(trouble::starting(&loaded.scene))),
+    },
+    Scenario {
+        name: "supply",
+        what: "Lets the supply dip and the clock stop; fails if the motor pins are not low in \
+               time, or the next start does not say why",
+        how: What::Steps(|loaded, program| Ok(supply::dip(&loaded.scene, program.model()?.facts))),
+    },
+    Scenario {
+        name: "sensor-loss",
+        what: "Breaks the sensors' wires of a scene that whisks, side by side; fails if the motor \
+               of a lost side is not switched off or stays off, or another rests",
+        how: What::Steps(|loaded, _| Ok(broken::sensor_loss(&loaded.scene))),
+    },
+    Scenario {
+        name: "damage",
+        what: "Flips bits in the settings and in the model; fails if the motors are not switched \
+               off, or the log does not say why",
+        how: What::Steps(|loaded, program| broken::damage(&loaded.scene, program)),
+    },
+    Scenario {
+        name: "deploying",
+        what: "Deploys the scene with --model to a board whose scene names none, in --world; \
+               after a right one PC and board must agree; fails if a wrong or interrupted one is \
+               not refused, or does not leave the scene before",
+        how: What::Work(|given| {
+            let (world, model) = (named(given.world.as_ref())?, named(given.model.as_ref())?);
+            deploying::deploying(&given.flashed, world, model)
+        }),
+    },
+    Scenario {
+        name: "telemetry",
+        what: "Has a PC talk to the board; fails if an answer is wrong, a record not that of the \
+               same module on the PC, or telemetry takes more instructions than it may beside the \
+               program --without it",
+        how: What::Work(|given| {
+            let (scene, program) = given.parts();
+            telemetry::talk(scene, program, named(given.without.as_ref())?)
+        }),
+    },
+    Scenario {
+        name: "serial",
+        what: "Talks with the board over its serial line, also at a --slow baud; fails if a line, \
+               a record or an answer is not what it should be, something is lost, or the tick \
+               takes longer for it than --without",
+        how: What::Work(|given| {
+            let (scene, program) = given.parts();
+            let [slow, without] = [&given.slow, &given.without].map(Option::as_ref);
+            serial::talk(scene, [program, named(slow)?, named(without)?])
+        }),
+    },
+];
+
+fn named(path: Option<&PathBuf>) -> Result<&Path, Error> {
+    let missing = || Error::Input("a file of this scenario is not named; see --help".to_owned());
+    path.map(PathBuf::as_path).ok_or_else(missing)
+}
+
+impl Scenario {
+    /// Puts a board through it; what was seen, a line each.
+    ///
+    /// # Errors
+    /// [`Error::Input`] for a scene that is wrong, [`Error::Work`] says what did not happen.
+    pub fn run(&self, given: &Given) -> Result<Vec<String>, Error> {
+        let cases = match self.how {
+            What::Work(work) => return work(given),
+            What::Steps(cases) => cases,
+        };
+        let (scene, program) = given.parts();
+        let (loaded, program) = flashed(scene, program)?;
+        let mut said = Vec::new();
+        for case in cases(&loaded, &program)? {
+            let board = Session::running(&loaded.scene, Vec::new(), &program)?;
+            said.extend(step::run(board, &case)?);
+        }
+        Ok(said)
+    }
+}

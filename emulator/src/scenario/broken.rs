@@ -1,0 +1,164 @@
+//! Boards of which a part breaks: the sensors' wires, or bits of memory.
+
+use host_sim::Error;
+use host_sim::bus::WireFault::{self, BadSum, Frozen, LineLow, LowAfterStart, Silent};
+use mlx90333::Faults;
+use scene::{OnFault, Scene};
+
+use super::step::Step::{
+    Flip, Forget, Move, NoContact, Pass, SaysTimes, Sensors, Stand, UntilDriven,
+};
+use super::step::{Case, says, whisk};
+use super::trouble::all;
+use crate::chip::{Fault, Ps, SIDE_NAMES};
+use crate::debug_info::DebugInfo;
+use crate::program::Program;
+
+/// The sensors of either side and of both fail on their wires: those sides' motors must be off, or
+/// all where the scene says so, nothing be felt and decided there, the log say whose sensor fails
+/// and why, and all be well again once the sensor is back.
+pub(super) fn sensor_loss(scene: &Scene) -> Vec<Case> {
+    /// What befalls wires, what the sensor says of itself, the fault that its whisker then has,
+    /// and within how many ms that is found.
+    const LOSSES: [(Option<WireFault>, Faults, u8, u32); 6] = [
+        (Some(Silent), Faults::NONE, 18, 100),
+        (Some(LineLow), Faults::NONE, 19, 100),
+        (Some(BadSum), Faults::NONE, 21, 100),
+        (None, Faults::FIELD_TOO_LOW, 22, 100),
+        (Some(LowAfterStart), Faults::NONE, 23, 100),
+        // A quarter of a second, unless the scene has another.
+        (Some(Frozen), Faults::NONE, 24, 300),
+    ];
+    let sides = all(scene);
+    let mut lost: Vec<&[usize]> = sides.chunks(1).collect();
+    if sides.len() > 1 {
+        lost.push(&sides);
+    }
+    let motor = scene.motor.as_ref();
+    let stops_all = motor.is_some_and(|motor| motor.on_fault == OnFault::StopAll);
+    let mut steps = vec![Pass(100)];
+    for lost in lost {
+        let off = if stops_all { &sides } else { lost };
+        for (wire, word, fault, found_ms) in LOSSES {
+            steps.extend([
+                Forget,
+                Sensors(lost.to_vec(), wire, word),
+                Pass(found_ms),
+                Move {
+                    ms: 100,
+                    off: off.to_vec(),
+                },
+                NoContact(lost.to_vec()),
+            ]);
+            for (side, name) in SIDE_NAMES.into_iter().enumerate() {
+                steps.push(if lost.contains(&side) {
+                    says(format!("fault {name} {fault} "))
+                } else {
+                    SaysTimes(0, format!("fault {name} "))
+                });
+            }
+            if word == Faults::FIELD_TOO_LOW {
+                steps.push(says("field too low"));
+            }
+            steps.extend([
+                Sensors(lost.to_vec(), None, Faults::NONE),
+                Pass(100),
+                whisk(100),
+            ]);
+            steps.extend(
+                lost.iter()
+                    .map(|side| says(format!("back {}", SIDE_NAMES[*side]))),
+            );
+        }
+    }
+    vec![Case {
+        what: "sensors that are lost".to_owned(),
+        may_reset: false,
+        steps,
+    }]
+}
+
+/// A bit flips in the settings in RAM, in the model in flash, or in what the classifier holds of
+/// it in RAM, each on a new board: the motors must be off once idle has looked at all of it, and
+/// the log must say fault 55 or 56.
+pub(super) fn damage(scene: &Scene, program: &Program) -> Result<Vec<Case>, Error> {
+    /// The settings, and how fast the module ticks by them; and in the module what the classifier
+    /// holds that no sample changes.
+    const SETTINGS: [&[&str]; 2] = [&["SETTINGS", "val"], &["PACE"]];
+    const CONSTANTS: [&[&str]; 2] = [
+        &[
+            "INNER",
+            "perception",
+            "classifier",
+            "found",
+            "classifier",
+            "constants",
+        ],
+        &["INNER", "perception", "classifier", "found", "factors"],
+    ];
+    /// Bytes of the largest model that is damaged here, and where in it: in the row of a table.
+    const MODEL_BYTES: u32 = 12 * 1024;
+    const ROW: u32 = 1_024;
+
+    let info = DebugInfo::new(program)?;
+    let mut flips = Vec::new();
+    for path in SETTINGS {
+        flips.extend(evenly(&info, path)?.map(|flip| (55, flip)));
+    }
+    let classifier = scene.classifier.as_ref();
+    if classifier.is_some_and(|classifier| classifier.model.is_some()) {
+        for path in CONSTANTS {
+            flips.extend(evenly(&info, path)?.map(|flip| (56, flip)));
+        }
+        let [slot, _] = program.model()?.facts.flash.slots;
+        flips.push((56, (slot.model.start + ROW, 0, MODEL_BYTES)));
+    }
+    let cases = flips.into_iter().map(|(fault, (address, bit, bytes))| {
+        let mut steps = vec![Pass(100)];
+        steps.extend(
+            scene
+                .motor
+                .is_some()
+                .then_some(UntilDriven { in_tick: false }),
+        );
+        let period = 1_000_000_000_000 / Ps::from(scene.tick_hz);
+        steps.extend([
+            Flip { address, bit },
+            Stand(Ps::from(looked_at_within(bytes)) * period),
+            says(format!("fault board {fault} ")),
+        ]);
+        Case {
+            what: format!("bit {bit} at {address:#010x}"),
+            may_reset: false,
+            steps,
+        }
+    });
+    Ok(cases.collect())
+}
+
+/// Ticks after which every word of so many bytes was looked at: that of a walk which had just
+/// passed the word, and a whole one; and two in which idle is late.
+const fn looked_at_within(bytes: u32) -> u32 {
+    /// Words of each that idle looks at in a tick.
+    const LOOKED_AT: u32 = 16;
+    2 * (bytes / 4).div_ceil(LOOKED_AT) + 2
+}
+
+/// Bits of four words of what these names lead to, evenly spread: address, bit, and the bytes of
+/// all of it.
+fn evenly(info: &DebugInfo, path: &[&str]) -> Result<impl Iterator<Item = (u32, u32, u32)>, Fault> {
+    const WORDS: u32 = 4;
+    let [variable, members @ ..] = path else {
+        return Err(Fault::Program("no variable".to_owned()));
+    };
+    let found = info.variable(variable)?;
+    let found = members
+        .iter()
+        .try_fold(found, |place, name| place.member(name))?;
+    let (first, bytes) = (found.address, found.size()?);
+    let last = bytes / 4 - 1;
+    let mut words: Vec<u32> = (0..WORDS).map(|n| last * n / (WORDS - 1)).collect();
+    words.dedup();
+    let words = words.into_iter();
+    Ok(words.map(move |word| (first + 4 * word, word % 8, bytes)))
+}
