@@ -32,7 +32,7 @@ pub(crate) enum Probe {
     /// A probe, all the time
     #[default]
     Attached,
-    /// Nobody ever; the log's ring is full after half a second
+    /// No probe; the log's ring is full after half a second
     Absent,
     /// A probe that has asked the program to wait for it where the ring is full, as
     /// probe-rs does, and is then pulled: after half a second, with the ring full

@@ -13,7 +13,7 @@ pub(crate) const MEASURED_S: f64 = 1.0;
 /// Who has asked for records.
 #[derive(Clone, Copy)]
 pub(crate) enum Asks {
-    Nobody,
+    Nothing,
     Probe,
     /// A probe that then fetches none.
     ProbeInVain,
@@ -57,7 +57,7 @@ fn mean(scene: &Scene, (program, asks): (&Program, Asks)) -> Result<f64, Error> 
     if let Asks::Serial = asks {
         session = session.by_serial();
     }
-    if !matches!(asks, Asks::Nobody) {
+    if !matches!(asks, Asks::Nothing) {
         session.send(Command::Stream(true))?;
     }
     for _ in 0..session.run.ticks() {

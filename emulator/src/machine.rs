@@ -52,7 +52,7 @@ pub(crate) trait Observer {
     fn tick_ends(&mut self, _now: Ps, _spent: &Spent) {}
 }
 
-/// Nobody looks.
+/// Without an observer.
 impl Observer for () {}
 
 /// The emulated board, without what hangs on its pins.

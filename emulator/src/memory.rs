@@ -42,7 +42,7 @@ impl Shared {
         })
     }
 
-    /// The chip. Nobody panics while holding it.
+    /// The chip. No thread panics while holding it.
     pub(crate) fn chip(&self) -> MutexGuard<'_, Chip> {
         self.chip.lock().unwrap_or_else(PoisonError::into_inner)
     }

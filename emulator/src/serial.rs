@@ -225,7 +225,7 @@ fn prices(path: &Path, program: &Path, without: &Path) -> Result<Vec<String>, Er
     silent.telemetry.serial_baud = None;
     let without = flashed_for(&silent, path, without)?;
     let prices = [
-        ("a serial port", [Asks::Nobody, Asks::Nobody]),
+        ("a serial port", [Asks::Nothing, Asks::Nothing]),
         ("a serial port with records", [Asks::Serial, Asks::Probe]),
     ];
     let prices = prices.map(|(what, [with_port, without_port])| Price {

@@ -226,7 +226,7 @@ fn prices(path: &Path, program: &Path, without: &Path) -> Result<Vec<String>, Er
     let each = if has_fpu { STREAMING } else { STREAMING_NO_FPU };
     let streaming = each * scene.whiskers() as f64;
     let prices = [
-        ("telemetry that is not asked for", Asks::Nobody, QUIET),
+        ("telemetry that is not asked for", Asks::Nothing, QUIET),
         ("with a record a whisker", Asks::Probe, streaming),
         (
             "with records that find no room",
@@ -237,7 +237,7 @@ fn prices(path: &Path, program: &Path, without: &Path) -> Result<Vec<String>, Er
     let prices = prices.map(|(what, asks, most)| Price {
         what,
         with: (&program, asks),
-        without: (&without, Asks::Nobody),
+        without: (&without, Asks::Nothing),
         most,
     });
     cost(scene, &prices)

@@ -188,7 +188,7 @@ pub(crate) fn short() -> Result<(), Fault> {
     run_all(&shards, AT_ONCE)
 }
 
-/// Hours of the short form, on the PC and on the board, where touches are told after a second
+/// Hours of the short form, on the PC and on the board, where touches are reported after a second
 /// and the fourth wraps.
 const SHORT_H: [f64; 2] = [0.65, 0.0015];
 

@@ -96,7 +96,7 @@ impl Subject {
                 let built = read_bytes(&built)?;
                 if kept.exists() && read_bytes(&kept)? != built {
                     return Err(format!(
-                        "{}: the program of {} is not that of the tables; begin anew without \
+                        "{}: the program of {} is not that of the tables; begin again without \
                          --resume",
                         board.name,
                         scene.display()
@@ -187,7 +187,7 @@ pub(crate) fn all(choice: &Choice) -> Result<(), Fault> {
         tables.extend(Subject::of(name, runs)?.run(choice.shards.max(1))?);
     }
     let page = top().join("docs/measured/reliability.md");
-    told(&tables, choice.subject.is_none().then_some(page.as_path()))
+    summed_up(&tables, choice.subject.is_none().then_some(page.as_path()))
 }
 
 /// The whole campaign, as the command without options makes it.
@@ -213,7 +213,7 @@ fn again(name: &str, number: u64) -> Result<(), Fault> {
 }
 
 /// Writes the page, if one is wanted, and fails if a run was harmful.
-fn told(tables: &[PathBuf], page: Option<&Path>) -> Result<(), Fault> {
+fn summed_up(tables: &[PathBuf], page: Option<&Path>) -> Result<(), Fault> {
     let mut command = workspace_program("emulator");
     command.arg("reliability");
     command.args(tables);
@@ -229,5 +229,5 @@ pub(crate) fn short() -> Result<(), Fault> {
     let mut tables = Subject::of(PC, 1000)?.run(2)?;
     let one = [top().join(crate::emulate::FULL)];
     tables.extend(Subject::on(Board::ALL[0], &one, 24)?.run(2)?);
-    told(&tables, None)
+    summed_up(&tables, None)
 }

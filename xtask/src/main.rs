@@ -145,7 +145,7 @@ enum Command {
     Book,
     /// Runs the command blocks of the book's pages, of the README and of CONTRIBUTING
     Walk(walk::Choice),
-    /// Writes the generated documents anew
+    /// Writes the generated documents again
     Docs {
         /// Only say whether they are up to date
         #[arg(long)]
@@ -239,7 +239,7 @@ struct EmulateWhat {
     /// Measure how long contact on one side takes to excite the other
     #[arg(long)]
     latency: bool,
-    /// Reset the chip in every way that nobody asked for, and see its motors off until the
+    /// Reset the chip in every way that was not asked for, and see its motors off until the
     /// user button is pressed
     #[arg(long)]
     starting: bool,

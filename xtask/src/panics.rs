@@ -214,7 +214,7 @@ mod tests {
         assert!(of_a.ends_with("a → core::panicking::panic_fmt"), "{of_a}");
         assert_eq!(of_b, "tick → b → core::panicking::panic_fmt");
         assert_eq!(found.functions, 3);
-        // A circle ends, and what nobody calls does not count.
+        // A circle ends, and what is never called does not count.
         let (a, b) = (function("a", 16, &[32]), function("b", 32, &[16]));
         let found = walk([function("tick", 0, &[16]), a, b, panic()], NOWHERE);
         assert_eq!((found.ends.len(), found.functions), (0, 3));

@@ -26,7 +26,7 @@ fn place(name: &str) -> PathBuf {
     target().join("python").join(name)
 }
 
-/// An environment that is made anew with these packages.
+/// An environment that is made from nothing with these packages.
 pub(crate) fn environment(python: &Path, name: &str, packages: &[&str]) -> Result<PathBuf, Fault> {
     let folder = place(name);
     run(Command::new(python)

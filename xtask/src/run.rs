@@ -104,7 +104,7 @@ pub(crate) fn cargo_apart(command: &str, package: &str, folder: &str) -> Command
 /// Where CI has built all programs, in one build with the tests.
 static BUILT: OnceLock<PathBuf> = OnceLock::new();
 
-/// From now on, [`workspace_program`] takes what is built: cargo would build each anew, as
+/// From now on, [`workspace_program`] takes what is built: cargo would build each again, as
 /// dependencies have other features where a program is built alone.
 pub(crate) fn take_built_programs() {
     BUILT.get_or_init(|| target().join("debug"));

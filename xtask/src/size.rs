@@ -157,11 +157,11 @@ impl Measured {
     /// The lines, if every program holds what its scene names and nothing else, and
     /// every part was once there and once absent.
     fn proven(mut self) -> Result<Vec<Figure>, Fault> {
-        let told = self
+        let unproven = self
             .seen
             .unproven()
             .map(|part| format!("{part}: never there, or never absent"));
-        self.wrong.extend(told);
+        self.wrong.extend(unproven);
         no_faults(&self.wrong).map(|()| self.figures)
     }
 }

@@ -39,7 +39,7 @@ fn cells(rows: &[&RunRow]) -> String {
     counts.join(" ")
 }
 
-/// Middle and largest time until something was told, ms.
+/// Middle and largest time until something was reported, ms.
 fn noticed(rows: &[&RunRow]) -> String {
     let mut times: Vec<f64> = rows.iter().filter_map(|row| row.noticed_ms).collect();
     times.sort_by(f64::total_cmp);

@@ -32,7 +32,7 @@ pub(super) struct Flash {
     /// How many of the keys have come; more than there are: none will do until the next reset.
     keys: usize,
     control: u32,
-    /// The address of a page, where it is told by that.
+    /// The address of a page, where that selects it.
     address: u32,
     errors: u32,
     /// The first of two words, where both are written at once.

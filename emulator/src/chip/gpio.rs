@@ -49,7 +49,7 @@ pub(super) struct Gpio {
     reset: Reset,
     config: Config,
     odr: u32,
-    /// Levels from outside; what nobody drives reads high.
+    /// Levels from outside; an input that floats reads high.
     outside: u32,
 }
 

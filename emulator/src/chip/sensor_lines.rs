@@ -67,14 +67,14 @@ pub(super) struct SensorLines {
     fresh: bool,
     /// When the last byte ended.
     ended: Option<Ps>,
-    /// When the byte that the sensor has been told of began.
-    told: Option<Ps>,
+    /// When the byte that the sensor has seen began.
+    seen: Option<Ps>,
     /// What the master has read since /SS fell, and where the DMA has put it.
     read: Vec<u8>,
     put: Vec<u32>,
     /// When /SS rose after a frame that was not good.
     bad: Option<Ps>,
-    /// What /SS has done wrong: told with the next byte.
+    /// What /SS has done wrong: reported with the next byte.
     wrong: Option<&'static str>,
 }
 
@@ -92,7 +92,7 @@ impl SensorLines {
             fell: 0,
             fresh: false,
             ended: None,
-            told: None,
+            seen: None,
             read: Vec::new(),
             put: Vec::new(),
             bad: None,
@@ -138,10 +138,10 @@ impl SensorLines {
         bit: Ps,
         sensor: &mut impl SensorEnd,
     ) -> Result<(), Fault> {
-        if self.told == Some(began) || !self.selected {
+        if self.seen == Some(began) || !self.selected {
             return Ok(());
         }
-        self.told = Some(began);
+        self.seen = Some(began);
         let side = self.side;
         let wrong = |what| Err(Fault::Wires { side, what });
         if bit * Ps::from(self.needs.clock_max_hz) < 1_000_000_000_000 {

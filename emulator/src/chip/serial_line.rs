@@ -7,7 +7,7 @@ use super::time::Ps;
 /// The other end.
 #[derive(Debug, Clone, Default)]
 pub(super) struct SerialLine {
-    /// A bit at the other end; none: nobody is there.
+    /// A bit at the other end; none: nothing is there.
     pub(super) bit: Option<Ps>,
     /// What it is to send.
     pub(super) sending: VecDeque<u8>,

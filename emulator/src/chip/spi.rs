@@ -20,7 +20,7 @@ const SSM: u32 = 1 << 9;
 /// Receive-only, 16 bits, CRC, one line: not modelled.
 const OTHERS: u32 = 0xFC00;
 const RXDMAEN: u32 = 1 << 0;
-/// With queues: bits of a frame, less one; and whether a byte received is told, or a pair.
+/// With queues: bits of a frame, less one; and whether a byte received is reported, or a pair.
 const DS: u32 = 15 << 8;
 const DS_8: u32 = 7 << 8;
 const FRXTH: u32 = 1 << 12;
@@ -169,7 +169,7 @@ impl Spi {
         self.begin(now, bus);
     }
 
-    /// Whether as much has been received as is told.
+    /// Whether as much has been received as is reported.
     const fn is_received(&self) -> bool {
         let pairs = matches!(self.version, Version::Queues) && self.cr2 & FRXTH == 0;
         self.received.len >= if pairs { 2 } else { 1 }

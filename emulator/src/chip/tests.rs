@@ -30,7 +30,7 @@ const RAM: u32 = 0x2000_0000;
 const MS: Ps = 1_000_000_000;
 const US: Ps = 1_000_000;
 
-/// A sensor that answers with what it is told, and keeps what it hears.
+/// A sensor that answers with given bytes, and keeps those that it receives.
 #[derive(Default)]
 struct Script {
     answers: Vec<u8>,
@@ -180,7 +180,7 @@ fn a_clock_that_does_not_run_or_is_too_fast_is_refused() {
 
 #[test]
 fn what_is_not_modelled_is_told_and_not_guessed() {
-    fn told<T: std::fmt::Debug>(result: &Result<T, Fault>) {
+    fn is_reported<T: std::fmt::Debug>(result: &Result<T, Fault>) {
         assert!(
             matches!(result, Err(Fault::Unmodelled { .. })),
             "{result:?}"
@@ -189,12 +189,12 @@ fn what_is_not_modelled_is_told_and_not_guessed() {
     let mut rig = Rig::clocked();
     // The RTC, the ADC, a register that TIM1 has not, one-pulse mode.
     for address in [0x4000_2800, 0x4001_2000, TIM1 + 0x50] {
-        told(&rig.chip.read(address, u32::MAX));
-        told(&rig.try_write(address, 0));
+        is_reported(&rig.chip.read(address, u32::MAX));
+        is_reported(&rig.try_write(address, 0));
     }
-    told(&rig.try_write(TIM1, 1 << 3));
+    is_reported(&rig.try_write(TIM1, 1 << 3));
     // TIM6 has no channels.
-    told(&rig.try_write(TIM6 + 0x34, 0));
+    is_reported(&rig.try_write(TIM6 + 0x34, 0));
 }
 
 #[test]

@@ -1,6 +1,6 @@
 //! A USART with eight bits, no parity and one stop bit, each bit sampled sixteen times, both
 //! ways by DMA (RM0390, chapter 25; RM0008, chapter 27; RM0444, chapter 33). Interrupts, other
-//! formats, other clocks than the bus's and what comes while nobody listens are not modelled.
+//! formats, other clocks than the bus's and what comes while no program listens are not modelled.
 
 use super::fields::{Field, field, whole};
 use super::time::Ps;

@@ -107,8 +107,8 @@ fn is_finite(row: &Row, sides: usize) -> bool {
     values.all(|pair| pair.iter().take(sides).all(|value| value.is_finite()))
 }
 
-/// Pages of memory that the process has; nothing where the system does not tell.
+/// Pages of memory that the process has; nothing where the system does not say.
 fn resident_pages() -> Option<u64> {
-    let told = std::fs::read_to_string("/proc/self/statm").ok()?;
-    told.split_whitespace().nth(1)?.parse().ok()
+    let pages = std::fs::read_to_string("/proc/self/statm").ok()?;
+    pages.split_whitespace().nth(1)?.parse().ok()
 }

@@ -5,7 +5,7 @@ use core::hint::black_box;
 /// Calls of each kernel, each with another input: a whisk of half a second.
 const CALLS: u32 = 1000;
 
-/// What the emulator is told of a kernel (`emulator/src/counts.rs` reads it from memory).
+/// What the emulator knows of a kernel (`emulator/src/counts.rs` reads it from memory).
 #[repr(C)]
 pub struct Kernel {
     name: *const u8,

@@ -11,7 +11,7 @@ pub(crate) enum When {
     Always,
     /// `sh nightly`: by the nightly run, as it takes long.
     Nightly,
-    /// `sh hardware`: by nobody but its reader, as it needs a board or a probe.
+    /// `sh hardware`: by its reader alone, as it needs a board or a probe.
     Hardware,
 }
 
@@ -130,7 +130,7 @@ mod tests {
         let text = "```sh\na \\\n  b\n```\nSo:\n```text output\nc\n```\n\n1. x\n   ```sh hardware\n   d\n   ```\n\
                     ```toml\ne\n```\n```sh nightly\nf\n```\n";
         let found = blocks(text).unwrap();
-        let told: Vec<_> = found
+        let parts: Vec<_> = found
             .iter()
             .map(|block| {
                 (
@@ -142,7 +142,7 @@ mod tests {
             })
             .collect();
         assert_eq!(
-            told,
+            parts,
             [
                 (When::Always, 1, "a \\\n  b\n", Some("c\n")),
                 (When::Hardware, 11, "d\n", None),

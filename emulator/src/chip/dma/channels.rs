@@ -93,7 +93,7 @@ impl Channels {
             flags |= GIF | HTIF;
         }
         if c.cndtr == 0 {
-            // It stays enabled, and begins anew or moves nothing more.
+            // It stays enabled, and starts again or moves nothing more.
             flags |= GIF | TCIF;
             if c.ccr & CIRC != 0 {
                 c.cndtr = c.length;

@@ -17,11 +17,11 @@ const US: Ps = 1_000_000;
 /// Whose it is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Version {
-    /// Pages of 1 KiB, told by their address; 16 bits at a time.
+    /// Pages of 1 KiB, selected by their address; 16 bits at a time.
     F1,
     /// Sectors, of which those of 128 KiB are erased; 32 bits at a time.
     F4,
-    /// Pages of 2 KiB, told by their number; 64 bits at a time.
+    /// Pages of 2 KiB, selected by their number; 64 bits at a time.
     G0,
 }
 

@@ -3,7 +3,7 @@
 /// What drives a pin.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(in crate::chip) enum Role {
-    /// Nobody here: an input.
+    /// Nothing here: an input.
     Input,
     /// The port's output register, at this level.
     Output(bool),

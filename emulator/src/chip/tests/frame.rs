@@ -83,19 +83,19 @@ fn a_byte_that_nobody_fetches_is_overrun_by_the_next() {
 fn bytes_that_come_too_close_or_too_fast_or_too_early_are_told() {
     for on in SIDES {
         let name = ["left", "right"][on.side];
-        let told = |fault, why: &str| {
+        let is_reported = |fault, why: &str| {
             let wires = matches!(fault, Err(Fault::Wires { side, .. }) if side == name);
             assert!(wires, "{name}, {why}: {fault:?}");
         };
         let mut close = on.rig(on.divider);
         on.begin(&mut close, 30 * US);
-        told(close.try_pass(MS), "a gap of 4.4 us");
+        is_reported(close.try_pass(MS), "a gap of 4.4 us");
         let mut fast = on.rig(on.divider - 1);
         on.begin(&mut fast, SLOT);
-        told(fast.try_pass(MS), "625 kHz");
+        is_reported(fast.try_pass(MS), "625 kHz");
         let mut early = on.rig_after(MS, on.divider);
         on.begin(&mut early, SLOT);
-        told(early.try_pass(MS), "start-up");
+        is_reported(early.try_pass(MS), "start-up");
     }
 }
 

@@ -92,7 +92,7 @@ fn the_flash_keeps_up_with_the_clock_as_the_supply_says() {
     // The F446 on its own 16 MHz bears 1.8 V.
     let mut rig = Rig::new();
     supply(&mut rig, 1_800);
-    // And one wait state too few is told, and not taken.
+    // And one wait state too few is reported, and not taken.
     let mut rig = Rig::new();
     rig.run_fast();
     assert!(rig.try_write(super::FLASH, 0x704).is_err());

@@ -174,22 +174,22 @@ fn bits_of_another_length_are_told() {
     for port in [F1, F4, G0] {
         let off = port.divider / 50;
         for divider in [port.divider - off, port.divider + off, 2 * port.divider] {
-            let told = |fault: Result<_, Fault>| {
-                let is_told = matches!(
+            let is_misused = |fault: Result<_, Fault>| {
+                let is_refused = matches!(
                     fault,
                     Err(Fault::Misused {
                         peripheral: "USART2",
                         ..
                     })
                 );
-                assert!(is_told, "{}, {divider}: {fault:?}", port.model.program);
+                assert!(is_refused, "{}, {divider}: {fault:?}", port.model.program);
             };
             let mut sends = port.open(divider);
             port.send(&mut sends, RAM, 1);
-            told(sends.try_pass(3 * BYTE));
+            is_misused(sends.try_pass(3 * BYTE));
             let mut hears = port.open(divider);
             hears.chip.serial_write(b"a");
-            told(hears.try_pass(3 * BYTE));
+            is_misused(hears.try_pass(3 * BYTE));
         }
         // By a thousandth it may be off.
         let mut near = port.open(port.divider);
@@ -228,9 +228,13 @@ fn a_format_that_is_not_modelled_is_told() {
             (cr3, 1),
             (port.brr, 15),
         ] {
-            let told = rig.try_write(USART2 + offset, value);
-            let is_told = matches!(told, Err(Fault::Unmodelled { .. }));
-            assert!(is_told, "{} {offset:#x}: {told:?}", port.model.program);
+            let written = rig.try_write(USART2 + offset, value);
+            let is_refused = matches!(written, Err(Fault::Unmodelled { .. }));
+            assert!(
+                is_refused,
+                "{} {offset:#x}: {written:?}",
+                port.model.program
+            );
         }
     }
 }
