@@ -15,7 +15,7 @@ pub struct Three<R>(pub R, pub R, pub R);
 
 /// A number from `from` to `to`, well spread over the calls: the fractional
 /// parts of multiples of the golden ratio, which fall into the largest gaps.
-pub fn spread(call: u32, from: f64, to: f64) -> f64 {
+fn spread(call: u32, from: f64, to: f64) -> f64 {
     let fraction = f64::from(call.wrapping_mul(0x9E37_79B9)) / f64::from(u32::MAX);
     from + (to - from) * fraction
 }
