@@ -20,7 +20,9 @@
 use nalgebra::{Cholesky, DMatrix, DVector, SymmetricEigen};
 
 use crate::error::BadSetting;
+use crate::grid::{Grid, NODES};
 use crate::shaft::Shaft;
+use crate::shapes::{MODES, STATIC, Shapes};
 
 /// Elements in a shaft.
 const ELEMENTS: usize = 40;
@@ -67,6 +69,8 @@ pub struct Modes {
     /// κ = ∫ w′² dz/w(L)² of the static response, 1/m: a tip that is off by u
     /// has come back along the shaft by κ u²/2.
     pub shortening_m: f64,
+    /// The first modes and the static shapes, as they bend before a plate.
+    pub(crate) shapes: Shapes,
 }
 
 impl Shaft {
@@ -187,7 +191,7 @@ fn solve(shaft: &Shaft, count: usize) -> Option<Modes> {
     let size = beam.drive[0].len();
     let tip = size - 2;
 
-    let factors = Cholesky::new(beam.stiffness)?;
+    let factors = Cholesky::new(beam.stiffness.clone())?;
     let lower = factors.l();
     let half = lower.solve_lower_triangular(&beam.mass)?;
     let mut matrix = lower.solve_lower_triangular(&half.transpose())?;
@@ -197,21 +201,31 @@ fn solve(shaft: &Shaft, count: usize) -> Option<Modes> {
     order.sort_by(|a, b| eigen.eigenvalues[*b].total_cmp(&eigen.eigenvalues[*a]));
 
     let base_rotation = |shape: &DVector<f64>| if clamped { 0.0 } else { shape[0] };
-    let mode = |index: &usize| {
+    let shape = |index: &usize| {
         let inverse = eigen.eigenvalues[*index];
         let shape = lower.tr_solve_lower_triangular(&eigen.eigenvectors.column(*index))?;
         // φᵀ M φ = yᵀ y ω⁻² before scaling.
         let scale = (1.0 / inverse).sqrt().copysign(shape[tip]);
-        let shape: DVector<f64> = scale * shape;
-        Some(BendingMode {
-            omega_rad_s: (1.0 / inverse).sqrt(),
-            tip: shape[tip],
-            base_rotation: base_rotation(&shape),
-            translation: beam.drive[0].dot(&shape),
-            rotation: beam.drive[1].dot(&shape),
-        })
+        Some((scale * shape, (1.0 / inverse).sqrt()))
     };
-    let modes: Vec<BendingMode> = order.iter().take(count).map(mode).collect::<Option<_>>()?;
+    let kept = order.iter().take(count).map(shape);
+    let kept: Vec<(DVector<f64>, f64)> = kept.collect::<Option<_>>()?;
+    let modes: Vec<BendingMode> = kept
+        .iter()
+        .map(|(shape, omega_rad_s)| BendingMode {
+            omega_rad_s: *omega_rad_s,
+            tip: shape[tip],
+            base_rotation: base_rotation(shape),
+            translation: beam.drive[0].dot(shape),
+            rotation: beam.drive[1].dot(shape),
+        })
+        .collect();
+    let whole = modes
+        .iter()
+        .all(|m| m.omega_rad_s.is_finite() && m.omega_rad_s > 0.0);
+    if !whole {
+        return None;
+    }
 
     let mut force = DVector::zeros(size);
     force[tip] = 1.0;
@@ -221,16 +235,82 @@ fn solve(shaft: &Shaft, count: usize) -> Option<Modes> {
         let terms = modes.iter().map(|m| m.tip * of(m) / m.omega_rad_s.powi(2));
         terms.sum()
     };
-    let whole = modes
-        .iter()
-        .all(|m| m.omega_rad_s.is_finite() && m.omega_rad_s > 0.0);
-    whole.then(|| Modes {
+    let mut loads = vec![bent.clone(), factors.solve(&(&beam.slope * &bent))];
+    if !clamped {
+        loads.push(turned(shaft.length_m, size));
+    }
+    let moving = kept.get(..MODES).unwrap_or(&kept);
+    let mut shapes = Shapes::default();
+    let rest = rest(&beam.stiffness, moving, loads);
+    let all = moving.iter().map(|(shape, _)| shape);
+    for (k, shape) in all.chain(&rest).enumerate() {
+        let k = if k < moving.len() { k } else { MODES + k - moving.len() };
+        shapes.tip[k] = shape[tip];
+        shapes.base[k] = base_rotation(shape);
+        shapes.slope[k] = slopes(shape, shaft.length_m, held);
+    }
+    Some(Modes {
         tip_m_n,
         base_rad_n,
         residual_tip_m_n: (tip_m_n - share(|m| m.tip)).max(0.0),
         residual_base_rad_n: base_rad_n - share(|m| m.base_rotation),
         shortening_m: bent.dot(&(&beam.slope * &bent)) / (tip_m_n * tip_m_n),
-        modes: modes.clone(),
+        modes,
+        shapes,
+    })
+}
+
+/// A straight shaft turned by 1 rad about its base, which only the hinge is held by.
+fn turned(length_m: f64, size: usize) -> DVector<f64> {
+    let h = length_m / ELEMENTS as f64;
+    let row = |row: usize, _| {
+        if row % 2 == 0 {
+            1.0
+        } else {
+            h * row.div_ceil(2) as f64
+        }
+    };
+    DVector::from_fn(size, row)
+}
+
+/// What modes with their frequencies leave out of these shapes, with an energy of ½ each and
+/// none between them.
+fn rest(
+    stiffness: &DMatrix<f64>,
+    modes: &[(DVector<f64>, f64)],
+    shapes: Vec<DVector<f64>>,
+) -> Vec<DVector<f64>> {
+    let mut found: Vec<DVector<f64>> = Vec::with_capacity(STATIC);
+    for mut shape in shapes {
+        let first = shape.dot(&(stiffness * &shape));
+        // Twice, as rounding leaves some of the first.
+        for _ in 0..2 {
+            for (mode, omega) in modes {
+                let part = mode.dot(&(stiffness * &shape)) / (omega * omega);
+                shape -= part * mode;
+            }
+            for other in &found {
+                let part = other.dot(&(stiffness * &shape));
+                shape -= part * other;
+            }
+        }
+        let energy = shape.dot(&(stiffness * &shape));
+        // What the others span already is only rounding.
+        if energy > 1e-12 * first {
+            found.push(shape / energy.sqrt());
+        }
+    }
+    found
+}
+
+/// w′ of a shape at the nodes of a shaft, for a beam whose first `held` rows are left out.
+fn slopes(shape: &DVector<f64>, length_m: f64, held: usize) -> [f64; NODES] {
+    let h = length_m / ELEMENTS as f64;
+    Grid::new(length_m).nodes.map(|z| {
+        let element = ((z / h) as usize).min(ELEMENTS - 1);
+        let [_, slope, _] = shapes(z / h - element as f64, h);
+        let known = |i: usize| (2 * element + i).checked_sub(held).map_or(0.0, |row| shape[row]);
+        (0..4).map(|i| slope[i] * known(i)).sum()
     })
 }
 

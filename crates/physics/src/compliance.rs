@@ -1,15 +1,17 @@
-//! The massless spring between modal tip and foot: its compliance, its energy, and
-//! how coarse a part is for it.
+//! The massless spring between shaft and foot: its compliance, its energy, and how
+//! coarse a part is for it and for the static shapes.
 
 use crate::vector::{V3, add, dot};
 
-/// Compliances of shaft and ground in series, m/N; positive.
+/// Compliances of ground, and of shaft and ground in series, m/N; positive.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Compliance {
     /// Transverse to the shaft.
     pub(crate) across: f64,
     /// Along it.
     pub(crate) along: f64,
+    /// Transverse to the shaft at its tip, with that of the static shapes.
+    pub(crate) rest: f64,
 }
 
 impl Compliance {
@@ -37,7 +39,7 @@ impl Compliance {
     /// 1 where the modes give way by far more than the spring.
     #[inline]
     pub(crate) fn weight(&self, response: f64) -> f64 {
-        let coarse = 0.25 * response / self.across;
+        let coarse = 0.25 * response / self.rest;
         (0.5 + coarse) / (1.0 + coarse)
     }
 
@@ -46,7 +48,7 @@ impl Compliance {
     #[inline]
     pub(crate) fn lag_s(&self, damping: f64, mobility: f64) -> f64 {
         if mobility > 0.0 {
-            2.0 * damping * (self.across / mobility).sqrt()
+            2.0 * damping * (self.rest / mobility).sqrt()
         } else {
             0.0
         }

@@ -59,14 +59,13 @@ impl PlateFrame {
         }
     }
 
-    /// `pose`, with a shaft of length `length_m`, in the plate's coordinates.
+    /// `pose` in the plate's coordinates.
     #[inline]
-    pub(crate) fn see(&self, pose: &Pose, length_m: f64) -> PlatePose {
+    pub(crate) fn see(&self, pose: &Pose) -> PlatePose {
         let turn = |v: V3| [dot(self.along, v), dot(self.side, v), dot(self.normal, v)];
         let z = pose.z();
-        let tip = add(pose.base_m, length_m, z);
         PlatePose {
-            tip: turn(sub(tip, self.point_m)),
+            base: turn(sub(pose.base_m, self.point_m)),
             x: turn(pose.x),
             y: turn(pose.y),
             z: turn(z),
@@ -77,20 +76,24 @@ impl PlateFrame {
 /// A pose in a plate's coordinates.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct PlatePose {
-    /// Tip of the unbent shaft, m.
-    pub(crate) tip: V3,
+    /// Base of the shaft, m.
+    pub(crate) base: V3,
     pub(crate) x: V3,
     pub(crate) y: V3,
     pub(crate) z: V3,
 }
 
 impl PlatePose {
-    /// The tip of a shaft with these deflections that has come back along itself
-    /// by `shortened_m`, m.
+    /// A place with these components along x, y and z from the base.
     #[inline]
-    pub(crate) fn tip(&self, [u, v]: [f64; 2], shortened_m: f64) -> V3 {
-        let bent = add(add(self.tip, u, self.x), v, self.y);
-        add(bent, -shortened_m, self.z)
+    pub(crate) fn place(&self, place: V3) -> V3 {
+        add(self.base, 1.0, self.vector(place))
+    }
+
+    /// The direction that is up from the plate, along x, y and z.
+    #[inline]
+    pub(crate) fn up(&self) -> V3 {
+        [self.x[2], self.y[2], self.z[2]]
     }
 
     /// A vector with these components along x, y and z, in the plate's coordinates.
@@ -110,7 +113,7 @@ impl PlatePose {
     pub(crate) fn towards(&self, other: &Self, share: f64) -> Self {
         let mix = |a: V3, b: V3| add(a, share, sub(b, a));
         Self {
-            tip: mix(self.tip, other.tip),
+            base: mix(self.base, other.base),
             x: mix(self.x, other.x),
             y: mix(self.y, other.y),
             z: mix(self.z, other.z),

@@ -114,7 +114,10 @@ mod tests {
             let plate = Plate::in_the_way(theta, length, &facing, Surface::of(Material::Flat));
             assert!((dot(plate.normal, plate.normal) - 1.0).abs() < 1e-12);
             let frame = PlateFrame::new(&plate);
-            let above = |theta: f64| frame.see(&facing.pose(theta), length).tip[2];
+            let above = |theta: f64| {
+                let pose = frame.see(&facing.pose(theta));
+                pose.place([0.0, 0.0, length])[2]
+            };
             assert!(above(theta).abs() < 1e-15);
             // By L cos 30° cos 20° a radian; the cosine of the elevation shortens the way.
             let cosines = [30.0_f64, 20.0, elevation_deg].map(|degrees| degrees.to_radians().cos());

@@ -39,10 +39,11 @@ pub use outputs::Bent;
 
 use crate::beam::Modes;
 use crate::error::BadSetting;
-use crate::modal::{MODES, ModalShaft, ModalState};
+use crate::modal::{ModalShaft, ModalState};
 use crate::pose::{Plate, PlateFrame, Pose};
 use crate::sensor::{Sensor, SensorSettings};
 use crate::shaft::Shaft;
+use crate::shapes::MODES;
 use crate::surface::{Material, Surface};
 use crate::vector::{V3, across, dot, scale, sub, unit};
 use body::{Body, Ground, Steps, Touch};
@@ -171,6 +172,7 @@ impl TouchingWhisker {
             self.step_before(&pose, plate);
         } else {
             self.body.state.free(&self.steps.parts[0]);
+            self.body.state.keep(0.0);
             self.body.touch = Touch::default();
             self.body.last = None;
         }
@@ -217,9 +219,8 @@ impl TouchingWhisker {
         };
         if !self.body.ground.is_of(&plate.surface) {
             self.body.ground = Ground::new(plate.surface, self.body.shaft.tip_radius_m);
-            self.body.touch.ground = None;
         }
-        let pose = frame.see(pose, self.body.shaft.length_m);
+        let pose = frame.see(pose);
         self.parts = self.body.step(pose, &self.steps);
     }
 }

@@ -1,9 +1,11 @@
 //! A whisker before a plate: its modes, the ground, and the state of their contact.
 
 use crate::compliance::Compliance;
+use crate::grid::Place;
 use crate::modal::{ModalShaft, ModalState, ModalStep};
 use crate::pose::PlatePose;
 use crate::relief::Relief;
+use crate::shapes::Amplitudes;
 use crate::surface::Surface;
 use crate::vector::{V3, dot};
 
@@ -32,7 +34,7 @@ impl Body {
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Last {
     pub(super) pose: PlatePose,
-    /// Modal tip above the mean plane, m.
+    /// No part of the shaft is below this over the mean plane, m.
     pub(super) above: f64,
 }
 
@@ -102,17 +104,21 @@ pub(super) struct Touch {
     pub(super) stretch: V3,
     /// Its energy, J.
     pub(super) spring_j: f64,
-    /// Its force on the axes x and y, N.
-    pub(super) pull: [f64; 2],
-    /// Force on the tip, the mean of the part, plate coordinates, N.
+    /// Where on the shaft; none: has not touched yet.
+    pub(super) place: Option<Place>,
+    /// Where it is expected to touch in the next part, m from the base.
+    pub(super) next_m: f64,
+    /// Where the foot is, plate coordinates, m.
+    pub(super) foot: V3,
+    /// Force on the shaft, the mean of the part, plate coordinates, N.
     pub(super) force: V3,
+    /// The same on each shape.
+    pub(super) forces: Amplitudes,
     /// Its normal component; positive: in contact.
     pub(super) normal_n: f64,
     pub(super) stuck: bool,
     /// Speed at which it slides, m/s.
     pub(super) slip_m_s: f64,
-    /// Height and slopes under the foot, if known.
-    pub(super) ground: Option<[f64; 3]>,
     /// By how much the ground is taken as lower than it is, m.
     pub(super) lowered_m: f64,
 }
@@ -125,12 +131,11 @@ impl Touch {
         Self {
             stretch,
             spring_j: -0.5 * dot(force, stretch),
-            pull: [force[0], force[1]],
             ..Self::default()
         }
     }
 
-    /// Whether the tip is pressed on the plate.
+    /// Whether the shaft is pressed on the plate.
     #[inline]
     pub(super) fn is_contact(&self) -> bool {
         self.normal_n > 0.0

@@ -29,7 +29,8 @@ use crate::compliance::Compliance;
 use crate::contact::{Force, Frame, Problem};
 use crate::modal::ModalStep;
 use crate::pose::PlatePose;
-use crate::vector::{V3, dot, length2};
+use crate::shapes::{Amplitudes, SHAPES, Ways};
+use crate::vector::{V3, add, dot, length2, scale};
 
 /// Least share of a part after touching down: keeps quotients finite.
 const LATEST: f64 = 1e-9;
@@ -38,22 +39,23 @@ const LATEST: f64 = 1e-9;
 pub(super) struct Part<'a> {
     /// The pose at its end.
     pub(super) pose: &'a PlatePose,
-    pub(super) step: &'a ModalStep,
     pub(super) dt_s: f64,
     pub(super) law: Law,
     /// In contact at the start; `friction` is the coefficient that then holds, from
     /// the sliding speed of the last part.
     pub(super) touching: bool,
     pub(super) friction: f64,
-    /// Deflections at the start, and at the end without a force.
-    pub(super) start: [f64; 2],
-    pub(super) free: [f64; 2],
+    /// Amplitudes at the start, and at the end without a force.
+    pub(super) start: Amplitudes,
+    pub(super) free: Amplitudes,
+    /// Amplitude of each shape for a force of 1 on it.
+    pub(super) responses: [f64; SHAPES],
     /// Stretch at the start, turned with the base.
     pub(super) stretch: V3,
     /// The foot at the start and the ground there.
     pub(super) foot: V3,
     pub(super) ground: [f64; 3],
-    /// How the base carries the modal tip away from the foot.
+    /// How the base carries the place away from the foot.
     pub(super) carried: V3,
 }
 
@@ -62,12 +64,61 @@ pub(super) struct Solved {
     pub(super) frame: Frame,
     pub(super) problem: Problem,
     pub(super) force: Force,
-    /// The force on the axes x and y, N.
-    pub(super) pushed: [f64; 2],
     /// At the end, plate coordinates, m.
     pub(super) stretch: V3,
-    /// Energy of the spring at the start less the work on the tip, J.
+    /// Energy of the spring at the start less the work on the shaft, J.
     pub(super) left_j: f64,
+}
+
+/// How the shapes move a place of the shaft, along x, y and z.
+pub(super) struct Moves {
+    pub(super) ways: Ways,
+    /// Displacement without a force.
+    free: V3,
+    /// W, m/N.
+    response: [V3; 3],
+}
+
+impl Moves {
+    /// Of a place with these ways.
+    #[inline]
+    pub(super) fn new(ways: Ways, part: &Part<'_>) -> Self {
+        let mut free = [0.0; 3];
+        let mut response = [[0.0; 3]; 3];
+        let ends = part.free.iter().zip(&part.start).zip(&part.responses);
+        for (pair, ((end, start), own)) in ways.iter().zip(ends) {
+            for (way, (end, start)) in pair.iter().zip(end.iter().zip(start)) {
+                free = add(free, end - start, *way);
+                let pushed = scale(*own, *way);
+                for (row, way) in response.iter_mut().zip(way) {
+                    *row = add(*row, *way, pushed);
+                }
+            }
+        }
+        Self {
+            ways,
+            free,
+            response,
+        }
+    }
+
+    /// Displacement between two states of the shapes.
+    #[inline]
+    pub(super) fn between(&self, start: &Amplitudes, end: &Amplitudes) -> V3 {
+        let mut moved = [0.0; 3];
+        for (pair, (end, start)) in self.ways.iter().zip(end.iter().zip(start)) {
+            for (way, (end, start)) in pair.iter().zip(end.iter().zip(start)) {
+                moved = add(moved, end - start, *way);
+            }
+        }
+        moved
+    }
+
+    /// What a force along x, y and z is on each shape.
+    #[inline]
+    pub(super) fn forces(&self, force: V3) -> Amplitudes {
+        self.ways.map(|pair| pair.map(|way| dot(way, force)))
+    }
 }
 
 /// The constants of the law for parts of one length.
@@ -112,23 +163,18 @@ impl Body {
         }
     }
 
-    /// The force on a plane, for deflections at the end of about `end`.
+    /// The force on a plane, for a place that is moved so.
     #[inline]
-    pub(super) fn solve(&self, part: &Part<'_>, frame: Frame, end: [f64; 2]) -> Solved {
+    pub(super) fn solve(&self, part: &Part<'_>, frame: Frame, moves: &Moves) -> Solved {
         let compliance = &part.law.compliance;
-        let middle = [0, 1].map(|i| 0.5 * part.start[i] + 0.5 * end[i]);
-        let ways = self.shaft.ways(middle, part.pose);
-        let local = ways.map(|way| frame.local(way));
-        let [u, v] = [0, 1].map(|i| part.free[i] - part.start[i]);
-        // The tip's displacement without a force.
-        let carried = frame.local(part.carried);
-        let moved: V3 = core::array::from_fn(|i| carried[i] + u * local[0][i] + v * local[1][i]);
+        // The frame's axes along x, y and z.
+        let axes = frame.axes.map(|axis| part.pose.components(axis));
+        let pushed = axes.map(|axis| moves.response.map(|row| dot(row, axis)));
+        let free = axes.map(|axis| dot(axis, moves.free));
+        let moved = add(frame.local(part.carried), 1.0, free);
         let begin = frame.local(part.stretch);
-        let above = if part.touching {
-            0.0
-        } else {
-            ((part.foot[2] - part.ground[0]) * frame.upright).max(0.0)
-        };
+        let above = (part.foot[2] - part.ground[0]) * frame.upright;
+        let above = if part.touching { above } else { above.max(0.0) };
         // The share of the part after it touches down.
         let late = if moved[0] < 0.0 && !part.touching {
             (1.0 + above / moved[0]).clamp(LATEST, 1.0)
@@ -147,9 +193,8 @@ impl Body {
             core::array::from_fn(|i| core::array::from_fn(|j| compliance.at(along, i, j)));
         let least = compliance.least();
         let entry = |i: usize, j: usize| {
-            let modes =
-                part.step.response * (local[0][i] * local[0][j] + local[1][i] * local[1][j]);
-            modes + (given[i][j] - if i == j { least } else { 0.0 }) / share
+            let own = if i == j { least } else { 0.0 };
+            dot(axes[i], pushed[j]) + (given[i][j] - own) / share
         };
         let mut problem = Problem {
             gap: above + begin[0] / share + moved[0],
@@ -159,21 +204,20 @@ impl Body {
             friction,
             near: [1, 2].map(|i| dot(frame.axes[i], self.touch.force)),
         };
-        let on_axes = |force: &Force| local.map(|way| dot(way, force.local));
-        let left = |force: &Force, pushed: [f64; 2]| {
-            let shaft = part.step.response * (pushed[0] * pushed[0] + pushed[1] * pushed[1]);
-            self.touch.spring_j - dot(force.local, moved) - shaft
+        let left = |force: &Force| {
+            let [a, b, c] = force.local;
+            let way = add(add(scale(a, pushed[0]), b, pushed[1]), c, pushed[2]);
+            let along = add(add(scale(a, axes[0]), b, axes[1]), c, axes[2]);
+            self.touch.spring_j - dot(force.local, moved) - dot(along, way)
         };
         let mut force = problem.solve();
-        let mut pushed = on_axes(&force);
-        let mut left_j = left(&force, pushed);
+        let mut left_j = left(&force);
         if left_j < 0.0 {
-            // A tip that slides before it touches down can end up here; without
+            // A place that slides before it touches down can end up here; without
             // friction it cannot.
             problem.friction = 0.0;
             force = problem.solve();
-            pushed = on_axes(&force);
-            left_j = left(&force, pushed);
+            left_j = left(&force);
         }
         let stretch = if force.local[0] > 0.0 {
             core::array::from_fn(|i| {
@@ -187,7 +231,6 @@ impl Body {
             frame,
             problem,
             force,
-            pushed,
             stretch: frame.plate(stretch),
             left_j,
         }

@@ -68,16 +68,20 @@ impl TouchingWhisker {
 
     /// Deflection of the tip in x and y, m.
     pub fn tip_m(&self) -> [f64; 2] {
-        self.body
-            .shaft
-            .deflection(&self.body.state, self.body.touch.pull)
+        let shaft = &self.body.shaft;
+        let [x, y, _] = self.body.state.curve(shaft).at(shaft.grid.tip());
+        [x, y]
+    }
+
+    /// Where the shaft touches, m from the base, while it does.
+    pub fn contact_m(&self) -> Option<f64> {
+        let place = self.body.touch.place.filter(|_| self.contact());
+        place.map(|place| place.at_m)
     }
 
     /// Rotation of the base in x and y, rad, unlimited and without noise.
     pub fn rotation_rad(&self) -> [f64; 2] {
-        self.body
-            .shaft
-            .rotation(&self.body.state, self.body.touch.pull)
+        self.body.shaft.shapes.base(&self.body.state.x)
     }
 
     /// Kinetic and elastic energy of shaft, follicle and contact, J, in axes

@@ -2,9 +2,10 @@
 //!
 //! Glossary:
 //!
-//! - *modal tip*: where the modes that are kept bring the tip;
-//! - *stretch*: of the massless spring, shaft and ground in series;
-//! - *foot*: where the tip stands on the ground, the modal tip less the stretch.
+//! - *place*: of the shaft, which touches: where it runs along the mean plane at the end of
+//!   the part, or the tip;
+//! - *stretch*: of the massless spring, follicle and ground in series;
+//! - *foot*: where the place stands on the ground, the place less the stretch.
 //!
 //! A foot that slides moves along a plane through the ground at both ends of its
 //! path, so that the plane rises as far as the ground does. The far end is
@@ -13,118 +14,196 @@
 //! round; it is then moved by only a share of that (Aitken's method for vectors:
 //! Irons and Tuck 1969).
 //!
+//! Beyond the place where an elastica is pressed on a plane it lies straight along it: its
+//! lowest place is not defined, and where it runs along the plane depends on where it is
+//! pressed. Both are found together by Newton's method, in the rounds of the same iteration.
+//!
+//! Ways are those in the middle of the part: times a change of the amplitudes they are
+//! the place's displacement but for the third order of the change. A round that changes the
+//! middle by too much is repeated.
+//!
 //! # Energy on any ground
 //!
 //! The stretch's energy does not depend on how the ground slopes, and it gains no
-//! more than the work of the force ([`super::law`]). Where the iteration has not
-//! quite found the end, the foot is off the ground. It is brought there as far as the part
-//! has dissipated the energy for it, and the rest waits for later parts. So at the
-//! end of a part
+//! more than the work of the force ([`super::law`]), which acts on the shapes by the
+//! same ways as it is displaced by, whatever they are. Where the iteration has not
+//! quite found the end, or another place now touches, the foot is off the ground. It is
+//! brought there as far as the part has dissipated the energy for it, and the rest waits
+//! for later parts. So at the end of a part
 //!
-//! modes + stretch ≤ modes + stretch before + work of the base,
+//! shapes + stretch ≤ shapes + stretch before + work of the base,
 //!
 //! whatever surface, stiffness, speed and step.
 
 use super::body::{Body, Touch};
-use super::law::{Part, Solved};
+use super::law::{Moves, Part, Solved};
 use super::secant::secant;
 use crate::contact::Frame;
-use crate::modal::ModalStep;
+use crate::modal::{ModalStep, pushed};
 use crate::pose::PlatePose;
-use crate::vector::{V3, dot, length2, scale, sub};
+use crate::grid::Place;
+use crate::shapes::{Amplitudes, Curve, SHAPES, Ways};
+use crate::vector::{V3, add, dot, length, length2, scale, sub};
 
 /// Most rounds of the iteration for the end of a part; mostly one or two.
 const ROUNDS: usize = 8;
 
 /// The iteration ends once the foot moves by less than this share of the distance
-/// of the finest octave, and the path of the tip turns by less than this, rad.
+/// of the finest octave, and is off where ways bring it by less than this share of
+/// what the force displaces it by.
 const NEAR: f64 = 0.1;
-const NEAR_RAD: f64 = 1e-4;
+const OFF: f64 = 1e-4;
+
+/// The same for a place that moves along the shaft, as a share of the length.
+const SHIFT: f64 = 1e-4;
 
 /// Smallest share of a round.
 const LEAST: f64 = 0.05;
 
 impl Body {
-    /// One part of a step, from one rigid tip to the next.
+    /// One part of a step, from one pose to the next.
     pub(super) fn part(&mut self, old: &PlatePose, new: &PlatePose, step: &ModalStep, part_s: f64) {
-        let start = self.shaft.deflections(&self.state);
-        self.state.free(step);
-        let free = self.shaft.deflections(&self.state);
         let law = self.law(step, part_s);
+        let share = law.share(1.0);
+        let responses = step.responses(share);
         let touching = self.touch.is_contact();
+        let start = self.state.x;
+        let before = self.state.curve(&self.shaft);
+        self.state.free(step);
+        self.state.keep(if touching {
+            1.0 - 1.0 / share
+        } else {
+            law.kept()
+        });
+        let free = self.state.x;
         let stretch = new.vector(self.touch.stretch);
+        let up = new.up();
         let mut end = free;
-        let (mut to, mut below);
+        let (mut place, mut below);
         if touching {
             // Forces change little from part to part.
-            let push = |way: V3| step.response * dot(way, self.touch.force);
-            end = [end[0] + push(new.x), end[1] + push(new.y)];
-            to = sub(self.shaft.tip(end, new), stretch);
+            end = pushed(&free, &responses, &self.touch.forces);
+            place = self.shaft.grid.place(self.touch.next_m);
             below = None;
         } else {
-            let keep = law.kept();
-            to = sub(self.shaft.tip(free, new), scale(keep, stretch));
+            let bent = self.shaft.shapes.curve(&free);
+            place = bent.lowest(&self.shaft.grid, up);
+            let to = sub(new.place(bent.at(&place)), scale(law.kept(), stretch));
             let ground = self.ground.relief.at([to[0], to[1]]);
             if to[2] >= ground[0] {
-                let stretch = scale(keep, self.touch.stretch);
+                let stretch = scale(law.kept(), self.touch.stretch);
                 self.touch = Touch::in_the_air(&law.compliance, stretch);
-                self.touch.ground = Some(ground);
                 return;
             }
-            below = Some(ground);
+            below = Some((to, ground));
         }
-        let shortened_m = self.shaft.shortened_m(start);
-        let tip = old.tip(start, shortened_m);
-        let foot = sub(tip, old.vector(self.touch.stretch));
-        let known = self.touch.ground;
-        let part = Part {
+        let mut part = Part {
             pose: new,
-            step,
             dt_s: part_s,
             law,
             touching,
             friction: self.ground.surface.friction_at(self.touch.slip_m_s),
             start,
             free,
+            responses,
             stretch,
-            foot,
-            ground: known.unwrap_or_else(|| self.ground.relief.at([foot[0], foot[1]])),
-            carried: sub(sub(new.tip(start, shortened_m), stretch), foot),
+            foot: [0.0; 3],
+            ground: [0.0; 3],
+            carried: [0.0; 3],
         };
         let near = NEAR * self.ground.relief.finest_m;
-        if touching && self.touch.stuck {
-            to = foot;
-        }
         let (mut missed, mut relax) = (None, 1.0);
+        let mut to = None;
         for round in 1..=ROUNDS {
-            let ground = match below.take() {
-                Some(ground) => ground,
-                None => self.ground.relief.at([to[0], to[1]]),
-            };
-            let slopes = secant([foot[0], foot[1]], part.ground, [to[0], to[1]], ground);
-            let solved = self.solve(&part, Frame::new(slopes), end);
-            let next = [0, 1].map(|i| free[i] + step.response * solved.pushed[i]);
-            let bend = length2([next[0] - end[0], next[1] - end[1]]);
-            end = next;
-            let tip = self.shaft.tip(end, new);
-            let next = sub(tip, solved.stretch);
-            let miss = [next[0] - to[0], next[1] - to[1]];
+            let at = before.at(&place);
+            let foot = sub(old.place(at), old.vector(self.touch.stretch));
+            part.foot = foot;
+            part.ground = self.ground.relief.at([foot[0], foot[1]]);
+            part.carried = sub(sub(new.place(at), stretch), foot);
+            let middle = self.shaft.shapes.curve(&between(&start, &end));
+            let moves = Moves::new(self.shaft.shapes.ways(&middle, &place), &part);
+            let (there, ground) = below.take().unwrap_or_else(|| {
+                let there = to.unwrap_or_else(|| {
+                    if self.touch.stuck {
+                        foot
+                    } else {
+                        let moved = new.vector(moves.between(&start, &end));
+                        add(add(foot, 1.0, part.carried), 1.0, moved)
+                    }
+                });
+                (there, self.ground.relief.at([there[0], there[1]]))
+            });
+            let way = [there[0], there[1]];
+            let slopes = secant([foot[0], foot[1]], part.ground, way, ground);
+            let solved = self.solve(&part, Frame::new(slopes), &moves);
+            let force = new.components(solved.frame.plate(solved.force.local));
+            let forces = moves.forces(force);
+            end = pushed(&free, &responses, &forces);
+            let straight = new.place(add(at, 1.0, moves.between(&start, &end)));
+            let curve = self.shaft.shapes.curve(&end);
+            let bent = new.place(curve.at(&place));
+            let off = length(sub(bent, straight));
+            let next = sub(bent, solved.stretch);
+            let miss = [next[0] - there[0], next[1] - there[1]];
             let moved = length2(miss);
             if let Some(old) = missed.replace(miss) {
                 relax = relaxed(relax, old, miss);
             }
-            if round == ROUNDS || (self.shaft.turn(bend) < NEAR_RAD && moved < near) {
-                self.state.push(step, solved.pushed);
+            let small = OFF * step.response * length(force);
+            let turns = self.shaft.shapes.turns(&curve, &place);
+            let shift = shift(&curve, &place, up, force, &moves, &turns, &responses);
+            let now = self.shaft.grid.place(place.at_m + shift);
+            let shifted = (now.at_m - place.at_m).abs();
+            let still = shifted <= SHIFT * self.shaft.length_m;
+            if round == ROUNDS || (off <= small && moved < near && still) {
+                self.state.push(step, &responses, &forces);
                 let ground = self.ground.relief.at([next[0], next[1]]);
+                let went = place.at_m - self.touch.place.map_or(place.at_m, |last| last.at_m);
                 self.touch = settled(&part, &solved, ground, next);
-                if self.state.limit(&self.shaft) {
-                    self.touch.ground = None;
-                }
+                self.touch.forces = forces;
+                self.touch.next_m = now.at_m + went;
+                self.touch.place = Some(place);
+                self.touch.foot = next;
+                self.state.limit(&self.shaft);
                 return;
             }
-            to = [to[0] + relax * miss[0], to[1] + relax * miss[1], 0.0];
+            place = now;
+            to = Some([there[0] + relax * miss[0], there[1] + relax * miss[1], 0.0]);
         }
     }
+}
+
+/// How much further along the shaft it is that it would run along the plane, with the force
+/// there, m: by Newton's method. A force that moves by δ turns the shaft by F δ times what
+/// its shapes give way by to its way and its turn, less what its own decrease takes.
+fn shift(
+    curve: &Curve,
+    place: &Place,
+    up: V3,
+    force: V3,
+    moves: &Moves,
+    turns: &Ways,
+    responses: &[f64; SHAPES],
+) -> f64 {
+    let [rise, bend] = curve.rise(place, up);
+    let mut sums = [0.0; 3];
+    for ((ways, turns), response) in moves.ways.iter().zip(turns).zip(responses) {
+        for (way, turn) in ways.iter().zip(turns) {
+            let (way, turn) = (dot(*way, up), dot(*turn, up));
+            sums[0] += response * way * way;
+            sums[1] += response * way * turn;
+            sums[2] += response * turn * turn;
+        }
+    }
+    let own = if sums[0] > 0.0 { sums[1] * sums[1] / sums[0] } else { 0.0 };
+    let steep = bend + dot(force, up) * (sums[2] - own);
+    if steep > 0.0 { -rise / steep } else { 0.0 }
+}
+
+/// Halfway between two states.
+#[inline]
+fn between(start: &Amplitudes, end: &Amplitudes) -> Amplitudes {
+    core::array::from_fn(|k| [0, 1].map(|axis| 0.5 * start[k][axis] + 0.5 * end[k][axis]))
 }
 
 /// The share of the next round, from the misses of two rounds with `share`
@@ -157,7 +236,6 @@ fn settled(part: &Part<'_>, solved: &Solved, ground: [f64; 3], foot: V3) -> Touc
         normal_n,
         stuck: force.stuck,
         slip_m_s: solved.problem.slipped(force) / part.dt_s,
-        ground: Some(ground),
         lowered_m: (1.0 - paid) * deep,
         ..Touch::in_the_air(&part.law.compliance, stretch)
     }

@@ -1,7 +1,10 @@
 //! A step before a plate: how finely it is cut, and what happens in its parts.
 
 use super::body::{Body, Last, POWERS, Steps, Touch};
+use crate::grid::Place;
+use crate::modal::ModalState;
 use crate::pose::PlatePose;
+use crate::shapes::Curve;
 use crate::vector::{dot, length, sub};
 
 /// Longest travel of the tip in a part, in lattice distances of the finest octave:
@@ -22,7 +25,8 @@ impl Body {
         if !self.touch.is_contact() && self.stays_clear(&pose, steps) {
             return 0;
         }
-        let way = length(sub(pose.tip, last.tip));
+        let tip = [0.0, 0.0, self.shaft.length_m];
+        let way = length(sub(pose.place(tip), last.place(tip)));
         let power = self.power(way, steps.dt_s);
         let Some(step) = steps.parts.get(power) else {
             return 0;
@@ -39,17 +43,26 @@ impl Body {
             };
             self.part(&old, &here, step, part_s);
         }
-        let above = self.shaft.tip(self.shaft.deflections(&self.state), &pose)[2];
-        self.last = Some(Last { pose, above });
+        self.last = Some(Last {
+            pose,
+            above: self.above(&self.state, &pose),
+        });
         parts
     }
 
-    /// Moves on freely, if the tip is above every height of the ground at the start
+    /// A height over the mean plane that no part of the shaft is below, m.
+    fn above(&self, state: &ModalState, pose: &PlatePose) -> f64 {
+        let tip = pose.base[2] + self.shaft.length_m * pose.z[2];
+        pose.base[2].min(tip) - state.reach_m(&self.shaft)
+    }
+
+    /// Moves on freely, if the shaft is above every height of the ground at the start
     /// and at the end, with its travel to spare; says whether it did.
     fn stays_clear(&mut self, pose: &PlatePose, steps: &Steps) -> bool {
         let mut free = self.state;
         free.free(&steps.parts[0]);
-        let end = self.shaft.tip(self.shaft.deflections(&free), pose)[2];
+        free.keep(0.0);
+        let end = self.above(&free, pose);
         let start = self.last.map_or(end, |last| last.above);
         let clear = start.min(end) - (end - start).abs() > self.ground.relief.top_m;
         if clear {
@@ -63,33 +76,42 @@ impl Body {
         clear
     }
 
-    /// If a plate that was not there before has the tip below its surface, bends
-    /// the shaft statically out of it, as the contact would throw it out. What
+    /// If a plate that was not there before has the shaft below its surface, bends it
+    /// statically out of it, as the contact would throw it out. What
     /// depth is left presses the ground in.
     fn bend_clear(&mut self, pose: &PlatePose) {
-        for _ in 0..4 {
-            let tip = self.shaft.tip(self.shaft.deflections(&self.state), pose);
-            let deep = self.ground.relief.at([tip[0], tip[1]])[0] - tip[2];
+        for _ in 0..8 {
+            let curve = self.state.curve(&self.shaft);
+            let place = curve.lowest(&self.shaft.grid, pose.up());
+            let deep = self.deep(&curve, &place, pose);
             if deep <= 0.0 {
                 return;
             }
-            let ways = self.shaft.ways(self.shaft.deflections(&self.state), pose);
-            let up = ways.map(|way| way[2]);
-            // Against a plate straight ahead no bend helps much.
-            let square = (up[0] * up[0] + up[1] * up[1]).max(0.04);
-            let more = self.shaft.bent(up.map(|up| deep * up / square));
-            self.state.add_amplitudes(&more);
+            let ways = self.shaft.shapes.ways(&curve, &place);
+            let up = ways.map(|way| way.map(|way| dot(way, pose.up())));
+            // A tenth of the length at a time.
+            let far = deep.min(0.1 * self.shaft.length_m);
+            self.state.lean(&self.shaft, &up, far);
             self.state.limit(&self.shaft);
         }
-        let tip = self.shaft.tip(self.shaft.deflections(&self.state), pose);
-        let deep = self.ground.relief.at([tip[0], tip[1]])[0] - tip[2];
+        let curve = self.state.curve(&self.shaft);
+        let place = curve.lowest(&self.shaft.grid, pose.up());
+        let deep = self.deep(&curve, &place, pose);
         if deep > 0.0 {
             let compliance = self.shaft.compliance(self.ground.compliance_m_n);
             let stretch = pose.components([0.0, 0.0, -deep]);
             self.touch.spring_j = -0.5 * dot(compliance.force(stretch), stretch);
             self.touch.stretch = stretch;
-            self.touch.normal_n = deep / compliance.across;
+            self.touch.normal_n = deep / compliance.rest;
+            self.touch.next_m = place.at_m;
+            self.touch.place = Some(place);
         }
+    }
+
+    /// How far a place is below the ground, m.
+    fn deep(&mut self, curve: &Curve, place: &Place, pose: &PlatePose) -> f64 {
+        let [x, y, height] = pose.place(curve.at(place));
+        self.ground.relief.at([x, y])[0] - height
     }
 
     /// How many times a step is halved in which the base carries the tip this far.

@@ -1,6 +1,7 @@
 //! Whiskers against closed forms, and what no contact may do.
 
 mod closed_forms;
+mod elastica;
 mod energy;
 mod rough;
 

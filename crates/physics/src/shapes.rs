@@ -1,0 +1,308 @@
+//! The shapes in which a shaft bends before a plate, and how they become places.
+//!
+//! Glossary:
+//!
+//! - *ψ(s)*: how far the tangent at the arc length s has turned from the base's
+//!   direction, rad, as a vector across it, in axes x and y that move with the base;
+//! - *shape*: ψ(s) = Σ φ′_k(s) q_k; the first are the modes, which have inertia, the
+//!   others are static, without;
+//! - *way*: how a place moves for a unit more of q_k along x, and along y.
+//!
+//! The tangent is (sin|ψ| ψ/|ψ|, cos|ψ|), a place its integral. The elastic energy
+//! of an inextensible shaft that bends in a plane is ½ Σ ω_k² q_k² whatever its
+//! angle, and so what is linear of it stays so; places alone are not. Inertia is taken as that of small
+//! deflections, which costs 1e-3 of a base moment.
+//!
+//! Static shapes are what the modes leave out of three: the base turned with a straight shaft,
+//! without which the base moment is no better than the shapes; the shaft under a force at its tip;
+//! and what that force's part along the shaft adds, ∫ w′ δw′ ds. So that the
+//! energy of each is ½ a², its unit is √J.
+
+use crate::grid::{Grid, NODES, POINTS, Place};
+use crate::vector::V3;
+
+/// Modes that are kept. For a shaft of taper 8 the fourth rings at ten times the
+/// first's frequency, beyond what a sensor of 2 to 4 kHz resolves.
+pub(crate) const MODES: usize = 4;
+
+/// Static shapes.
+pub(crate) const STATIC: usize = 3;
+
+/// All shapes.
+pub(crate) const SHAPES: usize = MODES + STATIC;
+
+/// Amplitudes of all shapes, in x and y.
+pub(crate) type Amplitudes = [[f64; 2]; SHAPES];
+
+/// Ways of a place, x, y and z for each shape and axis.
+pub(crate) type Ways = [[V3; 2]; SHAPES];
+
+/// Largest square of ψ at which directions are computed, rad²: at four radians the shaft
+/// points back and on.
+const LARGEST: f64 = 16.0;
+
+/// Slopes and tip of each shape; zero for one that a shaft does not have.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub(crate) struct Shapes {
+    /// φ′ at the nodes.
+    pub(crate) slope: [[f64; NODES]; SHAPES],
+    /// φ′ at the base.
+    pub(crate) base: [f64; SHAPES],
+    /// φ at the tip.
+    pub(crate) tip: [f64; SHAPES],
+}
+
+/// Directions of a bent shaft at its nodes.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Curve {
+    psi: [[f64; NODES]; 2],
+    /// sin|ψ|/|ψ|.
+    sinc: [f64; NODES],
+    /// (cos|ψ| − sin|ψ|/|ψ|)/|ψ|².
+    bend: [f64; NODES],
+    /// x, y and z of the tangent.
+    tangent: [[f64; NODES]; 3],
+}
+
+impl Shapes {
+    /// Takes a shape away.
+    pub(crate) fn clear(&mut self, k: usize) {
+        self.slope[k] = [0.0; NODES];
+        self.base[k] = 0.0;
+        self.tip[k] = 0.0;
+    }
+
+    /// The bent shaft with these amplitudes.
+    #[inline]
+    pub(crate) fn curve(&self, amplitudes: &Amplitudes) -> Curve {
+        let mut psi = [[0.0; NODES]; 2];
+        for (slope, amplitude) in self.slope.iter().zip(amplitudes) {
+            for (psi, amplitude) in psi.iter_mut().zip(amplitude) {
+                for (psi, slope) in psi.iter_mut().zip(slope) {
+                    *psi += slope * amplitude;
+                }
+            }
+        }
+        Curve::new(psi)
+    }
+
+    /// Rotation of the base, rad.
+    #[inline]
+    pub(crate) fn base(&self, amplitudes: &Amplitudes) -> [f64; 2] {
+        weighted(&self.base, amplitudes)
+    }
+
+    /// ψ at the tip.
+    #[inline]
+    pub(crate) fn turned(&self, amplitudes: &Amplitudes) -> [f64; 2] {
+        let tip = |k: usize| self.slope[k][NODES - 1];
+        weighted(&core::array::from_fn(tip), amplitudes)
+    }
+
+    /// Ways of a place of the shaft that is bent so.
+    #[inline]
+    pub(crate) fn ways(&self, curve: &Curve, place: &Place) -> Ways {
+        let weights = &place.weights;
+        let turns: [_; NODES] = core::array::from_fn(|n| curve.turn(n, weights[n]));
+        self.sums(&turns, 0)
+    }
+
+    /// How the tangent at a place turns for a unit more of each shape.
+    #[inline]
+    pub(crate) fn turns(&self, curve: &Curve, place: &Place) -> Ways {
+        let (first, along) = (place.first, &place.along);
+        let turns: [_; POINTS] = core::array::from_fn(|n| curve.turn(first + n, along[n]));
+        self.sums(&turns, first)
+    }
+
+    /// Turns of some nodes, by the slopes of each shape there.
+    #[inline]
+    fn sums(&self, turns: &[[f64; 5]], first: usize) -> Ways {
+        let mut ways = [[[0.0; 3]; 2]; SHAPES];
+        for (ways, slope) in ways.iter_mut().zip(&self.slope) {
+            let mut sums = [0.0; 5];
+            for (turn, slope) in turns.iter().zip(slope.iter().skip(first)) {
+                for (sum, turn) in sums.iter_mut().zip(turn) {
+                    *sum += slope * turn;
+                }
+            }
+            let [xx, xy, yy, xz, yz] = sums;
+            *ways = [[xx, xy, xz], [xy, yy, yz]];
+        }
+        ways
+    }
+}
+
+/// Σ wₖ qₖ in both axes.
+#[inline]
+fn weighted(weights: &[f64; SHAPES], values: &Amplitudes) -> [f64; 2] {
+    [0, 1].map(|axis| {
+        let terms = weights.iter().zip(values).map(|(w, value)| w * value[axis]);
+        terms.sum()
+    })
+}
+
+impl Curve {
+    #[inline]
+    fn new(psi: [[f64; NODES]; 2]) -> Self {
+        let mut square = [0.0; NODES];
+        for ((square, x), y) in square.iter_mut().zip(&psi[0]).zip(&psi[1]) {
+            *square = (x * x + y * y).min(LARGEST);
+        }
+        let sinc = polynomial(&SINC, &square);
+        let bend = polynomial(&BEND, &square);
+        let mut tangent = [[0.0; NODES]; 3];
+        for n in 0..NODES {
+            tangent[0][n] = sinc[n] * psi[0][n];
+            tangent[1][n] = sinc[n] * psi[1][n];
+            tangent[2][n] = sinc[n] + square[n] * bend[n];
+        }
+        Self {
+            psi,
+            sinc,
+            bend,
+            tangent,
+        }
+    }
+
+    /// Where a place is, from the base, in its axes, m.
+    #[inline]
+    pub(crate) fn at(&self, place: &Place) -> V3 {
+        self.tangent
+            .map(|part| part.iter().zip(&place.weights).map(|(t, w)| t * w).sum())
+    }
+
+    /// The lowest place, for heights along `up`, in the axes of the base.
+    #[inline]
+    pub(crate) fn lowest(&self, grid: &Grid, up: V3) -> Place {
+        let [x, y, z] = &self.tangent;
+        let rise = |n: usize| up[0] * x[n] + up[1] * y[n] + up[2] * z[n];
+        grid.lowest(&core::array::from_fn(rise))
+    }
+
+    /// How steeply the shaft rises at a place for heights along `up`, and how that changes
+    /// along it, 1/m.
+    #[inline]
+    pub(crate) fn rise(&self, place: &Place, up: V3) -> [f64; 2] {
+        let [x, y, z] = &self.tangent;
+        let mut rise = [0.0; 2];
+        for (n, (along, bend)) in (place.first..).zip(place.along.iter().zip(&place.bend)) {
+            let part = up[0] * x[n] + up[1] * y[n] + up[2] * z[n];
+            rise[0] += along * part;
+            rise[1] += bend * part;
+        }
+        rise
+    }
+
+    /// Change of a weighted tangent for a change of ψ at a node: along x for x, along x for y
+    /// and the reverse, along y for y, along z for x and for y.
+    #[inline]
+    fn turn(&self, n: usize, weight: f64) -> [f64; 5] {
+        let (x, y) = (self.psi[0][n], self.psi[1][n]);
+        let own = weight * self.sinc[n];
+        let more = weight * self.bend[n];
+        [
+            own + more * x * x,
+            more * x * y,
+            own + more * y * y,
+            -own * x,
+            -own * y,
+        ]
+    }
+}
+
+/// Values at all nodes of a polynomial in x/8 − 1, coefficients from the highest.
+#[inline]
+fn polynomial(coefficients: &[f64; TERMS], at: &[f64; NODES]) -> [f64; NODES] {
+    let at = at.map(|x| 0.125 * x - 1.0);
+    let mut value = [0.0; NODES];
+    for coefficient in coefficients {
+        for (value, at) in value.iter_mut().zip(&at) {
+            *value = *value * at + coefficient;
+        }
+    }
+    value
+}
+
+/// Coefficients of a polynomial.
+const TERMS: usize = 11;
+
+/// sin √x/√x for x of 0 to 16, within 3e-16 (Chebyshev's series).
+const SINC: [f64; TERMS] = [
+    1.765_118_007_613_064e-11,
+    -9.113_057_307_044_909e-10,
+    3.813_125_511_870_439e-8,
+    -1.263_683_339_781_756_9e-6,
+    3.210_403_259_912_857_4e-5,
+    -5.994_912_694_158_787e-4,
+    7.761_444_460_898_595e-3,
+    -6.385_808_745_728_657e-2,
+    2.886_862_923_856_729e-1,
+    -5.301_414_685_921_428e-1,
+    1.089_198_090_584_320_6e-1,
+];
+
+/// (cos √x − sin √x/√x)/x, likewise.
+const BEND: [f64; TERMS] = [
+    -7.783_273_555_172_839e-13,
+    4.413_081_444_116_443_5e-11,
+    -2.048_686_657_535_190_6e-9,
+    7.626_250_450_890_71e-8,
+    -2.211_447_206_690_946_7e-6,
+    4.815_604_890_245_219e-5,
+    -7.493_640_863_442_006e-4,
+    7.761_444_460_897_699_6e-3,
+    -4.789_356_559_301_053_6e-2,
+    1.443_431_461_928_365e-1,
+    -1.325_353_671_480_349_4e-1,
+];
+
+#[cfg(test)]
+mod tests {
+    use super::{Curve, NODES};
+    use crate::grid::Grid;
+
+    /// A shaft that is turned by the same angle everywhere, in a direction.
+    fn turned(x: f64, y: f64) -> Curve {
+        Curve::new([[x; NODES], [y; NODES]])
+    }
+
+    #[test]
+    fn a_turned_shaft_points_where_it_is_turned() {
+        let grid = Grid::new(2.0);
+        for angle in [0.0, 1e-9, 0.3, 1.5, 3.0, 3.99_f64] {
+            let [x, y, z] = turned(0.6 * angle, -0.8 * angle).at(grid.tip());
+            let (sine, cosine) = angle.sin_cos();
+            assert!((x - 1.2 * sine).abs() < 4e-15, "{angle} {x}");
+            assert!((y + 1.6 * sine).abs() < 4e-15, "{angle} {y}");
+            assert!((z - 2.0 * cosine).abs() < 4e-15, "{angle} {z}");
+        }
+        // Beyond the range: finite.
+        assert!(turned(1e200, 1e9).at(grid.tip())[2].is_finite());
+    }
+
+    #[test]
+    fn turns_are_the_derivatives_of_the_tangent() {
+        let grid = Grid::new(1.0);
+        let at = |x: f64, y: f64| turned(x, y).at(grid.tip());
+        let (x, y, step) = (0.9, -0.4, 1e-6);
+        let curve = turned(x, y);
+        let sum = |i: usize| -> f64 {
+            let turns = grid.tip().weights.iter().enumerate();
+            turns.map(|(n, weight)| curve.turn(n, *weight)[i]).sum()
+        };
+        let slope = |i: usize, dx: f64, dy: f64| {
+            (at(x + dx, y + dy)[i] - at(x - dx, y - dy)[i]) / (2.0 * step)
+        };
+        let truth = [
+            slope(0, step, 0.0),
+            slope(0, 0.0, step),
+            slope(1, 0.0, step),
+            slope(2, step, 0.0),
+            slope(2, 0.0, step),
+        ];
+        for (i, truth) in truth.into_iter().enumerate() {
+            assert!((sum(i) - truth).abs() < 1e-9, "{i}: {} {truth}", sum(i));
+        }
+    }
+}
