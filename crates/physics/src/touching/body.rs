@@ -108,8 +108,11 @@ pub(super) struct Touch {
     pub(super) place: Option<Place>,
     /// Where it is expected to touch in the next part, m from the base.
     pub(super) next_m: f64,
-    /// Where the foot is, plate coordinates, m.
+    /// Where the foot is, plate coordinates, m, and how far it has rolled since it touched.
     pub(super) foot: V3,
+    pub(super) rolled: [f64; 2],
+    /// Height and slopes under the foot, if known.
+    pub(super) ground: Option<[f64; 3]>,
     /// Force on the shaft, the mean of the part, plate coordinates, N.
     pub(super) force: V3,
     /// The same on each shape.

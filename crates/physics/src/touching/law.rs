@@ -214,8 +214,9 @@ impl Body {
         let mut left_j = left(&force);
         if left_j < 0.0 {
             // A place that slides before it touches down can end up here; without
-            // friction it cannot.
+            // friction it cannot, unless another place now touches that is below the ground.
             problem.friction = 0.0;
+            problem.gap -= above.min(0.0);
             force = problem.solve();
             left_j = left(&force);
         }

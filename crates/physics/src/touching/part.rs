@@ -18,6 +18,10 @@
 //! lowest place is not defined, and where it runs along the plane depends on where it is
 //! pressed. Both are found together by Newton's method, in the rounds of the same iteration.
 //!
+//! Heights are read where the shaft touches first, and from then on where the material that
+//! touched has slid to: a shaft that lays itself along the plate bridges its grains, and feels
+//! them only as it slides.
+//!
 //! Ways are those in the middle of the part: times a change of the amplitudes they are
 //! the place's displacement but for the third order of the change. A round that changes the
 //! middle by too much is repeated.
@@ -117,8 +121,16 @@ impl Body {
         for round in 1..=ROUNDS {
             let at = before.at(&place);
             let foot = sub(old.place(at), old.vector(self.touch.stretch));
+            let rolled = if touching {
+                let last = &self.touch;
+                [0, 1].map(|i| last.rolled[i] + foot[i] - last.foot[i])
+            } else {
+                [0.0; 2]
+            };
+            let relief = &mut self.ground.relief;
+            let mut ground_at = |at: V3| relief.at([at[0] - rolled[0], at[1] - rolled[1]]);
             part.foot = foot;
-            part.ground = self.ground.relief.at([foot[0], foot[1]]);
+            part.ground = self.touch.ground.unwrap_or_else(|| ground_at(foot));
             part.carried = sub(sub(new.place(at), stretch), foot);
             let middle = self.shaft.shapes.curve(&between(&start, &end));
             let moves = Moves::new(self.shaft.shapes.ways(&middle, &place), &part);
@@ -131,7 +143,7 @@ impl Body {
                         add(add(foot, 1.0, part.carried), 1.0, moved)
                     }
                 });
-                (there, self.ground.relief.at([there[0], there[1]]))
+                (there, ground_at(there))
             });
             let way = [there[0], there[1]];
             let slopes = secant([foot[0], foot[1]], part.ground, way, ground);
@@ -157,14 +169,18 @@ impl Body {
             let still = shifted <= SHIFT * self.shaft.length_m;
             if round == ROUNDS || (off <= small && moved < near && still) {
                 self.state.push(step, &responses, &forces);
-                let ground = self.ground.relief.at([next[0], next[1]]);
+                let ground = self.ground.relief.at([next[0] - rolled[0], next[1] - rolled[1]]);
                 let went = place.at_m - self.touch.place.map_or(place.at_m, |last| last.at_m);
                 self.touch = settled(&part, &solved, ground, next);
                 self.touch.forces = forces;
                 self.touch.next_m = now.at_m + went;
                 self.touch.place = Some(place);
                 self.touch.foot = next;
-                self.state.limit(&self.shaft);
+                self.touch.rolled = rolled;
+                self.touch.ground = Some(ground);
+                if self.state.limit(&self.shaft) {
+                    self.touch = Touch::default();
+                }
                 return;
             }
             place = now;

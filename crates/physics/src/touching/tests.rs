@@ -25,6 +25,19 @@ pub(super) fn level(base_m: [f64; 3]) -> Pose {
     }
 }
 
+/// The robot's whisker with its straight tip at a place. It points down by 0.05 rad, more than
+/// a tip turns that is pressed by 5 mm: so it is the tip that touches.
+pub(super) fn nosed(tip_m: [f64; 3]) -> Pose {
+    let (sine, cosine) = 0.05_f64.sin_cos();
+    let length_m = Shaft::floor_robot().length_m;
+    let [x, y, z] = tip_m;
+    Pose {
+        base_m: [x - length_m * cosine, y, z + length_m * sine],
+        x: [sine, 0.0, cosine],
+        y: [0.0, -1.0, 0.0],
+    }
+}
+
 /// A floor.
 pub(super) fn floor(surface: Surface) -> Plate {
     Plate {

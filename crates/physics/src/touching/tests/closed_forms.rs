@@ -2,7 +2,7 @@
 
 use core::f64::consts::{FRAC_PI_4, TAU};
 
-use super::{DT, QUIET, flat, floor, level, robot};
+use super::{DT, QUIET, flat, floor, level, nosed, robot};
 use crate::{Pose, Shaft, TouchingWhisker};
 
 /// E I, k_θ, mass and length of the floor robot's whisker.
@@ -54,7 +54,7 @@ fn a_pressed_tip_has_the_static_force_and_turns_the_base() {
         let plate = floor(flat(stiffness, 1.0, 0.0, 0.0));
         let mut whisker = robot();
         for _ in 0..6000 {
-            whisker.step(&level([0.0, 0.0, -5e-3]), Some(&plate), DT);
+            whisker.step(&nosed([0.0, 0.0, -5e-3]), Some(&plate), DT);
         }
         let force = 5e-3 / (give + 1.0 / stiffness);
         near(whisker.force_n()[0], force);
@@ -119,12 +119,12 @@ fn drawn(hold: f64, friction: f64, speed: f64, seconds: f64) -> Vec<Drawn> {
     let smooth = floor(flat(1e5, 1.0, 0.0, 0.0));
     let mut whisker = robot();
     for _ in 0..4000 {
-        whisker.step(&level([0.0, 0.0, -5e-3]), Some(&smooth), DT);
+        whisker.step(&nosed([0.0, 0.0, -5e-3]), Some(&smooth), DT);
     }
     let steps = (seconds / DT) as usize;
     let mut step = |n: usize| {
         let way = speed * DT * n as f64;
-        whisker.step(&level([0.0, way, -5e-3]), Some(&plate), DT);
+        whisker.step(&nosed([0.0, way, -5e-3]), Some(&plate), DT);
         let forces = whisker.force_n();
         (way, whisker.tip_m(), forces, whisker.sticking())
     };
@@ -188,8 +188,8 @@ fn a_plate_out_of_reach_changes_nothing() {
     let (mut with, mut without) = (robot(), robot());
     for n in 0..2000 {
         let height = 0.05 + 0.01 * (0.05 * f64::from(n)).sin();
-        with.step(&level([0.0, 0.0, height]), Some(&plate), DT);
-        without.step(&level([0.0, 0.0, height]), None, DT);
+        with.step(&nosed([0.0, 0.0, height]), Some(&plate), DT);
+        without.step(&nosed([0.0, 0.0, height]), None, DT);
         assert_eq!(with.tip_m(), without.tip_m());
     }
     assert!(with.energy_j() > 0.0 && !with.contact());
@@ -205,7 +205,7 @@ fn a_space_that_is_turned_changes_nothing() {
     turned_plate.along = turn(plate.along);
     let (mut here, mut there) = (robot(), robot());
     for n in 0..1000 {
-        let pose = level([0.0, 1e-4 * f64::from(n), -4e-3]);
+        let pose = nosed([0.0, 1e-4 * f64::from(n), -4e-3]);
         let turned = Pose {
             base_m: turn(pose.base_m),
             x: turn(pose.x),
