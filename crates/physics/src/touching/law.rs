@@ -174,7 +174,8 @@ impl Body {
         let moved = add(frame.local(part.carried), 1.0, free);
         let begin = frame.local(part.stretch);
         let above = (part.foot[2] - part.ground[0]) * frame.upright;
-        let above = if part.touching { above } else { above.max(0.0) };
+        let below = above.min(0.0);
+        let above = above.max(0.0);
         // The share of the part after it touches down.
         let late = if moved[0] < 0.0 && !part.touching {
             (1.0 + above / moved[0]).clamp(LATEST, 1.0)
@@ -197,7 +198,7 @@ impl Body {
             dot(axes[i], pushed[j]) + (given[i][j] - own) / share
         };
         let mut problem = Problem {
-            gap: above + begin[0] / share + moved[0],
+            gap: above + below + begin[0] / share + moved[0],
             stretch: [1, 2].map(|i| begin[i] / share + late * moved[i]),
             response: core::array::from_fn(|i| core::array::from_fn(|j| entry(i, j))),
             springs: [least / share; 2],
@@ -212,11 +213,16 @@ impl Body {
         };
         let mut force = problem.solve();
         let mut left_j = left(&force);
+        if left_j < 0.0 && below < 0.0 {
+            // Too little energy to rise to the ground.
+            problem.gap -= below;
+            force = problem.solve();
+            left_j = left(&force);
+        }
         if left_j < 0.0 {
             // A place that slides before it touches down can end up here; without
-            // friction it cannot, unless another place now touches that is below the ground.
+            // friction it cannot.
             problem.friction = 0.0;
-            problem.gap -= above.min(0.0);
             force = problem.solve();
             left_j = left(&force);
         }

@@ -166,7 +166,7 @@ impl Body {
             let shift = shift(&curve, &place, up, force, &moves, &turns, &responses);
             let now = self.shaft.grid.place(place.at_m + shift);
             let shifted = (now.at_m - place.at_m).abs();
-            let still = shifted <= SHIFT * self.shaft.length_m;
+            let still = round > 2 || shifted <= SHIFT * self.shaft.length_m;
             if round == ROUNDS || (off <= small && moved < near && still) {
                 self.state.push(step, &responses, &forces);
                 let ground = self.ground.relief.at([next[0] - rolled[0], next[1] - rolled[1]]);
@@ -183,7 +183,12 @@ impl Body {
                 }
                 return;
             }
-            place = now;
+            if !still {
+                place = now;
+                missed = None;
+                to = None;
+                continue;
+            }
             to = Some([there[0] + relax * miss[0], there[1] + relax * miss[1], 0.0]);
         }
     }
