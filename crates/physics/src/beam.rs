@@ -245,9 +245,8 @@ fn solve(shaft: &Shaft, count: usize) -> Option<Modes> {
     let all = moving.iter().map(|(shape, _)| shape);
     for (k, shape) in all.chain(&rest).enumerate() {
         let k = if k < moving.len() { k } else { MODES + k - moving.len() };
-        shapes.tip[k] = shape[tip];
-        shapes.base[k] = base_rotation(shape);
-        shapes.slope[k] = slopes(shape, shaft.length_m, held);
+        let slopes = slopes(shape, shaft.length_m, held);
+        shapes.set(k, slopes, base_rotation(shape), shape[tip]);
     }
     Some(Modes {
         tip_m_n,

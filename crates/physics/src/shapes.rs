@@ -31,6 +31,9 @@ pub(crate) const STATIC: usize = 3;
 /// All shapes.
 pub(crate) const SHAPES: usize = MODES + STATIC;
 
+/// Shapes and one that is none.
+const EIGHT: usize = 8;
+
 /// Amplitudes of all shapes, in x and y.
 pub(crate) type Amplitudes = [[f64; 2]; SHAPES];
 
@@ -44,8 +47,9 @@ const LARGEST: f64 = 16.0;
 /// Slopes and tip of each shape; zero for one that a shaft does not have.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(crate) struct Shapes {
-    /// φ′ at the nodes.
-    pub(crate) slope: [[f64; NODES]; SHAPES],
+    /// φ′ at the nodes, node by node; the last of eight is always zero: pairs of numbers
+    /// are computed at once.
+    slope: [[f64; EIGHT]; NODES],
     /// φ′ at the base.
     pub(crate) base: [f64; SHAPES],
     /// φ at the tip.
@@ -67,21 +71,31 @@ pub(crate) struct Curve {
 impl Shapes {
     /// Takes a shape away.
     pub(crate) fn clear(&mut self, k: usize) {
-        self.slope[k] = [0.0; NODES];
-        self.base[k] = 0.0;
-        self.tip[k] = 0.0;
+        self.set(k, [0.0; NODES], 0.0, 0.0);
+    }
+
+    /// Sets φ′ at the nodes and at the base and φ at the tip of a shape.
+    pub(crate) fn set(&mut self, k: usize, slope: [f64; NODES], base: f64, tip: f64) {
+        for (slopes, slope) in self.slope.iter_mut().zip(slope) {
+            slopes[k] = slope;
+        }
+        self.base[k] = base;
+        self.tip[k] = tip;
     }
 
     /// The bent shaft with these amplitudes.
     #[inline]
     pub(crate) fn curve(&self, amplitudes: &Amplitudes) -> Curve {
         let mut psi = [[0.0; NODES]; 2];
-        for (slope, amplitude) in self.slope.iter().zip(amplitudes) {
-            for (psi, amplitude) in psi.iter_mut().zip(amplitude) {
-                for (psi, slope) in psi.iter_mut().zip(slope) {
-                    *psi += slope * amplitude;
+        for (n, slopes) in self.slope.iter().enumerate() {
+            let mut turned = [0.0; 2];
+            for (slope, amplitude) in slopes.iter().zip(amplitudes) {
+                for (turned, amplitude) in turned.iter_mut().zip(amplitude) {
+                    *turned += slope * amplitude;
                 }
             }
+            psi[0][n] = turned[0];
+            psi[1][n] = turned[1];
         }
         Curve::new(psi)
     }
@@ -95,8 +109,8 @@ impl Shapes {
     /// ψ at the tip.
     #[inline]
     pub(crate) fn turned(&self, amplitudes: &Amplitudes) -> [f64; 2] {
-        let tip = |k: usize| self.slope[k][NODES - 1];
-        weighted(&core::array::from_fn(tip), amplitudes)
+        let tip = &self.slope[NODES - 1];
+        weighted(&core::array::from_fn(|k| tip[k]), amplitudes)
     }
 
     /// Ways of a place of the shaft that is bent so.
@@ -104,7 +118,7 @@ impl Shapes {
     pub(crate) fn ways(&self, curve: &Curve, place: &Place) -> Ways {
         let weights = &place.weights;
         let turns: [_; NODES] = core::array::from_fn(|n| curve.turn(n, weights[n]));
-        self.sums(&turns, 0)
+        self.sums(turns, 0)
     }
 
     /// How the tangent at a place turns for a unit more of each shape.
@@ -112,24 +126,22 @@ impl Shapes {
     pub(crate) fn turns(&self, curve: &Curve, place: &Place) -> Ways {
         let (first, along) = (place.first, &place.along);
         let turns: [_; POINTS] = core::array::from_fn(|n| curve.turn(first + n, along[n]));
-        self.sums(&turns, first)
+        self.sums(turns, first)
     }
 
     /// Turns of some nodes, by the slopes of each shape there.
     #[inline]
-    fn sums(&self, turns: &[[f64; 5]], first: usize) -> Ways {
-        let mut ways = [[[0.0; 3]; 2]; SHAPES];
-        for (ways, slope) in ways.iter_mut().zip(&self.slope) {
-            let mut sums = [0.0; 5];
-            for (turn, slope) in turns.iter().zip(slope.iter().skip(first)) {
-                for (sum, turn) in sums.iter_mut().zip(turn) {
-                    *sum += slope * turn;
+    fn sums<const N: usize>(&self, turns: [[f64; 5]; N], first: usize) -> Ways {
+        let mut sums = [[0.0; EIGHT]; 5];
+        for (j, sums) in sums.iter_mut().enumerate() {
+            for (turn, slopes) in turns.iter().zip(self.slope.iter().skip(first)) {
+                for (sum, slope) in sums.iter_mut().zip(slopes) {
+                    *sum += turn[j] * slope;
                 }
             }
-            let [xx, xy, yy, xz, yz] = sums;
-            *ways = [[xx, xy, xz], [xy, yy, yz]];
         }
-        ways
+        let [xx, xy, yy, xz, yz] = sums;
+        core::array::from_fn(|k| [[xx[k], xy[k], xz[k]], [xy[k], yy[k], yz[k]]])
     }
 }
 

@@ -102,6 +102,7 @@ impl TouchingWhisker {
                 ground: Ground::new(Surface::of(Material::Flat), shaft.tip_radius_m),
                 shaft,
                 state: ModalState::default(),
+                curve: None,
                 touch: Touch::default(),
                 last: None,
                 finer: 0,
@@ -173,13 +174,15 @@ impl TouchingWhisker {
         } else {
             self.body.state.free(&self.steps.parts[0]);
             self.body.state.keep(0.0);
+            self.body.curve = None;
             self.body.touch = Touch::default();
             self.body.last = None;
         }
-        self.body.state.limit(&self.body.shaft);
+        if self.body.state.limit(&self.body.shaft) {
+            self.body.curve = None;
+        }
         if !self.body.state.is_finite() {
-            self.body.state = ModalState::default();
-            self.body.touch = Touch::default();
+            self.body.place(ModalState::default());
         }
         if self.sensor.due(dt_s) {
             self.sensor.advance(self.rotation_rad(), dt_s);

@@ -5,7 +5,7 @@ use crate::grid::Place;
 use crate::modal::{ModalShaft, ModalState, ModalStep};
 use crate::pose::PlatePose;
 use crate::relief::Relief;
-use crate::shapes::Amplitudes;
+use crate::shapes::{Amplitudes, Curve};
 use crate::surface::Surface;
 use crate::vector::{V3, dot};
 
@@ -14,6 +14,8 @@ use crate::vector::{V3, dot};
 pub(super) struct Body {
     pub(super) shaft: ModalShaft,
     pub(super) state: ModalState,
+    /// How the shaft is bent, where the last part has computed it.
+    pub(super) curve: Option<Curve>,
     pub(super) ground: Ground,
     pub(super) touch: Touch,
     pub(super) last: Option<Last>,
@@ -25,6 +27,7 @@ impl Body {
     /// Sets the state of the modes, away from any plate.
     pub(super) fn place(&mut self, state: ModalState) {
         self.state = state;
+        self.curve = None;
         self.touch = Touch::default();
         self.last = None;
     }

@@ -84,21 +84,26 @@ impl Moves {
     #[inline]
     pub(super) fn new(ways: Ways, part: &Part<'_>) -> Self {
         let mut free = [0.0; 3];
-        let mut response = [[0.0; 3]; 3];
+        let (mut xx, mut xy, mut xz) = (0.0, 0.0, 0.0);
+        let (mut yy, mut yz, mut zz) = (0.0, 0.0, 0.0);
         let ends = part.free.iter().zip(&part.start).zip(&part.responses);
         for (pair, ((end, start), own)) in ways.iter().zip(ends) {
             for (way, (end, start)) in pair.iter().zip(end.iter().zip(start)) {
                 free = add(free, end - start, *way);
+                let [x, y, z] = *way;
                 let pushed = scale(*own, *way);
-                for (row, way) in response.iter_mut().zip(way) {
-                    *row = add(*row, *way, pushed);
-                }
+                xx += x * pushed[0];
+                xy += x * pushed[1];
+                xz += x * pushed[2];
+                yy += y * pushed[1];
+                yz += y * pushed[2];
+                zz += z * pushed[2];
             }
         }
         Self {
             ways,
             free,
-            response,
+            response: [[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]],
         }
     }
 
@@ -112,6 +117,27 @@ impl Moves {
             }
         }
         moved
+    }
+
+    /// How much more a shaft rises at the place per metre that a force of 1 N along `up` moves
+    /// along it, 1/(N m): what its shapes give way by to the place's way and the
+    /// tangent's turn, less what the force decreases by.
+    #[inline]
+    pub(super) fn turned(&self, turns: &Ways, up: V3, responses: &[f64; SHAPES]) -> f64 {
+        let (mut far, mut both, mut steep) = (0.0, 0.0, 0.0);
+        for ((ways, turns), response) in self.ways.iter().zip(turns).zip(responses) {
+            for (way, turn) in ways.iter().zip(turns) {
+                let (way, turn) = (dot(*way, up), dot(*turn, up));
+                far += response * way * way;
+                both += response * way * turn;
+                steep += response * turn * turn;
+            }
+        }
+        if far > 0.0 {
+            steep - both * both / far
+        } else {
+            0.0
+        }
     }
 
     /// What a force along x, y and z is on each shape.

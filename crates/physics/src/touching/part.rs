@@ -45,8 +45,7 @@ use super::secant::secant;
 use crate::contact::Frame;
 use crate::modal::{ModalStep, pushed};
 use crate::pose::PlatePose;
-use crate::grid::Place;
-use crate::shapes::{Amplitudes, Curve, SHAPES, Ways};
+use crate::shapes::Amplitudes;
 use crate::vector::{V3, add, dot, length, length2, scale, sub};
 
 /// Most rounds of the iteration for the end of a part; mostly one or two.
@@ -61,6 +60,9 @@ const OFF: f64 = 1e-4;
 /// The same for a place that moves along the shaft, as a share of the length.
 const SHIFT: f64 = 1e-4;
 
+/// As far as a place moves towards the base in a round at most, as a share of the length.
+const MOST: f64 = 0.1;
+
 /// Smallest share of a round.
 const LEAST: f64 = 0.05;
 
@@ -72,7 +74,7 @@ impl Body {
         let responses = step.responses(share);
         let touching = self.touch.is_contact();
         let start = self.state.x;
-        let before = self.state.curve(&self.shaft);
+        let before = self.curve.take().unwrap_or_else(|| self.state.curve(&self.shaft));
         self.state.free(step);
         self.state.keep(if touching {
             1.0 - 1.0 / share
@@ -97,6 +99,7 @@ impl Body {
             if to[2] >= ground[0] {
                 let stretch = scale(law.kept(), self.touch.stretch);
                 self.touch = Touch::in_the_air(&law.compliance, stretch);
+                self.curve = Some(bent);
                 return;
             }
             below = Some((to, ground));
@@ -162,10 +165,16 @@ impl Body {
                 relax = relaxed(relax, old, miss);
             }
             let small = OFF * step.response * length(force);
-            let turns = self.shaft.shapes.turns(&curve, &place);
-            let shift = shift(&curve, &place, up, force, &moves, &turns, &responses);
-            let now = self.shaft.grid.place(place.at_m + shift);
-            let shifted = (now.at_m - place.at_m).abs();
+            let [rise, bend] = curve.rise(&place, up);
+            let now_m = if place.at_m == self.shaft.length_m && rise <= 0.0 {
+                place.at_m
+            } else {
+                let turns = self.shaft.shapes.turns(&curve, &place);
+                let steep = bend + dot(force, up) * moves.turned(&turns, up, &responses);
+                let shift = if steep > 0.0 { -rise / steep } else { 0.0 };
+                place.at_m + shift.max(-MOST * self.shaft.length_m)
+            };
+            let shifted = (now_m.min(self.shaft.length_m) - place.at_m).abs();
             let still = round > 2 || shifted <= SHIFT * self.shaft.length_m;
             if round == ROUNDS || (off <= small && moved < near && still) {
                 self.state.push(step, &responses, &forces);
@@ -173,18 +182,20 @@ impl Body {
                 let went = place.at_m - self.touch.place.map_or(place.at_m, |last| last.at_m);
                 self.touch = settled(&part, &solved, ground, next);
                 self.touch.forces = forces;
-                self.touch.next_m = now.at_m + went;
+                self.touch.next_m = now_m + went;
                 self.touch.place = Some(place);
                 self.touch.foot = next;
                 self.touch.rolled = rolled;
                 self.touch.ground = Some(ground);
+                self.curve = Some(curve);
                 if self.state.limit(&self.shaft) {
                     self.touch = Touch::default();
+                    self.curve = None;
                 }
                 return;
             }
             if !still {
-                place = now;
+                place = self.shaft.grid.place(now_m);
                 missed = None;
                 to = None;
                 continue;
@@ -192,33 +203,6 @@ impl Body {
             to = Some([there[0] + relax * miss[0], there[1] + relax * miss[1], 0.0]);
         }
     }
-}
-
-/// How much further along the shaft it is that it would run along the plane, with the force
-/// there, m: by Newton's method. A force that moves by δ turns the shaft by F δ times what
-/// its shapes give way by to its way and its turn, less what its own decrease takes.
-fn shift(
-    curve: &Curve,
-    place: &Place,
-    up: V3,
-    force: V3,
-    moves: &Moves,
-    turns: &Ways,
-    responses: &[f64; SHAPES],
-) -> f64 {
-    let [rise, bend] = curve.rise(place, up);
-    let mut sums = [0.0; 3];
-    for ((ways, turns), response) in moves.ways.iter().zip(turns).zip(responses) {
-        for (way, turn) in ways.iter().zip(turns) {
-            let (way, turn) = (dot(*way, up), dot(*turn, up));
-            sums[0] += response * way * way;
-            sums[1] += response * way * turn;
-            sums[2] += response * turn * turn;
-        }
-    }
-    let own = if sums[0] > 0.0 { sums[1] * sums[1] / sums[0] } else { 0.0 };
-    let steep = bend + dot(force, up) * (sums[2] - own);
-    if steep > 0.0 { -rise / steep } else { 0.0 }
 }
 
 /// Halfway between two states.

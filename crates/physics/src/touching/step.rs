@@ -12,7 +12,7 @@ use crate::vector::{dot, length, sub};
 const TRAVEL: f64 = 0.25;
 
 /// Largest phase of the highest mode in a part, rad.
-const PHASE: f64 = 1.0;
+const PHASE: f64 = 3.0;
 
 impl Body {
     /// A step before the ground to a pose in its coordinates. Returns into how
@@ -67,6 +67,7 @@ impl Body {
         let clear = start.min(end) - (end - start).abs() > self.ground.relief.top_m;
         if clear {
             self.state = free;
+            self.curve = None;
             self.touch = Touch::default();
             self.last = Some(Last {
                 pose: *pose,
