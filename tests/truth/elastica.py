@@ -24,16 +24,33 @@ slide of the tip; `friction_way` finds it.
 
 METHOD. Shooting from the contact to the base (DOP853) for three unknowns: N, the direction of
 t(c) in the plate, and w: w >= 0 is the tip's angle into the plate, w < 0 says c = L (1 + w).
-Three equations: t(0), and r(c) on the plate. Pushes are followed from 0.05 degrees on.
+Three equations: t(0), and r(c) on the plate. Pushes are followed from 0.05 degrees on. Of every
+row the shaft is checked not to pass the plate.
 
-SOURCES. Euler-Bernoulli elastica and Kirchhoff rod: Love, A Treatise on the Mathematical Theory
-of Elasticity, 4th ed., ch. XVIII-XIX; Antman, Nonlinear Problems of Elasticity, 2nd ed., ch. 4, 8.
+SOURCES. Love, A Treatise on the Mathematical Theory of Elasticity, 4th ed., ch. XVIII and XIX
+(Kirchhoff's rod, the elastica); Antman, Nonlinear Problems of Elasticity, 2nd ed., ch. 4 and 8.
 
-TABLES. `python elastica.py tables`, in this folder, writes press.csv; `python elastica.py check` runs the checks
-of accuracy. Made with Python 3.11.7, numpy 2.4.6, scipy 1.17.1.
+TABLES. `python elastica.py`, in this folder, writes press.csv (no tilt) and tilt.csv, in two
+minutes. Made with Python 3.11.7, numpy 2.4.6, scipy 1.17.1. Sizes, in SI units and degrees:
+    moment_x_nm, moment_y_nm   moment at the base about the motor's axis, and across both that
+                               axis and the motor's direction; moment_nm: both together
+    normal_n, friction_n       forces at the contact
+    contact_m                  arc length of the contact from the base, c
+    place_m, across_m          place of the contact, from p along a, and along n x a (signed)
+    tip_slope_deg              angle between the tip's tangent and the motor's direction
+    friction_along, _across    friction over normal force along a and n x a (signed)
+    sideways                   1: the planar shaft also keeps its plane; 0: without a guide it
+                               falls sideways, as the force has passed the motor's direction,
+                               push >= 90 - slant + atan(friction); the row is planar all the same
+EXTENT. A solution exists at every push of the tables. With a slant of 60 degrees and no friction
+it ends in a fold, where the shaft snaps over, soon after: at 50.3 degrees for the middle shaft,
+55.6 and 49.2 for 60 mm and tapers of 3 and 15, 54.0 and 47.7 for 200 mm.
+
+ACCURACY. `python elastica_check.py` computes the tables at another tolerance, and some cases in
+two other ways: solve_bvp, and the least energy of a rod that also twists. It prints, at most:
+@@@
 """
 import csv
-import sys
 from multiprocessing import Pool
 
 import numpy as np
@@ -52,28 +69,23 @@ def plate(slant_deg, tilt_deg, **_):
     return along, np.cross(normal, along), normal
 
 
-def friction_way(slant_deg, tilt_deg, friction, **_):
+def friction_way(slant_deg, tilt_deg, friction, rule="own", **_):
     """Friction over normal force, a vector in the plate, against the tip's first slide.
 
-    A slide of first order in the push is along e, where the plate meets the plane x = L. It
-    comes about only if friction along e does not hold it: tan tilt m / cos slant > mu. Otherwise
-    friction's part along e is what holds it, and the slide, of second order as the shaft bends
-    and so reaches less far, is against the rest of friction, along g.
+    To first order in the push the tip can slide along e alone, where the plate meets the plane
+    x = L. It does if friction along e cannot hold it: tan tilt m / cos slant > mu. Otherwise
+    friction takes what would push the tip out of the plane of whisking, n_z + friction_z = 0,
+    and what is left of it, along a, is against the slide of second order: as the shaft bends it
+    reaches less far, so its tip comes back along the plate. That is the limit, for small pushes,
+    of a friction that turns with the slide. Rule "free": against the first slide that there
+    would be without friction, along e whenever there is a tilt.
     """
-    if friction == 0.0:
-        return np.zeros(3)
     b, q = np.radians([slant_deg, tilt_deg])
-    normal = plate(slant_deg, tilt_deg)[2]
+    along, side, _ = plate(slant_deg, tilt_deg)
     m = np.hypot(np.cos(q) * np.cos(b), np.sin(q))
-    e = np.array([0.0, np.sin(q), np.cos(q) * np.cos(b)]) / m
-    g = np.cross(e, normal)
-    g *= np.sign(g[0])
-    if abs(np.tan(q)) * m / np.cos(b) >= friction:
-        return -np.sign(q) * friction * e
-    # f_e = -tan tilt (m + f_g cos tilt sin slant) / cos slant, and f_e^2 + f_g^2 = mu^2.
-    u, v = np.tan(q) * m / np.cos(b), np.tan(q) * np.cos(q) * np.tan(b)
-    f_g = (-u * v + np.sqrt((u * v) ** 2 + (1 + v * v) * (friction**2 - u * u))) / (1 + v * v)
-    return -(u + v * f_g) * e + f_g * g
+    if tilt_deg != 0.0 and (rule == "free" or abs(np.tan(q)) * m / np.cos(b) > friction):
+        return -np.sign(q) * friction * np.array([0.0, np.sin(q), np.cos(q) * np.cos(b)]) / m
+    return np.sqrt(friction**2 - np.tan(q) ** 2) * along - np.tan(q) * side
 
 
 def turned(vector, by):
@@ -94,7 +106,7 @@ class Press:
         g = self.given
         self.length, self.k = g["length_m"], g["follicle_nm_rad"]
         self.frame = plate(**g)
-        self.way = g.get("way", friction_way(**g))
+        self.way = friction_way(**g)
         self.force = self.frame[2] + self.way
         s = (np.arange(4000) + 0.5) / 4000 * self.length
         bend = (self.length - s) / self.stiffness(s) * self.length / 4000
@@ -108,8 +120,10 @@ class Press:
         d = g["hub_m"] * (1 + (1 / g["taper"] - 1) * s / self.length)
         return g["youngs_pa"] * np.pi * d**4 / 64
 
-    def shoot(self, unknowns):
-        """From the contact to the base; unknowns in columns. Returns c, F, r(c), t(0), t(c)."""
+    def shoot(self, unknowns, nodes=2):
+        """From the contact to the base; unknowns in columns.
+
+        Returns c, F, r(c), t(0), t(c), and points of the bent part, from the contact on."""
         n_rel, eta, w = unknowns
         along, side, normal = (v[:, None] for v in self.frame)
         into = w if self.tip_only else np.maximum(w, 0.0)
@@ -125,12 +139,15 @@ class Press:
             return -np.concatenate([c * t, c * bent]).ravel()
 
         start = np.concatenate([np.zeros((3, cols)), t_c]).ravel()
-        out = solve_ivp(slope, (0, 1), start, "DOP853", rtol=self.rtol, atol=self.rtol * 1e-3)
+        out = solve_ivp(slope, (0, 1), start, "DOP853", rtol=self.rtol, atol=self.rtol * 1e-3,
+                        t_eval=np.linspace(0, 1, nodes))
+        assert out.success
         q, t = out.y[:, -1].reshape(2, 3, cols)
-        return c, force, -q, t, t_c
+        points = out.y.reshape(2, 3, cols, nodes)[0].transpose(2, 0, 1) - q
+        return c, force, -q, t, t_c, points
 
     def miss(self, unknowns, push):
-        c, force, r_c, t_0, _ = self.shoot(unknowns)
+        c, force, r_c, t_0, *_ = self.shoot(unknowns)
         motor = np.array([[np.cos(push)], [np.sin(push)], [0.0]])
         base = turned(motor, np.cross(r_c, force, axis=0) / self.k)
         wrong = t_0 - base
@@ -187,16 +204,23 @@ class Press:
         return rows
 
     def row(self, u, push):
-        c, force, r_c, t_0, t_c = (v[..., 0] for v in self.shoot(u[:, None]))
+        c, force, r_c, _, t_c, points = (v[..., 0] for v in self.shoot(u[:, None], 1001))
         rad = np.radians(push)
         moment = np.cross(r_c, force)
         motor = np.array([np.cos(rad), np.sin(rad), 0.0])
         slid = r_c - np.array([self.length, 0.0, 0.0])
         normal_n = u[0] * self.unit_n
+        # No point of the shaft is behind the plate.
+        above = (points - np.array([self.length, 0.0, 0.0])) @ self.frame[2]
+        assert self.tip_only or min(above) > -1e-8 * self.length, (self.given, push, min(above))
         return dict(push_deg=push, moment_x_nm=abs(moment[2]),
                     moment_y_nm=abs(moment @ np.array([-motor[1], motor[0], 0.0])),
                     normal_n=normal_n, friction_n=normal_n * np.linalg.norm(self.way),
                     contact_m=c, place_m=self.frame[0] @ slid, across_m=self.frame[1] @ slid,
+                    friction_along=self.frame[0] @ self.way,
+                    friction_across=self.frame[1] @ self.way,
+                    sideways=float(push < 90 - self.given["slant_deg"]
+                                   + np.degrees(np.arctan(self.given["friction"]))),
                     tip_slope_deg=np.degrees(np.arccos(np.clip(motor @ t_c, -1, 1))))
 
 
@@ -205,7 +229,7 @@ def curve(job):
     inputs, pushes = job
     press = Press(**inputs)
     rows = press.follow(pushes)
-    given = {key: value for key, value in press.given.items() if key != "way"}
+    given = {key: value for key, value in press.given.items() if key != "rule"}
     return [{**given, **row} for row in rows], given, press.ended
 
 
@@ -228,6 +252,13 @@ def planar_jobs():
                         yield dict(**shaft, slant_deg=slant, friction=friction), pushes
 
 
+def tilted_jobs():
+    """Tilts without friction, with it, and with it against the frictionless slide."""
+    for rule, friction in (("own", 0.0), ("own", 0.3), ("free", 0.3)):
+        for tilt in (5.0, 10.0, 20.0):
+            yield dict(tilt_deg=tilt, friction=friction, rule=rule), [2, 5, 10, 20, 30]
+
+
 def write(path, jobs, columns):
     with Pool(2) as pool:
         curves = pool.map(curve, list(jobs), chunksize=1)
@@ -237,7 +268,9 @@ def write(path, jobs, columns):
         for rows, given, ended in curves:
             for row in rows:
                 row["moment_nm"] = np.hypot(row["moment_x_nm"], row["moment_y_nm"])
-                out.writerow([f"{row[name]:.9g}" for name in columns])
+                # What is zero but for rounding is written as zero.
+                out.writerow([f"{row[name] if abs(row[name]) > 1e-14 else 0:.9g}"
+                              for name in columns])
             if ended is not None:
                 print(f"{path}: ends at {ended:.3f} degrees:", given)
 
@@ -247,8 +280,8 @@ RESULTS = ["contact_m", "place_m", "tip_slope_deg"]
 
 
 if __name__ == "__main__":
-    if sys.argv[1:] == ["tables"]:
-        write("press.csv", planar_jobs(),
-              INPUTS + ["push_deg", "moment_nm", "normal_n", "friction_n"] + RESULTS)
-    else:
-        sys.exit(__doc__)
+    write("press.csv", planar_jobs(),
+          INPUTS + ["push_deg", "moment_nm", "normal_n", "friction_n"] + RESULTS + ["sideways"])
+    write("tilt.csv", tilted_jobs(),
+          INPUTS + ["friction_along", "friction_across", "push_deg", "moment_x_nm",
+                    "moment_y_nm", "normal_n", "friction_n"] + RESULTS + ["across_m"])
