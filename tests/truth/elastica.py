@@ -48,14 +48,21 @@ it ends in a fold, where the shaft snaps over, soon after: at 50.3 degrees for t
 
 ACCURACY. `python elastica_check.py` computes the tables at another tolerance, and some cases in
 two other ways: solve_bvp, and the least energy of a rod that also twists. It prints, at most:
-@@@
+    press.csv and tilt.csv, tolerance of the integration 1e-10 against 1e-12 and steps of push
+    halved, any size: 2.6e-9 relative
+    six planar cases by solve_bvp, moment, force and c: 9e-11 relative
+    tilt of 20 degrees, 5 and 20 degrees of push, by least energy: 4.5e-6 relative; it twists by
+    less than 1e-7 rad, whether GJ = E I / 1.3 (Poisson's ratio 0.3) or 1000 E I
+THE STUDY'S TABLE. Base moment, normal force and contact agree in every digit but the moment at
+20 degrees, 2.6285e-3, printed as 2.629e-3. Its slope of the tip (39, 48, 70, 89, 121 degrees) is
+that of a shaft held at the tip alone, Press(tip_only=True). With contact inside and no tilt it is
+slant + push.
 """
 import csv
 from multiprocessing import Pool
 
 import numpy as np
 from scipy.integrate import solve_ivp
-from scipy.optimize import root
 
 MIDDLE = dict(length_m=0.112, hub_m=0.002282, taper=8.0, youngs_pa=1.394e9, follicle_nm_rad=0.2)
 SETTING = dict(slant_deg=30.0, tilt_deg=0.0, friction=0.0)
@@ -184,9 +191,10 @@ class Press:
         for target in sorted(pushes_deg):
             while push < target:
                 ahead = min(target, push + step)
-                guess = u * ahead / push if past is None else u + (u - past[1]) * (ahead - push) / (push - past[0])
                 if past is None:
-                    guess[1:] = u[1:]
+                    guess = np.array([u[0] * ahead / push, u[1], u[2]])
+                else:
+                    guess = u + (u - past[1]) * (ahead - push) / (push - past[0])
                 guess[0] = max(guess[0], 0.2 * u[0])
                 try:
                     new, _ = self.solve(guess, np.radians(ahead))
