@@ -90,7 +90,12 @@ impl Grid {
 
     /// The place at an arc length, at least a tenth of the length.
     pub(crate) fn place(&self, at_m: f64) -> Place {
-        let at_m = at_m.max(LEAST * self.length_m).min(self.length_m);
+        self.anywhere(at_m.max(LEAST * self.length_m))
+    }
+
+    /// The place at an arc length of the shaft.
+    pub(crate) fn anywhere(&self, at_m: f64) -> Place {
+        let at_m = at_m.min(self.length_m);
         let mut place = Place {
             at_m,
             weights: [0.0; NODES],

@@ -35,7 +35,7 @@ mod part;
 mod secant;
 mod step;
 
-pub use outputs::Bent;
+pub use outputs::{At, Bent};
 
 use crate::beam::Modes;
 use crate::error::BadSetting;

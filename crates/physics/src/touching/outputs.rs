@@ -3,16 +3,40 @@
 use super::TouchingWhisker;
 use crate::vector::dot;
 
-/// How a shaft is bent. With no moment at its end it is in each plane about the cubic that has
-/// these three.
+/// Points of a bent shaft, from the base to the tip.
+const POINTS: usize = 13;
+
+/// How a shaft is bent and where it touches, in axes that move with the base: x and y of the
+/// sensor, and z along the straight shaft.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Bent {
     /// Length of the shaft, m.
     pub length_m: f64,
-    /// Deflection of the tip in x and y, m.
-    pub tip_m: [f64; 2],
-    /// Rotation of the base in x and y, rad.
-    pub base_rad: [f64; 2],
+    /// Points at even arc lengths, the first the base and the last the tip, m.
+    pub points_m: [[f64; 3]; POINTS],
+    /// Where it touches, while it does.
+    pub contact: Option<At>,
+}
+
+/// A place of contact.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct At {
+    /// Arc length from the base, m.
+    pub arc_m: f64,
+    /// Place on the plate, m: along the plate's first coordinate, and across it.
+    pub plate_m: [f64; 2],
+}
+
+impl Bent {
+    /// A straight shaft that touches nothing.
+    pub fn straight(length_m: f64) -> Self {
+        let step_m = length_m / (POINTS - 1) as f64;
+        Self {
+            length_m,
+            points_m: core::array::from_fn(|n| [0.0, 0.0, step_m * n as f64]),
+            contact: None,
+        }
+    }
 }
 
 impl TouchingWhisker {
@@ -59,11 +83,14 @@ impl TouchingWhisker {
 
     /// How the shaft is bent, for a picture of it.
     pub fn bent(&self) -> Bent {
-        Bent {
-            length_m: self.body.shaft.length_m,
-            tip_m: self.tip_m(),
-            base_rad: self.rotation_rad(),
+        let shaft = &self.body.shaft;
+        let curve = self.body.state.curve(shaft);
+        let mut bent = Bent::straight(shaft.length_m);
+        for point in bent.points_m.iter_mut().skip(1) {
+            *point = curve.at(&shaft.grid.anywhere(point[2]));
         }
+        bent.contact = self.contact_at();
+        bent
     }
 
     /// Deflection of the tip in x and y, m.
@@ -73,10 +100,14 @@ impl TouchingWhisker {
         [x, y]
     }
 
-    /// Where the shaft touches, m from the base, while it does.
-    pub fn contact_m(&self) -> Option<f64> {
-        let place = self.body.touch.place.filter(|_| self.contact());
-        place.map(|place| place.at_m)
+    /// Where the shaft touches, while it does.
+    pub fn contact_at(&self) -> Option<At> {
+        let touch = &self.body.touch;
+        let place = touch.place.filter(|_| self.contact());
+        place.map(|place| At {
+            arc_m: place.at_m,
+            plate_m: [touch.foot[0], touch.foot[1]],
+        })
     }
 
     /// Rotation of the base in x and y, rad, unlimited and without noise.

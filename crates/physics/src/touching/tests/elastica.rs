@@ -28,10 +28,10 @@ fn pushed(shaft: &Shaft, slant_deg: f64, pushes: &[f64], dt_s: f64) -> Vec<[f64;
         }
         for _ in 0..6 {
             whisker.step(&Pose::swung(1.0 + push.to_radians()), Some(&plate), dt_s);
-            println!("   {:?} {:?} {:?} {:e} {:?}", whisker.rotation_rad(), whisker.force_n(), whisker.contact_m(), whisker.energy_j(), whisker.lowered_m());
+            println!("   {:?} {:?} {:?} {:e} {:?}", whisker.rotation_rad(), whisker.force_n(), whisker.contact_at(), whisker.energy_j(), whisker.lowered_m());
         }
         let moment = shaft.follicle.rotation_n_m_rad * whisker.rotation_rad()[0];
-        let place = whisker.contact_m().unwrap_or(0.0) / shaft.length_m;
+        let place = whisker.contact_at().map_or(0.0, |at| at.arc_m) / shaft.length_m;
         found.push([moment, whisker.force_n()[0], place]);
     }
     found
