@@ -244,7 +244,11 @@ fn solve(shaft: &Shaft, count: usize) -> Option<Modes> {
     let rest = rest(&beam.stiffness, moving, loads);
     let all = moving.iter().map(|(shape, _)| shape);
     for (k, shape) in all.chain(&rest).enumerate() {
-        let k = if k < moving.len() { k } else { MODES + k - moving.len() };
+        let k = if k < moving.len() {
+            k
+        } else {
+            MODES + k - moving.len()
+        };
         let slopes = slopes(shape, shaft.length_m, held);
         shapes.set(k, slopes, base_rotation(shape), shape[tip]);
     }
@@ -263,7 +267,7 @@ fn solve(shaft: &Shaft, count: usize) -> Option<Modes> {
 fn turned(length_m: f64, size: usize) -> DVector<f64> {
     let h = length_m / ELEMENTS as f64;
     let row = |row: usize, _| {
-        if row % 2 == 0 {
+        if row.is_multiple_of(2) {
             1.0
         } else {
             h * row.div_ceil(2) as f64
@@ -308,7 +312,11 @@ fn slopes(shape: &DVector<f64>, length_m: f64, held: usize) -> [f64; NODES] {
     Grid::new(length_m).nodes.map(|z| {
         let element = ((z / h) as usize).min(ELEMENTS - 1);
         let [_, slope, _] = shapes(z / h - element as f64, h);
-        let known = |i: usize| (2 * element + i).checked_sub(held).map_or(0.0, |row| shape[row]);
+        let known = |i: usize| {
+            (2 * element + i)
+                .checked_sub(held)
+                .map_or(0.0, |row| shape[row])
+        };
         (0..4).map(|i| slope[i] * known(i)).sum()
     })
 }

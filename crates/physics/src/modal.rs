@@ -49,8 +49,7 @@ impl ModalShaft {
         let of = |k: usize| modes.modes.get(k).copied();
         let part = |k: usize, value: fn(BendingMode) -> f64| of(k).map_or(0.0, value);
         // A mode that is missing has no shape; any frequency does for it.
-        let omega: [f64; MODES] =
-            core::array::from_fn(|k| of(k).map_or(1.0, |m| m.omega_rad_s));
+        let omega: [f64; MODES] = core::array::from_fn(|k| of(k).map_or(1.0, |m| m.omega_rad_s));
         let mut shapes = modes.shapes;
         for k in modes.modes.len().min(MODES)..MODES {
             shapes.clear(k);

@@ -2,27 +2,35 @@
 //!
 //! Glossary:
 //!
-//! - *q_k*: amplitude of mode k in one transverse axis, m √kg; tip deflection
-//!   u = Σ φ_k(L) q_k;
-//! - *rigid tip*: where the tip would be if the shaft were straight;
+//! - *q_k*: amplitude of shape k in one transverse axis ([`crate::shapes`]);
+//! - *place*: an arc length, where the shaft touches;
 //! - *part*: one of 1, 2, 4 … 32 equal parts of a step in contact.
 //!
 //! # Model
 //!
-//! q̈ + 2 ζ ω q̇ + ω² q = φ(L) F − (p a + r α) in each axis, with the force F of the
-//! contact, the acceleration a of the base and its angular acceleration α. The
-//! tip is at base + (L − κ|u|²/2) z + u_x x + u_y y. Between poses the base moves
-//! uniformly; changes of its velocity are kicks at the start of a step. Left
-//! out: forces that grow with the square of the base's angular velocity (2 % of
-//! ω² at 20 rad/s for the slowest whisker) and contact anywhere but at the tip.
+//! q̈ + 2 ζ ω q̇ + ω² q = f − (p a + r α) for each mode in each axis, and a static shape without
+//! inertia, with the force f of the contact on it, the acceleration a of the base and its
+//! angular acceleration α. Places are integrals of the tangent, whatever its angle. Between poses
+//! the base moves uniformly; changes of its velocity are kicks at the start of a step. Left out:
+//! inertia that changes with the shape, forces that grow with the square of the base's angular
+//! velocity (2 % of ω² at 20 rad/s for the slowest whisker), twist, a second place that
+//! touches at once, and the thickness of the shaft.
+//!
+//! # Range
+//!
+//! Pressed slowly on a hard plate by 2 to 30°, base moments are within 1 % of an exact elastica's
+//! for a taper of 3 to 8 and within 2 % for 15, normal forces within 3 %, the place within 0.4 % of
+//! the length; by 45° all within 5 % (`touching/tests/elastica.rs`). Exceptions: a taper of
+//! 15 at a slant of 60° (5 %), and pushes at which the shape is not stable. What lies
+//! straight along the plate beyond the place may be behind it by 0.5 % of the length.
 //!
 //! # Method
 //!
 //! Modes are propagated exactly, free or under the force of the contact, which
 //! is constant during a part and solved for implicitly, with friction and the
 //! contact's own damping, to second order where parts resolve the highest mode
-//! ([`law`]). Where the tip goes and how high the ground is there are found
-//! together ([`part`]). The sum of modal and elastic energy never grows
+//! ([`law`]). Where on the shaft it acts, where that goes and how high the ground is there are
+//! found together ([`part`]). The sum of modal and elastic energy never grows
 //! while the base rests, on any ground, at any stiffness and step.
 //!
 //! A step is cut in parts by how far the tip travels over the grains and how fast

@@ -82,7 +82,7 @@ pub(super) struct Moves {
 impl Moves {
     /// Of a place with these ways.
     #[inline]
-    pub(super) fn new(ways: Ways, part: &Part<'_>) -> Self {
+    pub(super) fn new(ways: &Ways, part: &Part<'_>) -> Self {
         let mut free = [0.0; 3];
         let (mut xx, mut xy, mut xz) = (0.0, 0.0, 0.0);
         let (mut yy, mut yz, mut zz) = (0.0, 0.0, 0.0);
@@ -101,7 +101,7 @@ impl Moves {
             }
         }
         Self {
-            ways,
+            ways: *ways,
             free,
             response: [[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]],
         }
@@ -240,10 +240,23 @@ impl Body {
         let mut force = problem.solve();
         let mut left_j = left(&force);
         if left_j < 0.0 && below < 0.0 {
-            // Too little energy to rise to the ground.
+            // Too little energy to rise to the ground: as far as it reaches, or not at all.
+            let missing_j = left_j;
             problem.gap -= below;
-            force = problem.solve();
-            left_j = left(&force);
+            let flat = problem.solve();
+            let flat_j = left(&flat);
+            (force, left_j) = (flat, flat_j);
+            if flat_j > 0.0 {
+                let share = 0.5 * flat_j / (flat_j - missing_j);
+                problem.gap += share * below;
+                let some = problem.solve();
+                let some_j = left(&some);
+                if some_j >= 0.0 {
+                    (force, left_j) = (some, some_j);
+                } else {
+                    problem.gap -= share * below;
+                }
+            }
         }
         if left_j < 0.0 {
             // A place that slides before it touches down can end up here; without

@@ -43,9 +43,10 @@ use super::body::{Body, Touch};
 use super::law::{Moves, Part, Solved};
 use super::secant::secant;
 use crate::contact::Frame;
+use crate::grid::Place;
 use crate::modal::{ModalStep, pushed};
 use crate::pose::PlatePose;
-use crate::shapes::Amplitudes;
+use crate::shapes::{Amplitudes, Curve};
 use crate::vector::{V3, add, dot, length, length2, scale, sub};
 
 /// Most rounds of the iteration for the end of a part; mostly one or two.
@@ -60,148 +61,260 @@ const OFF: f64 = 1e-4;
 /// The same for a place that moves along the shaft, as a share of the length.
 const SHIFT: f64 = 1e-4;
 
+/// Another place takes over where it is lower by more than this share of the length: where a
+/// shaft lies straight along the plate, its shapes bring it near to straight.
+const DEEPER: f64 = 2e-2;
+
 /// As far as a place moves towards the base in a round at most, as a share of the length.
 const MOST: f64 = 0.1;
 
 /// Smallest share of a round.
 const LEAST: f64 = 0.05;
 
+/// A place of the ground, with its height and slopes.
+type Known = (V3, [f64; 3]);
+
+/// What a round has found.
+struct Round {
+    /// How far the foot has rolled since it touched.
+    rolled: [f64; 2],
+    /// Where the foot was expected, and where it is.
+    there: V3,
+    next: V3,
+    /// How far the place is off where its ways bring it, m.
+    off_m: f64,
+    moves: Moves,
+    solved: Solved,
+    /// The force along x, y and z, and on each shape.
+    force: V3,
+    forces: Amplitudes,
+    /// The state at the end.
+    end: Amplitudes,
+    curve: Curve,
+}
+
 impl Body {
     /// One part of a step, from one pose to the next.
     pub(super) fn part(&mut self, old: &PlatePose, new: &PlatePose, step: &ModalStep, part_s: f64) {
-        let law = self.law(step, part_s);
-        let share = law.share(1.0);
-        let responses = step.responses(share);
-        let touching = self.touch.is_contact();
-        let start = self.state.x;
-        let before = self.curve.take().unwrap_or_else(|| self.state.curve(&self.shaft));
-        self.state.free(step);
-        self.state.keep(if touching {
-            1.0 - 1.0 / share
-        } else {
-            law.kept()
-        });
-        let free = self.state.x;
-        let stretch = new.vector(self.touch.stretch);
-        let up = new.up();
-        let mut end = free;
-        let (mut place, mut below);
-        if touching {
+        let known = self.curve.take();
+        let before = known.unwrap_or_else(|| self.state.curve(&self.shaft));
+        let mut part = self.free_part(new, step, part_s);
+        let (mut place, mut ground, mut end);
+        if part.touching {
             // Forces change little from part to part.
-            end = pushed(&free, &responses, &self.touch.forces);
-            place = self.shaft.grid.place(self.touch.next_m);
-            below = None;
+            end = pushed(&part.free, &part.responses, &self.touch.forces);
+            place = self.expected(&before, new.up());
+            ground = None;
         } else {
-            let bent = self.shaft.shapes.curve(&free);
-            place = bent.lowest(&self.shaft.grid, up);
-            let to = sub(new.place(bent.at(&place)), scale(law.kept(), stretch));
-            let ground = self.ground.relief.at([to[0], to[1]]);
-            if to[2] >= ground[0] {
-                let stretch = scale(law.kept(), self.touch.stretch);
-                self.touch = Touch::in_the_air(&law.compliance, stretch);
-                self.curve = Some(bent);
+            let Some(touched) = self.touched(&part) else {
                 return;
-            }
-            below = Some((to, ground));
-        }
-        let mut part = Part {
-            pose: new,
-            dt_s: part_s,
-            law,
-            touching,
-            friction: self.ground.surface.friction_at(self.touch.slip_m_s),
-            start,
-            free,
-            responses,
-            stretch,
-            foot: [0.0; 3],
-            ground: [0.0; 3],
-            carried: [0.0; 3],
-        };
-        let near = NEAR * self.ground.relief.finest_m;
-        let (mut missed, mut relax) = (None, 1.0);
-        let mut to = None;
-        for round in 1..=ROUNDS {
-            let at = before.at(&place);
-            let foot = sub(old.place(at), old.vector(self.touch.stretch));
-            let rolled = if touching {
-                let last = &self.touch;
-                [0, 1].map(|i| last.rolled[i] + foot[i] - last.foot[i])
-            } else {
-                [0.0; 2]
             };
-            let relief = &mut self.ground.relief;
-            let mut ground_at = |at: V3| relief.at([at[0] - rolled[0], at[1] - rolled[1]]);
-            part.foot = foot;
-            part.ground = self.touch.ground.unwrap_or_else(|| ground_at(foot));
-            part.carried = sub(sub(new.place(at), stretch), foot);
-            let middle = self.shaft.shapes.curve(&between(&start, &end));
-            let moves = Moves::new(self.shaft.shapes.ways(&middle, &place), &part);
-            let (there, ground) = below.take().unwrap_or_else(|| {
-                let there = to.unwrap_or_else(|| {
-                    if self.touch.stuck {
-                        foot
-                    } else {
-                        let moved = new.vector(moves.between(&start, &end));
-                        add(add(foot, 1.0, part.carried), 1.0, moved)
-                    }
-                });
-                (there, ground_at(there))
-            });
-            let way = [there[0], there[1]];
-            let slopes = secant([foot[0], foot[1]], part.ground, way, ground);
-            let solved = self.solve(&part, Frame::new(slopes), &moves);
-            let force = new.components(solved.frame.plate(solved.force.local));
-            let forces = moves.forces(force);
-            end = pushed(&free, &responses, &forces);
-            let straight = new.place(add(at, 1.0, moves.between(&start, &end)));
-            let curve = self.shaft.shapes.curve(&end);
-            let bent = new.place(curve.at(&place));
-            let off = length(sub(bent, straight));
-            let next = sub(bent, solved.stretch);
-            let miss = [next[0] - there[0], next[1] - there[1]];
-            let moved = length2(miss);
+            end = part.free;
+            (place, ground) = (touched.0, Some(touched.1));
+        }
+        let length_m = self.shaft.length_m;
+        let near = NEAR * self.ground.relief.finest_m;
+        let (mut missed, mut relax, mut to) = (None, 1.0, None);
+        for n in 1..=ROUNDS {
+            let round = self.round(&mut part, old, &before, &place, &end, to, ground.take());
+            end = round.end;
+            let miss = [0, 1].map(|i| round.next[i] - round.there[i]);
             if let Some(old) = missed.replace(miss) {
                 relax = relaxed(relax, old, miss);
             }
-            let small = OFF * step.response * length(force);
-            let [rise, bend] = curve.rise(&place, up);
-            let now_m = if place.at_m == self.shaft.length_m && rise <= 0.0 {
-                place.at_m
-            } else {
-                let turns = self.shaft.shapes.turns(&curve, &place);
-                let steep = bend + dot(force, up) * moves.turned(&turns, up, &responses);
-                let shift = if steep > 0.0 { -rise / steep } else { 0.0 };
-                place.at_m + shift.max(-MOST * self.shaft.length_m)
-            };
-            let shifted = (now_m.min(self.shaft.length_m) - place.at_m).abs();
-            let still = round > 2 || shifted <= SHIFT * self.shaft.length_m;
-            if round == ROUNDS || (off <= small && moved < near && still) {
-                self.state.push(step, &responses, &forces);
-                let ground = self.ground.relief.at([next[0] - rolled[0], next[1] - rolled[1]]);
+            let small = OFF * step.response * length(round.force);
+            let better_m = self.better_m(&part, &place, &round);
+            let still = n > 2 || (better_m.min(length_m) - place.at_m).abs() <= SHIFT * length_m;
+            if n == ROUNDS || (round.off_m <= small && length2(miss) < near && still) {
+                self.state.push(step, &part.responses, &round.forces);
                 let went = place.at_m - self.touch.place.map_or(place.at_m, |last| last.at_m);
-                self.touch = settled(&part, &solved, ground, next);
-                self.touch.forces = forces;
-                self.touch.next_m = now_m + went;
+                self.settle(&part, &round);
                 self.touch.place = Some(place);
-                self.touch.foot = next;
-                self.touch.rolled = rolled;
-                self.touch.ground = Some(ground);
-                self.curve = Some(curve);
+                self.touch.next_m = better_m + went;
+                self.curve = Some(round.curve);
                 if self.state.limit(&self.shaft) {
                     self.touch = Touch::default();
                     self.curve = None;
                 }
                 return;
             }
-            if !still {
-                place = self.shaft.grid.place(now_m);
-                missed = None;
-                to = None;
-                continue;
+            if still {
+                to = Some([0, 1].map(|i| round.there[i] + relax * miss[i]));
+            } else {
+                place = self.shaft.grid.place(better_m);
+                (missed, to) = (None, None);
             }
-            to = Some([there[0] + relax * miss[0], there[1] + relax * miss[1], 0.0]);
         }
+    }
+
+    /// Moves on without a force, and says what is known of the part then.
+    fn free_part<'a>(&mut self, new: &'a PlatePose, step: &ModalStep, part_s: f64) -> Part<'a> {
+        let law = self.law(step, part_s);
+        let share = law.share(1.0);
+        let touching = self.touch.is_contact();
+        let start = self.state.x;
+        self.state.free(step);
+        self.state.keep(if touching {
+            1.0 - 1.0 / share
+        } else {
+            law.kept()
+        });
+        Part {
+            pose: new,
+            dt_s: part_s,
+            touching,
+            friction: self.ground.surface.friction_at(self.touch.slip_m_s),
+            start,
+            free: self.state.x,
+            responses: step.responses(share),
+            stretch: new.vector(self.touch.stretch),
+            foot: [0.0; 3],
+            ground: [0.0; 3],
+            carried: [0.0; 3],
+            law,
+        }
+    }
+
+    /// Where a shaft that touches is expected to touch at the end of the part.
+    fn expected(&self, before: &Curve, up: V3) -> Place {
+        let grid = &self.shaft.grid;
+        let place = grid.place(self.touch.next_m);
+        let lowest = before.lowest(grid, up);
+        let deeper = dot(sub(before.at(&place), before.at(&lowest)), up);
+        if deeper > DEEPER * self.shaft.length_m {
+            lowest
+        } else {
+            place
+        }
+    }
+
+    /// Where a shaft that was in the air is below the ground at the end of the part; if it is
+    /// not, it stays in the air.
+    fn touched(&mut self, part: &Part<'_>) -> Option<(Place, Known)> {
+        let curve = self.shaft.shapes.curve(&part.free);
+        let place = curve.lowest(&self.shaft.grid, part.pose.up());
+        let kept = part.law.kept();
+        let to = sub(part.pose.place(curve.at(&place)), scale(kept, part.stretch));
+        let ground = self.ground.relief.at([to[0], to[1]]);
+        if to[2] < ground[0] {
+            return Some((place, (to, ground)));
+        }
+        let stretch = scale(kept, self.touch.stretch);
+        self.touch = Touch::in_the_air(&part.law.compliance, stretch);
+        self.curve = Some(curve);
+        None
+    }
+
+    /// One round: the force at a place, on a plane to where the foot is expected, for shapes
+    /// that end about as they do in `end`.
+    #[expect(clippy::too_many_arguments, reason = "each is found elsewhere")]
+    fn round(
+        &mut self,
+        part: &mut Part<'_>,
+        old: &PlatePose,
+        before: &Curve,
+        place: &Place,
+        end: &Amplitudes,
+        to: Option<[f64; 2]>,
+        known: Option<Known>,
+    ) -> Round {
+        let shapes = &self.shaft.shapes;
+        let new = part.pose;
+        let at = before.at(place);
+        let foot = sub(old.place(at), old.vector(self.touch.stretch));
+        let rolled = if part.touching {
+            let last = &self.touch;
+            [0, 1].map(|i| last.rolled[i] + foot[i] - last.foot[i])
+        } else {
+            [0.0; 2]
+        };
+        let relief = &mut self.ground.relief;
+        let mut ground_at = |at: V3| relief.at([at[0] - rolled[0], at[1] - rolled[1]]);
+        part.foot = foot;
+        part.ground = self.touch.ground.unwrap_or_else(|| ground_at(foot));
+        part.carried = sub(sub(new.place(at), part.stretch), foot);
+        let middle = shapes.curve(&between(&part.start, end));
+        let moves = Moves::new(&shapes.ways(&middle, place), part);
+        let (there, ground) = known.unwrap_or_else(|| {
+            let there = match to {
+                Some([x, y]) => [x, y, 0.0],
+                None if self.touch.stuck => foot,
+                None => {
+                    let moved = new.vector(moves.between(&part.start, end));
+                    add(add(foot, 1.0, part.carried), 1.0, moved)
+                }
+            };
+            (there, ground_at(there))
+        });
+        let [from, way] = [foot, there].map(|v| [v[0], v[1]]);
+        let slopes = secant(from, part.ground, way, ground);
+        let solved = self.solve(part, Frame::new(slopes), &moves);
+        let force = new.components(solved.frame.plate(solved.force.local));
+        let forces = moves.forces(force);
+        let end = pushed(&part.free, &part.responses, &forces);
+        let straight = add(at, 1.0, moves.between(&part.start, &end));
+        let curve = self.shaft.shapes.curve(&end);
+        let bent = curve.at(place);
+        Round {
+            rolled,
+            there,
+            next: sub(new.place(bent), solved.stretch),
+            off_m: length(sub(bent, straight)),
+            moves,
+            solved,
+            force,
+            forces,
+            end,
+            curve,
+        }
+    }
+
+    /// Where the shaft would run along the plane if it were pressed there, m from the base, by
+    /// Newton's method; beyond the length where the tip points at the plane.
+    fn better_m(&self, part: &Part<'_>, place: &Place, round: &Round) -> f64 {
+        let up = part.pose.up();
+        let [rise, bend] = round.curve.rise(place, up);
+        if place.at_m == self.shaft.length_m && rise <= 0.0 {
+            return place.at_m;
+        }
+        let turns = self.shaft.shapes.turns(&round.curve, place);
+        let steep = bend + dot(round.force, up) * round.moves.turned(&turns, up, &part.responses);
+        let shift = if steep > 0.0 { -rise / steep } else { 0.0 };
+        place.at_m + shift.max(-MOST * self.shaft.length_m)
+    }
+
+    /// Brings the foot to the ground, as far as the energy allows.
+    fn settle(&mut self, part: &Part<'_>, round: &Round) {
+        let Round {
+            solved,
+            rolled,
+            next,
+            ..
+        } = round;
+        let Solved { frame, force, .. } = solved;
+        // Straight up or down: the ground is known there.
+        let ground = [next[0] - rolled[0], next[1] - rolled[1]];
+        let ground = self.ground.relief.at(ground);
+        let deep = ground[0] - next[2];
+        let body = part.pose.components(solved.stretch);
+        let left_j = solved.left_j.max(0.0);
+        // A foot in the air stays there.
+        let normal_n = force.local[0];
+        let deep = if normal_n > 0.0 { deep } else { deep.max(0.0) };
+        let up = part.pose.components([0.0, 0.0, -deep]);
+        let (stretch, paid) = part.law.compliance.within(left_j, body, up);
+        self.touch = Touch {
+            force: frame.plate(force.local),
+            forces: round.forces,
+            foot: *next,
+            rolled: *rolled,
+            ground: Some(ground),
+            normal_n,
+            stuck: force.stuck,
+            slip_m_s: solved.problem.slipped(force) / part.dt_s,
+            lowered_m: (1.0 - paid) * deep,
+            ..Touch::in_the_air(&part.law.compliance, stretch)
+        };
     }
 }
 
@@ -221,27 +334,5 @@ fn relaxed(share: f64, old: [f64; 2], new: [f64; 2]) -> f64 {
         (-share * along / square).clamp(LEAST, 1.0)
     } else {
         share
-    }
-}
-
-/// Brings the foot to the ground, as far as the energy allows.
-fn settled(part: &Part<'_>, solved: &Solved, ground: [f64; 3], foot: V3) -> Touch {
-    let Solved { frame, force, .. } = solved;
-    // Straight up or down: the ground is known there.
-    let deep = ground[0] - foot[2];
-    let body = part.pose.components(solved.stretch);
-    let left_j = solved.left_j.max(0.0);
-    // A foot in the air stays there.
-    let normal_n = force.local[0];
-    let deep = if normal_n > 0.0 { deep } else { deep.max(0.0) };
-    let up = part.pose.components([0.0, 0.0, -deep]);
-    let (stretch, paid) = part.law.compliance.within(left_j, body, up);
-    Touch {
-        force: frame.plate(force.local),
-        normal_n,
-        stuck: force.stuck,
-        slip_m_s: solved.problem.slipped(force) / part.dt_s,
-        lowered_m: (1.0 - paid) * deep,
-        ..Touch::in_the_air(&part.law.compliance, stretch)
     }
 }

