@@ -289,8 +289,9 @@ impl<B: Bench + ?Sized> Run<B> {
         self.row
     }
 
-    /// The same for a tick whose row is not needed: events, decisions and samples are of this
-    /// tick, while row, whiskers and line of the trace stay those of the last [`Run::tick`].
+    /// The same for a tick whose row is not needed: events, decisions, samples and whiskers are
+    /// of this tick, while the row, the line of the trace, each θ and the contact of each side
+    /// stay those of the last [`Run::tick`].
     pub fn pass(&mut self) {
         self.events.clear();
         if let Some(texture) = self.presented.change(self.done, self.world.touches()) {

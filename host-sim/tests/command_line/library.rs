@@ -9,6 +9,7 @@ use host_sim::classifier::Classifier;
 use host_sim::decisions::Decided;
 use host_sim::recording::GATE;
 use host_sim::run::Run;
+use host_sim::trace::WhiskerRow;
 use scene::Scene;
 use tactile::ModelBuf;
 
@@ -128,6 +129,28 @@ fn ticks_without_a_row_change_nothing() {
             events.extend_from_slice(few.events());
         }
         assert!(samples == all.samples && decisions == all.decisions && events == all.events);
+    }
+}
+
+#[test]
+fn what_whiskers_feel_is_seen_without_a_row() {
+    let felt = |run: &Run| {
+        let mut whiskers = Vec::new();
+        run.look_at_whiskers(&mut whiskers);
+        let bits = |whisker: &WhiskerRow| {
+            let [x, y] = whisker.codes;
+            [whisker.angle_deg, x, y, whisker.contact].map(f64::to_bits)
+        };
+        whiskers.iter().map(bits).collect::<Vec<_>>()
+    };
+    for text in scenes() {
+        let scene = scene(&text, 1);
+        let (mut with, mut without) = (run(&scene), run(&scene));
+        for n in 0..with.ticks() {
+            with.tick();
+            without.pass();
+            assert_eq!(felt(&with), felt(&without), "{text} {n}");
+        }
     }
 }
 

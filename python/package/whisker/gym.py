@@ -37,7 +37,7 @@ def touch_gently(observation: np.ndarray, action: np.ndarray, before: np.ndarray
     """Up to 1 a step for a touch as light as ``GENTLE``, nothing for the air, -1 for a hard one."""
     contact = observation[..., CONTACT]
     light = 1.0 - ((contact - GENTLE) / GENTLE) ** 2
-    return np.clip(np.where(contact < TOUCHING, 0.0, light), -1.0, 1.0).mean(axis=-1)
+    return np.maximum(np.where(contact < TOUCHING, 0.0, light), -1.0).mean(axis=-1)
 
 
 def find_the_edge(observation: np.ndarray, action: np.ndarray, before: np.ndarray) -> np.ndarray:
@@ -153,13 +153,14 @@ class WhiskerVectorEnv(VectorEnv):
         if self._before is None:
             raise gymnasium.error.ResetNeeded("step before reset")
         begin = self._ended
-        if begin.any():
+        restarts = begin.any()
+        if restarts:
             fresh = self.np_random.integers(2**32, size=self.num_envs, dtype=np.uint64)
             self._seeds = np.where(begin, fresh, self._seeds)
         actions = np.ascontiguousarray(actions, dtype=np.float64).reshape(self.num_envs, -1)
         observations, ended = self._envs.step(actions, begin, self._seeds)
         rewards = np.asarray(self._reward(observations, actions, self._before), np.float64)
-        if begin.any():
+        if restarts:
             rewards = np.where(begin, 0.0, rewards)
         self._before, self._ended = observations, ended
         return observations, rewards, np.zeros(self.num_envs, bool), ended.copy(), {}
