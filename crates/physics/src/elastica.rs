@@ -78,10 +78,10 @@ pub enum PressError {
     /// A setting is out of its range.
     #[error(transparent)]
     Setting(#[from] BadSetting),
-    /// Beyond it the shaft snaps over, falls past the plate, or is behind it.
-    #[error("the shaft holds up to {:.3} degrees", libm::floor(up_to_deg * 1e3) / 1e3)]
+    /// Beyond some push the shaft snaps over, lets go of the plate, or is behind it.
+    #[error("the shaft holds up to {up_to_deg} degrees")]
     Ends {
-        /// The largest push that holds, degrees.
+        /// The largest push that holds, degrees; whole thousandths.
         up_to_deg: f64,
     },
 }

@@ -224,7 +224,8 @@ impl<'p> Path<'p> {
             } else {
                 self.step_deg = 0.5 * (next - now);
                 if self.step_deg < STEP_DEG[1] {
-                    return Err(PressError::Ends { up_to_deg: now });
+                    let up_to_deg = libm::floor(now * 1e3) / 1e3;
+                    return Err(PressError::Ends { up_to_deg });
                 }
             }
         }
