@@ -20,6 +20,7 @@ const STEP_DEG: [f64; 2] = [2.0, 1e-4];
 
 /// The plane in which the rod bends at a push, all with components along z and e.
 struct Plane {
+    push_rad: f64,
     z: V3,
     e: V3,
     normal: [f64; 2],
@@ -86,7 +87,8 @@ impl<'p> Path<'p> {
     }
 
     fn plane(&self, push_deg: f64) -> Plane {
-        let pose = Pose::swung(push_deg.to_radians());
+        let push_rad = push_deg.to_radians();
+        let pose = Pose::swung(push_rad);
         let z = pose.z();
         let cross = add(self.force, -dot(self.force, z), z);
         // Without a part along the axis the rod keeps to the plane of whisking.
@@ -97,6 +99,7 @@ impl<'p> Path<'p> {
         };
         let normal = [dot(self.normal, z), dot(self.normal, e)];
         Plane {
+            push_rad,
             z,
             e,
             normal,
@@ -241,7 +244,9 @@ impl<'p> Path<'p> {
         self.shoot(plane, at, |_, _, [z, e]| {
             lowest = lowest.min(z * nz + e * ne);
         });
-        is_near && at[0] > 0.0 && lowest > -1e-9 && sign * self.sign >= 0.0
+        // None within rounding is none.
+        let presses = at[0] > 1e-9 * plane.push_rad;
+        is_near && presses && lowest > -1e-9 && sign * self.sign >= 0.0
     }
 
     /// The shaft at the last push.
