@@ -6,6 +6,7 @@ pub mod classify;
 pub mod columns;
 pub mod evaluate;
 pub mod main_job;
+pub mod press;
 pub mod record;
 pub mod run;
 pub mod score;

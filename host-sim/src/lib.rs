@@ -57,6 +57,7 @@ pub mod loaded;
 pub mod motor;
 pub mod origin;
 pub mod plant;
+pub mod pressing;
 pub mod received;
 pub mod recording;
 pub mod replay;

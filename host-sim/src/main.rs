@@ -7,7 +7,7 @@ use clap::{Parser, Subcommand, ValueEnum};
 use host_sim::Error;
 use host_sim::commands::choice::{SceneChoice, seed};
 use host_sim::commands::{
-    channels, classify, columns, evaluate, main_job, record, run, score, sweep, train,
+    channels, classify, columns, evaluate, main_job, press, record, run, score, sweep, train,
 };
 use host_sim::output::is_stdout;
 use host_sim::progress::Verbosity;
@@ -67,6 +67,10 @@ enum Command {
     /// table with decisions, decision time, touches, faults and errors of each run
     #[command(allow_negative_numbers = true)]
     Sweep(sweep::Arguments),
+    /// How a tapered whisker bends that is pressed slowly against a plate, solved exactly: base
+    /// moment, forces and contact at each push of the motor
+    #[command(allow_negative_numbers = true)]
+    Press(press::Arguments),
     /// What the columns of all these files are, as docs/files.md has it
     Columns,
     /// Streams a recording through the fixed-point classifier, exactly the code
@@ -142,6 +146,7 @@ fn work(arguments: Arguments) -> Result<(), Error> {
         Some(Command::Train(arguments)) => Some(train::train(&arguments)?),
         Some(Command::Evaluate(arguments)) => Some(evaluate::evaluate(&arguments, verbosity)?),
         Some(Command::Sweep(arguments)) => Some(sweep::sweep(&arguments, verbosity)?),
+        Some(Command::Press(arguments)) => press::press(&arguments)?,
         Some(Command::Score(arguments)) => Some(score::score(&arguments, verbosity)?),
         Some(Command::Classify {
             model,

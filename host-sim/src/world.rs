@@ -179,29 +179,35 @@ impl World {
     }
 }
 
+/// The shafts that scenes know by their names.
+pub(crate) const SHAFTS: [(ShaftName, Shaft); 5] = [
+    (ShaftName::BiotactFront, Shaft::biotact(Biotact::Front)),
+    (ShaftName::BiotactMiddle, Shaft::biotact(Biotact::Middle)),
+    (ShaftName::BiotactRear, Shaft::biotact(Biotact::Rear)),
+    (ShaftName::FloorRobot, Shaft::floor_robot()),
+    (ShaftName::XyTable, Shaft::xy_table()),
+];
+
 /// The physical shaft of a scene; the default where the scene names none.
 fn shaft(of: Option<scene::ShaftChoice>) -> Shaft {
     let middle = Shaft::biotact(Biotact::Middle);
     let Some(scene::ShaftChoice { shaft, own }) = of else {
         return middle;
     };
-    match (shaft, own) {
-        (ShaftName::BiotactFront, _) => Shaft::biotact(Biotact::Front),
-        (ShaftName::BiotactMiddle, _) | (ShaftName::Own, None) => middle,
-        (ShaftName::BiotactRear, _) => Shaft::biotact(Biotact::Rear),
-        (ShaftName::FloorRobot, _) => Shaft::floor_robot(),
-        (ShaftName::XyTable, _) => Shaft::xy_table(),
-        (ShaftName::Own, Some(own)) => Shaft {
-            length_m: own.length_m,
-            hub_diameter_m: own.hub_diameter_m,
-            tip_diameter_m: own.tip_diameter_m,
-            youngs_pa: own.youngs_pa,
-            density_kg_m3: own.density_kg_m3,
-            damping: own.damping_ratio,
-            follicle: Follicle {
-                rotation_n_m_rad: own.follicle_n_m_rad,
-                ..middle.follicle
-            },
+    let Some(own) = own else {
+        let known = SHAFTS.iter().find(|(known, _)| *known == shaft);
+        return known.map_or(middle, |(_, shaft)| *shaft);
+    };
+    Shaft {
+        length_m: own.length_m,
+        hub_diameter_m: own.hub_diameter_m,
+        tip_diameter_m: own.tip_diameter_m,
+        youngs_pa: own.youngs_pa,
+        density_kg_m3: own.density_kg_m3,
+        damping: own.damping_ratio,
+        follicle: Follicle {
+            rotation_n_m_rad: own.follicle_n_m_rad,
+            ..middle.follicle
         },
     }
 }

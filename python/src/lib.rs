@@ -11,6 +11,7 @@ mod learning;
 mod many;
 mod model;
 mod outside;
+mod press;
 mod recordings;
 mod scenes;
 mod sim;
@@ -28,6 +29,8 @@ mod _core {
     use crate::many::run_many;
     #[pymodule_export]
     use crate::model::Model;
+    #[pymodule_export]
+    use crate::press::press;
     #[pymodule_export]
     use crate::scenes::{Problem, SceneError};
     #[pymodule_export]

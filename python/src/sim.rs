@@ -6,7 +6,7 @@ use host_sim::columns::Column;
 use host_sim::decisions::Decided;
 use host_sim::run::Run;
 use host_sim::trace::{self, TraceShape, TraceWriter, WhiskerRow};
-use host_sim::{decisions, recording};
+use host_sim::{decisions, pressing, recording};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyDict};
@@ -283,7 +283,7 @@ impl Sim {
     }
 }
 
-/// Name to (unit, meaning) of every column: of "trace", "decisions" or "recording". Those of
+/// Name to (unit, meaning) of every column: of "trace", "decisions", "recording" or "press". Those of
 /// further whiskers of a side have their place for the `*`.
 #[pyfunction]
 pub(crate) fn columns<'py>(py: Python<'py>, table: &str) -> PyResult<Bound<'py, PyDict>> {
@@ -297,8 +297,10 @@ pub(crate) fn columns<'py>(py: Python<'py>, table: &str) -> PyResult<Bound<'py, 
         .concat(),
         "decisions" => decisions::COLUMNS.to_vec(),
         "recording" => recording::COLUMNS.to_vec(),
+        "press" => pressing::COLUMNS.to_vec(),
         _ => {
-            let fault = format!("table: found {table:?}, allowed: trace, decisions, recording");
+            let fault =
+                format!("table: found {table:?}, allowed: trace, decisions, recording, press");
             return Err(PyValueError::new_err(fault));
         }
     };

@@ -14,6 +14,7 @@
 //! reads. Closed forms are met within 1 % (see the tests), contact never
 //! creates energy. The same settings and seeds give the same bits on every
 //! machine.
+//! How a shaft bends that is pressed slowly and far, [`elastica`] solves exactly.
 //!
 //! A whisker that is swung against sandpaper:
 //!
@@ -44,6 +45,7 @@
 mod beam;
 mod compliance;
 mod contact;
+pub mod elastica;
 mod error;
 mod grid;
 mod magnet;

@@ -5,7 +5,7 @@ use std::fmt::Write as _;
 use crate::columns::{Column, columns, table};
 use crate::commands::sweep::measured;
 use crate::trace::{FIRST, OF_RIGHT, OF_WHISKER, SECOND};
-use crate::{decisions, recording};
+use crate::{decisions, pressing, recording};
 
 /// The columns of every file, in Markdown: from the lists that the headers are written from.
 pub fn page() -> String {
@@ -46,6 +46,16 @@ pub fn page() -> String {
             "Sweeps",
             "`host-sim sweep` writes a row a run.",
             sweep.as_slice(),
+        ),
+        (
+            "Presses",
+            "`host-sim press` writes a row a push.",
+            &pressing::COLUMNS,
+        ),
+        (
+            "Presses, shapes",
+            "Points of the bent shaft from base to tip, of each push: `host-sim press --shape`.",
+            &pressing::OF_SHAPE,
         ),
     ];
     let mut page = "# Files that the simulator writes\n\n\

@@ -37,11 +37,14 @@ fn every_column_that_is_written_is_on_the_page() {
     place.done("run both.toml --out out");
     place.done("record both.toml --out recorded.csv");
     place.run("sweep both.toml --key rcp.gain=0.5 --out sweep.csv");
+    place.done("press --shaft xy-table --push-deg 5 --out press.csv --shape shape.csv");
     for file in [
         "out/trace.csv",
         "out/decisions.csv",
         "recorded.csv",
         "sweep.csv",
+        "press.csv",
+        "shape.csv",
     ] {
         let text = place.text(file);
         for title in text.lines().next().unwrap().split(',') {

@@ -13,6 +13,7 @@ mod misfits;
 mod mutations;
 mod outputs;
 mod pictures;
+mod press;
 mod refuses_arguments;
 mod refuses_models;
 mod refuses_recordings;

@@ -12,7 +12,7 @@ True
 
 from pathlib import Path
 
-from whisker._core import Model, Problem, SceneError, Sim, columns, record, run_many
+from whisker._core import Model, Problem, SceneError, Sim, columns, press, record, run_many
 from whisker.learning import Evaluation, classify, evaluate, train
 
 #: The scenes of the project by their names, with their models beside them.
@@ -30,6 +30,7 @@ __all__ = [
     "classify",
     "columns",
     "evaluate",
+    "press",
     "record",
     "run_many",
     "train",

@@ -15,6 +15,7 @@ __all__ = [
     "classify",
     "columns",
     "evaluate",
+    "press",
     "record",
     "run_many",
     "train",
@@ -102,6 +103,14 @@ class Envs:
     def limits(self) -> list[float]: ...
 
 def columns(table: str) -> dict[str, tuple[str, str]]: ...
+def press(
+    shaft: str | dict[str, float],
+    *,
+    push_deg: float | Iterable[float],
+    slant_deg: float = 30.0,
+    tilt_deg: float = 0.0,
+    friction: float = 0.0,
+) -> NDArray[np.void]: ...
 def record(
     scene: _Scene, *, seed: int | None = None, set: Mapping[str, Any] | None = None
 ) -> NDArray[np.void]: ...

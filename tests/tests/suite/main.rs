@@ -12,6 +12,7 @@ mod formats;
 mod motion_faults;
 mod played;
 mod precision;
+mod pressed;
 mod reference_claims;
 mod second_sensor;
 mod sensing_faults;

@@ -1,0 +1,63 @@
+//! `host-sim press`: how a whisker bends that is pressed slowly against a plate.
+
+use std::io;
+use std::path::{Path, PathBuf};
+
+use clap::Args;
+
+use crate::Error;
+use crate::output::{Output, check_or_stdout, is_stdout};
+use crate::pressing::Pressing;
+
+/// What to press, and where to write.
+#[derive(Debug, Args)]
+pub struct Arguments {
+    #[command(flatten)]
+    pressing: Pressing,
+    /// Where to write the table, a row a push; - is standard output
+    #[arg(long, value_name = "FILE.csv", default_value = "-")]
+    out: PathBuf,
+    /// Where to write points of the bent shaft, from base to tip, of each push
+    #[arg(long, value_name = "FILE.csv")]
+    shape: Option<PathBuf>,
+}
+
+/// Presses a whisker and writes its tables. Returns what was done; nothing where the table is
+/// on standard output.
+///
+/// # Errors
+/// [`Error::Input`] for an option that is wrong or a push that does not hold, [`Error::Write`].
+pub fn press(arguments: &Arguments) -> Result<Option<String>, Error> {
+    let Arguments {
+        pressing,
+        out,
+        shape,
+    } = arguments;
+    check_or_stdout(out)?;
+    if let Some(shape) = shape {
+        if shape == out || is_stdout(shape) {
+            let fault = format!("--shape: found {}, allowed: another file", shape.display());
+            return Err(Error::Input(fault));
+        }
+        check_or_stdout(shape)?;
+    }
+    let pressed = pressing.press().map_err(|refused| {
+        let option = refused.key.replace('_', "-");
+        Error::Input(format!("--{option}: {}", refused.fault))
+    })?;
+    if let Some(shape) = shape {
+        write(shape, |file| pressing.write_shapes(file, &pressed))?;
+    }
+    write(out, |file| pressing.write(file, &pressed))?;
+    let summary = || {
+        let count = pressed.len();
+        format!("{}: {count} pushes; columns: docs/files.md", out.display())
+    };
+    Ok((!is_stdout(out)).then(summary))
+}
+
+fn write(to: &Path, table: impl FnOnce(&mut Output) -> io::Result<()>) -> Result<(), Error> {
+    let mut output = Output::create_or_stdout(to)?;
+    table(&mut output).map_err(|source| output.failed(source))?;
+    output.finish()
+}

@@ -1,0 +1,75 @@
+//! A whisker pressed slowly against a plate: `host-sim press` on arrays.
+
+use host_sim::pressing::{COLUMNS, Pressing};
+use pyo3::exceptions::PyValueError;
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+
+use crate::table::{Kind, Layout, Packed};
+
+/// press(shaft, *, push_deg, slant_deg=30.0, tilt_deg=0.0, friction=0.0)
+///
+/// How a tapered whisker bends that is pressed slowly against a plate, solved exactly: a row a
+/// push, with the columns of `columns("press")`.
+///
+/// `shaft` is a name, as scenes have it, or a dictionary of `length_m`, `hub_m` (the diameter at
+/// the base), `taper` (that over the diameter at the tip), `youngs_pa` and `follicle_nm_rad`.
+/// `push_deg` is one angle of the motor beyond first touch, or several. What is wrong raises a
+/// `ValueError` with its range; a push that does not hold, with the largest that does.
+#[pyfunction]
+#[pyo3(signature = (shaft, *, push_deg, slant_deg=host_sim::pressing::SLANT_DEG, tilt_deg=0.0, friction=0.0))]
+#[pyo3(text_signature = "(shaft, *, push_deg, slant_deg=30.0, tilt_deg=0.0, friction=0.0)")]
+pub(crate) fn press<'py>(
+    py: Python<'py>,
+    shaft: &Bound<'py, PyAny>,
+    push_deg: &Bound<'py, PyAny>,
+    slant_deg: f64,
+    tilt_deg: f64,
+    friction: f64,
+) -> PyResult<Bound<'py, PyAny>> {
+    let push_deg = match push_deg.extract::<f64>() {
+        Ok(one) => vec![one],
+        Err(_) => push_deg.extract()?,
+    };
+    let mut pressing = Pressing {
+        slant_deg,
+        tilt_deg,
+        friction,
+        push_deg,
+        ..Pressing::default()
+    };
+    if let Ok(numbers) = shaft.cast::<PyDict>() {
+        give(&mut pressing, numbers)?;
+    } else {
+        pressing.shaft = Some(shaft.extract()?);
+    }
+    let pressed = py.detach(|| pressing.press());
+    let pressed = pressed.map_err(|refused| PyValueError::new_err(refused.to_string()))?;
+    let mut rows = Packed::default();
+    for (push, pressed) in pressing.push_deg.iter().zip(&pressed) {
+        rows.numbers(Pressing::cells(*push, pressed));
+    }
+    let columns = COLUMNS.iter().map(|column| (column.name, Kind::Number));
+    Layout::new(columns).array(py, rows.bytes)
+}
+
+/// Gives the numbers of a shaft.
+fn give(pressing: &mut Pressing, numbers: &Bound<'_, PyDict>) -> PyResult<()> {
+    for (key, value) in numbers {
+        let key: String = key.extract()?;
+        let slot = match key.as_str() {
+            "length_m" => &mut pressing.length_m,
+            "hub_m" => &mut pressing.hub_m,
+            "taper" => &mut pressing.taper,
+            "youngs_pa" => &mut pressing.youngs_pa,
+            "follicle_nm_rad" => &mut pressing.follicle_nm_rad,
+            _ => {
+                let allowed = "length_m, hub_m, taper, youngs_pa, follicle_nm_rad";
+                let fault = format!("shaft: found {key:?}, allowed: {allowed}");
+                return Err(PyValueError::new_err(fault));
+            }
+        };
+        *slot = Some(value.extract()?);
+    }
+    Ok(())
+}
