@@ -17,6 +17,7 @@ mod faults;
 mod figures;
 mod firmware;
 mod fuzz;
+mod mutants;
 mod nightly;
 mod page;
 mod panics;
@@ -132,6 +133,9 @@ enum Command {
         #[arg(long, conflicts_with = "targets")]
         page: bool,
     },
+    /// Makes each of the mistakes in xtask/mutants.toml in a copy of the tree, and fails unless its
+    /// test does
+    Mutants,
     /// Builds the firmware of a scene twice, from nothing and in folders of other names, and
     /// compares every byte
     Reproducible(Build),
@@ -331,6 +335,7 @@ fn main() -> ExitCode {
             minutes,
             page,
         } => fuzz::all(&targets, minutes, page),
+        Command::Mutants => mutants::all(),
         Command::Reproducible(build) => reproducible::twice(build.board, &build.scene),
         Command::Speed(choice) => speed::speed(&choice),
         Command::Descriptions => descriptions::page(false).and_then(|()| descriptions::compare()),

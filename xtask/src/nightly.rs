@@ -10,8 +10,8 @@ use crate::firmware::{Board, EVERY_PART};
 use crate::run::{Fault, cargo, installed, run, target};
 use crate::steps::Steps;
 use crate::{
-    ci, cost, dependencies, docs, emulate, endurance, faults, fuzz, panics, python, reproducible,
-    size, studies, walk,
+    ci, cost, dependencies, docs, emulate, endurance, faults, fuzz, mutants, panics, python,
+    reproducible, size, studies, walk,
 };
 
 /// In how many nights every mutation is tried once.
@@ -47,12 +47,13 @@ pub(crate) fn all(only: Vec<String>) -> Result<(), Fault> {
         let mut boards = Board::ALL.into_iter();
         boards.try_for_each(|board| reproducible::twice(board, scene))
     });
+    steps.try_run("mutants", mutants::all);
     steps.try_run("mutations", mutations);
     steps.end()
 }
 
 fn with_probes() -> Result<(), Fault> {
-    let tool = ["--locked", "-p", "whisker"];
+    let tool = ["--locked", "-p", "whisker", "--features", "probe"];
     let deny = ["--all-targets", "--", "-D", "warnings"];
     run(cargo(&["clippy"]).args(tool).args(deny))?;
     run(cargo(&["test"]).args(tool))

@@ -44,7 +44,7 @@ pub(crate) fn twice(board: Board, scene: &Path) -> Result<(), Fault> {
 }
 
 /// Copies what is committed, or would be, to `folder`.
-fn copy(folder: &Path) -> Result<PathBuf, Fault> {
+pub(crate) fn copy(folder: &Path) -> Result<PathBuf, Fault> {
     let wrong = |error: std::io::Error| format!("{}: {error}", folder.display());
     remove(folder)?;
     let mut git = std::process::Command::new("git");

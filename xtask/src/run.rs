@@ -120,10 +120,6 @@ pub(crate) fn workspace_program(package: &str) -> Command {
     match built(package) {
         None => {
             let mut command = cargo(&["run", "--quiet", "-p", package]);
-            if package == "whisker" {
-                // Debug probes take longest to build.
-                command.arg("--no-default-features");
-            }
             command.arg("--");
             command
         }

@@ -133,8 +133,7 @@ fn folder(page: &Path) -> Result<PathBuf, Fault> {
     Ok(folder)
 }
 
-/// Commands that run the programs that CI has built, or build them as it does: nothing of what is
-/// run has a debug probe.
+/// Commands that run the programs that CI has built, or build them.
 fn as_built(commands: &str) -> String {
     let mut commands = commands.to_owned();
     for package in ["host-sim", "whisker"] {
@@ -143,8 +142,6 @@ fn as_built(commands: &str) -> String {
             commands = commands.replace(&run, &format!("'{}' ", program.display()));
         }
     }
-    let tool = "-p whisker ";
-    let commands = commands.replace(tool, &format!("{tool}--no-default-features "));
     // A page's folder is not at the top.
     let manifest = top().join(studies::MANIFEST);
     commands.replace(studies::MANIFEST, &format!("'{}'", manifest.display()))

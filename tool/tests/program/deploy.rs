@@ -167,7 +167,7 @@ fn a_scene_that_is_deployed_is_what_the_module_runs() {
 #[test]
 fn a_scene_that_the_board_does_not_take_changes_nothing_in_it() {
     let place = Place::new();
-    let board = "--emulated bench.toml --flash board.flash";
+    let board = "--emulated @bench.toml --flash board.flash";
     let other = bench_with(&[OTHER]);
     place.write("other.toml", &other);
     let ran = place.done(&format!("deploy --scene other.toml {board}"));

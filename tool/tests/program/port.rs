@@ -10,7 +10,10 @@ use host_sim::received::Receiver;
 use serial2::SerialPort;
 use wire::{Command as Request, CommandStatus, Load, TaggedCommand};
 
-use crate::common::{BENCH, Place, scenes, words};
+use crate::common::{Place, scenes, words};
+
+/// The scene that all boards here are built with: its program is then built once.
+const BOARD: &str = "board @bench.toml --world @textures.toml";
 
 /// A board that is served; it ends when dropped.
 struct Served {
@@ -21,15 +24,14 @@ struct Served {
 
 impl Served {
     fn new(place: &Place) -> Self {
-        let scene = format!("{BENCH}[telemetry]\nserial_baud = 921600\n");
-        place.write("serial.toml", &scene);
-        Self::of(place, "board serial.toml")
+        Self::with(place, "")
     }
 
-    /// By this command line.
-    fn of(place: &Place, line: &str) -> Self {
+    /// With more on its command line.
+    fn with(place: &Place, more: &str) -> Self {
         let mut board = Command::new(env!("CARGO_BIN_EXE_whisker"))
-            .args(words(line))
+            .args(words(BOARD))
+            .args(words(more))
             .args(["--link", "port"])
             .current_dir(place.path(""))
             .stdin(Stdio::piped())
@@ -92,8 +94,7 @@ fn a_board_on_a_port_is_talked_with_as_any_other() {
 #[test]
 fn a_board_on_a_port_is_taught_without_a_probe() {
     let place = Place::new();
-    let board = "board @bench.toml --world @textures.toml --flash kept.flash";
-    let served = Served::of(&place, board);
+    let served = Served::with(&place, "--flash kept.flash");
     let deploy = format!("deploy {} --model @models/textures.model", served.port);
     let ran = place.done(&format!("{deploy} --seconds 3"));
     let model = std::fs::read(scenes("models/textures.model")).unwrap();
@@ -123,9 +124,9 @@ fn a_board_on_a_port_runs_the_scene_that_is_deployed() {
     let place = Place::new();
     let served = Served::new(&place);
     let port = &served.port;
-    let scene = place.text("serial.toml");
+    let scene = std::fs::read_to_string(scenes("bench.toml")).unwrap();
     let other = scene.replace("\"bench\"", "\"other\"");
-    place.write("other.toml", &other.replace("gain = 0.7", "gain = 0.9"));
+    place.write("other.toml", &other.replace("= 0.7", "= 0.9"));
     let silent = other.replace("serial_baud = 921600", "rtt = true");
     place.write("silent.toml", &silent);
     place.refuses(
@@ -135,7 +136,7 @@ fn a_board_on_a_port_runs_the_scene_that_is_deployed() {
 
     let ran = place.done(&format!("deploy {port} --scene other.toml"));
     let lines: Vec<&str> = ran.stdout.lines().collect();
-    let [before, now] = lines[..] else {
+    let [before, _, now, _] = lines[..] else {
         panic!("{lines:?}");
     };
     assert!(before.starts_with("before, the module runs scene bench ("));
@@ -151,7 +152,7 @@ fn a_board_on_a_port_runs_the_scene_that_is_deployed() {
     place.done(&format!("save {port} --scene other.toml --all"));
     let saved = place.text("other.toml");
     assert!(
-        saved.contains("gain = 1.5") && saved.contains("frequency_hz = 3"),
+        saved.contains("gain  = 1.5") && saved.contains("frequency_hz = 3"),
         "{saved}"
     );
     let get = place.done(&format!("get {port} --scene other.toml")).stdout;

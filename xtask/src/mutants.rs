@@ -1,0 +1,76 @@
+//! That tests notice mistakes: each of the kept mutants (`xtask/mutants.toml`) is made in a copy
+//! of the tree, and its test must fail.
+
+use std::path::Path;
+
+use serde::Deserialize;
+
+use crate::reproducible::copy;
+use crate::run::{Fault, cargo, no_faults, read, run, target, top, write};
+
+#[derive(Deserialize)]
+struct Kept {
+    mutant: Vec<Mutant>,
+}
+
+/// A mistake in one place.
+#[derive(Deserialize)]
+struct Mutant {
+    file: String,
+    /// Stands in the file once.
+    find: String,
+    replace: String,
+    /// What `cargo test` is given.
+    test: String,
+}
+
+/// Fails with every mutant that survives, or whose place is not found.
+pub(crate) fn all() -> Result<(), Fault> {
+    let list = read(&top().join("xtask/mutants.toml"))?;
+    let kept: Kept = toml::from_str(&list).map_err(|error| error.to_string())?;
+    let tree = copy(&target().join("mutants"))?;
+    let faults = kept
+        .mutant
+        .iter()
+        .filter_map(|mutant| mutant.survives(&tree));
+    let faults: Vec<Fault> = faults.collect();
+    let (all, caught) = (kept.mutant.len(), kept.mutant.len() - faults.len());
+    println!("{caught} of {all} mutants are caught");
+    no_faults(&faults)
+}
+
+impl Mutant {
+    /// Why it is not caught, if it is not.
+    fn survives(&self, tree: &Path) -> Option<Fault> {
+        let fault = self.try_in(tree).err()?;
+        Some(format!("{}: {}: {fault}", self.file, self.replace))
+    }
+
+    fn try_in(&self, tree: &Path) -> Result<(), Fault> {
+        let file = tree.join(&self.file);
+        let whole = read(&file)?;
+        if whole.matches(&self.find).count() != 1 {
+            return Err(format!("{} does not stand there once", self.find));
+        }
+        write(&file, whole.replace(&self.find, &self.replace))?;
+        let asked = self.ask(tree);
+        write(&file, whole)?;
+        asked
+    }
+
+    /// Whether the test fails; a mutant that does not compile is no mutant.
+    fn ask(&self, tree: &Path) -> Result<(), Fault> {
+        let test = |last: &[&str]| {
+            let mut command = cargo(&["test", "--quiet", "--locked"]);
+            command.args(self.test.split(' ')).args(last);
+            // Beside the copy, so that the next night compiles only what has changed.
+            command.env("CARGO_TARGET_DIR", target().join("of-mutants"));
+            run(command.current_dir(tree))
+        };
+        test(&["--no-run"])?;
+        match test(&[]) {
+            Ok(()) => Err("survives".to_owned()),
+            Err(_) => Ok(()),
+        }
+    }
+}
