@@ -3,7 +3,7 @@
 use proptest::prelude::*;
 
 use super::{QUIET, flat, floor};
-use crate::{Biotact, Grit, Material, Pose, Shaft, Surface, TouchingWhisker};
+use crate::{Biotact, Facing, Grit, Material, Plate, Pose, Shaft, Surface, TouchingWhisker};
 
 /// Pointing down at an angle, the tip of the straight shaft `above` the floor.
 fn slanted(angle: f64, length_m: f64, above: f64) -> Pose {
@@ -174,6 +174,61 @@ proptest! {
             prop_assert!(energy.is_finite() && energy < 1e12, "{energy}");
             prop_assert!(whisker.reading().iter().all(|r| r.abs() <= 1.0));
             prop_assert!(whisker.force_n().iter().all(|f| f.is_finite() && *f >= 0.0), "{n} {whisker:?}");
+        }
+    }
+}
+
+/// What holds a shaft of a length and a taper, and how it is swung.
+type Swing = (f64, f64, f64);
+
+fn any_swing() -> impl Strategy<Value = Swing> {
+    let push_deg = prop_oneof![Just(0.05), 1.0..60.0_f64];
+    (
+        push_deg,
+        0.5..25.0_f64,
+        prop_oneof![Just(500.0), Just(2000.0), Just(8000.0)],
+    )
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(96))]
+
+    /// Swung against a plate by up to 60° at up to 25 Hz, grazing it and parallel to it too,
+    /// any shaft stores no more than holding its tip and then its follicle would, and the motion
+    /// of the base gives it.
+    #[test]
+    fn a_swung_whisker_stays_bounded(
+        length_m in 0.02..0.3_f64,
+        taper in 1.0..30.0_f64,
+        slant_deg in prop_oneof![Just(0.0), 0.0..80.0_f64],
+        tilt_deg in -60.0..60.0_f64,
+        stiffness in 2.0..9.0_f64,
+        friction in 0.0..1.5_f64,
+        (push_deg, hz, tick_hz) in any_swing(),
+    ) {
+        let shaft = Shaft {
+            length_m,
+            hub_diameter_m: length_m / 50.0,
+            tip_diameter_m: length_m / 50.0 / taper,
+            ..Shaft::biotact(Biotact::Middle)
+        };
+        let facing = Facing { slant_deg, tilt_deg, elevation_deg: 0.0 };
+        let ground = flat(10.0_f64.powf(stiffness), 0.3, friction, friction);
+        let plate = Plate::in_the_way(1.0, length_m, &facing, ground);
+        let mut whisker = TouchingWhisker::new(&shaft, &QUIET, 1).unwrap();
+        let modes = shaft.modes(1).unwrap();
+        let (swing, omega) = ((push_deg + 5.0).to_radians(), core::f64::consts::TAU * hz);
+        // Ten times over, and a shaft that whirls ten times as fast.
+        let tip_j = 0.5 * (length_m * swing).powi(2) / modes.tip_m_n;
+        let held_j = 10.0 * tip_j + 0.5 * shaft.follicle.rotation_n_m_rad * swing * swing;
+        let whirl_j = 0.5 * (modes.modes[0].rotation * swing * omega).powi(2);
+        for n in 0..(tick_hz / hz) as u32 * 2 {
+            let phase = omega * f64::from(n) / tick_hz;
+            let angle = 1.0 + swing * 0.5 * (1.0 - phase.cos()) - 5.0_f64.to_radians();
+            whisker.step(&Pose::swung(angle), Some(&plate), 1.0 / tick_hz);
+            let energy = whisker.energy_j();
+            prop_assert!(energy < held_j + 100.0 * whirl_j, "{n} {energy} {held_j} {whirl_j}");
+            prop_assert!(whisker.tip_m().iter().all(|tip| tip.abs() <= length_m));
         }
     }
 }
