@@ -192,6 +192,15 @@ impl Curve {
         grid.lowest(&core::array::from_fn(rise))
     }
 
+    /// The tangent at a place, in the axes of the base.
+    #[inline]
+    pub(crate) fn along(&self, place: &Place) -> V3 {
+        self.tangent.map(|part| {
+            let nodes = part.iter().skip(place.first).zip(&place.along);
+            nodes.map(|(part, along)| part * along).sum()
+        })
+    }
+
     /// How steeply the shaft rises at a place for heights along `up`, and how that changes
     /// along it, 1/m.
     #[inline]

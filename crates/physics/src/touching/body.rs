@@ -111,7 +111,8 @@ pub(super) struct Touch {
     pub(super) place: Option<Place>,
     /// Where it is expected to touch in the next part, m from the base.
     pub(super) next_m: f64,
-    /// Where the foot is, plate coordinates, m, and how far it has rolled since it touched.
+    /// Where the foot is, plate coordinates, m, and how far it has come since it touched without
+    /// that the ground under it changed.
     pub(super) foot: V3,
     pub(super) rolled: [f64; 2],
     /// Height and slopes under the foot, if known.

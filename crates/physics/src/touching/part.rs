@@ -18,9 +18,10 @@
 //! lowest place is not defined, and where it runs along the plane depends on where it is
 //! pressed. Both are found together by Newton's method, in the rounds of the same iteration.
 //!
-//! Heights are read where the shaft touches first, and from then on where the material that
-//! touched has slid to: a shaft that lays itself along the plate bridges its grains, and feels
-//! them only as it slides.
+//! Heights are read where the shaft touches first, and from then on where it has slid to. A
+//! shaft that lays itself along the plate bridges its grains; one that slides lengthwise keeps
+//! its place in space, and so the grains that it lies on: both change no height. Away from the tip
+//! only what it slides sideways counts, and its side has no slope lengthwise.
 //!
 //! Ways are those in the middle of the part: times a change of the amplitudes they are
 //! the place's displacement but for the third order of the change. A round that changes the
@@ -76,11 +77,12 @@ type Known = (V3, [f64; 3]);
 
 /// What a round has found.
 struct Round {
-    /// How far the foot has rolled since it touched.
+    /// How far the foot has come since it touched without that the ground under it changed.
     rolled: [f64; 2],
-    /// Where the foot was expected, and where it is.
+    /// Where the foot was expected, where it is, and how far that is apart on ground that changes.
     there: V3,
     next: V3,
+    miss: [f64; 2],
     /// How far the place is off where its ways bring it, m.
     off_m: f64,
     moves: Moves,
@@ -118,7 +120,7 @@ impl Body {
         for n in 1..=ROUNDS {
             let round = self.round(&mut part, old, &before, &place, &end, to, ground.take());
             end = round.end;
-            let miss = [0, 1].map(|i| round.next[i] - round.there[i]);
+            let miss = round.miss;
             if let Some(old) = missed.replace(miss) {
                 relax = relaxed(relax, old, miss);
             }
@@ -228,12 +230,17 @@ impl Body {
         } else {
             [0.0; 2]
         };
+        let middle = shapes.curve(&between(&part.start, end));
+        let lengthwise = part.touching && place.at_m < self.shaft.length_m;
+        let along = lengthwise.then(|| level(new.vector(middle.along(place))));
         let relief = &mut self.ground.relief;
-        let mut ground_at = |at: V3| relief.at([at[0] - rolled[0], at[1] - rolled[1]]);
+        let mut ground_at = |at: V3| {
+            let [x, y] = aside(along, [at[0] - foot[0], at[1] - foot[1]]);
+            relief.at([foot[0] - rolled[0] + x, foot[1] - rolled[1] + y])
+        };
         part.foot = foot;
         part.ground = self.touch.ground.unwrap_or_else(|| ground_at(foot));
         part.carried = sub(sub(new.place(at), part.stretch), foot);
-        let middle = shapes.curve(&between(&part.start, end));
         let moves = Moves::new(&shapes.ways(&middle, place), part);
         let (there, ground) = known.unwrap_or_else(|| {
             let there = match to {
@@ -246,8 +253,8 @@ impl Body {
             };
             (there, ground_at(there))
         });
-        let [from, way] = [foot, there].map(|v| [v[0], v[1]]);
-        let slopes = secant(from, part.ground, way, ground);
+        let way = aside(along, [there[0] - foot[0], there[1] - foot[1]]);
+        let slopes = aside(along, secant([0.0; 2], part.ground, way, ground));
         let solved = self.solve(part, Frame::new(slopes), &moves);
         let force = new.components(solved.frame.plate(solved.force.local));
         let forces = moves.forces(force);
@@ -255,10 +262,14 @@ impl Body {
         let straight = add(at, 1.0, moves.between(&part.start, &end));
         let curve = self.shaft.shapes.curve(&end);
         let bent = curve.at(place);
+        let next = sub(new.place(bent), solved.stretch);
+        let went = [0, 1].map(|i| next[i] - foot[i]);
+        let slid = aside(along, went);
         Round {
-            rolled,
+            rolled: [0, 1].map(|i| rolled[i] + went[i] - slid[i]),
+            miss: aside(along, [0, 1].map(|i| next[i] - there[i])),
             there,
-            next: sub(new.place(bent), solved.stretch),
+            next,
             off_m: length(sub(bent, straight)),
             moves,
             solved,
@@ -316,6 +327,24 @@ impl Body {
             ..Touch::in_the_air(&part.law.compliance, stretch)
         };
     }
+}
+
+/// The direction of a vector along the plate; none of a vector across it.
+#[inline]
+fn level(v: V3) -> [f64; 2] {
+    let size = length2([v[0], v[1]]);
+    let keep = if size > 1e-9 { 1.0 / size } else { 0.0 };
+    [keep * v[0], keep * v[1]]
+}
+
+/// The part of a way on the plate that is not lengthwise, where there is a lengthwise.
+#[inline]
+fn aside(along: Option<[f64; 2]>, way: [f64; 2]) -> [f64; 2] {
+    let Some(along) = along else {
+        return way;
+    };
+    let far = along[0] * way[0] + along[1] * way[1];
+    [0, 1].map(|i| way[i] - far * along[i])
 }
 
 /// Halfway between two states.
