@@ -24,7 +24,7 @@ pub use whisker::{Elastic, ElasticSettings};
 
 use core::fmt::Debug;
 
-use physics::{BadSetting, Bent};
+use physics::{At, BadSetting, Bent};
 use scene::Texture;
 
 /// How many whiskers there are, and where their obstacles stand.
@@ -89,6 +89,11 @@ pub trait Plant: Debug + Send {
 
     /// How whisker `n` is bent, counted from 0, left side first; none where shafts have no shape.
     fn bent(&self, _n: usize) -> Option<Bent> {
+        None
+    }
+
+    /// Where its shaft touches, while it does; none where shafts have no shape.
+    fn contact_at(&self, _n: usize) -> Option<At> {
         None
     }
 

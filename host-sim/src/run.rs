@@ -371,6 +371,7 @@ impl<B: Bench + ?Sized> Run<B> {
             let side = n / self.whiskers.max(1);
             let of_side = || self.snapshot.contact.get(side).copied();
             let fault = if *sensor == 0 { *motor } else { *sensor };
+            let touch = self.world.contact_at(n);
             WhiskerRow {
                 theta_deg: self.snapshot.theta_deg.get(n).copied().unwrap_or(f64::NAN),
                 angle_deg: self.world.angles_deg().get(n).copied().unwrap_or(f64::NAN),
@@ -383,6 +384,8 @@ impl<B: Bench + ?Sized> Run<B> {
                 } else {
                     f64::NAN
                 },
+                touch_at_m: touch.map_or(f64::NAN, |at| at.arc_m),
+                place_m: touch.map_or(f64::NAN, |at| at.plate_m[0]),
             }
         };
         rows.clear();

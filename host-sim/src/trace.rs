@@ -5,7 +5,7 @@ mod header;
 
 use std::io::{self, Write};
 
-pub use header::{FIRST, OF_RIGHT, OF_WHISKER, SECOND, TraceShape};
+pub use header::{FIRST, OF_ELASTIC, OF_RIGHT, OF_WHISKER, SECOND, TraceShape};
 
 /// One tick of a module. Values of a side that does not exist are NaN.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
@@ -63,6 +63,10 @@ pub struct WhiskerRow {
     pub contact: f64,
     /// Number of the fault that holds it; 0: none.
     pub fault: f64,
+    /// Where its shaft touches: arc length from the base, m.
+    pub touch_at_m: f64,
+    /// Where that is on the surface, along its first coordinate, m.
+    pub place_m: f64,
 }
 
 /// Everything that a trace has of a tick.
@@ -153,6 +157,14 @@ impl<W: Write> TraceWriter<W> {
                 cell(line, whisker.fault, 0);
             }
         }
+        for first in first.into_iter().take(shape.elastic_sides()) {
+            cell(
+                line,
+                first.map_or(f64::NAN, |whisker| whisker.touch_at_m),
+                9,
+            );
+            cell(line, first.map_or(f64::NAN, |whisker| whisker.place_m), 9);
+        }
         line.push(b'\n');
         self.table.write_all(line)
     }
@@ -189,6 +201,7 @@ mod tests {
         sides: 1,
         whiskers_per_side: 1,
         hears_right: false,
+        is_elastic: false,
     };
 
     fn whisker(n: f64) -> WhiskerRow {
@@ -200,6 +213,8 @@ mod tests {
             codes: [8192.0, 8190.0],
             contact: 0.125,
             fault: n,
+            touch_at_m: 0.1,
+            place_m: f64::NAN,
         }
     }
 
@@ -252,11 +267,47 @@ mod tests {
     }
 
     #[test]
+    fn elastic_whiskers_end_their_rows_with_where_they_touch() {
+        let row = Row::default();
+        let whiskers = [0.0, 1.0, 2.0, 3.0].map(whisker);
+        let tick = TraceLine {
+            row: &row,
+            decisions: [None, None],
+            presented: ("free", 0),
+            whiskers: &whiskers,
+        };
+        for sides in [1, 2] {
+            let rigid = TraceShape {
+                sides,
+                whiskers_per_side: 2,
+                hears_right: false,
+                is_elastic: false,
+            };
+            let elastic = TraceShape {
+                is_elastic: true,
+                ..rigid
+            };
+            let more = [
+                ",touch_at_left_m,place_left_m,touch_at_right_m,place_right_m",
+                ",0.100000000,,0.100000000,",
+            ];
+            let cells = 2 * sides;
+            let lines = written(rigid, [tick]).into_iter().zip(more);
+            let expected = lines.map(|(line, more)| {
+                let more: Vec<&str> = more.split(',').take(1 + cells).collect();
+                line + &more.join(",")
+            });
+            assert_eq!(written(elastic, [tick]), expected.collect::<Vec<_>>());
+        }
+    }
+
+    #[test]
     fn every_whisker_of_both_sides_has_cells_of_its_own() {
         let shape = TraceShape {
             sides: 2,
             whiskers_per_side: 2,
             hears_right: true,
+            is_elastic: false,
         };
         let row = Row {
             touch: [7, 9],

@@ -7,7 +7,7 @@ use crate::motor::{IdealMotor, MotorSettings, Pins, SimMotor};
 use crate::plant::{
     self, Elastic, ElasticSettings, HOLD, Ideal, Plant, Textured, TexturedSettings,
 };
-use physics::{BadSetting, Bent, Biotact, Facing, Follicle, Shaft, Surface};
+use physics::{At, BadSetting, Bent, Biotact, Facing, Follicle, Shaft, Surface};
 
 /// The motors of all whiskers and the surface they meet.
 #[derive(Debug)]
@@ -118,6 +118,11 @@ impl World {
     /// How whisker `n` is bent; none where shafts have no shape.
     pub fn bent(&self, n: usize) -> Option<Bent> {
         self.plant.bent(n)
+    }
+
+    /// Where the shaft of whisker `n` touches, while it does; none where shafts have no shape.
+    pub fn contact_at(&self, n: usize) -> Option<At> {
+        self.plant.contact_at(n)
     }
 
     /// The whiskers' angles, left side first, degrees.

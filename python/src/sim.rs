@@ -7,6 +7,8 @@ use host_sim::decisions::Decided;
 use host_sim::run::Run;
 use host_sim::trace::{self, TraceShape, TraceWriter, WhiskerRow};
 use host_sim::{decisions, pressing, recording};
+use numpy::PyArray2;
+use physics::Bent;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyDict};
@@ -98,6 +100,17 @@ pub(crate) struct Sim {
 impl Sim {
     fn state(&self) -> MutexGuard<'_, State> {
         self.state.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    fn bent(&self, py: Python<'_>, whisker: usize) -> PyResult<Bent> {
+        let bent = py.detach(|| self.state().run.bent(whisker));
+        bent.ok_or_else(|| {
+            let fault = format!(
+                "whisker {whisker}: scene {:?} has none that bends",
+                self.name
+            );
+            PyValueError::new_err(fault)
+        })
     }
 }
 
@@ -206,6 +219,23 @@ impl Sim {
         Ok(())
     }
 
+    /// Points of a whisker's shaft as it is bent now, from base to tip, m: an array of shape
+    /// (13, 3) with the columns x (against protraction), y (across it) and z (along the shaft as
+    /// it is without a bend). Only with `plant.kind = "whisker"`.
+    #[pyo3(signature = (whisker=0))]
+    fn shaft<'py>(&self, py: Python<'py>, whisker: usize) -> PyResult<Bound<'py, PyArray2<f64>>> {
+        let points = self.bent(py, whisker)?.points_m.map(Vec::from);
+        Ok(PyArray2::from_vec2(py, &points)?)
+    }
+
+    /// Where a whisker touches now: arc length from the base and place on the surface, m, as the
+    /// trace has them of the first whiskers; None in the air.
+    #[pyo3(signature = (whisker=0))]
+    fn touch_at(&self, py: Python<'_>, whisker: usize) -> PyResult<Option<(f64, f64)>> {
+        let contact = self.bent(py, whisker)?.contact;
+        Ok(contact.map(|at| (at.arc_m, at.plate_m[0])))
+    }
+
     /// `trace.csv` from here to the scene's end, byte for byte as host-sim writes it.
     fn trace_csv<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyBytes>> {
         let written = py.detach(|| {
@@ -293,6 +323,7 @@ pub(crate) fn columns<'py>(py: Python<'py>, table: &str) -> PyResult<Bound<'py, 
             &trace::OF_RIGHT,
             &trace::SECOND,
             &trace::OF_WHISKER,
+            &trace::OF_ELASTIC,
         ]
         .concat(),
         "decisions" => decisions::COLUMNS.to_vec(),

@@ -212,6 +212,10 @@ impl RunTables {
             ];
             rows.numbers(own);
         }
+        for first in firsts.into_iter().take(self.shape.elastic_sides()) {
+            let touched = first.map(|w| [w.touch_at_m, w.place_m]);
+            rows.numbers(touched.unwrap_or([f64::NAN; 2]));
+        }
     }
 }
 

@@ -27,7 +27,7 @@ STILL = {
 
 
 def test_rows_are_those_of_the_file():
-    for name in ("textures", "both"):
+    for name in ("textures", "both", "whisker"):
         sim = whisker.Sim(whisker.SCENES[name], set=SHORT)
         rows = sim.run()
         sim.reset()
@@ -115,6 +115,26 @@ def test_a_texture_is_laid():
         sim.lay("silk")
     with pytest.raises(ValueError, match='"still" has none'):
         whisker.Sim(STILL).lay("carpet")
+
+
+def test_an_elastic_whisker_has_a_bent_shaft_and_a_point_of_contact():
+    sim = whisker.Sim(whisker.SCENES["whisker"])
+    straight = sim.shaft()
+    assert straight.shape == (13, 3)
+    assert np.ptp(np.diff(straight[:, 2])) < 1e-9 and not straight[:, :2].any()
+    row = next(row for row in (sim.step()[-1] for _ in range(4000)) if row["contact_left"] > 0.3)
+    arc_m, place_m = sim.touch_at()
+    assert (arc_m, place_m) == (row["touch_at_left_m"], row["place_left_m"])
+    assert 0.5 < arc_m / straight[-1, 2] < 1.0 + 1e-9
+    bent = sim.shaft()
+    # As long as before, and pushed against protraction.
+    lengths = [np.linalg.norm(np.diff(shaft, axis=0), axis=1).sum() for shaft in (straight, bent)]
+    assert abs(lengths[1] / lengths[0] - 1.0) < 0.01
+    assert bent[-1, 0] > 0.005
+    with pytest.raises(ValueError, match='whisker 1: scene "whisker" has none'):
+        sim.shaft(1)
+    with pytest.raises(ValueError, match='scene "still" has none that bends'):
+        whisker.Sim(STILL).touch_at()
 
 
 def test_a_scene_is_a_path_a_text_or_a_dictionary():

@@ -178,12 +178,14 @@
     stale = true;
   }
 
-  // Forward is up; the shaft is the cubic that has the base's rotation, the tip's deflection and
-  // no moment at its end.
+  // Numbers of a body: angle, length, contact, the point where it touches, and its points.
+  const POINTS = 13, BODY = 6 + 3 * POINTS;
+
+  // Forward is up; the shaft is a smooth curve through its points.
   function drawWhiskers() {
     const [pen, w, h] = fitted($("whisker"));
     const bodies = player.bodies(), limits = player.obstacles(), each = player.whiskers_per_side();
-    const longest = Math.max(...bodies.filter((_, n) => n % 6 === 1));
+    const longest = Math.max(...bodies.filter((_, n) => n % BODY === 1));
     const [slant, tilt] = Array.from(player.facing_deg(), (angle) => angle * Math.PI / 180);
     const reach = Math.min(sides > 1 ? w / 2 - 20 : w - 50, h / 1.25) / longest;
     const base = sides > 1 ? w / 2 : w - 30;
@@ -191,12 +193,18 @@
     pen.lineCap = "round";
     for (let side = 0; side < sides; side++) {
       const way = side === 0 ? -1 : 1, x0 = base + way * 8;
-      // Lateral and backward parts of what lies at an angle from the base.
-      const at = (angle, s) => [x0 + way * s * reach * Math.sin(angle), y0 + s * reach * Math.cos(angle)];
+      // Where a point is drawn: s along an angle from the base, and x against protraction.
+      const at = (angle, s, x = 0) => [
+        x0 + way * reach * (s * Math.sin(angle) - x * Math.cos(angle)),
+        y0 + reach * (s * Math.cos(angle) + x * Math.sin(angle)),
+      ];
       if (Number.isFinite(limits[side])) {
-        // Its section where the tip is: it leans, and the tip slides aside.
+        // Its section where the whisker touches, or where the tip is: it leans, and the whisker
+        // slides aside.
         const limit = limits[side] * Math.PI / 180;
-        const back = bodies[6 * side * each + 4] * Math.tan(tilt) * reach;
+        const first = bodies.subarray(BODY * side * each, BODY * (side * each + 1));
+        const aside = Number.isNaN(first[4]) ? first[BODY - 2] : first[4];
+        const back = aside * Math.tan(tilt) * reach;
         let [x, y] = at(limit, longest);
         x -= way * back * Math.cos(limit - slant);
         y += back * Math.sin(limit - slant);
@@ -209,32 +217,27 @@
         pen.stroke();
       }
       for (let n = side * each; n < (side + 1) * each; n++) {
-        const [angle, length, tip, turn, , contact] = bodies.subarray(6 * n, 6 * n + 6);
-        const theta = angle * Math.PI / 180;
-        const c = (turn * length - tip) / (2 * length ** 3);
+        const body = bodies.subarray(BODY * n, BODY * (n + 1));
+        const theta = body[0] * Math.PI / 180;
+        // Point 0 is that of contact, the shaft's are 1 to 13.
+        const point = (k) => at(theta, body[5 + 3 * k], body[3 + 3 * k]);
+        const shaft = Array.from({ length: POINTS }, (_, k) => point(k + 1));
         pen.strokeStyle = side === 0 ? colours.left : colours.right;
-        let last = at(theta, 0), straight = 0;
-        for (let part = 1; part <= 24; part++) {
-          const s = length * part / 24, middle = length * (part - 0.5) / 24;
-          const bent = turn * s - 3 * c * length * s * s + c * s * s * s;
-          // What is bent is shorter.
-          const slope = turn - 6 * c * length * middle + 3 * c * middle * middle;
-          straight += length / 24 * (1 - slope * slope / 2);
-          const [x, y] = at(theta, straight);
-          // Against protraction.
-          const next = [
-            x - way * bent * reach * Math.cos(theta), y + bent * reach * Math.sin(theta),
-          ];
-          pen.lineWidth = 4.5 - 3.6 * part / 24;
+        for (let k = 1; k < POINTS; k++) {
+          // A Catmull-Rom spline: at each point parallel to the line between its neighbours.
+          const from = shaft[k - 1], to = shaft[k];
+          const before = shaft[Math.max(k - 2, 0)], after = shaft[Math.min(k + 1, POINTS - 1)];
+          const leaving = from.map((value, axis) => value + (to[axis] - before[axis]) / 6);
+          const coming = to.map((value, axis) => value - (after[axis] - from[axis]) / 6);
+          pen.lineWidth = 4.5 - 3.6 * k / (POINTS - 1);
           pen.beginPath();
-          pen.moveTo(...last);
-          pen.lineTo(...next);
+          pen.moveTo(...from);
+          pen.bezierCurveTo(...leaving, ...coming, ...to);
           pen.stroke();
-          last = next;
         }
-        if (contact >= 0.05) {
+        if (!Number.isNaN(body[3])) {
           pen.beginPath();
-          pen.arc(...last, 4 + 10 * Math.min(contact, 1), 0, 2 * Math.PI);
+          pen.arc(...point(0), 4 + 10 * Math.min(body[2], 1), 0, 2 * Math.PI);
           pen.lineWidth = 1.5;
           pen.stroke();
         }

@@ -2,7 +2,7 @@
 
 use host_sim::run::Run;
 use host_sim::trace::WhiskerRow;
-use physics::Bent;
+use physics::{At, Bent};
 use scene::{PlantKind, Rule, Scene, Texture};
 use wasm_bindgen::prelude::wasm_bindgen;
 
@@ -74,37 +74,44 @@ impl Player {
         points
     }
 
-    /// What every whisker looks like: angle (degrees), length (m), deflection of the tip (m) and
-    /// rotation of the base (rad) against protraction, deflection of the tip across it (m), and
-    /// contact.
+    /// What every whisker looks like: angle (degrees), length (m), contact, the point where it
+    /// touches (m; not a number in the air), and 13 points from its base to its tip (m). Of a
+    /// point x is against protraction, y across it, and z along the shaft as it is without a bend.
     pub fn bodies(&mut self) -> Vec<f64> {
         self.run.look_at_whiskers(&mut self.whiskers);
         let mut bodies = Vec::new();
         for (n, w) in self.whiskers.iter().enumerate() {
-            let Bent {
-                length_m,
-                tip_m: [tip, aside],
-                base_rad: [base, _],
-            } = self
-                .run
-                .bent(n)
-                .unwrap_or_else(|| self.held(n, w.angle_deg));
-            bodies.extend([w.angle_deg, length_m, tip, base, aside, w.contact]);
+            let bent = self.run.bent(n);
+            let bent = bent.unwrap_or_else(|| self.held(n, w.angle_deg));
+            bodies.extend([w.angle_deg, bent.length_m, w.contact]);
+            bodies.extend(bent.contact.map_or([f64::NAN; 3], |at| at.point_m));
+            bodies.extend(bent.points_m.as_flattened());
         }
         bodies
     }
 
-    /// A shaft without a shape of its own is drawn as held by its obstacle.
+    /// A shaft without a shape of its own is drawn as held by its obstacle at the tip: each point
+    /// is turned back, by the share that a beam has which is held there.
     fn held(&self, n: usize, angle_deg: f64) -> Bent {
         const LENGTH_M: f64 = 0.112;
         let side = n / self.scene.head.whiskers_per_side.max(1);
         let limit = self.obstacle_deg(side);
         let over = (angle_deg - limit).max(0.0).to_radians();
-        Bent {
-            length_m: LENGTH_M,
-            tip_m: [LENGTH_M * over, 0.0],
-            base_rad: [0.3 * over, 0.0],
+        let mut bent = Bent::straight(LENGTH_M);
+        for [x, _, z] in &mut bent.points_m {
+            let (far_m, share) = (*z, *z / LENGTH_M);
+            let turned = over * (0.3 + share * (1.05 - 0.35 * share));
+            *x = far_m * turned.sin();
+            *z = far_m * turned.cos();
         }
+        if over > 0.0 {
+            bent.contact = bent.points_m.last().map(|tip| At {
+                arc_m: LENGTH_M,
+                point_m: *tip,
+                plate_m: [0.0; 2],
+            });
+        }
+        bent
     }
 
     fn obstacle_deg(&self, side: usize) -> f64 {

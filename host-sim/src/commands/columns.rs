@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 
 use crate::columns::{Column, columns, table};
 use crate::commands::sweep::measured;
-use crate::trace::{FIRST, OF_RIGHT, OF_WHISKER, SECOND};
+use crate::trace::{FIRST, OF_ELASTIC, OF_RIGHT, OF_WHISKER, SECOND};
 use crate::{decisions, pressing, recording};
 
 /// The columns of every file, in Markdown: from the lists that the headers are written from.
@@ -27,6 +27,12 @@ pub fn page() -> String {
             "Of each whisker but the first of its side, all eight, those of the left side \
              first; `*` is its place, such as `left_2` or `right_12`.",
             &OF_WHISKER,
+        ),
+        (
+            "trace.csv, elastic whiskers",
+            "With `plant.kind = \"whisker\"`, at the end of the row, of the sides that the head \
+             has.",
+            &OF_ELASTIC,
         ),
         (
             "decisions.csv",

@@ -20,7 +20,7 @@ use scene::Texture;
 
 use super::{BadSetting, Head, Plant};
 use physics::{
-    Bent, Facing, Grit, Material, Plate, SensorSettings, Shaft, Surface, TouchingWhisker,
+    At, Bent, Facing, Grit, Material, Plate, SensorSettings, Shaft, Surface, TouchingWhisker,
 };
 
 /// What holds a resting tip on a surface of no friction of its own and on a scene's own, as a
@@ -237,6 +237,10 @@ impl Plant for Elastic {
 
     fn bent(&self, whisker: usize) -> Option<Bent> {
         Some(self.whiskers.get(whisker)?.whisker.bent())
+    }
+
+    fn contact_at(&self, whisker: usize) -> Option<At> {
+        self.whiskers.get(whisker)?.whisker.contact_at()
     }
 
     fn advance(&mut self, angles_deg: &[f64], dt_s: f64) {

@@ -1,6 +1,6 @@
 //! The columns of a trace.
 
-use scene::Scene;
+use scene::{PlantKind, Scene};
 
 use crate::bench;
 use crate::columns::{Column, columns};
@@ -61,6 +61,18 @@ pub const SECOND: [Column; 8] = columns! {
     "fault_right", "", "the same of the right side";
 };
 
+/// Those at the end of every row of elastic whiskers, left side first; only sides that exist.
+pub const OF_ELASTIC: [Column; 4] = columns! {
+    "touch_at_left_m", "m",
+        "where along its shaft the side's first whisker touches: arc length from the base; empty \
+        in the air";
+    "place_left_m", "m",
+        "where on the surface: from the point that a straight tip touches first, in the plane of \
+        whisking, positive away from the base; empty in the air";
+    "touch_at_right_m", "m", "`touch_at_left_m` of the right side";
+    "place_right_m", "m", "`place_left_m` of the right side";
+};
+
 /// Those of each further whisker of a side, whose place is put in place of the `*`.
 pub const OF_WHISKER: [Column; 8] = columns! {
     "theta_*_deg", "degrees", "setpoint θ′";
@@ -82,6 +94,8 @@ pub struct TraceShape {
     pub whiskers_per_side: usize,
     /// Whether whiskers of the right side are heard.
     pub hears_right: bool,
+    /// Whether whiskers bend, and touch somewhere along their shafts.
+    pub is_elastic: bool,
 }
 
 impl TraceShape {
@@ -92,6 +106,7 @@ impl TraceShape {
             sides: scene.head.sides.count(),
             whiskers_per_side,
             hears_right: bench::heard(scene) > whiskers_per_side,
+            is_elastic: scene.plant.kind == PlantKind::Whisker,
         }
     }
 
@@ -104,6 +119,11 @@ impl TraceShape {
             let further = 1..each;
             further.map(move |n| (side * each + n, format!("{name}_{}", n + 1)))
         })
+    }
+
+    /// How many sides have whiskers that bend.
+    pub fn elastic_sides(self) -> usize {
+        if self.is_elastic { self.sides } else { 0 }
     }
 
     /// About how many bytes a row has.
@@ -126,6 +146,8 @@ impl TraceShape {
         for (_, place) in self.further() {
             names.extend(OF_WHISKER.map(|column| column.name.replace('*', &place)));
         }
+        let elastic = OF_ELASTIC.iter().take(2 * self.elastic_sides());
+        names.extend(elastic.map(|column| column.name.to_owned()));
         names
     }
 }

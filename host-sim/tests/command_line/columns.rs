@@ -14,6 +14,14 @@ fn numbers(rows: &[Vec<&str>], name: &str) -> Vec<f64> {
     cells.map(|cell| cell.parse().unwrap()).collect()
 }
 
+/// [`TEXTURED`] with a whisker that bends.
+fn elastic() -> String {
+    TEXTURED.replace(
+        "kind = \"textured\"",
+        "kind = \"whisker\"\nshaft = \"biotact-middle\"",
+    )
+}
+
 /// The page, as it is committed and as the program prints it.
 #[test]
 fn every_column_that_is_written_is_on_the_page() {
@@ -25,7 +33,7 @@ fn every_column_that_is_written_is_on_the_page() {
         "run cargo xtask docs --quick"
     );
 
-    let scene = format!("{TEXTURED}{SEQUENTIAL}");
+    let scene = elastic() + SEQUENTIAL;
     let both = scene
         .replace("sides = \"left\"", "sides = \"both\"")
         .replace("whiskers_per_side = 1", "whiskers_per_side = 3")
@@ -127,6 +135,39 @@ fn speed_and_duty_are_those_of_the_motion() {
             .iter()
             .all(|fault| *fault == "0")
     );
+}
+
+#[test]
+fn an_elastic_whisker_touches_at_its_tip_first_and_then_below_it() {
+    let place = Place::with(&[("s.toml", &elastic())]);
+    place.done("run s.toml --out .");
+    let text = place.text("trace.csv");
+    let rows = cells(&text);
+    let (at, on) = (
+        column(&rows, "touch_at_left_m"),
+        column(&rows, "place_left_m"),
+    );
+    assert!(rows[0].ends_with(&["touch_at_left_m", "place_left_m"]));
+    let touches = at.iter().zip(&on).filter(|(at, _)| !at.is_empty());
+    let touches: Vec<[f64; 2]> = touches
+        .map(|(at, on)| [at, on].map(|cell| cell.parse().unwrap()))
+        .collect();
+    assert!(
+        touches.len() > 50 && touches.len() < 950,
+        "{}",
+        touches.len()
+    );
+    // At the tip of its 112 mm, near where a straight tip touches.
+    let [first_at, first_on] = touches[0];
+    assert!(
+        first_at > 0.111 && first_on.abs() < 0.001,
+        "{first_at} {first_on}"
+    );
+    assert!(touches.iter().all(|[at, _]| *at > 0.056 && *at <= 0.112));
+    assert!(touches.iter().any(|[at, _]| *at < 0.1115));
+    let in_the_air = at.iter().zip(numbers(&rows, "angle_left_deg"));
+    let mut in_the_air = in_the_air.filter(|(at, _)| at.is_empty());
+    assert!(in_the_air.all(|(_, angle)| angle < 90.0));
 }
 
 /// A driver that may not exceed a hundredth of its duty cannot follow: the motor is given up.

@@ -1,6 +1,7 @@
 //! Outputs of a whisker: readings, contact, forces, energy.
 
 use super::TouchingWhisker;
+use super::body::Body;
 use crate::vector::dot;
 
 /// Points of a bent shaft, from the base to the tip.
@@ -23,6 +24,8 @@ pub struct Bent {
 pub struct At {
     /// Arc length from the base, m.
     pub arc_m: f64,
+    /// The point of the shaft, in the axes of [`Bent`], m.
+    pub point_m: [f64; 3],
     /// Place on the plate, m: along the plate's first coordinate, and across it.
     pub plate_m: [f64; 2],
 }
@@ -102,10 +105,13 @@ impl TouchingWhisker {
 
     /// Where the shaft touches, while it does.
     pub fn contact_at(&self) -> Option<At> {
+        let Body { shaft, state, .. } = &self.body;
         let touch = &self.body.touch;
-        let place = touch.place.filter(|_| self.contact());
-        place.map(|place| At {
+        let place = touch.place.filter(|_| self.contact())?;
+        let curve = self.body.curve.unwrap_or_else(|| state.curve(shaft));
+        Some(At {
             arc_m: place.at_m,
+            point_m: curve.at(&place),
             plate_m: [touch.foot[0], touch.foot[1]],
         })
     }

@@ -1,5 +1,6 @@
 //! Whiskers against closed forms, and what no contact may do.
 
+mod bent;
 mod closed_forms;
 mod elastica;
 mod energy;
