@@ -11,9 +11,12 @@ use crate::vector::{dot, length, sub};
 /// heights change from hill to valley over one.
 const TRAVEL: f64 = 0.25;
 
-/// Largest phase of the highest mode in a part, rad: errors of the base moment of 4e-4 to 8e-4 at
-/// pushes of 8 to 30°, less than the shapes' own.
+/// Largest phase of the highest mode in a part on flat ground, rad: errors of the base moment of
+/// 4e-4 to 8e-4 at pushes of 8 to 30°, less than the shapes' own.
 const PHASE: f64 = 3.0;
+
+/// The same on rough ground, which makes all modes ring.
+const ROUGH_PHASE: f64 = 1.0;
 
 impl Body {
     /// A step before the ground to a pose in its coordinates. Returns into how
@@ -120,7 +123,9 @@ impl Body {
     fn power(&self, way_m: f64, dt_s: f64) -> usize {
         let own = self.state.speed(&self.shaft) * dt_s;
         let grains = (way_m + own) / (TRAVEL * self.ground.relief.finest_m);
-        let phase = self.shaft.highest_rad_s * dt_s / PHASE;
+        let flat = self.ground.relief.finest_m.is_infinite();
+        let most = if flat { PHASE } else { ROUGH_PHASE };
+        let phase = self.shaft.highest_rad_s * dt_s / most;
         let wanted = grains.max(phase);
         let enough = |power: &usize| wanted <= f64::from(1_u32 << power);
         let power = (0..POWERS - 1).find(enough).unwrap_or(POWERS - 1);
