@@ -180,11 +180,7 @@ impl TouchingWhisker {
         if let Some(plate) = plate {
             self.step_before(&pose, plate);
         } else {
-            self.body.state.free(&self.steps.parts[0]);
-            self.body.state.keep(0.0);
-            self.body.curve = None;
-            self.body.touch = Touch::default();
-            self.body.last = None;
+            self.body.free(&self.steps);
         }
         if self.body.state.limit(&self.body.shaft) {
             self.body.curve = None;
@@ -225,11 +221,12 @@ impl TouchingWhisker {
             self.plate = (placed, finite.then(|| PlateFrame::new(plate)));
         }
         let Some(frame) = &self.plate.1 else {
-            self.body.state.free(&self.steps.parts[0]);
+            self.body.free(&self.steps);
             return;
         };
         if !self.body.ground.is_of(&plate.surface) {
             self.body.ground = Ground::new(plate.surface, self.body.shaft.tip_radius_m);
+            self.body.touch.ground = None;
         }
         let pose = frame.see(pose);
         self.parts = self.body.step(pose, &self.steps);

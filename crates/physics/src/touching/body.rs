@@ -24,6 +24,14 @@ pub(super) struct Body {
 }
 
 impl Body {
+    /// A step where no plate is.
+    pub(super) fn free(&mut self, steps: &Steps) {
+        let mut state = self.state;
+        state.free(&steps.parts[0]);
+        state.keep(0.0);
+        self.place(state);
+    }
+
     /// Sets the state of the modes, away from any plate.
     pub(super) fn place(&mut self, state: ModalState) {
         self.state = state;
