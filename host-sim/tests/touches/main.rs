@@ -202,7 +202,7 @@ fn touches_are_reported_within_2_ms() {
 /// With a model that knows touches.
 #[test]
 fn nothing_is_decided_in_the_air() {
-    let mut run = Run::new(&scene(WHISKER, 2.0, 100.0, 20.0, 3301), None).unwrap();
+    let mut run = Run::new(&scene(WHISKER, 2.0, 100.0, 40.0, 3301), None).unwrap();
     let mut recorder = Recorder::default();
     for _ in 0..run.ticks() {
         run.tick();
