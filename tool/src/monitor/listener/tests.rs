@@ -85,7 +85,7 @@ fn decisions_are_those_of_the_simulated_module() {
         ("textures.toml", "2", 200),
         ("both.toml", "1", 300),
         ("papers.toml", "1", 200),
-        ("whisker.toml", "1", 200),
+        ("whisker.toml", "1", 150),
     ] {
         let [own, sent] = listened("--sim", &scene_file(name), seed, 40.0, |_| false);
         println!("{name}: {} decisions", own.len());
