@@ -1,11 +1,11 @@
 //! BIOTACT's middle whisker, swung once against a hard plate without friction.
 //!
-//! `push PUSH_DEG TICK_HZ FINER plate|free REPEATS` writes the moment at the base at the end of
+//! `push PUSH_DEG PUSH_S TICK_HZ FINER plate|free REPEATS` writes the moment at the base at the end of
 //! every tick as CSV, and below it the seconds that a simulated second of the loop takes, the
 //! least of so many repeats.
 //!
-//! The motor goes from 2° before first touch to PUSH_DEG beyond it and back, as a cosine
-//! of 2 Hz. `tests/truth/against_mujoco.py` uses it.
+//! The motor goes from 2° before first touch to PUSH_DEG beyond it and back in PUSH_S seconds, as
+//! a cosine. `tests/truth/against_mujoco.py` uses it.
 
 use std::env::args;
 use std::f64::consts::TAU;
@@ -14,9 +14,6 @@ use std::time::Instant;
 use physics::{
     Biotact, Facing, Material, Plate, Pose, SensorSettings, Shaft, Surface, TouchingWhisker,
 };
-
-/// Length of a push, s.
-const PUSH_S: f64 = 0.5;
 
 /// Angle of the motor before first touch at which a push starts, rad.
 const BEFORE: f64 = 2.0 * TAU / 360.0;
@@ -28,8 +25,8 @@ const TOUCH: f64 = 1.0;
 const STILL: usize = 2;
 
 fn main() {
-    let Some((push_rad, tick_hz, finer, contact, repeats)) = arguments() else {
-        eprintln!("push PUSH_DEG TICK_HZ FINER plate|free REPEATS");
+    let Some((push_rad, push_s, tick_hz, finer, contact, repeats)) = arguments() else {
+        eprintln!("push PUSH_DEG PUSH_S TICK_HZ FINER plate|free REPEATS");
         std::process::exit(2);
     };
     let shaft = Shaft::biotact(Biotact::Middle);
@@ -45,7 +42,7 @@ fn main() {
     let plate = Plate::in_the_way(TOUCH, shaft.length_m, &facing, smooth);
     let plate = contact.then_some(plate);
 
-    let ticks = (PUSH_S * tick_hz).round() as usize;
+    let ticks = (push_s * tick_hz).round() as usize;
     let dt_s = 1.0 / tick_hz;
     let angle = |tick: usize| {
         let rise = 0.5 - 0.5 * (TAU * tick as f64 / ticks as f64).cos();
@@ -75,15 +72,23 @@ fn main() {
     for (tick, moment) in moments.iter().enumerate() {
         println!("{},{moment}", (tick + 1) as f64 * dt_s);
     }
-    println!("seconds,{}", least_s / PUSH_S);
+    println!("seconds,{}", least_s / push_s);
 }
 
-fn arguments() -> Option<(f64, f64, u32, bool, usize)> {
+fn arguments() -> Option<(f64, f64, f64, u32, bool, usize)> {
     let mut words = args().skip(1);
     let push_deg: f64 = words.next()?.parse().ok()?;
+    let push_s = words.next()?.parse().ok()?;
     let tick_hz = words.next()?.parse().ok()?;
     let finer = words.next()?.parse().ok()?;
     let contact = words.next()? == "plate";
     let repeats = words.next()?.parse().ok()?;
-    Some((push_deg.to_radians(), tick_hz, finer, contact, repeats))
+    Some((
+        push_deg.to_radians(),
+        push_s,
+        tick_hz,
+        finer,
+        contact,
+        repeats,
+    ))
 }
