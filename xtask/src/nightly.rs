@@ -37,6 +37,7 @@ pub(crate) fn all(only: Vec<String>) -> Result<(), Fault> {
     steps.try_run("documents", || docs::all(true));
     steps.try_run("experiments", studies::experiments);
     steps.try_run("Python: sources, sweeps, notebooks", python::whole);
+    steps.try_run("bending against MuJoCo", python::against_mujoco);
     steps.try_run("the walk through the book", walk::nightly);
     steps.try_run("endurance", endurance::nightly);
     steps.try_run("injected faults", faults::whole);

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::{env, fs};
 
-use crate::run::{Fault, listing, output, read, remove, run, target, top};
+use crate::run::{Fault, cargo, listing, output, read, remove, run, target, top};
 use crate::traces;
 
 /// The oldest Python that the wheel is for.
@@ -183,6 +183,18 @@ pub(crate) fn figures() -> Result<String, Fault> {
     let said = output(Command::new(inside).arg(top().join("python/tests/speeds.py")))?;
     let figures = said.trim().trim_start_matches('{');
     Ok(format!("{{\"wheel_bytes\": {bytes}, {figures}"))
+}
+
+/// Error against time of the bending whisker and of MuJoCo; the page is written where programs are.
+pub(crate) fn against_mujoco() -> Result<(), Fault> {
+    run(cargo(&["build", "--locked", "--release"]).args(["-p", "physics", "--example", "push"]))?;
+    let inside = environment(&newest()?, "mujoco", &["mujoco>=4,<5", "scipy"])?;
+    let mut compare = Command::new(inside);
+    compare
+        .arg(top().join("tests/truth/against_mujoco.py"))
+        .arg(target().join("release/examples/push"))
+        .arg(target().join("bending.md"));
+    run(compare.env("OPENBLAS_NUM_THREADS", "1"))
 }
 
 /// A file that a Python program has written.
