@@ -64,11 +64,6 @@ pub struct Modes {
     pub base_rad_n: f64,
     /// Part of `tip_m_n` that the modes leave out, m/N.
     pub residual_tip_m_n: f64,
-    /// Part of `base_rad_n` that the modes leave out, rad/N.
-    pub residual_base_rad_n: f64,
-    /// κ = ∫ w′² dz/w(L)² of the static response, 1/m: a tip that is off by u
-    /// has come back along the shaft by κ u²/2.
-    pub shortening_m: f64,
     /// The first modes and the static shapes, as they bend before a plate.
     pub(crate) shapes: Shapes,
 }
@@ -231,10 +226,8 @@ fn solve(shaft: &Shaft, count: usize) -> Option<Modes> {
     force[tip] = 1.0;
     let bent = factors.solve(&force);
     let (tip_m_n, base_rad_n) = (bent[tip], base_rotation(&bent));
-    let share = |of: fn(&BendingMode) -> f64| -> f64 {
-        let terms = modes.iter().map(|m| m.tip * of(m) / m.omega_rad_s.powi(2));
-        terms.sum()
-    };
+    let shares = modes.iter().map(|m| (m.tip / m.omega_rad_s).powi(2));
+    let residual_tip_m_n = (tip_m_n - shares.sum::<f64>()).max(0.0);
     let mut loads = vec![bent.clone(), factors.solve(&(&beam.slope * &bent))];
     if !clamped {
         loads.push(turned(shaft.length_m, size));
@@ -253,12 +246,10 @@ fn solve(shaft: &Shaft, count: usize) -> Option<Modes> {
         shapes.set(k, slopes, base_rotation(shape), shape[tip]);
     }
     Some(Modes {
+        modes,
         tip_m_n,
         base_rad_n,
-        residual_tip_m_n: (tip_m_n - share(|m| m.tip)).max(0.0),
-        residual_base_rad_n: base_rad_n - share(|m| m.base_rotation),
-        shortening_m: bent.dot(&(&beam.slope * &bent)) / (tip_m_n * tip_m_n),
-        modes,
+        residual_tip_m_n,
         shapes,
     })
 }

@@ -67,8 +67,8 @@ pub const OF_ELASTIC: [Column; 4] = columns! {
         "where along its shaft the side's first whisker touches: arc length from the base; empty \
         in the air";
     "place_left_m", "m",
-        "where on the surface: from the point that a straight tip touches first, in the plane of \
-        whisking, positive away from the base; empty in the air";
+        "where on the surface: from the point that a straight tip touches first, along the \
+        direction of that shaft laid on the plate, positive away from the base; empty in the air";
     "touch_at_right_m", "m", "`touch_at_left_m` of the right side";
     "place_right_m", "m", "`place_left_m` of the right side";
 };

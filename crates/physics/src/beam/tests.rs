@@ -102,7 +102,6 @@ fn static_response_is_that_of_the_textbooks() {
     let cantilever = 0.2_f64.powi(3) / (3.0 * rigidity);
     let modes = CLAMPED.modes(4).unwrap();
     near(modes.tip_m_n, cantilever, 1e-7);
-    near(modes.shortening_m, 1.2 / 0.2, 1e-6);
     assert_eq!(modes.base_rad_n, 0.0);
     // A mode has the share 12/β⁴; those after the fourth, 6.2e-4 together.
     assert!((5.8e-4..6.6e-4).contains(&(modes.residual_tip_m_n / cantilever)));
@@ -143,7 +142,6 @@ fn the_response_of_the_tip_is_the_sum_of_all_modes() {
     let shaft = hinged(0.05);
     let modes = shaft.modes(12).unwrap();
     assert!(modes.residual_tip_m_n / modes.tip_m_n < 1e-4);
-    assert!(modes.residual_base_rad_n.abs() / modes.base_rad_n < 1e-3);
 }
 
 #[test]

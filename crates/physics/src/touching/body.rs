@@ -119,8 +119,8 @@ pub(super) struct Touch {
     pub(super) place: Option<Place>,
     /// Where it is expected to touch in the next part, m from the base.
     pub(super) next_m: f64,
-    /// Where the foot is, plate coordinates, m, and how far it has come since it touched without
-    /// that the ground under it changed.
+    /// Where the foot is, plate coordinates, m, and how far it has come, since it touched, over
+    /// ground that it does not feel.
     pub(super) foot: V3,
     pub(super) rolled: [f64; 2],
     /// Height and slopes under the foot, if known.

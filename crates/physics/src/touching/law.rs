@@ -29,7 +29,7 @@ use crate::compliance::Compliance;
 use crate::contact::{Force, Frame, Problem};
 use crate::modal::ModalStep;
 use crate::pose::PlatePose;
-use crate::shapes::{Amplitudes, SHAPES, Ways};
+use crate::shapes::{Amplitudes, Curve, SHAPES, Ways};
 use crate::vector::{V3, add, dot, length2, scale};
 
 /// Least share of a part after touching down: keeps quotients finite.
@@ -37,8 +37,11 @@ const LATEST: f64 = 1e-9;
 
 /// What is known of a part before its force is.
 pub(super) struct Part<'a> {
-    /// The pose at its end.
+    /// The poses at its start and at its end.
+    pub(super) old: &'a PlatePose,
     pub(super) pose: &'a PlatePose,
+    /// How the shaft is bent at its start.
+    pub(super) before: Curve,
     pub(super) dt_s: f64,
     pub(super) law: Law,
     /// In contact at the start; `friction` is the coefficient that then holds, from

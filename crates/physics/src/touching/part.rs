@@ -77,9 +77,9 @@ type Known = (V3, [f64; 3]);
 
 /// What a round has found.
 struct Round {
-    /// How far the foot has come since it touched without that the ground under it changed.
+    /// How far the foot has come, since it touched, over ground that it does not feel.
     rolled: [f64; 2],
-    /// Where the foot was expected, where it is, and how far that is apart on ground that changes.
+    /// Where the foot was expected, where it is, and how far that is apart on ground that it feels.
     there: V3,
     next: V3,
     miss: [f64; 2],
@@ -98,14 +98,12 @@ struct Round {
 impl Body {
     /// One part of a step, from one pose to the next.
     pub(super) fn part(&mut self, old: &PlatePose, new: &PlatePose, step: &ModalStep, part_s: f64) {
-        let known = self.curve.take();
-        let before = known.unwrap_or_else(|| self.state.curve(&self.shaft));
-        let mut part = self.free_part(new, step, part_s);
+        let mut part = self.free_part(old, new, step, part_s);
         let (mut place, mut ground, mut end);
         if part.touching {
             // Forces change little from part to part.
             end = pushed(&part.free, &part.responses, &self.touch.forces);
-            place = self.expected(&before, new.up());
+            place = self.expected(&part.before, new.up());
             ground = None;
         } else {
             let Some(touched) = self.touched(&part) else {
@@ -118,7 +116,7 @@ impl Body {
         let near = NEAR * self.ground.relief.finest_m;
         let (mut missed, mut relax, mut to) = (None, 1.0, None);
         for n in 1..=ROUNDS {
-            let round = self.round(&mut part, old, &before, &place, &end, to, ground.take());
+            let round = self.round(&mut part, &place, &end, to, ground.take());
             end = round.end;
             let miss = round.miss;
             if let Some(old) = missed.replace(miss) {
@@ -150,7 +148,15 @@ impl Body {
     }
 
     /// Moves on without a force, and says what is known of the part then.
-    fn free_part<'a>(&mut self, new: &'a PlatePose, step: &ModalStep, part_s: f64) -> Part<'a> {
+    fn free_part<'a>(
+        &mut self,
+        old: &'a PlatePose,
+        new: &'a PlatePose,
+        step: &ModalStep,
+        part_s: f64,
+    ) -> Part<'a> {
+        let known = self.curve.take();
+        let before = known.unwrap_or_else(|| self.state.curve(&self.shaft));
         let law = self.law(step, part_s);
         let share = law.share(1.0);
         let touching = self.touch.is_contact();
@@ -162,7 +168,9 @@ impl Body {
             law.kept()
         });
         Part {
+            old,
             pose: new,
+            before,
             dt_s: part_s,
             touching,
             friction: self.ground.surface.friction_at(self.touch.slip_m_s),
@@ -209,12 +217,9 @@ impl Body {
 
     /// One round: the force at a place, on a plane to where the foot is expected, for shapes
     /// that end about as they do in `end`.
-    #[expect(clippy::too_many_arguments, reason = "each is found elsewhere")]
     fn round(
         &mut self,
         part: &mut Part<'_>,
-        old: &PlatePose,
-        before: &Curve,
         place: &Place,
         end: &Amplitudes,
         to: Option<[f64; 2]>,
@@ -222,8 +227,8 @@ impl Body {
     ) -> Round {
         let shapes = &self.shaft.shapes;
         let new = part.pose;
-        let at = before.at(place);
-        let foot = sub(old.place(at), old.vector(self.touch.stretch));
+        let at = part.before.at(place);
+        let foot = sub(part.old.place(at), part.old.vector(self.touch.stretch));
         let rolled = if part.touching {
             let last = &self.touch;
             [0, 1].map(|i| last.rolled[i] + foot[i] - last.foot[i])

@@ -2,6 +2,7 @@
 //! (`tests/truth/elastica.py`).
 
 use super::{QUIET, flat};
+use crate::vector::{add, dot, scale, sub};
 use crate::{Facing, Follicle, Plate, Pose, Shaft, TouchingWhisker};
 
 /// One line of a table, its numbers by the names of their columns.
@@ -63,6 +64,19 @@ fn pushed(case: &[Row]) -> Vec<[f64; 4]> {
             let push = (f64::from(tick) * 0.0025 - 1.0).to_radians();
             whisker.step(&Pose::swung(1.0 + push), Some(&plate), 5e-4);
             tick += 1;
+        }
+        let pose = Pose::swung(1.0 + push_deg.to_radians());
+        for [x, y, z] in whisker.bent().points_m {
+            let along = add(add(scale(x, pose.x), y, pose.y), z, pose.z());
+            let above = dot(
+                sub(add(pose.base_m, 1.0, along), plate.point_m),
+                plate.normal,
+            );
+            assert!(
+                above > -0.005 * length_m,
+                "{push_deg} {above} {:?}",
+                first.0
+            );
         }
         let moments = whisker
             .rotation_rad()
