@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::any_rule::{AnyEvidence, AnyRule, RuleSettings};
 use crate::constants::Constants;
-use crate::decision::Decision;
+use crate::decision::{Decision, Reason};
 use crate::error::SetupError;
 use crate::format::MAX_STREAMS;
 use crate::model::Model;
@@ -255,7 +255,7 @@ impl<W: Words> StreamClassifier<W> {
             }
         }
         let is_below = model.has_floors() && excess.iter().any(|tables| *tables < 0);
-        Some(decision.in_touch(touch, is_below))
+        Some(decision.in_touch(touch, is_below.then_some(Reason::Unknown)))
     }
 }
 

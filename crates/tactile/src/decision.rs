@@ -12,12 +12,53 @@ pub struct Decision {
     samples: NonZeroU32,
     /// The posterior, and the class in the five bits above.
     packed: u32,
-    /// The touch, and above its 16 bits whether it is none of the classes.
+    /// The touch, and above its 16 bits why no class is named, if none is: one bit that none
+    /// is, two of the reason, five of the rival.
     touch: u32,
 }
 
-/// Set in [`Decision::touch`] where what was felt is none of the classes.
+/// Set in [`Decision::touch`] where no class is named.
 const UNKNOWN: u32 = 1 << 16;
+/// Where in it the reason begins, and where the rival.
+const REASON_AT: u32 = 17;
+const RIVAL_AT: u32 = 19;
+
+/// Why a decision names no class.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Reason {
+    /// What was felt is unlike all classes, or its model does not say more.
+    Unknown,
+    /// The way of the touch lies outside the poses of training.
+    Pose,
+    /// Two opinions differ: it is the leader, or this class.
+    Between(usize),
+}
+
+impl Reason {
+    /// Its name in files and lines.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Unknown => "unknown",
+            Self::Pose => "pose",
+            Self::Between(_) => "between",
+        }
+    }
+
+    /// It in the bits of [`Decision::touch`].
+    const fn bits(self) -> u32 {
+        match self {
+            Self::Unknown => UNKNOWN,
+            Self::Pose => UNKNOWN | 1 << REASON_AT,
+            // Classes are at most 32.
+            Self::Between(rival) => {
+                UNKNOWN | 2 << REASON_AT | ((rival % MAX_RIVALS) as u32) << RIVAL_AT
+            }
+        }
+    }
+}
+
+/// Classes that fit the bits of a rival.
+const MAX_RIVALS: usize = 32;
 
 impl Decision {
     #[inline]
@@ -30,12 +71,11 @@ impl Decision {
         }
     }
 
-    /// The same, which fell in this touch, and whether what was felt is unknown.
+    /// The same, which fell in this touch, and why it names no class, if so.
     #[inline]
-    pub(crate) fn in_touch(self, touch: u16, is_unknown: bool) -> Self {
-        let flag = if is_unknown { UNKNOWN } else { 0 };
+    pub(crate) fn in_touch(self, touch: u16, reason: Option<Reason>) -> Self {
         Self {
-            touch: u32::from(touch) | flag,
+            touch: u32::from(touch) | reason.map_or(0, Reason::bits),
             ..self
         }
     }
@@ -55,10 +95,31 @@ impl Decision {
         [self.samples.get(), self.packed, self.touch]
     }
 
-    /// The class decided for: its index in the model. `None`: unknown, what was felt
-    /// is less like the nearest class than that class is like itself.
+    /// The class decided for: its index in the model. `None`: no class is named, for a
+    /// [reason](Self::reason).
     pub fn class(&self) -> Option<usize> {
         (self.touch & UNKNOWN == 0).then_some(self.leader())
+    }
+
+    /// Why no class is named; `None` where one is.
+    pub fn reason(&self) -> Option<Reason> {
+        if self.touch & UNKNOWN == 0 {
+            return None;
+        }
+        Some(match (self.touch >> REASON_AT) % 4 {
+            1 => Reason::Pose,
+            2 => Reason::Between((self.touch >> RIVAL_AT) as usize % MAX_RIVALS),
+            // Of flipped bits too.
+            _ => Reason::Unknown,
+        })
+    }
+
+    /// Between which two classes it is, where no class is named for that reason.
+    pub fn among(&self) -> Option<[usize; 2]> {
+        match self.reason()? {
+            Reason::Between(rival) => Some([self.leader(), rival]),
+            Reason::Unknown | Reason::Pose => None,
+        }
     }
 
     /// The class whose posterior exceeded the threshold, though it may be unknown.
@@ -174,7 +235,7 @@ mod tests {
                 let exact = f64::from(against) / 2.0_f64.powi(26 + i32::from(gain));
                 assert!(found <= exact && exact - found <= exact * 2.0_f64.powi(-20));
                 let decision = Decision::new(31, 9, Posterior::from_odds_against(against, gain));
-                let decision = decision.in_touch(0xffff, gain > 0);
+                let decision = decision.in_touch(0xffff, (gain > 0).then_some(Reason::Between(31)));
                 let Decision {
                     samples,
                     packed,
@@ -184,12 +245,25 @@ mod tests {
                 assert_eq!(read, Some(decision));
                 assert_eq!(decision.class(), (gain == 0).then_some(31));
                 assert_eq!((decision.leader(), decision.touch()), (31, 0xffff));
+                assert_eq!(decision.among(), (gain > 0).then_some([31, 31]));
                 assert_eq!(
                     decision.posterior(),
                     Posterior::from_odds_against(against, gain)
                 );
             }
         }
+    }
+
+    #[test]
+    fn reasons_come_back_from_their_bits() {
+        let decision = Decision::new(3, 40, Posterior::from_odds_against(0, 0));
+        for reason in [Reason::Unknown, Reason::Pose, Reason::Between(7)] {
+            let unnamed = decision.in_touch(9, Some(reason));
+            assert_eq!((unnamed.reason(), unnamed.class()), (Some(reason), None));
+            let among = (reason == Reason::Between(7)).then_some([3, 7]);
+            assert_eq!((unnamed.among(), unnamed.touch()), (among, 9));
+        }
+        assert_eq!(decision.in_touch(9, None).reason(), None);
     }
 
     #[test]

@@ -101,7 +101,7 @@ pub use any_rule::{AnyEvidence, AnyRule, RuleSettings};
 pub use binner::Binner;
 pub use classifier::{Deciding, StreamClassifier};
 pub use constants::Constants;
-pub use decision::{Decision, Posterior};
+pub use decision::{Decision, Posterior, Reason};
 pub use error::{ModelError, QuantiserError, SetupError};
 pub use evidence::EvidenceScale;
 pub use format::{

@@ -4,7 +4,7 @@
 
 use core::fmt;
 
-use crate::decision::Decision;
+use crate::decision::{Decision, Reason};
 use crate::model::Model;
 use crate::rule::DecisionRule;
 use crate::sums::Sums;
@@ -134,7 +134,7 @@ impl<E> StreamState<E> {
         let decision = rule.end_of_block(sums, evidence)?;
         let excess = self.excess(decision.leader());
         let is_below = model.has_floors() && excess.iter().any(|tables| *tables < 0);
-        Some(decision.in_touch(self.touch, is_below))
+        Some(decision.in_touch(self.touch, is_below.then_some(Reason::Unknown)))
     }
 
     /// By how much a class exceeds its floors since the touch began: in samples, in
