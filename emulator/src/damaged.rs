@@ -105,6 +105,7 @@ fn plain(classes: usize, channels: usize) -> Result<Vec<u8>, Error> {
         tables: &tables,
         floors: None,
         touch: None,
+        opinion: &[],
     });
     let model = model.map_err(|error| Error::Work(error.to_string()))?;
     Ok(model.as_bytes().to_vec())

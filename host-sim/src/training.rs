@@ -2,7 +2,7 @@
 
 use tactile::ModelBuf;
 use tactile::train::joint::{self, JointModel, Trial};
-use tactile::train::{Options, TrainError, Trainer};
+use tactile::train::{Expect, Options, TrainError, Trainer};
 
 use crate::recording::{GATE, Stream};
 
@@ -32,6 +32,32 @@ pub struct How {
     /// to 10 [default: 0.1]
     #[cfg_attr(feature = "cli", arg(long, value_name = "S"))]
     pub gap: Option<f64>,
+    /// How much may differ between training and use, of joint tables
+    #[cfg_attr(feature = "cli", arg(long, value_enum, default_value_t = Expected::Bench))]
+    pub expect: Expected,
+}
+
+/// How much may differ between training and use.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[cfg_attr(feature = "cli", derive(clap::ValueEnum))]
+pub enum Expected {
+    /// Nothing: what is stated holds in the pose of training only
+    Same,
+    /// What a hand on a bench makes: some degrees of tilt and place, a fifth of scale
+    #[default]
+    Bench,
+    /// Another mounting: half to twice of scale
+    Other,
+}
+
+impl From<Expected> for Expect {
+    fn from(expected: Expected) -> Self {
+        match expected {
+            Expected::Same => Self::Same,
+            Expected::Bench => Self::Bench,
+            Expected::Other => Self::Other,
+        }
+    }
 }
 
 /// The tables of a model.
@@ -65,6 +91,7 @@ impl How {
             block: None,
             gate: None,
             gap: None,
+            expect: Expected::Bench,
         }
     }
 
@@ -124,6 +151,7 @@ impl How {
                     block: self.block.unwrap_or(default.block),
                     gate: self.least(),
                     gap: self.gap_samples(tick_hz),
+                    expect: self.expect.into(),
                     ..default
                 };
                 let joint = joint(recordings, &options)?;

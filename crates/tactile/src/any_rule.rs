@@ -117,6 +117,20 @@ impl DecisionRule for AnyRule {
         }
     }
 
+    fn decide_without(
+        &self,
+        classes: usize,
+        evidence: &AnyEvidence,
+        class: usize,
+    ) -> Option<Decision> {
+        match (self, evidence) {
+            (Self::Sequential(rule), AnyEvidence::Sequential(evidence)) if SEQUENTIAL => {
+                rule.decide_without(classes, evidence, class)
+            }
+            _ => None,
+        }
+    }
+
     fn deficits(&self, evidence: &AnyEvidence, deficits: &mut [u32]) {
         match (self, evidence) {
             (Self::Sequential(rule), AnyEvidence::Sequential(evidence)) if SEQUENTIAL => {

@@ -5,14 +5,14 @@ use serde::{Deserialize, Serialize};
 
 use crate::any_rule::{AnyEvidence, AnyRule, RuleSettings};
 use crate::constants::Constants;
-use crate::decision::{Decision, Reason};
+use crate::decision::Decision;
 use crate::error::SetupError;
 use crate::format::MAX_STREAMS;
 use crate::model::Model;
 use crate::naive_bayes::{Posteriors, posteriors};
 use crate::rule::DecisionRule;
 use crate::sequential::{SequentialEvidence, SequentialRule};
-use crate::stream::{StreamState, WrongChannels};
+use crate::stream::{StreamState, WrongChannels, heard, reason};
 use crate::words::Words;
 
 /// Which whiskers decide, and by what.
@@ -198,9 +198,10 @@ impl<W: Words> StreamClassifier<W> {
     /// Forgets all evidence.
     pub fn restart(&mut self) {
         self.streams.clear();
+        let Constants { model, rule } = &self.constants;
         for _ in 0..self.heard.min(MAX_STREAMS) {
             // No more than there is room for.
-            let _ = self.streams.push(StreamState::new(&self.constants.rule));
+            let _ = self.streams.push(StreamState::new(model, rule));
         }
     }
 
@@ -240,6 +241,9 @@ impl<W: Words> StreamClassifier<W> {
         let sum = sum(model.classes(), &self.streams);
         let decision = of_sum.decide_by(model.classes(), &sum)?;
 
+        let section = heard(model, rule);
+        let stream = self.streams.get(n)?;
+        let objection = stream.objection(section, model.classes(), decision.leader());
         let mut excess = [0_i32; 2];
         for stream in &mut self.streams {
             if stream
@@ -252,10 +256,11 @@ impl<W: Words> StreamClassifier<W> {
                     *sum = sum.saturating_add(own);
                 }
                 stream.evidence = rule.start();
+                stream.is_spent();
             }
         }
         let is_below = model.has_floors() && excess.iter().any(|tables| *tables < 0);
-        Some(decision.in_touch(touch, is_below.then_some(Reason::Unknown)))
+        Some(decision.in_touch(touch, reason(is_below, objection)))
     }
 }
 

@@ -2,8 +2,9 @@
 
 use crate::error::SetupError;
 use crate::model::Model;
+use crate::opinion::Section;
 use crate::rule::DecisionRule;
-use crate::words::{JOINT, Words};
+use crate::words::{JOINT, OPINION, Words};
 
 /// A model and a rule for it. Nothing changes after they were joined, so a program can hold
 /// the memory they take against a sum.
@@ -24,7 +25,10 @@ impl<R: DecisionRule, W: Words> Constants<R, W> {
         if model.is_joint() && !JOINT {
             return Err(SetupError::NotBuilt("joint models"));
         }
-        let rule = R::new(&model, settings)?;
+        if model.has_opinion() && !OPINION {
+            return Err(SetupError::NotBuilt("models that object"));
+        }
+        let rule = rule_for(&model, settings)?;
         Ok(Self { model, rule })
     }
 
@@ -34,7 +38,20 @@ impl<R: DecisionRule, W: Words> Constants<R, W> {
     ///
     /// As [`Constants::new`]; nothing has changed.
     pub(crate) fn set_rule(&mut self, settings: R::Settings) -> Result<(), SetupError> {
-        self.rule = R::new(&self.model, settings)?;
+        self.rule = rule_for(&self.model, settings)?;
         Ok(())
     }
+}
+
+/// A rule that a model can be asked by.
+fn rule_for<R: DecisionRule, W: Words>(
+    model: &Model<W>,
+    settings: R::Settings,
+) -> Result<R, SetupError> {
+    let rule = R::new(model, settings)?;
+    let names = model.opinion().is_some_and(Section::names);
+    if names && rule.interval() != model.block() {
+        return Err(SetupError::WindowNames);
+    }
+    Ok(rule)
 }

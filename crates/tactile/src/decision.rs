@@ -71,6 +71,25 @@ impl Decision {
         }
     }
 
+    /// The same, after so many samples more.
+    #[inline]
+    pub(crate) fn after(self, samples: u32) -> Self {
+        Self {
+            samples: self.samples.saturating_add(samples),
+            ..self
+        }
+    }
+
+    /// The same for another leader: of a model that numbers its classes otherwise.
+    #[cfg(feature = "std")]
+    pub(crate) fn of_class(self, class: usize) -> Self {
+        let odds = self.packed % (1 << ODDS_BITS);
+        Self {
+            packed: odds | ((class as u32) << ODDS_BITS),
+            ..self
+        }
+    }
+
     /// The same, which fell in this touch, and why it names no class, if so.
     #[inline]
     pub(crate) fn in_touch(self, touch: u16, reason: Option<Reason>) -> Self {

@@ -16,7 +16,7 @@ pub enum ModelError {
     #[error("not a likelihood model: it does not begin with WLIK")]
     BadMagic,
     /// Written by another version of the format.
-    #[error("model format version {0}; version {VERSION} is understood: train it again")]
+    #[error("model format version {0}; 2 to {VERSION} are understood: train it again")]
     UnknownVersion(u16),
     /// More bytes than its header announces.
     #[error("bytes follow the end of the model")]
@@ -81,6 +81,9 @@ pub enum ModelError {
     /// Bytes that the format keeps at zero are not.
     #[error("bytes reserved as zero are not zero")]
     Padding,
+    /// The counts of the opinion are out of range, or do not add up to its length.
+    #[error("the opinion's counts contradict its length")]
+    Opinion,
     /// The log-likelihoods of a block can sum up to too much.
     #[error("the log-likelihoods of a block can overflow: a shorter block is needed")]
     TableEntry,
@@ -120,6 +123,11 @@ pub enum SetupError {
         /// The model's block, samples.
         block: u32,
     },
+    /// A model whose opinion names classes knows no windows.
+    #[error(
+        "a model that was trained in several poses decides in touches: the rule must be sequential"
+    )]
+    WindowNames,
     /// Windows of several whiskers cannot be added up.
     #[error(
         "several whiskers cannot decide together by windows: a window counts the samples of one"

@@ -1,20 +1,21 @@
-//! The model file, byte for byte (version 2, little-endian throughout).
+//! The model file, byte for byte (versions 2 and 3, little-endian throughout).
 //!
 //! | bytes | content |
 //! |---|---|
 //! | 4 | magic `WLIK` |
-//! | u16 | version, 2 |
+//! | u16 | version: 3 of models with an opinion, else 2 |
 //! | u8, u8 | classes K (2–32), channels C (1–24) |
-//! | u8, u8 | tables of samples, at least one; of roughness (both together at most 24) |
+//! | u8, u8 | tables of samples, at least one but where the opinion names; of roughness (both together at most 24) |
 //! | u16 | block, 1–10000 samples |
 //! | u32 | length of the whole file in bytes |
 //! | u32, f32, u32 | rule of touches: limit of a deficit at an onset, 1/1024 bit; gate, 0 to 1; gap, samples; or 2³² − 1, 0, 0: none |
-//! | u32 | 1 if there are floors, else 0 |
+//! | u32 | 1 if there are floors, else 0; and 256 times the words of the opinion |
 //! | C × 20 | per channel: origin f64, low i32, high i32, exponent i16, zero u16 (see [`crate::Quantiser`]) |
 //! | T × 40 | per table: source u8 (0 samples, 1 roughness), axes u8 (1 or 2), zero u16, first word of its rows u32; two axes, of one the second is zero: channel u8 (0 or 1 of roughness), zero u8, bins − 1 u16 (to 4095), high i32, low i32, slope u32 (see [`crate::Binner`]) |
 //! | K × 4 | floors, if any, per class: of samples u16, of roughness u16 |
 //! | K names | per class: length u8 (not zero), UTF-8; then zeros up to a multiple of four |
 //! | rows | per table u16: `[bin of axis 1][bin of axis 2][class]`, a zero after an odd K |
+//! | opinion | in version 3: see `opinion/section.rs` |
 //! | u32 | CRC-32 (ISO-HDLC) of all before |
 //!
 //! A table entry is round(w (log2 p + 20) · 1024) with the table's weight w; the
@@ -37,8 +38,10 @@ pub const MAX_STREAMS: usize = if cfg!(target_os = "none") && !cfg!(feature = "a
 
 /// First bytes of a model file.
 pub(crate) const MAGIC: [u8; 4] = *b"WLIK";
-/// Version of the format.
-pub const VERSION: u16 = 2;
+/// Newest version of the format.
+pub const VERSION: u16 = 3;
+/// The version of models without an opinion.
+pub(crate) const WITHOUT_OPINION: u16 = 2;
 /// Most classes; on a board so many that their sums and evidence take 512 bytes.
 pub const MAX_CLASSES: usize = if cfg!(target_os = "none") { 16 } else { 32 };
 /// Most channels: x and y of twelve whiskers.

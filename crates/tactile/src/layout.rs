@@ -8,8 +8,10 @@ use crate::error::ModelError;
 use crate::format::{
     CRC_BYTES, ChannelRecord, Header, MAGIC, MAX_BINS, MAX_BLOCK, MAX_BLOCK_SUM, MAX_CHANNELS,
     MAX_CLASSES, MAX_SAMPLE_AXES, MAX_SAMPLES_TIMES_CHANNELS, MAX_TABLES, NO_LIMIT, OF_ROUGHNESS,
-    OF_SAMPLES, ROUGH_CHANNELS, TABLE_WORDS, TableRecord, VERSION, checksum, row_words,
+    OF_SAMPLES, ROUGH_CHANNELS, TABLE_WORDS, TableRecord, VERSION, WITHOUT_OPINION, checksum,
+    row_words,
 };
+use crate::opinion::Section;
 use crate::quantiser::Quantiser;
 
 /// Counts of a checked model and where its parts begin, in words of four bytes.
@@ -32,6 +34,10 @@ pub(crate) struct Layout {
     pub(crate) names: usize,
     /// The names end and the rows of the tables begin.
     pub(crate) rows: usize,
+    /// The rows end and the opinion begins.
+    pub(crate) opinion: usize,
+    /// It ends, and the checksum begins.
+    pub(crate) end: usize,
 }
 
 /// What a touch means for the evidence.
@@ -85,7 +91,8 @@ impl Layout {
         let count = sample_tables + usize::from(header.rough_tables);
         let block = u32::from(header.block.get());
         check_counts(classes, channels, block)?;
-        if sample_tables == 0 || count > MAX_TABLES {
+        let opinion_words = header.opinion_words();
+        if sample_tables == 0 && opinion_words == 0 || count > MAX_TABLES {
             return Err(ModelError::Tables(count));
         }
         check_touch_rule(header)?;
@@ -103,11 +110,20 @@ impl Layout {
         let (records, rest) = rest
             .split_at_checked(count * size_of::<TableRecord>())
             .ok_or(ModelError::Length)?;
-        let floor_bytes = match header.floors.get() {
+        let floor_bytes = match header.floors.get() & 0xff {
             0 => 0,
             1 => classes * size_of::<u32>(),
             _ => return Err(ModelError::Padding),
         };
+        if (opinion_words > 0) != (header.version.get() == VERSION) {
+            return Err(ModelError::Padding);
+        }
+        let (rest, opinion) = rest
+            .len()
+            .checked_sub(opinion_words * size_of::<u32>())
+            .and_then(|at| rest.split_at_checked(at))
+            .ok_or(ModelError::Length)?;
+        check_opinion(opinion, header)?;
         let (_, rest) = rest
             .split_at_checked(floor_bytes)
             .ok_or(ModelError::Length)?;
@@ -138,7 +154,7 @@ impl Layout {
         check_names(names, classes)?;
 
         // The names are padded to whole words, and all other parts are such.
-        let first = (bytes.len() - CRC_BYTES - table.len()) / size_of::<u32>();
+        let first = layout.opinion - table.len() / size_of::<u32>();
         check_rows(table, first, records, &layout)?;
         Ok(layout)
     }
@@ -153,6 +169,11 @@ impl Layout {
         let first = size_of::<u32>() * tables + offset_of!(TableRecord, first);
         let first = bytes.get(first..).and_then(<[u8]>::first_chunk);
         let limit = header.limit.get();
+        let end = (bytes.len() / size_of::<u32>()).saturating_sub(1);
+        let opinion = end.saturating_sub(header.opinion_words());
+        // Where there is no table, there is none that says where its rows begin.
+        let has_tables = floors > tables;
+        let first = first.map_or(0, |first| u32::from_le_bytes(*first) as usize);
         Self {
             classes,
             channels,
@@ -166,8 +187,15 @@ impl Layout {
             tables,
             rough_tables,
             floors,
-            names: floors + if header.floors.get() == 0 { 0 } else { classes },
-            rows: first.map_or(0, |first| u32::from_le_bytes(*first) as usize),
+            names: floors
+                + if header.floors.get() & 1 == 0 {
+                    0
+                } else {
+                    classes
+                },
+            rows: if has_tables { first } else { opinion },
+            opinion,
+            end,
         }
     }
 
@@ -182,6 +210,35 @@ impl Layout {
     pub(crate) const fn has_floors(&self) -> bool {
         self.names > self.floors
     }
+}
+
+impl Header {
+    /// Words of the opinion.
+    fn opinion_words(&self) -> usize {
+        (self.floors.get() >> 8) as usize
+    }
+}
+
+/// The opinion can be read, and a model without tables has one that names.
+fn check_opinion(bytes: &[u8], header: &Header) -> Result<(), ModelError> {
+    if bytes.is_empty() {
+        return Ok(());
+    }
+    let channels = usize::from(header.channels);
+    let is_touching = header.limit.get() != NO_LIMIT;
+    if channels != ROUGH_CHANNELS || !is_touching {
+        return Err(ModelError::Opinion);
+    }
+    // Where it lies in words: of bytes that may lie anywhere.
+    let (chunks, _) = bytes.as_chunks::<4>();
+    let word = |at: usize| chunks.get(at).map_or(0, |word| u32::from_le_bytes(*word));
+    let head = [word(0)];
+    Section::check(&head, chunks.len(), header.classes.into())?;
+    let names = Section::new(&head, header.classes.into()).names();
+    if names != (header.sample_tables == 0) {
+        return Err(ModelError::Opinion);
+    }
+    Ok(())
 }
 
 impl ChannelRecord {
@@ -214,7 +271,7 @@ fn header(bytes: &[u8]) -> Result<&Header, ModelError> {
     }
     let (header, _) = Header::ref_from_prefix(bytes).map_err(|_| ModelError::TooShort)?;
     match header.version.get() {
-        VERSION => Ok(header),
+        WITHOUT_OPINION..=VERSION => Ok(header),
         other => Err(ModelError::UnknownVersion(other)),
     }
 }

@@ -51,9 +51,9 @@
 //!
 //! # Features
 //!
-//! - `sequential`, `window`, `several`, `joint` (all by default): the two rules, more
-//!   whiskers than the first, and models with roughness, floors and touches. A [`StreamClassifier`]
-//!   refuses what the program was built without, and links no code for it.
+//! - `sequential`, `window`, `several`, `joint`, `opinion` (all by default): the two rules, more
+//!   whiskers than the first, models with roughness, floors and touches, and with a second opinion.
+//!   A [`StreamClassifier`] refuses what the program was built without, and links no code for it.
 //! - `array`: on a board too, as many whiskers as in a simulation ([`MAX_STREAMS`]).
 //! - `std`: `train` (models from recordings, f64), `score` (how good
 //!   a classifier is) and the owned `ModelBuf`.
@@ -80,6 +80,7 @@ mod model;
 #[cfg(feature = "std")]
 mod model_buf;
 mod naive_bayes;
+mod opinion;
 mod quantiser;
 mod roughness;
 mod rule;
@@ -122,4 +123,4 @@ pub use stream::WrongChannels;
 pub use totals::Totals;
 pub use touch::{TouchDetector, Touching};
 pub use window::{Window, WindowRule};
-pub use words::{JOINT, Words};
+pub use words::{JOINT, OPINION, Words};

@@ -12,8 +12,9 @@ use crate::format::{
     AxisRecord, ChannelRecord, ENTRIES_PER_BIT, ENTRY_OFFSET_BITS, TABLE_WORDS, TableRecord,
 };
 use crate::layout::{Layout, RECORDS, TouchRule, names};
+use crate::opinion::Section;
 use crate::quantiser::Quantiser;
-use crate::words::{JOINT, Words};
+use crate::words::{JOINT, OPINION, Words};
 
 /// Bytes on a four-byte boundary, as a model must lie.
 #[derive(Debug, Clone, Copy)]
@@ -136,6 +137,32 @@ impl<W: Words> Model<W> {
     #[inline]
     pub const fn touch_rule(&self) -> Option<TouchRule> {
         if JOINT { self.layout.touch } else { None }
+    }
+
+    /// The opinion, if it has one.
+    #[inline]
+    pub(crate) fn opinion(&self) -> Option<Section<'_>> {
+        let Layout {
+            opinion,
+            end,
+            classes,
+            ..
+        } = self.layout;
+        if !OPINION || opinion >= end {
+            return None;
+        }
+        Some(Section::new(self.part(opinion, end), classes))
+    }
+
+    /// Whether it has a second opinion: what it says of poses of which it was not trained is
+    /// held against it.
+    pub const fn has_opinion(&self) -> bool {
+        self.layout.opinion < self.layout.end
+    }
+
+    /// In how many poses it was trained; 0: it does not say, and is honest at one pose only.
+    pub fn poses(&self) -> usize {
+        self.opinion().map_or(0, Section::poses)
     }
 
     /// Whether it has roughness, floors or touches, which the papers' models have not.

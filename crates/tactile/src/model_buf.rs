@@ -9,7 +9,7 @@ use zerocopy::IntoBytes;
 use crate::error::ModelError;
 use crate::format::{
     AxisRecord, CRC_BYTES, ChannelRecord, Header, MAGIC, MAX_NAME_BYTES, MAX_TABLES, NO_LIMIT,
-    OF_ROUGHNESS, OF_SAMPLES, TableRecord, VERSION, checksum, row_words,
+    OF_ROUGHNESS, OF_SAMPLES, TableRecord, VERSION, WITHOUT_OPINION, checksum, row_words,
 };
 use crate::layout::{Layout, TouchRule, check_bins, check_counts};
 use crate::model::{Floors, Model};
@@ -30,6 +30,8 @@ pub struct ModelParts<'p> {
     pub floors: Option<&'p [Floors]>,
     /// What a touch means.
     pub touch: Option<TouchRule>,
+    /// The words of a second opinion; none where it is empty.
+    pub opinion: &'p [u32],
 }
 
 /// What a table is looked up by.
@@ -195,12 +197,17 @@ impl ModelBuf {
             body.extend(row.iter().flat_map(|e| e.to_le_bytes()));
             body.resize(end, 0);
         }
+        body.extend(parts.opinion.iter().flat_map(|word| word.to_le_bytes()));
         let length = size_of::<Header>() + body.len() + CRC_BYTES;
         let touch = parts.touch;
         // Counts are checked: the fields fit.
         let header = Header {
             magic: MAGIC,
-            version: VERSION.into(),
+            version: if parts.opinion.is_empty() {
+                WITHOUT_OPINION.into()
+            } else {
+                VERSION.into()
+            },
             classes: classes as u8,
             channels: channels as u8,
             sample_tables: (parts.tables.len() - rough_tables) as u8,
@@ -212,7 +219,7 @@ impl ModelBuf {
             limit: touch.map_or(NO_LIMIT, |touch| touch.limit).into(),
             gate: touch.map_or(0.0, |touch| touch.gate).into(),
             gap: touch.map_or(0, |touch| touch.gap).into(),
-            floors: u32::from(parts.floors.is_some()).into(),
+            floors: (u32::from(parts.floors.is_some()) | (parts.opinion.len() as u32) << 8).into(),
         };
         let mut bytes = header.as_bytes().to_vec();
         bytes.append(&mut body);

@@ -30,7 +30,7 @@ impl<R: DecisionRule, W: Words> NaiveBayes<R, W> {
     pub fn new(model: Model<W>, settings: R::Settings) -> Result<Self, SetupError> {
         let constants = Constants::new(model, settings)?;
         Ok(Self {
-            stream: StreamState::new(&constants.rule),
+            stream: StreamState::new(&constants.model, &constants.rule),
             constants,
         })
     }
@@ -96,7 +96,7 @@ impl<R: DecisionRule, W: Words> NaiveBayes<R, W> {
 
     /// Forgets all evidence.
     pub fn reset(&mut self) {
-        self.stream = StreamState::new(&self.constants.rule);
+        self.stream = StreamState::new(&self.constants.model, &self.constants.rule);
     }
 
     /// Posterior of each class after the last full block. For display: costs
@@ -195,6 +195,7 @@ mod tests {
             tables: &tables,
             floors: None,
             touch: None,
+            opinion: &[],
         })
         .unwrap()
     }

@@ -264,6 +264,17 @@ impl DecisionRule for SequentialRule {
         }
     }
 
+    fn decide_without(
+        &self,
+        classes: usize,
+        evidence: &SequentialEvidence,
+        class: usize,
+    ) -> Option<Decision> {
+        let mut evidence = evidence.clone();
+        *evidence.deficits.get_mut(class)? = MAX_DEFICIT;
+        self.decide_by(classes, &evidence)
+    }
+
     fn deficits(&self, evidence: &SequentialEvidence, deficits: &mut [u32]) {
         for (to, from) in deficits.iter_mut().zip(&evidence.deficits) {
             *to = *from;

@@ -5,10 +5,12 @@
 use core::fmt;
 
 use crate::decision::{Decision, Reason};
+use crate::format::MAX_CLASSES;
 use crate::model::Model;
+use crate::opinion::{Judge, Section};
 use crate::rule::DecisionRule;
 use crate::sums::Sums;
-use crate::words::{JOINT, Words};
+use crate::words::{JOINT, OPINION, Words};
 
 /// A sample with another number of channels than the model.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -35,6 +37,8 @@ pub(crate) struct StreamState<E> {
     pub(crate) evidence: E,
     /// The number of the touch.
     pub(crate) touch: u16,
+    /// Of models that object; where the program was built without, there is none.
+    judges: [Judge; OPINION as usize],
 }
 
 #[inline]
@@ -48,10 +52,44 @@ fn check<W: Words>(model: &Model<W>, codes: &[i32]) -> Result<(), WrongChannels>
     }
 }
 
+/// The opinion of a model, where a rule asks it after each of its blocks.
+pub(crate) fn heard<'m, R: DecisionRule, W: Words>(
+    model: &'m Model<W>,
+    rule: &R,
+) -> Option<Section<'m>> {
+    let section = model.opinion()?;
+    (rule.interval() == model.block()).then_some(section)
+}
+
+/// Why a decision names no class: the pose explains the rest.
+pub(crate) fn reason(is_below: bool, objection: Option<Reason>) -> Option<Reason> {
+    match objection {
+        Some(Reason::Pose) => objection,
+        _ if is_below => Some(Reason::Unknown),
+        _ => objection,
+    }
+}
+
+/// Adds to the sums of a block what scores have risen by, as evidence is held.
+fn add_rise(sums: &mut [u32; MAX_CLASSES], rise: &[i32; MAX_CLASSES], block: u32) {
+    // In the middle of what a sum may be: only differences count.
+    const MIDDLE: i32 = 1 << 29;
+    for (sum, rise) in sums.iter_mut().zip(rise) {
+        let rise = rise.saturating_mul(block.cast_signed());
+        *sum = (MIDDLE + rise.clamp(1 - MIDDLE, MIDDLE - 1)).cast_unsigned();
+    }
+}
+
 impl<E> StreamState<E> {
     /// Nothing is seen yet, all classes are equal.
-    pub(crate) fn new<R: DecisionRule<Evidence = E>>(rule: &R) -> Self {
+    pub(crate) fn new<R, W>(model: &Model<W>, rule: &R) -> Self
+    where
+        R: DecisionRule<Evidence = E>,
+        W: Words,
+    {
+        let rest = model.opinion().map_or([0; 2], Section::rest);
         Self {
+            judges: core::array::from_fn(|_| Judge::new(rest)),
             sums: Sums::new(rule.interval()),
             evidence: rule.start(),
             touch: 0,
@@ -67,6 +105,7 @@ impl<E> StreamState<E> {
         interval: u32,
     ) -> Result<bool, WrongChannels> {
         check(model, codes)?;
+        self.feel(model, codes, true);
         Ok(self.sums.push(model, codes, interval))
     }
 
@@ -78,10 +117,19 @@ impl<E> StreamState<E> {
         codes: &[i32],
     ) -> Result<(), WrongChannels> {
         check(model, codes)?;
+        self.feel(model, codes, false);
         if model.has_roughness() {
             self.sums.roughness.push(codes, false);
         }
         Ok(())
+    }
+
+    /// What a second opinion needs of a sample.
+    #[inline]
+    fn feel<W: Words>(&mut self, model: &Model<W>, codes: &[i32], counts: bool) {
+        if let (Some(section), [judge, ..]) = (model.opinion(), self.judges.as_mut_slice()) {
+            judge.opinion.push(section.narrow(), codes, counts);
+        }
     }
 
     /// A touch begins.
@@ -94,6 +142,12 @@ impl<E> StreamState<E> {
         let Some(touch) = model.touch_rule() else {
             return;
         };
+        if let [judge, ..] = self.judges.as_mut_slice()
+            && judge.begin()
+        {
+            // A touch that was only refused leaves nothing to the next.
+            self.evidence = rule.start();
+        }
         let limit = touch.limit.saturating_mul(model.block());
         rule.limit(&mut self.evidence, limit);
         self.sums.clear(rule.interval());
@@ -103,6 +157,9 @@ impl<E> StreamState<E> {
     pub(crate) const fn interrupt(&mut self) {
         if JOINT {
             self.sums.roughness.interrupt();
+        }
+        if let [judge, ..] = self.judges.as_mut_slice() {
+            judge.opinion.differences.interrupt();
         }
     }
 
@@ -118,6 +175,17 @@ impl<E> StreamState<E> {
             self.sums.end_of_block(model.parts());
         }
         self.sums.left = rule.interval();
+        if let Some(section) = heard(model, rule)
+            && let [judge, ..] = self.judges.as_mut_slice()
+        {
+            if judge.opinion.is_full() && section.begins_again() {
+                let _ = judge.begin();
+            }
+            let rise = judge.opinion.end_of_block(section, model.classes());
+            if section.names() {
+                add_rise(&mut self.sums.classes, &rise, model.block());
+            }
+        }
         let of_classes = self.sums.classes.get_mut(..model.classes());
         (of_classes.unwrap_or_default(), &mut self.evidence)
     }
@@ -130,11 +198,40 @@ impl<E> StreamState<E> {
         R: DecisionRule<Evidence = E>,
         W: Words,
     {
-        let (sums, evidence) = self.close_block(model, rule);
+        let _ = self.close_block(model, rule);
+        let section = heard(model, rule);
+        let evidence = &mut self.evidence;
+        let sums = self.sums.classes.get_mut(..model.classes());
+        let sums = sums.unwrap_or_default();
+        if let Some(section) = section
+            && section.names()
+            && let [judge, ..] = self.judges.as_mut_slice()
+        {
+            return judge.name((section, model.classes()), rule, sums, evidence, self.touch);
+        }
         let decision = rule.end_of_block(sums, evidence)?;
         let excess = self.excess(decision.leader());
         let is_below = model.has_floors() && excess.iter().any(|tables| *tables < 0);
-        Some(decision.in_touch(self.touch, is_below.then_some(Reason::Unknown)))
+        let objection = self.objection(section, model.classes(), decision.leader());
+        Some(decision.in_touch(self.touch, reason(is_below, objection)))
+    }
+
+    /// Why the second opinion objects to naming a class, if it does.
+    pub(crate) fn objection(
+        &self,
+        section: Option<Section<'_>>,
+        classes: usize,
+        class: usize,
+    ) -> Option<Reason> {
+        let judge = self.judges.first()?;
+        judge.opinion.objection(section?, classes, class)
+    }
+
+    /// The streams together have decided: this touch says no more by itself.
+    pub(crate) fn is_spent(&mut self) {
+        if let [judge, ..] = self.judges.as_mut_slice() {
+            judge.finish();
+        }
     }
 
     /// By how much a class exceeds its floors since the touch began: in samples, in

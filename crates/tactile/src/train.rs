@@ -10,12 +10,14 @@
 //! training and use agree to the last edge.
 
 pub mod joint;
+mod opinion;
 
 use std::borrow::ToOwned;
 use std::string::String;
 use std::vec;
 use std::vec::Vec;
 
+pub use self::opinion::{Expect, Opinion, Whisked};
 use crate::binner::Binner;
 use crate::error::ModelError;
 use crate::format::{
@@ -198,6 +200,7 @@ impl Trainer {
             tables: &tables,
             floors: None,
             touch: None,
+            opinion: &[],
         })?)
     }
 

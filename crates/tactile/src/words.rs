@@ -4,6 +4,9 @@
 /// for them and refuses such models: it was built without the feature `joint`.
 pub const JOINT: bool = cfg!(feature = "joint");
 
+/// Whether models may have a second opinion; likewise, the feature `opinion`.
+pub const OPINION: bool = cfg!(feature = "opinion");
+
 /// The words of a model's file.
 pub trait Words: AsRef<[u32]> {}
 

@@ -22,6 +22,7 @@ mod model;
 mod pieces;
 mod report;
 mod run;
+mod streamed;
 mod tables;
 #[cfg(test)]
 mod tests;
@@ -31,6 +32,7 @@ mod weights;
 
 use std::vec::Vec;
 
+use super::opinion::{self, Material};
 use crate::train_error::TrainError;
 use axes::{Axes, Layout};
 use blocks::Blocks;
@@ -85,6 +87,15 @@ fn fit(
 /// An option, a name or a sample that is unusable, fewer than two classes, or a
 /// class that was not felt for two blocks.
 pub fn train(trials: &[Trial], options: &Options) -> Result<JointModel, TrainError> {
+    let mut model = once(trials, options)?;
+    if model.opinion.is_some() {
+        streamed::report(&mut model, trials)?;
+    }
+    Ok(model)
+}
+
+/// The same, whose report is of the tables and floors alone.
+fn once(trials: &[Trial], options: &Options) -> Result<JointModel, TrainError> {
     options.check()?;
     let names = names(trials)?;
     let scales = blocks::scales(trials)?;
@@ -135,8 +146,17 @@ pub fn train(trials: &[Trial], options: &Options) -> Result<JointModel, TrainErr
         warnings,
     }
     .report(&rule);
+    let opinion = opinion::train(&Material {
+        trials,
+        names: &names,
+        scales: &scales,
+        block: options.block,
+        expect: options.expect,
+        whisked: options.whisked,
+    });
     Ok(JointModel {
         tables: tables.finished(),
+        opinion,
         options: options.clone(),
         names,
         scales,

@@ -53,6 +53,7 @@ pub(crate) fn model(
         tables: &tables,
         floors: None,
         touch: None,
+        opinion: &[],
     })
     .unwrap()
 }

@@ -239,6 +239,7 @@ fn what_could_not_be_read_is_not_written() {
         tables: &tables,
         floors: None,
         touch: None,
+        opinion: &[],
     };
     assert!(ModelBuf::new(&parts).is_ok());
     let long = ["a".to_owned(), "b".repeat(256)];

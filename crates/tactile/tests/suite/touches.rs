@@ -248,6 +248,7 @@ fn roughness_is_of_the_first_two_channels() {
             tables: &tables,
             floors: None,
             touch: None,
+            opinion: &[],
         };
         ModelBuf::new(&parts).err()
     };

@@ -13,6 +13,7 @@ use crate::layout::TouchRule;
 use crate::model::Floors;
 use crate::model_buf::{ModelBuf, ModelParts, TableParts};
 use crate::quantiser::Quantiser;
+use crate::train::opinion::Opinion;
 
 /// What training gives.
 #[derive(Debug, Clone, PartialEq)]
@@ -29,6 +30,8 @@ pub struct JointModel {
     pub weights: Vec<f64>,
     /// A floor a class; none where none was wanted.
     pub floors: Option<Vec<Floor>>,
+    /// A second opinion; none where nothing is expected to differ, or too little was touched.
+    pub opinion: Option<Opinion>,
     /// What held-out trials say of all this.
     pub report: Report,
 }
@@ -42,10 +45,12 @@ impl JointModel {
     /// A setting that no model file can hold.
     pub fn model(&self) -> Result<ModelBuf, ModelError> {
         let unit = f64::from(ENTRIES_PER_BIT);
+        // An opinion that names needs no tables.
+        let names = self.opinion.as_ref().is_some_and(|opinion| opinion.names);
         // `as` saturates; weights are limited so that it need not.
         let entry = |bits: f64| (bits * unit).round() as u16;
-        let entries: Vec<Vec<u16>> = self
-            .tables
+        let tables = if names { &[] } else { self.tables.as_slice() };
+        let entries: Vec<Vec<u16>> = tables
             .iter()
             .zip(&self.weights)
             .map(|(table, weight)| {
@@ -56,8 +61,7 @@ impl JointModel {
                     .collect()
             })
             .collect();
-        let tables: Vec<TableParts<'_>> = self
-            .tables
+        let tables: Vec<TableParts<'_>> = tables
             .iter()
             .zip(&entries)
             .map(|(table, entries)| TableParts {
@@ -66,7 +70,8 @@ impl JointModel {
                 entries,
             })
             .collect();
-        let floors = self.floors.as_ref().map(|floors| {
+        let floors = self.floors.as_ref().filter(|_| !names);
+        let floors = floors.map(|floors| {
             let floors = floors.iter().map(|floor| Floors {
                 samples: entry(floor.samples),
                 roughness: entry(floor.roughness),
@@ -84,6 +89,7 @@ impl JointModel {
                 gate: self.options.gate as f32,
                 gap: self.options.gap,
             }),
+            opinion: self.opinion.as_ref().map_or(&[], |opinion| &opinion.words),
         })
     }
 }

@@ -4,6 +4,7 @@ use std::string::String;
 use std::vec::Vec;
 
 use crate::format::MAX_BLOCK;
+use crate::train::opinion::{Expect, Whisked};
 use crate::train_error::TrainError;
 
 /// Channels of a sample.
@@ -31,6 +32,10 @@ pub struct Options {
     /// floors. Of other recordings they refuse more: where a scene's one run was trained on,
     /// 1 % became 3 % of textures and 6 % of the elastic whisker.
     pub refused: f64,
+    /// How much may differ between training and use.
+    pub expect: Expect,
+    /// How it was whisked, which the model keeps.
+    pub whisked: Whisked,
 }
 
 impl Default for Options {
@@ -45,6 +50,8 @@ impl Default for Options {
             limit_bits: 2.0,
             threshold: 0.99,
             refused: 0.01,
+            expect: Expect::default(),
+            whisked: Whisked::default(),
         }
     }
 }

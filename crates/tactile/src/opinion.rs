@@ -1,0 +1,388 @@
+//! A second opinion, by the trembling of a whole touch, and whether the touch is of the kind
+//! that was trained.
+//!
+//! Blocks of a touch are cut in four *states* (onset, early, late, unloading). After each block
+//! the sums of the [features](differences) over the states that have begun are weighed by a
+//! linear discriminant of that *stage*, whose covariance knows by what pose changes them: what
+//! differs between poses is a nuisance and is weighed down. A class is named only if
+//!
+//! 1. the way of the touch, mean deflections of x and y a block, lies near the way of that class
+//!    in one of the poses of training, or between two that are neighbours;
+//! 2. the features are *typical* of the class: a sum over states of squared distances, each by
+//!    the class's own covariance;
+//! 3. the opinion agrees.
+//!
+//! Trained in one pose, it *objects* to names that the tables give. Trained in several, it
+//! *names* by itself, once a touch at most, and there are no tables.
+//!
+//! What is refused has a [`Reason`](crate::Reason): 1 the pose, 2 unknown, 3 between two classes.
+
+pub(crate) mod differences;
+pub(crate) mod section;
+
+use crate::decision::{Decision, Reason};
+use crate::evidence::{EvidenceScale, MAX_DEFICIT, leader};
+use crate::format::MAX_CLASSES;
+use crate::rule::DecisionRule;
+pub(crate) use differences::{Differences, Narrow};
+pub(crate) use section::Section;
+use section::{STATE_WORDS, halves};
+
+/// Features of a block.
+pub(crate) const FEATURES: usize = 10;
+/// Blocks of a touch that are distinguished; a longer one begins again.
+pub(crate) const BLOCKS: usize = 9;
+/// Blocks after which there are weights.
+pub(crate) const STAGES: usize = 8;
+/// First and last block, from 0 and excluded, of each state.
+pub(crate) const STATES: [[usize; 2]; 4] = [[0, 1], [1, 3], [3, 6], [6, BLOCKS]];
+
+/// The state that a block, from 0, is of.
+pub(crate) fn state_of(block: usize) -> usize {
+    let past = STATES.iter().filter(|[_, end]| *end <= block).count();
+    past.min(STATES.len() - 1)
+}
+
+/// Blocks of a state after so many of the touch.
+pub(crate) fn blocks_of(state: [usize; 2], blocks: usize) -> usize {
+    let [first, end] = state;
+    blocks.min(end).saturating_sub(first)
+}
+
+/// The most that a deviation counts, in deviations of training.
+const DEVIATION_MOST: i32 = 128;
+/// Bits of the fraction of a deviation along a path.
+pub(crate) const PATH_BITS: u32 = 5;
+/// Of one of a state.
+pub(crate) const STATE_BITS: u32 = 4;
+/// How far beyond the outermost poses a path may lie, in steps to the next pose; 1/256.
+pub(crate) const BEYOND: i32 = 128;
+
+/// What was felt of the touch.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(crate) struct Opinion {
+    pub(crate) differences: Differences,
+    /// Sums of the features of each state.
+    states: [[i32; FEATURES]; STATES.len()],
+    path: [[i16; 2]; BLOCKS],
+    blocks: usize,
+    /// Of each class, 1/1024 bit.
+    scores: [i32; MAX_CLASSES],
+}
+
+impl Opinion {
+    /// Before the first sample.
+    pub(crate) const fn new(rest: [i32; 2]) -> Self {
+        Self {
+            differences: Differences::new(rest),
+            states: [[0; FEATURES]; STATES.len()],
+            path: [[0; 2]; BLOCKS],
+            blocks: 0,
+            scores: [0; MAX_CLASSES],
+        }
+    }
+
+    /// Takes a sample of a model's codes.
+    #[inline]
+    pub(crate) fn push(&mut self, narrow: Narrow, codes: &[i32], counts: bool) {
+        if let [x, y, ..] = *codes {
+            self.differences.push([narrow.of(x), narrow.of(y)], counts);
+        }
+    }
+
+    /// A touch begins, or is long: the open block is dropped, and what was felt.
+    pub(crate) fn begin(&mut self) {
+        self.differences.clear();
+        self.states = [[0; FEATURES]; STATES.len()];
+        self.blocks = 0;
+        self.scores = [0; MAX_CLASSES];
+    }
+
+    /// Blocks of the touch.
+    pub(crate) const fn blocks(&self) -> usize {
+        self.blocks
+    }
+
+    /// Whether it has as many blocks as are distinguished.
+    pub(crate) const fn is_full(&self) -> bool {
+        self.blocks >= BLOCKS
+    }
+
+    /// Ends a block. By how much the score of each class has risen, 1/1024 bit.
+    // Once a block: there once, and as small as this crate is built.
+    #[inline(never)]
+    pub(crate) fn end_of_block(&mut self, section: Section<'_>, classes: usize) -> Rise {
+        let (features, deflection) = self.differences.end_of_block();
+        if self.blocks >= BLOCKS {
+            return [0; MAX_CLASSES];
+        }
+        if let Some(state) = self.states.get_mut(state_of(self.blocks)) {
+            for (sum, feature) in state.iter_mut().zip(features) {
+                *sum += i32::from(feature);
+            }
+        }
+        if let Some(place) = self.path.get_mut(self.blocks) {
+            *place = deflection;
+        }
+        self.blocks = (self.blocks + 1).min(BLOCKS);
+        let mut rise = [0; MAX_CLASSES];
+        if self.blocks > section.stages() {
+            return rise;
+        }
+        let (shift, biases, weights) = section.stage(self.blocks);
+        let begun = section::begun(self.blocks);
+        let mut weights = weights.chunks(begun * FEATURES / 2);
+        let classes = self.scores.iter_mut().zip(&mut rise).take(classes);
+        for ((score, rise), bias) in classes.zip(biases) {
+            let sums = self.states.iter().flatten();
+            let weighed = sums.zip(halves(weights.next().unwrap_or_default()));
+            let sum: i64 = weighed
+                .map(|(sum, weight)| i64::from(*sum) * i64::from(weight))
+                .sum();
+            let bits = (sum >> shift.min(63)) + i64::from(bias.cast_signed());
+            let bits = bits.clamp(-SCORE_MOST, SCORE_MOST) as i32;
+            *rise = bits.wrapping_sub(*score);
+            *score = bits;
+        }
+        rise
+    }
+
+    /// What the next block adds to the scores is to be all that the touch says.
+    pub(crate) fn forget_scores(&mut self) {
+        self.scores = [0; MAX_CLASSES];
+    }
+
+    /// Why it objects to naming this class, if it does.
+    // At a decision: there once.
+    #[inline(never)]
+    pub(crate) fn objection(
+        &self,
+        section: Section<'_>,
+        classes: usize,
+        class: usize,
+    ) -> Option<Reason> {
+        if !self.is_on_path(section.path(class)) {
+            return Some(Reason::Pose);
+        }
+        if !self.is_typical(section.typical(class), section.stages()) {
+            return Some(Reason::Unknown);
+        }
+        if section.names() {
+            return None;
+        }
+        self.rival(section.most_odds(), classes, class)
+            .map(Reason::Between)
+    }
+
+    /// The class that stands against this one, by the scores, if the odds against it are more.
+    fn rival(&self, most_odds: u32, classes: usize, class: usize) -> Option<usize> {
+        let scores = self.scores.get(..classes)?;
+        let own = *scores.get(class)?;
+        let (mut odds, mut rival, mut best) = (0_u32, class, i32::MIN);
+        for (other, score) in scores.iter().enumerate() {
+            if other == class {
+                continue;
+            }
+            if *score > best {
+                (best, rival) = (*score, other);
+            }
+            let behind = own.saturating_sub(*score).max(0).unsigned_abs();
+            let scale = const { EvidenceScale::per_samples(1) };
+            odds = odds.saturating_add(scale.term(behind.min(MAX_DEFICIT), 0));
+        }
+        (odds > most_odds).then_some(rival)
+    }
+
+    /// Whether the mean squared deviation from the way of a class, or from between two of its
+    /// ways, is within its limit.
+    fn is_on_path(&self, (inverse, means, limit): (&[u32], &[u32], u32)) -> bool {
+        let blocks = self.blocks.min(BLOCKS);
+        let poses = means.len() / BLOCKS;
+        let mut least = i64::MAX;
+        for pose in 0..poses.max(2) - 1 {
+            let own = means.get(pose * BLOCKS..).unwrap_or_default();
+            let next = means.get((pose + 1) * BLOCKS..).unwrap_or_default();
+            // From this pose: squares of the touch and of the next pose, and their product.
+            let [mut touch2, mut step2, mut both] = [0_i32; 3];
+            for (block, felt) in self.path.iter().take(blocks).enumerate() {
+                let word = |words: &[u32]| words.get(block).copied();
+                let scales = word(inverse).unwrap_or(0);
+                let own = word(own).unwrap_or(0);
+                // There is no next of one pose: then it is the same.
+                let next = word(next).unwrap_or(own);
+                for (channel, felt) in felt.iter().enumerate() {
+                    let half = |word: u32| (word >> (16 * channel)) as u16;
+                    let scale = i32::from(half(scales));
+                    let mean = i32::from(half(own).cast_signed());
+                    let deviation = |code: i16| deviation(i32::from(code) - mean, scale);
+                    let (felt, step) = (deviation(*felt), deviation(half(next).cast_signed()));
+                    // Each product is below 2²⁴, and there are 18.
+                    touch2 += felt * felt;
+                    step2 += step * step;
+                    both += felt * step;
+                }
+            }
+            let first = if pose == 0 { -BEYOND } else { 0 };
+            let last = if pose + 2 >= poses { 256 + BEYOND } else { 256 };
+            let along = (both * 4) / (step2 >> 6).max(1);
+            let along = i64::from(along.clamp(first, last));
+            let [touch2, step2, both] = [touch2, step2, both].map(i64::from);
+            let rest = touch2 - ((along * (2 * both - ((along * step2) >> 8))) >> 8);
+            least = least.min(rest);
+        }
+        least <= i64::from(limit) * 2 * blocks as i64
+    }
+
+    /// Whether the features of the states are as near to a class as its limit says.
+    fn is_typical(&self, (states, limits): (&[u32], &[u32]), stages: usize) -> bool {
+        let mut distance = 0_u64;
+        for ((words, of_class), sums) in STATES
+            .iter()
+            .zip(states.chunks(STATE_WORDS))
+            .zip(&self.states)
+        {
+            let blocks = blocks_of(*words, self.blocks);
+            if blocks == 0 {
+                break;
+            }
+            let (means, rest) = of_class.split_at_checked(FEATURES / 2).unwrap_or_default();
+            let Some((shift, triangle)) = rest.split_first() else {
+                break;
+            };
+            let mut from = [0_i64; FEATURES];
+            for ((from, sum), mean) in from.iter_mut().zip(sums).zip(halves(means)) {
+                *from = i64::from(*sum) - i64::from(mean) * blocks as i64;
+            }
+            let mut triangle = halves(triangle);
+            let mut squares = 0_u64;
+            for row in 1..=FEATURES {
+                let weighed = from.iter().take(row).zip(&mut triangle);
+                let sum: i64 = weighed.map(|(from, weight)| from * i64::from(weight)).sum();
+                let most = i64::from(DEVIATION_MOST) << STATE_BITS;
+                let size = (sum >> shift.min(&63)).clamp(-most, most);
+                squares += (size * size).unsigned_abs();
+            }
+            // Of a mean over blocks: by their square, in 2⁻¹⁶.
+            let share = [65_536, 16_384, 7_282]
+                .get(blocks - 1)
+                .copied()
+                .unwrap_or(0);
+            distance += (squares * share) >> 16;
+        }
+        let stage = self.blocks.clamp(1, stages.max(1));
+        distance <= limits.get(stage - 1).copied().unwrap_or(0).into()
+    }
+}
+
+/// An opinion, and what it has made of a touch where it names.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(crate) struct Judge {
+    pub(crate) opinion: Opinion,
+    /// A decision that was refused; it is said when patience ends.
+    held: Option<Decision>,
+    /// Samples of those before it.
+    spent: u32,
+    /// Whether this touch has had its decision.
+    is_done: bool,
+}
+
+impl Judge {
+    /// Before the first sample.
+    pub(crate) const fn new(rest: [i32; 2]) -> Self {
+        Self {
+            opinion: Opinion::new(rest),
+            held: None,
+            spent: 0,
+            is_done: false,
+        }
+    }
+
+    /// A touch begins; whether the one before was refused and that was not said.
+    pub(crate) fn begin(&mut self) -> bool {
+        self.opinion.begin();
+        self.is_done = false;
+        let is_refused = self.held.take().is_some();
+        if is_refused {
+            self.spent = 0;
+        }
+        is_refused
+    }
+
+    /// The touch has had its decision.
+    pub(crate) fn finish(&mut self) {
+        self.is_done = true;
+        self.held = None;
+        self.spent = 0;
+    }
+
+    /// The end of a block whose sums are what the opinion's scores have risen by.
+    ///
+    /// A class is named after the block in which its posterior exceeds the threshold, if
+    /// nothing objects. What was refused is said, as is a pair of classes that exceeds the
+    /// threshold together, once the touch has lasted for the model's patience.
+    pub(crate) fn name<R: DecisionRule>(
+        &mut self,
+        (section, classes): (Section<'_>, usize),
+        rule: &R,
+        sums: &mut [u32],
+        evidence: &mut R::Evidence,
+        touch: u16,
+    ) -> Option<Decision> {
+        if self.is_done {
+            sums.fill(0);
+            return None;
+        }
+        if let Some(decision) = rule.end_of_block(sums, evidence) {
+            let decision = decision.after(self.spent);
+            let reason = self.opinion.objection(section, classes, decision.leader());
+            let decision = decision.in_touch(touch, reason);
+            if reason.is_none() {
+                self.finish();
+                return Some(decision);
+            }
+            self.spent = decision.samples();
+            self.held = Some(decision);
+            self.opinion.forget_scores();
+        }
+        if self.opinion.blocks() < section.patience() {
+            return None;
+        }
+        let said = self.held.or_else(|| {
+            let pair = between(classes, rule, evidence)?;
+            Some(pair.after(self.spent).in_touch(touch, pair.reason()))
+        })?;
+        self.finish();
+        *evidence = rule.start();
+        Some(said)
+    }
+}
+
+/// The two classes that together exceed the threshold, if there are such.
+fn between<R: DecisionRule>(classes: usize, rule: &R, evidence: &R::Evidence) -> Option<Decision> {
+    let mut deficits = [0; MAX_CLASSES];
+    rule.deficits(evidence, &mut deficits);
+    let deficits = deficits.get(..classes)?;
+    let first = leader(deficits);
+    let others = deficits
+        .iter()
+        .enumerate()
+        .filter(|(class, _)| *class != first);
+    let (second, _) = others.min_by_key(|(_, deficit)| **deficit)?;
+    let decision = rule.decide_without(classes, evidence, second)?;
+    Some(decision.in_touch(0, Some(Reason::Between(second))))
+}
+
+/// By how much scores have risen.
+pub(crate) type Rise = [i32; MAX_CLASSES];
+
+/// The largest size of a score: 1024 bits.
+const SCORE_MOST: i64 = 1 << 20;
+
+/// A difference of codes in deviations, 2^−[`PATH_BITS`]; `scale` is 2¹⁶ over the deviation.
+#[inline]
+fn deviation(difference: i32, scale: i32) -> i32 {
+    // 17 bits by 16: wraps only of a scale that no trainer writes.
+    let size = difference.wrapping_mul(scale) >> (16 - PATH_BITS);
+    let most = (DEVIATION_MOST << PATH_BITS) - 1;
+    size.clamp(-most, most)
+}

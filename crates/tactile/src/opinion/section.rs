@@ -1,0 +1,183 @@
+//! The opinion's part of a model file, read in place.
+//!
+//! | words | content |
+//! |---|---|
+//! | 1 | kind u8 (bit 0: names, otherwise it objects; bit 1: touches longer than nine blocks begin again), poses of paths P u8 (1 to 12), stages u8 (1 to 8), patience u8 (1 to 9) |
+//! | 1 | most odds against the leader by the opinion, 2⁻²⁶ |
+//! | 1, 1 | code that becomes zero i32; bits that are left off a code |
+//! | 2 | rest of x and y where no air was felt yet, i32, 1/256 narrow codes |
+//! | 2 | frequency of the whisk f32, Hz, and gain of RCP f32; not a number: not known |
+//! | per stage | shift; K × bias i32, 1/1024 bit; K × weights i16, ten a state begun |
+//! | per class | per state: 10 means i16, 1/256; shift; 55 of a triangle i16, and a zero; then 8 limits u32 |
+//! | per class | 9 × inverse deviation of x and y u16, 2⁻¹⁶; P × 9 × x and y i16; limit u32 |
+
+use super::{BLOCKS, FEATURES, STAGES, STATES};
+use crate::error::ModelError;
+
+/// Most poses between which a path may lie.
+pub(crate) const MAX_POSES: usize = 12;
+/// Words before the stages.
+pub(crate) const HEAD_WORDS: usize = 8;
+/// Words of the triangle of a state.
+const TRIANGLE_WORDS: usize = (FEATURES * (FEATURES + 1) / 2).div_ceil(2);
+/// Words of a state of a class.
+pub(crate) const STATE_WORDS: usize = FEATURES / 2 + 1 + TRIANGLE_WORDS;
+/// Words of what is typical of a class.
+pub(crate) const TYPICAL_WORDS: usize = STATES.len() * STATE_WORDS + STAGES;
+
+/// States begun after so many blocks.
+pub(crate) fn begun(blocks: usize) -> usize {
+    STATES.iter().filter(|[first, _]| *first < blocks).count()
+}
+
+/// Words of a stage (from 1) for so many classes.
+pub(crate) fn stage_words(stage: usize, classes: usize) -> usize {
+    1 + classes + classes * begun(stage) * FEATURES / 2
+}
+
+/// Words of the paths of a class.
+pub(crate) const fn path_words(poses: usize) -> usize {
+    BLOCKS * (1 + poses) + 1
+}
+
+/// The section of a model of so many classes.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Section<'m> {
+    words: &'m [u32],
+    classes: usize,
+}
+
+impl<'m> Section<'m> {
+    /// Of words that were checked; of others it says something else, and no more.
+    #[inline]
+    pub(crate) const fn new(words: &'m [u32], classes: usize) -> Self {
+        Self { words, classes }
+    }
+
+    /// Whether one of so many words that begins with `head` can be read.
+    pub(crate) fn check(head: &[u32], words: usize, classes: usize) -> Result<(), ModelError> {
+        let section = Section::new(head, classes);
+        let fits = section.byte(0) <= 3
+            && (1..=MAX_POSES).contains(&section.poses())
+            && (1..=STAGES).contains(&section.stages())
+            && (1..=BLOCKS).contains(&section.patience())
+            && words == section.length();
+        fits.then_some(()).ok_or(ModelError::Opinion)
+    }
+
+    /// Words that the counts in its head ask for.
+    pub(crate) fn length(self) -> usize {
+        let stages: usize = (1..=self.stages())
+            .map(|stage| stage_words(stage, self.classes))
+            .sum();
+        HEAD_WORDS + stages + self.classes * (TYPICAL_WORDS + path_words(self.poses()))
+    }
+
+    fn byte(self, at: usize) -> u8 {
+        let word = self.words.first().copied().unwrap_or(0);
+        word.to_le_bytes()[at % 4]
+    }
+
+    fn word(self, at: usize) -> u32 {
+        self.words.get(at).copied().unwrap_or(0)
+    }
+
+    /// Whether the opinion names classes; otherwise it objects to names.
+    #[inline]
+    pub(crate) fn names(self) -> bool {
+        self.byte(0) & 1 != 0
+    }
+
+    /// Whether a touch of more than nine blocks is felt again as another; otherwise nothing
+    /// more is felt of it.
+    #[inline]
+    pub(crate) fn begins_again(self) -> bool {
+        self.byte(0) & 2 != 0
+    }
+
+    /// Poses between which a path may lie.
+    pub(crate) fn poses(self) -> usize {
+        self.byte(1).into()
+    }
+
+    /// Blocks after which there are other weights.
+    #[inline]
+    pub(crate) fn stages(self) -> usize {
+        self.byte(2).into()
+    }
+
+    /// Blocks after which what was not named is said.
+    #[inline]
+    pub(crate) fn patience(self) -> usize {
+        self.byte(3).into()
+    }
+
+    /// Most odds against a leader that it does not object to, 2⁻²⁶.
+    pub(crate) fn most_odds(self) -> u32 {
+        self.word(1)
+    }
+
+    /// How codes become narrow.
+    #[inline]
+    pub(crate) fn narrow(self) -> super::Narrow {
+        super::Narrow {
+            centre: self.word(2).cast_signed(),
+            shift: self.word(3),
+        }
+    }
+
+    /// Rest where no air was felt yet.
+    pub(crate) fn rest(self) -> [i32; 2] {
+        [self.word(4), self.word(5)].map(u32::cast_signed)
+    }
+
+    /// Frequency of the whisk, Hz, and gain of RCP in training, where they are known.
+    pub(crate) fn trained(self) -> [Option<f32>; 2] {
+        let known = |bits| Some(f32::from_bits(bits)).filter(|value: &f32| value.is_finite());
+        [known(self.word(6)), known(self.word(7))]
+    }
+
+    /// Of a stage (from 1): shift, biases and weights of all classes.
+    pub(crate) fn stage(self, stage: usize) -> (u32, &'m [u32], &'m [u32]) {
+        let before: usize = (1..stage).map(|s| stage_words(s, self.classes)).sum();
+        let words = self.words.get(HEAD_WORDS + before..).unwrap_or_default();
+        let words = words.get(..stage_words(stage, self.classes));
+        let Some((shift, rest)) = words.and_then(<[u32]>::split_first) else {
+            return (0, &[], &[]);
+        };
+        let (biases, weights) = rest.split_at_checked(self.classes).unwrap_or_default();
+        (*shift, biases, weights)
+    }
+
+    /// What is typical of a class: its states, and its limits by stage.
+    pub(crate) fn typical(self, class: usize) -> (&'m [u32], &'m [u32]) {
+        let of_paths = self.classes * path_words(self.poses());
+        let of_all = self.classes * TYPICAL_WORDS + of_paths;
+        let first = self.words.len().wrapping_sub(of_all) + class * TYPICAL_WORDS;
+        let words = self.words.get(first..).unwrap_or_default();
+        let words = words.get(..TYPICAL_WORDS).unwrap_or_default();
+        words
+            .split_at_checked(TYPICAL_WORDS - STAGES)
+            .unwrap_or_default()
+    }
+
+    /// The paths of a class: inverse deviations, means of each pose, limit.
+    pub(crate) fn path(self, class: usize) -> (&'m [u32], &'m [u32], u32) {
+        let one = path_words(self.poses());
+        let of_others = self.classes.saturating_sub(class) * one;
+        let words = self.words.get(self.words.len().wrapping_sub(of_others)..);
+        let words = words.and_then(|words| words.get(..one)).unwrap_or_default();
+        let Some((limit, words)) = words.split_last() else {
+            return (&[], &[], 0);
+        };
+        let (inverse, means) = words.split_at_checked(BLOCKS).unwrap_or_default();
+        (inverse, means, *limit)
+    }
+}
+
+/// The two halves of words, the lower one first.
+#[inline]
+pub(crate) fn halves(words: &[u32]) -> impl Iterator<Item = i16> + '_ {
+    let both = |word: &u32| [*word as u16, (*word >> 16) as u16];
+    words.iter().flat_map(both).map(u16::cast_signed)
+}

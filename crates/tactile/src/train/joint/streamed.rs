@@ -1,0 +1,208 @@
+//! A report of a model with a second opinion: the classifier itself, as it runs on a board, over
+//! what its training has not seen.
+
+use std::string::String;
+use std::vec::Vec;
+
+use super::model::JointModel;
+use super::report::{AtThreshold, ClassReport};
+use super::trial::Trial;
+use crate::decision::Decision;
+use crate::error::ModelError;
+use crate::score::Interval;
+use crate::sequential::{Sequential, Threshold};
+use crate::train_error::TrainError;
+
+/// In how many parts the trials of a class are held out.
+const FOLDS: usize = 4;
+
+/// A decision, and of what.
+struct Said {
+    trial: usize,
+    truth: usize,
+    decision: Decision,
+}
+
+impl Said {
+    fn is_named(&self) -> bool {
+        self.decision.class().is_some()
+    }
+
+    fn is_right(&self) -> bool {
+        self.decision.leader() == self.truth
+    }
+}
+
+/// Replaces the report of a model by one of the classifier as it streams: of several poses
+/// each is held out, of one some trials of each class. Where these are too few to be held
+/// out, the report stays that of tables and floors.
+pub(super) fn report(model: &mut JointModel, trials: &[Trial]) -> Result<(), TrainError> {
+    let folds = folds(model, trials);
+    let last = folds.iter().copied().max().unwrap_or(0);
+    let thresholds: Vec<f64> = model
+        .report
+        .calibration
+        .iter()
+        .map(|at| at.threshold)
+        .collect();
+    let mut said: Vec<Vec<Said>> = thresholds.iter().map(|_| Vec::new()).collect();
+    let mut own: Vec<Said> = Vec::new();
+    for fold in 0..=last {
+        let pick = |is_held_out: bool| {
+            let of = trials.iter().enumerate().zip(&folds);
+            of.filter(move |(_, of)| (**of == fold) == is_held_out)
+                .map(|(trial, _)| trial)
+        };
+        let kept: Vec<Trial> = pick(false).map(|(_, trial)| trial.clone()).collect();
+        let other = match super::once(&kept, &model.options) {
+            Ok(other) if other.names.len() == model.names.len() => other,
+            // Too little is left without it: what there is is not worth less for that.
+            _ => return Ok(()),
+        };
+        if other.opinion.as_ref().map(|opinion| opinion.names)
+            != model.opinion.as_ref().map(|opinion| opinion.names)
+        {
+            return Ok(());
+        }
+        let held_out: Vec<(usize, &Trial)> = pick(true).collect();
+        for (said, threshold) in said.iter_mut().zip(&thresholds) {
+            said.extend(stream(&other, &model.names, &held_out, *threshold)?);
+        }
+        own.extend(stream(
+            &other,
+            &model.names,
+            &held_out,
+            model.report.threshold,
+        )?);
+    }
+    let report = &mut model.report;
+    for (at, said) in report.calibration.iter_mut().zip(&said) {
+        *at = at_threshold(at.threshold, said, trials.len());
+    }
+    for (class, report) in report.classes.iter_mut().enumerate() {
+        of_class(report, class, &own, trials);
+    }
+    Ok(())
+}
+
+/// With which part each trial is held out.
+fn folds(model: &JointModel, trials: &[Trial]) -> Vec<usize> {
+    let names = model.opinion.as_ref().is_some_and(|opinion| opinion.names);
+    // Counted by recording, or by class.
+    let mut keys: Vec<&str> = Vec::new();
+    let mut seen: Vec<usize> = Vec::new();
+    let mut folds = Vec::with_capacity(trials.len());
+    for trial in trials {
+        let key = if names {
+            &trial.recording
+        } else {
+            &trial.label
+        };
+        let found = keys.iter().position(|of| of == key);
+        let place = found.unwrap_or_else(|| {
+            keys.push(key);
+            seen.push(0);
+            keys.len() - 1
+        });
+        folds.push(if names { place } else { seen[place] % FOLDS });
+        seen[place] += 1;
+    }
+    folds
+}
+
+/// What a model decides on trials in their order; `names` are the classes as they are numbered.
+fn stream(
+    model: &JointModel,
+    names: &[String],
+    trials: &[(usize, &Trial)],
+    threshold: f64,
+) -> Result<Vec<Said>, TrainError> {
+    let threshold = Threshold::new(threshold).map_err(|_| TrainError::NoSamples)?;
+    let buffer = model.model()?;
+    let number = |name: &String| names.iter().position(|of| of == name).unwrap_or(0);
+    let mut classifier =
+        Sequential::new(buffer, threshold).map_err(|_| TrainError::Model(ModelError::Opinion))?;
+    let (mut said, mut recording) = (Vec::new(), None);
+    for (trial, of) in trials {
+        if recording != Some(&of.recording) {
+            recording = Some(&of.recording);
+            classifier.reset();
+        }
+        let mut last = 0;
+        for (sample, &touch) in of.samples.iter().zip(&of.touches) {
+            let codes: [i32; 2] =
+                core::array::from_fn(|n| model.scales[n].code_from_f64(sample[n]));
+            if touch != 0 && touch != last {
+                last = touch;
+                classifier.touch(touch);
+            }
+            if touch == 0 {
+                let _ = classifier.pass(&codes);
+                continue;
+            }
+            if let Ok(Some(decision)) = classifier.push(&codes) {
+                // Folds may meet classes in another order.
+                let leader = model.names.get(decision.leader()).map_or(0, number);
+                said.push(Said {
+                    trial: *trial,
+                    truth: number(&of.label),
+                    decision: decision.of_class(leader),
+                });
+            }
+        }
+    }
+    Ok(said)
+}
+
+/// Trials without a named class, of so many.
+fn undecided(said: &[Said], trials: impl Iterator<Item = usize>) -> Interval {
+    let silent = |trial: &usize| {
+        !said
+            .iter()
+            .any(|said| said.trial == *trial && said.is_named())
+    };
+    let (mut count, mut of) = (0, 0);
+    for trial in trials {
+        of += 1;
+        count += usize::from(silent(&trial));
+    }
+    Interval::of(count, of)
+}
+
+fn at_threshold(threshold: f64, said: &[Said], trials: usize) -> AtThreshold {
+    let named = || said.iter().filter(|said| said.is_named());
+    let count = named().count();
+    let mean = |of: &dyn Fn(&Said) -> f64| named().map(of).sum::<f64>() / count as f64;
+    AtThreshold {
+        threshold,
+        stated: mean(&|said| f64::from(said.decision.posterior().q32()) / 4_294_967_296.0),
+        found: Interval::of(named().filter(|said| said.is_right()).count(), count),
+        samples: mean(&|said| f64::from(said.decision.samples())),
+        unknown: Interval::of(said.len() - count, said.len()),
+        undecided: undecided(said, 0..trials),
+    }
+}
+
+fn of_class(report: &mut ClassReport, class: usize, said: &[Said], trials: &[Trial]) {
+    let of = || said.iter().filter(|said| said.truth == class);
+    let named = || of().filter(|said| said.is_named());
+    for (n, count) in report.named.iter_mut().enumerate() {
+        *count = named().filter(|said| said.decision.leader() == n).count();
+    }
+    let count = named().count();
+    let right = of().filter(|said| said.is_right()).count();
+    let right_named = named().filter(|said| said.is_right()).count();
+    report.unknown = of().count() - count;
+    report.hits = Interval::of(right_named, count);
+    report.refused = Interval::of(right - right_named, right);
+    let samples = named().map(|said| f64::from(said.decision.samples()));
+    report.samples = samples.sum::<f64>() / count as f64;
+    let own = trials
+        .iter()
+        .enumerate()
+        .filter(|(_, trial)| trial.label == report.name);
+    let own: Vec<usize> = own.map(|(n, _)| n).collect();
+    let silent = undecided(said, own.iter().copied());
+    report.trials = own.len();
+    report.undecided = (silent.share * own.len() as f64).round() as usize;
+}

@@ -1,0 +1,384 @@
+//! Training the second opinion: see [`crate::opinion`] for what it says.
+//!
+//! Of recordings in one pose it objects, and what poses do to the roughness is learnt from
+//! copies whose deflection in y is scaled: how much may differ between training and use only
+//! who trains knows ([`Expect`]). Of recordings in several poses, each of all classes, it names,
+//! and what differs between poses is learnt from them.
+//!
+//! Values that were chosen, on recordings of the scene `whisker` with seeds that no page uses:
+//! α 1 and 2, s 0.1 and 0.03, the 0.9 of an objection, the shares 0.9, 0.98 and 0.93 of
+//! `typical` and `paths`, their shrinking and least deviations, and the gains of copies.
+
+mod linear;
+mod matrix;
+mod paths;
+mod touches;
+mod typical;
+
+use std::string::String;
+use std::vec;
+use std::vec::Vec;
+
+use self::linear::{Covariance, Linear};
+use self::matrix::quantile;
+use self::paths::Paths;
+use self::touches::{Sense, Touch};
+use self::typical::Typical;
+use crate::format::ENTRIES_PER_BIT;
+use crate::opinion::differences::FEATURE_BITS;
+use crate::opinion::section::{MAX_POSES, begun};
+use crate::opinion::{BLOCKS, FEATURES, PATH_BITS, STAGES, STATE_BITS, STATES, blocks_of};
+use crate::quantiser::Quantiser;
+use crate::train::joint::{CHANNELS, Trial};
+
+/// How much may differ between training and use.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Expect {
+    /// Nothing: from recordings in one pose there is no second opinion, and what is stated
+    /// holds in that pose only.
+    Same,
+    /// What a hand on a bench makes: some degrees, and a fifth of scale.
+    #[default]
+    Bench,
+    /// Another mounting: half to twice of scale.
+    Other,
+}
+
+impl Expect {
+    /// By what copies of a recording are scaled in y.
+    const fn gains(self) -> &'static [f64] {
+        match self {
+            Self::Same => &[],
+            Self::Bench => &[0.8, 1.25],
+            Self::Other => &[0.5, 0.7, 1.4, 2.0],
+        }
+    }
+}
+
+/// What is known of the whisking in training, where anything is.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Whisked {
+    /// Frequency, Hz.
+    pub frequency_hz: Option<f32>,
+    /// Gain of RCP, 0 without.
+    pub rcp_gain: Option<f32>,
+}
+
+/// A second opinion.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Opinion {
+    /// Its part of a model file.
+    pub words: Vec<u32>,
+    /// Whether it names classes by itself.
+    pub names: bool,
+    /// Poses of all classes.
+    pub poses: usize,
+}
+
+/// Poses of which at least an opinion that names is trained.
+pub(super) const LEAST_POSES: usize = 3;
+/// Touches of each class of which at least one is trained, and in each pose.
+const LEAST_TOUCHES: [usize; 2] = [12, 4];
+/// Touches of each class that reach a stage.
+const LEAST_OF_STAGE: usize = 6;
+/// The least posterior by which it does not object to a name.
+const LEAST_POSTERIOR: f64 = 0.9;
+/// The share of touches that end before patience does.
+const IMPATIENT: f64 = 0.1;
+/// Parts in which the touches of one pose are held out.
+const PARTS: usize = 8;
+
+/// What is trained from.
+pub(super) struct Material<'a> {
+    pub(super) trials: &'a [Trial],
+    pub(super) names: &'a [String],
+    pub(super) scales: &'a [Quantiser; CHANNELS],
+    pub(super) block: u32,
+    pub(super) expect: Expect,
+    pub(super) whisked: Whisked,
+}
+
+/// The touches, and how they were felt.
+struct Felt {
+    sense: Sense,
+    classes: usize,
+    /// Whether touches are mostly longer than nine blocks.
+    begins_again: bool,
+    /// Of the recordings as they are.
+    touches: Vec<Touch>,
+    /// The same, and copies behind.
+    with_copies: Vec<Touch>,
+    /// Recordings in which every class was felt.
+    poses: Vec<usize>,
+    stages: usize,
+}
+
+/// Trains from what there is; none where a class was not touched often enough, or nothing is
+/// expected to differ.
+pub(super) fn train(material: &Material<'_>) -> Option<Opinion> {
+    let felt = Felt::of(material, material.expect.gains());
+    let names = felt.poses.len() >= LEAST_POSES;
+    if !felt.is_enough() || !names && material.expect == Expect::Same {
+        return None;
+    }
+    let how = if names {
+        Covariance {
+            between: 2.0,
+            shrink: 0.03,
+        }
+    } else {
+        Covariance {
+            between: 1.0,
+            shrink: 0.1,
+        }
+    };
+    let stages: Vec<Linear> = (1..=felt.stages)
+        .map(|stage| Linear::of(&felt.with_copies, stage, felt.classes, how))
+        .collect();
+    let classes: Vec<(Typical, Paths)> = (0..felt.classes)
+        .map(|class| felt.class(class, names))
+        .collect();
+    let mut words = felt.head(names, material.whisked, classes.first()?.1.means.len());
+    for (stage, linear) in stages.iter().enumerate() {
+        write_stage(&mut words, stage + 1, linear);
+    }
+    for (typical, _) in &classes {
+        write_typical(&mut words, typical);
+    }
+    for (_, paths) in &classes {
+        write_paths(&mut words, paths);
+    }
+    Some(Opinion {
+        words,
+        names,
+        poses: felt.poses.len(),
+    })
+}
+
+/// The recordings, in order.
+fn recordings(trials: &[Trial]) -> Vec<&str> {
+    let mut names: Vec<&str> = Vec::new();
+    for trial in trials {
+        if !names.contains(&trial.recording.as_str()) {
+            names.push(&trial.recording);
+        }
+    }
+    names
+}
+
+impl Felt {
+    fn of(material: &Material<'_>, gains: &[f64]) -> Self {
+        let Material {
+            trials,
+            names,
+            scales,
+            block,
+            ..
+        } = *material;
+        let recordings = recordings(trials);
+        let place = |all: &[&str], of: &str| all.iter().position(|name| *name == of).unwrap_or(0);
+        let of_recording: Vec<usize> = trials
+            .iter()
+            .map(|trial| place(&recordings, &trial.recording))
+            .collect();
+        let of_class: Vec<usize> = trials
+            .iter()
+            .map(|trial| {
+                names
+                    .iter()
+                    .position(|name| *name == trial.label)
+                    .unwrap_or(0)
+            })
+            .collect();
+        let sense = Sense::of(trials, scales, block);
+        let numbers = (of_class.as_slice(), of_recording.as_slice());
+        let mut touches = sense.touches(trials, scales, numbers, 1.0);
+        let long = touches.iter().filter(|touch| touch.goes_on).count();
+        let begins_again = long * 3 > touches.len();
+        touches.retain(|touch| begins_again || !touch.goes_on);
+        let mut with_copies = touches.clone();
+        for (n, gain) in gains.iter().enumerate() {
+            let mut copies = sense.touches(trials, scales, numbers, *gain);
+            copies.retain(|touch| begins_again || !touch.goes_on);
+            for copy in &mut copies {
+                copy.recording += (n + 1) * recordings.len();
+            }
+            with_copies.append(&mut copies);
+        }
+        let count = |class: usize, is: &dyn Fn(&Touch) -> bool| {
+            let of_class = touches.iter().filter(|touch| touch.class == class);
+            of_class.filter(|touch| is(touch)).count()
+        };
+        let classes = names.len();
+        let all = |least: usize, is: &dyn Fn(&Touch) -> bool| {
+            (0..classes).all(|class| count(class, is) >= least)
+        };
+        let poses = (0..recordings.len())
+            .filter(|recording| all(LEAST_TOUCHES[1], &|touch| touch.recording == *recording))
+            .collect();
+        let stages = (1..=STAGES)
+            .take_while(|stage| all(LEAST_OF_STAGE, &|touch| touch.len() >= *stage))
+            .count();
+        Self {
+            sense,
+            classes,
+            begins_again,
+            poses,
+            stages,
+            touches,
+            with_copies,
+        }
+    }
+
+    fn is_enough(&self) -> bool {
+        let of = |class: usize| {
+            self.touches
+                .iter()
+                .filter(move |t| t.class == class)
+                .count()
+        };
+        self.stages > 0 && (0..self.classes).all(|class| of(class) >= LEAST_TOUCHES[0])
+    }
+
+    /// What is typical of a class, and its paths.
+    fn class(&self, class: usize, names: bool) -> (Typical, Paths) {
+        let of: Vec<&Touch> = self.touches.iter().filter(|t| t.class == class).collect();
+        let mut trials: Vec<usize> = of.iter().map(|touch| touch.trial).collect();
+        trials.dedup();
+        let trial_of = |touch: &Touch| trials.iter().position(|t| *t == touch.trial).unwrap_or(0);
+        // Trials are held out where there are several, otherwise touches.
+        let has_trials = trials.len() > 3;
+        let part = |(n, touch): (usize, &&Touch)| {
+            if has_trials {
+                trial_of(touch) % PARTS
+            } else {
+                n % PARTS
+            }
+        };
+        let parts: Vec<usize> = of.iter().enumerate().map(part).collect();
+        if !names {
+            return (
+                Typical::of(&of, &parts, self.stages),
+                Paths::of_one(&of, &parts),
+            );
+        }
+        let by_recording: Vec<usize> = of.iter().map(|touch| touch.recording).collect();
+        let typical = Typical::of(&of, &by_recording, self.stages);
+        if self.poses.len() > MAX_POSES {
+            return (typical, Paths::of_one(&of, &by_recording));
+        }
+        let pose = |recording: &usize| -> Vec<&Touch> {
+            of.iter()
+                .copied()
+                .filter(|touch| touch.recording == *recording)
+                .collect()
+        };
+        let poses: Vec<Vec<&Touch>> = self.poses.iter().map(pose).collect();
+        (typical, Paths::of_several(&poses))
+    }
+
+    /// Blocks after which most touches have not yet ended.
+    fn patience(&self) -> u8 {
+        let mut lengths: Vec<f64> = self.touches.iter().map(|t| t.len() as f64).collect();
+        let patience = quantile(&mut lengths, IMPATIENT).unwrap_or(1.0);
+        // At most nine.
+        patience.floor().clamp(1.0, BLOCKS as f64) as u8
+    }
+
+    fn head(&self, names: bool, whisked: Whisked, poses: usize) -> Vec<u32> {
+        let kind = u8::from(names) | u8::from(self.begins_again) << 1;
+        // At most twelve, and eight.
+        let head = [kind, poses as u8, self.stages as u8, self.patience()];
+        let odds = (1.0 / LEAST_POSTERIOR - 1.0) * f64::from(1 << 26);
+        let Sense { narrow, rest, .. } = self.sense;
+        let known = |value: Option<f32>| value.unwrap_or(f32::NAN).to_bits();
+        vec![
+            u32::from_le_bytes(head),
+            odds as u32,
+            narrow.centre.cast_unsigned(),
+            narrow.shift,
+            rest[0].cast_unsigned(),
+            rest[1].cast_unsigned(),
+            known(whisked.frequency_hz),
+            known(whisked.rcp_gain),
+        ]
+    }
+}
+
+/// Two halves a word, the first below; a zero after an odd one.
+fn write_halves(words: &mut Vec<u32>, halves: &[i16]) {
+    let half = |half: Option<&i16>| u32::from(half.copied().unwrap_or(0).cast_unsigned());
+    let pairs = halves.chunks(2);
+    words.extend(pairs.map(|pair| half(pair.first()) | half(pair.get(1)) << 16));
+}
+
+/// How often numbers can be doubled so that all fit 16 bits, at most 40 times; and they.
+fn scaled(numbers: &[f64]) -> (u32, Vec<i16>) {
+    let most = numbers.iter().fold(0.0_f64, |most, n| most.max(n.abs()));
+    let fits = |shift: &u32| most * f64::from(*shift).exp2() <= f64::from(i16::MAX);
+    let shift = (0..=40).rev().find(fits).unwrap_or(0);
+    let unit = f64::from(shift).exp2();
+    // `as` saturates: only what is beyond 16 bits without a shift.
+    (
+        shift,
+        numbers.iter().map(|n| (n * unit).round() as i16).collect(),
+    )
+}
+
+/// Weights of means of states, so much a mean; written for their sums. What all classes have
+/// in common is left off.
+fn write_stage(words: &mut Vec<u32>, stage: usize, linear: &Linear) {
+    let classes = linear.weights.len();
+    let numbers = begun(stage) * FEATURES;
+    let mean = |of: &dyn Fn(usize) -> f64| (0..classes).map(of).sum::<f64>() / classes as f64;
+    let weight = |class: usize, n: usize| linear.weights[class].get(n).copied().unwrap_or(0.0);
+    let mut all = Vec::with_capacity(classes * numbers);
+    for class in 0..classes {
+        for n in 0..numbers {
+            let own = weight(class, n) - mean(&|class| weight(class, n));
+            let blocks = blocks_of(STATES[n / FEATURES], stage).max(1);
+            let unit = f64::from(ENTRIES_PER_BIT) / f64::from(1 << FEATURE_BITS);
+            all.push(own * unit / blocks as f64);
+        }
+    }
+    let (shift, all) = scaled(&all);
+    words.push(shift);
+    let common = mean(&|class| linear.biases[class]);
+    let bias = |bias: &f64| ((bias - common) * f64::from(ENTRIES_PER_BIT)).round() as i32;
+    words.extend(linear.biases.iter().map(|of| bias(of).cast_unsigned()));
+    write_halves(words, &all);
+}
+
+fn write_typical(words: &mut Vec<u32>, typical: &Typical) {
+    for state in &typical.states {
+        let unit = f64::from(1 << FEATURE_BITS);
+        let means: Vec<i16> = state
+            .mean
+            .iter()
+            .map(|m| (m * unit).round() as i16)
+            .collect();
+        write_halves(words, &means);
+        let unit = f64::from(1 << STATE_BITS) / unit;
+        let rows = state.whitening.triangle().flatten();
+        let (shift, triangle) = scaled(&rows.map(|value| value * unit).collect::<Vec<_>>());
+        words.push(shift);
+        write_halves(words, &triangle);
+    }
+    let square = f64::from(1 << (2 * STATE_BITS));
+    words.extend(typical.limits.map(|limit| (limit * square).round() as u32));
+}
+
+fn write_paths(words: &mut Vec<u32>, paths: &Paths) {
+    // Deviations are at least four.
+    let inverse = |deviation: &f64| (65_536.0 / deviation).round() as i16;
+    write_halves(
+        words,
+        &paths.deviations.iter().map(inverse).collect::<Vec<_>>(),
+    );
+    for mean in &paths.means {
+        let codes: Vec<i16> = mean.iter().map(|code| code.round() as i16).collect();
+        write_halves(words, &codes);
+    }
+    let square = f64::from(1 << (2 * PATH_BITS));
+    words.push((paths.limit * square).round() as u32);
+}

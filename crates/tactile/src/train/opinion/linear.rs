@@ -1,0 +1,164 @@
+//! The linear opinion of a stage: one Gaussian a class over the means of the states that have
+//! begun, with one covariance S = W + αB, W within recordings and B between recordings of one
+//! class, all classes together; its correlations times 1 − s.
+//!
+//! Scores are T (w_c f + b_c), w_c = S⁻¹ μ_c, b_c = −½ μ_c S⁻¹ μ_c. The T ≤ 1 minimises the log
+//! loss where each recording, or copy of one, is left out in turn.
+
+use std::vec;
+use std::vec::Vec;
+
+use super::matrix::{Matrix, less, mean, square};
+use super::touches::Touch;
+
+/// Least variance of a feature: that of its rounding and of its logarithm, octaves².
+pub(super) const LEAST_VARIANCE: f64 = 1e-3;
+
+/// How covariances are made.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Covariance {
+    /// α.
+    pub(super) between: f64,
+    /// s.
+    pub(super) shrink: f64,
+}
+
+/// A stage.
+#[derive(Debug, Clone)]
+pub(super) struct Linear {
+    /// T w_c of each class, bits an octave.
+    pub(super) weights: Vec<Vec<f64>>,
+    /// T b_c, bits.
+    pub(super) biases: Vec<f64>,
+}
+
+/// Touches of one stage.
+struct Row<'t> {
+    touch: &'t Touch,
+    means: Vec<f64>,
+}
+
+impl Linear {
+    /// After so many blocks, of so many classes.
+    pub(super) fn of(touches: &[Touch], blocks: usize, classes: usize, how: Covariance) -> Self {
+        let long = touches.iter().filter(|touch| touch.len() >= blocks);
+        let rows: Vec<Row<'_>> = long
+            .map(|touch| Row {
+                touch,
+                means: touch.stage(blocks),
+            })
+            .collect();
+        let recordings = touches.iter().map(|touch| touch.recording + 1).max();
+        let recordings = recordings.unwrap_or(0);
+        let mut held_out = Vec::new();
+        for recording in 0..recordings {
+            let kept: Vec<&Row<'_>> = rows
+                .iter()
+                .filter(|row| recordings == 1 || row.touch.recording != recording)
+                .collect();
+            let Some(fit) = Self::fit(&kept, recordings, classes, how) else {
+                continue;
+            };
+            let left_out = rows.iter().filter(|row| row.touch.recording == recording);
+            held_out.extend(left_out.map(|row| (row.touch.class, fit.scores(&row.means))));
+        }
+        let all: Vec<&Row<'_>> = rows.iter().collect();
+        let Some(mut linear) = Self::fit(&all, recordings, classes, how) else {
+            return Self {
+                weights: vec![Vec::new(); classes],
+                biases: vec![0.0; classes],
+            };
+        };
+        let temperature = temperature(&held_out);
+        // To bits.
+        let unit = temperature / core::f64::consts::LN_2;
+        linear.weights.iter_mut().flatten().for_each(|w| *w *= unit);
+        linear.biases.iter_mut().for_each(|b| *b *= unit);
+        linear
+    }
+
+    /// None where a class is missing.
+    fn fit(rows: &[&Row<'_>], recordings: usize, classes: usize, how: Covariance) -> Option<Self> {
+        let size = rows.first()?.means.len();
+        let mut within = Matrix::zero(size);
+        let mut between = Matrix::zero(size);
+        let (mut freedom_within, mut freedom_between) = (0, 0);
+        let mut centres = Vec::new();
+        for class in 0..classes {
+            let mut means = Vec::new();
+            for recording in 0..recordings {
+                let of: Vec<&[f64]> = rows
+                    .iter()
+                    .filter(|row| (row.touch.class, row.touch.recording) == (class, recording))
+                    .map(|row| row.means.as_slice())
+                    .collect();
+                if of.len() < 3 {
+                    continue;
+                }
+                let centre = mean(size, of.iter().copied());
+                for row in &of {
+                    within.add_square(&less(row, &centre), 1.0);
+                }
+                freedom_within += of.len() - 1;
+                means.push(centre);
+            }
+            if means.is_empty() {
+                return None;
+            }
+            let centre = mean(size, means.iter().map(Vec::as_slice));
+            for mean in &means {
+                between.add_square(&less(mean, &centre), 1.0);
+            }
+            freedom_between += means.len() - 1;
+            centres.push(centre);
+        }
+        within.scale(1.0 / freedom_within.max(1) as f64);
+        within.add(&between, how.between / freedom_between.max(1) as f64);
+        within.shrink(how.shrink, LEAST_VARIANCE);
+        let whitening = within.whitening();
+        let bias = |centre: &Vec<f64>| -0.5 * square(&whitening.of(centre));
+        Some(Self {
+            weights: centres
+                .iter()
+                .map(|centre| whitening.twice(centre))
+                .collect(),
+            biases: centres.iter().map(bias).collect(),
+        })
+    }
+
+    fn scores(&self, means: &[f64]) -> Vec<f64> {
+        let of = |weights: &Vec<f64>| weights.iter().zip(means).map(|(w, x)| w * x).sum::<f64>();
+        let classes = self.weights.iter().zip(&self.biases);
+        classes.map(|(weights, bias)| of(weights) + bias).collect()
+    }
+}
+
+/// The T of e⁻⁴ to 1 of least mean log loss over classes and scores.
+fn temperature(held_out: &[(usize, Vec<f64>)]) -> f64 {
+    let loss = |log: f64| -> f64 {
+        let temperature = log.exp();
+        let of = |(class, scores): &(usize, Vec<f64>)| {
+            let most = scores.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+            let sum: f64 = scores
+                .iter()
+                .map(|z| (temperature * (z - most)).exp())
+                .sum();
+            // As an outlier weighs at most.
+            -((temperature * (scores[*class] - most)).exp() / sum + 1e-12).ln()
+        };
+        held_out.iter().map(of).sum()
+    };
+    let (mut low, mut high) = (-4.0, 0.0);
+    // The golden section: the loss is convex but for that outlier.
+    let golden = (5.0_f64.sqrt() - 1.0) / 2.0;
+    for _ in 0..40 {
+        let span: f64 = high - low;
+        let (a, b) = (high - golden * span, low + golden * span);
+        if loss(a) < loss(b) {
+            high = b;
+        } else {
+            low = a;
+        }
+    }
+    f64::midpoint(low, high).exp()
+}

@@ -1,0 +1,181 @@
+//! What the module feels of each touch of the recordings: features and mean deflections.
+
+use std::vec::Vec;
+
+use crate::opinion::differences::{FEATURE_BITS, NARROW_MOST};
+use crate::opinion::{BLOCKS, Differences, FEATURES, Narrow, STATES, blocks_of};
+use crate::quantiser::Quantiser;
+use crate::train::joint::{CHANNELS, Trial};
+
+/// A touch, or nine blocks of a longer one.
+#[derive(Debug, Clone)]
+pub(super) struct Touch {
+    pub(super) class: usize,
+    /// The recording, and the copy of it.
+    pub(super) recording: usize,
+    /// Whether it goes on with a touch of which nine blocks came before.
+    pub(super) goes_on: bool,
+    /// The trial, over all recordings.
+    pub(super) trial: usize,
+    /// Of each block.
+    pub(super) features: Vec<[f64; FEATURES]>,
+    /// Mean deflection of each block, narrow codes.
+    pub(super) path: Vec<[f64; CHANNELS]>,
+}
+
+impl Touch {
+    /// Blocks.
+    pub(super) fn len(&self) -> usize {
+        self.path.len()
+    }
+
+    /// Means of the features over a state, after so many blocks; none before it begins.
+    pub(super) fn state(&self, state: usize, blocks: usize) -> Option<[f64; FEATURES]> {
+        let [first, _] = STATES[state];
+        let count = blocks_of(STATES[state], blocks.min(self.len()));
+        let of_state = self.features.get(first..first + count)?;
+        if of_state.is_empty() {
+            return None;
+        }
+        let mut mean = [0.0; FEATURES];
+        for features in of_state {
+            for (mean, feature) in mean.iter_mut().zip(features) {
+                *mean += feature / count as f64;
+            }
+        }
+        Some(mean)
+    }
+
+    /// The means of all states that have begun after so many blocks.
+    pub(super) fn stage(&self, blocks: usize) -> Vec<f64> {
+        let states = (0..STATES.len()).filter_map(|state| self.state(state, blocks));
+        states.flatten().collect()
+    }
+}
+
+/// How the samples of trials are felt.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Sense {
+    pub(super) narrow: Narrow,
+    /// Mean of the air, or of all where there is none; 1/256 narrow codes.
+    pub(super) rest: [i32; CHANNELS],
+    /// Samples of a block.
+    pub(super) block: u32,
+}
+
+/// Codes of a sensor of 14 bits.
+const RAW: core::ops::RangeInclusive<i32> = 0..=16383;
+
+impl Sense {
+    /// Of codes of these scales.
+    pub(super) fn of(trials: &[Trial], scales: &[Quantiser; CHANNELS], block: u32) -> Self {
+        let low = scales.iter().map(|scale| scale.low).min().unwrap_or(0);
+        let high = scales.iter().map(|scale| scale.high).max().unwrap_or(0);
+        let is_raw = RAW.contains(&low) && RAW.contains(&high);
+        let takes_raw = scales
+            .iter()
+            .all(|scale| scale.takes_raw() && scale.exponent == 0);
+        let narrow = if is_raw && takes_raw {
+            Narrow {
+                centre: NARROW_MOST + 1,
+                shift: 0,
+            }
+        } else {
+            // The range of training fills half of what there is.
+            let span = high.wrapping_sub(low).unsigned_abs();
+            let bits = u32::BITS - span.leading_zeros();
+            Narrow {
+                centre: low.wrapping_add((span / 2).cast_signed()),
+                shift: bits.saturating_sub(13),
+            }
+        };
+        let mut sense = Self {
+            narrow,
+            rest: [0; CHANNELS],
+            block,
+        };
+        sense.rest = sense.mean(trials, scales);
+        sense
+    }
+
+    /// The mean of the air.
+    fn mean(&self, trials: &[Trial], scales: &[Quantiser; CHANNELS]) -> [i32; CHANNELS] {
+        let has_air = trials.iter().any(|trial| trial.touches.contains(&0));
+        let (mut sums, mut count) = ([0_i64; CHANNELS], 0_i64);
+        for trial in trials {
+            let felt = trial.samples.iter().zip(&trial.touches);
+            for (sample, _) in felt.filter(|(_, touch)| **touch == 0 || !has_air) {
+                count += 1;
+                for (sum, code) in sums.iter_mut().zip(self.codes(sample, scales)) {
+                    *sum += i64::from(code);
+                }
+            }
+        }
+        // Of 14 bits.
+        sums.map(|sum| (256 * sum / count.max(1)) as i32)
+    }
+
+    fn codes(&self, sample: &[f64; CHANNELS], scales: &[Quantiser; CHANNELS]) -> [i16; CHANNELS] {
+        core::array::from_fn(|n| self.narrow.of(scales[n].code_from_f64(sample[n])))
+    }
+
+    /// The touches of trials whose deflection in y is `gain` times what it was. `classes` and
+    /// `recordings` have a number a trial.
+    pub(super) fn touches(
+        &self,
+        trials: &[Trial],
+        scales: &[Quantiser; CHANNELS],
+        (classes, recordings): (&[usize], &[usize]),
+        gain: f64,
+    ) -> Vec<Touch> {
+        let mut touches: Vec<Touch> = Vec::new();
+        let mut last_recording = None;
+        let mut differences = Differences::new(self.rest);
+        let rest = f64::from(self.rest[1]) / 256.0;
+        let most = f64::from(NARROW_MOST);
+        for (trial, of) in trials.iter().enumerate() {
+            if last_recording != Some(recordings[trial]) {
+                last_recording = Some(recordings[trial]);
+                differences = Differences::new(self.rest);
+            }
+            let (mut last, mut open, mut is_new) = (0, 0, true);
+            for (sample, &touch) in of.samples.iter().zip(&of.touches) {
+                let [x, y] = self.codes(sample, scales);
+                let y = (rest + gain * (f64::from(y) - rest)).round();
+                let y = y.clamp(-most - 1.0, most) as i16;
+                if touch != 0 && touch != last {
+                    last = touch;
+                    (open, is_new) = (0, true);
+                    differences.clear();
+                }
+                differences.push([x, y], touch != 0);
+                if touch == 0 {
+                    continue;
+                }
+                open += 1;
+                if open < self.block {
+                    continue;
+                }
+                open = 0;
+                let (features, path) = differences.end_of_block();
+                if is_new || touches.last().is_none_or(|touch| touch.len() == BLOCKS) {
+                    let goes_on = !core::mem::replace(&mut is_new, false);
+                    touches.push(Touch {
+                        class: classes[trial],
+                        recording: recordings[trial],
+                        goes_on,
+                        trial,
+                        features: Vec::new(),
+                        path: Vec::new(),
+                    });
+                }
+                let unit = f64::from(1 << FEATURE_BITS);
+                if let Some(touch) = touches.last_mut() {
+                    touch.features.push(features.map(|f| f64::from(f) / unit));
+                    touch.path.push(path.map(f64::from));
+                }
+            }
+        }
+        touches
+    }
+}

@@ -1,0 +1,120 @@
+//! What features are typical of a class: per state their mean and the class's own covariance,
+//! within recordings and between them; and per stage the squared distance, over the states
+//! begun, within which a share of touches lay that were held out.
+
+use std::vec::Vec;
+
+use super::linear::LEAST_VARIANCE;
+use super::matrix::{Matrix, less, mean, quantile, square};
+use super::touches::Touch;
+use crate::opinion::{FEATURES, STAGES, STATES};
+
+/// Off the diagonal a covariance counts so much less.
+const SHRINK: f64 = 0.3;
+/// The share of held-out touches of a class that are typical of it.
+const SHARE: f64 = 0.9;
+
+/// A state of a class.
+#[derive(Debug, Clone)]
+pub(super) struct State {
+    pub(super) mean: Vec<f64>,
+    pub(super) whitening: Matrix,
+}
+
+/// A class.
+#[derive(Debug, Clone)]
+pub(super) struct Typical {
+    pub(super) states: Vec<State>,
+    /// After one block, two, …
+    pub(super) limits: [f64; STAGES],
+}
+
+impl Typical {
+    /// Of the touches of one class, with the part that each is held out with.
+    pub(super) fn of(touches: &[&Touch], parts: &[usize], stages: usize) -> Self {
+        let states = |kept: &dyn Fn(usize) -> bool| -> Vec<State> {
+            let of = touches.iter().zip(parts);
+            let kept: Vec<&Touch> = of
+                .filter(|(_, part)| kept(**part))
+                .map(|(touch, _)| *touch)
+                .collect();
+            (0..STATES.len())
+                .map(|state| State::of(&kept, state, stages))
+                .collect()
+        };
+        let mut distances: [Vec<f64>; STAGES] = core::array::from_fn(|_| Vec::new());
+        let last = parts.iter().copied().max().unwrap_or(0);
+        for part in 0..=last {
+            let others = states(&|of| of != part || last == 0);
+            let held_out = touches.iter().zip(parts).filter(|(_, of)| **of == part);
+            for (touch, _) in held_out {
+                for (stage, distances) in (1..=touch.len()).zip(&mut distances) {
+                    distances.push(distance(touch, &others, stage));
+                }
+            }
+        }
+        let mut limits = [0.0; STAGES];
+        let mut last = 0.0;
+        for (limit, distances) in limits.iter_mut().zip(&mut distances) {
+            last = quantile(distances, SHARE).unwrap_or(last);
+            *limit = last;
+        }
+        Self {
+            states: states(&|_| true),
+            limits,
+        }
+    }
+}
+
+impl State {
+    /// Of whole states, as far as touches reach.
+    fn of(touches: &[&Touch], state: usize, stages: usize) -> Self {
+        let [_, end] = STATES[state];
+        let blocks = end.min(stages);
+        let means: Vec<(usize, [f64; FEATURES])> = touches
+            .iter()
+            .filter(|touch| touch.len() >= blocks)
+            .filter_map(|touch| Some((touch.recording, touch.state(state, blocks)?)))
+            .collect();
+        let mut within = Matrix::zero(FEATURES);
+        let mut centres = Vec::new();
+        let mut freedom = 0;
+        let recordings = means.iter().map(|(recording, _)| recording + 1).max();
+        for recording in 0..recordings.unwrap_or(0) {
+            let of: Vec<&[f64]> = means
+                .iter()
+                .filter(|(of, _)| *of == recording)
+                .map(|(_, mean)| mean.as_slice())
+                .collect();
+            if of.len() < 3 {
+                continue;
+            }
+            let centre = mean(FEATURES, of.iter().copied());
+            for means in &of {
+                within.add_square(&less(means, &centre), 1.0);
+            }
+            freedom += of.len() - 1;
+            centres.push(centre);
+        }
+        let centre = mean(FEATURES, centres.iter().map(Vec::as_slice));
+        within.scale(1.0 / freedom.max(1) as f64);
+        within.shrink(SHRINK, LEAST_VARIANCE);
+        for of_recording in &centres {
+            let share = 1.0 / (centres.len() - 1).max(1) as f64;
+            within.add_square(&less(of_recording, &centre), share);
+        }
+        Self {
+            mean: centre,
+            whitening: within.whitening(),
+        }
+    }
+}
+
+/// The squared distance of a touch after so many blocks.
+fn distance(touch: &Touch, states: &[State], blocks: usize) -> f64 {
+    let of = |(n, state): (usize, &State)| {
+        let means = touch.state(n, blocks)?;
+        Some(square(&state.whitening.of(&less(&means, &state.mean))))
+    };
+    states.iter().enumerate().filter_map(of).sum()
+}
