@@ -18,7 +18,7 @@ use core::iter::repeat;
 
 use scene::Texture;
 
-use super::{BadSetting, Head, Plant};
+use super::{BadSetting, Head, Plant, SurfacePose};
 use physics::{
     At, Bent, Facing, Grit, Material, Plate, SensorSettings, Shaft, Surface, TouchingWhisker,
 };
@@ -73,7 +73,9 @@ struct Swung {
 #[derive(Debug, Clone)]
 pub struct Elastic {
     head: Head,
+    /// As the scene has it.
     facing: Facing,
+    length_m: f64,
     own: [Surface; 4],
     friction: Option<f64>,
     surface: Surface,
@@ -144,37 +146,37 @@ impl Elastic {
             ..SensorSettings::default()
         };
         let surface = Surface::of(Material::SmoothPlastic);
-        let swung = |(stream, limit_deg): (u64, f64)| {
+        let swung = |(stream, _): (u64, f64)| {
             let seed = apart(seed, stream);
-            let plate = limit_deg.is_finite().then(|| {
-                let limit = limit_deg.to_radians();
-                Plate::in_the_way(limit, shaft.length_m, &settings.facing, surface)
-            });
             let whisker = TouchingWhisker::with_modes(&shaft, &modes, &sensor, seed)?;
             Ok(Swung {
                 whisker,
-                plate,
+                plate: None,
                 angle_deg: None,
             })
         };
         let whiskers = (0..).zip(head.limits()).map(swung);
         let whiskers = whiskers.collect::<Result<_, BadSetting>>()?;
-        Ok(Self {
+        let mut plant = Self {
             head,
             facing: settings.facing,
+            length_m: shaft.length_m,
             own: settings.own,
             friction: settings.friction,
             surface,
             seed,
             pieces: 0,
             whiskers,
-        })
+        };
+        plant.stand(SurfacePose::OF_SCENE);
+        Ok(plant)
     }
 
     /// The same whiskers with nothing before them from here on.
     #[must_use]
     pub fn in_the_air(&self) -> Self {
         let mut free = self.clone();
+        free.head.obstacle_deg.fill(f64::INFINITY);
         for swung in &mut free.whiskers {
             swung.plate = None;
         }
@@ -225,6 +227,19 @@ impl Plant for Elastic {
         self.present_surface(surface);
     }
 
+    fn stand(&mut self, pose: SurfacePose) {
+        let facing = Facing {
+            tilt_deg: self.facing.tilt_deg + pose.tilt_deg,
+            ..self.facing
+        };
+        for (swung, limit_deg) in self.whiskers.iter_mut().zip(self.head.limits()) {
+            swung.plate = limit_deg.is_finite().then(|| {
+                let limit = (limit_deg + pose.obstacle_deg).to_radians();
+                Plate::in_the_way(limit, self.length_m, &facing, self.surface)
+            });
+        }
+    }
+
     fn touches(&self) -> bool {
         self.whiskers.iter().any(|swung| swung.whisker.contact())
     }
@@ -264,6 +279,7 @@ impl Plant for Elastic {
             swung.whisker.restart(apart(seed, stream));
             swung.angle_deg = None;
         }
+        self.stand(SurfacePose::OF_SCENE);
     }
 }
 
