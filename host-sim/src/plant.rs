@@ -99,6 +99,11 @@ pub trait Plant: Debug + Send {
     /// Puts another texture before all whiskers; nothing where surfaces have none.
     fn present(&mut self, _texture: Texture) {}
 
+    /// Whether surfaces can stand in this pose without a whisker in their way.
+    fn has_room(&self, _pose: SurfacePose) -> bool {
+        true
+    }
+
     /// Stands surfaces in this pose, before all whiskers; nothing where they are no plates.
     fn stand(&mut self, _pose: SurfacePose) {}
 

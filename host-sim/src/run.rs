@@ -338,7 +338,8 @@ impl<B: Bench + ?Sized> Run<B> {
     /// Puts the next surface in place, in a pose of its own, if it is time and nothing is
     /// touched.
     fn exchange(&mut self) {
-        let touches = self.world.touches() || self.poses.are_near(self.world.angles_deg());
+        let next = self.poses.next();
+        let touches = self.world.touches() || next.is_some_and(|pose| !self.world.has_room(pose));
         let Some(texture) = self.presented.change(self.done, touches) else {
             return;
         };

@@ -105,6 +105,11 @@ impl World {
         self.plant.present(texture);
     }
 
+    /// Whether no whisker is where surfaces would stand in this pose.
+    pub fn has_room(&self, pose: SurfacePose) -> bool {
+        self.plant.has_room(pose)
+    }
+
     /// Stands surfaces in another pose.
     pub fn stand(&mut self, pose: SurfacePose) {
         self.plant.stand(pose);

@@ -279,7 +279,7 @@ keys! {
 
         /// What sensors read, x and y alike, is multiplied in each presentation by a factor
         /// within 1 ± this, drawn likewise. With any of the three spreads, a surface is put in
-        /// place only while every whisker has been 5° or more before it for 20 ms.
+        /// place only where no whisker has been in its way for 20 ms.
         gain_spread: f64 = number(0.0..=0.9).default("0.0").only_if(WHISKER),
     }
 }

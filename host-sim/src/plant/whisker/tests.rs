@@ -166,6 +166,45 @@ fn a_plate_that_is_turned_in_the_air_does_not_move_the_shaft() {
 }
 
 #[test]
+fn there_is_room_for_a_plate_that_is_5_mm_beyond_the_tip() {
+    let shaft = Shaft::biotact(Biotact::Middle);
+    let plant = |angle: f64| {
+        let mut plant = Elastic::new(head(1), quiet(shaft), 3).unwrap();
+        assert!(
+            plant.has_room(SurfacePose::OF_SCENE),
+            "nothing is known of it"
+        );
+        plant.advance(&[angle], TICK_S);
+        plant
+    };
+    let at = |obstacle_deg: f64, tilt_deg: f64| SurfacePose {
+        tilt_deg,
+        obstacle_deg,
+        gain: 1.0,
+    };
+    // Over a plate that is less than 20° further the height is L times these cosines and the
+    // sine of the angle, more or less what the slant makes of it.
+    for tilt_deg in [-20.0_f64, 0.0, 40.0] {
+        let cosine = (20.0 + tilt_deg).to_radians().cos();
+        let height = |ahead_deg: f64| {
+            let [ahead, slant] = [ahead_deg, 30.0].map(f64::to_radians);
+            shaft.length_m
+                * cosine
+                * (slant.cos() * ahead.sin() + slant.sin() * (1.0 - ahead.cos()))
+        };
+        let mut ahead = 0.0;
+        while height(ahead) < 5e-3 {
+            ahead += 0.01;
+        }
+        let plant = plant(90.0);
+        assert!(plant.has_room(at(ahead - 9.99, tilt_deg)), "{ahead}");
+        assert!(!plant.has_room(at(ahead - 10.02, tilt_deg)), "{ahead}");
+    }
+    assert!(!plant(100.0).has_room(SurfacePose::OF_SCENE));
+    assert!(plant(100.0).in_the_air().has_room(SurfacePose::OF_SCENE));
+}
+
+#[test]
 fn a_restart_brings_the_scene_s_pose_back_and_the_air_has_none() {
     let settings = ElasticSettings::of(Shaft::biotact(Biotact::Middle));
     let pose = SurfacePose {
