@@ -105,8 +105,8 @@ fn a_soft_plate_shares_the_overlap_with_the_shaft() {
 }
 
 /// Whisks of 2 Hz, 2 s of them, standing in another pose from `at` on.
-fn whisked(head: Head, settings: ElasticSettings, at: usize, pose: SurfacePose) -> Vec<[f64; 2]> {
-    let mut plant = Elastic::new(head, settings, 3).unwrap();
+fn whisked(head: Head, settings: &ElasticSettings, at: usize, pose: SurfacePose) -> Vec<[f64; 2]> {
+    let mut plant = Elastic::new(head, *settings, 3).unwrap();
     plant.present(Texture::P240);
     let tick = |n: usize| {
         if n == at {
@@ -127,15 +127,15 @@ fn a_plate_in_another_pose_is_as_one_of_a_scene_that_has_it() {
         obstacle_deg: 2.25,
         gain: 1.0,
     };
-    let moved = whisked(head(1), settings, 0, pose);
+    let moved = whisked(head(1), &settings, 0, pose);
     let mut other = settings;
     other.facing.tilt_deg = 12.5;
     let beyond = Head {
         obstacle_deg: vec![102.25],
         ..head(1)
     };
-    assert_eq!(moved, whisked(beyond, other, usize::MAX, pose));
-    assert_ne!(moved, whisked(head(1), settings, usize::MAX, pose));
+    assert_eq!(moved, whisked(beyond, &other, usize::MAX, pose));
+    assert_ne!(moved, whisked(head(1), &settings, usize::MAX, pose));
 }
 
 #[test]
@@ -147,7 +147,7 @@ fn a_plate_that_is_turned_in_the_air_does_not_move_the_shaft() {
         gain: 1.0,
     };
     // The second whisk begins at 1000 and is near at 1300.
-    let [still, turned] = [usize::MAX, 1000].map(|at| whisked(head(1), settings, at, pose));
+    let [still, turned] = [usize::MAX, 1000].map(|at| whisked(head(1), &settings, at, pose));
     let code = 1.0 / 8191.0;
     for n in 0..1300 {
         for (still, turned) in still[n].into_iter().zip(turned[n]) {
