@@ -2,7 +2,8 @@
 //! follow each other are one stream in time order. A sample counts while contact is at
 //! least the model's gate; without the column each does. The number of the touch, 0 in
 //! the air, is what the module itself said: a whisker that bends by its own inertia has
-//! contact in the air. `pose` is there only of scenes whose poses differ. Lines that begin with `# ` may stand above the table.
+//! contact in the air. `pose` is there only of scenes whose poses differ. Lines that begin
+//! with `# ` may stand above the table.
 
 use std::io::{self, Read, Write};
 
