@@ -73,10 +73,39 @@ impl Head {
     }
 }
 
+/// How a surface stands while it is presented, and how sensors then read: off what the scene
+/// says.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SurfacePose {
+    /// Tilt of plates more than the scene's, degrees.
+    pub tilt_deg: f64,
+    /// By how much plates stand beyond the scene's obstacles, degrees.
+    pub obstacle_deg: f64,
+    /// Factor of what sensors read.
+    pub gain: f64,
+}
+
+impl SurfacePose {
+    /// That of a scene itself.
+    pub const OF_SCENE: Self = Self {
+        tilt_deg: 0.0,
+        obstacle_deg: 0.0,
+        gain: 1.0,
+    };
+}
+
 /// What whiskers touch.
 pub trait Plant: Debug + Send {
     /// Puts another texture before all whiskers; nothing where surfaces have none.
     fn present(&mut self, _texture: Texture) {}
+
+    /// Whether surfaces can stand in this pose without a whisker in their way.
+    fn has_room(&self, _pose: SurfacePose) -> bool {
+        true
+    }
+
+    /// Stands surfaces in this pose, before all whiskers; nothing where they are no plates.
+    fn stand(&mut self, _pose: SurfacePose) {}
 
     /// Whether any whisker touches a surface that can be exchanged.
     fn touches(&self) -> bool {

@@ -1,8 +1,9 @@
-//! A recording: `label,trial,x,y,contact,touch` rows; rows of one label and trial that
+//! A recording: `label,trial,x,y,contact,touch,pose` rows; rows of one label and trial that
 //! follow each other are one stream in time order. A sample counts while contact is at
 //! least the model's gate; without the column each does. The number of the touch, 0 in
 //! the air, is what the module itself said: a whisker that bends by its own inertia has
-//! contact in the air. Lines that begin with `# ` may stand above the table.
+//! contact in the air. `pose` is there only of scenes whose poses differ. Lines that begin
+//! with `# ` may stand above the table.
 
 use std::io::{self, Read, Write};
 
@@ -25,10 +26,13 @@ pub struct Stream {
     pub contact: Option<Vec<f64>>,
     /// Number of the touch of each sample, 0 in the air; none: the module did not say.
     pub touch: Option<Vec<u16>>,
+    /// Number of the pose in which it was presented; none: all poses are alike, or it was read
+    /// from a file.
+    pub pose: Option<u64>,
 }
 
 /// The columns of a recording, in the order in which one is written.
-pub const COLUMNS: [Column; 6] = columns! {
+pub const COLUMNS: [Column; 7] = columns! {
     "label", "", "what was touched: the name of a class";
     "trial", "",
         "any token; rows of one label and trial that follow each other are one stream in time \
@@ -38,6 +42,9 @@ pub const COLUMNS: [Column; 6] = columns! {
     "contact", "", "contact π as in the trace; may be left out: then every row is of contact";
     "touch", "",
         "number of the touch, 0 in the air; may be left out: then contact says where one begins";
+    "pose", "",
+        "number of the pose in which it was presented, from 0, each presentation another; only of \
+        a scene with `plant.tilt_spread_deg`, `plant.obstacle_spread_deg` or `plant.gain_spread`";
 };
 
 /// The channels of a recording, unless said otherwise.
@@ -87,6 +94,7 @@ impl Recorder {
     pub fn take(&mut self, run: &mut Run) {
         let felt = run.felt();
         let (label, trial) = run.presented();
+        let pose = run.pose();
         let samples = run.samples();
         self.streams.resize_with(samples.len(), Vec::new);
         for (n, (streams, sample)) in self.streams.iter_mut().zip(samples).enumerate() {
@@ -103,6 +111,9 @@ impl Recorder {
                 _ => format!("{trial} whisker {}", n + 1),
             };
             append(streams, label, &trial, cells);
+            if let Some(stream) = streams.last_mut() {
+                stream.pose = pose;
+            }
         }
     }
 
@@ -130,6 +141,7 @@ fn append(streams: &mut Vec<Stream>, label: &str, trial: &str, sample: Option<Ce
             samples: Vec::new(),
             contact: None,
             touch: None,
+            pose: None,
         });
     }
     if let (Some(stream), Some(cells)) = (streams.last_mut(), sample) {
@@ -177,8 +189,12 @@ pub fn write_from(mut table: impl Write, origin: &Origin, streams: &[Stream]) ->
         (true, false) => 5,
         (false, false) => 4,
     };
-    table.write_record(columns::names(&COLUMNS[..count]))?;
+    let has_pose = streams.iter().any(|stream| stream.pose.is_some());
+    let mut header = columns::names(&COLUMNS[..count]);
+    header.extend(has_pose.then_some(COLUMNS[6].name));
+    table.write_record(header)?;
     for stream in streams {
+        let pose = stream.pose.map(|pose| pose.to_string()).unwrap_or_default();
         for (n, [x, y]) in stream.samples.iter().enumerate() {
             let contact = stream.contact.as_ref().and_then(|contact| contact.get(n));
             let contact = contact.map_or(1.0, |contact| *contact) as f32;
@@ -187,7 +203,8 @@ pub fn write_from(mut table: impl Write, origin: &Origin, streams: &[Stream]) ->
             let numbers = [x.to_string(), y.to_string(), contact.to_string(), touch];
             let numbers = numbers.iter().map(String::as_str);
             let cells = [stream.label.as_str(), &stream.trial];
-            table.write_record(cells.into_iter().chain(numbers).take(count))?;
+            let cells = cells.into_iter().chain(numbers).take(count);
+            table.write_record(cells.chain(has_pose.then_some(pose.as_str())))?;
         }
     }
     table.flush()

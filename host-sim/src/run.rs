@@ -1,6 +1,7 @@
 //! A scene in motion: module, motors and plant, tick by tick.
 
 mod flaws;
+mod poses;
 mod presented;
 
 use firmware::{Command, Event, Sample};
@@ -19,6 +20,7 @@ use crate::motor::{PWM_COUNTS, SimMotor};
 use crate::trace::{Row, TraceLine, WhiskerRow};
 use crate::world::World;
 use flaws::Flaws;
+use poses::Poses;
 use presented::Presented;
 
 /// A running scene, with everything that it needs: module, classifier, motors
@@ -34,6 +36,7 @@ pub struct Run<B: ?Sized = dyn HostModule> {
     classes: Vec<String>,
     world: World,
     presented: Presented,
+    poses: Poses,
     flaws: Flaws,
     snapshot: Snapshot,
     row: Row,
@@ -85,6 +88,7 @@ impl Run {
         self.bench.restart(seed, pins)?;
         self.done = 0;
         self.presented.restart();
+        self.poses.restart(seed);
         self.flaws.restart();
         self.rest();
         Ok(())
@@ -179,6 +183,7 @@ impl<B: Bench + ?Sized> Run<B> {
             classes,
             world,
             presented: Presented::new(scene),
+            poses: Poses::new(scene),
             flaws: Flaws::new(scene),
             snapshot: Snapshot::default(),
             row: Row::default(),
@@ -230,6 +235,12 @@ impl<B: Bench + ?Sized> Run<B> {
     /// What is being touched: its class name and the trial.
     pub fn presented(&self) -> (&'static str, u64) {
         (self.presented.label, self.presented.trial)
+    }
+
+    /// The number of its pose, from 0: each presentation has another; none where the scene has no
+    /// spread of poses.
+    pub const fn pose(&self) -> Option<u64> {
+        self.poses.number()
     }
 
     /// Has a texture laid in place of the present one, as soon as that is not touched, and left
@@ -294,9 +305,7 @@ impl<B: Bench + ?Sized> Run<B> {
     /// stay those of the last [`Run::tick`].
     pub fn pass(&mut self) {
         self.events.clear();
-        if let Some(texture) = self.presented.change(self.done, self.world.touches()) {
-            self.world.present(texture);
-        }
+        self.exchange();
         for side in 0..self.sides {
             for whisker in 0..self.whiskers {
                 let n = side * self.whiskers + whisker;
@@ -324,6 +333,21 @@ impl<B: Bench + ?Sized> Run<B> {
 
         self.keep_faults();
         self.done += 1;
+    }
+
+    /// Puts the next surface in place, in a pose of its own, if it is time and nothing is
+    /// touched.
+    fn exchange(&mut self) {
+        let next = self.poses.next();
+        let touches = self.world.touches() || next.is_some_and(|pose| !self.world.has_room(pose));
+        let Some(texture) = self.presented.change(self.done, touches) else {
+            return;
+        };
+        if let Some(pose) = self.poses.take() {
+            self.world.stand(pose);
+            self.flaws.scale(pose.gain);
+        }
+        self.world.present(texture);
     }
 
     /// Time that has passed, s.

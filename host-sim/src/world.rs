@@ -5,7 +5,7 @@ use scene::{Driver, PlantKind, Presentation, Rest, Scene, ShaftName, Texture};
 use crate::Error;
 use crate::motor::{IdealMotor, MotorSettings, Pins, SimMotor};
 use crate::plant::{
-    self, Elastic, ElasticSettings, HOLD, Ideal, Plant, Textured, TexturedSettings,
+    self, Elastic, ElasticSettings, HOLD, Ideal, Plant, SurfacePose, Textured, TexturedSettings,
 };
 use physics::{At, BadSetting, Bent, Biotact, Facing, Follicle, Shaft, Surface};
 
@@ -103,6 +103,16 @@ impl World {
     /// Puts another texture in place.
     pub fn present(&mut self, texture: Texture) {
         self.plant.present(texture);
+    }
+
+    /// Whether no whisker is where surfaces would stand in this pose.
+    pub fn has_room(&self, pose: SurfacePose) -> bool {
+        self.plant.has_room(pose)
+    }
+
+    /// Stands surfaces in another pose.
+    pub fn stand(&mut self, pose: SurfacePose) {
+        self.plant.stand(pose);
     }
 
     /// Whether any whisker touches a texture.

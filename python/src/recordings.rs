@@ -64,6 +64,7 @@ impl Prepared<'_> {
                 samples: samples.get(rows.clone()).unwrap_or_default().to_vec(),
                 contact: contact.map(|all| all.get(rows.clone()).unwrap_or_default().to_vec()),
                 touch: touch.map(|all| all.get(rows.clone()).unwrap_or_default().to_vec()),
+                pose: None,
             })
         };
         let streams = self.streams.iter().map(stream).collect::<PyResult<_>>()?;
@@ -75,7 +76,8 @@ impl Prepared<'_> {
 pub(crate) fn array<'py>(py: Python<'py>, streams: &[Stream]) -> PyResult<Bound<'py, PyAny>> {
     let label = Kind::text(streams.iter().map(|stream| stream.label.as_str()));
     let trial = Kind::text(streams.iter().map(|stream| stream.trial.as_str()));
-    let kinds = [
+    let has_pose = streams.iter().any(|stream| stream.pose.is_some());
+    let mut kinds = vec![
         label,
         trial,
         Kind::Number,
@@ -83,6 +85,7 @@ pub(crate) fn array<'py>(py: Python<'py>, streams: &[Stream]) -> PyResult<Bound<
         Kind::Number,
         Kind::Whole,
     ];
+    kinds.extend(has_pose.then_some(Kind::Whole));
     let layout = Layout::new(COLUMNS.iter().map(|column| column.name).zip(kinds));
     let mut rows = Packed::default();
     for stream in streams {
@@ -95,6 +98,9 @@ pub(crate) fn array<'py>(py: Python<'py>, streams: &[Stream]) -> PyResult<Bound<
             rows.number(contact.copied().unwrap_or(1.0));
             let touch = stream.touch.as_ref().and_then(|all| all.get(n));
             rows.whole(touch.copied().unwrap_or(0).into());
+            if has_pose {
+                rows.whole(stream.pose.unwrap_or(0) as i64);
+            }
         }
     }
     layout.array(py, rows.bytes)

@@ -20,6 +20,7 @@ const SCENES: &[(&str, &[u8])] = &files!(include_bytes, "scenes/", ".toml":
     "papers",
     "biphasic",
     "bench",
+    "bench-textures",
     "tmag5170",
     "unknown",
     "passive",

@@ -22,8 +22,8 @@ impl Noise {
         }
     }
 
-    /// Uniform in (0, 1]: the upper 53 bits, plus one.
-    fn uniform(&mut self) -> f64 {
+    /// A number that is uniform in (0, 1]: the upper 53 bits, plus one.
+    pub fn uniform(&mut self) -> f64 {
         ((self.random.next_u64() >> 11) + 1) as f64 / (1_u64 << 53) as f64
     }
 

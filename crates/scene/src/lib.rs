@@ -62,9 +62,9 @@ pub use problem::{Problem, Problems};
 pub use reference::reference;
 pub use sections::{
     Arm, ClassifierSection, Exchanged, FacingChoice, HeadSection, MotorSection, Numbers, Obstacles,
-    OnFault, OwnSurfaces, PlantKind, PlantSection, Presentation, Rest, Rule, Scene, SensorMode,
-    SensorModel, SensorSection, ShaftChoice, ShaftName, ShaftNumbers, Sides, TelemetrySection,
-    Texture, WhiskingSection,
+    OnFault, OwnSurfaces, PlantKind, PlantSection, PoseSpread, Presentation, Rest, Rule, Scene,
+    SensorMode, SensorModel, SensorSection, ShaftChoice, ShaftName, ShaftNumbers, Sides,
+    TelemetrySection, Texture, WhiskingSection,
 };
 pub use tactile::Deciding;
 pub use whisking::motor::Driver;

@@ -6,7 +6,9 @@
 use tactile::Deciding;
 
 use crate::section::path;
-use crate::sections::{PlantKind, Rest, RuleName, SensorMode, SensorModel, Sides, Texture};
+use crate::sections::{
+    Exchanged, PlantKind, Rest, RuleName, SensorMode, SensorModel, Sides, TILT_LIMIT_DEG, Texture,
+};
 use crate::text::Text;
 use crate::values::Values;
 
@@ -19,6 +21,8 @@ pub(crate) fn apply(values: &Values, text: &mut Text<'_>) {
     textured_is_active(values, text);
     shaft_is_slender(values, text);
     texture_suits_the_plant(values, text);
+    tilts_stay_in_range(values, text);
+    poses_change_in_the_air(values, text);
     several_can_decide(values, text);
     mode_is_the_mlx90333s(values, text);
     serial_has_its_parts(values, text);
@@ -144,6 +148,42 @@ fn texture_suits_the_plant(values: &Values, text: &mut Text<'_>) {
             "allowed: \"smooth\", \"p600\", \"p240\" and \"carpet\", or kind = \"whisker\"";
         let path = "plant.textures".to_owned();
         text.report(offset, path, found, allowed.to_owned());
+    }
+}
+
+/// Every tilt that may be drawn is one that `tilt_deg` may have.
+fn tilts_stay_in_range(values: &Values, text: &mut Text<'_>) {
+    let (Some(spread), Some(tilt), Some(offset)) = (
+        values.get::<f64>("plant", "tilt_spread_deg"),
+        values.get::<f64>("plant", "tilt_deg"),
+        values.offset("plant", "tilt_spread_deg"),
+    ) else {
+        return;
+    };
+    let most = TILT_LIMIT_DEG - tilt.abs();
+    if spread > most {
+        let path = "plant.tilt_spread_deg".to_owned();
+        let found = format!("found {spread} with tilt_deg = {tilt}");
+        let allowed = format!(
+            "allowed: at most {most}, as tilts are from -{TILT_LIMIT_DEG} to {TILT_LIMIT_DEG}"
+        );
+        text.report(offset, path, found, allowed);
+    }
+}
+
+/// A plate that is turned under a bent whisker would throw it.
+fn poses_change_in_the_air(values: &Values, text: &mut Text<'_>) {
+    let is_timed = values.get::<Exchanged>("plant", "exchange") == Some(Exchanged::Timed);
+    let spreads = ["tilt_spread_deg", "obstacle_spread_deg", "gain_spread"];
+    let spread = spreads.into_iter().find(|key| {
+        let spread = values.get::<f64>("plant", key);
+        spread.is_some_and(|spread| spread > 0.0)
+    });
+    if let (true, Some(spread)) = (is_timed, spread) {
+        let offset = values.offset("plant", "exchange").unwrap_or(0);
+        let found = format!("found \"timed\" with {spread}");
+        let allowed = "allowed: \"air\", as poses change where nothing is touched".to_owned();
+        text.report(offset, "plant.exchange".to_owned(), found, allowed);
     }
 }
 

@@ -19,9 +19,10 @@ pub(crate) use classifier::RuleName;
 pub use classifier::{ClassifierSection, Rule};
 pub use head::{HeadSection, Sides};
 pub use motor::{Arm, MotorSection, OnFault, Rest};
+pub(crate) use plant::TILT_LIMIT_DEG;
 pub use plant::{
-    Exchanged, FacingChoice, Obstacles, OwnSurfaces, PlantKind, PlantSection, Presentation,
-    ShaftChoice, Texture,
+    Exchanged, FacingChoice, Obstacles, OwnSurfaces, PlantKind, PlantSection, PoseSpread,
+    Presentation, ShaftChoice, Texture,
 };
 pub use scene::Scene;
 pub use sensor::{SensorMode, SensorModel, SensorSection};
@@ -67,9 +68,9 @@ mod tests {
                 defaults += 1;
             }
         }
-        // Nineteen of the motor, nine of the plant, six of the sensor, two of telemetry, one of
+        // Nineteen of the motor, twelve of the plant, six of the sensor, two of telemetry, one of
         // the head, of whisking and of the classifier.
-        assert_eq!(defaults, 39);
+        assert_eq!(defaults, 42);
     }
 
     #[test]

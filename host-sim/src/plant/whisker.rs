@@ -18,7 +18,8 @@ use core::iter::repeat;
 
 use scene::Texture;
 
-use super::{BadSetting, Head, Plant};
+use super::{BadSetting, Head, Plant, SurfacePose};
+use physics::vector::{add, dot, scale, sub};
 use physics::{
     At, Bent, Facing, Grit, Material, Plate, SensorSettings, Shaft, Surface, TouchingWhisker,
 };
@@ -26,6 +27,14 @@ use physics::{
 /// What holds a resting tip on a surface of no friction of its own and on a scene's own, as a
 /// multiple of the friction: between the 1.15 of abrasive and the 1.3 of carpet ([`Surface::of`]).
 pub(crate) const HOLD: f64 = 1.2;
+
+/// Root mean square height of the roughest texture, m: its loops are up to 2.4 times as high
+/// ([`Surface`]).
+const HIGHEST_M: f64 = 1e-3;
+
+/// How far a tip is to be from a plate that is put in place, in root mean square heights of the
+/// roughest surface: what is left over is more than a whisker's way in a tick.
+const ROOM: f64 = 5.0;
 
 /// Largest angle that is believed, degrees, either sign.
 const ANGLE_LIMIT: f64 = 1e6;
@@ -73,7 +82,9 @@ struct Swung {
 #[derive(Debug, Clone)]
 pub struct Elastic {
     head: Head,
+    /// As the scene has it.
     facing: Facing,
+    length_m: f64,
     own: [Surface; 4],
     friction: Option<f64>,
     surface: Surface,
@@ -144,37 +155,37 @@ impl Elastic {
             ..SensorSettings::default()
         };
         let surface = Surface::of(Material::SmoothPlastic);
-        let swung = |(stream, limit_deg): (u64, f64)| {
+        let swung = |(stream, _): (u64, f64)| {
             let seed = apart(seed, stream);
-            let plate = limit_deg.is_finite().then(|| {
-                let limit = limit_deg.to_radians();
-                Plate::in_the_way(limit, shaft.length_m, &settings.facing, surface)
-            });
             let whisker = TouchingWhisker::with_modes(&shaft, &modes, &sensor, seed)?;
             Ok(Swung {
                 whisker,
-                plate,
+                plate: None,
                 angle_deg: None,
             })
         };
         let whiskers = (0..).zip(head.limits()).map(swung);
         let whiskers = whiskers.collect::<Result<_, BadSetting>>()?;
-        Ok(Self {
+        let mut plant = Self {
             head,
             facing: settings.facing,
+            length_m: shaft.length_m,
             own: settings.own,
             friction: settings.friction,
             surface,
             seed,
             pieces: 0,
             whiskers,
-        })
+        };
+        plant.stand(SurfacePose::OF_SCENE);
+        Ok(plant)
     }
 
     /// The same whiskers with nothing before them from here on.
     #[must_use]
     pub fn in_the_air(&self) -> Self {
         let mut free = self.clone();
+        free.head.obstacle_deg.fill(f64::INFINITY);
         for swung in &mut free.whiskers {
             swung.plate = None;
         }
@@ -188,6 +199,17 @@ impl Elastic {
         self.surface = surface;
     }
 
+    /// The plate of a whisker with this θ′_lim, if it has one.
+    fn plate(&self, limit_deg: f64, pose: SurfacePose) -> Option<Plate> {
+        let facing = Facing {
+            tilt_deg: self.facing.tilt_deg + pose.tilt_deg,
+            ..self.facing
+        };
+        let limit = (limit_deg + pose.obstacle_deg).to_radians();
+        let plate = || Plate::in_the_way(limit, self.length_m, &facing, self.surface);
+        limit.is_finite().then(plate)
+    }
+
     /// The piece that a whisker touches.
     fn piece(&self, whisker: u64) -> Surface {
         // Inverted: other seeds than those of the sensors' noise.
@@ -197,6 +219,15 @@ impl Elastic {
 }
 
 impl Swung {
+    /// How high the tip is over a plate, m, bent as it is; none before the first step.
+    fn tip_over(&self, plate: &Plate, facing: &Facing, length_m: f64) -> Option<f64> {
+        let pose = facing.pose(self.angle_deg?.to_radians());
+        let [x, y] = self.whisker.tip_m();
+        let straight = scale(length_m, pose.z());
+        let tip = add(add(add(pose.base_m, 1.0, straight), x, pose.x), y, pose.y);
+        Some(dot(plate.normal, sub(tip, plate.point_m)))
+    }
+
     fn advance(&mut self, facing: &Facing, surface: Surface, angle: f64, dt_s: f64) {
         let believed = Some(angle).filter(|angle| angle.abs() <= ANGLE_LIMIT);
         let Some(angle) = believed.or(self.angle_deg) else {
@@ -223,6 +254,26 @@ impl Plant for Elastic {
             surface.hold = hold * friction;
         }
         self.present_surface(surface);
+    }
+
+    fn has_room(&self, pose: SurfacePose) -> bool {
+        let highest_m = self.own.iter().map(|own| own.height_m);
+        let room_m = ROOM * highest_m.fold(HIGHEST_M, f64::max);
+        let plates = self.head.limits().map(|limit| self.plate(limit, pose));
+        let mut all = self.whiskers.iter().zip(plates);
+        all.all(|(swung, plate)| {
+            let height_m =
+                plate.and_then(|plate| swung.tip_over(&plate, &self.facing, self.length_m));
+            height_m.is_none_or(|height_m| height_m >= room_m)
+        })
+    }
+
+    fn stand(&mut self, pose: SurfacePose) {
+        let plates = self.head.limits().map(|limit| self.plate(limit, pose));
+        let plates: Vec<_> = plates.collect();
+        for (swung, plate) in self.whiskers.iter_mut().zip(plates) {
+            swung.plate = plate;
+        }
     }
 
     fn touches(&self) -> bool {
@@ -264,6 +315,7 @@ impl Plant for Elastic {
             swung.whisker.restart(apart(seed, stream));
             swung.angle_deg = None;
         }
+        self.stand(SurfacePose::OF_SCENE);
     }
 }
 

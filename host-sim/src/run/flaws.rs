@@ -1,5 +1,5 @@
-//! What simulated sensors make of a deflection: a magnet that is turned, a gain of its own for
-//! y, neighbours' magnets, hysteresis, and a zero that is elsewhere and moves.
+//! What simulated sensors make of a deflection: a magnet that is turned, a gain that a
+//! presentation has and one of its own for y, neighbours' magnets, hysteresis, and a zero that is elsewhere and moves.
 
 use scene::Scene;
 
@@ -13,6 +13,8 @@ pub(super) struct Flaws {
     whiskers: usize,
     /// Sine and cosine of the angle by which sensors are turned about their shafts.
     turn: [f64; 2],
+    /// Of x and y, while the present surface is there.
+    gain: f64,
     gain_y: f64,
     /// Share of a neighbour's deflection.
     cross_talk: f64,
@@ -38,6 +40,7 @@ impl Flaws {
         Self {
             whiskers: scene.head.whiskers_per_side,
             turn: [sine, cosine],
+            gain: 1.0,
             gain_y: plant.gain_y,
             cross_talk: plant.cross_talk,
             play: 0.5 * plant.hysteresis_codes * CODE,
@@ -46,6 +49,7 @@ impl Flaws {
             drift: of(&plant.zero_drift),
             are_there: sine != 0.0
                 || plant.gain_y != 1.0
+                || plant.spread.is_some_and(|spread| spread.gain_spread > 0.0)
                 || plant.cross_talk > 0.0
                 || plant.hysteresis_codes > 0.0
                 || plant.zero_codes.is_some()
@@ -56,6 +60,12 @@ impl Flaws {
     /// Sensors as before the first tick.
     pub(super) fn restart(&mut self) {
         self.held.fill([0.0; 2]);
+        self.gain = 1.0;
+    }
+
+    /// Multiplies what sensors read, x and y alike, from here on.
+    pub(super) const fn scale(&mut self, gain: f64) {
+        self.gain = gain;
     }
 
     /// Whether sensors make anything else of a deflection than what it is.
@@ -93,7 +103,7 @@ impl Flaws {
             let [x, y] = read;
             read = [cosine * x - sine * y, sine * x + cosine * y];
         }
-        read[1] *= self.gain_y;
+        read = [self.gain * read[0], self.gain * self.gain_y * read[1]];
         if self.play > 0.0 {
             for (read, held) in read.iter_mut().zip(held) {
                 if read.is_finite() {
@@ -142,6 +152,15 @@ mod tests {
         let mut turned = flaws("misaligned_deg = 45\ngain_y = 2.0");
         let half = 0.5_f64.sqrt();
         close(turned.sensed(2, 0.5, &ALL), [0.6 * half, 2.0 * 0.6 * half]);
+    }
+
+    #[test]
+    fn a_presentation_s_gain_is_of_x_and_y_alike_until_the_restart() {
+        let mut scaled = flaws("gain_y = 2.0");
+        scaled.scale(1.05);
+        close(scaled.sensed(1, 0.5, &ALL), [0.42, -0.42]);
+        scaled.restart();
+        close(scaled.sensed(1, 0.5, &ALL), [0.4, -0.4]);
     }
 
     #[test]

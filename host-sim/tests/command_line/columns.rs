@@ -22,6 +22,36 @@ fn elastic() -> String {
     )
 }
 
+#[test]
+fn a_recording_has_the_number_of_the_pose_where_poses_differ() {
+    let alike = elastic().replace("exchange = \"timed\"\n", "");
+    let place = Place::with(&[
+        ("alike.toml", &alike),
+        ("differ.toml", &(alike.clone() + "gain_spread = 0.05\n")),
+    ]);
+    for of in ["alike", "differ"] {
+        place.done(&format!("record {of}.toml --out {of}.csv"));
+    }
+    let header = |file: &str| place.text(file).lines().next().unwrap().to_owned();
+    assert_eq!(header("alike.csv"), "label,trial,x,y,contact,touch");
+    assert_eq!(header("differ.csv"), "label,trial,x,y,contact,touch,pose");
+
+    let text = place.text("differ.csv");
+    let rows = cells(&text);
+    let of_row: Vec<[&str; 3]> = rows[1..]
+        .iter()
+        .map(|row| [row[0], row[1], row[6]])
+        .collect();
+    let mut presented = of_row.clone();
+    presented.dedup();
+    let poses: Vec<&str> = presented.iter().map(|[.., pose]| *pose).collect();
+    assert!(poses.len() > 1, "{presented:?}");
+    let expected: Vec<String> = (0..poses.len()).map(|n| n.to_string()).collect();
+    assert_eq!(poses, expected, "each presentation has one of its own");
+    // More columns do no harm to those who read it.
+    place.done("train --data differ.csv --tables single --out the.model");
+}
+
 /// The page, as it is committed and as the program prints it.
 #[test]
 fn every_column_that_is_written_is_on_the_page() {
@@ -33,7 +63,8 @@ fn every_column_that_is_written_is_on_the_page() {
         "run cargo xtask docs --quick"
     );
 
-    let scene = elastic() + SEQUENTIAL;
+    let spread = "gain_spread = 0.05\n";
+    let scene = elastic().replace("exchange = \"timed\"\n", spread) + SEQUENTIAL;
     let both = scene
         .replace("sides = \"left\"", "sides = \"both\"")
         .replace("whiskers_per_side = 1", "whiskers_per_side = 3")

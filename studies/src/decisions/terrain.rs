@@ -213,6 +213,7 @@ mod tests {
             samples: vec![[0.0; 2]; length],
             contact: None,
             touch: None,
+            pose: None,
         };
         let lengths = |length| {
             let windows = windows(&drive(length));

@@ -43,6 +43,7 @@ pub(super) fn stream(
         samples,
         contact: contact.transpose()?,
         touch: None,
+        pose: None,
     })
 }
 

@@ -49,6 +49,7 @@ impl Touches {
             samples: Vec::new(),
             contact: Some(Vec::new()),
             touch: Some(Vec::new()),
+            pose: None,
         });
         self.trial += 1;
         self.of_trial = 0;

@@ -108,6 +108,9 @@ const ELASTIC: Condition = Is("kind", PlantKind::Whisker.name());
 const TEXTURES: &[Condition] = &[TEXTURED, ELASTIC];
 /// The plant with an elastic shaft.
 const WHISKER: &[Condition] = &[ELASTIC];
+/// The most that a plate may be tilted, either way.
+pub(crate) const TILT_LIMIT_DEG: f64 = 80.0;
+
 /// Where there is something to press on.
 const STIFF: &[Condition] = &[Given("obstacle_deg"), TEXTURED, ELASTIC];
 
@@ -146,6 +149,9 @@ keys! {
         /// How plates stand to whiskers; there exactly when `kind` is [`PlantKind::Whisker`].
         ..facing: Option<FacingChoice>,
 
+        /// By how much poses differ; there exactly when `kind` is [`PlantKind::Whisker`].
+        ..spread: Option<PoseSpread>,
+
         /// Obstacles; `None`: free whisking. Always there for surfaces with textures.
         ..obstacle: Option<Obstacles>,
 
@@ -169,6 +175,7 @@ impl Default for PlantSection {
             cross_talk: 0.0,
             hysteresis_codes: 0.0,
             facing: None,
+            spread: None,
             obstacle: None,
             textured: None,
             shaft: None,
@@ -249,11 +256,38 @@ keys! {
         slant_deg: f64 = number(0.0..=80.0).unit("degrees").default("30.0").only_if(WHISKER),
 
         /// Inclination of the plate towards the motor's axis: its slope towards y.
-        tilt_deg: f64 = number(-80.0..=80.0).unit("degrees").default("20.0").only_if(WHISKER),
+        tilt_deg: f64 = number(-TILT_LIMIT_DEG..=TILT_LIMIT_DEG).unit("degrees").default("20.0").only_if(WHISKER),
 
         /// By how much the shaft points out of the plane of whisking, along the motor's axis: it
         /// sweeps a cone.
         elevation_deg: f64 = number(-60.0..=60.0).unit("degrees").default("0.0").only_if(WHISKER),
+    }
+}
+
+keys! {
+    /// By how much the pose of a presentation differs from the scene's. A pose is drawn for each
+    /// presentation, evenly and each part by itself; it is the same for all whiskers.
+    #[derive(Copy)]
+    pub struct PoseSpread {
+        /// Each presentation's plate is tilted by up to this more or less than `tilt_deg`, drawn
+        /// evenly from the seed; `tilt_deg` and this stay within ±80 together.
+        tilt_spread_deg: f64 = number(0.0..=TILT_LIMIT_DEG).unit("degrees").default("0.0").only_if(WHISKER),
+
+        /// Each presentation's plate stands by up to this before or beyond `obstacle_deg`, drawn
+        /// likewise; on both sides by the same.
+        obstacle_spread_deg: f64 = number(0.0..=45.0).unit("degrees").default("0.0").only_if(WHISKER),
+
+        /// What sensors read, x and y alike, is multiplied in each presentation by a factor
+        /// within 1 ± this, drawn likewise. With any of the three spreads, a surface is put in
+        /// place only where no whisker has been in its way for 20 ms.
+        gain_spread: f64 = number(0.0..=0.9).default("0.0").only_if(WHISKER),
+    }
+}
+
+impl PoseSpread {
+    /// Whether poses differ at all.
+    pub fn is_there(&self) -> bool {
+        self.tilt_spread_deg > 0.0 || self.obstacle_spread_deg > 0.0 || self.gain_spread > 0.0
     }
 }
 

@@ -3,9 +3,9 @@
 use crate::common::{FULL, with};
 use scene::{
     Arm, ClassifierSection, Deciding, Driver, Exchanged, GateSettings, HeadSection, Integrator,
-    MotorSection, Numbers, Obstacles, OnFault, OwnSurfaces, PlantKind, PlantSection, Presentation,
-    Rest, Rule, Scene, SensorMode, SensorModel, SensorSection, ShaftChoice, ShaftName,
-    ShaftNumbers, Sides, TelemetrySection, Texture, WhiskingSection,
+    MotorSection, Numbers, Obstacles, OnFault, OwnSurfaces, PlantKind, PlantSection, PoseSpread,
+    Presentation, Rest, Rule, Scene, SensorMode, SensorModel, SensorSection, ShaftChoice,
+    ShaftName, ShaftNumbers, Sides, TelemetrySection, Texture, WhiskingSection,
 };
 
 fn read(text: &str) -> Scene {
@@ -218,6 +218,29 @@ fn own_surfaces_have_properties_in_the_order_of_the_textures() {
     assert_eq!(own.own_grain_m, Some(vec![1e-3, 2e-3]));
     assert_eq!(own.own_friction, Some(vec![0.3, 0.6]));
     assert_eq!(own.own_damping, None);
+}
+
+#[test]
+fn poses_are_alike_unless_a_spread_is_given() {
+    let kind = "kind = 'whisker'\ntextures = ['carpet']\npresent_s = 1";
+    let spread = |keys: &str| {
+        let kind = format!("{kind}\n{keys}");
+        let plant = read(&with(FULL, "kind      = \"ideal\"", &kind)).plant;
+        plant.spread.expect("an elastic whisker has one")
+    };
+    assert!(!spread("").is_there());
+    let expected = PoseSpread {
+        tilt_spread_deg: 60.0,
+        obstacle_spread_deg: 0.0,
+        gain_spread: 0.0,
+    };
+    assert_eq!(spread("tilt_spread_deg = 60"), expected);
+    // The plate may be tilted by up to 80° in either direction.
+    assert!(spread("tilt_deg = -79\ntilt_spread_deg = 1").is_there());
+    assert!(spread("obstacle_spread_deg = 45").is_there());
+    assert!(spread("gain_spread = 0.9").is_there());
+    assert!(!spread("exchange = 'timed'\ngain_spread = 0").is_there());
+    assert_eq!(read(FULL).plant.spread, None);
 }
 
 #[test]

@@ -56,6 +56,63 @@ fn the_textured_plant_needs_an_active_whisker() {
 }
 
 #[test]
+fn poses_are_of_elastic_whiskers_in_the_air_and_within_the_tilts() {
+    let whisker = "kind = 'whisker'\ntextures = ['carpet']\npresent_s = 1\n";
+    let only = |key: &str| {
+        format!("plant.{key}: found, but not used here; allowed only where kind = \"whisker\"")
+    };
+    let textured = "kind = 'textured'\ntextures = ['carpet']\npresent_s = 1\n";
+    let cases = [
+        ("kind = 'ideal'\n", "tilt_spread_deg = 1", only("tilt_spread_deg")),
+        (textured, "obstacle_spread_deg = 1", only("obstacle_spread_deg")),
+        (textured, "gain_spread = 0", only("gain_spread")),
+        (
+            whisker,
+            "tilt_spread_deg = 61",
+            "plant.tilt_spread_deg: found 61 with tilt_deg = 20; allowed: at most 60, as tilts are \
+             from -80 to 80"
+                .to_owned(),
+        ),
+        (
+            whisker,
+            "tilt_deg = -75\ntilt_spread_deg = 6",
+            "plant.tilt_spread_deg: found 6 with tilt_deg = -75; allowed: at most 5, as tilts are \
+             from -80 to 80"
+                .to_owned(),
+        ),
+        (
+            whisker,
+            "tilt_spread_deg = -1",
+            "plant.tilt_spread_deg: found -1; allowed: a number from 0 to 80, in degrees".to_owned(),
+        ),
+        (
+            whisker,
+            "obstacle_spread_deg = 45.1",
+            "plant.obstacle_spread_deg: found 45.1; allowed: a number from 0 to 45, in degrees"
+                .to_owned(),
+        ),
+        (
+            whisker,
+            "gain_spread = 1",
+            "plant.gain_spread: found 1; allowed: a number from 0 to 0.9".to_owned(),
+        ),
+        (
+            whisker,
+            "gain_spread = 0.1\nexchange = 'timed'",
+            "plant.exchange: found \"timed\" with gain_spread; allowed: \"air\", as poses change \
+             where nothing is touched"
+                .to_owned(),
+        ),
+    ];
+    for (kind, keys, says) in cases {
+        let text = with(FULL, "kind      = \"ideal\"\n", &format!("{kind}{keys}\n"));
+        let complaint = complaint(&text);
+        let (_, found) = complaint.split_once(": ").unwrap_or_default();
+        assert_eq!(found, says, "{keys}");
+    }
+}
+
+#[test]
 fn all_problems_are_listed_in_file_order() {
     let text = with(FULL, "name        = \"rcp7\"", "name = 'a b'");
     let text = with(&text, "duration_s  = 6.0", "duration = 0");

@@ -45,6 +45,7 @@ fn record(texture: Texture, whisks: usize, seed: u64) -> Stream {
         samples: samples.split_off(1000),
         contact: None,
         touch: None,
+        pose: None,
     }
 }
 

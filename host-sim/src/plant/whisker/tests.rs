@@ -6,7 +6,7 @@ use proptest::prelude::*;
 use scene::Texture;
 
 use super::{Elastic, ElasticSettings};
-use crate::plant::{BadSetting, Head, Plant};
+use crate::plant::{BadSetting, Head, Plant, SurfacePose};
 use physics::{Biotact, Grit, Material, Shaft, Surface};
 
 const TICK_S: f64 = 5e-4;
@@ -102,6 +102,125 @@ fn a_soft_plate_shares_the_overlap_with_the_shaft() {
     let give = modes.tip_m_n * cosines().iter().sum::<f64>();
     let expected = give / (give + 0.5);
     assert!((soft / hard / expected - 1.0).abs() < 0.03, "{soft} {hard}");
+}
+
+/// Whisks of 2 Hz, 2 s of them, standing in another pose from `at` on.
+fn whisked(head: Head, settings: &ElasticSettings, at: usize, pose: SurfacePose) -> Vec<[f64; 2]> {
+    let mut plant = Elastic::new(head, *settings, 3).unwrap();
+    plant.present(Texture::P240);
+    let tick = |n: usize| {
+        if n == at {
+            plant.stand(pose);
+        }
+        let angle = 70.0 - 36.0 * (TAU * 2.0 * n as f64 * TICK_S).cos();
+        plant.advance(&[angle], TICK_S);
+        plant.deflection(0, 0)
+    };
+    (0..4000).map(tick).collect()
+}
+
+#[test]
+fn a_plate_in_another_pose_is_as_one_of_a_scene_that_has_it() {
+    let settings = ElasticSettings::of(Shaft::biotact(Biotact::Middle));
+    let pose = SurfacePose {
+        tilt_deg: -7.5,
+        obstacle_deg: 2.25,
+        gain: 1.0,
+    };
+    let moved = whisked(head(1), &settings, 0, pose);
+    let mut other = settings;
+    other.facing.tilt_deg = 12.5;
+    let beyond = Head {
+        obstacle_deg: vec![102.25],
+        ..head(1)
+    };
+    assert_eq!(moved, whisked(beyond, &other, usize::MAX, pose));
+    assert_ne!(moved, whisked(head(1), &settings, usize::MAX, pose));
+}
+
+#[test]
+fn a_plate_that_is_turned_in_the_air_does_not_move_the_shaft() {
+    let settings = quiet(Shaft::biotact(Biotact::Middle));
+    let pose = SurfacePose {
+        tilt_deg: 40.0,
+        obstacle_deg: -5.0,
+        gain: 1.0,
+    };
+    // The second whisk begins at 1000 and is near at 1300.
+    let [still, turned] = [usize::MAX, 1000].map(|at| whisked(head(1), &settings, at, pose));
+    let code = 1.0 / 8191.0;
+    for n in 0..1300 {
+        for (still, turned) in still[n].into_iter().zip(turned[n]) {
+            assert!(
+                (still - turned).abs() <= 1.5 * code,
+                "{n}: {still} {turned}"
+            );
+        }
+    }
+    assert!(
+        still
+            .iter()
+            .zip(&turned)
+            .any(|(a, b)| (a[1] - b[1]).abs() > 0.1)
+    );
+}
+
+#[test]
+fn there_is_room_for_a_plate_that_is_5_mm_beyond_the_tip() {
+    let shaft = Shaft::biotact(Biotact::Middle);
+    let plant = |angle: f64| {
+        let mut plant = Elastic::new(head(1), quiet(shaft), 3).unwrap();
+        assert!(
+            plant.has_room(SurfacePose::OF_SCENE),
+            "nothing is known of it"
+        );
+        plant.advance(&[angle], TICK_S);
+        plant
+    };
+    let at = |obstacle_deg: f64, tilt_deg: f64| SurfacePose {
+        tilt_deg,
+        obstacle_deg,
+        gain: 1.0,
+    };
+    // Over a plate that is less than 20° further the height is L times these cosines and the
+    // sine of the angle, more or less what the slant makes of it.
+    for tilt_deg in [-20.0_f64, 0.0, 40.0] {
+        let cosine = (20.0 + tilt_deg).to_radians().cos();
+        let height = |ahead_deg: f64| {
+            let [ahead, slant] = [ahead_deg, 30.0].map(f64::to_radians);
+            shaft.length_m
+                * cosine
+                * (slant.cos() * ahead.sin() + slant.sin() * (1.0 - ahead.cos()))
+        };
+        let mut ahead = 0.0;
+        while height(ahead) < 5e-3 {
+            ahead += 0.01;
+        }
+        let plant = plant(90.0);
+        assert!(plant.has_room(at(ahead - 9.99, tilt_deg)), "{ahead}");
+        assert!(!plant.has_room(at(ahead - 10.02, tilt_deg)), "{ahead}");
+    }
+    assert!(!plant(100.0).has_room(SurfacePose::OF_SCENE));
+    assert!(plant(100.0).in_the_air().has_room(SurfacePose::OF_SCENE));
+}
+
+#[test]
+fn a_restart_brings_the_scene_s_pose_back_and_the_air_has_none() {
+    let settings = ElasticSettings::of(Shaft::biotact(Biotact::Middle));
+    let pose = SurfacePose {
+        obstacle_deg: -40.0,
+        ..SurfacePose::OF_SCENE
+    };
+    let mut plant = Elastic::new(head(1), settings, 3).unwrap();
+    let mut free = plant.in_the_air();
+    for plant in [&mut plant, &mut free] {
+        plant.stand(pose);
+        plant.advance(&[70.0], TICK_S);
+    }
+    assert!(plant.touches() && !free.touches());
+    plant.restart(3);
+    plant.advance(&[70.0], TICK_S);
+    assert!(!plant.touches());
 }
 
 #[test]
