@@ -109,6 +109,17 @@ impl DecisionRule for AnyRule {
         }
     }
 
+    fn gather(&self, sums: &mut [u32], evidence: &mut AnyEvidence) {
+        match (self, evidence) {
+            (Self::Sequential(rule), AnyEvidence::Sequential(evidence)) if SEQUENTIAL => {
+                rule.gather(sums, evidence);
+            }
+            (_, evidence) => {
+                let _ = self.end_of_block(sums, evidence);
+            }
+        }
+    }
+
     fn limit(&self, evidence: &mut AnyEvidence, limit: u32) {
         if let (Self::Sequential(rule), AnyEvidence::Sequential(evidence)) = (self, evidence)
             && SEQUENTIAL

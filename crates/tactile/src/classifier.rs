@@ -238,10 +238,13 @@ impl<W: Words> StreamClassifier<W> {
         let touch = stream.touch;
         let (sums, evidence) = stream.close_block(model, rule);
         of_sum.gather(sums, evidence.sequential_mut()?);
+        let section = heard(model, rule);
+        if self.streams.get(n)?.is_early(section) {
+            return None;
+        }
         let sum = sum(model.classes(), &self.streams);
         let decision = of_sum.decide_by(model.classes(), &sum)?;
 
-        let section = heard(model, rule);
         let stream = self.streams.get(n)?;
         let objection = stream.objection(section, model.classes(), decision.leader());
         let mut excess = [0_i32; 2];

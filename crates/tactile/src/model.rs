@@ -12,7 +12,7 @@ use crate::format::{
     AxisRecord, ChannelRecord, ENTRIES_PER_BIT, ENTRY_OFFSET_BITS, TABLE_WORDS, TableRecord,
 };
 use crate::layout::{Layout, RECORDS, TouchRule, names};
-use crate::opinion::Section;
+use crate::opinion::{Section, Whisked};
 use crate::quantiser::Quantiser;
 use crate::words::{JOINT, OPINION, Words};
 
@@ -158,6 +158,11 @@ impl<W: Words> Model<W> {
     /// held against it.
     pub const fn has_opinion(&self) -> bool {
         self.layout.opinion < self.layout.end
+    }
+
+    /// How it was whisked in training, where that is known.
+    pub fn whisked(&self) -> Whisked {
+        self.opinion().map(Section::whisked).unwrap_or_default()
     }
 
     /// In how many poses it was trained; 0: it does not say, and is honest at one pose only.

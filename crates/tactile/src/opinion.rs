@@ -13,7 +13,8 @@
 //! 3. the opinion agrees.
 //!
 //! Trained in one pose, it *objects* to names that the tables give. Trained in several, it
-//! *names* by itself, once a touch at most, and there are no tables.
+//! *names* by itself, once a touch at most, and there are no tables. Either way nothing is decided
+//! in the first blocks of a touch, in which all ways are alike ([`Section::least`]).
 //!
 //! What is refused has a [`Reason`](crate::Reason): 1 the pose, 2 unknown, 3 between two classes.
 
@@ -27,6 +28,31 @@ use crate::rule::DecisionRule;
 pub(crate) use differences::{Differences, Narrow};
 pub(crate) use section::Section;
 use section::{STATE_WORDS, halves};
+
+/// What is known of the whisking in training, where anything is.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Whisked {
+    /// Frequency, Hz.
+    pub frequency_hz: Option<f32>,
+    /// Gain of RCP, 0 without.
+    pub rcp_gain: Option<f32>,
+}
+
+impl Whisked {
+    /// Whether whisking differs from this where both are known: by more than 5 % of the
+    /// frequency, or with RCP for without.
+    pub fn differs(&self, other: &Self) -> bool {
+        let frequency = match (self.frequency_hz, other.frequency_hz) {
+            (Some(a), Some(b)) => (a - b).abs() > 0.05 * a,
+            _ => false,
+        };
+        let rcp = match (self.rcp_gain, other.rcp_gain) {
+            (Some(a), Some(b)) => (a > 0.0) != (b > 0.0),
+            _ => false,
+        };
+        frequency || rcp
+    }
+}
 
 /// Features of a block.
 pub(crate) const FEATURES: usize = 10;
@@ -317,8 +343,8 @@ impl Judge {
 
     /// The end of a block whose sums are what the opinion's scores have risen by.
     ///
-    /// A class is named after the block in which its posterior exceeds the threshold, if
-    /// nothing objects. What was refused is said, as is a pair of classes that exceeds the
+    /// A class is named once the touch has lasted for two thirds of the model's patience and
+    /// its posterior exceeds the threshold, if nothing objects. What was refused is said, as is a pair of classes that exceeds the
     /// threshold together, once the touch has lasted for the model's patience.
     pub(crate) fn name<R: DecisionRule>(
         &mut self,
@@ -330,6 +356,10 @@ impl Judge {
     ) -> Option<Decision> {
         if self.is_done {
             sums.fill(0);
+            return None;
+        }
+        if self.opinion.blocks() < section.least() {
+            rule.gather(sums, evidence);
             return None;
         }
         if let Some(decision) = rule.end_of_block(sums, evidence) {

@@ -32,6 +32,11 @@ pub trait DecisionRule: Sized {
     /// from the prior.
     fn end_of_block(&self, sums: &mut [u32], evidence: &mut Self::Evidence) -> Option<Decision>;
 
+    /// Takes in the sums of a full block and leaves zeros, and does not decide.
+    fn gather(&self, sums: &mut [u32], evidence: &mut Self::Evidence) {
+        let _ = self.end_of_block(sums, evidence);
+    }
+
     /// A touch begins: no class is left further behind the leader than `limit`, in
     /// units of [`Self::scale`]. Rules of the papers know no touches.
     fn limit(&self, _evidence: &mut Self::Evidence, _limit: u32) {}

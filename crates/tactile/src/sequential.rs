@@ -156,13 +156,6 @@ impl SequentialRule {
         near
     }
 
-    /// Takes in the sums of a full block and leaves zeros.
-    // Once a block: apart from what is generic.
-    #[inline(never)]
-    pub(crate) fn gather(&self, sums: &mut [u32], evidence: &mut SequentialEvidence) {
-        let _ = self.gather_near(sums, evidence);
-    }
-
     /// The evidence of several streams together: log-likelihoods add up.
     pub(crate) fn sum<'e>(
         classes: usize,
@@ -256,6 +249,12 @@ impl DecisionRule for SequentialRule {
         }
         evidence.blocks = 0;
         Some(decision)
+    }
+
+    // Once a block: apart from what is generic.
+    #[inline(never)]
+    fn gather(&self, sums: &mut [u32], evidence: &mut SequentialEvidence) {
+        let _ = self.gather_near(sums, evidence);
     }
 
     fn limit(&self, evidence: &mut SequentialEvidence, limit: u32) {

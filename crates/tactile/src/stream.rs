@@ -200,6 +200,7 @@ impl<E> StreamState<E> {
     {
         let _ = self.close_block(model, rule);
         let section = heard(model, rule);
+        let is_early = self.is_early(section);
         let evidence = &mut self.evidence;
         let sums = self.sums.classes.get_mut(..model.classes());
         let sums = sums.unwrap_or_default();
@@ -209,11 +210,21 @@ impl<E> StreamState<E> {
         {
             return judge.name((section, model.classes()), rule, sums, evidence, self.touch);
         }
+        if is_early {
+            rule.gather(sums, evidence);
+            return None;
+        }
         let decision = rule.end_of_block(sums, evidence)?;
         let excess = self.excess(decision.leader());
         let is_below = model.has_floors() && excess.iter().any(|tables| *tables < 0);
         let objection = self.objection(section, model.classes(), decision.leader());
         Some(decision.in_touch(self.touch, reason(is_below, objection)))
+    }
+
+    /// Whether the touch is too young for the second opinion.
+    pub(crate) fn is_early(&self, section: Option<Section<'_>>) -> bool {
+        let blocks = self.judges.first().map(|judge| judge.opinion.blocks());
+        matches!((section, blocks), (Some(section), Some(blocks)) if blocks < section.least())
     }
 
     /// Why the second opinion objects to naming a class, if it does.

@@ -17,7 +17,7 @@ use std::string::String;
 use std::vec;
 use std::vec::Vec;
 
-pub use self::opinion::{Expect, Opinion, Whisked};
+pub use self::opinion::{Expect, Opinion};
 use crate::binner::Binner;
 use crate::error::ModelError;
 use crate::format::{

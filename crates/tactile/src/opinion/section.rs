@@ -11,7 +11,7 @@
 //! | per class | per state: 10 means i16, 1/256; shift; 55 of a triangle i16, and a zero; then 8 limits u32 |
 //! | per class | 9 × inverse deviation of x and y u16, 2⁻¹⁶; P × 9 × x and y i16; limit u32 |
 
-use super::{BLOCKS, FEATURES, STAGES, STATES};
+use super::{BLOCKS, FEATURES, STAGES, STATES, Whisked};
 use crate::error::ModelError;
 
 /// Most poses between which a path may lie.
@@ -112,6 +112,12 @@ impl<'m> Section<'m> {
         self.byte(3).into()
     }
 
+    /// Blocks of a touch before which nothing is decided: by then its way is known.
+    #[inline]
+    pub(crate) fn least(self) -> usize {
+        (2 * self.patience()).div_ceil(3)
+    }
+
     /// Most odds against a leader that it does not object to, 2⁻²⁶.
     pub(crate) fn most_odds(self) -> u32 {
         self.word(1)
@@ -132,9 +138,12 @@ impl<'m> Section<'m> {
     }
 
     /// Frequency of the whisk, Hz, and gain of RCP in training, where they are known.
-    pub(crate) fn trained(self) -> [Option<f32>; 2] {
+    pub(crate) fn whisked(self) -> Whisked {
         let known = |bits| Some(f32::from_bits(bits)).filter(|value: &f32| value.is_finite());
-        [known(self.word(6)), known(self.word(7))]
+        Whisked {
+            frequency_hz: known(self.word(6)),
+            rcp_gain: known(self.word(7)),
+        }
     }
 
     /// Of a stage (from 1): shift, biases and weights of all classes.

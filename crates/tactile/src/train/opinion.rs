@@ -25,6 +25,7 @@ use self::paths::Paths;
 use self::touches::{Sense, Touch};
 use self::typical::Typical;
 use crate::format::ENTRIES_PER_BIT;
+use crate::opinion::Whisked;
 use crate::opinion::differences::FEATURE_BITS;
 use crate::opinion::section::{MAX_POSES, begun};
 use crate::opinion::{BLOCKS, FEATURES, PATH_BITS, STAGES, STATE_BITS, STATES, blocks_of};
@@ -53,15 +54,6 @@ impl Expect {
             Self::Other => &[0.5, 0.7, 1.4, 2.0],
         }
     }
-}
-
-/// What is known of the whisking in training, where anything is.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Whisked {
-    /// Frequency, Hz.
-    pub frequency_hz: Option<f32>,
-    /// Gain of RCP, 0 without.
-    pub rcp_gain: Option<f32>,
 }
 
 /// A second opinion.

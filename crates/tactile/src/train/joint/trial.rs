@@ -4,7 +4,8 @@ use std::string::String;
 use std::vec::Vec;
 
 use crate::format::MAX_BLOCK;
-use crate::train::opinion::{Expect, Whisked};
+use crate::opinion::Whisked;
+use crate::train::opinion::Expect;
 use crate::train_error::TrainError;
 
 /// Channels of a sample.
