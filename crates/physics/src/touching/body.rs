@@ -26,15 +26,19 @@ pub(super) struct Body {
 impl Body {
     /// A step where no plate is.
     pub(super) fn free(&mut self, steps: &Steps) {
-        let mut state = self.state;
-        state.free(&steps.parts[0]);
-        state.keep(0.0);
-        self.place(state);
+        self.state.free(&steps.parts[0]);
+        self.state.keep(0.0);
+        self.leave();
     }
 
     /// Sets the state of the modes, away from any plate.
     pub(super) fn place(&mut self, state: ModalState) {
         self.state = state;
+        self.leave();
+    }
+
+    /// Forgets the plate.
+    fn leave(&mut self) {
         self.curve = None;
         self.touch = Touch::default();
         self.last = None;
