@@ -209,7 +209,7 @@ impl Body {
         let to = sub(part.pose.place(curve.at(&place)), scale(kept, part.stretch));
         let below = [to[0], to[1]];
         let felt = self.touch.felt.map_or(below, |felt| {
-            let foot = self.foot(part, &place);
+            let foot = self.foot(part, part.before.at(&place));
             [0, 1].map(|i| felt[i] + to[i] - foot[i])
         });
         let ground = self.ground.relief.at(felt);
@@ -226,11 +226,10 @@ impl Body {
         None
     }
 
-    /// Where the foot of a place is at the start of a part.
+    /// Where the foot is at the start of a part, of a place that is there from the base.
     #[inline]
-    fn foot(&self, part: &Part<'_>, place: &Place) -> V3 {
-        let stretch = part.old.vector(self.touch.stretch);
-        sub(part.old.place(part.before.at(place)), stretch)
+    fn foot(&self, part: &Part<'_>, at: V3) -> V3 {
+        sub(part.old.place(at), part.old.vector(self.touch.stretch))
     }
 
     /// One round: the force at a place, on a plane to where the foot is expected, for shapes
@@ -246,7 +245,7 @@ impl Body {
         let shapes = &self.shaft.shapes;
         let new = part.pose;
         let at = part.before.at(place);
-        let foot = self.foot(part, place);
+        let foot = self.foot(part, at);
         let felt = self.touch.felt.unwrap_or([foot[0], foot[1]]);
         let middle = shapes.curve(&between(&part.start, end));
         let lengthwise = part.touching && place.at_m < self.shaft.length_m;
