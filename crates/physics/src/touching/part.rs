@@ -134,6 +134,11 @@ impl Body {
                 self.touch.place = Some(place);
                 self.touch.next_m = better_m + went;
                 self.curve = Some(round.curve);
+                if !self.touch.is_contact() {
+                    // In the air static shapes spring back, and a force that follows starts there.
+                    self.state.keep(part.law.kept());
+                    self.curve = None;
+                }
                 if self.state.limit(&self.shaft) {
                     self.touch = Touch::default();
                     self.curve = None;
