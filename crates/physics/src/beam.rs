@@ -228,7 +228,10 @@ fn solve(shaft: &Shaft, count: usize) -> Option<Modes> {
     let (tip_m_n, base_rad_n) = (bent[tip], base_rotation(&bent));
     let shares = modes.iter().map(|m| (m.tip / m.omega_rad_s).powi(2));
     let residual_tip_m_n = (tip_m_n - shares.sum::<f64>()).max(0.0);
-    let mut loads = vec![bent.clone(), factors.solve(&(&beam.slope * &bent))];
+    let mut couple = DVector::zeros(size);
+    couple[tip + 1] = 1.0;
+    let along = factors.solve(&(&beam.slope * &bent));
+    let mut loads = vec![bent.clone(), along, factors.solve(&couple)];
     if !clamped {
         loads.push(turned(shaft.length_m, size));
     }

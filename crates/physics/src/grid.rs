@@ -3,17 +3,18 @@
 //! Glossary:
 //!
 //! - *node*: one of the arc lengths at which the tangent is computed: three Gauss
-//!   points in each of five segments, which grow shorter towards the tip, where a
+//!   points in each of six segments, which grow shorter towards the tip, where a
 //!   tapered shaft bends most; and the tip;
 //! - *place*: an arc length, with the weight of each node's tangent in the integral
 //!   of the tangent from the base to there.
 //!
 //! Within a segment the tangent is taken as the parabola through its three nodes. Whole
 //! segments are integrated with the error of Gauss' quadrature (degree 5). On shafts of
-//! taper 3 to 15 pushed by 2 to 45° the base moment errs by less than 0.2 % for it.
+//! taper 3 to 15 pushed by 2 to 45° the base moment differs from that of ten segments by 0.2 %
+//! root mean square, 1.1 % at most.
 
 /// Segments of a shaft.
-const SEGMENTS: usize = 5;
+const SEGMENTS: usize = 6;
 
 /// Nodes of a segment.
 pub(crate) const POINTS: usize = 3;
@@ -56,7 +57,7 @@ impl Grid {
     pub(crate) fn new(length_m: f64) -> Self {
         let edge = |n: usize| {
             let left = 1.0 - n as f64 / SEGMENTS as f64;
-            length_m * (1.0 - left * left.sqrt())
+            length_m * (1.0 - left * left)
         };
         let edges = core::array::from_fn(edge);
         let mut nodes = [length_m; NODES];

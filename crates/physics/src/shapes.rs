@@ -13,10 +13,11 @@
 //! angle, and so what is linear of it stays so; places alone are not. Inertia is taken as that of small
 //! deflections, which costs 1e-3 of a base moment.
 //!
-//! Static shapes are what the modes leave out of three: the base turned with a straight shaft,
+//! Static shapes are what the modes leave out of four: the base turned with a straight shaft,
 //! without which the base moment is no better than the shapes; the shaft under a force at its tip;
-//! and what that force's part along the shaft adds, ∫ w′ δw′ ds. So that the
-//! energy of each is ½ a², its unit is √J.
+//! what that force's part along the shaft adds, ∫ w′ δw′ ds; and the shaft under a couple at its tip,
+//! which lets it turn where it touches away from the tip. So that the energy of each is ½ a², its
+//! unit is √J.
 
 use crate::grid::{Grid, NODES, POINTS, Place};
 use crate::vector::V3;
@@ -26,13 +27,10 @@ use crate::vector::V3;
 pub(crate) const MODES: usize = 4;
 
 /// Static shapes.
-pub(crate) const STATIC: usize = 3;
+pub(crate) const STATIC: usize = 4;
 
 /// All shapes.
 pub(crate) const SHAPES: usize = MODES + STATIC;
-
-/// Shapes and one that is none.
-const EIGHT: usize = 8;
 
 /// Amplitudes of all shapes, in x and y.
 pub(crate) type Amplitudes = [[f64; 2]; SHAPES];
@@ -47,9 +45,8 @@ const LARGEST: f64 = 16.0;
 /// Slopes and tip of each shape; zero for one that a shaft does not have.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(crate) struct Shapes {
-    /// φ′ at the nodes, node by node; the last of eight is always zero: pairs of numbers
-    /// are computed at once.
-    slope: [[f64; EIGHT]; NODES],
+    /// φ′ at the nodes, node by node.
+    slope: [[f64; SHAPES]; NODES],
     /// φ′ at the base.
     pub(crate) base: [f64; SHAPES],
     /// φ at the tip.
@@ -97,7 +94,7 @@ impl Shapes {
             psi[0][n] = turned[0];
             psi[1][n] = turned[1];
         }
-        Curve::new(psi)
+        Curve::new(&psi)
     }
 
     /// Rotation of the base, rad.
@@ -132,7 +129,7 @@ impl Shapes {
     /// Turns of some nodes, by the slopes of each shape there.
     #[inline]
     fn sums<const N: usize>(&self, turns: [[f64; 5]; N], first: usize) -> Ways {
-        let mut sums = [[0.0; EIGHT]; 5];
+        let mut sums = [[0.0; SHAPES]; 5];
         for (j, sums) in sums.iter_mut().enumerate() {
             for (turn, slopes) in turns.iter().zip(self.slope.iter().skip(first)) {
                 for (sum, slope) in sums.iter_mut().zip(slopes) {
@@ -156,7 +153,7 @@ fn weighted(weights: &[f64; SHAPES], values: &Amplitudes) -> [f64; 2] {
 
 impl Curve {
     #[inline]
-    fn new(psi: [[f64; NODES]; 2]) -> Self {
+    fn new(psi: &[[f64; NODES]; 2]) -> Self {
         let mut square = [0.0; NODES];
         for ((square, x), y) in square.iter_mut().zip(&psi[0]).zip(&psi[1]) {
             *square = (x * x + y * y).min(LARGEST);
@@ -170,7 +167,7 @@ impl Curve {
             tangent[2][n] = sinc[n] + square[n] * bend[n];
         }
         Self {
-            psi,
+            psi: *psi,
             sinc,
             bend,
             tangent,
@@ -285,7 +282,7 @@ mod tests {
 
     /// A shaft that is turned by the same angle everywhere, in a direction.
     fn turned(x: f64, y: f64) -> Curve {
-        Curve::new([[x; NODES], [y; NODES]])
+        Curve::new(&[[x; NODES], [y; NODES]])
     }
 
     #[test]

@@ -26,15 +26,19 @@ pub(super) struct Body {
 impl Body {
     /// A step where no plate is.
     pub(super) fn free(&mut self, steps: &Steps) {
-        let mut state = self.state;
-        state.free(&steps.parts[0]);
-        state.keep(0.0);
-        self.place(state);
+        self.state.free(&steps.parts[0]);
+        self.state.keep(0.0);
+        self.leave();
     }
 
     /// Sets the state of the modes, away from any plate.
     pub(super) fn place(&mut self, state: ModalState) {
         self.state = state;
+        self.leave();
+    }
+
+    /// Forgets the plate.
+    fn leave(&mut self) {
         self.curve = None;
         self.touch = Touch::default();
         self.last = None;
@@ -119,10 +123,10 @@ pub(super) struct Touch {
     pub(super) place: Option<Place>,
     /// Where it is expected to touch in the next part, m from the base.
     pub(super) next_m: f64,
-    /// Where the foot is, plate coordinates, m, and how far it has come, since it touched, over
-    /// ground that it does not feel.
+    /// Where the foot is, plate coordinates, m, and which place of the ground it feels; none: the
+    /// one that it is over.
     pub(super) foot: V3,
-    pub(super) rolled: [f64; 2],
+    pub(super) felt: Option<[f64; 2]>,
     /// Height and slopes under the foot, if known.
     pub(super) ground: Option<[f64; 3]>,
     /// Force on the shaft, the mean of the part, plate coordinates, N.

@@ -22,7 +22,8 @@
 //! F·(ξ₁ − ξ₀ + slip).
 //! The sum is −(s − ½) (ξ₁ − ξ₀)·C⁻¹(ξ₁ − ξ₀) + F·slip, and neither is positive.
 //! Friction on a foot that touches down might still give energy; that part is then
-//! solved without friction.
+//! solved without friction. So might the stretch that another place has left; there is then no
+//! force.
 
 use super::body::Body;
 use crate::compliance::Compliance;
@@ -267,6 +268,11 @@ impl Body {
             problem.friction = 0.0;
             force = problem.solve();
             left_j = left(&force);
+        }
+        if left_j < 0.0 {
+            // One with the stretch of another place, that does not reach the ground.
+            force = Force::default();
+            left_j = self.touch.spring_j;
         }
         let stretch = if force.local[0] > 0.0 {
             core::array::from_fn(|i| {

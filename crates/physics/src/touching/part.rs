@@ -21,7 +21,9 @@
 //! Heights are read where the shaft touches first, and from then on where it has slid to. A
 //! shaft that lays itself along the plate bridges its grains; one that slides lengthwise keeps
 //! its place in space, and so the grains that it lies on: both change no height. Away from the tip
-//! only what it slides sideways counts, and its side has no slope lengthwise.
+//! only what it slides sideways counts, and its side has no slope lengthwise. So it comes to feel
+//! another place of the ground than it is over; one that leaves the ground goes on so until it is
+//! above what it is over too, or else it would be thrown out of a grain.
 //!
 //! Ways are those in the middle of the part: times a change of the amplitudes they are
 //! the place's displacement but for the third order of the change. A round that changes the
@@ -77,8 +79,8 @@ type Known = (V3, [f64; 3]);
 
 /// What a round has found.
 struct Round {
-    /// How far the foot has come, since it touched, over ground that it does not feel.
-    rolled: [f64; 2],
+    /// Which place of the ground the foot feels at the end.
+    felt: [f64; 2],
     /// Where the foot was expected, where it is, and how far that is apart on ground that it feels.
     there: V3,
     next: V3,
@@ -132,6 +134,11 @@ impl Body {
                 self.touch.place = Some(place);
                 self.touch.next_m = better_m + went;
                 self.curve = Some(round.curve);
+                if !self.touch.is_contact() {
+                    // In the air static shapes spring back, and a force that follows starts there.
+                    self.state.keep(part.law.kept());
+                    self.curve = None;
+                }
                 if self.state.limit(&self.shaft) {
                     self.touch = Touch::default();
                     self.curve = None;
@@ -205,14 +212,29 @@ impl Body {
         let place = curve.lowest(&self.shaft.grid, part.pose.up());
         let kept = part.law.kept();
         let to = sub(part.pose.place(curve.at(&place)), scale(kept, part.stretch));
-        let ground = self.ground.relief.at([to[0], to[1]]);
+        let below = [to[0], to[1]];
+        let felt = self.touch.felt.map_or(below, |felt| {
+            let foot = self.foot(part, part.before.at(&place));
+            [0, 1].map(|i| felt[i] + to[i] - foot[i])
+        });
+        let ground = self.ground.relief.at(felt);
         if to[2] < ground[0] {
             return Some((place, (to, ground)));
         }
         let stretch = scale(kept, self.touch.stretch);
-        self.touch = Touch::in_the_air(&part.law.compliance, stretch);
+        let inside = to[2] < self.ground.relief.at(below)[0];
+        self.touch = Touch {
+            felt: inside.then_some(felt),
+            ..Touch::in_the_air(&part.law.compliance, stretch)
+        };
         self.curve = Some(curve);
         None
+    }
+
+    /// Where the foot is at the start of a part, of a place that is there from the base.
+    #[inline]
+    fn foot(&self, part: &Part<'_>, at: V3) -> V3 {
+        sub(part.old.place(at), part.old.vector(self.touch.stretch))
     }
 
     /// One round: the force at a place, on a plane to where the foot is expected, for shapes
@@ -228,20 +250,15 @@ impl Body {
         let shapes = &self.shaft.shapes;
         let new = part.pose;
         let at = part.before.at(place);
-        let foot = sub(part.old.place(at), part.old.vector(self.touch.stretch));
-        let rolled = if part.touching {
-            let last = &self.touch;
-            [0, 1].map(|i| last.rolled[i] + foot[i] - last.foot[i])
-        } else {
-            [0.0; 2]
-        };
+        let foot = self.foot(part, at);
+        let felt = self.touch.felt.unwrap_or([foot[0], foot[1]]);
         let middle = shapes.curve(&between(&part.start, end));
         let lengthwise = part.touching && place.at_m < self.shaft.length_m;
         let along = lengthwise.then(|| level(new.vector(middle.along(place))));
         let relief = &mut self.ground.relief;
         let mut ground_at = |at: V3| {
             let [x, y] = aside(along, [at[0] - foot[0], at[1] - foot[1]]);
-            relief.at([foot[0] - rolled[0] + x, foot[1] - rolled[1] + y])
+            relief.at([felt[0] + x, felt[1] + y])
         };
         part.foot = foot;
         part.ground = self.touch.ground.unwrap_or_else(|| ground_at(foot));
@@ -271,7 +288,7 @@ impl Body {
         let went = [0, 1].map(|i| next[i] - foot[i]);
         let slid = aside(along, went);
         Round {
-            rolled: [0, 1].map(|i| rolled[i] + went[i] - slid[i]),
+            felt: [0, 1].map(|i| felt[i] + slid[i]),
             miss: aside(along, [0, 1].map(|i| next[i] - there[i])),
             there,
             next,
@@ -302,15 +319,11 @@ impl Body {
     /// Brings the foot to the ground, as far as the energy allows.
     fn settle(&mut self, part: &Part<'_>, round: &Round) {
         let Round {
-            solved,
-            rolled,
-            next,
-            ..
+            solved, felt, next, ..
         } = round;
         let Solved { frame, force, .. } = solved;
         // Straight up or down: the ground is known there.
-        let ground = [next[0] - rolled[0], next[1] - rolled[1]];
-        let ground = self.ground.relief.at(ground);
+        let ground = self.ground.relief.at(*felt);
         let deep = ground[0] - next[2];
         let body = part.pose.components(solved.stretch);
         let left_j = solved.left_j.max(0.0);
@@ -323,7 +336,7 @@ impl Body {
             force: frame.plate(force.local),
             forces: round.forces,
             foot: *next,
-            rolled: *rolled,
+            felt: Some(*felt),
             ground: Some(ground),
             normal_n,
             stuck: force.stuck,

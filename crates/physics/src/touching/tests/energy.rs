@@ -95,6 +95,29 @@ fn released(
     Ok(())
 }
 
+#[test]
+fn what_once_gave_energy_gives_none() {
+    let ground = |stiffness: f64, friction: f64| Surface {
+        grain_m: 0.1,
+        ..flat(10.0_f64.powf(stiffness), 0.0, friction, friction)
+    };
+    // A base below the floor: a place that did not reach it had the stretch of another.
+    let bend = [-0.034_615_674_455_788_12, -0.151_421_870_099_535_1];
+    let release = (0.042_483_781_144_719, -0.045_717_268_309_824_47, bend);
+    let dt_s = 10.0_f64.powf(-4.414_960_386_869_022);
+    let slippery = ground(4.823_948_455_042_236_5, 0.0);
+    released(&Shaft::biotact(Biotact::Front), slippery, release, dt_s).unwrap();
+    // A bounce: static shapes that were still bent as it touched again.
+    let release = (
+        0.038_989_875_503_091_166,
+        -0.030_764_116_095_430_952,
+        [0.0; 2],
+    );
+    let dt_s = 10.0_f64.powf(-3.600_001_869_551_938_7);
+    let rubbing = ground(5.585_192_711_423_789, 0.393_237_069_956_088);
+    released(&Shaft::psikharpax(1), rubbing, release, dt_s).unwrap();
+}
+
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(96))]
 

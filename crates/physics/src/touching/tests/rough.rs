@@ -116,8 +116,7 @@ fn a_floor_rings_where_the_whisker_does_with_its_tip_held() {
 
 #[test]
 fn the_ground_stays_where_it_is() {
-    // Drawn over every material at 0.2 m/s: where contact cannot pay for the
-    // ground's height at once, it soon does, unless it is held and nothing moves.
+    // Drawn over every material at 0.2 m/s: contact pays for the ground's height at once.
     let shafts = [
         Shaft::floor_robot(),
         Shaft::biotact(Biotact::Front),
@@ -125,17 +124,16 @@ fn the_ground_stays_where_it_is() {
     ];
     for material in materials() {
         let surface = Surface::of(material);
-        // The coarsest abrasives have the steepest grains.
+        // The coarsest abrasives have the steepest grains: it soon does.
         let coarse = surface.grain_m > 0.2e-3 && surface.height_m > 0.3 * surface.grain_m;
-        let seldom = if coarse { 10 } else { 100 };
+        let seldom = if coarse { 30 } else { 500 };
         for shaft in &shafts {
             let mut whisker = TouchingWhisker::new(shaft, &QUIET, 1).unwrap();
             let (mut touching, mut lowered) = (0, 0);
             for n in 0..2000 {
                 whisker.step(&slanted(n, shaft.length_m), Some(&floor(surface)), DT);
-                let low = whisker.lowered_m() > 0.01 * surface.height_m;
                 touching += u32::from(whisker.contact());
-                lowered += u32::from(low && !whisker.sticking());
+                lowered += u32::from(whisker.lowered_m() > 0.01 * surface.height_m);
             }
             assert!(touching > 1000, "{material:?} {touching}");
             assert!(
