@@ -280,7 +280,10 @@ fn parse(file: &[u8], channels: [&str; 2]) -> Result<Vec<Stream>, String> {
     );
     let contact = optional("contact")?;
     let touch = optional("touch")?;
+    let pose = optional("pose")?;
 
+    // Numbered as they appear.
+    let mut poses: Vec<String> = Vec::new();
     let mut streams: Vec<Stream> = Vec::new();
     let mut record = csv::StringRecord::new();
     while table.read_record(&mut record).map_err(broken)? {
@@ -320,7 +323,19 @@ fn parse(file: &[u8], channels: [&str; 2]) -> Result<Vec<Stream>, String> {
         if label.is_empty() {
             return Err(format!("line {line}: the label is empty"));
         }
+        let before = streams.len();
         append(&mut streams, label, trial, Some(sample));
+        // A stream is of the pose in which it begins.
+        if let (true, Some(place), Some(stream)) =
+            (streams.len() > before, pose, streams.last_mut())
+        {
+            let found = poses.iter().position(|pose| pose == cell(place));
+            let number = found.unwrap_or(poses.len());
+            if found.is_none() {
+                poses.push(cell(place).to_owned());
+            }
+            stream.pose = Some(number as u64);
+        }
     }
     if streams.is_empty() {
         return Err("no samples".to_owned());

@@ -209,6 +209,7 @@ pub fn joint(
         streams.iter().map(|stream| Trial {
             label: stream.label.clone(),
             recording: recording.clone(),
+            pose: stream.pose,
             samples: stream.samples.clone(),
             touches: stream.touches(options.gate, options.gap).collect(),
         })

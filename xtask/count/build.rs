@@ -70,6 +70,7 @@ fn joint_model(classes: u32) -> Result<Vec<u8>, Box<dyn Error>> {
             trials.push(joint::Trial {
                 label: format!("class {class}"),
                 recording: String::new(),
+                pose: None,
                 touches: vec![1; samples.len()],
                 samples,
             });

@@ -212,6 +212,7 @@ fn nothing_is_decided_in_the_air() {
         touches: stream.touches(GATE, Options::default().gap).collect(),
         label: stream.label,
         recording: "run".to_owned(),
+        pose: None,
         samples: stream.samples,
     };
     let trials: Vec<_> = recorder.into_streams().into_iter().map(trial).collect();

@@ -6,12 +6,13 @@
 //! and what differs between poses is learnt from them.
 //!
 //! Values that were chosen, on recordings of the scene `whisker` with seeds that no page uses:
-//! α 1 and 2, s 0.1 and 0.03, the 0.9 of an objection, the shares 0.9, 0.98 and 0.93 of
+//! α 1 and 1 + 4/(poses − 1), s 0.1 and 0.03, the 0.8 of an objection, the shares 0.95, 0.98 and 0.95 of
 //! `typical` and `paths`, their shrinking and least deviations, and the gains of copies.
 
 mod linear;
 mod matrix;
 mod paths;
+pub(super) mod poses;
 mod touches;
 mod typical;
 
@@ -74,7 +75,7 @@ const LEAST_TOUCHES: [usize; 2] = [12, 4];
 /// Touches of each class that reach a stage.
 const LEAST_OF_STAGE: usize = 6;
 /// The least posterior by which it does not object to a name.
-const LEAST_POSTERIOR: f64 = 0.9;
+const LEAST_POSTERIOR: f64 = 0.8;
 /// The share of touches that end before patience does.
 const IMPATIENT: f64 = 0.1;
 /// Parts in which the touches of one pose are held out.
@@ -114,8 +115,10 @@ pub(super) fn train(material: &Material<'_>) -> Option<Opinion> {
         return None;
     }
     let how = if names {
+        // A few poses say little of how far poses spread.
+        let freedom = felt.poses.len() - 1;
         Covariance {
-            between: 2.0,
+            between: 1.0 + 4.0 / freedom as f64,
             shrink: 0.03,
         }
     } else {
@@ -147,17 +150,6 @@ pub(super) fn train(material: &Material<'_>) -> Option<Opinion> {
     })
 }
 
-/// The recordings, in order.
-fn recordings(trials: &[Trial]) -> Vec<&str> {
-    let mut names: Vec<&str> = Vec::new();
-    for trial in trials {
-        if !names.contains(&trial.recording.as_str()) {
-            names.push(&trial.recording);
-        }
-    }
-    names
-}
-
 impl Felt {
     fn of(material: &Material<'_>, gains: &[f64]) -> Self {
         let Material {
@@ -167,12 +159,7 @@ impl Felt {
             block,
             ..
         } = *material;
-        let recordings = recordings(trials);
-        let place = |all: &[&str], of: &str| all.iter().position(|name| *name == of).unwrap_or(0);
-        let of_recording: Vec<usize> = trials
-            .iter()
-            .map(|trial| place(&recordings, &trial.recording))
-            .collect();
+        let (of_recording, recordings) = poses::numbers(trials);
         let of_class: Vec<usize> = trials
             .iter()
             .map(|trial| {
@@ -193,7 +180,7 @@ impl Felt {
             let mut copies = sense.touches(trials, scales, numbers, *gain);
             copies.retain(|touch| begins_again || !touch.goes_on);
             for copy in &mut copies {
-                copy.recording += (n + 1) * recordings.len();
+                copy.recording += (n + 1) * recordings;
             }
             with_copies.append(&mut copies);
         }
@@ -205,7 +192,7 @@ impl Felt {
         let all = |least: usize, is: &dyn Fn(&Touch) -> bool| {
             (0..classes).all(|class| count(class, is) >= least)
         };
-        let poses = (0..recordings.len())
+        let poses = (0..recordings)
             .filter(|recording| all(LEAST_TOUCHES[1], &|touch| touch.recording == *recording))
             .collect();
         let stages = (1..=STAGES)

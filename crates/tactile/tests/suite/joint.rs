@@ -24,6 +24,7 @@ fn trial(label: &str, recording: &str, mean: [f64; 2], length: usize, seed: u64)
     Trial {
         label: label.to_owned(),
         recording: recording.to_owned(),
+        pose: None,
         samples: samples.collect(),
         touches: vec![1; length],
     }

@@ -11,10 +11,14 @@ use crate::decision::Decision;
 use crate::error::ModelError;
 use crate::score::Interval;
 use crate::sequential::{Sequential, Threshold};
+use crate::train::opinion::poses;
 use crate::train_error::TrainError;
 
 /// In how many parts the trials of a class are held out.
 const FOLDS: usize = 4;
+
+/// In how many at most, of poses.
+const MOST_FOLDS: usize = 8;
 
 /// A decision, and of what.
 struct Said {
@@ -88,26 +92,18 @@ pub(super) fn report(model: &mut JointModel, trials: &[Trial]) -> Result<(), Tra
 /// With which part each trial is held out.
 fn folds(model: &JointModel, trials: &[Trial]) -> Vec<usize> {
     let names = model.opinion.as_ref().is_some_and(|opinion| opinion.names);
-    // Counted by recording, or by class.
-    let mut keys: Vec<&str> = Vec::new();
-    let mut seen: Vec<usize> = Vec::new();
-    let mut folds = Vec::with_capacity(trials.len());
-    for trial in trials {
-        let key = if names {
-            &trial.recording
-        } else {
-            &trial.label
-        };
-        let found = keys.iter().position(|of| of == key);
-        let place = found.unwrap_or_else(|| {
-            keys.push(key);
-            seen.push(0);
-            keys.len() - 1
-        });
-        folds.push(if names { place } else { seen[place] % FOLDS });
-        seen[place] += 1;
+    if names {
+        let (poses, _) = poses::numbers(trials);
+        return poses.iter().map(|pose| pose % MOST_FOLDS).collect();
     }
-    folds
+    let mut seen: Vec<usize> = model.names.iter().map(|_| 0).collect();
+    let fold = |trial: &Trial| {
+        let class = model.names.iter().position(|name| *name == trial.label);
+        let seen = &mut seen[class.unwrap_or(0)];
+        *seen += 1;
+        (*seen - 1) % FOLDS
+    };
+    trials.iter().map(fold).collect()
 }
 
 /// What a model decides on trials in their order; `names` are the classes as they are numbered.

@@ -15,7 +15,7 @@ const NUMBERS: usize = BLOCKS * CHANNELS;
 /// Added to each deviation, narrow codes: whiskers slip by more than training has seen.
 const LEAST_DEVIATION: f64 = 4.0;
 /// The share of held-out touches that lie near: of one pose, of several.
-const SHARE: [f64; 2] = [0.98, 0.93];
+const SHARE: [f64; 2] = [0.98, 0.95];
 /// How far beyond the outermost poses a path may lie, in steps to the next: as it is used, and
 /// where a pose is held out.
 const BEYOND: [f64; 2] = [0.5, 1.0];

@@ -12,7 +12,7 @@ use crate::opinion::{FEATURES, STAGES, STATES};
 /// Off the diagonal a covariance counts so much less.
 const SHRINK: f64 = 0.3;
 /// The share of held-out touches of a class that are typical of it.
-const SHARE: f64 = 0.9;
+const SHARE: f64 = 0.95;
 
 /// A state of a class.
 #[derive(Debug, Clone)]
