@@ -175,7 +175,7 @@ pub fn percent(decision: tactile::Decision) -> u32 {
 
 /// Why a decision names no class, in words that follow each other, a space before them; empty
 /// where one is named, or where "unknown" says it all. `among` are the leader and its rival.
-pub const fn why<'n>(reason: Option<Reason>, among: [&'n str; 2]) -> [&'n str; 4] {
+pub const fn why(reason: Option<Reason>, among: [&str; 2]) -> [&str; 4] {
     match reason {
         None | Some(Reason::Unknown) => [""; 4],
         Some(Reason::Pose) => [" outside the poses of training", "", "", ""],

@@ -232,8 +232,8 @@ pub(crate) fn decisions<'py>(
     let side = Kind::Text(6);
     // The longest is "unknown".
     let reason = Kind::Text(8);
-    let whys: Vec<[String; 2]> = all().map(Decided::why).collect();
-    let among = Kind::text(whys.iter().map(|[_, among]| among.as_str()));
+    let pairs: Vec<String> = all().map(|d| d.why()[1].clone()).collect();
+    let among = Kind::text(pairs.iter().map(String::as_str));
     let kinds = [
         label,
         trial,
@@ -253,7 +253,6 @@ pub(crate) fn decisions<'py>(
         layout = layout.after("seed", Kind::Seed);
     }
     let mut rows = Packed::default();
-    let mut whys = whys.into_iter();
     for (seed, decided) in runs {
         for d in *decided {
             if let Some(seed) = seed {
@@ -272,10 +271,9 @@ pub(crate) fn decisions<'py>(
                 rows.text(d.place.map_or("", |place| place.side_name()), side);
                 rows.whole(d.place.map_or(0, |place| i64::from(place.whisker) + 1));
             }
-            if let Some([why, classes]) = whys.next() {
-                rows.text(&why, reason);
-                rows.text(&classes, among);
-            }
+            let [why, pair] = d.why();
+            rows.text(&why, reason);
+            rows.text(&pair, among);
         }
     }
     layout.array(py, rows.bytes)
