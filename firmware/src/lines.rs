@@ -4,6 +4,7 @@
 //! The wording stands here once, as texts of defmt. A board's log sends their numbers; the serial
 //! port, and a simulated module, fill them in ([`wire::Line::form`]).
 
+use tactile::Reason;
 use wire::{Field, Line};
 
 use crate::faults::texts;
@@ -24,16 +25,23 @@ macro_rules! say_event {
                 $say!(info, "end {=str} {=u16}", place.side_name(), number);
             }
             $crate::Event::Decision(place, decision) if $crate::Part::Classifier.is_built() => {
-                let class = decision.class().map_or("unknown", $class);
+                let name = $class;
+                let class = decision.class().map_or("unknown", &name);
+                let among = decision.among().map_or([""; 2], |among| among.map(&name));
+                let [why, leader, and, rival] = $crate::lines::why(decision.reason(), among);
                 let posterior = $crate::lines::percent(decision);
                 $say!(
                     info,
-                    "decision {=str} {=str} {=u32}.{=u32:04} {=u32}",
+                    "decision {=str} {=str} {=u32}.{=u32:04} {=u32}{=str}{=str}{=str}{=str}",
                     place.side_name(),
                     class,
                     posterior / 10_000,
                     posterior % 10_000,
-                    decision.samples()
+                    decision.samples(),
+                    why,
+                    leader,
+                    and,
+                    rival
                 );
             }
             $crate::Event::SensorLost(place, why) => {
@@ -165,6 +173,19 @@ pub fn percent(decision: tactile::Decision) -> u32 {
     ((u64::from(decision.posterior().q32()) * 1_000_000) >> 32) as u32
 }
 
+/// Why a decision names no class, in words that follow each other, a space before them; empty
+/// where one is named, or where "unknown" says it all. `among` are the leader and its rival.
+pub const fn why(reason: Option<Reason>, among: [&str; 2]) -> [&str; 4] {
+    match reason {
+        None | Some(Reason::Unknown) => [""; 4],
+        Some(Reason::Pose) => [" outside the poses of training", "", "", ""],
+        Some(Reason::Between(_)) => {
+            let [leader, rival] = among;
+            [" between ", leader, " and ", rival]
+        }
+    }
+}
+
 /// A line that begins with the time at which so many ticks had passed since the start, in
 /// seconds, which wrap around with the count of ticks.
 #[inline(never)]
@@ -196,7 +217,7 @@ pub struct Context<N> {
 pub fn event<'n>(
     line: &mut Line,
     event: &Event,
-    context: Context<impl FnOnce(usize) -> &'n str>,
+    context: Context<impl Fn(usize) -> &'n str>,
 ) -> Option<&'static str> {
     let mut level = None;
     macro_rules! say {
@@ -294,15 +315,20 @@ mod tests {
             number: 7,
         };
         assert_eq!(line_of(&end), "12.345 end right 7");
-        // Class 1 at even odds after 34 samples; the same, unknown.
-        for (touch, class) in [(0, "carpet"), (1 << 16, "unknown")] {
+        // Class 1 at even odds after 34 samples; the same, unnamed for each reason.
+        for (touch, class, why) in [
+            (0, "carpet", ""),
+            (1 << 16, "unknown", ""),
+            (3 << 16, "unknown", " outside the poses of training"),
+            (5 << 16, "unknown", " between carpet and smooth"),
+        ] {
             let decision = Decision::from_memory(34, 1 << 27, touch).unwrap();
             let q32 = decision.posterior().q32();
             let percent = f64::from(q32) / f64::from(1_u32 << 16) / 65_536.0 * 100.0;
             let percent = (percent * 1e4).floor() / 1e4;
             assert_eq!(
                 line_of(&Event::Decision(RIGHT, decision)),
-                format!("12.345 decision right {class} {percent:.4} 34")
+                format!("12.345 decision right {class} {percent:.4} 34{why}")
             );
         }
         assert_eq!(

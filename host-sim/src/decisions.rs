@@ -1,21 +1,47 @@
 //! `decisions.csv`, and the score of decisions against labels.
 
+mod reasons;
+
 use std::fmt;
 use std::io::{self, Write};
 
-use firmware::Place;
-use tactile::Decision;
+use firmware::{Place, lines};
 use tactile::score::{Confusion, Statistics};
+use tactile::{Decision, Reason};
 
-use crate::columns::{self, Column, columns};
+use crate::columns::{Column, columns};
+pub use reasons::Reasons;
 
 /// What a decision says where what was felt is none of the model's classes.
 pub const UNKNOWN: &str = "unknown";
 
 /// The name of a decision.
 pub fn name(decision: Decision, classes: &[String]) -> &str {
-    let class = decision.class().and_then(|class| classes.get(class));
-    class.map_or(UNKNOWN, String::as_str)
+    decision.class().map_or(UNKNOWN, |class| of(class, classes))
+}
+
+fn of(class: usize, classes: &[String]) -> &str {
+    classes.get(class).map_or(UNKNOWN, String::as_str)
+}
+
+/// The names of the two classes between which a decision is, the leader first.
+pub fn among(decision: Decision, classes: &[String]) -> Option<[String; 2]> {
+    let among = decision.among()?;
+    Some(among.map(|class| of(class, classes).to_owned()))
+}
+
+/// What a decision says to people: a class, or why it names none.
+pub fn words(decision: Decision, classes: &[String]) -> String {
+    let among = among(decision, classes);
+    in_words(name(decision, classes), decision.reason(), among.as_ref())
+}
+
+fn in_words(name: &str, reason: Option<Reason>, among: Option<&[String; 2]>) -> String {
+    let among = among.map_or([""; 2], |among| among.each_ref().map(String::as_str));
+    match lines::why(reason, among).concat().trim_start() {
+        "" => name.to_owned(),
+        why => why.to_owned(),
+    }
 }
 
 /// What a decision is worth.
@@ -53,6 +79,10 @@ pub struct Decided {
     pub trial: String,
     /// The class decided for, or [`UNKNOWN`].
     pub decision: String,
+    /// Why it names no class, if it names none.
+    pub reason: Option<Reason>,
+    /// The two classes between which it is, the leader first, if that is why.
+    pub among: Option<[String; 2]>,
     /// How many samples it used.
     pub samples: u32,
     /// Posterior probability of the class decided for.
@@ -62,6 +92,34 @@ pub struct Decided {
 }
 
 impl Decided {
+    /// A decision of a model of these classes on what has this label, in a recording.
+    pub fn new(decision: Decision, classes: &[String], label: &str, trial: &str) -> Self {
+        Self {
+            t_s: None,
+            place: None,
+            label: label.to_owned(),
+            trial: trial.to_owned(),
+            decision: name(decision, classes).to_owned(),
+            reason: decision.reason(),
+            among: among(decision, classes),
+            samples: decision.samples(),
+            posterior: decision.posterior().to_f64(),
+            touch: decision.touch(),
+        }
+    }
+
+    /// What it says to people, as [`words`].
+    pub fn words(&self) -> String {
+        in_words(&self.decision, self.reason, self.among.as_ref())
+    }
+
+    /// The cell of its reason, and that of the classes between which it is.
+    pub fn why(&self) -> [String; 2] {
+        let reason = self.reason.map_or("", Reason::name);
+        let among = self.among.as_ref().map(|among| among.join("|"));
+        [reason.to_owned(), among.unwrap_or_default()]
+    }
+
     /// Whether it named the true class.
     pub fn is_right(&self) -> bool {
         self.label == self.decision
@@ -83,14 +141,27 @@ impl Decided {
 pub enum Columns {
     /// Those of a recording, which has no clock.
     OfRecording,
-    /// And last the time of the tick, as in the trace.
+    /// And the time of the tick, as in the trace.
     OfScene,
     /// And then the whisker, by its side and its number from 1: where several are heard.
     OfSeveral,
 }
 
-/// The columns in order; those of a recording first, and of a scene.
-pub const COLUMNS: [Column; 9] = columns! {
+impl Columns {
+    /// Which of [`COLUMNS`].
+    pub fn indices(self) -> impl Iterator<Item = usize> {
+        let count = match self {
+            Self::OfRecording => OF_RECORDING,
+            Self::OfScene => OF_SCENE,
+            Self::OfSeveral => OF_SEVERAL,
+        };
+        (0..count).chain(OF_SEVERAL..COLUMNS.len())
+    }
+}
+
+/// The columns in order: those of a recording, of a scene, of several whiskers, and why no class
+/// is named.
+pub const COLUMNS: [Column; 11] = columns! {
     "label", "", "the truth: what was touched";
     "trial", "", "which stream of that label";
     "decision", "", "class decided for, or `unknown`";
@@ -102,25 +173,30 @@ pub const COLUMNS: [Column; 9] = columns! {
     "t_s", "s", "when it fell, as in the trace; not of a recording, which has no clock";
     "side", "", "`left` or `right`; only where several whiskers are heard";
     "whisker", "", "number of the whisker on its side, from 1; likewise";
+    "reason", "",
+        "why no class is named: `unknown` (what was felt is unlike all classes), `pose` (it was \
+        touched in a way that lies outside the poses of training), `between` (it is one of two \
+        classes); empty where one is named";
+    "among", "",
+        "the two classes of `between`, the likelier one first, with `|` between them; otherwise \
+        empty";
 };
 
-/// How many of them a recording has, and a scene with one whisker that is heard.
+/// How many of them a recording has, a scene with one whisker that is heard, and with several,
+/// before those that all have.
 const OF_RECORDING: usize = 6;
 const OF_SCENE: usize = 7;
+const OF_SEVERAL: usize = 9;
 
 /// Writes `decisions.csv`.
 ///
 /// # Errors
 /// Any error of the writer.
 pub fn write(table: impl Write, decisions: &[Decided], columns: Columns) -> io::Result<()> {
-    let count = match columns {
-        Columns::OfRecording => OF_RECORDING,
-        Columns::OfScene => OF_SCENE,
-        Columns::OfSeveral => COLUMNS.len(),
-    };
     let mut table = csv::Writer::from_writer(table);
-    table.write_record(columns::names(&COLUMNS[..count]))?;
+    table.write_record(columns.indices().map(|index| COLUMNS[index].name))?;
     for d in decisions {
+        let [reason, among] = d.why();
         let cells = [
             d.label.clone(),
             d.trial.clone(),
@@ -133,8 +209,10 @@ pub fn write(table: impl Write, decisions: &[Decided], columns: Columns) -> io::
                 .map_or_else(String::new, |place| place.side_name().to_owned()),
             d.place
                 .map_or_else(String::new, |place| (place.whisker + 1).to_string()),
+            reason,
+            among,
         ];
-        table.write_record(&cells[..count])?;
+        table.write_record(columns.indices().map(|index| &cells[index]))?;
     }
     table.flush()
 }
@@ -147,6 +225,7 @@ pub struct Score {
     /// How many the model has.
     classes: usize,
     confusion: Confusion,
+    reasons: Reasons,
     /// Of the decisions that count, the sums of their samples and posteriors.
     samples: u64,
     stated: f64,
@@ -165,6 +244,7 @@ impl Score {
         }
         let place = |name: &String| names.iter().position(|other| other == name);
         let mut confusion = Confusion::new(names.len());
+        let reasons = Reasons::of(decisions.iter().copied());
         let (mut samples, mut stated) = (0, 0.0);
         for d in decisions {
             if let Some(truth) = place(&d.label) {
@@ -180,6 +260,7 @@ impl Score {
             names,
             classes: classes.len(),
             confusion,
+            reasons,
             samples,
             stated,
         }
@@ -194,6 +275,11 @@ impl Score {
     pub fn refused(&self) -> u64 {
         let known = 0..self.classes;
         known.map(|truth| self.confusion.missed(truth)).sum()
+    }
+
+    /// Why those decisions name no class that name none, whatever they were on.
+    pub const fn reasons(&self) -> Reasons {
+        self.reasons
     }
 
     /// Of each label that the model does not know: its name, how many decisions said
@@ -265,7 +351,7 @@ impl fmt::Display for Score {
 
 #[cfg(test)]
 mod tests {
-    use super::{Columns, Decided, Place, Score, UNKNOWN, Verdict, write};
+    use super::{Columns, Decided, Decision, Place, Reason, Score, UNKNOWN, Verdict, words, write};
 
     fn decided(label: &str, decision: &str, samples: u32) -> Decided {
         Decided {
@@ -274,6 +360,8 @@ mod tests {
             label: label.into(),
             trial: "1".into(),
             decision: decision.into(),
+            reason: (decision == UNKNOWN).then_some(Reason::Unknown),
+            among: None,
             samples,
             posterior: 0.995,
             touch: 3,
@@ -346,18 +434,56 @@ mod tests {
         };
         assert_eq!(
             written(Columns::OfRecording),
-            "label,trial,decision,samples,posterior,touch\n\
-             \"sand, wet\",1,ice,20,0.995000000,3\n"
+            "label,trial,decision,samples,posterior,touch,reason,among\n\
+             \"sand, wet\",1,ice,20,0.995000000,3,,\n"
         );
         assert_eq!(
             written(Columns::OfScene),
-            "label,trial,decision,samples,posterior,touch,t_s\n\
-             \"sand, wet\",1,ice,20,0.995000000,3,0.250000000\n"
+            "label,trial,decision,samples,posterior,touch,t_s,reason,among\n\
+             \"sand, wet\",1,ice,20,0.995000000,3,0.250000000,,\n"
         );
         assert_eq!(
             written(Columns::OfSeveral),
-            "label,trial,decision,samples,posterior,touch,t_s,side,whisker\n\
-             \"sand, wet\",1,ice,20,0.995000000,3,0.250000000,right,1\n"
+            "label,trial,decision,samples,posterior,touch,t_s,side,whisker,reason,among\n\
+             \"sand, wet\",1,ice,20,0.995000000,3,0.250000000,right,1,,\n"
         );
+    }
+
+    #[test]
+    fn a_decision_that_names_no_class_says_why() {
+        let classes = ["ice", "loam", "sand, wet"].map(str::to_owned);
+        let (mut rows, mut said) = (Vec::new(), Vec::new());
+        // Of the leader loam: named, and for each reason not.
+        for bits in [0, 1, 1 | 1 << 1, 1 | 2 << 1 | 2 << 3] {
+            let decision = Decision::from_memory(20, 1 << 27, bits << 16).unwrap();
+            let decided = Decided::new(decision, &classes, "loam", "1");
+            assert_eq!(decided.words(), words(decision, &classes));
+            said.push(decided.words());
+            rows.push(decided);
+        }
+        let expected = [
+            "loam",
+            "unknown",
+            "outside the poses of training",
+            "between loam and sand, wet",
+        ];
+        assert_eq!(said, expected);
+        let mut table = Vec::new();
+        write(&mut table, &rows, Columns::OfRecording).unwrap();
+        let table = String::from_utf8(table).unwrap();
+        let mut cells = table.lines().skip(1).map(|row| {
+            let [decision, why] = [2, 6].map(|n| row.splitn(n + 1, ',').last().unwrap());
+            let decision = decision.split(',').next().unwrap();
+            format!("{decision}: {why}")
+        });
+        assert!(cells.by_ref().eq([
+            "loam: ,",
+            "unknown: unknown,",
+            "unknown: pose,",
+            "unknown: between,\"loam|sand, wet\"",
+        ]));
+        let verdicts = rows.iter().map(|row| row.verdict(&classes));
+        let refused = [Verdict::Refused; 3];
+        assert!(verdicts.eq([Verdict::Right].into_iter().chain(refused)));
     }
 }

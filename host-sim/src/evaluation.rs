@@ -6,7 +6,7 @@ use tactile::ModelBuf;
 use tactile::score::{Calibration, Interval, Statistics};
 
 use crate::classifier::{self, Fault};
-use crate::decisions::{Decided, Score, UNKNOWN};
+use crate::decisions::{Decided, Reasons, Score, UNKNOWN};
 use crate::recording::{GATE, Stream};
 use crate::replay::Replay;
 
@@ -71,7 +71,9 @@ pub struct Evaluation {
     pub calibration: Calibration,
     /// Share of decisions that said "unknown".
     pub refused: Interval,
-    /// The same on surfaces that the model does not know.
+    /// Why these named no class.
+    pub reasons: Reasons,
+    /// The same share on surfaces that the model does not know.
     pub strange: Interval,
     /// Share of presentations in which no class was named.
     pub undecided: Interval,
@@ -99,6 +101,7 @@ impl Evaluation {
             samples_error: samples.map_or(f64::NAN, error),
             calibration: Calibration::of(named().map(|d| (d.posterior, d.is_right()))),
             refused: unknown(decided.iter().copied()),
+            reasons: Reasons::of(decided.iter().copied()),
             strange: unknown(strange.flat_map(|p| &p.decided)),
             undecided: undecided(known()),
         }

@@ -5,7 +5,7 @@ use scene::Rule;
 use tactile::{AnyRule, ModelBuf, NaiveBayes, Quantiser, WrongChannels};
 
 use crate::classifier::{self, Fault};
-use crate::decisions::{self, Decided};
+use crate::decisions::Decided;
 use crate::recording::{GATE, Stream};
 
 /// A classifier of recordings. Their samples may be any numbers: the model's
@@ -76,16 +76,8 @@ impl Replay {
             let Some(decision) = self.bayes.push(&codes)? else {
                 continue;
             };
-            decided.push(Decided {
-                t_s: None,
-                place: None,
-                label: stream.label.clone(),
-                trial: stream.trial.clone(),
-                decision: decisions::name(decision, &self.classes).to_owned(),
-                samples: decision.samples(),
-                posterior: decision.posterior().to_f64(),
-                touch: decision.touch(),
-            });
+            let Stream { label, trial, .. } = stream;
+            decided.push(Decided::new(decision, &self.classes, label, trial));
         }
         Ok(decided)
     }

@@ -89,19 +89,19 @@ pub fn decision(decided: &Decided, classes: &[String]) {
     let Decided {
         t_s,
         label,
-        decision,
         samples,
         posterior,
         ..
     } = decided;
     let (t_s, verdict) = (t_s.unwrap_or_default(), decided.verdict(classes));
     // Of what is none of the classes the posterior says only which came nearest.
-    let sure = match decision.as_str() {
-        UNKNOWN => String::new(),
-        _ => format!("{:.2} %", 100.0 * posterior),
+    let sure = match decided.reason {
+        Some(_) => String::new(),
+        None => format!("{:.2} %", 100.0 * posterior),
     };
+    let said = decided.words();
     say(format_args!(
-        "{t_s:8.3} s  {decision:<8} {sure:>8}  {samples:5} samples  {verdict} ({label})"
+        "{t_s:8.3} s  {said:<8} {sure:>8}  {samples:5} samples  {verdict} ({label})"
     ));
 }
 
@@ -152,6 +152,67 @@ impl fmt::Display for Summary<'_> {
                 "\n{refused} more said \"{UNKNOWN}\" of what the model knows: refused, neither \
                  right nor wrong"
             ),
+        }?;
+        let reasons = score.reasons().apart();
+        let each: Vec<String> = reasons
+            .map(|(reason, count)| format!("{count} {reason}"))
+            .collect();
+        if each.is_empty() {
+            return Ok(());
         }
+        write!(f, "\nfor no class: {}", each.join(", "))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use tactile::Decision;
+
+    use super::{Figures, OverRuns, Summary};
+    use crate::decisions::{Decided, Score};
+    use crate::evaluation::{Evaluation, Shown};
+
+    #[test]
+    fn what_is_not_named_is_counted_by_its_reason() {
+        let classes = ["ice", "loam"].map(str::to_owned);
+        let told = |bits: &[u32]| {
+            let decided = bits.iter().map(|bits| {
+                let decision = Decision::from_memory(34, 1 << 27, bits << 16).unwrap();
+                Decided::new(decision, &classes, "loam", "1")
+            });
+            let shown = [Shown {
+                label: "loam".to_owned(),
+                decided: decided.collect(),
+            }];
+            let evaluation = Evaluation::new(&classes, &shown);
+            let runs = OverRuns {
+                runs: &[],
+                together: &evaluation,
+                tick_hz: 2000.0,
+            };
+            let score = Score::new(&classes, &shown[0].decided);
+            [
+                Figures(&evaluation, 2000.0).to_string(),
+                runs.to_string(),
+                Summary(&score, None).to_string(),
+            ]
+        };
+        // Five for a class, two unknown, one outside the poses, two between two classes.
+        let [figures, runs, summary] = told(&[0, 0, 0, 0, 0, 1, 1, 3, 5, 5]);
+        for report in [figures, runs] {
+            for line in [
+                "\nrefused            50.0 % (",
+                "\n- unknown          20.0 % (",
+                "\n- pose             10.0 % (",
+                "\n- between          20.0 % (",
+            ] {
+                assert!(report.contains(line), "{line}:\n{report}");
+            }
+        }
+        let reasons = "\nfor no class: 2 unknown, 1 pose, 2 between";
+        assert!(summary.ends_with(reasons), "{summary}");
+        let without = told(&[0, 1, 1]);
+        let tells = |report: &String| report.contains("\n- ") || report.contains("for no class");
+        assert!(!without.iter().any(tells));
     }
 }

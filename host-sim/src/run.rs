@@ -15,7 +15,7 @@ use crate::bench::{self, Bench, HostModule, Snapshot};
 use crate::bus::Slave;
 use crate::bus::tmag5170::TmagSlave;
 use crate::classifier::Classifier;
-use crate::decisions::{self, Decided};
+use crate::decisions::Decided;
 use crate::motor::{PWM_COUNTS, SimMotor};
 use crate::trace::{Row, TraceLine, WhiskerRow};
 use crate::world::World;
@@ -447,15 +447,11 @@ impl<B: Bench + ?Sized> Run<B> {
             let Event::Decision(place, decision) = event else {
                 return None;
             };
+            let trial = self.presented.trial.to_string();
             Some(Decided {
                 place: Some(*place),
                 t_s: Some(self.t_s()),
-                label: self.presented.label.to_owned(),
-                trial: self.presented.trial.to_string(),
-                decision: decisions::name(*decision, &self.classes).to_owned(),
-                samples: decision.samples(),
-                posterior: decision.posterior().to_f64(),
-                touch: decision.touch(),
+                ..Decided::new(*decision, &self.classes, self.presented.label, &trial)
             })
         })
     }

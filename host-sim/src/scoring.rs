@@ -8,7 +8,7 @@ use tactile::score::Statistics;
 use crate::Error;
 use crate::bench;
 use crate::classifier::Classifier;
-use crate::decisions::{self, Decided, UNKNOWN};
+use crate::decisions::{Decided, UNKNOWN};
 use crate::evaluation::{Evaluation, Shown};
 use crate::run::Run;
 
@@ -194,15 +194,11 @@ impl Heard {
                         continue;
                     };
                     let each = self.whiskers_per_side.max(1);
+                    let (label, trial) = (&presentation.label, presentation.trial.to_string());
                     decided.push(Decided {
                         t_s: Some(t_s),
                         place: Some(Place::new((n / each) as u8, (n % each) as u8)),
-                        label: presentation.label.clone(),
-                        trial: presentation.trial.to_string(),
-                        decision: decisions::name(decision, classifier.classes()).to_owned(),
-                        samples: decision.samples(),
-                        posterior: decision.posterior().to_f64(),
-                        touch: decision.touch(),
+                        ..Decided::new(decision, classifier.classes(), label, &trial)
                     });
                 }
                 scoring.tick(samples, decided.into_iter());

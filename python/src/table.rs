@@ -230,6 +230,10 @@ pub(crate) fn decisions<'py>(
     let trial = Kind::text(all().map(|d| d.trial.as_str()));
     let decision = Kind::text(all().map(|d| d.decision.as_str()));
     let side = Kind::Text(6);
+    // The longest is "unknown".
+    let reason = Kind::Text(8);
+    let pairs: Vec<String> = all().map(|d| d.why()[1].clone()).collect();
+    let among = Kind::text(pairs.iter().map(String::as_str));
     let kinds = [
         label,
         trial,
@@ -240,14 +244,11 @@ pub(crate) fn decisions<'py>(
         Kind::Number,
         side,
         Kind::Whole,
+        reason,
+        among,
     ];
-    let count = match columns {
-        Columns::OfRecording => 6,
-        Columns::OfScene => 7,
-        Columns::OfSeveral => 9,
-    };
-    let names = COLUMNS.iter().map(|column| column.name);
-    let mut layout = Layout::new(names.zip(kinds).take(count));
+    let indices = columns.indices();
+    let mut layout = Layout::new(indices.map(|index| (COLUMNS[index].name, kinds[index])));
     if runs.iter().any(|(seed, _)| seed.is_some()) {
         layout = layout.after("seed", Kind::Seed);
     }
@@ -270,6 +271,9 @@ pub(crate) fn decisions<'py>(
                 rows.text(d.place.map_or("", |place| place.side_name()), side);
                 rows.whole(d.place.map_or(0, |place| i64::from(place.whisker) + 1));
             }
+            let [why, pair] = d.why();
+            rows.text(&why, reason);
+            rows.text(&pair, among);
         }
     }
     layout.array(py, rows.bytes)

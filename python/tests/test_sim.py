@@ -80,7 +80,8 @@ def test_decisions_and_posteriors():
     sim = whisker.Sim(TEXTURES)
     rows = sim.run()
     decisions, posteriors = sim.decisions, sim.posteriors
-    assert list(decisions.dtype.names) == list(whisker.columns("decisions"))[:7]
+    names = list(whisker.columns("decisions"))
+    assert list(decisions.dtype.names) == names[:7] + names[9:]
     fell = rows["decision"] != ""
     assert np.array_equal(rows["decision"][fell], decisions["decision"])
     assert np.array_equal(rows["t_s"][fell], decisions["t_s"])
@@ -90,6 +91,29 @@ def test_decisions_and_posteriors():
     assert np.diff(posteriors["t_s"]).min() > 39.5 / 2000
     named = decisions[decisions["decision"] != "unknown"]
     assert np.mean(named["decision"] == named["label"]) > 0.9
+    assert all(whisker.why(decision) == (None, None) for decision in named)
+
+
+def test_a_decision_that_names_no_class_says_why():
+    decisions = whisker.Sim(whisker.SCENES["unknown"], set={"duration_s": 60.0})
+    decisions.run(every=1000)
+    decisions = decisions.decisions
+    silent = decisions["decision"] == "unknown"
+    assert silent.sum() > 10
+    assert np.array_equal(silent, decisions["reason"] != "")
+    kept = {"unknown", "pose", "between"}
+    assert {whisker.why(decision).reason for decision in decisions[silent]} <= kept
+    between = decisions["reason"] == "between"
+    assert np.array_equal(between, decisions["among"] != "")
+    # Rows as the columns have them, for each reason.
+    for reason, among, why in [
+        ("", "", (None, None)),
+        ("unknown", "", ("unknown", None)),
+        ("pose", "", ("pose", None)),
+        ("between", "p600|p240", ("between", ("p600", "p240"))),
+    ]:
+        row = np.array([(reason, among)], dtype=[("reason", "U8"), ("among", "U10")])[0]
+        assert whisker.why(row) == why
 
 
 def test_setpoint_and_gain_move_the_whisker():

@@ -142,15 +142,15 @@
     const hz = player.tick_hz() / 4;
     if (points.length > SPAN_S * hz) points.splice(0, points.length - SPAN_S * hz);
     for (const line of player.decisions()) {
-      const [t, side, said, posterior, samples, truth] = line.split("\t");
+      const [t, side, decision, posterior, samples, truth, words] = line.split("\t");
       const item = document.createElement("li");
-      const verdict = said === "unknown" ? "unknown" : said === truth ? "right" : "wrong";
+      const verdict = decision === "unknown" ? "unknown" : decision === truth ? "right" : "wrong";
       if (verdict === "right") right += 1;
       else if (verdict === "wrong") wrong += 1;
       else unknown += 1;
       item.className = `is-${verdict}`;
       const where = sides > 1 ? ` ${side}` : "";
-      item.textContent = `${t} s${where}: ${said} (${posterior}, ${samples} samples)`;
+      item.textContent = `${t} s${where}: ${words} (${posterior}, ${samples} samples)`;
       $("decisions").prepend(item);
       while ($("decisions").children.length > 30) $("decisions").lastChild.remove();
     }

@@ -1,5 +1,6 @@
 //! A scene as it is watched.
 
+use host_sim::decisions::Decided;
 use host_sim::run::Run;
 use host_sim::trace::WhiskerRow;
 use physics::{At, Bent};
@@ -7,6 +8,24 @@ use scene::{PlantKind, Rule, Scene, Texture};
 use wasm_bindgen::prelude::wasm_bindgen;
 
 use crate::loaded;
+
+/// The line of a decision.
+fn line(t_s: f64, d: &Decided) -> String {
+    let side = d.place.map_or("", |place| place.side_name());
+    let posterior = format!("{:.4}", d.posterior);
+    let (samples, words) = (d.samples.to_string(), d.words());
+    let t_s = format!("{t_s:.3}");
+    let cells = [
+        &t_s,
+        side,
+        &d.decision,
+        &posterior,
+        &samples,
+        &d.label,
+        &words,
+    ];
+    cells.join("\t")
+}
 
 /// Ticks between two points of the curves.
 const EVERY: u64 = 4;
@@ -51,12 +70,7 @@ impl Player {
             let t_s = self.run.tick().t_s;
             self.done += 1;
             for d in self.run.decisions() {
-                let side = d.place.map_or("", |place| place.side_name());
-                let posterior = format!("{:.4}", d.posterior);
-                let samples = d.samples.to_string();
-                let t_s = format!("{t_s:.3}");
-                let cells = [&t_s, side, &d.decision, &posterior, &samples, &d.label];
-                self.decided.push(cells.join("\t"));
+                self.decided.push(line(t_s, &d));
             }
             if self.done.is_multiple_of(EVERY) {
                 self.run.look_at_whiskers(&mut self.whiskers);
@@ -136,8 +150,8 @@ impl Player {
         }
     }
 
-    /// The decisions since the last call: time, side, decision, posterior, samples and the truth,
-    /// with tabulators between them.
+    /// The decisions since the last call: time, side, decision, posterior, samples, the truth and
+    /// the decision in words, with tabulators between them.
     pub fn decisions(&mut self) -> Vec<String> {
         std::mem::take(&mut self.decided)
     }
@@ -205,6 +219,33 @@ impl Player {
             "plant.friction" => self.scene.plant.textured.as_ref()?.friction,
             "classifier.threshold" => self.threshold(),
             _ => None,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use host_sim::decisions::Decided;
+    use tactile::Decision;
+
+    use super::line;
+
+    #[test]
+    fn a_decision_that_names_no_class_says_why() {
+        let classes = ["ice", "loam"].map(str::to_owned);
+        for (bits, cells) in [
+            (0, "loam\t0.5000\t34\tloam\tloam"),
+            (1, "unknown\t0.5000\t34\tloam\tunknown"),
+            (
+                3,
+                "unknown\t0.5000\t34\tloam\toutside the poses of training",
+            ),
+            (5, "unknown\t0.5000\t34\tloam\tbetween loam and ice"),
+        ] {
+            // Class 1 at even odds.
+            let decision = Decision::from_memory(34, 1 << 27 | 1 << 15, bits << 16).unwrap();
+            let decided = Decided::new(decision, &classes, "loam", "1");
+            assert_eq!(line(1.25, &decided), format!("1.250\t\t{cells}"));
         }
     }
 }

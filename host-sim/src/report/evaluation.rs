@@ -27,6 +27,23 @@ impl fmt::Display for Percent {
     }
 }
 
+/// The share of decisions that named no class, with its name, and below it that of each reason.
+pub(crate) struct Refused<'a>(pub(crate) &'a Evaluation);
+
+impl fmt::Display for Refused<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Evaluation {
+            refused, reasons, ..
+        } = self.0;
+        writeln!(f, "refused            {}", Percent(*refused))?;
+        for (reason, count) in reasons.apart() {
+            let share = Interval::of(count, refused.count);
+            writeln!(f, "- {reason:<16} {}", Percent(share))?;
+        }
+        Ok(())
+    }
+}
+
 /// The figures of an evaluation; times by samples a second.
 #[derive(Debug)]
 pub struct Figures<'a>(pub &'a Evaluation, pub f64);
@@ -41,9 +58,9 @@ impl fmt::Display for Figures<'_> {
             samples,
             samples_error,
             calibration,
-            refused,
             strange,
             undecided,
+            ..
         } = evaluation;
         writeln!(f, "{score}")?;
         let width = classes.iter().map(|class| class.name.chars().count()).max();
@@ -67,7 +84,7 @@ impl fmt::Display for Figures<'_> {
             }
             None => writeln!(f, "no decision for a class")?,
         }
-        writeln!(f, "refused            {}", Percent(*refused))?;
+        write!(f, "{}", Refused(evaluation))?;
         if strange.count > 0 {
             writeln!(f, "refused, new       {}", Percent(*strange))?;
         }

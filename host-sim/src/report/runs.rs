@@ -5,7 +5,7 @@ use std::ops::Range;
 
 use tactile::score::Statistics;
 
-use super::evaluation::{Percent, Stated};
+use super::evaluation::{Percent, Refused, Stated};
 use crate::evaluation::Evaluation;
 use crate::scoring::Scored;
 
@@ -94,7 +94,6 @@ impl fmt::Display for OverRuns<'_> {
         let Evaluation {
             score,
             calibration,
-            refused,
             strange,
             undecided,
             ..
@@ -109,7 +108,7 @@ impl fmt::Display for OverRuns<'_> {
             "\nall runs together (in brackets 95 % intervals)\n\n{score}"
         )?;
         write!(f, "{}", Stated(calibration))?;
-        writeln!(f, "refused            {}", Percent(*refused))?;
+        write!(f, "{}", Refused(self.together))?;
         if strange.count > 0 {
             writeln!(f, "refused, unknown   {}", Percent(*strange))?;
         }

@@ -6,6 +6,7 @@ use std::process::{Command, Output, Stdio};
 
 use firmware::Place as Whisker;
 use host_sim::decisions::Decided;
+use tactile::Reason;
 use tactile::train::{Options, Trainer};
 use tempfile::TempDir;
 
@@ -235,22 +236,37 @@ fn whisker(cells: &[&str]) -> Option<Whisker> {
 pub(crate) fn decisions(text: &str) -> Vec<Decided> {
     let mut rows = cells(text).into_iter();
     let header = rows.next().unwrap().join(",");
+    let header = header.strip_suffix(",reason,among").unwrap();
     let of_recording = "label,trial,decision,samples,posterior,touch";
     let of_scene = format!("{of_recording},t_s");
     let of_several = format!("{of_scene},side,whisker");
     assert!(
-        [of_recording, &of_scene, &of_several].contains(&header.as_str()),
+        [of_recording, &of_scene, &of_several].contains(&header),
         "{header}"
     );
-    rows.map(|row| Decided {
-        t_s: row.get(6).map(|t_s| t_s.parse().unwrap()),
-        place: row.get(7..).and_then(whisker),
-        label: row[0].into(),
-        trial: row[1].into(),
-        decision: row[2].into(),
-        samples: row[3].parse().unwrap(),
-        posterior: row[4].parse().unwrap(),
-        touch: row[5].parse().unwrap(),
+    rows.map(|row| {
+        let [row @ .., reason, among] = row.as_slice() else {
+            panic!("{row:?}");
+        };
+        let among = among.split_once('|');
+        Decided {
+            t_s: row.get(6).map(|t_s| t_s.parse().unwrap()),
+            place: row.get(7..).and_then(whisker),
+            label: row[0].into(),
+            trial: row[1].into(),
+            decision: row[2].into(),
+            reason: match *reason {
+                "" => None,
+                "unknown" => Some(Reason::Unknown),
+                "pose" => Some(Reason::Pose),
+                "between" => Some(Reason::Between(0)),
+                reason => panic!("{reason}"),
+            },
+            among: among.map(|(leader, rival)| [leader, rival].map(str::to_owned)),
+            samples: row[3].parse().unwrap(),
+            posterior: row[4].parse().unwrap(),
+            touch: row[5].parse().unwrap(),
+        }
     })
     .collect()
 }

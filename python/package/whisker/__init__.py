@@ -13,7 +13,7 @@ True
 from pathlib import Path
 
 from whisker._core import Model, Problem, SceneError, Sim, columns, press, record, run_many
-from whisker.learning import Evaluation, classify, evaluate, train
+from whisker.learning import Evaluation, Why, classify, evaluate, train, why
 
 #: The scenes of the project by their names, with their models beside them.
 SCENES: dict[str, Path] = {
@@ -27,6 +27,7 @@ __all__ = [
     "Problem",
     "SceneError",
     "Sim",
+    "Why",
     "classify",
     "columns",
     "evaluate",
@@ -34,4 +35,5 @@ __all__ = [
     "record",
     "run_many",
     "train",
+    "why",
 ]

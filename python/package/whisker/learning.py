@@ -48,6 +48,21 @@ class Evaluation(NamedTuple):
     """The confusion matrix as text."""
 
 
+class Why(NamedTuple):
+    """Why a decision names no class."""
+
+    reason: str | None
+    """"unknown", "pose" or "between"; None where a class is named."""
+    among: tuple[str, str] | None
+    """The two classes of "between", the likelier one first; otherwise None."""
+
+
+def why(decision: Any) -> Why:
+    """Why a decision names no class: of a row of ``classify`` or of ``Sim.decisions``."""
+    leader, is_between, rival = str(decision["among"]).partition("|")
+    return Why(str(decision["reason"]) or None, (leader, rival) if is_between else None)
+
+
 class _Prepared(NamedTuple):
     name: str
     streams: list[tuple[str, str, int, int]]

@@ -78,6 +78,8 @@ fn read_decisions(path: &Path) -> Vec<Decision> {
         "samples",
         "posterior",
         "touch",
+        "reason",
+        "among",
     ];
     assert_eq!(table.headers().unwrap(), &header[..]);
     table.deserialize().collect::<Result<_, _>>().unwrap()

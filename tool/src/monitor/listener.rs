@@ -24,8 +24,8 @@ const UNSEEN: u32 = 100;
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Decided {
     pub(crate) side: usize,
-    /// The class, or that it is none.
-    pub(crate) class: String,
+    /// The class, or why it is none.
+    pub(crate) said: String,
     /// Its posterior, 0 to 1, and the samples that it used.
     pub(crate) posterior: f64,
     pub(crate) samples: u32,
@@ -198,7 +198,7 @@ impl Listener {
         let classes = perception.classifier().classes();
         let decided = fell.into_iter().map(|(place, decision)| Decided {
             side: usize::from(place.side),
-            class: decisions::name(decision, classes).to_owned(),
+            said: decisions::words(decision, classes),
             posterior: decision.posterior().to_f64(),
             samples: decision.samples(),
         });

@@ -118,10 +118,10 @@ impl History {
             Event::Touch { place, number } => format!("{t_s:8.3} {}touch {number}", of(place)),
             Event::TouchEnd { place, number } => format!("{t_s:8.3} {}  {number} ends", of(place)),
             Event::Decision(place, decision) => {
-                let class = decisions::name(*decision, &self.module_classes);
+                let said = decisions::words(*decision, &self.module_classes);
                 let percent = 100.0 * decision.posterior().to_f64();
                 let samples = decision.samples();
-                format!("{t_s:8.3} {}{class} {percent:.2} % {samples}", of(place))
+                format!("{t_s:8.3} {}{said} {percent:.2} % {samples}", of(place))
             }
             _ => return None,
         })
@@ -197,7 +197,7 @@ impl History {
                 let (at_s, decided) = (said.ticks as f64 / hz, &said.what);
                 lines.push(format!(
                     "{} {:.2} % at {at_s:.3} s",
-                    decided.class,
+                    decided.said,
                     100.0 * decided.posterior
                 ));
             }

@@ -12,6 +12,7 @@ use mcap::records::{MessageHeader, Metadata};
 use mcap::write::NoSeek;
 use mcap::{McapError, WriteOptions, Writer};
 use serde_json::{Value, json};
+use tactile::Reason;
 use wire::{Answer, TickRecord};
 
 use crate::faults::number;
@@ -106,12 +107,15 @@ impl Messages {
         let t_s = f64::from(*sequence) / f64::from(self.tick_hz);
         let (channel, message) = match event {
             Event::Decision(place, decision) => {
+                let among = decisions::among(*decision, &self.classes);
                 let message = json!({
                     "t_s": t_s,
                     "side": place.side_name(),
                     "decision": decisions::name(*decision, &self.classes),
                     "posterior": decision.posterior().to_f64(),
                     "samples": decision.samples(),
+                    "reason": decision.reason().map_or("", Reason::name),
+                    "among": among.as_ref().map_or(&[][..], |among| among),
                 });
                 (self.channels.decisions, message)
             }
@@ -218,6 +222,15 @@ fn decision_schema() -> Value {
         "decision": {"type": "string", "description": "the class, or unknown"},
         "posterior": {"type": "number", "description": "its probability, 0 to 1"},
         "samples": {"type": "integer", "description": "samples that it used"},
+        "reason": {
+            "type": "string",
+            "description": "why no class is named: unknown, pose or between; otherwise empty",
+        },
+        "among": {
+            "type": "array",
+            "items": {"type": "string"},
+            "description": "the two classes of between, the likelier one first; otherwise empty",
+        },
     })
 }
 

@@ -96,8 +96,16 @@ fn messages_are_the_table_and_the_log() {
     for (line, (_, decision)) in lines.iter().zip(decisions) {
         // The line cuts it.
         let percent = (1e6 * decision["posterior"].as_f64().unwrap()).floor() / 1e4;
+        let why = match (&decision["reason"], &decision["among"]) {
+            (reason, Value::Array(among)) if reason == "between" => {
+                let [leader, rival] = [0, 1].map(|n| among[n].as_str().unwrap());
+                format!(" between {leader} and {rival}")
+            }
+            (reason, _) if reason == "pose" => " outside the poses of training".to_owned(),
+            _ => String::new(),
+        };
         let again = format!(
-            "{:.3} INFO  decision {} {} {percent:.4} {}",
+            "{:.3} INFO  decision {} {} {percent:.4} {}{why}",
             decision["t_s"].as_f64().unwrap(),
             decision["side"].as_str().unwrap(),
             decision["decision"].as_str().unwrap(),

@@ -41,10 +41,10 @@ fn listened(
                     sequence,
                     event: Event::Decision(place, decision),
                 }) => {
-                    let class = decisions::name(*decision, &classes).to_owned();
+                    let said = decisions::words(*decision, &classes);
                     let millionths = (1e6 * decision.posterior().to_f64()).floor() as i64;
                     let side = usize::from(place.side);
-                    sent.push((*sequence, side, class, millionths, decision.samples()));
+                    sent.push((*sequence, side, said, millionths, decision.samples()));
                     continue;
                 }
                 _ => continue,
@@ -56,12 +56,12 @@ fn listened(
             for decided in listener.take(record, before) {
                 let Decided {
                     side,
-                    class,
+                    said,
                     posterior,
                     samples,
                 } = decided;
                 let millionths = (1e6 * posterior).floor() as i64;
-                own.push((record.sequence, side, class, millionths, samples));
+                own.push((record.sequence, side, said, millionths, samples));
             }
         }
     }
