@@ -30,6 +30,7 @@ fn model(touch: Option<TouchRule>) -> ModelBuf {
         }],
         floors: None,
         touch,
+        opinion: &[],
     })
     .unwrap()
 }
