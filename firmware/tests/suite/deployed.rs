@@ -1,7 +1,7 @@
 //! Models that lie apart from the program: which are taken, and why others are not.
 
 use firmware::{CodeClassifier, ModelLimits, ModelState, Refusal};
-use tactile::{Aligned, CRC_BYTES, Deciding, RuleSettings, Threshold, checksum};
+use tactile::{Aligned, CRC_BYTES, Deciding, RuleSettings, Threshold, Whisked, checksum};
 
 /// The main job's: two channels of codes, four classes, a gate of 0.05.
 const MODEL: &[u8] = include_bytes!("../../../scenes/models/textures.model");
@@ -9,6 +9,10 @@ const MODEL: &[u8] = include_bytes!("../../../scenes/models/textures.model");
 const LIMITS: ModelLimits = ModelLimits {
     classes: 6,
     contact_min: None,
+    whisked: Whisked {
+        frequency_mhz: None,
+        has_rcp: None,
+    },
 };
 
 /// Flash for a model.
@@ -76,7 +80,7 @@ fn whatever_is_wrong_has_its_reason() {
     let right = Place::with(MODEL);
     refused(Place::with(&[]), LIMITS, Refusal::Absent);
     refused(right.changed(0, b'w'), LIMITS, Refusal::Strange);
-    refused(right.changed(4, 3), LIMITS, Refusal::Version);
+    refused(right.changed(4, 4), LIMITS, Refusal::Version);
     // 16 KiB and more.
     refused(right.changed(13, 0x40), LIMITS, Refusal::TooLong);
     let damaged = right.changed(5_000, !MODEL[5_000]);
@@ -90,11 +94,60 @@ fn whatever_is_wrong_has_its_reason() {
     };
     refused(right, few, Refusal::Classes);
     let codes: Vec<_> = Refusal::ALL.iter().map(|why| why.code()).collect();
-    assert_eq!(codes, (1..=12).collect::<Vec<u8>>());
+    assert_eq!(codes, (1..=14).collect::<Vec<u8>>());
     for why in Refusal::ALL {
         assert_eq!(Refusal::from_code(why.code()), Some(*why));
     }
     assert_eq!(Refusal::from_code(0), None);
+}
+
+/// The same model with an opinion that has nothing against any name, of one pose and one stage.
+fn objecting(whisked: [u32; 2]) -> Vec<u8> {
+    // Of four classes, see `opinion/section.rs` of the crate tactile.
+    const WORDS: usize = 685;
+    let mut opinion = [0; WORDS];
+    opinion[0] = u32::from_le_bytes([0, 1, 1, 1]);
+    opinion[6..8].copy_from_slice(&whisked);
+    let mut bytes = MODEL[..MODEL.len() - CRC_BYTES].to_vec();
+    bytes.extend(opinion.iter().flat_map(|word: &u32| word.to_le_bytes()));
+    let length = (bytes.len() + CRC_BYTES) as u32;
+    bytes[4] = 3;
+    bytes[12..16].copy_from_slice(&length.to_le_bytes());
+    bytes[29..31].copy_from_slice(&(WORDS as u16).to_le_bytes());
+    bytes.extend(checksum(&bytes).to_le_bytes());
+    bytes
+}
+
+#[test]
+fn a_model_is_for_the_whisking_of_its_training() {
+    let scene = |frequency_mhz, has_rcp| ModelLimits {
+        whisked: Whisked {
+            frequency_mhz,
+            has_rcp,
+        },
+        ..LIMITS
+    };
+    let (two_hz, without_rcp, unknown) = (2000, 1, 0);
+    for (trained, limits, is_taken) in [
+        ([two_hz, without_rcp], scene(Some(2_090), Some(false)), true),
+        (
+            [two_hz, without_rcp],
+            scene(Some(2_110), Some(false)),
+            false,
+        ),
+        ([two_hz, without_rcp], scene(Some(2_000), Some(true)), false),
+        ([two_hz, without_rcp], scene(None, None), true),
+        ([unknown, unknown], scene(Some(9_000), Some(true)), true),
+    ] {
+        let place = Place::with(&objecting(trained));
+        let refused = ModelState::Refused(Refusal::Whisked);
+        assert_eq!(
+            place.state(limits) != refused,
+            is_taken,
+            "{trained:?} {limits:?}"
+        );
+        assert!(!is_taken || matches!(place.state(limits), ModelState::Runs { .. }));
+    }
 }
 
 #[test]
