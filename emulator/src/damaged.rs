@@ -64,7 +64,7 @@ pub(crate) fn models(right: &[u8], facts: &BoardFacts) -> Result<Vec<Wrong>, Err
     let many = facts.max_classes + 1;
     Ok(vec![
         ("something else", changed(0, 1), Refusal::Strange),
-        ("another version", changed(VERSION_AT, 1), Refusal::Version),
+        ("another version", changed(VERSION_AT, 8), Refusal::Version),
         ("too long", long, Refusal::TooLong),
         (
             "a bit flipped",

@@ -18,6 +18,7 @@ mod parts;
 mod shape;
 
 use serde::{Deserialize, Serialize};
+use tactile::Whisked;
 use whisking::motor::Driver;
 use whisking::{Real, Start, filter};
 
@@ -128,6 +129,20 @@ pub struct Links {
 }
 
 impl<R: Real> Config<R> {
+    /// How it whisks; nothing is known of passive whiskers.
+    pub fn whisked(&self) -> Whisked {
+        let Some(motion) = self.motion.as_ref().filter(|_| Part::Motion.is_built()) else {
+            return Whisked::default();
+        };
+        let cycles = i64::from(motion.whisking.oscillators.cycles_q24());
+        let frequency = (cycles * 1000 * i64::from(self.head.tick_hz)) >> 24;
+        Whisked {
+            // At most an eighth of the rate of ticks.
+            frequency_mhz: Some(frequency as u32),
+            has_rcp: Some(motion.whisking.rcp.is_some()),
+        }
+    }
+
     /// One passive whisker that feels nothing and tells nothing: the smallest configuration.
     pub const fn still() -> Self {
         Self {

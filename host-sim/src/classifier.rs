@@ -225,6 +225,7 @@ pub fn deployed(
     let limits = ModelLimits {
         classes,
         contact_min: classifier.contact_min.map(|least| least as f32),
+        whisked: config::whisked(scene),
     };
     let words: Vec<u32> = flash
         .as_chunks()

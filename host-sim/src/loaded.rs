@@ -133,6 +133,10 @@ impl Loaded {
             let place = self.places.of("classifier.contact_min");
             Error::Input(format!("{place}: {fault}"))
         })?;
+        config::whisks_as(&self.scene, model.whisked()).map_err(|fault| {
+            let place = self.places.of("classifier.model");
+            Error::Input(format!("{place}: {fault}"))
+        })?;
         knows_a_texture(&self.scene, classifier.classes())
             .map_err(|fault| refused("classifier.model", fault))?;
         Ok(Some(classifier))

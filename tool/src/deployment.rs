@@ -53,7 +53,7 @@ fn with_model<R: Real>(
     let code = running.program().board;
     let of_config = |fault: ConfigError| fault.to_string();
     let mut config = decode::<R>(running.bytes(), code).map_err(of_config)?;
-    let whiskers = config.head.whiskers();
+    let (whiskers, whisked) = (config.head.whiskers(), config.whisked());
     let classifier = config.classifier.as_mut();
     let Some((classifier, rule)) = classifier.and_then(|of| of.rule.map(|rule| (of, rule))) else {
         return Err("it has no [classifier], and so no use for a model".to_owned());
@@ -61,6 +61,7 @@ fn with_model<R: Real>(
     let limits = ModelLimits {
         classes: board.max_classes,
         contact_min: classifier.contact_min.map(|least| least.to_f64() as f32),
+        whisked,
     };
     let rule = (rule, classifier.deciding);
     let found = CodeClassifier::at_start(model.as_bytes(), limits, rule, whiskers);

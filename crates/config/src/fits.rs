@@ -2,9 +2,10 @@
 
 use firmware::boards::{self, BoardFacts};
 use scene::{Rule, Scene, SensorMode, SensorModel};
-use tactile::ModelBuf;
+use tactile::{Deciding, ModelBuf, StreamClassifier};
 
-use crate::{Mismatch, NoSuchFormat};
+use crate::module::rule_settings;
+use crate::{Mismatch, NoSuchFormat, whisks_as};
 
 /// Largest exponent of a model's scale that still lets 14-bit codes fit it.
 const MAX_EXPONENT: i16 = 17;
@@ -100,6 +101,10 @@ fn model_fits(scene: &Scene, model: &ModelBuf, board: &BoardFacts) -> Result<(),
             model.block()
         )));
     }
+    let rule = rule_settings(classifier.rule)?;
+    StreamClassifier::new(model.view(), rule, Deciding::First, 1)
+        .map_err(|fault| Unfit::Model(fault.to_string()))?;
+    whisks_as(scene, model.whisked())?;
     let (found, most) = (model.classes(), board.max_classes);
     if found > most {
         return Err(Unfit::Model(format!(

@@ -80,9 +80,14 @@ fn features<R: Real>(
     board: &BoardFacts,
 ) -> Vec<&'static str> {
     let mut features: Vec<_> = parts(config).into_iter().map(Part::feature).collect();
-    let may_be_joint = model.is_none_or(|model| model.view().is_joint());
-    if config.classifier.is_some() && may_be_joint {
-        features.push("joint");
+    if config.classifier.is_some() {
+        let any_that = |asks: fn(&ModelBuf) -> bool| model.is_none_or(asks);
+        let of_models = [
+            (any_that(|model| model.is_joint()), "joint"),
+            (any_that(|model| model.has_opinion()), "opinion"),
+        ];
+        let needed = of_models.into_iter().filter(|(is_needed, _)| *is_needed);
+        features.extend(needed.map(|(_, feature)| feature));
     }
     if config.head.sides > 1 {
         features.push("both-sides");

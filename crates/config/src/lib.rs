@@ -17,6 +17,7 @@ pub use numbers::{NoSuchFormat, NumberFormat, in_simulation, on_board};
 pub use stability::{Instability, Unstable};
 
 use scene::Scene;
+use tactile::Whisked;
 use whisking::{Error, Real, filter};
 
 /// What is wrong with a scene for its module.
@@ -42,6 +43,18 @@ pub enum Mismatch {
         /// The model's.
         gate: f32,
     },
+    /// It whisks otherwise than its classifier's model was trained.
+    #[error(
+        "classifier.model: found one that was trained {}; the scene whisks {}",
+        words(.trained),
+        words(.scene)
+    )]
+    Whisked {
+        /// The model's.
+        trained: Whisked,
+        /// The scene's.
+        scene: Whisked,
+    },
     /// No rule can decide by it.
     #[error("classifier.threshold: found {found}; {fault}")]
     Threshold {
@@ -53,6 +66,39 @@ pub enum Mismatch {
     /// The module has no room for it.
     #[error("{0}")]
     Config(#[from] firmware::ConfigError),
+}
+
+/// How it is whisked, in words.
+fn words(whisked: &Whisked) -> String {
+    let frequency = whisked.frequency_mhz;
+    let frequency = frequency.map(|mhz| format!("at {} Hz", f64::from(mhz) / 1000.0));
+    let rcp = whisked.has_rcp.map(|has_rcp| {
+        let rcp = if has_rcp { "with RCP" } else { "without RCP" };
+        rcp.to_owned()
+    });
+    let known: Vec<String> = frequency.into_iter().chain(rcp).collect();
+    known.join(" ")
+}
+
+/// How a scene whisks; nothing is known of a passive one.
+pub fn whisked(scene: &Scene) -> Whisked {
+    let whisking = scene.whisking.as_ref();
+    Whisked {
+        frequency_mhz: whisking.map(|whisking| (whisking.frequency_hz * 1000.0).round() as u32),
+        has_rcp: whisking.map(|_| scene.rcp.is_some()),
+    }
+}
+
+/// Whether a scene whisks as its model was trained, as far as that is known.
+///
+/// # Errors
+/// [`Mismatch::Whisked`]: what the model holds decisions against would be of another motion.
+pub fn whisks_as(scene: &Scene, trained: Whisked) -> Result<(), Mismatch> {
+    let scene = whisked(scene);
+    if trained.differs(&scene) {
+        return Err(Mismatch::Whisked { trained, scene });
+    }
+    Ok(())
 }
 
 /// The pattern generator's settings; `None` for a passive scene.

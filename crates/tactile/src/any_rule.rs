@@ -41,6 +41,9 @@ pub enum AnyEvidence {
 }
 
 impl AnyEvidence {
+    /// Of no rule.
+    pub(crate) const NONE: Self = Self::Window(Totals::new());
+
     /// That of the sequential rule.
     pub(crate) const fn sequential(&self) -> Option<&SequentialEvidence> {
         match self {
@@ -92,7 +95,7 @@ impl DecisionRule for AnyRule {
             Self::Sequential(rule) if SEQUENTIAL => AnyEvidence::Sequential(rule.start()),
             Self::Window(rule) if WINDOW => AnyEvidence::Window(rule.start()),
             // There is no rule that is not built.
-            _ => AnyEvidence::Window(Totals::default()),
+            _ => AnyEvidence::NONE,
         }
     }
 
@@ -128,15 +131,10 @@ impl DecisionRule for AnyRule {
         }
     }
 
-    fn decide_without(
-        &self,
-        classes: usize,
-        evidence: &AnyEvidence,
-        class: usize,
-    ) -> Option<Decision> {
+    fn decide_between(&self, classes: usize, evidence: &AnyEvidence) -> Option<Decision> {
         match (self, evidence) {
             (Self::Sequential(rule), AnyEvidence::Sequential(evidence)) if SEQUENTIAL => {
-                rule.decide_without(classes, evidence, class)
+                rule.decide_between(classes, evidence)
             }
             _ => None,
         }

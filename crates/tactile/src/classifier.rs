@@ -197,11 +197,14 @@ impl<W: Words> StreamClassifier<W> {
 
     /// Forgets all evidence.
     pub fn restart(&mut self) {
-        self.streams.clear();
+        const UNSTARTED: StreamState<AnyEvidence> = StreamState::unstarted(AnyEvidence::NONE);
         let Constants { model, rule } = &self.constants;
-        for _ in 0..self.heard.min(MAX_STREAMS) {
+        for _ in self.streams.len()..self.heard.min(MAX_STREAMS) {
             // No more than there is room for.
-            let _ = self.streams.push(StreamState::new(model, rule));
+            let _ = self.streams.push(UNSTARTED);
+        }
+        for stream in &mut self.streams {
+            stream.restart(model, rule);
         }
     }
 

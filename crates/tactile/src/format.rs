@@ -28,12 +28,14 @@ use zerocopy::{FromBytes, Immutable, IntoBytes, KnownLayout, Unaligned};
 
 use crate::binner::Binner;
 
-/// Most whiskers that are heard: two on a board, 24 in a simulation and on a board with the
-/// feature `array`.
-pub const MAX_STREAMS: usize = if cfg!(target_os = "none") && !cfg!(feature = "array") {
+/// Most whiskers that are heard: on a board one, two with the feature `pair`, 24 with `array`;
+/// in a simulation 24.
+pub const MAX_STREAMS: usize = if !cfg!(target_os = "none") || cfg!(feature = "array") {
+    24
+} else if cfg!(feature = "pair") {
     2
 } else {
-    24
+    1
 };
 
 /// First bytes of a model file.

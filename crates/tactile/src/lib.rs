@@ -54,7 +54,8 @@
 //! - `sequential`, `window`, `several`, `joint`, `opinion` (all by default): the two rules, more
 //!   whiskers than the first, models with roughness, floors and touches, and with a second opinion.
 //!   A [`StreamClassifier`] refuses what the program was built without, and links no code for it.
-//! - `array`: on a board too, as many whiskers as in a simulation ([`MAX_STREAMS`]).
+//! - `pair`, `array`: on a board, two whiskers instead of one, or as many as in a simulation
+//!   ([`MAX_STREAMS`]).
 //! - `std`: `train` (models from recordings, f64), `score` (how good
 //!   a classifier is) and the owned `ModelBuf`.
 #![cfg_attr(not(test), no_std)]

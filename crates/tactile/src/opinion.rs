@@ -22,32 +22,33 @@ pub(crate) mod differences;
 pub(crate) mod section;
 
 use crate::decision::{Decision, Reason};
-use crate::evidence::{EvidenceScale, MAX_DEFICIT, leader};
+use crate::evidence::{EvidenceScale, MAX_DEFICIT};
 use crate::format::MAX_CLASSES;
 use crate::rule::DecisionRule;
 pub(crate) use differences::{Differences, Narrow};
 pub(crate) use section::Section;
 use section::{STATE_WORDS, halves};
 
-/// What is known of the whisking in training, where anything is.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
+/// What is known of how it is whisked, in training or by a scene. In whole numbers, which a
+/// core without an FPU compares by few instructions.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Whisked {
-    /// Frequency, Hz.
-    pub frequency_hz: Option<f32>,
-    /// Gain of RCP, 0 without.
-    pub rcp_gain: Option<f32>,
+    /// Frequency, 1/1000 Hz.
+    pub frequency_mhz: Option<u32>,
+    /// Whether with RCP.
+    pub has_rcp: Option<bool>,
 }
 
 impl Whisked {
     /// Whether whisking differs from this where both are known: by more than 5 % of the
     /// frequency, or with RCP for without.
     pub fn differs(&self, other: &Self) -> bool {
-        let frequency = match (self.frequency_hz, other.frequency_hz) {
-            (Some(a), Some(b)) => (a - b).abs() > 0.05 * a,
+        let frequency = match (self.frequency_mhz, other.frequency_mhz) {
+            (Some(a), Some(b)) => a.abs_diff(b) > a / 20,
             _ => false,
         };
-        let rcp = match (self.rcp_gain, other.rcp_gain) {
-            (Some(a), Some(b)) => (a > 0.0) != (b > 0.0),
+        let rcp = match (self.has_rcp, other.has_rcp) {
+            (Some(a), Some(b)) => a != b,
             _ => false,
         };
         frequency || rcp
@@ -64,12 +65,14 @@ pub(crate) const STAGES: usize = 8;
 pub(crate) const STATES: [[usize; 2]; 4] = [[0, 1], [1, 3], [3, 6], [6, BLOCKS]];
 
 /// The state that a block, from 0, is of.
+#[inline]
 pub(crate) fn state_of(block: usize) -> usize {
     let past = STATES.iter().filter(|[_, end]| *end <= block).count();
     past.min(STATES.len() - 1)
 }
 
 /// Blocks of a state after so many of the touch.
+#[inline]
 pub(crate) fn blocks_of(state: [usize; 2], blocks: usize) -> usize {
     let [first, end] = state;
     blocks.min(end).saturating_sub(first)
@@ -88,8 +91,8 @@ pub(crate) const BEYOND: i32 = 128;
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct Opinion {
     pub(crate) differences: Differences,
-    /// Sums of the features of each state.
-    states: [[i32; FEATURES]; STATES.len()],
+    /// Sums of the features of each state: of three blocks at most, each below 2¹³.
+    states: [[i16; FEATURES]; STATES.len()],
     path: [[i16; 2]; BLOCKS],
     blocks: usize,
     /// Of each class, 1/1024 bit.
@@ -98,9 +101,9 @@ pub(crate) struct Opinion {
 
 impl Opinion {
     /// Before the first sample.
-    pub(crate) const fn new(rest: [i32; 2]) -> Self {
+    const fn new() -> Self {
         Self {
-            differences: Differences::new(rest),
+            differences: Differences::new([0; 2]),
             states: [[0; FEATURES]; STATES.len()],
             path: [[0; 2]; BLOCKS],
             blocks: 0,
@@ -135,8 +138,8 @@ impl Opinion {
     }
 
     /// Ends a block. By how much the score of each class has risen, 1/1024 bit.
-    // Once a block: there once, and as small as this crate is built.
-    #[inline(never)]
+    // Once a block: as small as its user is built.
+    #[inline]
     pub(crate) fn end_of_block(&mut self, section: Section<'_>, classes: usize) -> Rise {
         let (features, deflection) = self.differences.end_of_block();
         if self.blocks >= BLOCKS {
@@ -144,7 +147,7 @@ impl Opinion {
         }
         if let Some(state) = self.states.get_mut(state_of(self.blocks)) {
             for (sum, feature) in state.iter_mut().zip(features) {
-                *sum += i32::from(feature);
+                *sum = sum.wrapping_add(feature);
             }
         }
         if let Some(place) = self.path.get_mut(self.blocks) {
@@ -163,7 +166,7 @@ impl Opinion {
             let sums = self.states.iter().flatten();
             let weighed = sums.zip(halves(weights.next().unwrap_or_default()));
             let sum: i64 = weighed
-                .map(|(sum, weight)| i64::from(*sum) * i64::from(weight))
+                .map(|(sum, weight)| i64::from(i32::from(*sum) * i32::from(weight)))
                 .sum();
             let bits = (sum >> shift.min(63)) + i64::from(bias.cast_signed());
             let bits = bits.clamp(-SCORE_MOST, SCORE_MOST) as i32;
@@ -179,8 +182,7 @@ impl Opinion {
     }
 
     /// Why it objects to naming this class, if it does.
-    // At a decision: there once.
-    #[inline(never)]
+    #[inline]
     pub(crate) fn objection(
         &self,
         section: Section<'_>,
@@ -201,6 +203,7 @@ impl Opinion {
     }
 
     /// The class that stands against this one, by the scores, if the odds against it are more.
+    #[inline]
     fn rival(&self, most_odds: u32, classes: usize, class: usize) -> Option<usize> {
         let scores = self.scores.get(..classes)?;
         let own = *scores.get(class)?;
@@ -221,6 +224,7 @@ impl Opinion {
 
     /// Whether the mean squared deviation from the way of a class, or from between two of its
     /// ways, is within its limit.
+    #[inline]
     fn is_on_path(&self, (inverse, means, limit): (&[u32], &[u32], u32)) -> bool {
         let blocks = self.blocks.min(BLOCKS);
         let poses = means.len() / BLOCKS;
@@ -260,6 +264,7 @@ impl Opinion {
     }
 
     /// Whether the features of the states are as near to a class as its limit says.
+    #[inline]
     fn is_typical(&self, (states, limits): (&[u32], &[u32]), stages: usize) -> bool {
         let mut distance = 0_u64;
         for ((words, of_class), sums) in STATES
@@ -314,9 +319,9 @@ pub(crate) struct Judge {
 
 impl Judge {
     /// Before the first sample.
-    pub(crate) const fn new(rest: [i32; 2]) -> Self {
+    pub(crate) const fn new() -> Self {
         Self {
-            opinion: Opinion::new(rest),
+            opinion: Opinion::new(),
             held: None,
             spent: 0,
             is_done: false,
@@ -378,28 +383,13 @@ impl Judge {
             return None;
         }
         let said = self.held.or_else(|| {
-            let pair = between(classes, rule, evidence)?;
+            let pair = rule.decide_between(classes, evidence)?;
             Some(pair.after(self.spent).in_touch(touch, pair.reason()))
         })?;
         self.finish();
         *evidence = rule.start();
         Some(said)
     }
-}
-
-/// The two classes that together exceed the threshold, if there are such.
-fn between<R: DecisionRule>(classes: usize, rule: &R, evidence: &R::Evidence) -> Option<Decision> {
-    let mut deficits = [0; MAX_CLASSES];
-    rule.deficits(evidence, &mut deficits);
-    let deficits = deficits.get(..classes)?;
-    let first = leader(deficits);
-    let others = deficits
-        .iter()
-        .enumerate()
-        .filter(|(class, _)| *class != first);
-    let (second, _) = others.min_by_key(|(_, deficit)| **deficit)?;
-    let decision = rule.decide_without(classes, evidence, second)?;
-    Some(decision.in_touch(0, Some(Reason::Between(second))))
 }
 
 /// By how much scores have risen.

@@ -51,14 +51,9 @@ pub trait DecisionRule: Sized {
     /// `deficits` has a place for each class.
     fn deficits(&self, evidence: &Self::Evidence, deficits: &mut [u32]);
 
-    /// What it would decide if `class` were none of `classes`: where two classes together
-    /// exceed a threshold that neither does. Rules of the papers do not ask.
-    fn decide_without(
-        &self,
-        _classes: usize,
-        _evidence: &Self::Evidence,
-        _class: usize,
-    ) -> Option<Decision> {
+    /// That it is one of two of `classes`, which exceed a threshold together. Rules of the
+    /// papers do not ask.
+    fn decide_between(&self, _classes: usize, _evidence: &Self::Evidence) -> Option<Decision> {
         None
     }
 

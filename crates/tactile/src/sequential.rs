@@ -10,7 +10,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::decision::{Decision, Posterior};
+use crate::decision::{Decision, Posterior, Reason};
 use crate::error::SetupError;
 use crate::evidence::{EvidenceScale, MAX_DEFICIT, MAX_ODDS, leader};
 use crate::exp2::ONE;
@@ -263,15 +263,21 @@ impl DecisionRule for SequentialRule {
         }
     }
 
-    fn decide_without(
-        &self,
-        classes: usize,
-        evidence: &SequentialEvidence,
-        class: usize,
-    ) -> Option<Decision> {
-        let mut evidence = evidence.clone();
-        *evidence.deficits.get_mut(class)? = MAX_DEFICIT;
-        self.decide_by(classes, &evidence)
+    // At a decision: there once.
+    #[inline(never)]
+    fn decide_between(&self, classes: usize, evidence: &SequentialEvidence) -> Option<Decision> {
+        let mut without = evidence.clone();
+        let deficits = without.deficits.get_mut(..classes)?;
+        let first = leader(deficits);
+        let others = deficits
+            .iter_mut()
+            .enumerate()
+            .filter(|(class, _)| *class != first);
+        let (second, deficit) = others.min_by_key(|(_, deficit)| **deficit)?;
+        // As if it were no class.
+        *deficit = MAX_DEFICIT;
+        let decision = self.decide_by(classes, &without)?;
+        Some(decision.in_touch(0, Some(Reason::Between(second))))
     }
 
     fn deficits(&self, evidence: &SequentialEvidence, deficits: &mut [u32]) {

@@ -87,12 +87,36 @@ impl<E> StreamState<E> {
         R: DecisionRule<Evidence = E>,
         W: Words,
     {
-        let rest = model.opinion().map_or([0; 2], Section::rest);
+        let mut state = Self::unstarted(rule.start());
+        state.restart(model, rule);
+        state
+    }
+
+    /// With this evidence, before it [starts](Self::restart).
+    #[inline]
+    pub(crate) const fn unstarted(evidence: E) -> Self {
         Self {
-            judges: core::array::from_fn(|_| Judge::new(rest)),
-            sums: Sums::new(rule.interval()),
-            evidence: rule.start(),
+            sums: Sums::new(0),
+            evidence,
             touch: 0,
+            judges: [const { Judge::new() }; OPINION as usize],
+        }
+    }
+
+    /// Forgets all that was seen, where it lies: a board's stack has no room for another.
+    pub(crate) fn restart<R, W>(&mut self, model: &Model<W>, rule: &R)
+    where
+        R: DecisionRule<Evidence = E>,
+        W: Words,
+    {
+        self.sums = Sums::new(rule.interval());
+        self.evidence = rule.start();
+        self.touch = 0;
+        if let [judge, ..] = self.judges.as_mut_slice() {
+            *judge = const { Judge::new() };
+            // Until the whisker's own is known, it rests where those of training did.
+            let rest = model.opinion().map_or([0; 2], Section::rest);
+            judge.opinion.differences.rest = rest;
         }
     }
 

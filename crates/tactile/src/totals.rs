@@ -6,14 +6,28 @@ use crate::format::MAX_CLASSES;
 
 /// Sums over many blocks, exact: u64 a class. Never wraps, and saturates only
 /// after 2⁶⁴ / (20480 · C) samples, about a million years at 2 kHz.
-#[derive(Debug, Clone, Default, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Totals {
     sums: [u64; MAX_CLASSES],
     /// Saturated.
     samples: u32,
 }
 
+impl Default for Totals {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
 impl Totals {
+    /// Of no block.
+    pub const fn new() -> Self {
+        Self {
+            sums: [0; MAX_CLASSES],
+            samples: 0,
+        }
+    }
+
     /// Adds the sums of each class over so many samples.
     pub fn add(&mut self, sums: &[u32], samples: u32) {
         for (total, &sum) in self.sums.iter_mut().zip(sums) {
@@ -28,8 +42,12 @@ impl Totals {
     }
 
     /// By how much each class lies behind the leader.
+    // There once, and as small as this crate is built.
+    #[inline(never)]
     pub fn deficits(&self, deficits: &mut [u32]) {
-        let most = self.sums.iter().copied().max().unwrap_or(0);
+        // Sums beyond the classes are zero.
+        let sums = self.sums.get(..deficits.len()).unwrap_or_default();
+        let most = sums.iter().copied().max().unwrap_or(0);
         for (deficit, sum) in deficits.iter_mut().zip(self.sums) {
             *deficit = u32::try_from(most - sum).map_or(MAX_DEFICIT, |d| d.min(MAX_DEFICIT));
         }

@@ -6,6 +6,7 @@ use crate::error::SetupError;
 use crate::evidence::EvidenceScale;
 use crate::model::Model;
 use crate::naive_bayes::NaiveBayes;
+use crate::opinion::Section;
 use crate::rule::DecisionRule;
 use crate::totals::Totals;
 use crate::words::Words;
@@ -28,6 +29,9 @@ impl DecisionRule for WindowRule {
     type Evidence = Totals;
 
     fn new<W: Words>(model: &Model<W>, window: u32) -> Result<Self, SetupError> {
+        if model.opinion().is_some_and(Section::names) {
+            return Err(SetupError::WindowNames);
+        }
         let block = model.block();
         if window == 0 || !window.is_multiple_of(block) {
             return Err(SetupError::Window { window, block });

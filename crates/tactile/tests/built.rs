@@ -1,12 +1,21 @@
 //! A program refuses what it was built without, and decides by all else.
 
 use tactile::{
-    Axis, Deciding, Decision, JOINT, ModelBuf, ModelParts, Quantiser, RuleSettings, SetupError,
-    StreamClassifier, TableParts, TableSource, Threshold, TouchRule,
+    Axis, Deciding, Decision, JOINT, ModelBuf, ModelParts, OPINION, Quantiser, RuleSettings,
+    SetupError, StreamClassifier, TableParts, TableSource, Threshold, TouchRule,
+};
+
+/// Words of an opinion of two classes that has nothing against any name: it objects (0), of one
+/// pose, with one stage, and says so after one block.
+const AGREES: [u32; 347] = {
+    let mut words = [0; 347];
+    words[0] = u32::from_le_bytes([0, 1, 1, 1]);
+    words[1] = u32::MAX;
+    words
 };
 
 /// Two classes that differ by two bits a sample.
-fn model(touch: Option<TouchRule>) -> ModelBuf {
+fn model(touch: Option<TouchRule>, opinion: &[u32]) -> ModelBuf {
     let axis = [Axis {
         channel: 0,
         bins: 1,
@@ -22,7 +31,7 @@ fn model(touch: Option<TouchRule>) -> ModelBuf {
     ModelBuf::new(&ModelParts {
         names: &["a", "b"].map(str::to_owned),
         block: 1,
-        channels: &[quantiser],
+        channels: &[quantiser; 2],
         tables: &[TableParts {
             source: TableSource::Samples,
             axes: &axis,
@@ -30,6 +39,7 @@ fn model(touch: Option<TouchRule>) -> ModelBuf {
         }],
         floors: None,
         touch,
+        opinion,
     })
     .unwrap()
 }
@@ -41,7 +51,7 @@ fn decided(
     deciding: Deciding,
 ) -> Result<Option<u32>, SetupError> {
     let mut classifier = StreamClassifier::new(model, rule, deciding, 2)?;
-    let decision = (0..20).find_map(|n| classifier.push_to(n % 2, &[0]).unwrap());
+    let decision = (0..20).find_map(|n| classifier.push_to(n % 2, &[0, 0]).unwrap());
     Ok(decision.as_ref().map(Decision::samples))
 }
 
@@ -70,18 +80,22 @@ fn what_is_left_out_is_refused_and_all_else_decides() {
     ] {
         for deciding in [Deciding::First, Deciding::Each] {
             let is_built = deciding == Deciding::First || cfg!(feature = "several");
-            for touch in [None, Some(touch)] {
+            let objects = (Some(touch), AGREES.as_slice());
+            for (touch, opinion) in [(None, [].as_slice()), (Some(touch), &[]), objects] {
                 let expected = if !is_built {
                     Err(SetupError::NotBuilt("several whiskers"))
                 } else if touch.is_some() && !JOINT {
                     Err(SetupError::NotBuilt("joint models"))
+                } else if !opinion.is_empty() && !OPINION {
+                    Err(SetupError::NotBuilt("models that object"))
                 } else if !has_rule {
                     Err(SetupError::NotBuilt(rule_name))
                 } else {
                     Ok(Some(samples))
                 };
-                let found = decided(model(touch), rule, deciding);
-                assert_eq!(found, expected, "{rule:?} {deciding:?} {touch:?}");
+                let found = decided(model(touch, opinion), rule, deciding);
+                let objects = !opinion.is_empty();
+                assert_eq!(found, expected, "{rule:?} {deciding:?} {touch:?} {objects}");
             }
         }
     }

@@ -40,6 +40,7 @@ pub(crate) fn find(inner: &mut Inner, settings: &Settings, deployed: Option<Depl
         classes: FACTS.max_classes,
         // Compared below, in the number format of the settings.
         contact_min: None,
+        whisked: settings.whisked(),
     };
     let rule = (rule, config.deciding);
     classifier.find(slots::model(slot), limits, rule, settings.head.whiskers());

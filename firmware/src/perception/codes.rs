@@ -2,7 +2,8 @@
 //! deployed to: it is checked at the start, and refused if anything is wrong with it.
 
 use tactile::{
-    AnyRule, Constants, Deciding, Decision, JOINT, Model, RuleSettings, StreamClassifier, Words,
+    AnyRule, Constants, Deciding, Decision, JOINT, Model, RuleSettings, StreamClassifier, Whisked,
+    Words,
 };
 
 use super::{ModelState, Refusal, Sample, SampleClassifier};
@@ -38,6 +39,8 @@ pub struct ModelLimits {
     pub classes: usize,
     /// The scene's contact π from which samples count, if it has one.
     pub contact_min: Option<f32>,
+    /// How the scene whisks.
+    pub whisked: Whisked,
 }
 
 /// A classifier of sensors' codes with its model, or why there is none: then touches are
@@ -139,6 +142,9 @@ fn find(place: &[u8], limits: ModelLimits) -> Result<Model<&[u32]>, Refusal> {
         && least != gate
     {
         return Err(Refusal::Contact);
+    }
+    if model.whisked().differs(&limits.whisked) {
+        return Err(Refusal::Whisked);
     }
     Ok(model)
 }

@@ -50,6 +50,10 @@ refusals! {
     Other = 11: "it is not the model that was deployed with this scene";
     /// The program has no code for its tables, its rule or so many whiskers.
     NotBuilt = 12: "the program was built without what it needs";
+    /// Its opinion holds for how it was whisked in training.
+    Whisked = 13: "it was trained at another whisk frequency, or with RCP otherwise";
+    /// A model of several poses knows touches, and no windows.
+    Touches = 14: "it decides in touches, and the scene by windows";
 }
 
 impl Refusal {
@@ -79,6 +83,7 @@ impl Refusal {
     pub(super) const fn of_setup(error: SetupError) -> Self {
         match error {
             SetupError::Window { .. } => Self::Window,
+            SetupError::WindowNames => Self::Touches,
             // No program has the code for windows of several whiskers together.
             SetupError::NotBuilt(_) | SetupError::Whiskers(_) | SetupError::WindowTogether => {
                 Self::NotBuilt

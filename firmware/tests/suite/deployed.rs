@@ -1,7 +1,7 @@
 //! Models that lie apart from the program: which are taken, and why others are not.
 
 use firmware::{CodeClassifier, ModelLimits, ModelState, Refusal};
-use tactile::{Aligned, CRC_BYTES, Deciding, RuleSettings, Threshold, checksum};
+use tactile::{Aligned, CRC_BYTES, Deciding, RuleSettings, Threshold, Whisked, checksum};
 
 /// The main job's: two channels of codes, four classes, a gate of 0.05.
 const MODEL: &[u8] = include_bytes!("../../../scenes/models/textures.model");
@@ -9,6 +9,10 @@ const MODEL: &[u8] = include_bytes!("../../../scenes/models/textures.model");
 const LIMITS: ModelLimits = ModelLimits {
     classes: 6,
     contact_min: None,
+    whisked: Whisked {
+        frequency_mhz: None,
+        has_rcp: None,
+    },
 };
 
 /// Flash for a model.
@@ -76,7 +80,7 @@ fn whatever_is_wrong_has_its_reason() {
     let right = Place::with(MODEL);
     refused(Place::with(&[]), LIMITS, Refusal::Absent);
     refused(right.changed(0, b'w'), LIMITS, Refusal::Strange);
-    refused(right.changed(4, 3), LIMITS, Refusal::Version);
+    refused(right.changed(4, 4), LIMITS, Refusal::Version);
     // 16 KiB and more.
     refused(right.changed(13, 0x40), LIMITS, Refusal::TooLong);
     let damaged = right.changed(5_000, !MODEL[5_000]);
@@ -90,7 +94,7 @@ fn whatever_is_wrong_has_its_reason() {
     };
     refused(right, few, Refusal::Classes);
     let codes: Vec<_> = Refusal::ALL.iter().map(|why| why.code()).collect();
-    assert_eq!(codes, (1..=12).collect::<Vec<u8>>());
+    assert_eq!(codes, (1..=14).collect::<Vec<u8>>());
     for why in Refusal::ALL {
         assert_eq!(Refusal::from_code(why.code()), Some(*why));
     }

@@ -61,7 +61,7 @@ pub(crate) struct Differences {
     totals: [i32; 2],
     counted: u32,
     /// In units of 2^−[`REST_BITS`] narrow codes.
-    rest: [i32; 2],
+    pub(crate) rest: [i32; 2],
 }
 
 impl Differences {
@@ -131,13 +131,15 @@ impl Differences {
     }
 
     /// Ends the block: its features, and its mean deflection from rest.
-    // Once a block: there once, and as small as this crate is built.
-    #[inline(never)]
+    // Once a block: as small as its user is built.
+    #[inline]
     pub(crate) fn end_of_block(&mut self) -> (Features, [i16; 2]) {
         let counted = self.counted.max(1);
         let deflection: [i32; 2] = core::array::from_fn(|channel| {
             let [total, rest] = [self.totals[channel], self.rest[channel]];
-            let code = (total / counted.cast_signed()).wrapping_sub(rest >> REST_BITS);
+            let code = total
+                .wrapping_div(counted.cast_signed())
+                .wrapping_sub(rest >> REST_BITS);
             code.clamp(-2 * NARROW_MOST, 2 * NARROW_MOST)
         });
         let [x, y] = deflection;
@@ -164,6 +166,7 @@ struct Frame {
 }
 
 impl Frame {
+    #[inline]
     fn of(a: i32, b: i32) -> Self {
         let (a, b) = (i64::from(a), i64::from(b));
         let length2 = (a * a + b * b).unsigned_abs().max(1);
@@ -182,6 +185,7 @@ impl Frame {
     }
 
     /// Sums of the squares along and across, of the sums of dx², dx dy, dy².
+    #[inline]
     fn powers(&self, [xx, xy, yy]: [i64; 3]) -> [u64; 2] {
         // Sums are below 2³⁷ in blocks of 128 samples; of longer ones bits are lost.
         let lost = (u64::BITS - (xx | yy).unsigned_abs().leading_zeros()).saturating_sub(37);
@@ -198,6 +202,7 @@ impl Frame {
 }
 
 /// ½ log₂(1 + sum / counted) in units of 2^−[`FEATURE_BITS`].
+#[inline]
 fn half_octaves(sum: u64, counted: u32) -> i16 {
     let counted = u64::from(counted);
     let octaves = log2(sum.saturating_add(counted)) - log2(counted);
@@ -207,6 +212,7 @@ fn half_octaves(sum: u64, counted: u32) -> i16 {
 
 /// 1024 log₂ x for x ≥ 1, with the fraction of x's leading bit taken as its logarithm: at most
 /// 0.086 octaves too low, and rising.
+#[inline]
 fn log2(x: u64) -> i32 {
     let whole = u64::BITS - 1 - x.leading_zeros().min(u64::BITS - 1);
     let below = (x << (u64::BITS - 1 - whole)) << 1;

@@ -6,7 +6,7 @@
 //! | 1 | most odds against the leader by the opinion, 2⁻²⁶ |
 //! | 1, 1 | code that becomes zero i32; bits that are left off a code |
 //! | 2 | rest of x and y where no air was felt yet, i32, 1/256 narrow codes |
-//! | 2 | frequency of the whisk f32, Hz, and gain of RCP f32; not a number: not known |
+//! | 2 | frequency of the whisk, 1/1000 Hz, 0: not known; 1 without RCP, 2 with, 0: not known |
 //! | per stage | shift; K × bias i32, 1/1024 bit; K × weights i16, ten a state begun |
 //! | per class | per state: 10 means i16, 1/256; shift; 55 of a triangle i16, and a zero; then 8 limits u32 |
 //! | per class | 9 × inverse deviation of x and y u16, 2⁻¹⁶; P × 9 × x and y i16; limit u32 |
@@ -26,11 +26,13 @@ pub(crate) const STATE_WORDS: usize = FEATURES / 2 + 1 + TRIANGLE_WORDS;
 pub(crate) const TYPICAL_WORDS: usize = STATES.len() * STATE_WORDS + STAGES;
 
 /// States begun after so many blocks.
+#[inline]
 pub(crate) fn begun(blocks: usize) -> usize {
     STATES.iter().filter(|[first, _]| *first < blocks).count()
 }
 
 /// Words of a stage (from 1) for so many classes.
+#[inline]
 pub(crate) fn stage_words(stage: usize, classes: usize) -> usize {
     1 + classes + classes * begun(stage) * FEATURES / 2
 }
@@ -137,16 +139,21 @@ impl<'m> Section<'m> {
         [self.word(4), self.word(5)].map(u32::cast_signed)
     }
 
-    /// Frequency of the whisk, Hz, and gain of RCP in training, where they are known.
+    /// How it was whisked in training.
     pub(crate) fn whisked(self) -> Whisked {
-        let known = |bits| Some(f32::from_bits(bits)).filter(|value: &f32| value.is_finite());
+        let frequency = self.word(6);
         Whisked {
-            frequency_hz: known(self.word(6)),
-            rcp_gain: known(self.word(7)),
+            frequency_mhz: (frequency != 0).then_some(frequency),
+            has_rcp: match self.word(7) {
+                1 => Some(false),
+                2 => Some(true),
+                _ => None,
+            },
         }
     }
 
     /// Of a stage (from 1): shift, biases and weights of all classes.
+    #[inline]
     pub(crate) fn stage(self, stage: usize) -> (u32, &'m [u32], &'m [u32]) {
         let before: usize = (1..stage).map(|s| stage_words(s, self.classes)).sum();
         let words = self.words.get(HEAD_WORDS + before..).unwrap_or_default();
@@ -159,6 +166,7 @@ impl<'m> Section<'m> {
     }
 
     /// What is typical of a class: its states, and its limits by stage.
+    #[inline]
     pub(crate) fn typical(self, class: usize) -> (&'m [u32], &'m [u32]) {
         let of_paths = self.classes * path_words(self.poses());
         let of_all = self.classes * TYPICAL_WORDS + of_paths;
@@ -171,6 +179,7 @@ impl<'m> Section<'m> {
     }
 
     /// The paths of a class: inverse deviations, means of each pose, limit.
+    #[inline]
     pub(crate) fn path(self, class: usize) -> (&'m [u32], &'m [u32], u32) {
         let one = path_words(self.poses());
         let of_others = self.classes.saturating_sub(class) * one;

@@ -270,7 +270,6 @@ impl Felt {
         let head = [kind, poses as u8, self.stages as u8, self.patience()];
         let odds = (1.0 / LEAST_POSTERIOR - 1.0) * f64::from(1 << 26);
         let Sense { narrow, rest, .. } = self.sense;
-        let known = |value: Option<f32>| value.unwrap_or(f32::NAN).to_bits();
         vec![
             u32::from_le_bytes(head),
             odds as u32,
@@ -278,8 +277,8 @@ impl Felt {
             narrow.shift,
             rest[0].cast_unsigned(),
             rest[1].cast_unsigned(),
-            known(whisked.frequency_hz),
-            known(whisked.rcp_gain),
+            whisked.frequency_mhz.unwrap_or(0),
+            whisked.has_rcp.map_or(0, |has_rcp| 1 + u32::from(has_rcp)),
         ]
     }
 }

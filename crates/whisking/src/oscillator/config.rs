@@ -41,6 +41,22 @@ impl<R: Real> Config<R> {
         }
     }
 
+    /// Whisks a tick in Q24, f_W T · 2^24, by the rate at which its radius relaxes: within
+    /// 0.2 % and two units.
+    pub fn cycles_q24(&self) -> i32 {
+        let q24 = |share: R::Fine| R::ONE.times_fine(share).to_q24();
+        match self {
+            // T/τ_r = f_W T / 2.
+            Self::Euler(euler) => 2 * q24(euler.relax),
+            // x + x²/2 of x = 1 − exp(−T/τ_r), at most 1/16.
+            Self::Exact(exact) => {
+                let x = q24(exact.relax);
+                let square = (i64::from(x) * i64::from(x)) >> 24;
+                2 * x + square as i32
+            }
+        }
+    }
+
     /// ψ of every side.
     pub fn psi(&self, state: &State<R>) -> Vec<Psi<R>, MAX_SIDES> {
         match self {
