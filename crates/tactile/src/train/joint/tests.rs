@@ -36,6 +36,7 @@ fn blocks(samples: Vec<[f64; 2]>, touches: Vec<u16>, block: u32) -> Blocks {
         recording: String::new(),
         samples,
         touches,
+        ..Trial::default()
     };
     let options = Options {
         block,
