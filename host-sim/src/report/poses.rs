@@ -18,7 +18,16 @@ fn poses(count: usize) -> String {
 /// In how many poses a model was trained, and what it is worth in others: as who trains it knows.
 pub(super) fn of_training(model: &JointModel) -> String {
     match &model.opinion {
-        Some(opinion) if opinion.names => names_between(&poses(opinion.poses)),
+        Some(opinion) if opinion.names => {
+            let names = names_between(&poses(opinion.poses));
+            // Without one of three there are too few to name by.
+            let more = if opinion.poses == 3 {
+                "; train with a fourth to see what to expect of another"
+            } else {
+                ""
+            };
+            format!("{names}{more}")
+        }
         Some(_) if model.poses > 1 => {
             let poses = poses(model.poses);
             format!("trained in {poses}: honest in them, silent elsewhere")

@@ -152,6 +152,10 @@ fn once(trials: &[Trial], options: &Options) -> Result<JointModel, TrainError> {
     }
     .warnings();
     warnings.extend(scarce);
+    if opinion.as_ref().is_some_and(|opinion| opinion.names) {
+        // Poses of one recording are held out as recordings are.
+        warnings.retain(|warning| *warning != Warning::OneRecording);
+    }
     let report = report::Maker {
         names: &names,
         trials,
