@@ -26,9 +26,8 @@ pub struct Stream {
     pub contact: Option<Vec<f64>>,
     /// Number of the touch of each sample, 0 in the air; none: the module did not say.
     pub touch: Option<Vec<u16>>,
-    /// Number of the pose in which it was presented; none: all poses are alike, or it was read
-    /// from a file.
-    pub pose: Option<u64>,
+    /// The pose in which it was presented; none: all poses are alike, or nothing is known of it.
+    pub pose: Option<String>,
 }
 
 /// The columns of a recording, in the order in which one is written.
@@ -43,8 +42,10 @@ pub const COLUMNS: [Column; 7] = columns! {
     "touch", "",
         "number of the touch, 0 in the air; may be left out: then contact says where one begins";
     "pose", "",
-        "number of the pose in which it was presented, from 0, each presentation another; only of \
-        a scene with `plant.tilt_spread_deg`, `plant.obstacle_spread_deg` or `plant.gain_spread`";
+        "the pose in which it was presented, any token: rows of one value are of one pose; may be \
+        left out: then a file is a pose. `host-sim record` writes it of a scene with \
+        `plant.tilt_spread_deg`, `plant.obstacle_spread_deg` or `plant.gain_spread`: a number from \
+        0, each presentation another";
 };
 
 /// The channels of a recording, unless said otherwise.
@@ -94,7 +95,7 @@ impl Recorder {
     pub fn take(&mut self, run: &mut Run) {
         let felt = run.felt();
         let (label, trial) = run.presented();
-        let pose = run.pose();
+        let pose = run.pose().map(|pose| pose.to_string());
         let samples = run.samples();
         self.streams.resize_with(samples.len(), Vec::new);
         for (n, (streams, sample)) in self.streams.iter_mut().zip(samples).enumerate() {
@@ -112,7 +113,7 @@ impl Recorder {
             };
             append(streams, label, &trial, cells);
             if let Some(stream) = streams.last_mut() {
-                stream.pose = pose;
+                stream.pose.clone_from(&pose);
             }
         }
     }
@@ -194,7 +195,7 @@ pub fn write_from(mut table: impl Write, origin: &Origin, streams: &[Stream]) ->
     header.extend(has_pose.then_some(COLUMNS[6].name));
     table.write_record(header)?;
     for stream in streams {
-        let pose = stream.pose.map(|pose| pose.to_string()).unwrap_or_default();
+        let pose = stream.pose.as_deref().unwrap_or_default();
         for (n, [x, y]) in stream.samples.iter().enumerate() {
             let contact = stream.contact.as_ref().and_then(|contact| contact.get(n));
             let contact = contact.map_or(1.0, |contact| *contact) as f32;
@@ -204,7 +205,7 @@ pub fn write_from(mut table: impl Write, origin: &Origin, streams: &[Stream]) ->
             let numbers = numbers.iter().map(String::as_str);
             let cells = [stream.label.as_str(), &stream.trial];
             let cells = cells.into_iter().chain(numbers).take(count);
-            table.write_record(cells.chain(has_pose.then_some(pose.as_str())))?;
+            table.write_record(cells.chain(has_pose.then_some(pose)))?;
         }
     }
     table.flush()
@@ -282,8 +283,6 @@ fn parse(file: &[u8], channels: [&str; 2]) -> Result<Vec<Stream>, String> {
     let touch = optional("touch")?;
     let pose = optional("pose")?;
 
-    // Numbered as they appear.
-    let mut poses: Vec<String> = Vec::new();
     let mut streams: Vec<Stream> = Vec::new();
     let mut record = csv::StringRecord::new();
     while table.read_record(&mut record).map_err(broken)? {
@@ -329,12 +328,7 @@ fn parse(file: &[u8], channels: [&str; 2]) -> Result<Vec<Stream>, String> {
         if let (true, Some(place), Some(stream)) =
             (streams.len() > before, pose, streams.last_mut())
         {
-            let found = poses.iter().position(|pose| pose == cell(place));
-            let number = found.unwrap_or(poses.len());
-            if found.is_none() {
-                poses.push(cell(place).to_owned());
-            }
-            stream.pose = Some(number as u64);
+            stream.pose = Some(cell(place).to_owned()).filter(|pose| !pose.is_empty());
         }
     }
     if streams.is_empty() {

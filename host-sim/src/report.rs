@@ -1,6 +1,7 @@
 //! Output on the terminal.
 
 mod evaluation;
+mod poses;
 mod runs;
 mod training;
 mod warnings;
@@ -17,6 +18,7 @@ use crate::Error;
 use crate::decisions::{Decided, Score, UNKNOWN};
 use crate::output::remove_on_interrupt;
 pub use evaluation::{Doubts, Figures, Thresholds};
+pub use poses::of_model;
 pub use runs::{OverRuns, SeedRange};
 pub use training::TrainingReport;
 

@@ -1,8 +1,9 @@
 //! Training a model from recordings.
 
-use tactile::ModelBuf;
+use scene::Scene;
 use tactile::train::joint::{self, JointModel, Trial};
 use tactile::train::{Expect, Options, TrainError, Trainer};
+use tactile::{ModelBuf, Whisked};
 
 use crate::recording::{GATE, Stream};
 
@@ -35,6 +36,9 @@ pub struct How {
     /// How much may differ between training and use, of joint tables
     #[cfg_attr(feature = "cli", arg(long, value_enum, default_value_t = Expected::Bench))]
     pub expect: Expected,
+    /// How it was whisked, which the model keeps.
+    #[cfg_attr(feature = "cli", arg(skip))]
+    pub whisked: Whisked,
 }
 
 /// How much may differ between training and use.
@@ -92,14 +96,23 @@ impl How {
             gate: None,
             gap: None,
             expect: Expected::Bench,
+            whisked: Whisked {
+                frequency_mhz: None,
+                has_rcp: None,
+            },
         }
     }
 
-    /// The same where samples count from `contact_min` on, unless it says otherwise itself.
+    /// The same for recordings of `scene`: it says how was whisked, and from what contact on
+    /// samples count, unless that is said already.
     #[must_use]
-    pub fn gated(self, contact_min: Option<f64>) -> Self {
-        let gate = self.gate.or(contact_min);
-        Self { gate, ..self }
+    pub fn like(self, scene: &Scene) -> Self {
+        let contact_min = scene.classifier.as_ref().and_then(|c| c.contact_min);
+        Self {
+            gate: self.gate.or(contact_min),
+            whisked: config::whisked(scene),
+            ..self
+        }
     }
 
     /// Contact from which a sample counts.
@@ -152,6 +165,7 @@ impl How {
                     gate: self.least(),
                     gap: self.gap_samples(tick_hz),
                     expect: self.expect.into(),
+                    whisked: self.whisked,
                     ..default
                 };
                 let joint = joint(recordings, &options)?;
@@ -209,7 +223,7 @@ pub fn joint(
         streams.iter().map(|stream| Trial {
             label: stream.label.clone(),
             recording: recording.clone(),
-            pose: stream.pose,
+            pose: stream.pose.clone(),
             samples: stream.samples.clone(),
             touches: stream.touches(options.gate, options.gap).collect(),
         })

@@ -6,7 +6,7 @@ use host_sim::evaluation::{self, Evaluation};
 use host_sim::recording::Recorder;
 use host_sim::replay::Replay;
 use host_sim::run::Run;
-use host_sim::training::{How, Tables};
+use host_sim::training::{Expected, How, Tables};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -52,7 +52,7 @@ pub(crate) fn record<'py>(
 
 /// Trains a model from recordings that the Python side has prepared.
 #[pyfunction]
-#[pyo3(signature = (data, *, tables, bins, smooth, block, gate, gap, rate))]
+#[pyo3(signature = (data, *, tables, bins, smooth, block, gate, gap, expect, rate))]
 #[allow(clippy::too_many_arguments, reason = "they are Python's keywords")]
 pub(crate) fn train(
     py: Python<'_>,
@@ -63,6 +63,7 @@ pub(crate) fn train(
     block: Option<u32>,
     gate: Option<f64>,
     gap: Option<f64>,
+    expect: &str,
     rate: u32,
 ) -> PyResult<Model> {
     let tables = match tables {
@@ -74,13 +75,24 @@ pub(crate) fn train(
             )));
         }
     };
+    let expect = match expect {
+        "same" => Expected::Same,
+        "bench" => Expected::Bench,
+        "other" => Expected::Other,
+        _ => {
+            return Err(wrong(format!(
+                "expect: found {expect:?}, allowed: same, bench, other"
+            )));
+        }
+    };
     let how = How {
-        tables,
         bins,
         smooth,
         block,
         gate,
         gap,
+        expect,
+        ..How::of(tables)
     };
     how.check().map_err(wrong)?;
     if rate == 0 {

@@ -11,13 +11,15 @@ use crate::table::{Kind, Layout, Packed};
 #[derive(FromPyObject)]
 pub(crate) struct Prepared<'py> {
     name: String,
-    /// Label, trial, first row and the one after the last.
-    streams: Vec<(String, String, usize, usize)>,
+    streams: Vec<Rows>,
     /// x and y.
     samples: PyReadonlyArray2<'py, f64>,
     contact: Option<PyReadonlyArray1<'py, f64>>,
     touch: Option<PyReadonlyArray1<'py, u16>>,
 }
+
+/// Label, trial, first row, the one after the last, and the pose.
+type Rows = (String, String, usize, usize, Option<String>);
 
 impl Prepared<'_> {
     /// Its name and its streams.
@@ -53,7 +55,7 @@ impl Prepared<'_> {
         if samples.is_empty() {
             return Err(PyValueError::new_err(format!("{}: no samples", self.name)));
         }
-        let stream = |(label, trial, first, end): &(String, String, usize, usize)| {
+        let stream = |(label, trial, first, end, pose): &Rows| {
             if label.is_empty() {
                 return Err(wrong(*first, "the label is empty"));
             }
@@ -64,7 +66,7 @@ impl Prepared<'_> {
                 samples: samples.get(rows.clone()).unwrap_or_default().to_vec(),
                 contact: contact.map(|all| all.get(rows.clone()).unwrap_or_default().to_vec()),
                 touch: touch.map(|all| all.get(rows.clone()).unwrap_or_default().to_vec()),
-                pose: None,
+                pose: pose.clone(),
             })
         };
         let streams = self.streams.iter().map(stream).collect::<PyResult<_>>()?;
@@ -99,7 +101,9 @@ pub(crate) fn array<'py>(py: Python<'py>, streams: &[Stream]) -> PyResult<Bound<
             let touch = stream.touch.as_ref().and_then(|all| all.get(n));
             rows.whole(touch.copied().unwrap_or(0).into());
             if has_pose {
-                rows.whole(stream.pose.unwrap_or(0) as i64);
+                // The simulator numbers them.
+                let pose = stream.pose.as_deref().and_then(|pose| pose.parse().ok());
+                rows.whole(pose.unwrap_or(0));
             }
         }
     }

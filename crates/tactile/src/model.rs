@@ -165,7 +165,14 @@ impl<W: Words> Model<W> {
         self.opinion().map(Section::whisked).unwrap_or_default()
     }
 
-    /// In how many poses it was trained; 0: it does not say, and is honest at one pose only.
+    /// Whether it was trained in so many poses that it names classes between them by itself;
+    /// otherwise it is honest in the pose of training, and at most silent elsewhere.
+    pub fn names_between_poses(&self) -> bool {
+        self.opinion().is_some_and(Section::names)
+    }
+
+    /// Poses of training between which a touch may lie: 1 of fewer than three and of more than
+    /// twelve, 0 of a model without a second opinion.
     pub fn poses(&self) -> usize {
         self.opinion().map_or(0, Section::poses)
     }

@@ -13,7 +13,7 @@ use crate::misfit::misfits;
 use crate::output::{self, write_whole};
 use crate::plot;
 use crate::progress::{Progress, Verbosity};
-use crate::report::{Doubts, Figures, Thresholds};
+use crate::report::{self, Doubts, Figures, Thresholds};
 
 /// What to evaluate.
 #[derive(Debug, Args)]
@@ -90,7 +90,7 @@ pub fn evaluate(arguments: &Arguments, verbosity: Verbosity) -> Result<String, E
         misfits: misfits(data, channels, &model, &streams),
     };
     let figures = Figures(&evaluation, tick_hz);
-    let mut sections = vec![format!("{figures}\n{doubts}")];
+    let mut sections = vec![format!("{figures}\n{}\n{doubts}", report::of_model(&model))];
     if error_rate.is_none() && time.is_none() {
         return Ok(sections.concat());
     }

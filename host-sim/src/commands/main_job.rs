@@ -87,8 +87,7 @@ pub fn record(scene: &Scene, verbosity: Verbosity) -> Result<Vec<Stream>, Error>
 /// The model of a recording with the settings that `host-sim train` has by default.
 fn train(scene: &Scene, streams: Vec<Stream>) -> Result<ModelBuf, Error> {
     let recordings = [(scene.name.clone(), streams)];
-    let contact_min = scene.classifier.as_ref().and_then(|c| c.contact_min);
-    let how = How::of(Tables::Joint).gated(contact_min);
+    let how = How::of(Tables::Joint).like(scene);
     let trained = how.train(&recordings, scene.tick_hz);
     let trained = trained.map_err(|error| Error::Work(format!("training: {error}")))?;
     Ok(trained.model)

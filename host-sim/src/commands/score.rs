@@ -52,8 +52,7 @@ pub fn score(arguments: &Arguments, verbosity: Verbosity) -> Result<String, Erro
     if let Some(caution) = config::cautions(&scene) {
         report::warn(Error::file(path, caution));
     }
-    let contact_min = scene.classifier.as_ref().and_then(|c| c.contact_min);
-    let how = arguments.how.gated(contact_min);
+    let how = arguments.how.like(&scene);
     how.check().map_err(|fault| of_option(&fault))?;
     // Trained, and decided, by one gate.
     if let (Some(classifier), Some(_)) = (&mut scene.classifier, how.gate) {

@@ -3,6 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use clap::Args;
+use scene::Scene;
 use tactile::ModelError;
 use tactile::train::TrainError;
 
@@ -35,6 +36,10 @@ pub struct Arguments {
     /// A label that is left out: the model does not know it
     #[arg(long, value_name = "LABEL")]
     pub unknown: Option<String>,
+    /// The scene whose module was recorded: the model keeps how it whisks, and is refused by one
+    /// that whisks otherwise
+    #[arg(long, value_name = "SCENE.toml")]
+    pub scene: Option<PathBuf>,
     /// Where to write a picture of the calibration of joint tables: stated against found
     #[arg(long, value_name = "FILE.svg", value_parser = picture)]
     pub plot: Option<PathBuf>,
@@ -55,9 +60,12 @@ pub fn train(arguments: &Arguments) -> Result<String, Error> {
         out,
         rate,
         unknown,
+        scene,
         plot,
         how,
     } = arguments;
+    let scene = scene.as_deref().map(|path| of_scene(path, *rate));
+    let how = &scene.transpose()?.map_or(*how, |scene| how.like(&scene));
     how.check().map_err(|fault| of_option(&fault))?;
     if *rate == 0 {
         return Err(Error::Input("--rate: found 0, allowed: above 0".to_owned()));
@@ -97,6 +105,16 @@ pub fn train(arguments: &Arguments) -> Result<String, Error> {
         picture.whole(plot::calibration("trials that were held out", &points)?.as_bytes())?;
     }
     Ok(format!("{summary}\n\n{}", TrainingReport(joint)))
+}
+
+/// The scene whose module was recorded.
+fn of_scene(path: &Path, rate: u32) -> Result<Scene, Error> {
+    let (scene, _) = Scene::load_with(path, &[])?;
+    if scene.tick_hz != rate {
+        let fault = format!("--rate: found {rate}, the scene has {}", scene.tick_hz);
+        return Err(Error::Input(fault));
+    }
+    Ok(scene)
 }
 
 /// Leaves out what is of this label.

@@ -5,6 +5,7 @@ use std::fmt;
 use tactile::train::joint::JointModel;
 
 use super::evaluation::Percent;
+use super::poses::{HeldOut, of_training};
 use super::warnings::InWords;
 
 /// What held-out trials say of a model.
@@ -17,6 +18,7 @@ impl fmt::Display for TrainingReport<'_> {
         let names: Vec<_> = report.classes.iter().map(|class| &class.name).collect();
         let longest = names.iter().map(|name| name.chars().count()).max();
         let width = longest.unwrap_or(0).max("decided".len());
+        writeln!(f, "{}\n", of_training(self.0))?;
         writeln!(
             f,
             "On trials that were held out, threshold {} (in brackets 95 % intervals):\n",
@@ -75,6 +77,14 @@ impl fmt::Display for TrainingReport<'_> {
                 "{:9}  {stated:6.2}  {found:6.2} ({low:.1} to {high:.1})  {:5.0}  {unknown:5.1} %",
                 at.threshold, at.samples
             )?;
+        }
+        if !report.poses.is_empty() {
+            let classes = report.classes.iter().map(|class| class.name.as_str());
+            let held_out = HeldOut {
+                poses: &report.poses,
+                classes: classes.collect(),
+            };
+            write!(f, "\n{held_out}")?;
         }
         for warning in &report.warnings {
             write!(f, "\nwarning: {}", InWords(warning))?;

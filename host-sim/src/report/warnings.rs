@@ -10,7 +10,11 @@ struct Count(usize, &'static str);
 impl fmt::Display for Count {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Self(count, what) = self;
-        write!(f, "{count} {what}{}", if *count == 1 { "" } else { "s" })
+        let plural = match *what {
+            "touch" => "es",
+            _ => "s",
+        };
+        write!(f, "{count} {what}{}", if *count == 1 { "" } else { plural })
     }
 }
 
@@ -41,6 +45,25 @@ impl fmt::Display for InWords<'_> {
                 f,
                 "not every class is in several recordings: trials were held out, not \
                  recordings, so what this says of another recording is unknown"
+            ),
+            Warning::Pose {
+                pose,
+                name,
+                touches,
+                least,
+            } => write!(
+                f,
+                "{pose}: not used as a pose of its own, {} of {name}, and it needs {least}",
+                Count(*touches, "touch")
+            ),
+            Warning::NoOpinion {
+                name,
+                touches,
+                least,
+            } => write!(
+                f,
+                "no second opinion: too few touches of {name}: {touches}, needs {least}; in \
+                 another pose than that of training it may be wrong"
             ),
             Warning::Alike { names, mistaken } => write!(
                 f,

@@ -13,6 +13,7 @@ mod misfits;
 mod mutations;
 mod outputs;
 mod pictures;
+mod poses;
 mod press;
 mod refuses_arguments;
 mod refuses_models;

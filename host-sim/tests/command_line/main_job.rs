@@ -72,6 +72,8 @@ fn textures_are_distinguished_as_surely_as_is_said() {
 
     // Its model is what `train` makes of its recording.
     let recorded = "out/bench-textures/training.csv";
-    place.done(&format!("train --data {recorded} --out again.model"));
+    let scene = concat!(env!("CARGO_MANIFEST_DIR"), "/../scenes/bench-textures.toml");
+    let train = format!("train --data {recorded} --scene {scene} --out again.model");
+    place.done(&train);
     assert!(place.bytes("again.model") == place.bytes("out/bench-textures/bench-textures.model"));
 }

@@ -133,6 +133,7 @@ fn train_and_decide(folder: &Place, model: &str, recording: &str) -> Result<(), 
             out: path(out),
             rate: 2000,
             unknown: None,
+            scene: None,
             plot: Some(path("plot.svg")).filter(|_| tables == Tables::Joint),
             how: How {
                 bins: Some(10),

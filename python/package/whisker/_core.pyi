@@ -133,6 +133,7 @@ def train(
     block: int | None,
     gate: float | None,
     gap: float | None,
+    expect: str,
     rate: int,
 ) -> Model: ...
 def classify(

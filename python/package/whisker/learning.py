@@ -65,7 +65,7 @@ def why(decision: Any) -> Why:
 
 class _Prepared(NamedTuple):
     name: str
-    streams: list[tuple[str, str, int, int]]
+    streams: list[tuple[str, str, int, int, str | None]]
     samples: np.ndarray
     contact: np.ndarray | None
     touch: np.ndarray | None
@@ -86,7 +86,8 @@ def _prepared(name: str, recording: Any, channels: tuple[str, str]) -> _Prepared
         raise ValueError(f"{name}: no column {missing[0]!r}; a recording has {', '.join(found)}")
     label, trial, x, y = found.values()
     contact, touch = _column(recording, "contact"), _column(recording, "touch")
-    columns = {**found, "contact": contact, "touch": touch}
+    pose = _column(recording, "pose")
+    columns = {**found, "contact": contact, "touch": touch, "pose": pose}
     for column, values in columns.items():
         if values is not None and values.shape != label.shape:
             raise ValueError(f"{name}: {column} has the shape {values.shape}, not {label.shape}")
@@ -98,7 +99,9 @@ def _prepared(name: str, recording: Any, channels: tuple[str, str]) -> _Prepared
     changes = np.flatnonzero((label[1:] != label[:-1]) | (trial[1:] != trial[:-1])) + 1
     ends = [0, *changes.tolist(), len(label)]
     streams = [
-        (str(label[a]), str(trial[a]), a, b) for a, b in zip(ends, ends[1:]) if b > a
+        (str(label[a]), str(trial[a]), a, b, None if pose is None else str(pose[a]))
+        for a, b in zip(ends, ends[1:])
+        if b > a
     ]
     return _Prepared(
         name,
@@ -129,18 +132,20 @@ def train(
     block: int | None = None,
     gate: float | None = None,
     gap: float | None = None,
+    expect: str = "bench",
     rate: int = 2000,
 ) -> _core.Model:
     """Trains a model; its bytes are what a board runs.
 
     A recording has the columns ``label``, ``trial``, ``x``, ``y`` and, where samples are of the
-    air too, ``contact`` and ``touch``: a structured array as ``record`` returns it, a dictionary
+    air too, ``contact`` and ``touch``, and where the surface was held in several ways, ``pose``: a structured array as ``record`` returns it, a dictionary
     of arrays, or a table of pandas. Several, as a list or by their names in a dictionary, are
     each held out to tell what is to be expected of another one.
 
     ``tables`` are "joint" or, as the papers have it, "single"; ``bins``, ``smooth`` (bins),
     ``block`` (samples), ``gate`` (contact from which a sample counts) and ``gap`` (seconds without
-    contact that end a touch) are as the options of ``host-sim train``. ``rate`` is in Hz.
+    contact that end a touch) and ``expect`` ("same", "bench" or "other": how much may differ
+    between training and use) are as the options of ``host-sim train``. ``rate`` is in Hz.
     """
     return _core.train(
         _all(recordings, channels),
@@ -150,6 +155,7 @@ def train(
         block=block,
         gate=gate,
         gap=gap,
+        expect=expect,
         rate=rate,
     )
 

@@ -131,11 +131,10 @@ impl Ground {
         tables: Tables,
     ) -> Result<TrainedModel> {
         let recordings = [(self.scene.name.clone(), streams)];
-        let contact_min = self.scene.classifier.as_ref().and_then(|c| c.contact_min);
         // In the pose of training: the page of poses has the others.
         let how = How {
             expect: Expected::Same,
-            ..How::of(tables).gated(contact_min)
+            ..How::of(tables).like(&self.scene)
         };
         let trained = how.train(&recordings, self.scene.tick_hz);
         trained.map_err(anyhow::Error::new)

@@ -19,8 +19,7 @@ pub(super) fn section(
 ) -> Result<()> {
     let scene = main_job::scene()?;
     let streams = main_job::record(&scene, Verbosity::Quiet)?;
-    let contact_min = scene.classifier.as_ref().and_then(|c| c.contact_min);
-    let how = How::of(Tables::Joint).gated(contact_min);
+    let how = How::of(Tables::Joint).like(&scene);
     let trained = how.train(&[(scene.name.clone(), streams)], scene.tick_hz)?;
     let poses = trained
         .joint

@@ -41,6 +41,7 @@ fn terrain() -> Terrain {
         out: model.clone(),
         rate: 2000,
         unknown: None,
+        scene: None,
         plot: None,
         how: How::of(Tables::Single),
     };

@@ -21,13 +21,15 @@ pub(crate) const FIRST_TOUCH: &str = "first_touch";
 #[derive(Debug)]
 pub(crate) struct Recording {
     path: PathBuf,
+    /// The pose that is captured.
+    pose: Option<String>,
     origin: Origin,
     streams: Vec<Stream>,
 }
 
 impl Recording {
     /// A new recording, or with `resumes` the one that is there.
-    pub(crate) fn open(path: &Path, resumes: bool) -> Result<Self, Error> {
+    pub(crate) fn open(path: &Path, resumes: bool, pose: Option<&str>) -> Result<Self, Error> {
         output::check(path)?;
         let is_there = path.exists();
         if is_there && !resumes {
@@ -43,6 +45,7 @@ impl Recording {
         }
         Ok(Self {
             path: path.to_owned(),
+            pose: pose.map(str::to_owned),
             origin,
             streams,
         })
@@ -82,8 +85,9 @@ impl Recording {
             .filter(move |stream| stream.label == label)
     }
 
+    /// In the pose that is captured.
     pub(crate) fn touches(&self, label: &str) -> usize {
-        count(self.of(label))
+        count(self.of(label).filter(|stream| stream.pose == self.pose))
     }
 
     pub(crate) fn all_touches(&self) -> usize {
@@ -99,7 +103,11 @@ impl Recording {
 
     /// Adds streams, and writes the file as it is by now.
     pub(crate) fn add(&mut self, streams: Vec<Stream>) -> Result<(), Error> {
-        self.streams.extend(streams);
+        self.streams
+            .extend(streams.into_iter().map(|stream| Stream {
+                pose: self.pose.clone(),
+                ..stream
+            }));
         let mut output = Output::create(&self.path)?;
         recording::write_from(&mut output, &self.origin, &self.streams)
             .map_err(|source| output.failed(source))?;

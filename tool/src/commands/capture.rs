@@ -3,6 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use clap::Args;
+use clap::builder::NonEmptyStringValueParser;
 use host_sim::origin::Origin;
 use host_sim::progress::{Progress, Verbosity};
 use host_sim::{Error, report};
@@ -36,6 +37,9 @@ pub(crate) struct Arguments {
     /// another seed then, lest they repeat themselves
     #[arg(long)]
     resume: bool,
+    /// What this pose of the samples is called; with --resume others can follow in one file
+    #[arg(long, value_name = "NAME", value_parser = NonEmptyStringValueParser::new())]
+    pose: Option<String>,
     /// For how long nothing may be touched
     #[arg(long, value_name = "S", default_value = "10", value_parser = seconds)]
     patience: f64,
@@ -58,7 +62,8 @@ pub(crate) fn capture(arguments: &Arguments, verbosity: Verbosity) -> Result<(),
         let fault = format!("--label: found {:?} twice, allowed: once", labels[n].name);
         return Err(Error::Input(fault));
     }
-    let recording = Recording::open(&arguments.out, arguments.resume)?;
+    let pose = arguments.pose.as_deref();
+    let recording = Recording::open(&arguments.out, arguments.resume, pose)?;
     let missing = |label: &&Label| recording.touches(&label.name) < wanted;
     let missing: Vec<&Label> = labels.iter().filter(missing).collect();
     if missing.is_empty() {
@@ -160,7 +165,9 @@ fn complete(
     report::say(format_args!(
         "{out}: {} samples, {} touches; records lost: {} of {}\n\
          from the first touch: {lasted_s:.0} s of the module's time\n\
-         next: cargo run -p host-sim -- train --data {out} --rate {} --out MODEL",
+         next: cargo run -p host-sim -- train --data {out} --rate {} --out MODEL\n\
+         another pose first: hold the samples some degrees otherwise, and go on with --resume \
+         --pose NAME; three to five are best",
         recording.samples(),
         recording.all_touches(),
         tally.lost,

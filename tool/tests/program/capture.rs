@@ -94,6 +94,24 @@ fn a_file_is_not_overwritten_but_gone_on_with() {
 }
 
 #[test]
+fn a_file_has_several_poses() {
+    let place = Place::new();
+    let capture = "capture --sim bench.toml --out c.csv --label smooth --touches 2";
+    let ran = place.done(&format!("{capture} --pose flat"));
+    ran.prints("\nanother pose first: hold the samples some degrees otherwise");
+    place.done(&format!("{capture} --pose tilted --resume"));
+    let streams = recording(&place, "c.csv");
+    assert_eq!(shape(&streams), [("smooth", "0", 2), ("smooth", "1", 2)]);
+    let poses: Vec<_> = streams
+        .iter()
+        .map(|stream| stream.pose.as_deref())
+        .collect();
+    assert_eq!(poses, [Some("flat"), Some("tilted")]);
+    let ran = place.done(&format!("{capture} --pose flat --resume"));
+    ran.prints("2 touches of each label already");
+}
+
+#[test]
 fn where_nothing_is_touched_it_says_what_to_look_at() {
     let place = Place::new();
     // Out of reach.

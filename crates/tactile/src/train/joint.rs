@@ -32,14 +32,15 @@ mod weights;
 
 use std::vec::Vec;
 
-use super::opinion::{self, Material};
+use super::opinion::poses::Poses;
+use super::opinion::{self, Material, Trained};
 use crate::train_error::TrainError;
 use axes::{Axes, Layout};
 use blocks::Blocks;
 pub use floors::Floor;
 pub use model::JointModel;
 use pieces::{Folded, Piece, names};
-pub use report::{AtThreshold, ClassReport, Report};
+pub use report::{AtThreshold, ClassReport, PoseReport, Report};
 use run::{Rule, felt, of_unknown};
 pub use tables::LogTable;
 use tables::{Evidence, Tables};
@@ -129,7 +130,20 @@ fn once(trials: &[Trial], options: &Options) -> Result<JointModel, TrainError> {
         unknown: None,
     };
     let floors = fit(&mut rule, &folded, &evidence, options);
-    let warnings = Doubts {
+    let poses = Poses::of(trials);
+    let Trained {
+        opinion,
+        warnings: scarce,
+    } = opinion::train(&Material {
+        trials,
+        names: &names,
+        scales: &scales,
+        block: options.block,
+        expect: options.expect,
+        whisked: options.whisked,
+        poses: &poses,
+    });
+    let mut warnings = Doubts {
         names: &names,
         trials,
         folded: &folded,
@@ -137,6 +151,11 @@ fn once(trials: &[Trial], options: &Options) -> Result<JointModel, TrainError> {
         weights: &rule.weights,
     }
     .warnings();
+    warnings.extend(scarce);
+    if opinion.as_ref().is_some_and(|opinion| opinion.names) {
+        // Poses of one recording are held out as recordings are.
+        warnings.retain(|warning| *warning != Warning::OneRecording);
+    }
     let report = report::Maker {
         names: &names,
         trials,
@@ -146,15 +165,8 @@ fn once(trials: &[Trial], options: &Options) -> Result<JointModel, TrainError> {
         warnings,
     }
     .report(&rule);
-    let opinion = opinion::train(&Material {
-        trials,
-        names: &names,
-        scales: &scales,
-        block: options.block,
-        expect: options.expect,
-        whisked: options.whisked,
-    });
     Ok(JointModel {
+        poses: poses.count(),
         tables: tables.finished(),
         opinion,
         options: options.clone(),

@@ -23,6 +23,7 @@ use std::vec::Vec;
 use self::linear::{Covariance, Linear};
 use self::matrix::quantile;
 use self::paths::Paths;
+use self::poses::Poses;
 use self::touches::{Sense, Touch};
 use self::typical::Typical;
 use crate::format::ENTRIES_PER_BIT;
@@ -31,7 +32,7 @@ use crate::opinion::differences::FEATURE_BITS;
 use crate::opinion::section::{MAX_POSES, begun};
 use crate::opinion::{BLOCKS, FEATURES, PATH_BITS, STAGES, STATE_BITS, STATES, blocks_of};
 use crate::quantiser::Quantiser;
-use crate::train::joint::{CHANNELS, Trial};
+use crate::train::joint::{CHANNELS, Trial, Warning};
 
 /// How much may differ between training and use.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -89,6 +90,13 @@ pub(super) struct Material<'a> {
     pub(super) block: u32,
     pub(super) expect: Expect,
     pub(super) whisked: Whisked,
+    pub(super) poses: &'a Poses,
+}
+
+/// An opinion, if there is enough to train one, and what there is too little of.
+pub(super) struct Trained {
+    pub(super) opinion: Option<Opinion>,
+    pub(super) warnings: Vec<Warning>,
 }
 
 /// The touches, and how they were felt.
@@ -108,12 +116,26 @@ struct Felt {
 
 /// Trains from what there is; none where a class was not touched often enough, or nothing is
 /// expected to differ.
-pub(super) fn train(material: &Material<'_>) -> Option<Opinion> {
+pub(super) fn train(material: &Material<'_>) -> Trained {
     let felt = Felt::of(material, material.expect.gains());
     let names = felt.poses.len() >= LEAST_POSES;
-    if !felt.is_enough() || !names && material.expect == Expect::Same {
-        return None;
+    let mut warnings = felt.lacking(material);
+    if !names && material.expect == Expect::Same {
+        return Trained {
+            opinion: None,
+            warnings,
+        };
     }
+    let scarce = felt.scarce(material.names);
+    let is_enough = scarce.is_none() && felt.stages > 0;
+    warnings.extend(scarce);
+    Trained {
+        opinion: is_enough.then(|| of_felt(&felt, names, material)).flatten(),
+        warnings,
+    }
+}
+
+fn of_felt(felt: &Felt, names: bool, material: &Material<'_>) -> Option<Opinion> {
     let how = if names {
         // A few poses say little of how far poses spread.
         let freedom = felt.poses.len() - 1;
@@ -159,7 +181,8 @@ impl Felt {
             block,
             ..
         } = *material;
-        let (of_recording, recordings) = poses::numbers(trials);
+        let Poses { of_trial, .. } = material.poses;
+        let recordings = material.poses.count();
         let of_class: Vec<usize> = trials
             .iter()
             .map(|trial| {
@@ -170,7 +193,7 @@ impl Felt {
             })
             .collect();
         let sense = Sense::of(trials, scales, block);
-        let numbers = (of_class.as_slice(), of_recording.as_slice());
+        let numbers = (of_class.as_slice(), of_trial.as_slice());
         let mut touches = sense.touches(trials, scales, numbers, 1.0);
         let long = touches.iter().filter(|touch| touch.goes_on).count();
         let begins_again = long * 3 > touches.len();
@@ -209,14 +232,46 @@ impl Felt {
         }
     }
 
-    fn is_enough(&self) -> bool {
-        let of = |class: usize| {
-            self.touches
-                .iter()
-                .filter(move |t| t.class == class)
-                .count()
-        };
-        self.stages > 0 && (0..self.classes).all(|class| of(class) >= LEAST_TOUCHES[0])
+    /// Touches of a class, in one pose or in all.
+    fn count(&self, class: usize, pose: Option<usize>) -> usize {
+        let of = self.touches.iter().filter(|touch| touch.class == class);
+        of.filter(|touch| pose.is_none_or(|pose| touch.recording == pose))
+            .count()
+    }
+
+    /// The first class of which there are too few touches.
+    fn scarce(&self, names: &[String]) -> Option<Warning> {
+        let [least, _] = LEAST_TOUCHES;
+        let mut classes = (0..self.classes).map(|class| (class, self.count(class, None)));
+        let (class, touches) = classes.find(|(_, touches)| *touches < least)?;
+        Some(Warning::NoOpinion {
+            name: names.get(class)?.clone(),
+            touches,
+            least,
+        })
+    }
+
+    /// Poses, of several, that have too few touches of a class to count as one.
+    fn lacking(&self, material: &Material<'_>) -> Vec<Warning> {
+        let [_, least] = LEAST_TOUCHES;
+        let named = material.poses.names.iter().enumerate();
+        let named = named.filter(|_| material.poses.count() > 1);
+        let mut warnings = Vec::new();
+        for (pose, called) in named {
+            let Some(called) = called else { continue };
+            for (class, name) in material.names.iter().enumerate() {
+                let touches = self.count(class, Some(pose));
+                if touches < least {
+                    warnings.push(Warning::Pose {
+                        pose: called.clone(),
+                        name: name.clone(),
+                        touches,
+                        least,
+                    });
+                }
+            }
+        }
+        warnings
     }
 
     /// What is typical of a class, and its paths.

@@ -30,6 +30,8 @@ pub struct JointModel {
     pub weights: Vec<f64>,
     /// A floor a class; none where none was wanted.
     pub floors: Option<Vec<Floor>>,
+    /// In how many poses it was trained, of some classes or of all.
+    pub poses: usize,
     /// A second opinion; none where nothing is expected to differ, or too little was touched.
     pub opinion: Option<Opinion>,
     /// What held-out trials say of all this.

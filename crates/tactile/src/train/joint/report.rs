@@ -56,6 +56,19 @@ pub struct AtThreshold {
     pub undecided: Interval,
 }
 
+/// What was found of a pose when it was held out.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PoseReport {
+    /// What it is called.
+    pub name: String,
+    /// Share of its trials in which a class was named.
+    pub decided: Interval,
+    /// Of the decisions that named a class, those that were right.
+    pub hits: Interval,
+    /// `decided` of each class.
+    pub classes: Vec<Interval>,
+}
+
 /// What held-out trials say of a model.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Report {
@@ -65,6 +78,8 @@ pub struct Report {
     pub classes: Vec<ClassReport>,
     /// Stated against found, at thresholds in rising order.
     pub calibration: Vec<AtThreshold>,
+    /// Each pose, where poses were held out and have names; otherwise none.
+    pub poses: Vec<PoseReport>,
     /// What is doubtful.
     pub warnings: Vec<Warning>,
 }
@@ -98,6 +113,7 @@ impl Maker<'_> {
                 .map(|class| self.class(class, &found, rule))
                 .collect(),
             calibration: calibration.to_vec(),
+            poses: Vec::new(),
             warnings: self.warnings,
         }
     }

@@ -5,13 +5,13 @@ use std::string::String;
 use std::vec::Vec;
 
 use super::model::JointModel;
-use super::report::{AtThreshold, ClassReport};
+use super::report::{AtThreshold, ClassReport, PoseReport};
 use super::trial::Trial;
 use crate::decision::Decision;
 use crate::error::ModelError;
 use crate::score::Interval;
 use crate::sequential::{Sequential, Threshold};
-use crate::train::opinion::poses;
+use crate::train::opinion::poses::Poses;
 use crate::train_error::TrainError;
 
 /// In how many parts the trials of a class are held out.
@@ -41,7 +41,9 @@ impl Said {
 /// each is held out, of one some trials of each class. Where these are too few to be held
 /// out, the report stays that of tables and floors.
 pub(super) fn report(model: &mut JointModel, trials: &[Trial]) -> Result<(), TrainError> {
-    let folds = folds(model, trials);
+    let names = model.opinion.as_ref().is_some_and(|opinion| opinion.names);
+    let poses = names.then(|| Poses::of(trials));
+    let folds = folds(model, trials, poses.as_ref());
     let last = folds.iter().copied().max().unwrap_or(0);
     let thresholds: Vec<f64> = model
         .report
@@ -86,15 +88,17 @@ pub(super) fn report(model: &mut JointModel, trials: &[Trial]) -> Result<(), Tra
     for (class, report) in report.classes.iter_mut().enumerate() {
         of_class(report, class, &own, trials);
     }
+    if let Some(poses) = poses {
+        report.poses = of_poses(&poses, &own, trials, &model.names);
+    }
     Ok(())
 }
 
 /// With which part each trial is held out.
-fn folds(model: &JointModel, trials: &[Trial]) -> Vec<usize> {
-    let names = model.opinion.as_ref().is_some_and(|opinion| opinion.names);
-    if names {
-        let (poses, _) = poses::numbers(trials);
-        return poses.iter().map(|pose| pose % MOST_FOLDS).collect();
+fn folds(model: &JointModel, trials: &[Trial], poses: Option<&Poses>) -> Vec<usize> {
+    if let Some(poses) = poses {
+        let of_trial = poses.of_trial.iter();
+        return of_trial.map(|pose| pose % MOST_FOLDS).collect();
     }
     let mut seen: Vec<usize> = model.names.iter().map(|_| 0).collect();
     let fold = |trial: &Trial| {
@@ -201,4 +205,27 @@ fn of_class(report: &mut ClassReport, class: usize, said: &[Said], trials: &[Tri
     let silent = undecided(said, own.iter().copied());
     report.trials = own.len();
     report.undecided = (silent.share * own.len() as f64).round() as usize;
+}
+
+/// What was said of each pose that has a name.
+fn of_poses(poses: &Poses, said: &[Said], trials: &[Trial], names: &[String]) -> Vec<PoseReport> {
+    let of = |(pose, name): (usize, &Option<String>)| {
+        let is_of = |trial: &usize| poses.of_trial.get(*trial) == Some(&pose);
+        let decided = |label: Option<&String>| {
+            let of_label = |trial: &usize| label.is_none_or(|label| trials[*trial].label == *label);
+            let own = (0..trials.len()).filter(is_of).filter(of_label);
+            let Interval { share, count, .. } = undecided(said, own);
+            // Of none there is no share.
+            let silent = (share * count as f64).round() as usize;
+            Interval::of(count - silent, count)
+        };
+        let named = || said.iter().filter(|s| s.is_named() && is_of(&s.trial));
+        Some(PoseReport {
+            name: name.clone()?,
+            decided: decided(None),
+            hits: Interval::of(named().filter(|s| s.is_right()).count(), named().count()),
+            classes: names.iter().map(|name| decided(Some(name))).collect(),
+        })
+    };
+    poses.names.iter().enumerate().filter_map(of).collect()
 }

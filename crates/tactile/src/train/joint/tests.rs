@@ -37,6 +37,7 @@ fn blocks(samples: Vec<[f64; 2]>, touches: Vec<u16>, block: u32) -> Blocks {
         pose: None,
         samples,
         touches,
+        ..Trial::default()
     };
     let options = Options {
         block,

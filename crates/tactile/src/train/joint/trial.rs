@@ -90,7 +90,7 @@ pub struct Trial {
     /// The recording that it is of: a run of a scene, a drive, a day.
     pub recording: String,
     /// The pose in which it was felt, where a recording has several and says so.
-    pub pose: Option<u64>,
+    pub pose: Option<String>,
     /// x and y, in any unit, in time order; those in the air among them.
     pub samples: Vec<[f64; CHANNELS]>,
     /// Of each sample that counts the number of its touch, 0 of others: in the air, or

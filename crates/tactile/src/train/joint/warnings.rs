@@ -42,6 +42,26 @@ pub enum Warning {
     OneRecording,
     /// Not every class is in several recordings: trials were held out, not recordings.
     NotAcrossRecordings,
+    /// A pose, of several, with so few touches of a class that it does not count as one.
+    Pose {
+        /// What it is called.
+        pose: String,
+        /// The class.
+        name: String,
+        /// How many.
+        touches: usize,
+        /// How many it needs.
+        least: usize,
+    },
+    /// So few touches of a class that there is no second opinion.
+    NoOpinion {
+        /// The class.
+        name: String,
+        /// How many.
+        touches: usize,
+        /// How many it needs.
+        least: usize,
+    },
     /// Two classes are taken for one another.
     Alike {
         /// Their names.

@@ -1,23 +1,66 @@
 //! Which trials were felt in one pose.
 
+use std::format;
+use std::string::{String, ToString};
 use std::vec;
 use std::vec::Vec;
 
 use crate::train::joint::Trial;
 
 /// What is one pose: a recording; or, where it says that it has several, one of these.
-type Key<'t> = (&'t str, Option<u64>);
+type Key<'t> = (&'t str, Option<&'t str>);
 
-/// The number of the pose of each trial, and how many there are.
-///
-/// Recordings that say in which pose each trial was felt are cut by it. If then no pose has
-/// all classes, as where each presentation has a pose of its own, the first poses of the classes
-/// are put together, the second ones, and so on.
-pub(in crate::train) fn numbers(trials: &[Trial]) -> (Vec<usize>, usize) {
-    let by_pose = numbered(trials.iter().map(key_of));
-    if is_whole(trials, &by_pose) {
-        return counted(by_pose);
+/// The poses of trials.
+pub(in crate::train) struct Poses {
+    /// The number of the pose of each trial.
+    pub(in crate::train) of_trial: Vec<usize>,
+    /// What each is called; none where poses were put together.
+    pub(in crate::train) names: Vec<Option<String>>,
+}
+
+impl Poses {
+    /// Recordings that say in which pose each trial was felt are cut by it. If then no pose has
+    /// all classes, as where each presentation has a pose of its own, the first poses of the
+    /// classes are put together, the second ones, and so on.
+    pub(in crate::train) fn of(trials: &[Trial]) -> Self {
+        let keys = || trials.iter().map(key_of);
+        let by_pose = numbered(keys());
+        let is_alone = trials.iter().all(|t| t.recording == trials[0].recording);
+        if trials.iter().all(|trial| trial.pose.is_none()) || is_whole(trials, &by_pose) {
+            let count = counted(&by_pose);
+            let name = |pose| {
+                let first = by_pose.iter().position(|of| *of == pose)?;
+                Some(called(keys().nth(first)?, is_alone))
+            };
+            return Self {
+                names: (0..count).map(name).collect(),
+                of_trial: by_pose,
+            };
+        }
+        let of_trial = numbered(ranks(trials).into_iter());
+        Self {
+            names: vec![None; counted(&of_trial)],
+            of_trial,
+        }
     }
+
+    /// How many there are.
+    pub(in crate::train) const fn count(&self) -> usize {
+        self.names.len()
+    }
+}
+
+/// A pose in words; of one recording alone its name says nothing.
+fn called((recording, pose): Key<'_>, is_alone: bool) -> String {
+    match pose {
+        None => recording.to_string(),
+        Some(pose) if is_alone => format!("pose {pose}"),
+        Some(pose) => format!("{recording}, pose {pose}"),
+    }
+}
+
+/// Which pose of its class and recording each trial was felt in, beside the recording.
+fn ranks(trials: &[Trial]) -> Vec<(&str, usize)> {
     let mut keys: Vec<(Key<'_>, &str)> = Vec::new();
     let mut ranks = Vec::with_capacity(trials.len());
     for trial in trials {
@@ -30,18 +73,18 @@ pub(in crate::train) fn numbers(trials: &[Trial]) -> (Vec<usize>, usize) {
         }
         let same = keys.iter().filter(|key| of_class(key));
         let rank = same.clone().position(|key| *key == own).unwrap_or(0);
-        ranks.push((trial.recording.as_str(), Some(rank as u64)));
+        ranks.push((trial.recording.as_str(), rank));
     }
-    counted(numbered(ranks.into_iter()))
+    ranks
 }
 
 fn key_of(trial: &Trial) -> Key<'_> {
-    (&trial.recording, trial.pose)
+    (&trial.recording, trial.pose.as_deref())
 }
 
 /// Numbers of keys in the order in which they first appear.
-fn numbered<'t>(keys: impl Iterator<Item = Key<'t>>) -> Vec<usize> {
-    let mut known: Vec<Key<'t>> = Vec::new();
+fn numbered<K: PartialEq>(keys: impl Iterator<Item = K>) -> Vec<usize> {
+    let mut known: Vec<K> = Vec::new();
     let number = |key| {
         let found = known.iter().position(|of| *of == key);
         found.unwrap_or_else(|| {
@@ -57,8 +100,7 @@ fn is_whole(trials: &[Trial], poses: &[usize]) -> bool {
     let mut labels: Vec<&str> = trials.iter().map(|trial| trial.label.as_str()).collect();
     labels.sort_unstable();
     labels.dedup();
-    let count = poses.iter().copied().max().map_or(0, |last| last + 1);
-    let mut found = vec![vec![false; labels.len()]; count];
+    let mut found = vec![vec![false; labels.len()]; counted(poses)];
     for (trial, pose) in trials.iter().zip(poses) {
         if let Ok(label) = labels.binary_search(&trial.label.as_str()) {
             found[*pose][label] = true;
@@ -67,22 +109,19 @@ fn is_whole(trials: &[Trial], poses: &[usize]) -> bool {
     found.iter().any(|of_pose| of_pose.iter().all(|is| *is))
 }
 
-fn counted(numbers: Vec<usize>) -> (Vec<usize>, usize) {
-    let count = numbers.iter().copied().max().map_or(0, |last| last + 1);
-    (numbers, count)
+fn counted(numbers: &[usize]) -> usize {
+    numbers.iter().copied().max().map_or(0, |last| last + 1)
 }
 
 #[cfg(test)]
 mod tests {
-    use std::string::ToString;
-
     use super::*;
 
     fn trial((label, recording, pose): (&str, &str, Option<u64>)) -> Trial {
         Trial {
             label: label.to_string(),
             recording: recording.to_string(),
-            pose,
+            pose: pose.map(|pose| pose.to_string()),
             ..Trial::default()
         }
     }
@@ -95,14 +134,19 @@ mod tests {
             ("a", "y", None),
             ("b", "y", None),
         ];
-        assert_eq!(numbers(&all.map(trial)).0, [0, 0, 1, 1]);
+        let found = Poses::of(&all.map(trial));
+        assert_eq!(found.of_trial, [0, 0, 1, 1]);
+        assert_eq!(found.names, ["x", "y"].map(|name| Some(name.to_string())));
         let all = [
             ("a", "x", Some(3)),
             ("b", "x", Some(3)),
             ("a", "x", Some(5)),
             ("b", "x", Some(5)),
         ];
-        assert_eq!(numbers(&all.map(trial)).0, [0, 0, 1, 1]);
+        let found = Poses::of(&all.map(trial));
+        assert_eq!(found.of_trial, [0, 0, 1, 1]);
+        let names = ["pose 3", "pose 5"].map(|name| Some(name.to_string()));
+        assert_eq!(found.names, names);
     }
 
     #[test]
@@ -113,6 +157,8 @@ mod tests {
             ("a", "x", Some(2)),
             ("b", "x", Some(3)),
         ];
-        assert_eq!(numbers(&all.map(trial)), (std::vec![0, 0, 1, 1], 2));
+        let found = Poses::of(&all.map(trial));
+        assert_eq!(found.of_trial, [0, 0, 1, 1]);
+        assert_eq!(found.names, [None, None]);
     }
 }

@@ -1,0 +1,110 @@
+//! In what poses a model can be trusted, for people.
+
+use std::fmt;
+
+use tactile::ModelBuf;
+use tactile::train::joint::{JointModel, PoseReport};
+
+use super::evaluation::Percent;
+
+/// So many poses.
+fn poses(count: usize) -> String {
+    match count {
+        0 | 1 => "1 pose".to_owned(),
+        count => format!("{count} poses"),
+    }
+}
+
+/// In how many poses a model was trained, and what it is worth in others: as who trains it knows.
+pub(super) fn of_training(model: &JointModel) -> String {
+    match &model.opinion {
+        Some(opinion) if opinion.names => {
+            let names = names_between(&poses(opinion.poses));
+            // Without one of three there are too few to name by.
+            let more = if opinion.poses == 3 {
+                "; train with a fourth to see what to expect of another"
+            } else {
+                ""
+            };
+            format!("{names}{more}")
+        }
+        Some(_) if model.poses > 1 => {
+            let poses = poses(model.poses);
+            format!("trained in {poses}: honest in them, silent elsewhere")
+        }
+        Some(_) => "trained in 1 pose: honest in it, silent elsewhere".to_owned(),
+        None if model.poses > 1 => {
+            format!("trained in {}: honest there only", poses(model.poses))
+        }
+        None => "trained in one pose: honest there only".to_owned(),
+    }
+}
+
+/// The same, as its file says it.
+pub fn of_model(model: &ModelBuf) -> String {
+    if !model.has_opinion() {
+        return "trained at one pose; honest there only".to_owned();
+    }
+    match model.poses() {
+        _ if !model.names_between_poses() => {
+            "trained in one pose or two: honest there, silent elsewhere".to_owned()
+        }
+        1 => names_between("more than 12 poses"),
+        count => names_between(&poses(count)),
+    }
+}
+
+fn names_between(poses: &str) -> String {
+    format!("trained in {poses}: names by itself between them")
+}
+
+/// Share of presentations from which on a class was decided often enough.
+const ENOUGH: f64 = 0.9;
+
+/// What to expect of each pose, and what to record next.
+pub(super) struct HeldOut<'a> {
+    pub(super) poses: &'a [PoseReport],
+    pub(super) classes: Vec<&'a str>,
+}
+
+impl HeldOut<'_> {
+    /// The pose and class that were decided least often, and how often.
+    fn least(&self) -> Option<(&str, &str, f64)> {
+        let all = self.poses.iter().flat_map(|pose| {
+            let of_class = pose.classes.iter().zip(&self.classes);
+            let of_class = of_class.filter(|(decided, _)| decided.count > 0);
+            of_class.map(|(decided, class)| (pose.name.as_str(), *class, decided.share))
+        });
+        let least = all.min_by(|(.., a), (.., b)| a.total_cmp(b));
+        least.filter(|(.., share)| *share < ENOUGH)
+    }
+}
+
+impl fmt::Display for HeldOut<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let width = self.poses.iter().map(|pose| pose.name.chars().count());
+        let width = width.max().unwrap_or(0);
+        writeln!(
+            f,
+            "Each pose when it was held out, as what to expect of another one like it:\n"
+        )?;
+        for pose in self.poses {
+            writeln!(
+                f,
+                "{:>width$}: decided {}; right {}",
+                pose.name,
+                Percent(pose.decided),
+                Percent(pose.hits)
+            )?;
+        }
+        if let Some((pose, class, share)) = self.least() {
+            writeln!(
+                f,
+                "\nleast decided: {pose}, {class} ({:.0} % of presentations): a recording \
+                 between it and its neighbours would help {class} most",
+                100.0 * share
+            )?;
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,158 @@
+//! What `train` and `evaluate` say of poses.
+
+use tactile::{ModelBuf, Whisked};
+
+use crate::common::{Place, TEXTURED};
+
+/// Recordings of the same textures with the obstacle at so many degrees.
+fn recorded(places_deg: &[u32]) -> Place {
+    let place = Place::new();
+    for deg in places_deg {
+        let text = TEXTURED
+            .replace("duration_s = 0.5", "duration_s = 2.0")
+            .replace("[80.0]", &format!("[{deg}.0]"));
+        place.write("s.toml", text);
+        place.done(&format!("record s.toml --out at{deg}.csv"));
+    }
+    place
+}
+
+/// Trains from these; returns what was said.
+fn trained(place: &Place, data: &[&str], options: &str) -> String {
+    let data: Vec<_> = data.iter().map(|name| format!("--data {name}")).collect();
+    let line = format!("train {} --out the.model {options}", data.join(" "));
+    place.done(&line).stdout
+}
+
+#[track_caller]
+fn has(printed: &str, line: &str) {
+    let found = printed.lines().any(|of| of.starts_with(line));
+    assert!(found, "no {line:?} in {printed}");
+}
+
+fn evaluated(place: &Place, model: &str) -> String {
+    let line = format!("evaluate --model {model} --data at80.csv");
+    place.done(&line).stdout
+}
+
+#[test]
+fn several_poses_are_held_out_and_one_is_recommended() {
+    let place = recorded(&[76, 78, 80, 82, 84]);
+    let names = ["at76.csv", "at78.csv", "at80.csv", "at82.csv", "at84.csv"];
+    let of_files = trained(&place, &names, "");
+    let line = "trained in 5 poses: names by itself between them";
+    has(&of_files, line);
+    for name in names {
+        has(&of_files, &format!("{name}: decided "));
+    }
+    has(&of_files, "least decided: at");
+    assert!(of_files.contains("between it and its neighbours would help "));
+    has(&evaluated(&place, "the.model"), line);
+
+    // The same as values of a column.
+    let mut table = String::from("label,trial,x,y,contact,touch,pose\n");
+    for name in names {
+        for row in place.text(name).lines().skip(1) {
+            table.push_str(&format!("{row},of {name}\n"));
+        }
+    }
+    place.write("all.csv", table);
+    let of_column = trained(&place, &["all.csv"], "");
+    has(&of_column, line);
+    has(&of_column, "pose of at76.csv: decided ");
+    assert!(
+        !of_column.contains("all is of one recording"),
+        "{of_column}"
+    );
+    // Beside a file that is a pose itself.
+    let both = trained(&place, &["all.csv", "at80.csv"], "");
+    has(&both, "trained in 6 poses");
+    has(&both, "all.csv, pose of at84.csv: decided ");
+
+    // Three are too few to leave one out.
+    let three = trained(&place, &names[..3], "");
+    has(
+        &three,
+        "trained in 3 poses: names by itself between them; train with a fourth",
+    );
+}
+
+#[test]
+fn a_pose_without_a_class_is_none() {
+    let place = recorded(&[76, 78, 80, 82]);
+    let of_smooth = |row: &&str| !row.starts_with("carpet");
+    let rows: Vec<String> = place
+        .text("at82.csv")
+        .lines()
+        .filter(of_smooth)
+        .map(str::to_owned)
+        .collect();
+    place.write("lacking.csv", rows.join("\n"));
+    let names = ["at76.csv", "at78.csv", "at80.csv", "lacking.csv"];
+    let said = trained(&place, &names, "");
+    has(&said, "trained in 3 poses");
+    has(
+        &said,
+        "warning: lacking.csv: not used as a pose of its own, 0 touches of carpet, and it needs 4",
+    );
+}
+
+#[test]
+fn one_pose_is_said_to_be_one() {
+    let place = recorded(&[80]);
+    let honest = "trained in one pose: honest there only";
+    let too_few = "warning: no second opinion: too few touches of smooth: ";
+    let said = trained(&place, &["at80.csv"], "");
+    has(&said, honest);
+    has(&said, too_few);
+    let said = trained(&place, &["at80.csv"], "--expect same");
+    has(&said, honest);
+    assert!(!said.contains("no second opinion"), "{said}");
+
+    let long = TEXTURED.replace("duration_s = 0.5", "duration_s = 6.0");
+    place.write("long.toml", long);
+    place.done("record long.toml --out long.csv");
+    let said = trained(&place, &["long.csv"], "");
+    has(&said, "trained in 1 pose: honest in it, silent elsewhere");
+    let line = "trained in one pose or two: honest there, silent elsewhere";
+    has(&evaluated(&place, "the.model"), line);
+}
+
+#[test]
+fn older_models_are_told_apart() {
+    let place = recorded(&[80]);
+    let models = concat!(env!("CARGO_MANIFEST_DIR"), "/../tests/data/older");
+    let single = "train --data at80.csv --tables single --out single.model";
+    place.done(single);
+    let line = "trained at one pose; honest there only";
+    has(&evaluated(&place, "single.model"), line);
+    has(
+        &evaluated(&place, &format!("{models}/textures.model")),
+        line,
+    );
+}
+
+#[test]
+fn a_model_keeps_how_its_scene_whisks() {
+    let place = recorded(&[80]);
+    let long = TEXTURED.replace("duration_s = 0.5", "duration_s = 6.0");
+    place.write("long.toml", long);
+    place.done("record long.toml --out long.csv");
+    let whisked = |options: &str| {
+        trained(&place, &["long.csv"], options);
+        let model = ModelBuf::from_bytes(&place.bytes("the.model")).unwrap();
+        assert!(model.has_opinion());
+        model.whisked()
+    };
+    assert_eq!(whisked(""), Whisked::default());
+    let known = Whisked {
+        frequency_mhz: Some(8000),
+        has_rcp: Some(true),
+    };
+    assert_eq!(whisked("--scene long.toml"), known);
+    let naming = ["--rate: found 1000, the scene has 2000"];
+    let train = "train --data long.csv --scene long.toml --rate 1000";
+    place.refuses_to_write(train, &naming);
+    let train = "train --data long.csv --scene none.toml";
+    place.refuses_to_write(train, &["none.toml"]);
+}
