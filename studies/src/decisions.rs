@@ -17,7 +17,7 @@
 mod air;
 mod calibration;
 mod extent;
-mod figures;
+pub(crate) mod figures;
 mod goals;
 mod ground;
 mod main_job;
