@@ -37,7 +37,6 @@ fn blocks(samples: Vec<[f64; 2]>, touches: Vec<u16>, block: u32) -> Blocks {
         pose: None,
         samples,
         touches,
-        ..Trial::default()
     };
     let options = Options {
         block,
