@@ -48,6 +48,7 @@ fn trial(label: &str, amplitude: f64, pose: f64, seed: u64) -> Trial {
     Trial {
         label: label.to_owned(),
         recording: format!("pose {pose}"),
+        pose: None,
         samples,
         touches,
     }
