@@ -29,10 +29,11 @@ pub(crate) fn all(check: bool) -> Result<(), Fault> {
     // The main job's page quotes what it measures over many runs.
     studies::page("decisions", check)?;
     of_runs(check)?;
+    studies::page("poses", check)?;
     studies::page("report", check)
 }
 
-/// Checks that every generated document is up to date but the two pages of the studies, which
+/// Checks that every generated document is up to date but the three pages of the studies, which
 /// take longer than all others: those are only made, in short. The nightly run checks them.
 pub(crate) fn short() -> Result<(), Fault> {
     of_boards(true)?;

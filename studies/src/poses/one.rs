@@ -244,7 +244,7 @@ impl One {
             "What more silence would give: right and decided in the pose of training, of five \
              poses in the middle one. A discriminant that has to answer is right in 87 to 90 % \
              of touches between five poses (the study that this page repeats), in 95 to 97 % of \
-             the surest four fifths: what is asked between poses is near to what can be had.",
+             the surest four fifths.",
         );
         let mut rows = Vec::new();
         for threshold in [0.8, 0.9, 0.95, 0.99, 0.999] {

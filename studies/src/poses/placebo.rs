@@ -24,7 +24,7 @@ const GOAL: f64 = 1.0;
 const SEED: u64 = 7501;
 
 /// The labels of presentations in any order.
-pub(super) fn permute(streams: &mut Vec<Stream>, seed: u64) {
+fn permute(streams: &mut [Stream], seed: u64) {
     let mut labels: Vec<String> = streams.iter().map(|stream| stream.label.clone()).collect();
     Chance::new(seed).shuffle(&mut labels);
     for (stream, label) in streams.iter_mut().zip(labels) {
@@ -33,7 +33,7 @@ pub(super) fn permute(streams: &mut Vec<Stream>, seed: u64) {
 }
 
 /// Trial n of texture m is called by name n + m, counted around.
-fn turn(streams: &mut Vec<Stream>, _: u64) {
+fn turn(streams: &mut [Stream]) {
     for stream in streams {
         let place = SURFACES.iter().position(|(name, _)| *name == stream.label);
         let trial: usize = stream.trial.parse().unwrap_or(0);
@@ -67,8 +67,10 @@ pub(super) fn section(
          of two names nothing is right, as what is presented has neither."
     ));
     let mut rows = Vec::new();
-    let relabels: [(&str, Relabel<'_>); 2] =
-        [("labels permuted", &permute), ("classes alike", &turn)];
+    let relabels: [(&str, Relabel<'_>); 2] = [
+        ("labels permuted", &|streams, seed| permute(streams, seed)),
+        ("classes alike", &|streams, _| turn(streams)),
+    ];
     for (name, relabel) in relabels {
         for (poses, expect, trained) in [
             ("one pose", Expected::Bench, &one.trained),
@@ -197,7 +199,7 @@ mod tests {
     #[test]
     fn turned_names_have_every_texture_equally_often() {
         let mut turned = streams();
-        turn(&mut turned, 0);
+        turn(&mut turned);
         let (before, after) = (labels(&streams()), labels(&turned));
         for (texture, _) in SURFACES {
             for (name, _) in SURFACES {
