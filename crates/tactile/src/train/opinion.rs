@@ -225,10 +225,10 @@ impl Felt {
             sense,
             classes,
             begins_again,
-            poses,
-            stages,
             touches,
             with_copies,
+            poses,
+            stages,
         }
     }
 

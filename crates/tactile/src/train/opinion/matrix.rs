@@ -128,7 +128,9 @@ pub(super) fn mean<'v>(size: usize, vectors: impl Iterator<Item = &'v [f64]>) ->
         }
     }
     let count = f64::from(count.max(1));
-    sum.iter_mut().for_each(|sum| *sum /= count);
+    for sum in &mut sum {
+        *sum /= count;
+    }
     sum
 }
 

@@ -80,7 +80,7 @@ impl Paths {
 
     /// Means of poses, and deviations within them.
     fn pooled(poses: &[Vec<&Touch>]) -> Self {
-        let mut variances = vec![0.0; NUMBERS];
+        let mut variances = [0.0; NUMBERS];
         let mut reached = vec![0_u32; NUMBERS];
         let mut means = Vec::new();
         for touches in poses {
