@@ -20,7 +20,7 @@ use scene::Rule;
 /// Without a command it runs the main job: the left whisker of a module is
 /// trained on four textures by whisking against them, then decides by touch which
 /// one it feels; decisions are printed as they are made, and traces, model and a plot are
-/// written to out/textures.
+/// written to out/bench-textures.
 ///
 /// Exit status: 0 done, 1 the work failed, 2 the arguments or a file are wrong.
 #[derive(Parser)]

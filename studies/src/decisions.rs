@@ -17,7 +17,7 @@
 mod air;
 mod calibration;
 mod extent;
-mod figures;
+pub(crate) mod figures;
 mod goals;
 mod ground;
 mod main_job;
@@ -56,7 +56,7 @@ pub(crate) fn page(folders: Folders<'_>, extent: &Extent, verbosity: Verbosity) 
 
     let grounds = Ground::all(extent, verbosity)?;
     goals::section(&mut page, &mut table, &grounds);
-    main_job::section(&mut page, &mut table, &grounds[0], extent, verbosity)?;
+    main_job::section(&mut page, &mut table, extent, verbosity)?;
     unknown::section(&mut page, &mut table, &grounds, extent, verbosity)?;
     air::section(&mut page, &grounds, extent, verbosity)?;
     placebo::section(&mut page, &mut table, &grounds, verbosity)?;

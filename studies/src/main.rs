@@ -1,5 +1,5 @@
 //! The laboratory: the papers' experiments on simulated rigs with their classifiers, the report of
-//! how accurate the numerics are, and the page of what decisions are worth. Nothing that a board or
+//! how accurate the numerics are, and the pages of what decisions are worth. Nothing that a board or
 //! a simulated scene runs depends on it. `studies --help` documents the command line.
 
 mod accuracy;
@@ -11,6 +11,7 @@ mod experiment;
 mod moments;
 mod page;
 mod paper;
+mod poses;
 mod rigs;
 
 use std::path::{Path, PathBuf};
@@ -74,6 +75,19 @@ enum Command {
         #[arg(long, value_name = "DIR", default_value = "tests/data/terrain")]
         terrain: PathBuf,
         /// Fewer runs, trainings and settings
+        #[arg(long)]
+        quick: bool,
+        /// Only say whether the page is up to date
+        #[arg(long, conflicts_with = "quick")]
+        check: bool,
+    },
+    /// Measures what decisions are worth where use differs from training and writes
+    /// DIR/poses.md with its table
+    Poses {
+        /// Where documents are: the page is written there
+        #[arg(long, value_name = "DIR", default_value = "docs/measured")]
+        out: PathBuf,
+        /// Fewer trainings, conditions and presentations
         #[arg(long)]
         quick: bool,
         /// Only say whether the page is up to date
@@ -162,6 +176,16 @@ fn work(arguments: Arguments) -> Result<()> {
             let files = decisions::page(folders, &extent, verbosity);
             let files = files.context(what)?;
             keep(&out, &files, check, what, "studies decisions")?
+        }
+        Command::Poses { out, quick, check } => {
+            let extent = if quick {
+                poses::Extent::quick()
+            } else {
+                poses::Extent::full()
+            };
+            let what = "the page of poses";
+            let files = poses::page(&extent, verbosity).context(what)?;
+            keep(&out, &files, check, what, "studies poses")?
         }
     });
     Ok(())

@@ -29,6 +29,7 @@ const SCENES: &[(&str, &[u8])] = &files!(include_bytes, "scenes/", ".toml":
 const MODELS: &[(&str, &[u8])] = &files!(include_bytes, "scenes/models/", ".model":
     "whisker",
     "textures",
+    "bench-textures",
     "both",
     "papers",
     "tmag5170",

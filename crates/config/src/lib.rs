@@ -173,10 +173,10 @@ pub fn contact<R: Real>(
 
 #[cfg(test)]
 mod tests {
-    use super::{RunsOn, Target, build, contact, contact_min};
+    use super::{RunsOn, Target, Whisked, build, check, contact, contact_min, whisked, whisks_as};
     use firmware::{Config, MotionConfig};
     use scene::Scene;
-    use whisking::State;
+    use whisking::{Fix, State};
 
     const BOARD: Target<'static> = Target {
         runs_on: RunsOn::Board,
@@ -251,6 +251,64 @@ kind = "ideal"
         assert_eq!(guards.heat_shift, 14);
         // 0.12, and three counts of 0.0639 degrees at 0.05 a degree.
         assert_eq!((guards.unmoved, guards.unmoved_ticks), (4246, 40));
+    }
+
+    fn whisks<R: whisking::Real>(scene: &Scene, mhz: f64, ticks: f64) {
+        let module = build::<R>(scene, BOARD).unwrap().whisked();
+        assert_eq!(module.has_rcp, whisked(scene).has_rcp);
+        let found = f64::from(module.frequency_mhz.unwrap());
+        // Two units of 2^-24 whisks a tick, and rounded down.
+        let most = 0.002 * mhz + 2.0 * ticks * 1000.0 / f64::from(1 << 24) + 1.0;
+        assert!((found - mhz).abs() <= most, "{found} {mhz} {ticks}");
+    }
+
+    #[test]
+    fn module_and_scene_whisk_alike() {
+        for (hz, ticks) in [
+            (0.05, 200),
+            (2.0, 2000),
+            (25.0, 200),
+            (0.5, 10_000),
+            (7.5, 1000),
+        ] {
+            for integrator in ["exact", "euler"] {
+                let text = SCENE
+                    .replace("frequency_hz = 2.0", &format!("frequency_hz = {hz:?}"))
+                    .replace("tick_hz = 2000", &format!("tick_hz = {ticks}"))
+                    .replace("\"exact\"", &format!("\"{integrator}\""));
+                let scene = Scene::from_str("s.toml", &text).unwrap();
+                assert_eq!(whisked(&scene).frequency_mhz, Some((hz * 1000.0) as u32));
+                // Forward Euler does not carry all of them.
+                if check(&scene).is_err() {
+                    continue;
+                }
+                whisks::<f32>(&scene, hz * 1000.0, f64::from(ticks));
+                whisks::<f64>(&scene, hz * 1000.0, f64::from(ticks));
+                whisks::<Fix>(&scene, hz * 1000.0, f64::from(ticks));
+            }
+        }
+    }
+
+    #[test]
+    fn a_model_that_was_whisked_otherwise_is_refused_in_words() {
+        let scene = Scene::from_str("rcp7.toml", SCENE).unwrap();
+        let trained = |frequency_mhz, has_rcp| Whisked {
+            frequency_mhz,
+            has_rcp,
+        };
+        assert_eq!(whisks_as(&scene, trained(None, None)), Ok(()));
+        assert_eq!(whisks_as(&scene, trained(Some(2050), Some(true))), Ok(()));
+        for (trained, says) in [
+            (trained(Some(2500), Some(true)), "at 2.5 Hz with RCP"),
+            (trained(None, Some(false)), "without RCP"),
+        ] {
+            let refused = whisks_as(&scene, trained).unwrap_err().to_string();
+            let expected = format!(
+                "classifier.model: found one that was trained {says}; the scene whisks at 2 Hz \
+                 with RCP"
+            );
+            assert_eq!(refused, expected);
+        }
     }
 
     #[test]

@@ -101,6 +101,55 @@ fn whatever_is_wrong_has_its_reason() {
     assert_eq!(Refusal::from_code(0), None);
 }
 
+/// The same model with an opinion that has nothing against any name, of one pose and one stage.
+fn objecting(whisked: [u32; 2]) -> Vec<u8> {
+    // Of four classes, see `opinion/section.rs` of the crate tactile.
+    const WORDS: usize = 685;
+    let mut opinion = [0; WORDS];
+    opinion[0] = u32::from_le_bytes([0, 1, 1, 1]);
+    opinion[6..8].copy_from_slice(&whisked);
+    let mut bytes = MODEL[..MODEL.len() - CRC_BYTES].to_vec();
+    bytes.extend(opinion.iter().flat_map(|word: &u32| word.to_le_bytes()));
+    let length = (bytes.len() + CRC_BYTES) as u32;
+    bytes[4] = 3;
+    bytes[12..16].copy_from_slice(&length.to_le_bytes());
+    bytes[29..31].copy_from_slice(&(WORDS as u16).to_le_bytes());
+    bytes.extend(checksum(&bytes).to_le_bytes());
+    bytes
+}
+
+#[test]
+fn a_model_is_for_the_whisking_of_its_training() {
+    let scene = |frequency_mhz, has_rcp| ModelLimits {
+        whisked: Whisked {
+            frequency_mhz,
+            has_rcp,
+        },
+        ..LIMITS
+    };
+    let (two_hz, without_rcp, unknown) = (2000, 1, 0);
+    for (trained, limits, is_taken) in [
+        ([two_hz, without_rcp], scene(Some(2_090), Some(false)), true),
+        (
+            [two_hz, without_rcp],
+            scene(Some(2_110), Some(false)),
+            false,
+        ),
+        ([two_hz, without_rcp], scene(Some(2_000), Some(true)), false),
+        ([two_hz, without_rcp], scene(None, None), true),
+        ([unknown, unknown], scene(Some(9_000), Some(true)), true),
+    ] {
+        let place = Place::with(&objecting(trained));
+        let refused = ModelState::Refused(Refusal::Whisked);
+        assert_eq!(
+            place.state(limits) != refused,
+            is_taken,
+            "{trained:?} {limits:?}"
+        );
+        assert!(!is_taken || matches!(place.state(limits), ModelState::Runs { .. }));
+    }
+}
+
 #[test]
 fn a_window_must_be_whole_blocks() {
     let place = Place::with(MODEL);

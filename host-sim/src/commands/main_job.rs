@@ -17,25 +17,34 @@ use crate::training::{How, Tables};
 use crate::{Error, report};
 
 /// The scene, so that the program runs wherever it stands.
-const SCENE: &str = include_str!("../../../scenes/textures.toml");
+const SCENE: &str = include_str!("../../../scenes/bench-textures.toml");
 /// Where the files go.
-const OUT: &str = "out/textures";
+const OUT: &str = "out/bench-textures";
+/// Seconds that are trained on: of 24 presentations of each texture, each in its own pose.
+const TRAINING_S: f64 = 240.0;
+
+/// Its scene.
+///
+/// # Errors
+/// None: it is part of the program.
+pub fn scene() -> Result<Scene, Error> {
+    Scene::from_str("scenes/bench-textures.toml", SCENE).map_err(Error::from)
+}
 
 /// Trains on some whisks, decides on others, prints and writes the results.
 ///
 /// # Errors
 /// [`Error::Work`] or [`Error::Write`].
 pub fn main_job(verbosity: Verbosity) -> Result<(), Error> {
-    let scene = Scene::from_str("scenes/textures.toml", SCENE)?;
+    let scene = scene()?;
     let out = Path::new(OUT);
 
     let create = |name| Output::create(&out.join(name));
-    let (recording, trained) = (create("training.csv")?, create("textures.model")?);
-    let (drawn, pixels) = (create("textures.svg")?, create("textures.png")?);
+    let (recording, trained) = (create("training.csv")?, create("bench-textures.model")?);
+    let (drawn, pixels) = (create("bench-textures.svg")?, create("bench-textures.png")?);
 
     report::say(format_args!(
-        "training: {} s of whisking against each texture in turn",
-        scene.duration_s
+        "training: {TRAINING_S} s of whisking against each texture in turn, each time in another pose"
     ));
     let streams = record(&scene, verbosity)?;
     files::write_recording(recording, &streams)?;
@@ -47,25 +56,29 @@ pub fn main_job(verbosity: Verbosity) -> Result<(), Error> {
         scene.duration_s
     ));
     let (played, film) = decide(&scene, model, out, verbosity)?;
-    let title = plot::title("left whisker: four textures, RCP", scene.duration_s);
+    let title = plot::title(
+        "left whisker: four textures, poses of a bench",
+        scene.duration_s,
+    );
     let picture = film.picture(&title, &played.classes, &played.decided);
     drawn.whole(picture.svg()?.as_bytes())?;
     pixels.whole(&picture.png()?)?;
     let summary = played.summary().unwrap_or_default();
     report::say(format_args!(
-        "\n{summary}\nin {OUT}: trace.csv, decisions.csv, training.csv, textures.model, textures.svg, textures.png"
+        "\n{summary}\nin {OUT}: trace.csv, decisions.csv, training.csv, bench-textures.model, .svg and .png"
     ));
     Ok(())
 }
 
-/// What the classifier of `scene` would have got in another run of it: the
-/// same scene with another seed, so other noise and other grit.
+/// What the classifier of `scene` would have got in another run of it, and a longer one: the
+/// same scene with another seed, so other noise, other grit and other poses.
 ///
 /// # Errors
 /// [`Error::Work`] if the module cannot be put together.
 pub fn record(scene: &Scene, verbosity: Verbosity) -> Result<Vec<Stream>, Error> {
     let scene = Scene {
         seed: scene.seed.wrapping_add(1),
+        duration_s: TRAINING_S,
         ..scene.clone()
     };
     super::record::streams(&scene, verbosity)

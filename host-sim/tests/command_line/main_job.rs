@@ -8,22 +8,22 @@ const TEXTURES: [&str; 4] = ["smooth", "p600", "p240", "carpet"];
 fn textures_are_distinguished_as_surely_as_is_said() {
     let place = Place::new();
     let ran = place.done("");
-    let mut files: Vec<_> = std::fs::read_dir(place.path("out/textures"))
+    let mut files: Vec<_> = std::fs::read_dir(place.path("out/bench-textures"))
         .unwrap()
         .map(|entry| entry.unwrap().file_name().into_string().unwrap())
         .collect();
     files.sort();
     let expected = [
+        "bench-textures.model",
+        "bench-textures.png",
+        "bench-textures.svg",
         "decisions.csv",
-        "textures.model",
-        "textures.png",
-        "textures.svg",
         "trace.csv",
         "training.csv",
     ];
     assert_eq!(files, expected);
 
-    let decided = decisions(&place.text("out/textures/decisions.csv"));
+    let decided = decisions(&place.text("out/bench-textures/decisions.csv"));
     let named = decided.iter().filter(|d| d.decision != "unknown");
     let mut rates = Vec::new();
     for texture in TEXTURES {
@@ -65,15 +65,15 @@ fn textures_are_distinguished_as_surely_as_is_said() {
         .filter(|line| line.contains(" samples  "));
     assert_eq!(falls.count(), decided.len());
 
-    let svg = place.text("out/textures/textures.svg");
+    let svg = place.text("out/bench-textures/bench-textures.svg");
     assert!(svg.trim_start().starts_with("<svg") && svg.trim_end().ends_with("</svg>"));
-    let trace = place.text("out/textures/trace.csv");
+    let trace = place.text("out/bench-textures/trace.csv");
     assert!(cells(&trace)[1][0].parse::<f64>().unwrap() > 0.0);
 
     // Its model is what `train` makes of its recording.
-    let recorded = "out/textures/training.csv";
-    let scene = concat!(env!("CARGO_MANIFEST_DIR"), "/../scenes/textures.toml");
+    let recorded = "out/bench-textures/training.csv";
+    let scene = concat!(env!("CARGO_MANIFEST_DIR"), "/../scenes/bench-textures.toml");
     let train = format!("train --data {recorded} --scene {scene} --out again.model");
     place.done(&train);
-    assert!(place.bytes("again.model") == place.bytes("out/textures/textures.model"));
+    assert!(place.bytes("again.model") == place.bytes("out/bench-textures/bench-textures.model"));
 }

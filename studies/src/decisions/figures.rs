@@ -94,7 +94,7 @@ pub(super) fn plus_minus((mean, error): (f64, f64), decimals: usize) -> String {
 }
 
 /// A number, or a dash.
-pub(super) fn number(x: f64, decimals: usize) -> String {
+pub(crate) fn number(x: f64, decimals: usize) -> String {
     if x.is_nan() {
         "–".to_owned()
     } else {
@@ -103,7 +103,7 @@ pub(super) fn number(x: f64, decimals: usize) -> String {
 }
 
 /// A share with its interval, percent.
-pub(super) fn percent(of: Interval) -> String {
+pub(crate) fn percent(of: Interval) -> String {
     let Interval {
         share,
         low,

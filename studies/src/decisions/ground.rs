@@ -7,7 +7,7 @@ use host_sim::progress::Verbosity;
 use host_sim::recording::Stream;
 use host_sim::scoring::Heard;
 use host_sim::training;
-use host_sim::training::{How, Tables, TrainedModel};
+use host_sim::training::{Expected, How, Tables, TrainedModel};
 use scene::{Rule, Scene};
 use tactile::ModelBuf;
 use tactile::train::joint::{JointModel, Options};
@@ -118,20 +118,24 @@ impl Ground {
         streams
     }
 
-    /// A joint model with the settings that `host-sim train` has by default.
+    /// A joint model as `host-sim train --expect same` makes it.
     pub(super) fn train(&self, streams: Vec<Stream>) -> Result<JointModel> {
         let joint = self.train_tables(streams, Tables::Joint)?.joint;
         joint.context("training made no joint model")
     }
 
-    /// A model of any tables with the settings that `host-sim train` has by default.
+    /// A model of any tables as `host-sim train --expect same` makes it.
     pub(super) fn train_tables(
         &self,
         streams: Vec<Stream>,
         tables: Tables,
     ) -> Result<TrainedModel> {
         let recordings = [(self.scene.name.clone(), streams)];
-        let how = How::of(tables).like(&self.scene);
+        // In the pose of training: the page of poses has the others.
+        let how = How {
+            expect: Expected::Same,
+            ..How::of(tables).like(&self.scene)
+        };
         let trained = how.train(&recordings, self.scene.tick_hz);
         trained.map_err(anyhow::Error::new)
     }
@@ -145,21 +149,22 @@ impl Ground {
         self.score_on(&self.runs, model, threshold)
     }
 
-    pub(super) fn score_on(
-        &self,
-        runs: &[Heard],
-        model: &ModelBuf,
-        threshold: f64,
-    ) -> Result<Figures> {
-        let rule = Rule::Sequential { threshold };
-        let classifier = Classifier::new(model.clone(), rule)?;
-        let scored = runs.iter().map(|run| run.score(classifier.clone()));
-        Ok(Figures::of(
-            scored.collect(),
-            classifier.classes(),
-            self.scene.tick_hz,
-        ))
+    fn score_on(&self, runs: &[Heard], model: &ModelBuf, threshold: f64) -> Result<Figures> {
+        score_on(runs, model, threshold, self.scene.tick_hz)
     }
+}
+
+/// What a model is worth on runs.
+pub(super) fn score_on(
+    runs: &[Heard],
+    model: &ModelBuf,
+    threshold: f64,
+    tick_hz: u32,
+) -> Result<Figures> {
+    let rule = Rule::Sequential { threshold };
+    let classifier = Classifier::new(model.clone(), rule)?;
+    let scored = runs.iter().map(|run| run.score(classifier.clone()));
+    Ok(Figures::of(scored.collect(), classifier.classes(), tick_hz))
 }
 
 /// Runs of a scene with these seeds, as a classifier takes them.

@@ -56,6 +56,9 @@ fn is_named(part: &str, named: Named<'_>, has_fpu: bool) -> Result<bool, Fault> 
         "touch detector" => knows_touches,
         "several whiskers" => classifier.is_some_and(|c| c.whiskers != Deciding::First),
         "roughness" | "roughness or floors" => !is_single,
+        "second opinion" => {
+            classifier.is_some() && (awaits || model.is_some_and(|model| model.has_opinion()))
+        }
         "sequential rule" => matches!(rule, Some(Rule::Sequential { .. })),
         "window rule" => matches!(rule, Some(Rule::Window { .. })),
         // What a model says of touches is in single precision, and read at the start: by functions

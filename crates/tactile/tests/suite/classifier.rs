@@ -106,6 +106,7 @@ fn joint(entries: &[u16], floor: u16) -> ModelBuf {
             gate: 0.05,
             gap: 200,
         }),
+        opinion: &[],
     })
     .unwrap()
 }
@@ -219,6 +220,7 @@ fn coin(floors: Option<&[Floors]>, touch: Option<TouchRule>) -> ModelBuf {
         }],
         floors,
         touch,
+        opinion: &[],
     })
     .unwrap()
 }

@@ -1,5 +1,6 @@
 //! The joint trainer on problems whose answer is known.
 
+use tactile::train::Expect;
 use tactile::train::TrainError;
 use tactile::train::joint::{Options, Trial, Warning, train};
 use tactile::{Sequential, TableSource, Threshold};
@@ -30,6 +31,15 @@ fn trial(label: &str, recording: &str, mean: [f64; 2], length: usize, seed: u64)
     }
 }
 
+/// Tables and floors alone: these classes differ by their means, of which an opinion that
+/// expects another pose makes nothing.
+fn same() -> Options {
+    Options {
+        expect: Expect::Same,
+        ..Options::default()
+    }
+}
+
 /// Five trials each of two classes whose means are `apart` standard deviations apart.
 fn two(apart: f64, length: usize) -> Vec<Trial> {
     trials(10, apart, length)
@@ -53,6 +63,7 @@ fn two_normals_have_their_likelihood_ratio_and_posterior() {
         bins: 32,
         block: 1,
         refused: 0.0,
+        expect: Expect::Same,
         ..Options::default()
     };
     // So many trials that their weights are their own.
@@ -94,7 +105,7 @@ fn warnings_say_what_the_trials_cannot_tell() {
     // Two classes from the same source, one far away in a single trial.
     let mut trials = two(0.0, 2_000);
     trials.push(trial("c", "one", [0.0, 2_000.0], 2_000, 99));
-    let trained = train(&trials, &Options::default()).unwrap();
+    let trained = train(&trials, &same()).unwrap();
     let warnings = &trained.report.warnings;
     let c = || "c".to_owned();
     assert!(warnings.contains(&Warning::Halved { name: c() }));
@@ -116,14 +127,14 @@ fn warnings_say_what_the_trials_cannot_tell() {
     for (n, trial) in trials.iter_mut().enumerate() {
         trial.recording = (n / 4).to_string();
     }
-    let warnings = train(&trials, &Options::default()).unwrap().report.warnings;
+    let warnings = train(&trials, &same()).unwrap().report.warnings;
     assert!(!warnings.contains(&Warning::OneRecording));
     assert!(!warnings.contains(&Warning::NotAcrossRecordings));
 }
 
 #[test]
 fn faults_are_named() {
-    let trained = |trials: &[Trial]| train(trials, &Options::default()).unwrap_err();
+    let trained = |trials: &[Trial]| train(trials, &same()).unwrap_err();
     assert_eq!(trained(&[]), TrainError::NoSamples);
     assert_eq!(trained(&two(1.0, 100)[..1]), TrainError::OneClass);
     let name = "b".to_owned();
@@ -142,6 +153,7 @@ fn faults_are_named() {
     assert_eq!(trained(&trials), TrainError::NameEmpty);
     let options = Options {
         bins: 1,
+        expect: Expect::Same,
         ..Options::default()
     };
     let error = train(&two(1.0, 100), &options).unwrap_err();
@@ -154,6 +166,7 @@ fn the_model_file_decides_as_the_report_says() {
     // trials can justify, so that decisions are slow and all right.
     let options = Options {
         block: 20,
+        expect: Expect::Same,
         ..Options::default()
     };
     let trained = train(&two(0.5, 20_000), &options).unwrap();

@@ -5,6 +5,7 @@ mod classifier;
 mod common;
 mod joint;
 mod model_file;
+mod opinion;
 mod rules;
 mod score;
 mod touch_detector;

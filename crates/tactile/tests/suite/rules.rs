@@ -213,11 +213,11 @@ fn an_owned_classifier_is_sent_and_reset() {
     assert!(expected[4].is_some());
 }
 
-/// A board's classifier lies in its RAM: counted in words, of which a pointer
-/// and a count are one each.
+/// A board's classifier lies in its RAM: counted in words, of which a pointer and a count are
+/// one each. The second opinion takes 1.2 kB of it: 64 samples, and what was felt of a touch.
 #[test]
-fn a_classifier_takes_about_a_kilobyte() {
+fn a_classifier_takes_about_two_kilobytes() {
     const PC: usize = size_of::<Model>() + 2 * size_of::<u64>();
-    assert!(size_of::<Sequential>() - PC <= 1_216);
-    assert!(size_of::<Window>() - PC <= 1_344);
+    assert!(size_of::<Sequential>() - PC <= 2_432);
+    assert!(size_of::<Window>() - PC <= 2_560);
 }

@@ -70,6 +70,7 @@ fn model(floors: Option<&[Floors]>, touch: Option<TouchRule>) -> ModelBuf {
         tables: &tables,
         floors,
         touch,
+        opinion: &[],
     })
     .unwrap()
 }

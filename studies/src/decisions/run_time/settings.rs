@@ -2,6 +2,7 @@
 
 use anyhow::Result;
 use tactile::ModelBuf;
+use tactile::train::Expect;
 use tactile::train::joint::{JointModel, Options};
 
 use crate::decisions::figures::{Figures, over};
@@ -70,6 +71,10 @@ impl Setting {
                         ..options
                     },
                     _ => options,
+                };
+                let options = Options {
+                    expect: Expect::Same,
+                    ..options
                 };
                 ground.train_by(ground.recording(trained.seed, seconds), &options)?
             }

@@ -34,9 +34,9 @@ fn blocks(samples: Vec<[f64; 2]>, touches: Vec<u16>, block: u32) -> Blocks {
     let trial = Trial {
         label: String::from("a"),
         recording: String::new(),
+        pose: None,
         samples,
         touches,
-        ..Trial::default()
     };
     let options = Options {
         block,

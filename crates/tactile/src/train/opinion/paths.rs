@@ -81,7 +81,7 @@ impl Paths {
     /// Means of poses, and deviations within them.
     fn pooled(poses: &[Vec<&Touch>]) -> Self {
         let mut variances = [0.0; NUMBERS];
-        let mut reached = vec![0_u32; NUMBERS];
+        let mut reached = [0_u32; NUMBERS];
         let mut means = Vec::new();
         for touches in poses {
             let mut mean: Vec<f64> = Vec::with_capacity(NUMBERS);

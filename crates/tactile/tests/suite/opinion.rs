@@ -1,0 +1,199 @@
+//! Models that object or name: read whatever their bytes, and refused or sound.
+
+use std::sync::LazyLock;
+
+use proptest::prelude::*;
+use tactile::train::joint::{Options, Trial, train};
+use tactile::{
+    CRC_BYTES, Deciding, ModelBuf, ModelError, RuleSettings, SetupError, StreamClassifier,
+    Threshold, Whisked, checksum,
+};
+
+const WHISKED: Whisked = Whisked {
+    frequency_mhz: Some(2000),
+    has_rcp: Some(false),
+};
+
+/// Uniform in −1 to 1.
+fn roll(state: &mut u64) -> f64 {
+    *state = state
+        .wrapping_mul(6_364_136_223_846_793_005)
+        .wrapping_add(1);
+    (*state >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
+}
+
+/// Eight touches, some longer than others, with air between; the tip trembles by `amplitude`
+/// codes, and bends by as much in y as the pose says.
+fn trial(label: &str, amplitude: f64, pose: f64, seed: u64) -> Trial {
+    let mut state = seed.wrapping_mul(0x9e37_79b9_7f4a_7c15);
+    let (mut samples, mut touches) = (Vec::new(), Vec::new());
+    for touch in 1..=8_u16 {
+        let length = 240 + 20 * usize::from(touch);
+        for n in 0..length + 200 {
+            let bend = (core::f64::consts::PI * n as f64 / length as f64).sin();
+            let is_touching = n < length;
+            let (bend, size) = if is_touching {
+                (bend, amplitude)
+            } else {
+                (0.0, 2.0)
+            };
+            let [x, y] = [0; 2].map(|_| size * roll(&mut state));
+            samples.push([
+                (8192.0 + 900.0 * bend + x).round(),
+                (8192.0 + pose * bend + y).round(),
+            ]);
+            touches.push(if is_touching { touch } else { 0 });
+        }
+    }
+    Trial {
+        label: label.to_owned(),
+        recording: format!("pose {pose}"),
+        pose: None,
+        samples,
+        touches,
+    }
+}
+
+/// Trained in these poses.
+fn trained(poses: &[f64]) -> ModelBuf {
+    let trials = poses.iter().flat_map(|pose| {
+        (0..8).flat_map(|n| {
+            let seed = 2 * n + pose.to_bits();
+            [("smooth", 20.0, seed), ("rough", 90.0, seed + 1)]
+                .map(|(label, amplitude, seed)| trial(label, amplitude, *pose, seed))
+        })
+    });
+    let options = Options {
+        whisked: WHISKED,
+        ..Options::default()
+    };
+    let trained = train(&trials.collect::<Vec<_>>(), &options).unwrap();
+    trained.model().unwrap()
+}
+
+/// One that objects, and one that names.
+static MODELS: LazyLock<[ModelBuf; 2]> =
+    LazyLock::new(|| [trained(&[-300.0]), trained(&[-500.0, -300.0, -100.0])]);
+
+/// The first so many bytes of a model with some changed, and the sum that belongs to them.
+fn changed(model: &ModelBuf, length: usize, changes: &[(usize, u8)]) -> Vec<u8> {
+    let mut bytes = model.as_bytes()[..length - CRC_BYTES].to_vec();
+    for (at, byte) in changes {
+        let at = at % bytes.len();
+        bytes[at] = *byte;
+    }
+    bytes.extend(checksum(&bytes).to_le_bytes());
+    bytes
+}
+
+/// Streams noise through a model, with touches, gaps and air.
+fn streams(model: &ModelBuf, seed: u64) {
+    let threshold = RuleSettings::Sequential(Threshold::new(0.9).unwrap());
+    let window = RuleSettings::Window(3 * model.block());
+    for rule in [threshold, window] {
+        for deciding in [Deciding::First, Deciding::Together] {
+            let Ok(mut classifier) = StreamClassifier::new(model.view(), rule, deciding, 2) else {
+                continue;
+            };
+            let (mut state, mut size) = (seed, 10.0);
+            let mut codes = vec![0; model.channels()];
+            for n in 0..3_000_usize {
+                if n % 50 == 0 {
+                    // From nothing to beyond what any sensor has.
+                    size = (31.0 * roll(&mut state).abs()).exp2();
+                }
+                for code in &mut codes {
+                    *code = (8192.0 + size * roll(&mut state)) as i32;
+                }
+                let whisker = n / 10 % classifier.streams();
+                match n % 500 {
+                    0..10 => classifier.begin_touch(whisker, (n / 500) as u16),
+                    300 => classifier.interrupt_stream(whisker),
+                    400.. => classifier.pass_to(whisker, &codes).unwrap(),
+                    _ => {
+                        let decision = classifier.push_to(whisker, &codes).unwrap();
+                        let leader = decision.map_or(0, |decision| decision.leader());
+                        assert!(leader < model.classes());
+                    }
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn models_of_one_pose_object_and_of_several_name() {
+    let [objects, names] = &*MODELS;
+    assert!(objects.has_opinion() && names.has_opinion());
+    assert_eq!((objects.poses(), names.poses()), (1, 3));
+    assert_eq!([objects.whisked(), names.whisked()], [WHISKED; 2]);
+    let made = |model: &ModelBuf, rule| {
+        let classifier = StreamClassifier::new(model.view(), rule, Deciding::First, 1);
+        classifier.map(|_| ())
+    };
+    let window = RuleSettings::Window(80);
+    assert_eq!(made(objects, window), Ok(()));
+    assert_eq!(made(names, window), Err(SetupError::WindowNames));
+    for model in &*MODELS {
+        streams(model, 1);
+    }
+}
+
+#[test]
+fn whisking_differs_by_a_twentieth_or_by_rcp() {
+    let at = |mhz, has_rcp| Whisked {
+        frequency_mhz: mhz,
+        has_rcp,
+    };
+    for (other, differs) in [
+        (at(Some(2100), Some(false)), false),
+        (at(Some(1900), None), false),
+        (at(Some(2101), Some(false)), true),
+        (at(Some(1899), None), true),
+        (at(None, Some(true)), true),
+        (at(None, None), false),
+    ] {
+        assert_eq!(WHISKED.differs(&other), differs, "{other:?}");
+    }
+}
+
+#[test]
+fn a_cut_file_is_refused() {
+    for model in &*MODELS {
+        let bytes = model.as_bytes();
+        for length in CRC_BYTES..bytes.len() {
+            let cut = ModelBuf::from_bytes(&bytes[..length]);
+            assert!(matches!(cut, Err(ModelError::TooShort)), "{length}");
+        }
+        // Its header says so, and its sum is right.
+        for length in (40..bytes.len()).step_by(4) {
+            let announced = (length as u32).to_le_bytes();
+            let changes: Vec<_> = (12..).zip(announced).collect();
+            let cut = ModelBuf::from_bytes(&changed(model, length, &changes));
+            assert!(cut.is_err(), "{length}");
+        }
+    }
+}
+
+proptest! {
+    #[test]
+    fn whatever_its_bytes_a_model_is_refused_or_streams(
+        which in 0..2_usize,
+        near_end in any::<bool>(),
+        changes in prop::collection::vec((any::<u16>(), any::<u8>()), 0..12),
+        seed in any::<u64>(),
+    ) {
+        let model = &MODELS[which];
+        let length = model.as_bytes().len();
+        // The opinion lies at the end.
+        let within = |at: u16| {
+            let at = usize::from(at);
+            if near_end { length - CRC_BYTES - 1 - at % (length / 2) } else { at % 400 }
+        };
+        let changes: Vec<_> = changes.into_iter().map(|(at, byte)| (within(at), byte)).collect();
+        match ModelBuf::from_bytes(&changed(model, length, &changes)) {
+            Ok(read) => streams(&read, seed),
+            Err(error) => prop_assert!(!error.to_string().is_empty()),
+        }
+    }
+}

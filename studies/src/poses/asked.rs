@@ -1,0 +1,116 @@
+//! What is asked of a condition, and whether it is found: a goal is missed where the interval of
+//! the figure excludes it.
+
+use tactile::score::{Interval, Statistics};
+
+use super::tally::Tally;
+use super::trained::TICK_HZ;
+use crate::page::verdict;
+
+/// The most presentations with a name where nothing is asked of the names, percent.
+const SILENT: f64 = 5.0;
+/// The least of names that is to be right, percent, and how far stated may lie from it, points.
+const RIGHT: f64 = 98.5;
+const APART: f64 = 1.0;
+
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Asked {
+    /// Right and stated rightly, and so much decided, percent, within so many ms of contact.
+    Known { decided: f64, ms: Option<f64> },
+    /// Right is no more points below stated than this, or next to nothing is decided.
+    Honest { short: f64 },
+}
+
+impl Asked {
+    pub(super) fn text(self) -> String {
+        match self {
+            Self::Known { decided, ms } => {
+                let ms = ms.map_or_else(String::new, |ms| format!(", within {ms} ms"));
+                format!("right ≥ {RIGHT}, gap ≤ {APART}, decided ≥ {decided}{ms}")
+            }
+            Self::Honest { short } => format!("right ≥ stated − {short}, or decided ≤ {SILENT}"),
+        }
+    }
+
+    /// What of it is missed.
+    pub(super) fn missed(self, tally: &Tally) -> Vec<&'static str> {
+        let [least, most] = tally.short_within();
+        let [right, decided] = [tally.right_share(), tally.decided_share()];
+        let is_missed = match self {
+            Self::Known { decided: goal, ms } => vec![
+                ("right", 100.0 * right.high < RIGHT),
+                ("gap", least > APART || most < -APART),
+                ("decided", 100.0 * decided.high < goal),
+                ("time", ms.is_some_and(|ms| tally.contact_ms(TICK_HZ) > ms)),
+            ],
+            Self::Honest { short } => {
+                let is_loud = 100.0 * decided.low > SILENT;
+                vec![("right", is_loud && least > short)]
+            }
+        };
+        let missed = is_missed.into_iter().filter(|(_, missed)| *missed);
+        missed.map(|(name, _)| name).collect()
+    }
+
+    pub(super) fn verdict(self, tally: &Tally) -> String {
+        said(&self.missed(tally))
+    }
+}
+
+/// A verdict, with what is missed.
+pub(super) fn said(missed: &[&str]) -> String {
+    let met = verdict(missed.is_empty());
+    if missed.is_empty() {
+        met.to_owned()
+    } else {
+        format!("{met}: {}", missed.join(", "))
+    }
+}
+
+/// A mean with its 95 % interval by Student: low, mean, high; all the mean if there is one value.
+pub(super) fn mean_within(values: &[f64]) -> [f64; 3] {
+    // Quantiles of 97.5 % of 1 to 9 degrees of freedom.
+    const STUDENT: [f64; 9] = [
+        12.706, 4.303, 3.182, 2.776, 2.571, 2.447, 2.365, 2.306, 2.262,
+    ];
+    let values = values.iter().copied().filter(|x| !x.is_nan());
+    let Some(found) = Statistics::of(values) else {
+        return [f64::NAN; 3];
+    };
+    let freedom = found.count.saturating_sub(1) as usize;
+    let half = match freedom.checked_sub(1) {
+        None => 0.0,
+        Some(n) => STUDENT.get(n).copied().unwrap_or(1.96) * found.sd / (found.count as f64).sqrt(),
+    };
+    [found.mean - half, found.mean, found.mean + half]
+}
+
+/// Whether a share, percent, is to be called at least this.
+pub(super) fn at_least(share: Interval, goal: f64) -> bool {
+    100.0 * share.high >= goal
+}
+
+/// At most this.
+pub(super) fn at_most(share: Interval, goal: f64) -> bool {
+    100.0 * share.low <= goal
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{mean_within, said};
+
+    #[test]
+    fn an_interval_of_a_mean_is_students() {
+        let [low, mean, high] = mean_within(&[1.0, 2.0, 3.0, f64::NAN]);
+        assert!((mean - 2.0).abs() < 1e-12);
+        // 4.303 · 1/√3.
+        assert!((high - mean - 2.484).abs() < 1e-3 && (mean - low - 2.484).abs() < 1e-3);
+        assert_eq!(mean_within(&[5.0]), [5.0; 3]);
+    }
+
+    #[test]
+    fn a_verdict_names_what_is_missed() {
+        assert_eq!(said(&[]), "met");
+        assert_eq!(said(&["right", "gap"]), "**missed**: right, gap");
+    }
+}

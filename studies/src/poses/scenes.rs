@@ -1,0 +1,82 @@
+//! The scene `textures`, and the one whose presentations differ in pose.
+
+use anyhow::Result;
+use host_sim::progress::Verbosity;
+use host_sim::training::Expected;
+
+use super::asked::Asked;
+use super::condition::{SPREAD, Setting, TEXTURES};
+use super::extent::Extent;
+use super::output::{COLUMNS, Output, cells, found};
+use super::tally::Tally;
+use super::trained::{THRESHOLD, Trained, as_felt};
+use crate::page::row;
+
+/// Seconds of the training of what is spread.
+const SPREAD_S: f64 = 240.0;
+
+/// Measures both; the trainings of what is spread.
+pub(super) fn section(
+    output: &mut Output,
+    extent: &Extent,
+    verbosity: Verbosity,
+) -> Result<Trained<'static>> {
+    output.page.heading(2, "Scenes");
+    let [_, trainings] = extent.trainings;
+    let [_, test_s] = extent.test_s;
+    output.page.say(format_args!(
+        "`textures`, trained on one recording as it is, and `bench-textures`, whose presentations \
+         have poses of their own (tilt ±3°, obstacle ±2°, scale ±5 %), trained on {SPREAD_S} s \
+         with their column `pose`; {trainings} trainings each."
+    ));
+    let setting = |file, seconds| Setting {
+        seconds,
+        ..Setting::of(file, &[])
+    };
+    let scenes = [
+        (
+            setting(TEXTURES, None),
+            [7041, 7401],
+            Asked::Known {
+                decided: 97.0,
+                ms: Some(120.0),
+            },
+        ),
+        (
+            setting(SPREAD, Some(SPREAD_S)),
+            [7051, 7411],
+            Asked::Known {
+                decided: 85.0,
+                ms: None,
+            },
+        ),
+    ];
+    let mut rows = Vec::new();
+    let mut last = None;
+    for (setting, [seed, fresh], asked) in scenes {
+        let test = Setting {
+            seconds: Some(test_s),
+            ..setting
+        };
+        let seeds = (seed..).take(trainings);
+        let trained = Trained::record(&[setting], seeds, test, fresh, verbosity)?;
+        let models = trained.models(Expected::Bench, &as_felt, verbosity)?;
+        let tallies = trained.fresh(&models, THRESHOLD)?;
+        let tally = Tally::sum(&tallies);
+        let name = setting.file.name;
+        output.keep(["scenes", name, "bench"], &trained.seeds, &tallies);
+        let goal = [asked.text(), asked.verdict(&tally)];
+        rows.push(row(name, cells(&tally).into_iter().chain(goal)));
+        output.goal(
+            &format!("scene `{name}`"),
+            &asked.text(),
+            found(&tally),
+            asked.verdict(&tally),
+        );
+        last = Some(trained);
+    }
+    output
+        .page
+        .table(&format!("scene | {COLUMNS} | goal | "), rows);
+    last.ok_or_else(|| anyhow::anyhow!("no scene"))
+}

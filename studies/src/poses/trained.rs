@@ -1,0 +1,150 @@
+//! Trainings, each with fresh presentations as it was trained.
+
+use anyhow::Result;
+use host_sim::evaluation::presentations;
+use host_sim::progress::Verbosity;
+use host_sim::recording::Stream;
+use host_sim::training::{Expected, How, Tables};
+use tactile::ModelBuf;
+
+use super::condition::{Change, Setting};
+use super::tally::Tally;
+use crate::cores::each;
+
+/// At which a class is named, unless said otherwise.
+pub(super) const THRESHOLD: f64 = 0.99;
+pub(super) const TICK_HZ: u32 = 2000;
+
+/// Recordings, each with its name.
+pub(super) type Recordings = Vec<(String, Vec<Stream>)>;
+
+/// Models for testing, a recording's labels changed by chance of this seed.
+pub(super) type Relabel<'r> = &'r (dyn Fn(&mut Vec<Stream>, u64) + Sync);
+
+pub(super) struct Trained<'s> {
+    /// The first seed of each training: a recording each from there on.
+    pub(super) seeds: Vec<u64>,
+    recordings: Vec<Recordings>,
+    /// What is tested, its changes left out.
+    test: Setting<'s>,
+    /// Of each training some presentations in the pose of training, or the middle one.
+    pub(super) fresh: Vec<Vec<Stream>>,
+}
+
+impl<'s> Trained<'s> {
+    /// Records `poses` for each of some trainings, and what they are tested with.
+    pub(super) fn record(
+        poses: &[Setting<'_>],
+        seeds: impl Iterator<Item = u64>,
+        test: Setting<'s>,
+        first_test: u64,
+        verbosity: Verbosity,
+    ) -> Result<Self> {
+        let seeds: Vec<u64> = seeds.collect();
+        let jobs: Vec<(&Setting<'_>, u64)> = seeds
+            .iter()
+            .flat_map(|&seed| poses.iter().zip(seed..))
+            .collect();
+        let made = each(verbosity, "trainings", &jobs, |(pose, seed)| {
+            Ok((seed.to_string(), pose.record(*seed)?))
+        })?;
+        let recordings = made.chunks(poses.len()).map(<[_]>::to_vec).collect();
+        let tests: Vec<u64> = (first_test..).take(seeds.len()).collect();
+        let fresh = each(verbosity, "fresh presentations", &tests, |&seed| {
+            test.record(seed)
+        })?;
+        Ok(Self {
+            seeds,
+            recordings,
+            test,
+            fresh,
+        })
+    }
+
+    /// A model of each training, by the defaults of `host-sim train`.
+    pub(super) fn models(
+        &self,
+        expect: Expected,
+        relabel: Relabel<'_>,
+        verbosity: Verbosity,
+    ) -> Result<Vec<ModelBuf>> {
+        let jobs: Vec<_> = self.recordings.iter().zip(&self.seeds).collect();
+        each(verbosity, "models", &jobs, |(recordings, seed)| {
+            let mut recordings = (*recordings).clone();
+            for ((_, streams), n) in recordings.iter_mut().zip(**seed..) {
+                relabel(streams, n);
+            }
+            model(&recordings, expect)
+        })
+    }
+
+    /// What a model of each training makes of its fresh presentations.
+    pub(super) fn fresh(&self, models: &[ModelBuf], threshold: f64) -> Result<Vec<Tally>> {
+        self.fresh_of(models, threshold, |_| true)
+    }
+
+    /// The same of some of them.
+    pub(super) fn fresh_of(
+        &self,
+        models: &[ModelBuf],
+        threshold: f64,
+        keep: impl Fn(&Stream) -> bool,
+    ) -> Result<Vec<Tally>> {
+        let mut tallies = Vec::new();
+        for (model, streams) in models.iter().zip(&self.fresh) {
+            let streams: Vec<Stream> = streams.iter().filter(|s| keep(s)).cloned().collect();
+            tallies.push(judge(model, threshold, &streams)?);
+        }
+        Ok(tallies)
+    }
+
+    /// What each kind of models, one of each training, makes of presentations with these
+    /// changes: by condition and kind a tally of each training.
+    pub(super) fn changed(
+        &self,
+        conditions: &[Vec<Change>],
+        kinds: &[&[ModelBuf]],
+        first_test: u64,
+        verbosity: Verbosity,
+    ) -> Result<Vec<Vec<Vec<Tally>>>> {
+        let trainings = self.seeds.len();
+        let jobs: Vec<(usize, usize)> = (0..conditions.len())
+            .flat_map(|condition| (0..trainings).map(move |training| (condition, training)))
+            .collect();
+        let found = each(verbosity, "conditions", &jobs, |&(condition, training)| {
+            let changes = &conditions[condition];
+            let setting = Setting {
+                changes,
+                ..self.test
+            };
+            let seed = first_test + (condition * trainings + training) as u64;
+            let streams = setting.record(seed)?;
+            let of_kind = kinds
+                .iter()
+                .map(|models| judge(&models[training], THRESHOLD, &streams));
+            of_kind.collect::<Result<Vec<Tally>>>()
+        })?;
+        let by_kind = |cells: &[Vec<Tally>]| {
+            let of = |kind: usize| cells.iter().map(|cell| cell[kind]).collect();
+            (0..kinds.len()).map(of).collect()
+        };
+        Ok(found.chunks(trainings).map(by_kind).collect())
+    }
+}
+
+/// A model by the defaults of `host-sim train`.
+pub(super) fn model(recordings: &Recordings, expect: Expected) -> Result<ModelBuf> {
+    let how = How {
+        expect,
+        ..How::of(Tables::Joint)
+    };
+    Ok(how.train(recordings, TICK_HZ)?.model)
+}
+
+pub(super) fn judge(model: &ModelBuf, threshold: f64, streams: &[Stream]) -> Result<Tally> {
+    let shown = presentations(model, threshold, streams)?;
+    Ok(Tally::of(&shown))
+}
+
+/// Labels as they are.
+pub(super) fn as_felt(_: &mut Vec<Stream>, _: u64) {}
