@@ -82,10 +82,10 @@ fn flash_that_was_not_written_whole_is_refused_at_the_start() {
 fn what_does_not_fit_is_refused_before_anything_is_written() {
     let place = Place::new();
     let mut bytes = model();
-    bytes[4] += 1;
+    bytes[4] += 2;
     std::fs::write(place.path("newer.model"), &bytes).unwrap();
     let newer = format!("deploy {IN_WORLD} --model newer.model");
-    place.refuses(&newer, "newer.model: model format version 3");
+    place.refuses(&newer, "newer.model: model format version 4");
     assert!(!place.path("board.flash").exists());
 
     let bench = std::fs::read_to_string(scenes("bench.toml")).unwrap();
@@ -96,7 +96,7 @@ fn what_does_not_fit_is_refused_before_anything_is_written() {
     for (scene, why) in [
         (
             "@textures.toml",
-            "textures.toml:34: classifier.model: found, so the scene brings its model",
+            "textures.toml:36: classifier.model: found, so the scene brings its model",
         ),
         ("bench.toml", "bench.toml: it has no [classifier]"),
         (

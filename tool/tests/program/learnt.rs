@@ -109,6 +109,7 @@ fn a_texture_under_two_labels_is_distinguished_by_chance_alone() {
     }
     let share = f64::from(right) / f64::from(all);
     println!("{right} of {all} right");
-    // Twice the standard error of so many decisions, of which some share a touch.
-    assert!(all > 300 && (share - 0.5).abs() < 0.1, "{right} of {all}");
+    // Twice the standard error of so many decisions, of which some share a touch; the second
+    // opinion objects to most.
+    assert!(all > 150 && (share - 0.5).abs() < 0.1, "{right} of {all}");
 }
