@@ -149,7 +149,12 @@ impl Ground {
         self.score_on(&self.runs, model, threshold)
     }
 
-    fn score_on(&self, runs: &[Heard], model: &ModelBuf, threshold: f64) -> Result<Figures> {
+    pub(super) fn score_on(
+        &self,
+        runs: &[Heard],
+        model: &ModelBuf,
+        threshold: f64,
+    ) -> Result<Figures> {
         score_on(runs, model, threshold, self.scene.tick_hz)
     }
 }
