@@ -83,8 +83,8 @@ fn features<R: Real>(
     if config.classifier.is_some() {
         let any_that = |asks: fn(&ModelBuf) -> bool| model.is_none_or(asks);
         let of_models = [
-            (any_that(|model| model.is_joint()), "joint"),
-            (any_that(|model| model.has_opinion()), "opinion"),
+            (any_that(ModelBuf::is_joint), "joint"),
+            (any_that(ModelBuf::has_opinion), "opinion"),
         ];
         let needed = of_models.into_iter().filter(|(is_needed, _)| *is_needed);
         features.extend(needed.map(|(_, feature)| feature));
