@@ -164,7 +164,7 @@ impl Opinion {
             let sums = self.states.iter().flatten();
             let weighed = sums.zip(halves(weights.next().unwrap_or_default()));
             let sum: i64 = weighed
-                .map(|(sum, weight)| i64::from(i32::from(*sum) * i32::from(weight)))
+                .map(|(sum, weight)| i64::from(i32::from(*sum) * i32::from(*weight)))
                 .sum();
             let bits = (sum >> shift.min(63)) + i64::from(bias.cast_signed());
             let bits = bits.clamp(-SCORE_MOST, SCORE_MOST) as i32;
@@ -281,15 +281,15 @@ impl Opinion {
             let mut from = [0_i32; FEATURES];
             for ((from, sum), mean) in from.iter_mut().zip(sums).zip(halves(means)) {
                 // At most three blocks.
-                let off = i32::from(*sum) - i32::from(mean) * blocks as i32;
+                let off = i32::from(*sum) - i32::from(*mean) * blocks as i32;
                 *from = off.clamp(-MOST, MOST);
             }
-            let mut triangle = halves(triangle);
+            let mut triangle = halves(triangle).iter();
             let mut squares = 0_u64;
             for row in 1..=FEATURES {
                 let weighed = from.iter().take(row).zip(&mut triangle);
                 let sum: i64 = weighed
-                    .map(|(from, weight)| i64::from(from * i32::from(weight)))
+                    .map(|(from, weight)| i64::from(from * i32::from(*weight)))
                     .sum();
                 let most = i64::from(DEVIATION_MOST) << STATE_BITS;
                 let size = (sum >> shift.min(&63)).clamp(-most, most);

@@ -11,6 +11,8 @@
 //! | per class | per state: 10 means i16, 1/256; shift; 55 of a triangle i16, and a zero; then 8 limits u32 |
 //! | per class | 9 × inverse deviation of x and y u16, 2⁻¹⁶; P × 9 × x and y i16; limit u32 |
 
+use zerocopy::{FromBytes, IntoBytes};
+
 use super::{BLOCKS, FEATURES, STAGES, STATES, Whisked};
 use crate::error::ModelError;
 
@@ -188,9 +190,8 @@ impl<'m> Section<'m> {
     }
 }
 
-/// The two halves of words, the lower one first.
+/// The two halves of words, the lower one first: models are little-endian, as all targets are.
 #[inline]
-pub(crate) fn halves(words: &[u32]) -> impl Iterator<Item = i16> + '_ {
-    let both = |word: &u32| [*word as u16, (*word >> 16) as u16];
-    words.iter().flat_map(both).map(u16::cast_signed)
+pub(crate) fn halves(words: &[u32]) -> &[i16] {
+    <[i16]>::ref_from_bytes(words.as_bytes()).unwrap_or_default()
 }
