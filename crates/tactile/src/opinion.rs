@@ -158,7 +158,8 @@ impl Opinion {
         }
         let (shift, biases, weights) = section.stage(self.blocks);
         let begun = section::begun(self.blocks);
-        let mut weights = weights.chunks(begun * FEATURES / 2);
+        // At least one state: said where the compiler sees that no chunk is empty.
+        let mut weights = weights.chunks((begun * FEATURES / 2).max(1));
         let classes = self.scores.iter_mut().zip(&mut rise).take(classes);
         for ((score, rise), bias) in classes.zip(biases) {
             let sums = self.states.iter().flatten();
