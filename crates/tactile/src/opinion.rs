@@ -65,14 +65,12 @@ pub(crate) const STAGES: usize = 8;
 pub(crate) const STATES: [[usize; 2]; 4] = [[0, 1], [1, 3], [3, 6], [6, BLOCKS]];
 
 /// The state that a block, from 0, is of.
-#[inline]
 pub(crate) fn state_of(block: usize) -> usize {
     let past = STATES.iter().filter(|[_, end]| *end <= block).count();
     past.min(STATES.len() - 1)
 }
 
 /// Blocks of a state after so many of the touch.
-#[inline]
 pub(crate) fn blocks_of(state: [usize; 2], blocks: usize) -> usize {
     let [first, end] = state;
     blocks.min(end).saturating_sub(first)
@@ -138,8 +136,8 @@ impl Opinion {
     }
 
     /// Ends a block. By how much the score of each class has risen, 1/1024 bit.
-    // Once a block: as small as its user is built.
-    #[inline]
+    // Once a block, and not within what is generic: as fast as this crate is built.
+    #[inline(never)]
     pub(crate) fn end_of_block(&mut self, section: Section<'_>, classes: usize) -> Rise {
         let (features, deflection) = self.differences.end_of_block();
         if self.blocks >= BLOCKS {
@@ -160,13 +158,14 @@ impl Opinion {
         }
         let (shift, biases, weights) = section.stage(self.blocks);
         let begun = section::begun(self.blocks);
-        let mut weights = weights.chunks(begun * FEATURES / 2);
+        // At least one state: said where the compiler sees that no chunk is empty.
+        let mut weights = weights.chunks((begun * FEATURES / 2).max(1));
         let classes = self.scores.iter_mut().zip(&mut rise).take(classes);
         for ((score, rise), bias) in classes.zip(biases) {
             let sums = self.states.iter().flatten();
             let weighed = sums.zip(halves(weights.next().unwrap_or_default()));
             let sum: i64 = weighed
-                .map(|(sum, weight)| i64::from(i32::from(*sum) * i32::from(weight)))
+                .map(|(sum, weight)| i64::from(i32::from(*sum) * i32::from(*weight)))
                 .sum();
             let bits = (sum >> shift.min(63)) + i64::from(bias.cast_signed());
             let bits = bits.clamp(-SCORE_MOST, SCORE_MOST) as i32;
@@ -182,7 +181,8 @@ impl Opinion {
     }
 
     /// Why it objects to naming this class, if it does.
-    #[inline]
+    // At a decision, likewise.
+    #[inline(never)]
     pub(crate) fn objection(
         &self,
         section: Section<'_>,
@@ -203,7 +203,6 @@ impl Opinion {
     }
 
     /// The class that stands against this one, by the scores, if the odds against it are more.
-    #[inline]
     fn rival(&self, most_odds: u32, classes: usize, class: usize) -> Option<usize> {
         let scores = self.scores.get(..classes)?;
         let own = *scores.get(class)?;
@@ -224,7 +223,6 @@ impl Opinion {
 
     /// Whether the mean squared deviation from the way of a class, or from between two of its
     /// ways, is within its limit.
-    #[inline]
     fn is_on_path(&self, (inverse, means, limit): (&[u32], &[u32], u32)) -> bool {
         let blocks = self.blocks.min(BLOCKS);
         let poses = means.len() / BLOCKS;
@@ -264,7 +262,6 @@ impl Opinion {
     }
 
     /// Whether the features of the states are as near to a class as its limit says.
-    #[inline]
     fn is_typical(&self, (states, limits): (&[u32], &[u32]), stages: usize) -> bool {
         let mut distance = 0_u64;
         for ((words, of_class), sums) in STATES
@@ -280,15 +277,21 @@ impl Opinion {
             let Some((shift, triangle)) = rest.split_first() else {
                 break;
             };
-            let mut from = [0_i64; FEATURES];
+            // Of a trained model below 2¹⁵; 2¹⁶ by 2¹⁵ is what a word holds.
+            const MOST: i32 = u16::MAX as i32;
+            let mut from = [0_i32; FEATURES];
             for ((from, sum), mean) in from.iter_mut().zip(sums).zip(halves(means)) {
-                *from = i64::from(*sum) - i64::from(mean) * blocks as i64;
+                // At most three blocks.
+                let off = i32::from(*sum) - i32::from(*mean) * blocks as i32;
+                *from = off.clamp(-MOST, MOST);
             }
-            let mut triangle = halves(triangle);
+            let mut triangle = halves(triangle).iter();
             let mut squares = 0_u64;
             for row in 1..=FEATURES {
                 let weighed = from.iter().take(row).zip(&mut triangle);
-                let sum: i64 = weighed.map(|(from, weight)| from * i64::from(weight)).sum();
+                let sum: i64 = weighed
+                    .map(|(from, weight)| i64::from(from * i32::from(*weight)))
+                    .sum();
                 let most = i64::from(DEVIATION_MOST) << STATE_BITS;
                 let size = (sum >> shift.min(&63)).clamp(-most, most);
                 squares += (size * size).unsigned_abs();

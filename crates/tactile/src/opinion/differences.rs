@@ -131,8 +131,8 @@ impl Differences {
     }
 
     /// Ends the block: its features, and its mean deflection from rest.
-    // Once a block: as small as its user is built.
-    #[inline]
+    // Once a block, likewise.
+    #[inline(never)]
     pub(crate) fn end_of_block(&mut self) -> (Features, [i16; 2]) {
         let counted = self.counted.max(1);
         let deflection: [i32; 2] = core::array::from_fn(|channel| {
@@ -166,7 +166,6 @@ struct Frame {
 }
 
 impl Frame {
-    #[inline]
     fn of(a: i32, b: i32) -> Self {
         let (a, b) = (i64::from(a), i64::from(b));
         let length2 = (a * a + b * b).unsigned_abs().max(1);
@@ -185,7 +184,6 @@ impl Frame {
     }
 
     /// Sums of the squares along and across, of the sums of dx², dx dy, dy².
-    #[inline]
     fn powers(&self, [xx, xy, yy]: [i64; 3]) -> [u64; 2] {
         // Sums are below 2³⁷ in blocks of 128 samples; of longer ones bits are lost.
         let lost = (u64::BITS - (xx | yy).unsigned_abs().leading_zeros()).saturating_sub(37);
@@ -202,7 +200,6 @@ impl Frame {
 }
 
 /// ½ log₂(1 + sum / counted) in units of 2^−[`FEATURE_BITS`].
-#[inline]
 fn half_octaves(sum: u64, counted: u32) -> i16 {
     let counted = u64::from(counted);
     let octaves = log2(sum.saturating_add(counted)) - log2(counted);
@@ -212,7 +209,6 @@ fn half_octaves(sum: u64, counted: u32) -> i16 {
 
 /// 1024 log₂ x for x ≥ 1, with the fraction of x's leading bit taken as its logarithm: at most
 /// 0.086 octaves too low, and rising.
-#[inline]
 fn log2(x: u64) -> i32 {
     let whole = u64::BITS - 1 - x.leading_zeros().min(u64::BITS - 1);
     let below = (x << (u64::BITS - 1 - whole)) << 1;

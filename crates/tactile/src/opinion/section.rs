@@ -11,6 +11,8 @@
 //! | per class | per state: 10 means i16, 1/256; shift; 55 of a triangle i16, and a zero; then 8 limits u32 |
 //! | per class | 9 × inverse deviation of x and y u16, 2⁻¹⁶; P × 9 × x and y i16; limit u32 |
 
+use zerocopy::{FromBytes, IntoBytes};
+
 use super::{BLOCKS, FEATURES, STAGES, STATES, Whisked};
 use crate::error::ModelError;
 
@@ -26,13 +28,11 @@ pub(crate) const STATE_WORDS: usize = FEATURES / 2 + 1 + TRIANGLE_WORDS;
 pub(crate) const TYPICAL_WORDS: usize = STATES.len() * STATE_WORDS + STAGES;
 
 /// States begun after so many blocks.
-#[inline]
 pub(crate) fn begun(blocks: usize) -> usize {
     STATES.iter().filter(|[first, _]| *first < blocks).count()
 }
 
 /// Words of a stage (from 1) for so many classes.
-#[inline]
 pub(crate) fn stage_words(stage: usize, classes: usize) -> usize {
     1 + classes + classes * begun(stage) * FEATURES / 2
 }
@@ -153,7 +153,6 @@ impl<'m> Section<'m> {
     }
 
     /// Of a stage (from 1): shift, biases and weights of all classes.
-    #[inline]
     pub(crate) fn stage(self, stage: usize) -> (u32, &'m [u32], &'m [u32]) {
         let before: usize = (1..stage).map(|s| stage_words(s, self.classes)).sum();
         let words = self.words.get(HEAD_WORDS + before..).unwrap_or_default();
@@ -166,7 +165,6 @@ impl<'m> Section<'m> {
     }
 
     /// What is typical of a class: its states, and its limits by stage.
-    #[inline]
     pub(crate) fn typical(self, class: usize) -> (&'m [u32], &'m [u32]) {
         let of_paths = self.classes * path_words(self.poses());
         let of_all = self.classes * TYPICAL_WORDS + of_paths;
@@ -179,7 +177,6 @@ impl<'m> Section<'m> {
     }
 
     /// The paths of a class: inverse deviations, means of each pose, limit.
-    #[inline]
     pub(crate) fn path(self, class: usize) -> (&'m [u32], &'m [u32], u32) {
         let one = path_words(self.poses());
         let of_others = self.classes.saturating_sub(class) * one;
@@ -193,9 +190,8 @@ impl<'m> Section<'m> {
     }
 }
 
-/// The two halves of words, the lower one first.
+/// The two halves of words, the lower one first: models are little-endian, as all targets are.
 #[inline]
-pub(crate) fn halves(words: &[u32]) -> impl Iterator<Item = i16> + '_ {
-    let both = |word: &u32| [*word as u16, (*word >> 16) as u16];
-    words.iter().flat_map(both).map(u16::cast_signed)
+pub(crate) fn halves(words: &[u32]) -> &[i16] {
+    <[i16]>::ref_from_bytes(words.as_bytes()).unwrap_or_default()
 }
