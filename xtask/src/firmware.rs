@@ -77,8 +77,15 @@ impl Board {
     }
 }
 
-/// The parts of a program that takes any scene: the default features of the crate `firmware`.
-pub(crate) const EVERY_PART: &[&str] = &["default"];
+/// The parts of a program that takes any scene: the default features of the crate `firmware`, but
+/// for what the board has no time for.
+pub(crate) fn every_part(board: Board) -> &'static [&'static str] {
+    if board.facts.takes_opinion {
+        &["default"]
+    } else {
+        &["without-opinion"]
+    }
+}
 
 /// Builds the firmware of `scene` with warnings as errors, the scene linked and of the parts that
 /// it needs; gives the ELF file.
@@ -88,7 +95,7 @@ pub(crate) fn build(board: Board, scene: &Path) -> Result<PathBuf, Fault> {
 
 /// Builds the program that takes any scene, and brings none with it.
 pub(crate) fn build_any_scene(board: Board) -> Result<PathBuf, Fault> {
-    run(&mut compiler(board, EVERY_PART))?;
+    run(&mut compiler(board, every_part(board)))?;
     Ok(elf(board))
 }
 

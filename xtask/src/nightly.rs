@@ -6,7 +6,7 @@ use std::process::Command;
 use std::time::{SystemTime, UNIX_EPOCH};
 
 use crate::emulate::Emulated;
-use crate::firmware::{Board, EVERY_PART};
+use crate::firmware::{Board, every_part};
 use crate::run::{Fault, cargo, installed, run, target};
 use crate::steps::Steps;
 use crate::{
@@ -64,7 +64,7 @@ fn lints() -> Result<(), Fault> {
     for board in Board::ALL {
         let deny = ["--", "-D", "warnings"];
         run(cargo(&["clippy"])
-            .args(board.build_arguments(EVERY_PART))
+            .args(board.build_arguments(every_part(board)))
             .args(deny))?;
     }
     Ok(())

@@ -105,6 +105,13 @@ fn model_fits(scene: &Scene, model: &ModelBuf, board: &BoardFacts) -> Result<(),
     StreamClassifier::new(model.view(), rule, Deciding::First, 1)
         .map_err(|fault| Unfit::Model(fault.to_string()))?;
     whisks_as(scene, model.whisked())?;
+    if model.has_opinion() && !board.takes_opinion {
+        return Err(Unfit::Model(format!(
+            "found a second opinion; allowed on the {}: none, because its core has no time for \
+             it within a tick; host-sim train --expect same makes a model without",
+            board.name
+        )));
+    }
     let (found, most) = (model.classes(), board.max_classes);
     if found > most {
         return Err(Unfit::Model(format!(

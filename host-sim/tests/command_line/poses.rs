@@ -53,7 +53,7 @@ fn several_poses_are_held_out_and_one_is_recommended() {
     let mut table = String::from("label,trial,x,y,contact,touch,pose\n");
     for name in names {
         for row in place.text(name).lines().skip(1) {
-            table.push_str(&format!("{row},of {name}\n"));
+            table.extend([row, ",of ", name, "\n"]);
         }
     }
     place.write("all.csv", table);

@@ -57,7 +57,9 @@ fn is_named(part: &str, named: Named<'_>, has_fpu: bool) -> Result<bool, Fault> 
         "several whiskers" => classifier.is_some_and(|c| c.whiskers != Deciding::First),
         "roughness" | "roughness or floors" => !is_single,
         "second opinion" => {
-            classifier.is_some() && (awaits || model.is_some_and(ModelBuf::has_opinion))
+            // Only boards with an FPU have time for it.
+            let may = awaits || model.is_some_and(ModelBuf::has_opinion);
+            has_fpu && classifier.is_some() && may
         }
         "sequential rule" => matches!(rule, Some(Rule::Sequential { .. })),
         "window rule" => matches!(rule, Some(Rule::Window { .. })),
