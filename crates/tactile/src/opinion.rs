@@ -263,6 +263,8 @@ impl Opinion {
 
     /// Whether the features of the states are as near to a class as its limit says.
     fn is_typical(&self, (states, limits): (&[u32], &[u32]), stages: usize) -> bool {
+        /// Of a trained model below 2¹⁵; 2¹⁶ by 2¹⁵ is what a word holds.
+        const MOST: i32 = u16::MAX as i32;
         let mut distance = 0_u64;
         for ((words, of_class), sums) in STATES
             .iter()
@@ -277,8 +279,6 @@ impl Opinion {
             let Some((shift, triangle)) = rest.split_first() else {
                 break;
             };
-            // Of a trained model below 2¹⁵; 2¹⁶ by 2¹⁵ is what a word holds.
-            const MOST: i32 = u16::MAX as i32;
             let mut from = [0_i32; FEATURES];
             for ((from, sum), mean) in from.iter_mut().zip(sums).zip(halves(means)) {
                 // At most three blocks.
