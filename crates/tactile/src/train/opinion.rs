@@ -276,6 +276,18 @@ impl Felt {
 
     /// What is typical of a class, and its paths.
     fn class(&self, class: usize, names: bool) -> (Typical, Paths) {
+        let (mut typical, mut paths) = self.limited(class, names);
+        if self.begins_again {
+            // Of a touch that lasts there is no way from onset to end, and its nine blocks depend
+            // on one another: only the discriminant objects.
+            typical.limits = [f64::INFINITY; STAGES];
+            paths.limit = f64::INFINITY;
+        }
+        (typical, paths)
+    }
+
+    /// The same, with limits as if touches were short.
+    fn limited(&self, class: usize, names: bool) -> (Typical, Paths) {
         let of: Vec<&Touch> = self.touches.iter().filter(|t| t.class == class).collect();
         let mut trials: Vec<usize> = of.iter().map(|touch| touch.trial).collect();
         trials.dedup();
