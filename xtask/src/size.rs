@@ -29,6 +29,8 @@ const SHORT: [&str; 2] = ["scenes/full.toml", "scenes/passive.toml"];
 const SILENT: [&str; 2] = ["scenes/passive.toml", "scenes/rcp.toml"];
 /// One with two sides, for the board that carries them.
 const TWO_SIDES: &str = "scenes/both.toml";
+/// One whose model has a second opinion, for the board that has time for it.
+const JUDGED: &str = "scenes/bench-textures.toml";
 
 /// Measures everything; prints it and writes the table to `csv` (or to the
 /// committed one; `-`: prints the table alone), or checks that no program has
@@ -78,7 +80,7 @@ pub(crate) fn print(board: Board, scene: &str, elf: &Path) -> Result<(), Fault> 
     Ok(())
 }
 
-/// Checks [`SHORT`] on every board and [`TWO_SIDES`] on one, and what a program holds.
+/// Checks [`SHORT`] on every board, [`TWO_SIDES`] and [`JUDGED`] on one, and what a program holds.
 pub(crate) fn short() -> Result<(), Fault> {
     let mut measured = Measured::default();
     for scene in SHORT {
@@ -89,8 +91,10 @@ pub(crate) fn short() -> Result<(), Fault> {
         }
     }
     let [board, ..] = Board::ALL;
-    if let Some(reason) = measured.take(board, Path::new(TWO_SIDES), None)? {
-        return Err(reason);
+    for scene in [TWO_SIDES, JUDGED] {
+        if let Some(reason) = measured.take(board, Path::new(scene), None)? {
+            return Err(reason);
+        }
     }
     measured.control(board)?;
     let [.., smallest] = Board::ALL;
