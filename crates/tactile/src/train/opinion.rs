@@ -6,8 +6,8 @@
 //! and what differs between poses is learnt from them.
 //!
 //! Values that were chosen, on recordings of the scene `whisker` with seeds that no page uses:
-//! α 1 and 1 + 4/(poses − 1), s 0.1 and 0.03, the 0.8 of an objection, the shares 0.95, 0.98 and 0.95 of
-//! `typical` and `paths`, their shrinking and least deviations, and the gains of copies.
+//! α 1 and 1 + 4/(poses − 1), s 0.1 and 0.03, the 0.8 of an objection, the shares 0.95, 0.98 and
+//! 0.95 of `typical` and `paths`, their shrinking and least deviations, and the gains of copies.
 
 mod linear;
 mod matrix;
@@ -332,7 +332,8 @@ impl Felt {
     }
 
     fn head(&self, names: bool, whisked: Whisked, poses: usize) -> Vec<u32> {
-        let kind = u8::from(names) | u8::from(self.begins_again) << 1;
+        // One that names says what it has to say of a touch once: what would follow depends on it.
+        let kind = u8::from(names) | u8::from(self.begins_again && !names) << 1;
         // At most twelve, and eight.
         let head = [kind, poses as u8, self.stages as u8, self.patience()];
         let odds = (1.0 / LEAST_POSTERIOR - 1.0) * f64::from(1 << 26);
