@@ -6,7 +6,7 @@ mod tests;
 
 use serde::{Deserialize, Serialize};
 use whisking::motor::{
-    self, Duty, GuardConfig, Guards, Heat, Homed, Homing, HomingConfig, MotorDriver,
+    self, Duty, GuardConfig, Guards, Heat, Homed, Homing, HomingConfig, MotorDriver, Moved,
 };
 use whisking::{Real, Voted, pd};
 use wire::{Flags, q13};
@@ -64,7 +64,7 @@ pub enum ServoState<R> {
         /// The position control with its terms.
         pd: pd::State<R>,
         /// Whether it moves as it is driven.
-        guards: Guards,
+        guards: Guards<R>,
         /// By how much the setpoint is still behind, protraction.
         behind: R,
     },
@@ -295,10 +295,20 @@ impl<R: Real, M: MotorDriver, A: AngleInput> Servo<R, M, A> {
                 // So far from where it should be no whisker is: its bits were flipped.
                 R::ZERO
             };
-            let duty = config.pd.follow(pd, setpoint - *behind, at, moved);
+            config.pd.measure(pd, setpoint - *behind, at, moved);
+            let wanted = (pd.p + pd.d).to_q24();
+            let wanted = guards.test(&config.guards).unwrap_or(wanted);
+            let duty = config.pd.command(pd, wanted);
+            let seen = Moved {
+                duty: pd.command,
+                error: pd.error,
+                velocity: pd.velocity,
+                at,
+                counts: moved,
+            };
             // Where rest is not known, no angle is within the travel.
             home.ok_or(motor::Fault::Travel)
-                .and_then(|_| guards.check(&config.guards, duty, pd.error, at, moved))
+                .and_then(|_| guards.check(&config.guards, seen))
                 .map(|()| duty)
         } else {
             match self.find_home(config, moved).transpose() {

@@ -7,7 +7,7 @@ use firmware::{
 };
 use scene::{Arm, Deciding, MotorSection, OnFault, PlantKind, Rest, Rule, Scene, SensorMode};
 use tactile::{RuleSettings, Threshold};
-use whisking::motor::{GuardSettings, HomingSettings};
+use whisking::motor::{GuardSettings, HomingSettings, ModelSettings};
 use whisking::{Real, filter, pd};
 
 use crate::{Mismatch, check, contact, contact_min, settings};
@@ -187,8 +187,8 @@ fn motion<R: Real>(scene: &Scene, is_ideal: bool) -> Result<Option<MotionConfig<
     }))
 }
 
-/// Counts that a motor may move before it is seen to have moved.
-const UNMOVED_COUNTS: f64 = 3.0;
+/// The fastest that a motor can be, of its speed at full duty.
+const TOP_SPEED: f64 = 1.25;
 
 /// What is a fault of a motor's motion: hard is half of what it may be driven with, and rest
 /// is within its travel. Whatever the plant: a board does not know what is simulated.
@@ -196,8 +196,12 @@ fn guards(motor: &MotorSection, degrees_per_count: f64) -> GuardSettings {
     GuardSettings {
         degrees_per_count,
         hard_duty: motor.duty_limit / 2.0,
-        // A coarse encoder has its counts as far apart as the gain makes of them.
-        unmoved_duty: motor.unmoved_duty + motor.kp * UNMOVED_COUNTS * degrees_per_count,
+        model: Some(ModelSettings {
+            speed_deg_s: motor.top_speed_deg_s / TOP_SPEED,
+            time_constant_s: motor.time_constant_s,
+            friction_duty: motor.unmoved_duty / 2.0,
+            duty_limit: motor.duty_limit,
+        }),
         following_deg: motor.following_limit_deg,
         top_speed_deg_s: motor.top_speed_deg_s,
         travel_deg: [

@@ -33,6 +33,7 @@ mod guard;
 mod hall;
 mod hbridge;
 mod homing;
+mod model;
 mod phases;
 mod six_step;
 mod stall;
@@ -43,10 +44,11 @@ use serde::{Deserialize, Serialize};
 
 pub use commutation::{COMMUTATION, CommutationStep, Pair, Phase, Role, Sector};
 pub use duty::Duty;
-pub use guard::{FOLLOWING_S, GuardConfig, GuardSettings, Guards, Heat, STALL_S, UNMOVED_S};
+pub use guard::{FOLLOWING_S, GuardConfig, GuardSettings, Guards, Heat, Moved, STALL_S};
 pub use hall::HallTracker;
 pub use hbridge::HBridge;
 pub use homing::{Homed, Homing, HomingConfig, HomingSettings};
+pub use model::{Expected, ModelConfig, ModelSettings};
 pub use phases::{HallInputs, PhaseEnables, PhasePwms};
 pub use six_step::{SixStep, SixStepConfig, SixStepState};
 pub use stall::{StallConfig, StallGuard};
@@ -100,13 +102,14 @@ pub enum Fault {
     InvalidHall(u8),
     /// 5: the rotor skipped Hall sectors in too many ticks in succession.
     SkippedSector,
-    /// 6: driven above the stall threshold and not moving for too long.
+    /// 6: does not move as it is driven: in a test of its motion, or above the stall threshold
+    /// for too long.
     Stall,
     /// 7: the angle was too far from its setpoint for too long.
     Following,
     /// 8: moves against the drive, or faster than the motor can.
     Runaway,
-    /// 9: the drive changed, or was hard both ways, and not a count.
+    /// 9: the same, and not a count was seen.
     Encoder,
     /// 10: beyond the ends of its travel.
     Travel,

@@ -18,7 +18,7 @@ const VELOCITY_CORNER_HZ: f64 = 100.0;
 
 /// A duty of one in the controller's state: Q24, so that the slowest slew is not
 /// lost in rounding.
-const FULL: f64 = 16_777_216.0;
+pub(crate) const FULL: f64 = 16_777_216.0;
 
 /// Gains and limits in physical units.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -145,6 +145,13 @@ impl<R: Real> Config<R> {
     /// whisker that was turned out of it comes back slowly.
     #[inline]
     pub fn follow(&self, state: &mut State<R>, setpoint: R, counts: i32, moved: i32) -> Duty {
+        self.measure(state, setpoint, counts, moved);
+        self.command(state, (state.p + state.d).to_q24())
+    }
+
+    /// The part of [`follow`](Self::follow) that comes before the duty.
+    #[inline]
+    pub fn measure(&self, state: &mut State<R>, setpoint: R, counts: i32, moved: i32) {
         let measured = self.measured(counts);
         let moved = R::from_counts(moved, self.theta_per_count);
         let velocity = state.velocity + (moved - state.velocity).times(self.smooth);
@@ -157,8 +164,12 @@ impl<R: Real> Config<R> {
         state.error = setpoint - measured;
         state.p = state.error.times(self.kp);
         state.d = -state.velocity.times(self.kd);
+    }
+
+    /// Brings the duty to the `wanted` one, Q24, as fast as it may change.
+    #[inline]
+    pub fn command(&self, state: &mut State<R>, wanted: i32) -> Duty {
         // Not `clamp`, which panics where a limit is negative.
-        let wanted = (state.p + state.d).to_q24();
         let limited = |duty: i32| duty.min(self.limit).max(-self.limit);
         let change = limited(wanted).wrapping_sub(state.command);
         let change = change.min(self.slew).max(-self.slew);

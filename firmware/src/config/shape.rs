@@ -70,17 +70,7 @@ impl<R: Real> Config<R> {
             return Ok(());
         };
         let (old, new) = (&old.servo, &new.servo);
-        // By how much the duty may change in vain has a margin that grows with kp.
-        let unmoved = if old.pd.kp == new.pd.kp {
-            old.guards.unmoved
-        } else {
-            new.guards.unmoved
-        };
-        let guards = whisking::motor::GuardConfig {
-            unmoved,
-            ..old.guards
-        };
-        kept(Field::Guards, guards == new.guards)?;
+        kept(Field::Guards, old.guards == new.guards)?;
         kept(Field::DutyLimit, old.pd.limit == new.pd.limit)?;
         kept(
             Field::Angles,

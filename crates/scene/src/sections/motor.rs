@@ -77,13 +77,19 @@ keys! {
         /// How far beyond `min_deg` and `max_deg` the whisker may be turned without a fault.
         travel_margin_deg: f64 = number(0.0..=720.0).unit("degrees").default("20.0"),
 
-        /// Faster than the motor can turn the whisker: a fault. A quarter more than the
-        /// simulated motor's speed without load.
+        /// Faster than the motor can turn the whisker: a fault. A quarter more than its speed
+        /// without load at full duty, which follows from it.
         top_speed_deg_s: f64 = positive(1e6).unit("degrees/s").default("15000.0"),
 
-        /// By how much the duty may change for 20 ms while the encoder stands still: above
-        /// the friction of motor and gear, both ways together.
+        /// Duty that friction of motor and gear takes, both ways together: where a duty beyond half
+        /// of it does not move the whisker as the motor should, that is tested by a short stroke,
+        /// and is a fault if it fails. Friction that is larger by up to four times costs such
+        /// strokes and is no fault. From 1.6 on nothing is expected of the motor.
         unmoved_duty: f64 = number(0.0..=2.0).default("0.12"),
+
+        /// Time in which the motor comes to 63 % of its speed, with gear and whisker
+        /// (`whisker calibrate` measures it).
+        time_constant_s: f64 = number(1e-3..=10.0).unit("s").default("0.048"),
 
         /// Duty that the winding bears for ever; above it, a fault by I²t over some 8 s.
         continuous_duty: f64 = number(ranges::pd::LIMIT).default("0.4"),

@@ -2,10 +2,12 @@
 //!
 //! A motor on an [`HBridge`](super::HBridge) gives no sign of motion itself, so the control
 //! loop guards it by its encoder. No guard begins again because the direction of the drive
-//! changes: an encoder that stands still is found at any whisking frequency.
+//! changes. Whether a motor moves at all as it is driven is [expected](super::Expected) of a
+//! model of it; the limits here are those that need none.
 
 use serde::{Deserialize, Serialize};
 
+use super::model::{Expected, ModelConfig, ModelSettings};
 use super::{Duty, Fault, StallConfig};
 use crate::{DEGREES_PER_UNIT, REST_DEG, Real};
 
@@ -15,9 +17,6 @@ pub const FOLLOWING_S: f64 = 0.04;
 /// How long a motor may be driven hard in all without moving, s: longer than the pause
 /// at a whisk's turning point, shorter than a small winding takes to overheat.
 pub const STALL_S: f64 = 0.2;
-/// How long a motor may stand still although its drive has changed, s: longer than one from
-/// rest takes for a few counts.
-pub const UNMOVED_S: f64 = 0.02;
 /// Time constant of a small winding, s. Rounded to the nearest power of two in ticks.
 const WINDING_S: f64 = 8.0;
 /// How far a motor may move against a hard drive, degrees: a whisker that is braked from
@@ -31,8 +30,8 @@ pub struct GuardSettings {
     pub degrees_per_count: f64,
     /// Duty above which it is driven hard, 0 to 1.
     pub hard_duty: f64,
-    /// By how much the duty may change without a count of the encoder, 0 to 2.
-    pub unmoved_duty: f64,
+    /// How it moves as it is driven; `None`: nothing is expected of it.
+    pub model: Option<ModelSettings>,
     /// Largest following error, degrees.
     pub following_deg: f64,
     /// Fastest that the motor can be, degrees a second.
@@ -48,7 +47,7 @@ impl GuardSettings {
     pub const NONE: Self = Self {
         degrees_per_count: 1.0,
         hard_duty: 1.0,
-        unmoved_duty: 2.0,
+        model: None,
         following_deg: 1e4,
         top_speed_deg_s: f64::MAX,
         travel_deg: [f64::MIN, f64::MAX],
@@ -67,9 +66,9 @@ impl GuardSettings {
                 ticks: ticks(STALL_S),
                 threshold: Duty::from_f32(self.hard_duty as f32),
             },
-            // In Q15, where a duty spans 65,534.
-            unmoved: libm::round(self.unmoved_duty * 32_767.0).clamp(0.0, 65_535.0) as u16,
-            unmoved_ticks: ticks(UNMOVED_S),
+            model: self
+                .model
+                .and_then(|model| model.build(tick_hz, self.degrees_per_count)),
             error: R::from_f64(self.following_deg / DEGREES_PER_UNIT),
             error_ticks: ticks(FOLLOWING_S),
             against: counts(AGAINST_DEG) as u32,
@@ -83,14 +82,12 @@ impl GuardSettings {
 
 /// What a motor may do. Counts are those of the angle input, protraction counting up.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-pub struct GuardConfig<R> {
+#[serde(bound = "")]
+pub struct GuardConfig<R: Real> {
     /// How long it may be driven hard in all without moving, and what is hard.
     pub stall: StallConfig,
-    /// By how much the duty may change while it stands still, Q15, and for how many ticks by
-    /// more.
-    pub unmoved: u16,
-    /// See [`GuardConfig::unmoved`].
-    pub unmoved_ticks: u16,
+    /// How it moves as it is driven, where something is expected of it.
+    pub model: Option<ModelConfig<R>>,
     /// Largest following error, protraction.
     pub error: R,
     /// Ticks in succession for which the following error may be larger.
@@ -109,16 +106,14 @@ pub struct GuardConfig<R> {
 
 /// What the guards of a motor remember while it runs. The default is that of a motor that was
 /// off.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub struct Guards {
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Guards<R> {
+    /// What is expected of it.
+    expected: Expected<R>,
     /// Ticks that it was driven hard forwards and backwards since it last moved.
     still: [u16; 2],
     /// How far it has moved since, counts.
     flicker: i32,
-    /// The duty with which it last moved, Q15, and ticks since it differs from that by more
-    /// than it may.
-    moved_by: i16,
-    unmoved: u16,
     /// Ticks in succession with too large a following error.
     error_ticks: u16,
     /// Counts that it has moved against a hard drive.
@@ -128,21 +123,45 @@ pub struct Guards {
 /// A rotor that stands on an edge of its encoder flickers by a count or two.
 const FLICKER: u32 = 2;
 
-impl Guards {
-    /// One tick: the `duty` that is to be driven, the following `error` that it comes from,
-    /// the angle `at` in counts from rest and by how many it has `moved` since the last tick.
+/// What a tick of a motor is judged by.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Moved<R> {
+    /// The duty that is to be driven, Q24.
+    pub duty: i32,
+    /// The following error that it comes from, protraction.
+    pub error: R,
+    /// The smoothed velocity, protraction a tick.
+    pub velocity: R,
+    /// The angle, counts from rest.
+    pub at: i32,
+    /// By how many it has moved since the last tick.
+    pub counts: i32,
+}
+
+impl<R: Real> Guards<R> {
+    /// The duty of a test of the motor that is under way, Q24, which takes the place of that of
+    /// the position control.
+    #[inline]
+    pub fn test(&self, config: &GuardConfig<R>) -> Option<i32> {
+        config
+            .model
+            .as_ref()
+            .and_then(|model| self.expected.test(model))
+    }
+
+    /// One tick.
     ///
     /// # Errors
     /// What is not plausible.
     #[inline]
-    pub fn check<R: Real>(
-        &mut self,
-        config: &GuardConfig<R>,
-        duty: Duty,
-        error: R,
-        at: i32,
-        moved: i32,
-    ) -> Result<(), Fault> {
+    pub fn check(&mut self, config: &GuardConfig<R>, seen: Moved<R>) -> Result<(), Fault> {
+        let Moved {
+            duty,
+            error,
+            velocity,
+            at,
+            counts: moved,
+        } = seen;
         let size = moved.unsigned_abs();
         let [lowest, highest] = config.travel;
         if at < lowest || at > highest {
@@ -156,6 +175,17 @@ impl Guards {
         if self.error_ticks > config.error_ticks {
             return Err(Fault::Following);
         }
+        if let Some(model) = &config.model {
+            let found = self.expected.step(model, duty, velocity, moved);
+            found.map_err(|unturned| {
+                if unturned.is_silent {
+                    Fault::Encoder
+                } else {
+                    Fault::Stall
+                }
+            })?;
+        }
+        let duty = Duty::from_q24(duty);
         let is_hard = duty.magnitude() > config.stall.threshold.magnitude();
         if is_hard {
             self.against = if moved == 0 {
@@ -173,7 +203,7 @@ impl Guards {
     }
 
     #[inline]
-    fn check_still<R>(
+    fn check_still(
         &mut self,
         config: &GuardConfig<R>,
         duty: Duty,
@@ -184,18 +214,7 @@ impl Guards {
         if self.flicker.unsigned_abs() > FLICKER {
             self.flicker = 0;
             self.still = [0; 2];
-            self.moved_by = duty.q15();
-            self.unmoved = 0;
             return Ok(());
-        }
-        // What pushes against something soft moves a little when it is driven otherwise.
-        if duty.q15().abs_diff(self.moved_by) > config.unmoved {
-            self.unmoved = self.unmoved.saturating_add(1);
-        } else {
-            self.unmoved = 0;
-        }
-        if self.unmoved > config.unmoved_ticks {
-            return Err(Fault::Encoder);
         }
         if is_hard {
             let [forwards, backwards] = &mut self.still;
@@ -226,7 +245,7 @@ impl Heat {
     /// # Errors
     /// [`Fault::Heat`] above what the winding bears for ever.
     #[inline]
-    pub fn check<R>(&mut self, config: &GuardConfig<R>, duty: Duty) -> Result<(), Fault> {
+    pub fn check<R: Real>(&mut self, config: &GuardConfig<R>, duty: Duty) -> Result<(), Fault> {
         let duty = u32::from(duty.magnitude());
         // At most 2^30, and so is the state; a state that is not falls to it.
         let shift = u32::from(config.heat_shift & 31);

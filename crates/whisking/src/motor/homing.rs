@@ -6,7 +6,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::{Duty, Fault, GuardConfig};
-use crate::REST_DEG;
+use crate::{REST_DEG, Real};
 
 /// How long a whisker must stand still to be at its stop, s: longer than a gear sticks.
 const STILL_S: f64 = 0.1;
@@ -106,7 +106,7 @@ impl Homing {
     /// # Errors
     /// [`Fault::Runaway`] if it moves against the drive or faster than the motor can,
     /// [`Fault::Encoder`] if it moves neither way, [`Fault::Homing`] if it takes too long.
-    pub fn step<R>(
+    pub fn step<R: Real>(
         &mut self,
         config: &HomingConfig,
         guards: &GuardConfig<R>,

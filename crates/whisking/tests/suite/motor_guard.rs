@@ -2,18 +2,24 @@
 
 use proptest::prelude::*;
 use whisking::motor::{
-    Duty, FOLLOWING_S, Fault, GuardConfig, GuardSettings, Guards, Heat, STALL_S, UNMOVED_S,
+    Duty, FOLLOWING_S, Fault, GuardConfig, GuardSettings, Guards, Heat, ModelSettings, Moved, STALL_S,
 };
 
 /// A tenth of a degree a count, 2000 ticks a second.
 const SETTINGS: GuardSettings = GuardSettings {
     degrees_per_count: 0.1,
     hard_duty: 0.5,
-    unmoved_duty: 2.0,
+    model: None,
     following_deg: 30.0,
     top_speed_deg_s: 10_000.0,
     travel_deg: [30.0, 160.0],
     continuous_duty: 0.25,
+};
+const MODEL: ModelSettings = ModelSettings {
+    speed_deg_s: 12_000.0,
+    time_constant_s: 0.048,
+    friction_duty: 0.06,
+    duty_limit: 1.0,
 };
 const TICK_HZ: f64 = 2000.0;
 /// Ticks of the two durations.
@@ -31,9 +37,20 @@ fn trips(ticks: usize, motion: impl Fn(usize) -> (Duty, f64, i32, i32)) -> Optio
     let mut guards = Guards::default();
     (0..ticks).find_map(|tick| {
         let (duty, error, at, moved) = motion(tick);
-        let found = guards.check(&config(), duty, error, at, moved);
+        let found = guards.check(&config(), seen(duty, error, at, moved));
         found.err().map(|fault| (tick, fault))
     })
+}
+
+/// A tick, of whose velocity nothing is asked.
+fn seen(duty: Duty, error: f64, at: i32, counts: i32) -> Moved<f64> {
+    Moved {
+        duty: i32::from(duty.q15()) << 9,
+        error,
+        velocity: 0.0,
+        at,
+        counts,
+    }
 }
 
 fn reversed(duty: Duty) -> Duty {
@@ -119,42 +136,6 @@ fn standing_still_is_a_stall_one_way_and_a_silent_encoder_both_ways() {
     assert_eq!(trips(20_000, slow), None);
 }
 
-/// An encoder that is silent is found by the drive that should have moved it, before the
-/// drive is hard; what holds a constant drive is not.
-#[test]
-fn the_drive_may_not_change_for_long_without_a_count() {
-    let settings = GuardSettings {
-        unmoved_duty: 0.25,
-        ..SETTINGS
-    };
-    let trips = |ticks: usize, motion: &dyn Fn(usize) -> (i16, i32)| {
-        let mut guards = Guards::default();
-        let config = settings.build::<f64>(TICK_HZ);
-        (0..ticks).find_map(|tick| {
-            let (duty, moved) = motion(tick);
-            let found = guards.check(&config, Duty::from_q15(duty), 0.0, 0, moved);
-            found.err().map(|fault| (tick, fault))
-        })
-    };
-    let ticks = (UNMOVED_S * TICK_HZ) as usize;
-    // A quarter is 8192 of 32,767.
-    for sign in [1, -1] {
-        assert_eq!(trips(20_000, &|_| (sign * 8192, 0)), None);
-        assert_eq!(
-            trips(1000, &|_| (sign * 8193, 0)),
-            Some((ticks, Fault::Encoder))
-        );
-    }
-    // From a duty with which it moved, both ways together.
-    let held = |tick: usize| if tick == 0 { (-5000, 3) } else { (3192, 0) };
-    assert_eq!(trips(20_000, &held), None);
-    let stuck = |tick: usize| if tick == 0 { (-5000, 3) } else { (3193, 0) };
-    assert_eq!(trips(1000, &stuck), Some((ticks + 1, Fault::Encoder)));
-    // Pressing slowly: a little motion for every bit of drive.
-    let soft = |tick: usize| ((tick * 4) as i16, i32::from(tick.is_multiple_of(500)) * 3);
-    assert_eq!(trips(4000, &soft), None);
-}
-
 #[test]
 fn a_winding_bears_its_continuous_duty_for_ever_and_no_more() {
     let hot = |q15: i16, ticks: usize| {
@@ -177,16 +158,18 @@ proptest! {
     #[test]
     fn no_motion_is_too_much(
         motion in proptest::collection::vec(
-            (any::<i16>(), any::<f32>(), any::<i32>(), any::<i32>()), 1..200
+            (any::<i32>(), any::<f32>(), any::<f32>(), any::<i32>(), any::<i32>()), 1..200
         ),
         shift: u8,
     ) {
-        let config = GuardConfig { heat_shift: shift, ..SETTINGS.build::<f32>(TICK_HZ) };
+        let model = Some(MODEL);
+        let settings = GuardSettings { model, ..SETTINGS };
+        let config = GuardConfig { heat_shift: shift, ..settings.build::<f32>(TICK_HZ) };
         let (mut guards, mut heat) = (Guards::default(), Heat::default());
-        for (duty, error, at, moved) in motion {
-            let duty = Duty::from_q15(duty);
-            let _ = guards.check(&config, duty, error, at, moved);
-            let _ = heat.check(&config, duty);
+        for (duty, error, velocity, at, counts) in motion {
+            let seen = Moved { duty, error, velocity, at, counts };
+            let _ = guards.check(&config, seen);
+            let _ = heat.check(&config, Duty::from_q15(duty as i16));
         }
     }
 }
