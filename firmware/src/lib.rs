@@ -68,7 +68,7 @@ pub use perception::{
 };
 pub use record::{NotArmed, RECORD_WORDS, RESET_WINDOW_S, RESETS, Record, StartCause, Startup};
 pub use sensing::{BAD_WEIGHT, Reading, Sensor, SensorHealth, SensorLimits};
-pub use servo::{FAULTS, MotorRecord, Retry, Servo, ServoConfig, ServoState};
+pub use servo::{FAULTS, HELD, MotorRecord, Retry, Servo, ServoConfig, ServoState};
 pub use signals::Signals;
 pub use telemetry::{About, Link, letters, may_load};
 #[cfg(feature = "tmag5170")]

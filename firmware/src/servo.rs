@@ -51,6 +51,10 @@ pub struct Retry {
 /// So many faults within [`Retry::window`], and the motor is given up.
 pub const FAULTS: usize = 3;
 
+/// So many tests of its motion in succession that a motor fails, and it is given up: a whisker
+/// that something holds and an encoder that stands still look alike, and a test is gentle.
+pub const HELD: u8 = 6;
+
 /// What a servo is doing.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum ServoState<R> {
@@ -108,6 +112,8 @@ pub struct Servo<R, M, A> {
     heat: Heat,
     /// Ticks for which each of the last faults still counts.
     windows: [u32; FAULTS - 1],
+    /// Tests of its motion that it has failed since it moved last.
+    held: u8,
 }
 
 impl<R: Real, M: MotorDriver, A: AngleInput> Servo<R, M, A> {
@@ -125,6 +131,7 @@ impl<R: Real, M: MotorDriver, A: AngleInput> Servo<R, M, A> {
             state: ServoState::Off,
             heat: Heat::default(),
             windows: [0; FAULTS - 1],
+            held: 0,
         }
     }
 
@@ -166,6 +173,7 @@ impl<R: Real, M: MotorDriver, A: AngleInput> Servo<R, M, A> {
         if self.rests() {
             self.state = ServoState::Off;
             self.windows = [0; FAULTS - 1];
+            self.held = 0;
             self.motor.clear();
         }
     }
@@ -273,13 +281,13 @@ impl<R: Real, M: MotorDriver, A: AngleInput> Servo<R, M, A> {
                 let measured = config.pd.measured(at);
                 self.state = ServoState::Running {
                     pd: pd::State::default(),
-                    guards: Guards::default(),
+                    guards: self.guards(&config.guards),
                     behind: setpoint - measured,
                 };
             }
             ServoState::Running { .. } | ServoState::Homing(_) => {}
             ServoState::Resting { left } => {
-                self.rest(left.min(config.retry.rest), place, events);
+                self.rest(left.min(config.retry.rest.saturating_mul(2)), place, events);
                 self.cool(&config.guards);
                 return;
             }
@@ -306,6 +314,9 @@ impl<R: Real, M: MotorDriver, A: AngleInput> Servo<R, M, A> {
                 at,
                 counts: moved,
             };
+            if self.held > 0 && !guards.is_tested() {
+                self.held = 0;
+            }
             // Where rest is not known, no angle is within the travel.
             home.ok_or(motor::Fault::Travel)
                 .and_then(|_| guards.check(&config.guards, seen))
@@ -321,7 +332,16 @@ impl<R: Real, M: MotorDriver, A: AngleInput> Servo<R, M, A> {
             self.motor.drive(duty)
         });
         if let Err(fault) = driven {
-            self.fail(fault, config.retry, place, events);
+            self.fail(fault, config, place, events);
+        }
+    }
+
+    /// Guards of a motor that begins to run: one that did not move is tested, each way in turn.
+    fn guards(&self, config: &GuardConfig<R>) -> Guards<R> {
+        if self.held == 0 {
+            Guards::default()
+        } else {
+            Guards::doubtful(config, self.held.is_multiple_of(2))
         }
     }
 
@@ -351,7 +371,7 @@ impl<R: Real, M: MotorDriver, A: AngleInput> Servo<R, M, A> {
     #[inline]
     fn age(&mut self, retry: Retry) {
         if matches!(self.state, ServoState::GivenUp) {
-            if self.windows.contains(&0) {
+            if self.held < HELD && self.windows.contains(&0) {
                 self.state = ServoState::Off;
             }
             return;
@@ -385,7 +405,7 @@ impl<R: Real, M: MotorDriver, A: AngleInput> Servo<R, M, A> {
     fn fail(
         &mut self,
         fault: motor::Fault,
-        retry: Retry,
+        config: &ServoConfig<R>,
         place: Place,
         events: &mut impl FnMut(Event),
     ) {
@@ -393,6 +413,13 @@ impl<R: Real, M: MotorDriver, A: AngleInput> Servo<R, M, A> {
         // Whatever it was, the encoder may have lost counts.
         self.is_homed = false;
         events(Event::MotorFault(place, fault));
+        let retry = config.retry;
+        let did_not_move = matches!(fault, motor::Fault::Stall | motor::Fault::Encoder);
+        let was_running = matches!(self.state, ServoState::Running { .. });
+        if did_not_move && was_running && config.guards.model.is_some() {
+            self.was_held(retry, place, events);
+            return;
+        }
         if self.windows.iter().all(|window| *window > 0) {
             self.state = ServoState::GivenUp;
             events(Event::MotorGivenUp(place));
@@ -404,6 +431,20 @@ impl<R: Real, M: MotorDriver, A: AngleInput> Servo<R, M, A> {
         }
         let left = retry.rest.max(1);
         self.state = ServoState::Resting { left };
+    }
+
+    /// It did not move in a test. It rests for longer each time, so that what holds it now and
+    /// then does not meet every test.
+    fn was_held(&mut self, retry: Retry, place: Place, events: &mut impl FnMut(Event)) {
+        self.held = self.held.saturating_add(1);
+        if self.held >= HELD {
+            self.state = ServoState::GivenUp;
+            events(Event::MotorGivenUp(place));
+            return;
+        }
+        let quarters = 3 + u32::from(self.held);
+        let left = (u32::from(retry.rest) * quarters / 4).clamp(1, u32::from(u16::MAX));
+        self.state = ServoState::Resting { left: left as u16 };
     }
 }
 

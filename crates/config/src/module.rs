@@ -201,6 +201,7 @@ fn guards(motor: &MotorSection, degrees_per_count: f64) -> GuardSettings {
             time_constant_s: motor.time_constant_s,
             friction_duty: motor.unmoved_duty / 2.0,
             duty_limit: motor.duty_limit,
+            slew_per_s: motor.slew_per_s,
         }),
         following_deg: motor.following_limit_deg,
         top_speed_deg_s: motor.top_speed_deg_s,

@@ -38,8 +38,8 @@ macro_rules! fault_table {
                 "motor too fast for the tick; noise; two Halls exchanged",
                 "turn it by hand: forward must show 1, 3, 2, 6, 4, 5",
                 WhiskerOff, Retry;
-            6 STALL: "driven but not moving",
-                "blocked; a winding open; motor supply off; encoder not connected; Halls and phases in different order",
+            6 STALL: "does not move as it is driven",
+                "held; encoder stuck; a winding open; motor supply off; Halls and phases in different order",
                 "[the whisker](troubleshooting.md#the-whisker)",
                 WhiskerOff, Retry;
             7 FOLLOWING: "does not follow its setpoint",
@@ -51,8 +51,8 @@ macro_rules! fault_table {
                 "exchange the motor's two wires, or A and B; `top_speed_deg_s`",
                 WhiskerOff, Retry;
             9 ENCODER: "driven and not a count",
-                "encoder without supply or not connected; whisker clamped; friction",
-                "the encoder's supply; A and B with an oscilloscope; `unmoved_duty`",
+                "encoder without supply or not connected; whisker clamped; a winding open",
+                "the encoder's supply; A and B with an oscilloscope; whether it moves freely",
                 WhiskerOff, Retry;
             10 TRAVEL: "beyond its travel",
                 "not at rest at the start; turned by something",

@@ -4,6 +4,7 @@ mod claims;
 mod closed_loop;
 mod common;
 mod disturbances;
+mod encoder_faults;
 mod euler_trace;
 mod facing;
 mod faults;

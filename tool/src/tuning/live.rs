@@ -41,7 +41,8 @@ pub(crate) const LIVE: &[LiveKey] = live! {
     motor.travel_margin_deg: "travel faults";
     motor.following_limit_deg: "following faults";
     motor.top_speed_deg_s: "runaway faults";
-    motor.unmoved_duty: "encoder faults";
+    motor.unmoved_duty: "friction that is expected, both ways together";
+    motor.time_constant_s: "motion that is expected of a duty";
     motor.continuous_duty: "heat faults; how warm the motor gets";
     motor.approach_deg_s: "the first move after the motor was off";
     motor.homing_duty by homing_duty: "the next homing; used by `home`";

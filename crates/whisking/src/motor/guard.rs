@@ -139,6 +139,23 @@ pub struct Moved<R> {
 }
 
 impl<R: Real> Guards<R> {
+    /// Those of a motor that did not move when it ran last: it is tested first.
+    pub fn doubtful(config: &GuardConfig<R>, is_forward: bool) -> Self {
+        let expected = config.model.as_ref();
+        Self {
+            expected: expected.map_or_else(Expected::default, |model| {
+                Expected::doubtful(model, is_forward)
+            }),
+            ..Self::default()
+        }
+    }
+
+    /// Whether the motor is being tested.
+    #[inline]
+    pub const fn is_tested(&self) -> bool {
+        self.expected.is_tested()
+    }
+
     /// The duty of a test of the motor that is under way, Q24, which takes the place of that of
     /// the position control.
     #[inline]

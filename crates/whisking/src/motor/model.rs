@@ -43,6 +43,8 @@ const TURNED_COUNTS: f64 = 3.0;
 /// By how much more a test turns a motor as the model has it: four times its friction and 30 %
 /// less torque leave a third.
 const MARGIN: f64 = 3.0;
+/// How long a test may wait for its duty, which changes no faster than others, s.
+const MOST_RISE_S: f64 = 0.01;
 /// How long nothing is expected after a test, s: it takes as long to follow again.
 const GRACE_S: f64 = 0.04;
 /// How fast expected friction falls to what is seen to be enough, s.
@@ -65,6 +67,8 @@ pub struct ModelSettings {
     pub friction_duty: f64,
     /// Largest duty, above 0 and at most 1.
     pub duty_limit: f64,
+    /// Largest change of the duty per second, above 0.
+    pub slew_per_s: f64,
 }
 
 impl ModelSettings {
@@ -82,6 +86,7 @@ impl ModelSettings {
         let acceleration = self.speed_deg_s / self.time_constant_s;
         let turned = TURNED_DEG.max(TURNED_COUNTS * degrees_per_count);
         let stroke_s = libm::sqrt(2.0 * MARGIN * turned / (acceleration * beyond_friction));
+        let stroke_s = stroke_s + (duty / self.slew_per_s / 2.0).min(MOST_RISE_S);
         // Half of the speed a tick, squared, by the deceleration a tick.
         let stop = tick_hz * tick_hz / (2.0 * acceleration * duty * WEAK) * DEGREES_PER_UNIT;
         Some(ModelConfig {
@@ -147,6 +152,19 @@ struct Test {
     most: i32,
 }
 
+impl Test {
+    const fn new<R: Real>(config: &ModelConfig<R>, is_forward: bool) -> Self {
+        Self {
+            is_forward,
+            ticks: 0,
+            end: config.stroke,
+            at: 0,
+            least: 0,
+            most: 0,
+        }
+    }
+}
+
 /// What is expected of a motor while it runs. The default is that of a motor that was off.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Expected<R> {
@@ -169,14 +187,31 @@ pub(super) struct Unturned {
 }
 
 impl<R: Real> Expected<R> {
+    /// That of a motor which did not turn when it ran last: it is tested first.
+    pub(super) fn doubtful(config: &ModelConfig<R>, is_forward: bool) -> Self {
+        Self {
+            test: Some(Test::new(config, is_forward)),
+            ..Self::default()
+        }
+    }
+
+    /// Whether a test is under way.
+    pub(super) const fn is_tested(&self) -> bool {
+        self.test.is_some()
+    }
+
     /// The duty of a test that is under way, Q24, which takes the place of that of the position
     /// control.
     #[inline]
     pub fn test(&self, config: &ModelConfig<R>) -> Option<i32> {
-        self.test.map(|test| match test.is_forward {
-            _ if test.ticks > test.end => 0,
-            true => config.test,
-            false => -config.test,
+        self.test.map(|test| {
+            // First its way, then back until the model stands.
+            let is_forward = test.is_forward == (test.ticks <= test.end);
+            if is_forward {
+                config.test
+            } else {
+                -config.test
+            }
         })
     }
 
@@ -254,14 +289,7 @@ impl<R: Real> Expected<R> {
         let friction = duty.abs() + R::from_q24(BEYOND);
         let friction = friction.clamp(R::ZERO, R::from_q24(MOST_FRICTION));
         self.friction = self.friction.max(friction);
-        self.test = Some(Test {
-            is_forward: !is_forward,
-            ticks: 0,
-            end: config.stroke,
-            at: 0,
-            least: 0,
-            most: 0,
-        });
+        self.test = Some(Test::new(config, !is_forward));
     }
 
     /// A tick of a test.
@@ -279,12 +307,15 @@ impl<R: Real> Expected<R> {
         test.least = test.least.min(test.at);
         test.most = test.most.max(test.at.saturating_sub(test.least));
         test.ticks = test.ticks.saturating_add(1);
-        // The whisker is braked for as long as the model moves on.
-        let moves_on = self.speed != R::ZERO && (self.speed > R::ZERO) != test.is_forward;
-        if moves_on && test.ticks <= test.end.saturating_add(1) {
-            test.end = test.end.max(test.ticks);
+        let turns = self.speed != R::ZERO && (self.speed > R::ZERO) == test.is_forward;
+        // The whisker is braked for as long as the model moves on, and again in the end.
+        if test.ticks <= test.end {
+            if !turns && self.speed != R::ZERO {
+                test.end = test.end.max(test.ticks.saturating_add(1));
+            }
+            return Ok(());
         }
-        if test.ticks < test.end.saturating_add(config.stroke) {
+        if turns {
             return Ok(());
         }
         let has_turned = test.most >= config.turned;

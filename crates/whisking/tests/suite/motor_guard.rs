@@ -2,7 +2,8 @@
 
 use proptest::prelude::*;
 use whisking::motor::{
-    Duty, FOLLOWING_S, Fault, GuardConfig, GuardSettings, Guards, Heat, ModelSettings, Moved, STALL_S,
+    Duty, FOLLOWING_S, Fault, GuardConfig, GuardSettings, Guards, Heat, ModelSettings, Moved,
+    STALL_S,
 };
 
 /// A tenth of a degree a count, 2000 ticks a second.
@@ -20,6 +21,7 @@ const MODEL: ModelSettings = ModelSettings {
     time_constant_s: 0.048,
     friction_duty: 0.06,
     duty_limit: 1.0,
+    slew_per_s: 400.0,
 };
 const TICK_HZ: f64 = 2000.0;
 /// Ticks of the two durations.

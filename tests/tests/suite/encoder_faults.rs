@@ -1,0 +1,185 @@
+//! Encoders that stand still, and motors that are not as the scene has them: the ones are off before
+//! the whisker is far, the others are no fault.
+
+use crate::played::{TICK_HZ, angles, extent, play, textured};
+use firmware::{Event, Place};
+use host_sim::motor::{EncoderFlaws, SimMotor, Wire};
+use host_sim::trace::Row;
+use scene::Scene;
+
+const LEFT: Place = Place::new(0, 0);
+const GIVEN_UP: Event = Event::MotorGivenUp(LEFT);
+
+/// Free whisking so often a second, of one whisker.
+fn whisking(frequency_hz: f64, motor: &str) -> Scene {
+    let text = format!(
+        "name = \"free\"\ntick_hz = {TICK_HZ}\nduration_s = 60\nseed = 1\n\
+         [head]\nwhiskers_per_side = 1\nsides = \"left\"\n\
+         [whisking]\nfrequency_hz = {frequency_hz:?}\nintegrator = \"exact\"\ncoupling = false\n\
+         noise = 0.005\ngain = 1.0\nstart = [[1.0, 0.0]]\n\
+         [plant]\n{}\n[motor]\n{motor}",
+        textured(300.0).replace("obstacle_deg = [300.0, 300.0]", "obstacle_deg = [300.0]")
+    );
+    Scene::from_str("free.toml", &text).unwrap_or_else(|problems| panic!("{problems}"))
+}
+
+/// A whisk, ticks.
+fn cycle(frequency_hz: f64) -> u64 {
+    (TICK_HZ as f64 / frequency_hz) as u64
+}
+
+/// What became of a motor whose encoder stands still from a tick on.
+struct Lost {
+    /// Ticks in which it was driven more than 5 degrees from its setpoint.
+    far_for: usize,
+    /// By how much it left its whisk, and that until the end, degrees.
+    outside_deg: f64,
+    is_given_up: bool,
+}
+
+/// An encoder that stands still, and jitters by so many counts, from somewhere in a whisk on, for
+/// twelve seconds.
+fn lost(frequency_hz: f64, phase: f64, jitter: u16, friction: f64) -> Lost {
+    let cycle = cycle(frequency_hz);
+    let start = TICK_HZ + cycle + (phase * cycle as f64) as u64;
+    let scene = whisking(frequency_hz, "");
+    let played = play(&scene, start + 12 * TICK_HZ, |tick, run| {
+        let motor = run.motor_mut(0).unwrap();
+        motor.set_friction(friction);
+        if tick == start {
+            motor.cut(Wire::Encoder);
+            motor.set_encoder(EncoderFlaws {
+                jitter,
+                ..EncoderFlaws::NONE
+            });
+        }
+    });
+    let is_fault = |event: &Event| matches!(event, Event::MotorFault(LEFT, _));
+    let after = played.events.iter().filter(|(tick, _)| *tick >= start);
+    let (off, _) = after
+        .clone()
+        .find(|(_, event)| is_fault(event))
+        .expect("a fault");
+    let (before, after_start) = played.rows.split_at(start as usize);
+    let whisk = before
+        .iter()
+        .chain(after_start)
+        .skip((start - cycle) as usize);
+    let (lowest, highest) = whisk.fold((f64::MAX, f64::MIN), |(low, high), row| {
+        (low.min(row.theta_deg[0]), high.max(row.theta_deg[0]))
+    });
+    let outside = |row: &Row| (lowest - row.angle_deg[0]).max(row.angle_deg[0] - highest);
+    let driven = after_start.iter().take((off - start) as usize);
+    Lost {
+        far_for: driven.filter(|row| error_deg(row) > 5.0).count(),
+        outside_deg: after_start.iter().map(outside).fold(0.0, f64::max),
+        is_given_up: played.events.last().map(|(_, event)| *event) == Some(GIVEN_UP),
+    }
+}
+
+/// By how much a whisker is away from its setpoint, degrees.
+fn error_deg(row: &Row) -> f64 {
+    (row.angle_deg[0] - row.theta_deg[0]).abs()
+}
+
+#[test]
+fn a_motor_whose_encoder_stands_still_or_jitters_is_off_before_the_whisker_is_far() {
+    for friction in [1.0, 4.0] {
+        for jitter in [0, 2, 3] {
+            for frequency_hz in [0.5, 1.0, 2.0, 4.0, 8.0, 12.0] {
+                for phase in (0..8).map(|n| f64::from(n) / 8.0) {
+                    let lost = lost(frequency_hz, phase, jitter, friction);
+                    let case = format!("{frequency_hz} Hz at {phase}, jitter {jitter}, {friction}");
+                    let far_ms = lost.far_for as f64 * 1e3 / TICK_HZ as f64;
+                    assert!(far_ms <= 100.0, "{case}: {far_ms} ms");
+                    assert!(lost.outside_deg <= 20.0, "{case}: {}", lost.outside_deg);
+                    assert!(lost.is_given_up, "{case}");
+                }
+            }
+        }
+    }
+}
+
+/// Whatever a scene says of a motor, it may be 30 % off, with friction up to four times that of
+/// the model, and nothing is a fault. All at once may cost a test that fails, and no motor.
+#[test]
+fn motors_that_are_not_as_the_scene_has_them_have_no_fault() {
+    let motors = [
+        (1.0, 1.0),
+        (0.7, 1.0),
+        (1.3, 1.0),
+        (1.0, 0.7),
+        (1.0, 1.3),
+        (0.7, 1.3),
+    ];
+    for (speed, time_constant) in motors {
+        for friction in [1.0, 2.0, 4.0] {
+            for frequency_hz in [0.05, 0.2, 0.5, 2.0, 5.0, 8.0, 14.0] {
+                // The model is wrong instead of the motor.
+                let motor = format!(
+                    "top_speed_deg_s = {:?}\ntime_constant_s = {:?}\n\
+                     following_limit_deg = 60\ncontinuous_duty = 0.9\n",
+                    15_000.0 / speed,
+                    0.048 / time_constant
+                );
+                let scene = whisking(frequency_hz, &motor);
+                let ticks = TICK_HZ * 2 + 2 * cycle(frequency_hz).min(10 * TICK_HZ);
+                let played = play(&scene, ticks, |_, run| {
+                    run.motor_mut(0).unwrap().set_friction(friction);
+                });
+                let case = format!("{frequency_hz} Hz, {speed}, {time_constant}, {friction}");
+                if (speed, time_constant, friction) == (0.7, 1.3, 4.0) {
+                    let is_lost = played.events.iter().any(|(_, event)| *event == GIVEN_UP);
+                    assert!(!is_lost, "{case}: {:?}", played.events);
+                } else {
+                    assert_eq!(played.events, [], "{case}");
+                }
+            }
+        }
+    }
+}
+
+/// Friction that becomes four times as large, a supply of 4.5 V, a soft hand.
+#[test]
+fn what_makes_a_whisker_heavy_while_it_runs_is_no_fault() {
+    let changes: [(&str, fn(&mut SimMotor)); 5] = [
+        ("friction", |motor| motor.set_friction(4.0)),
+        ("supply", |motor| motor.set_supply_v(Some(4.5))),
+        ("hand", |motor| motor.set_load_nm(1.5e-3)),
+        ("hand back", |motor| motor.set_load_nm(-1.5e-3)),
+        ("play", |motor| motor.set_friction(0.0)),
+    ];
+    for (name, change) in changes {
+        for frequency_hz in [0.2, 0.5, 2.0, 5.0, 8.0] {
+            let played = play(&whisking(frequency_hz, ""), 6 * TICK_HZ, |tick, run| {
+                if tick == 3 * TICK_HZ + 321 {
+                    change(run.motor_mut(0).unwrap());
+                }
+            });
+            assert_eq!(played.events, [], "{name} at {frequency_hz} Hz");
+        }
+    }
+}
+
+/// A finger that holds the whisker for 0.3 s each second costs no motor, and between its touches
+/// the whisker whisks.
+#[test]
+fn a_finger_now_and_then_costs_no_motor() {
+    for frequency_hz in [0.5, 2.0, 8.0] {
+        let played = play(&whisking(frequency_hz, ""), 60 * TICK_HZ, |tick, run| {
+            let holds = tick > TICK_HZ && tick % TICK_HZ < 3 * TICK_HZ / 10;
+            run.motor_mut(0).unwrap().block(holds);
+        });
+        let has = |wanted: Event| {
+            played
+                .events
+                .iter()
+                .filter(|(_, event)| *event == wanted)
+                .count()
+        };
+        assert_eq!(has(GIVEN_UP), 0, "{frequency_hz} Hz");
+        assert!(has(Event::MotorRetry(LEFT)) > 5, "{frequency_hz} Hz");
+        let late = &angles(&played, 0)[50 * TICK_HZ as usize..];
+        assert!(extent(late) > 20.0, "{frequency_hz} Hz: it whisks");
+    }
+}
