@@ -137,7 +137,7 @@ mod tests {
 
     #[test]
     fn a_number_without_a_row_has_no_name() {
-        assert_eq!(name(number::STALL), "driven but not moving");
+        assert_eq!(name(number::STALL), "does not move as it is driven");
         assert_eq!([name(0), name(255)], ["", ""]);
     }
 }

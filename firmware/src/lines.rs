@@ -337,7 +337,7 @@ mod tests {
         );
         assert!(
             line_of(&Event::MotorFault(RIGHT, motor::Fault::Stall))
-                .starts_with("12.345 fault right 6 driven but not moving (blocked;")
+                .starts_with("12.345 fault right 6 does not move as it is driven (held;")
         );
         assert_eq!(line_of(&Event::SensorBack(RIGHT)), "12.345 back right");
         assert_eq!(line_of(&Event::MotorRetry(RIGHT)), "12.345 retry right");

@@ -10,6 +10,7 @@ use tactile::{RuleSettings, Threshold};
 use whisking::motor::{GuardSettings, HomingSettings, ModelSettings};
 use whisking::{Real, filter, pd};
 
+use crate::bearable;
 use crate::{Mismatch, check, contact, contact_min, settings};
 
 /// Contact from which a sample counts in a recording, unless the scene says otherwise.
@@ -166,6 +167,7 @@ fn motion<R: Real>(scene: &Scene, is_ideal: bool) -> Result<Option<MotionConfig<
     let guards = if is_ideal {
         GuardSettings::NONE
     } else {
+        bearable::check(whisking, motor)?;
         guards(motor, degrees_per_count)
     };
     let finds_rest = motor.rest == Rest::Find && !is_ideal;
@@ -188,7 +190,7 @@ fn motion<R: Real>(scene: &Scene, is_ideal: bool) -> Result<Option<MotionConfig<
 }
 
 /// The fastest that a motor can be, of its speed at full duty.
-const TOP_SPEED: f64 = 1.25;
+pub(crate) const TOP_SPEED: f64 = 1.25;
 
 /// What is a fault of a motor's motion: hard is half of what it may be driven with, and rest
 /// is within its travel. Whatever the plant: a board does not know what is simulated.

@@ -44,7 +44,7 @@ use serde::{Deserialize, Serialize};
 
 pub use commutation::{COMMUTATION, CommutationStep, Pair, Phase, Role, Sector};
 pub use duty::Duty;
-pub use guard::{FOLLOWING_S, GuardConfig, GuardSettings, Guards, Heat, Moved, STALL_S};
+pub use guard::{FOLLOWING_S, GuardConfig, GuardSettings, Guards, Heat, Moved, STALL_S, WINDING_S};
 pub use hall::HallTracker;
 pub use hbridge::HBridge;
 pub use homing::{Homed, Homing, HomingConfig, HomingSettings};

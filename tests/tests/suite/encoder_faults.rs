@@ -142,7 +142,8 @@ fn motors_that_are_not_as_the_scene_has_them_have_no_fault() {
 /// Friction that becomes four times as large, a supply of 4.5 V, a soft hand.
 #[test]
 fn what_makes_a_whisker_heavy_while_it_runs_is_no_fault() {
-    let changes: [(&str, fn(&mut SimMotor)); 5] = [
+    type Change = fn(&mut SimMotor);
+    let changes: [(&str, Change); 5] = [
         ("friction", |motor| motor.set_friction(4.0)),
         ("supply", |motor| motor.set_supply_v(Some(4.5))),
         ("hand", |motor| motor.set_load_nm(1.5e-3)),

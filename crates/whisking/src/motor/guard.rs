@@ -18,7 +18,7 @@ pub const FOLLOWING_S: f64 = 0.04;
 /// at a whisk's turning point, shorter than a small winding takes to overheat.
 pub const STALL_S: f64 = 0.2;
 /// Time constant of a small winding, s. Rounded to the nearest power of two in ticks.
-const WINDING_S: f64 = 8.0;
+pub const WINDING_S: f64 = 8.0;
 /// How far a motor may move against a hard drive, degrees: a whisker that is braked from
 /// 4,000 degrees a second stops within 31.
 const AGAINST_DEG: f64 = 45.0;
