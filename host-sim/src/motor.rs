@@ -26,6 +26,7 @@
 //! exactly ([`rotor`]), so any tick is stable. In the brushless stage the
 //! torque also depends on the rotor angle, which is held over substeps.
 
+mod flaws;
 mod ideal;
 mod pins;
 #[cfg(test)]
@@ -36,6 +37,8 @@ mod stage;
 
 use std::sync::Arc;
 
+pub use flaws::EncoderFlaws;
+use flaws::Jitter;
 pub use ideal::IdealMotor;
 use pins::{End, Wires};
 pub use pins::{SimEncoder, SimHall, SimPin, SimPwm, Wire};
@@ -89,6 +92,11 @@ pub struct SimMotor {
     blocked: bool,
     /// Outer torque at the rotor, N·m.
     load_nm: f64,
+    flaws: EncoderFlaws,
+    jitter: Jitter,
+    /// Its supply now, and how many times its Coulomb friction it has.
+    supply_v: f64,
+    friction: f64,
 }
 
 /// What follows from the settings alone.
@@ -145,6 +153,10 @@ impl SimMotor {
             wires: Arc::new(Wires::new(counts_per_rad, settings.pwm_counts)),
             blocked: false,
             load_nm: 0.0,
+            flaws: EncoderFlaws::NONE,
+            jitter: Jitter::default(),
+            supply_v: settings.supply_v,
+            friction: 1.0,
         })
     }
 
@@ -155,6 +167,10 @@ impl SimMotor {
         self.wires = Arc::new(self.wires.renewed());
         self.blocked = false;
         self.load_nm = 0.0;
+        self.flaws = EncoderFlaws::NONE;
+        self.jitter = Jitter::default();
+        self.supply_v = self.settings.supply_v;
+        self.friction = 1.0;
         self.pins()
     }
 
@@ -198,11 +214,12 @@ impl SimMotor {
         if !(dt_s > 0.0 && dt_s.is_finite()) {
             return;
         }
+        self.wires.set_jitter(self.jitter.next(self.flaws.jitter));
         if self.blocked {
             self.rotor.speed = 0.0;
             return;
         }
-        let s = &self.settings;
+        let s = &self.fed();
         let inertia = self.derived.inertia_kg_m2;
         let steps = self.stage.substeps(s, self.rotor.speed, dt_s);
         let step_s = dt_s / f64::from(steps);
@@ -211,12 +228,20 @@ impl SimMotor {
             let law = rotor::Law {
                 push: (winding.drive_nm + self.load_nm) / inertia,
                 rate: (winding.damping_nm_s + s.viscous_nm_s) / inertia,
-                friction: self.derived.friction,
+                friction: self.friction * self.derived.friction,
             };
             self.rotor.advance(&law, step_s);
             self.rotor.stop_at(self.derived.stops);
         }
-        self.wires.set_angle(self.rotor.angle);
+        self.wires.set_angle(self.rotor.angle, self.flaws);
+    }
+
+    /// Its settings with the supply that it has now.
+    const fn fed(&self) -> MotorSettings {
+        MotorSettings {
+            supply_v: self.supply_v,
+            ..self.settings
+        }
     }
 
     /// Turns the whisker by hand to θ′ = `angle_deg`, or to the stop before it, and holds it
@@ -226,7 +251,7 @@ impl SimMotor {
             self.rotor.angle = self.settings.rotor_angle(angle_deg);
             self.rotor.speed = 0.0;
             self.rotor.stop_at(self.derived.stops);
-            self.wires.set_angle(self.rotor.angle);
+            self.wires.set_angle(self.rotor.angle, self.flaws);
         }
     }
 
@@ -240,6 +265,28 @@ impl SimMotor {
     pub fn set_load_nm(&mut self, load_nm: f64) {
         let load_nm = if load_nm.is_finite() { load_nm } else { 0.0 };
         self.load_nm = load_nm / self.settings.gear;
+    }
+
+    /// Gives its encoder flaws from now on.
+    pub fn set_encoder(&mut self, flaws: EncoderFlaws) {
+        self.flaws = flaws;
+    }
+
+    /// Feeds it with so many volts from now on; `None`: with those of its settings. What its
+    /// settings could not have does nothing.
+    pub fn set_supply_v(&mut self, supply_v: Option<f64>) {
+        let supply_v = supply_v.unwrap_or(self.settings.supply_v);
+        if (0.0..=100.0).contains(&supply_v) {
+            self.supply_v = supply_v;
+        }
+    }
+
+    /// So many times its Coulomb friction from now on; what is negative or not finite does
+    /// nothing.
+    pub fn set_friction(&mut self, factor: f64) {
+        if factor >= 0.0 && factor.is_finite() {
+            self.friction = factor;
+        }
     }
 
     /// Cuts a wire.
@@ -266,8 +313,7 @@ impl SimMotor {
     /// motor, 0 to 2 of a brushless one, averaged over the PWM period. Their
     /// sum is 0.
     pub fn currents_a(&self) -> [f64; 3] {
-        self.stage
-            .currents(&self.settings, &self.wires, &self.rotor)
+        self.stage.currents(&self.fed(), &self.wires, &self.rotor)
     }
 
     /// By how much the whisker is displaced from where the encoder says it is, degrees.

@@ -199,6 +199,12 @@ struct Emulate {
     any_scene: bool,
     #[command(flatten)]
     what: EmulateWhat,
+    /// Where --scenario writes what became of it
+    #[arg(long, value_name = "FILE", requires = "scenario")]
+    json: Option<PathBuf>,
+    /// The scene in whose world --scenario runs; none: its own, with a simulated motor
+    #[arg(long, value_name = "SCENE", requires = "scenario")]
+    world: Option<PathBuf>,
     /// Who fetches the log meanwhile
     #[arg(
         long,
@@ -228,6 +234,9 @@ struct EmulateWhat {
     /// Write the files of a run there
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
+    /// Run the scene against what befalls it, a list of events in this file
+    #[arg(long, value_name = "FILE", requires = "json")]
+    scenario: Option<PathBuf>,
     /// Compare every tick with host-sim
     #[arg(long)]
     check: bool,
@@ -276,6 +285,9 @@ impl Emulate {
             return emulate::compare_all(&on);
         };
         let what = self.what;
+        if let (Some(scenario), Some(json)) = (&what.scenario, &self.json) {
+            return emulate::tried(&on, &scene, scenario, self.world.as_deref(), json);
+        }
         if let Some(out) = what.out {
             return emulate::files(&on, &scene, &out);
         }

@@ -6,12 +6,14 @@
 
 use core::convert::Infallible;
 use core::f64::consts::TAU;
-use core::sync::atomic::{AtomicBool, AtomicU16, AtomicU64, Ordering::Relaxed};
+use core::sync::atomic::{AtomicBool, AtomicI32, AtomicU16, AtomicU64, Ordering::Relaxed};
 use std::sync::Arc;
 
 use embedded_hal::digital::{self, InputPin, OutputPin};
 use embedded_hal::pwm::{self, SetDutyCycle};
 use firmware::AngleInput;
+
+use super::EncoderFlaws;
 
 /// A wire that can be cut.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -58,6 +60,8 @@ pub(super) struct Wires {
     angle: Level,
     /// Angle that the encoder has not seen, rad.
     missed: Level,
+    /// Counts that are read beside those of the angle.
+    jitter: AtomicI32,
     counts_per_rad: f64,
     /// Duty that is fully on.
     pwm_counts: u16,
@@ -75,6 +79,7 @@ impl Wires {
             encoder_turned: AtomicBool::new(false),
             angle: Level::default(),
             missed: Level::default(),
+            jitter: AtomicI32::new(0),
             counts_per_rad,
             pwm_counts,
         }
@@ -85,12 +90,20 @@ impl Wires {
         Self::new(self.counts_per_rad, self.pwm_counts)
     }
 
-    pub(super) fn set_angle(&self, angle: f64) {
-        if self.encoder_cut.load(Relaxed) {
-            self.missed
-                .set(self.missed.get() + angle - self.angle.get());
-        }
+    /// The rotor has turned to `angle`, of which an encoder with these flaws sees a part.
+    pub(super) fn set_angle(&self, angle: f64, flaws: EncoderFlaws) {
+        let turned = angle - self.angle.get();
+        let seen = if self.encoder_cut.load(Relaxed) {
+            0.0
+        } else {
+            flaws.seen(turned)
+        };
+        self.missed.set(self.missed.get() + turned - seen);
         self.angle.set(angle);
+    }
+
+    pub(super) fn set_jitter(&self, counts: i32) {
+        self.jitter.store(counts, Relaxed);
     }
 
     pub(super) fn set_cut(&self, wire: Wire, cut: bool) {
@@ -230,6 +243,7 @@ impl AngleInput for SimEncoder {
         let counts = seen * self.0.counts_per_rad + 0.5;
         let cut = counts as i64;
         // Down, not towards zero.
-        cut.wrapping_sub(i64::from(cut as f64 > counts)) as i32
+        let down = cut.wrapping_sub(i64::from(cut as f64 > counts)) as i32;
+        down.wrapping_add(self.0.jitter.load(Relaxed))
     }
 }
