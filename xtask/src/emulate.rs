@@ -90,6 +90,33 @@ pub(crate) fn tried(
     world: Option<&Path>,
     json: &Path,
 ) -> Result<(), Fault> {
+    let mut command = files_of_try(scene, scenario, world, json)?;
+    let checked = command.status().map_err(|error| error.to_string())?;
+    if !checked.success() {
+        std::process::exit(checked.code().unwrap_or(1));
+    }
+    run(&mut trying(on, scene, scenario, world, json)?)
+}
+
+/// The command that does the same without that.
+pub(crate) fn trying(
+    on: &Emulated,
+    scene: &Path,
+    scenario: &Path,
+    world: Option<&Path>,
+    json: &Path,
+) -> Result<Command, Fault> {
+    let mut command = files_of_try(scene, scenario, world, json)?;
+    command.arg("--program").arg(on.program(scene)?);
+    Ok(command)
+}
+
+fn files_of_try(
+    scene: &Path,
+    scenario: &Path,
+    world: Option<&Path>,
+    json: &Path,
+) -> Result<Command, Fault> {
     let mut command = workspace_program("emulator");
     command.arg("try").arg(absolute(scene)?);
     for (option, path) in [("--scenario", scenario), ("--json", json)] {
@@ -98,11 +125,7 @@ pub(crate) fn tried(
     if let Some(world) = world {
         command.arg("--world").arg(absolute(world)?);
     }
-    let checked = command.status().map_err(|error| error.to_string())?;
-    if !checked.success() {
-        std::process::exit(checked.code().unwrap_or(1));
-    }
-    run(command.arg("--program").arg(on.program(scene)?))
+    Ok(command)
 }
 
 /// Bits a second that carry the records of one whisker at 2 kHz, and of two; and the

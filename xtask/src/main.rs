@@ -24,6 +24,7 @@ mod panics;
 mod python;
 mod reproducible;
 mod run;
+mod scenarios;
 mod size;
 mod speed;
 mod steps;
@@ -205,6 +206,9 @@ struct Emulate {
     /// The scene in whose world --scenario runs; none: its own, with a simulated motor
     #[arg(long, value_name = "SCENE", requires = "scenario")]
     world: Option<PathBuf>,
+    /// A key of the scene with another value for --scenario, such as motor.arm=on-command
+    #[arg(long, value_name = "KEY=VALUE", requires = "scenario")]
+    set: Vec<String>,
     /// Who fetches the log meanwhile
     #[arg(
         long,
@@ -286,6 +290,7 @@ impl Emulate {
         };
         let what = self.what;
         if let (Some(scenario), Some(json)) = (&what.scenario, &self.json) {
+            let scene = emulate::variants::with(&scene, &self.set)?;
             return emulate::tried(&on, &scene, scenario, self.world.as_deref(), json);
         }
         if let Some(out) = what.out {
