@@ -21,7 +21,7 @@ use host_sim::received::{Received, Receiver};
 use mlx90333::FRAME_LEN;
 use scene::Scene;
 
-use crate::chip::{Chip, Fault, Ps, ResetCause, SensorEnd};
+use crate::chip::{Chip, Fault, Ps, ResetCause, SensorEnd, WELL_MV};
 use crate::machine::{Machine, Stop};
 use crate::meter::Meter;
 use crate::notice::Notice;
@@ -200,6 +200,17 @@ impl Board {
         self.machine.reset(cause)
     }
 
+    /// The chip has no supply, or has it again. Without it RAM and the encoder's count are lost.
+    pub(crate) fn set_power(&mut self, is_on: bool) -> Result<(), Fault> {
+        if is_on {
+            return self.machine.set_supply(WELL_MV).map(drop);
+        }
+        if let Some(cause) = self.machine.set_supply(0)? {
+            self.was_reset(cause);
+        }
+        self.machine.memories.lose_ram()
+    }
+
     /// The program starts again, with empty queues and rings.
     fn was_reset(&mut self, cause: ResetCause) {
         self.reset = Some(cause);
@@ -263,10 +274,20 @@ impl Board {
     }
 
     pub(crate) fn packets(&mut self) -> Result<Vec<Packet>, Fault> {
+        let bytes = self.ring_bytes()?;
+        Ok(packets(&read(&mut self.ring, &bytes)?))
+    }
+
+    /// The same, for who bears what a reset has left of a packet.
+    pub(crate) fn heard(&mut self) -> Result<Vec<Received>, Fault> {
+        let bytes = self.ring_bytes()?;
+        Ok(self.ring.take(&bytes))
+    }
+
+    fn ring_bytes(&self) -> Result<Vec<u8>, Fault> {
         let Machine { rtt, memories, .. } = &self.machine;
         let ring = rtt.packets(memories)?;
-        let bytes = ring.map_or(Ok(Vec::new()), |ring| ring.drain(memories))?;
-        Ok(packets(&read(&mut self.ring, &bytes)?))
+        ring.map_or(Ok(Vec::new()), |ring| ring.drain(memories))
     }
 
     /// What the other end of the serial line has received since the last call, taken apart.

@@ -43,6 +43,7 @@ mod serial;
 pub mod session;
 mod talk;
 mod telemetry;
+pub mod trial;
 mod tuning;
 mod upset;
 mod watch;

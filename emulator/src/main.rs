@@ -7,7 +7,7 @@ use std::process::ExitCode;
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use clap::{Parser, Subcommand};
 use emulator::scenario::{self, Flashed, Given, Scenario, Several};
-use emulator::{campaign, counts, emulate, endurance, picture, registers};
+use emulator::{campaign, counts, emulate, endurance, picture, registers, trial};
 use host_sim::output::{self, write_whole};
 use host_sim::progress::Verbosity;
 use host_sim::{Error, report};
@@ -45,6 +45,8 @@ enum Command {
         #[command(flatten)]
         given: Given,
     },
+    /// Runs one scene against what befalls it, as a file lists it, and writes what became of it
+    Try(trial::Choice),
     /// Draws what both sides do in scenes with obstacles, one below the other
     Picture {
         #[command(flatten)]
@@ -131,6 +133,7 @@ fn work(arguments: Arguments) -> Result<(), Error> {
             report::say(scenario.run(&given)?.join("\n"));
         }
         Command::Picture { several, out } => draw(&several, &out)?,
+        Command::Try(choice) => choice.run()?,
         Command::Campaign(choice) => choice.run()?,
         Command::Endure(choice) => choice.run()?,
         Command::Endurance { shards, out } => endurance::write_page(&shards, &out)?,

@@ -270,6 +270,11 @@ impl Memories {
         Ok(bytes)
     }
 
+    /// RAM has lost its contents, and is zero as at the first start.
+    pub(crate) fn lose_ram(&self) -> Result<(), Fault> {
+        self.write(RAM, &vec![0; self.ram_len as usize])
+    }
+
     /// Writes RAM as a probe does.
     pub(crate) fn write(&self, address: u32, bytes: &[u8]) -> Result<(), Fault> {
         let offset = ram_offset(address)?;

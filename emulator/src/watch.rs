@@ -3,6 +3,8 @@
 //!
 //! It costs the firmware nothing. What a scene leaves out is not there.
 
+mod servos;
+
 use firmware::Place as Whisker;
 use host_sim::bench::Snapshot;
 use scene::Scene;
@@ -14,6 +16,8 @@ use crate::debug_info::{DebugInfo, Number, Place};
 use crate::memory::Memories;
 use crate::notice::Notice;
 use crate::program::Program;
+
+pub(crate) use servos::Servos;
 
 /// Every name that is looked up, in one place.
 mod name {
@@ -58,6 +62,16 @@ mod name {
         ("MotorRetry", Notice::MotorRetry),
         ("MotorGivenUp", Notice::MotorGivenUp),
     ];
+    /// In a whisker of the module: its motor; in that what it does, and what was commanded.
+    pub(super) const SERVO: &str = "servo";
+    pub(super) const DOES: &str = "state";
+    pub(super) const RUNNING: &str = "Running";
+    pub(super) const HOMING: &str = "Homing";
+    pub(super) const BEHIND: &str = "behind";
+    pub(super) const COMMANDED: [&str; 2] = ["setpoint", "first"];
+    pub(super) const SOME: &str = "Some";
+    /// Whether motors are armed.
+    pub(super) const ARMED: [&str; 2] = ["motion", "is_armed"];
     /// In an event: the whisker, and the decision if it is one.
     pub(super) const PLACED: [&str; 2] = ["__0", "__1"];
     pub(super) const SIDE: &str = "side";

@@ -56,6 +56,8 @@ pub enum WireFault {
     /// The sensor's converter stands still: frame after frame is that of the
     /// start of the fault.
     Frozen,
+    /// No magnet is near: the sensor converts no deflection, and its noise.
+    NoField,
     /// Alpha arrives this far off, modulo 65,536, under a good sum.
     Shift(u16),
 }
@@ -207,7 +209,11 @@ impl Slave {
         if fault != Some(WireFault::Frozen) {
             let noise = self.is_noisy && self.traffic.transactions.is_multiple_of(2);
             let noisy = |word: Word| Word::new(word.raw() | u16::from(noise));
-            self.sent = self.words.map(noisy);
+            let words = match fault {
+                Some(WireFault::NoField) => [Word::MID; 3],
+                _ => self.words,
+            };
+            self.sent = words.map(noisy);
         }
     }
 

@@ -9,7 +9,7 @@ use crate::run::{Fault, cargo, run, take_built_programs};
 use crate::steps::Steps;
 use crate::{
     book, cost, count, dependencies, descriptions, docs, emulate, endurance, faults, fuzz, page,
-    panics, python, size, studies, walk,
+    panics, python, scenarios, size, studies, walk,
 };
 
 /// What a warning becomes.
@@ -54,6 +54,7 @@ pub(crate) fn all(only: Vec<String>) -> Result<(), Fault> {
     steps.run("emulated boards, one side and two", board)?;
     steps.run("the walk through the book", walk::short)?;
     steps.run("injected faults, a thousand", faults::short)?;
+    steps.run("faults from files", scenarios::all)?;
     steps.run("endurance, in short", endurance::short)?;
     steps.run("counts of a tick", count::short)?;
     steps.run("cost of a tick on the board", cost::short)?;

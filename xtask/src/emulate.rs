@@ -80,6 +80,54 @@ pub(crate) fn files(on: &Emulated, scene: &Path, out: &Path) -> Result<(), Fault
     run(command.arg("--program").arg(on.program(scene)?))
 }
 
+/// Runs `scene` against what `scenario` lists, in its own world or another, and writes what became
+/// of it to `json`. Files that are wrong end this program as they end the emulator's, before
+/// anything is built.
+pub(crate) fn tried(
+    on: &Emulated,
+    scene: &Path,
+    scenario: &Path,
+    world: Option<&Path>,
+    json: &Path,
+) -> Result<(), Fault> {
+    let mut command = files_of_try(scene, scenario, world, json)?;
+    let checked = command.status().map_err(|error| error.to_string())?;
+    if !checked.success() {
+        std::process::exit(checked.code().unwrap_or(1));
+    }
+    run(&mut trying(on, scene, scenario, world, json)?)
+}
+
+/// The command that does the same without that.
+pub(crate) fn trying(
+    on: &Emulated,
+    scene: &Path,
+    scenario: &Path,
+    world: Option<&Path>,
+    json: &Path,
+) -> Result<Command, Fault> {
+    let mut command = files_of_try(scene, scenario, world, json)?;
+    command.arg("--program").arg(on.program(scene)?);
+    Ok(command)
+}
+
+fn files_of_try(
+    scene: &Path,
+    scenario: &Path,
+    world: Option<&Path>,
+    json: &Path,
+) -> Result<Command, Fault> {
+    let mut command = workspace_program("emulator");
+    command.arg("try").arg(absolute(scene)?);
+    for (option, path) in [("--scenario", scenario), ("--json", json)] {
+        command.arg(option).arg(absolute(path)?);
+    }
+    if let Some(world) = world {
+        command.arg("--world").arg(absolute(world)?);
+    }
+    Ok(command)
+}
+
 /// Bits a second that carry the records of one whisker at 2 kHz, and of two; and the
 /// ST-LINK's default, that carries neither.
 const SERIAL_BAUDS: [u32; 3] = [921_600, 2_000_000, 115_200];

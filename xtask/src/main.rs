@@ -24,6 +24,7 @@ mod panics;
 mod python;
 mod reproducible;
 mod run;
+mod scenarios;
 mod size;
 mod speed;
 mod steps;
@@ -199,6 +200,15 @@ struct Emulate {
     any_scene: bool,
     #[command(flatten)]
     what: EmulateWhat,
+    /// Where --scenario writes what became of it
+    #[arg(long, value_name = "FILE", requires = "scenario")]
+    json: Option<PathBuf>,
+    /// The scene in whose world --scenario runs; none: its own, with a simulated motor
+    #[arg(long, value_name = "SCENE", requires = "scenario")]
+    world: Option<PathBuf>,
+    /// A key of the scene with another value for --scenario, such as motor.arm=on-command
+    #[arg(long, value_name = "KEY=VALUE", requires = "scenario")]
+    set: Vec<String>,
     /// Who fetches the log meanwhile
     #[arg(
         long,
@@ -228,6 +238,9 @@ struct EmulateWhat {
     /// Write the files of a run there
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
+    /// Run the scene against what befalls it, a list of events in this file
+    #[arg(long, value_name = "FILE", requires = "json")]
+    scenario: Option<PathBuf>,
     /// Compare every tick with host-sim
     #[arg(long)]
     check: bool,
@@ -276,6 +289,10 @@ impl Emulate {
             return emulate::compare_all(&on);
         };
         let what = self.what;
+        if let (Some(scenario), Some(json)) = (&what.scenario, &self.json) {
+            let scene = emulate::variants::with(&scene, &self.set)?;
+            return emulate::tried(&on, &scene, scenario, self.world.as_deref(), json);
+        }
         if let Some(out) = what.out {
             return emulate::files(&on, &scene, &out);
         }

@@ -32,6 +32,11 @@ impl Chip {
         self.serial.sending.extend(bytes);
     }
 
+    /// How many bytes the other end has still to send.
+    pub(crate) fn serial_pending(&self) -> usize {
+        self.serial.sending.len()
+    }
+
     /// What the other end has received since the last call.
     pub(crate) fn serial_read(&mut self) -> Vec<u8> {
         std::mem::take(&mut self.serial.heard)

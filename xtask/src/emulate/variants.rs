@@ -93,6 +93,36 @@ pub(crate) fn with_ticks(path: &Path, ticks: u32) -> Result<PathBuf, Fault> {
     })
 }
 
+/// The scene with other values, each `KEY=VALUE`: a key with its section, and TOML or a word.
+pub(crate) fn with(path: &Path, keys: &[String]) -> Result<PathBuf, Fault> {
+    if keys.is_empty() {
+        return Ok(path.to_owned());
+    }
+    let mut values = Vec::new();
+    for key in keys {
+        let allowed = || format!("--set {key}: allowed: KEY=VALUE, such as motor.kp=0.04");
+        let (key, value) = key.split_once('=').ok_or_else(allowed)?;
+        let parsed = format!("value = {value}").parse::<Table>().ok();
+        let parsed = parsed.and_then(|mut table| table.remove("value"));
+        values.push((key, parsed.unwrap_or_else(|| value.into())));
+    }
+    let name = keys
+        .join("-")
+        .replace(|c: char| !c.is_ascii_alphanumeric(), "-");
+    variant(path, &name, |_, table| {
+        for (key, value) in values {
+            let Some((part, key)) = key.split_once('.') else {
+                table.insert(key.to_owned(), value);
+                continue;
+            };
+            let part = table.entry(part).or_insert_with(|| Table::new().into());
+            if let Some(part) = part.as_table_mut() {
+                part.insert(key.to_owned(), value);
+            }
+        }
+    })
+}
+
 /// The whiskers of the scene at `path`.
 pub(super) fn whiskers(path: &Path) -> Result<usize, Fault> {
     load(path).map(|scene| scene.whiskers())

@@ -1,0 +1,121 @@
+//! A scene on a board against what befalls it at certain times, as a file lists it; what became of
+//! it is one JSON object. docs/boards.md lists kinds and keys.
+
+mod figures;
+mod file;
+mod hands;
+mod links;
+mod said;
+
+use std::path::{Path, PathBuf};
+
+use clap::Args;
+use host_sim::Error;
+use host_sim::loaded::Loaded;
+use host_sim::output::{self, write_whole};
+use scene::{PlantKind, Scene};
+
+use crate::deployment::flashed;
+use crate::session::Session;
+use crate::watch::Servos;
+use figures::{Figures, Outcome};
+use file::Scenario;
+use hands::Hands;
+use links::Links;
+use said::Teller;
+
+/// Which scene runs against what.
+#[derive(Debug, Args)]
+pub struct Choice {
+    /// The scene file
+    scene: PathBuf,
+    /// The program: built for it, or for any scene; none: the files are read, and nothing runs
+    #[arg(long, value_name = "ELF")]
+    program: Option<PathBuf>,
+    /// What befalls it, a list of `[[event]]`
+    #[arg(long, value_name = "FILE")]
+    scenario: PathBuf,
+    /// The scene in whose world it runs; none: its own, or, where its plant is ideal, the same
+    /// with a simulated motor
+    #[arg(long, value_name = "SCENE")]
+    world: Option<PathBuf>,
+    /// Where to write what became of it
+    #[arg(long, value_name = "FILE")]
+    json: PathBuf,
+}
+
+impl Choice {
+    /// Runs it, and writes what became of it.
+    ///
+    /// # Errors
+    /// [`Error::Input`] for a file that is wrong, [`Error::Work`] for what has stopped the
+    /// emulated board.
+    pub fn run(&self) -> Result<(), Error> {
+        let scenario = Scenario::load(&self.scenario)?;
+        output::check(&self.json)?;
+        let Some(program) = &self.program else {
+            let loaded = self.placed(Loaded::new(&self.scene)?, &scenario)?;
+            return scenario.fits(&self.scenario, &loaded.scene);
+        };
+        let (loaded, program) = flashed(&self.scene, program)?;
+        let loaded = self.placed(loaded, &scenario)?;
+        scenario.fits(&self.scenario, &loaded.scene)?;
+        let session = Session::running(&loaded.scene, loaded.classes()?, &program)?;
+        let servos = Servos::new(&program, &loaded.scene)?;
+        let outcome = run(session, &servos, &loaded.scene, &scenario)?;
+        write_whole(&self.json, outcome.json()?.as_bytes())?;
+        Ok(())
+    }
+
+    /// The scene in its world, for as long and with the seed as the scenario has it.
+    fn placed(&self, mut loaded: Loaded, scenario: &Scenario) -> Result<Loaded, Error> {
+        if let Some(world) = &self.world {
+            loaded = loaded.in_world(world)?;
+        }
+        let scene = &mut loaded.scene;
+        if scene.plant.kind == PlantKind::Ideal && scene.whisking.is_some() {
+            scene.plant.kind = PlantKind::Textured;
+        }
+        scene.duration_s = scenario.duration_s.unwrap_or(scene.duration_s);
+        scene.seed = scenario.seed.unwrap_or(scene.seed);
+        Ok(loaded)
+    }
+}
+
+/// Runs a board from before its first tick to the end of the scene.
+fn run(
+    mut session: Session,
+    servos: &Servos,
+    scene: &Scene,
+    scenario: &Scenario,
+) -> Result<Outcome, Error> {
+    session.bear_resets(true);
+    let mut hands = Hands::new(scenario);
+    let mut links = Links::new(scenario, scene);
+    let mut teller = Teller::default();
+    let mut figures = Figures::new(scene);
+    for _ in 0..session.run.ticks() {
+        let t_s = session.run.t_s();
+        hands.act(t_s, &mut session)?;
+        links.send(t_s, &mut session)?;
+        session.pass_tick()?;
+        // While no tick ends time passes as fast as it should; ticks are not equally long.
+        let period = session.period();
+        let board = session.board_mut();
+        let was_reset = board.reset.take().is_some() || hands.has_cut_power();
+        board.world_waits = Some(if board.is_late {
+            period
+        } else {
+            period * 3 / 2
+        });
+        let arrived = links.arrived(&mut session);
+        teller.listen(&mut session)?;
+        figures.look(&mut session, servos, was_reset, arrived)?;
+    }
+    Ok(figures.outcome(teller))
+}
+
+/// A file that is wrong.
+fn wrong(path: &Path, what: impl std::fmt::Display) -> Error {
+    Error::file(path, what)
+}

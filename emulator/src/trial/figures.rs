@@ -1,0 +1,350 @@
+//! What a run is judged by.
+
+use std::collections::BTreeMap;
+
+use host_sim::Error;
+use scene::Scene;
+use serde::Serialize;
+
+use super::links::Arrived;
+use super::said::{Teller, Told};
+use crate::notice::Notice;
+use crate::session::Session;
+use crate::watch::Servos;
+
+/// So near to an end stop a whisker is at it, degrees.
+const AT_STOP_DEG: f64 = 0.1;
+/// So far from its setpoint it is in an excursion, degrees.
+const EXCURSION_DEG: f64 = 5.0;
+/// So many ticks after a fault was reported its motor is off.
+const GRACE: u64 = 2;
+
+/// What became of a run; docs/boards.md has each key.
+#[derive(Debug, Serialize)]
+pub(super) struct Outcome {
+    first_fault: Option<String>,
+    first_fault_s: Option<f64>,
+    worst_outside_deg: f64,
+    driven_after_stop_s: f64,
+    driven_with_fault_s: f64,
+    at_stop_s: f64,
+    rms_duty: f64,
+    resets: u64,
+    max_following_deg: f64,
+    off_after_5deg_s: f64,
+    stops: u64,
+    stops_late: u64,
+    stop_to_off_ticks: u64,
+    driven_s: f64,
+    armed_at_end: Option<bool>,
+    angle_at_end_deg: Vec<f64>,
+    /// Seconds that were run.
+    ran_s: f64,
+    answers: BTreeMap<String, u64>,
+    unlisted: u64,
+    events: Vec<Told>,
+}
+
+impl Outcome {
+    pub(super) fn json(&self) -> Result<String, Error> {
+        let json = serde_json::to_string_pretty(self);
+        json.map(|json| json + "\n")
+            .map_err(|error| Error::Work(error.to_string()))
+    }
+}
+
+/// From the least value to the greatest.
+#[derive(Debug, Clone, Copy)]
+struct Span {
+    least: f64,
+    most: f64,
+}
+
+impl Span {
+    const EMPTY: Self = Self {
+        least: f64::INFINITY,
+        most: f64::NEG_INFINITY,
+    };
+
+    fn take(&mut self, value: f64) {
+        self.least = self.least.min(value);
+        self.most = self.most.max(value);
+    }
+
+    /// By how much `other` reaches beyond it; 0 of what is empty.
+    fn exceeded_by(self, other: Self) -> f64 {
+        let beyond = (other.most - self.most).max(self.least - other.least);
+        if beyond.is_finite() {
+            beyond.max(0.0)
+        } else {
+            0.0
+        }
+    }
+}
+
+/// What is kept of a side.
+#[derive(Debug, Clone)]
+struct OfSide {
+    /// Of its setpoints, and of its true angle.
+    whisk: Span,
+    reached: Span,
+    /// Since when its sensor and its motor have a fault that was reported, in ticks.
+    faults: [Option<u64>; 2],
+    /// For how many ticks it has been driven in this excursion.
+    excursion: u64,
+}
+
+/// Looks at every tick.
+pub(super) struct Figures {
+    tick_hz: f64,
+    /// Setpoints are within these, degrees.
+    limits_deg: [f64; 2],
+    ticks: u64,
+    sides: Vec<OfSide>,
+    /// The tick in which the first stop has arrived, and whether nothing has armed since.
+    first_stop: Option<u64>,
+    is_stopped: bool,
+    /// The first of the stops that have not switched off yet, and how many came a tick ago.
+    pending: Option<u64>,
+    just_stopped: u64,
+    after_stop: u64,
+    with_fault: u64,
+    at_stop: u64,
+    driven: u64,
+    squares: f64,
+    /// How many duties there are in that.
+    duties: u64,
+    resets: Vec<f64>,
+    max_following_deg: f64,
+    longest_excursion: u64,
+    stops: u64,
+    stops_late: u64,
+    stop_to_off: u64,
+    is_armed: Option<bool>,
+    angles_deg: Vec<f64>,
+}
+
+impl Figures {
+    pub(super) fn new(scene: &Scene) -> Self {
+        let side = OfSide {
+            whisk: Span::EMPTY,
+            reached: Span::EMPTY,
+            faults: [None; 2],
+            excursion: 0,
+        };
+        let motor = scene.motor.as_ref();
+        Self {
+            tick_hz: f64::from(scene.tick_hz),
+            limits_deg: motor.map_or([f64::NEG_INFINITY, f64::INFINITY], |motor| {
+                [motor.min_deg, motor.max_deg]
+            }),
+            ticks: 0,
+            sides: vec![side; scene.head.sides.count()],
+            first_stop: None,
+            is_stopped: false,
+            pending: None,
+            just_stopped: 0,
+            after_stop: 0,
+            with_fault: 0,
+            at_stop: 0,
+            driven: 0,
+            squares: 0.0,
+            duties: 0,
+            resets: Vec::new(),
+            max_following_deg: 0.0,
+            longest_excursion: 0,
+            stops: 0,
+            stops_late: 0,
+            stop_to_off: 0,
+            is_armed: None,
+            angles_deg: Vec::new(),
+        }
+    }
+
+    /// Looks at the tick that was just made.
+    pub(super) fn look(
+        &mut self,
+        session: &mut Session,
+        servos: &Servos,
+        was_reset: bool,
+        arrived: Arrived,
+    ) -> Result<(), Error> {
+        self.ticks += 1;
+        if was_reset {
+            self.resets.push(session.run.t_s());
+        }
+        self.note_faults(session, was_reset, arrived);
+        let efforts = session.efforts();
+        let is_driven = efforts.iter().any(|effort| *effort > 0.0);
+        self.driven += u64::from(is_driven);
+        self.note_stops(is_driven, arrived);
+        // While the chip starts its RAM says nothing of motors.
+        let is_up = !session.board_mut().is_late;
+        if is_up {
+            self.is_armed = servos.are_armed(&session.machine().memories)?;
+        }
+        let row = *session.run.row();
+        self.angles_deg.clear();
+        let mut is_at_stop = false;
+        for (side, effort) in efforts.into_iter().enumerate() {
+            let Some(motor) = session.run.motor_mut(side) else {
+                continue;
+            };
+            let (angle, duty) = (motor.angle_deg(), motor.duty());
+            let stops = motor.settings().stops_deg;
+            is_at_stop |= stops.iter().any(|stop| (angle - stop).abs() <= AT_STOP_DEG);
+            self.angles_deg.push(angle);
+            self.squares += duty * duty;
+            self.duties += 1;
+            if is_up {
+                let wants = servos.wants(side, &session.machine().memories)?;
+                let whole = wants.commanded_deg.unwrap_or(row.theta_deg[side]);
+                let [least, most] = self.limits_deg;
+                let whole = whole.max(least).min(most);
+                let following = angle - (whole - wants.behind_deg);
+                self.follow(side, whole, effort > 0.0 && !wants.is_homing, following);
+                if wants.is_homing {
+                    continue;
+                }
+            }
+            if let Some(of_side) = self.sides.get_mut(side) {
+                of_side.reached.take(angle);
+            }
+        }
+        self.at_stop += u64::from(is_at_stop);
+        self.count_with_fault(session);
+        Ok(())
+    }
+
+    /// A side's setpoint, and by how much the whisker is off the one that it follows.
+    fn follow(&mut self, side: usize, setpoint_deg: f64, is_driven: bool, off_deg: f64) {
+        let Some(side) = self.sides.get_mut(side) else {
+            return;
+        };
+        side.whisk.take(setpoint_deg);
+        if !is_driven {
+            side.excursion = 0;
+            return;
+        }
+        self.max_following_deg = self.max_following_deg.max(off_deg.abs());
+        if off_deg.abs() > EXCURSION_DEG {
+            side.excursion += 1;
+            self.longest_excursion = self.longest_excursion.max(side.excursion);
+        } else {
+            side.excursion = 0;
+        }
+    }
+
+    fn note_faults(&mut self, session: &mut Session, was_reset: bool, arrived: Arrived) {
+        if was_reset {
+            for side in &mut self.sides {
+                side.faults = [None; 2];
+            }
+        }
+        if arrived.is_arm || arrived.is_clear {
+            for side in &mut self.sides {
+                side.faults[1] = None;
+            }
+        }
+        let now = self.ticks;
+        for (place, notice) in std::mem::take(&mut session.board_mut().notices) {
+            let Some(side) = self.sides.get_mut(usize::from(place.side)) else {
+                continue;
+            };
+            let [sensor, motor] = &mut side.faults;
+            match notice {
+                Notice::SensorLost => *sensor = Some(now),
+                Notice::SensorBack => *sensor = None,
+                Notice::MotorFault => *motor = Some(now),
+                Notice::MotorRetry => *motor = None,
+                Notice::MotorGivenUp => _ = motor.get_or_insert(now),
+            }
+        }
+    }
+
+    fn count_with_fault(&mut self, session: &mut Session) {
+        for (side, effort) in self.sides.iter().zip(session.efforts()) {
+            let mut faults = side.faults.iter().flatten();
+            let is_due = faults.any(|since| self.ticks >= since + GRACE);
+            self.with_fault += u64::from(is_due && effort > 0.0);
+        }
+    }
+
+    fn note_stops(&mut self, is_driven: bool, arrived: Arrived) {
+        if arrived.is_arm {
+            self.is_stopped = false;
+            self.pending = None;
+            self.just_stopped = 0;
+        }
+        if is_driven {
+            self.after_stop += u64::from(self.is_stopped);
+            self.stops_late += self.just_stopped;
+        } else if let Some(since) = self.pending.take() {
+            self.stop_to_off = self.stop_to_off.max(self.ticks - since);
+        }
+        self.just_stopped = 0;
+        if arrived.stops == 0 {
+            return;
+        }
+        self.stops += arrived.stops;
+        if arrived.is_arm {
+            // Whichever came first, it may be armed.
+            self.first_stop.get_or_insert(self.ticks);
+            return;
+        }
+        self.just_stopped = arrived.stops;
+        if self.first_stop.is_none() {
+            self.is_stopped = true;
+            self.first_stop = Some(self.ticks);
+        }
+        if is_driven {
+            self.pending.get_or_insert(self.ticks);
+        }
+    }
+
+    pub(super) fn outcome(mut self, mut teller: Teller) -> Outcome {
+        let seconds = |ticks: u64| ticks as f64 / self.tick_hz;
+        if let Some(since) = self.pending.take() {
+            self.stop_to_off = self.stop_to_off.max(self.ticks - since);
+        }
+        let resets = self.resets.iter().map(|t_s| Told {
+            t_s: *t_s,
+            kind: "reset".to_owned(),
+            side: None,
+            number: None,
+            name: None,
+            text: "reset".to_owned(),
+        });
+        teller.told.extend(resets);
+        teller.told.sort_by(|a, b| a.t_s.total_cmp(&b.t_s));
+        let first = teller.told.iter().find(|told| told.kind == "fault");
+        let named = |told: &Told| {
+            let number = told.number.unwrap_or_default();
+            format!("{number} {}", told.name.as_deref().unwrap_or_default())
+        };
+        let outside = self.sides.iter();
+        let outside = outside.map(|side| side.whisk.exceeded_by(side.reached));
+        Outcome {
+            first_fault: first.map(named),
+            first_fault_s: first.map(|told| told.t_s),
+            worst_outside_deg: outside.fold(0.0, f64::max),
+            driven_after_stop_s: seconds(self.after_stop),
+            driven_with_fault_s: seconds(self.with_fault),
+            at_stop_s: seconds(self.at_stop),
+            rms_duty: (self.squares / self.duties.max(1) as f64).sqrt(),
+            resets: self.resets.len() as u64,
+            max_following_deg: self.max_following_deg,
+            off_after_5deg_s: seconds(self.longest_excursion),
+            stops: self.stops,
+            stops_late: self.stops_late,
+            stop_to_off_ticks: self.stop_to_off,
+            driven_s: seconds(self.driven),
+            armed_at_end: self.is_armed,
+            angle_at_end_deg: self.angles_deg,
+            ran_s: seconds(self.ticks),
+            answers: teller.answers,
+            unlisted: teller.unlisted,
+            events: teller.told,
+        }
+    }
+}

@@ -1,0 +1,64 @@
+//! What a file may say.
+
+use super::{Scenario, What};
+
+fn refused(text: &str) -> String {
+    Scenario::parse(text).unwrap_err()
+}
+
+#[test]
+fn an_event_is_read_with_its_times_side_and_value() {
+    let text = "duration_s = 2.5
+        [[event]]
+        at_s = 1.0
+        kind = 'hand'
+        torque_nm = -0.002
+        for_s = 0.5
+        side = 'right'
+        [[event]]
+        at_s = 0.5
+        kind = 'button'";
+    let scenario = Scenario::parse(text).unwrap();
+    assert_eq!(scenario.duration_s, Some(2.5));
+    let [button, hand] = &scenario.events[..] else {
+        panic!("two events");
+    };
+    assert_eq!((&button.what, button.until_s), (&What::Button, Some(0.6)));
+    assert_eq!(hand.what, What::Hand { torque_nm: -0.002 });
+    assert_eq!((hand.side, hand.until_s), (1, Some(1.5)));
+    assert!(!hand.lasts(0.9995) && hand.lasts(1.0) && hand.lasts(1.4995) && !hand.lasts(1.5));
+}
+
+#[test]
+fn what_is_wrong_is_named() {
+    let event = |keys: &str| refused(&format!("[[event]]\nat_s = 1.0\n{keys}"));
+    for (keys, named) in [
+        ("kind = 'encoder-stock'", "encoder-stock"),
+        ("kind = 'encoder-stuck'\ncount = 3", "count"),
+        (
+            "kind = 'encoder-stuck'\ncounts = 3",
+            "counts: not a key of this kind",
+        ),
+        ("kind = 'encoder-jitter'", "counts: missing"),
+        (
+            "kind = 'encoder-slip'\nshare = 1.5",
+            "share: found 1.5, allowed: 0 to 1",
+        ),
+        ("kind = 'supply'\nvolts = nan", "volts: found NaN"),
+        (
+            "kind = 'probe'\nrequest = 'jump'",
+            "request: \"jump\": unknown command",
+        ),
+        (
+            "kind = 'serial'\ntext = 'stop'\nrepeat_hz = 0.0",
+            "repeat_hz: found 0",
+        ),
+        ("kind = 'button'\nfor_s = 0.0", "for_s: found 0"),
+        ("kind = 'button'\nside = 'both'", "both"),
+    ] {
+        let said = event(keys);
+        assert!(said.contains(named), "{keys}: {said}");
+    }
+    assert!(refused("durations_s = 1.0").contains("durations_s"));
+    assert!(refused("[[event]]\nkind = 'button'").contains("at_s"));
+}

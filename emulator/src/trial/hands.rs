@@ -1,0 +1,127 @@
+//! What is done to motors, sensors, the button and the supply.
+
+use host_sim::Error;
+use host_sim::bus::WireFault;
+use host_sim::motor::{EncoderFlaws, Wire};
+
+use super::file::{Event, Scenario, What};
+use crate::session::Session;
+
+/// What is so at a motor and its sensor.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Around {
+    is_stuck: bool,
+    encoder: EncoderFlaws,
+    friction: f64,
+    volts: Option<f64>,
+    torque_nm: f64,
+    sensor: Option<WireFault>,
+}
+
+impl Around {
+    /// Nothing is wrong.
+    const WELL: Self = Self {
+        is_stuck: false,
+        encoder: EncoderFlaws::NONE,
+        friction: 1.0,
+        volts: None,
+        torque_nm: 0.0,
+        sensor: None,
+    };
+
+    /// Adds an event that has begun after those before.
+    fn add(&mut self, what: &What) {
+        match *what {
+            What::Stuck => self.is_stuck = true,
+            What::Jitter { counts } => self.encoder.jitter = counts,
+            What::Slip { share } => self.encoder.slip = share,
+            What::Scale { factor } => self.encoder.scale *= factor,
+            What::Reversed => self.encoder.scale = -self.encoder.scale,
+            What::Friction { factor } => self.friction = factor,
+            What::Supply { volts } => self.volts = Some(volts),
+            What::Hand { torque_nm } => self.torque_nm = torque_nm,
+            What::SensorFrozen => self.sensor = Some(WireFault::Frozen),
+            What::SensorGone => self.sensor = Some(WireFault::Silent),
+            What::MagnetGone => self.sensor = Some(WireFault::NoField),
+            What::Serial { .. } | What::Probe { .. } | What::Button | What::PowerOff => {}
+        }
+    }
+}
+
+/// Does what the events say.
+pub(super) struct Hands<'s> {
+    events: &'s [Event],
+    /// Of each side.
+    around: Vec<Around>,
+    is_pressed: bool,
+    is_off: bool,
+    /// In this tick power has gone.
+    has_cut: bool,
+}
+
+impl<'s> Hands<'s> {
+    pub(super) fn new(scenario: &'s Scenario) -> Self {
+        Self {
+            events: &scenario.events,
+            around: Vec::new(),
+            is_pressed: false,
+            is_off: false,
+            has_cut: false,
+        }
+    }
+
+    /// What is to be done before the tick that begins at `t_s`.
+    pub(super) fn act(&mut self, t_s: f64, session: &mut Session) -> Result<(), Error> {
+        let lasting = self.events.iter().filter(|event| event.lasts(t_s));
+        let (mut around, mut is_pressed, mut is_off) = ([Around::WELL; 2], false, false);
+        for event in lasting {
+            match event.what {
+                What::Button => is_pressed = true,
+                What::PowerOff => is_off = true,
+                _ => {}
+            }
+            if let Some(around) = around.get_mut(event.side) {
+                around.add(&event.what);
+            }
+        }
+        if self.around != around {
+            for (side, around) in around.iter().enumerate() {
+                surround(session, side, around);
+            }
+            self.around = around.to_vec();
+        }
+        if std::mem::replace(&mut self.is_pressed, is_pressed) != is_pressed {
+            let machine = session.machine();
+            machine.with_chip(|chip| chip.set_button(is_pressed));
+        }
+        let was_off = std::mem::replace(&mut self.is_off, is_off);
+        if was_off != is_off {
+            session.board_mut().set_power(!is_off)?;
+        }
+        self.has_cut = is_off && !was_off;
+        Ok(())
+    }
+
+    /// Whether power has gone in the last tick.
+    pub(super) const fn has_cut_power(&self) -> bool {
+        self.has_cut
+    }
+}
+
+fn surround(session: &mut Session, side: usize, around: &Around) {
+    if let Some(slave) = session.run.slave_mut(side) {
+        slave.set_fault(around.sensor);
+    }
+    let Some(motor) = session.run.motor_mut(side) else {
+        return;
+    };
+    if around.is_stuck {
+        motor.cut(Wire::Encoder);
+    } else {
+        motor.mend(Wire::Encoder);
+    }
+    motor.set_encoder(around.encoder);
+    motor.set_friction(around.friction);
+    motor.set_supply_v(around.volts);
+    motor.set_load_nm(around.torque_nm);
+}

@@ -1,0 +1,223 @@
+//! What is sent to the board by its serial line and by a probe, and when it has arrived.
+
+use std::collections::VecDeque;
+
+use host_sim::Error;
+use scene::Scene;
+use wire::text::Spoken;
+use wire::{Command, TaggedCommand};
+
+use super::file::{Event, Scenario, What};
+use crate::chip::Chip;
+use crate::session::Session;
+
+/// Start, eight bits and stop.
+const BITS: f64 = 10.0;
+/// More than so many bytes never wait at the other end of the serial line.
+const MOST_WAITING: usize = 1 << 16;
+/// So many requests in a tick are more than the probe's ring holds.
+const MOST_A_TICK: usize = 256;
+
+/// What has arrived in a tick that the figures ask for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub(super) struct Arrived {
+    pub(super) stops: u64,
+    pub(super) is_arm: bool,
+    /// A motor is to be tried again.
+    pub(super) is_clear: bool,
+}
+
+impl Arrived {
+    fn add(&mut self, command: Command) {
+        match command {
+            Command::Stop => self.stops += 1,
+            Command::Arm => self.is_arm = true,
+            Command::Clear(_) => self.is_clear = true,
+            _ => {}
+        }
+    }
+}
+
+/// An event that sends.
+struct Sender<'s> {
+    event: &'s Event,
+    /// How often it has sent, or would have.
+    sent: u64,
+    /// It asks for more than the serial line carries.
+    is_flood: bool,
+}
+
+impl Sender<'_> {
+    /// When it sends next; never once it has ended.
+    fn next_s(&self) -> Option<f64> {
+        let at_s = match self.event.repeat_hz {
+            None => (self.sent == 0).then_some(self.event.at_s)?,
+            Some(repeat_hz) => self.event.at_s + self.sent as f64 / repeat_hz,
+        };
+        let is_in_time = self.event.until_s.is_none_or(|until| at_s < until);
+        (is_in_time || self.event.repeat_hz.is_none()).then_some(at_s)
+    }
+
+    /// What it would have sent before is not sent.
+    fn skip_to(&mut self, t_s: f64) {
+        if let Some(repeat_hz) = self.event.repeat_hz {
+            let due = ((t_s - self.event.at_s) * repeat_hz).ceil().max(0.0) as u64;
+            self.sent = self.sent.max(due);
+        }
+    }
+}
+
+/// Who sends.
+pub(super) struct Links<'s> {
+    senders: Vec<Sender<'s>>,
+    tick_s: f64,
+    /// Bytes of the serial line in a tick.
+    tick_bytes: usize,
+    /// All bytes that were written so far, and commands in them with the place of their end.
+    written: u64,
+    on_the_way: VecDeque<(u64, Command)>,
+    tag: u16,
+    is_pressed: bool,
+    presses: Vec<&'s Event>,
+    arrived: Arrived,
+}
+
+impl<'s> Links<'s> {
+    pub(super) fn new(scenario: &'s Scenario, scene: &Scene) -> Self {
+        let tick_hz = f64::from(scene.tick_hz);
+        let bytes_s = f64::from(scene.telemetry.serial_baud.unwrap_or(0)) / BITS;
+        let sender = |event: &'s Event| match &event.what {
+            What::Serial { line } => {
+                let asked = event.repeat_hz.unwrap_or(0.0) * (line.len() + 1) as f64;
+                Some(Sender {
+                    event,
+                    sent: 0,
+                    is_flood: asked >= bytes_s,
+                })
+            }
+            What::Probe { .. } => Some(Sender {
+                event,
+                sent: 0,
+                is_flood: false,
+            }),
+            _ => None,
+        };
+        let events = scenario.events.iter();
+        Self {
+            senders: events.clone().filter_map(sender).collect(),
+            tick_s: 1.0 / tick_hz,
+            tick_bytes: (bytes_s / tick_hz).ceil() as usize,
+            written: 0,
+            on_the_way: VecDeque::new(),
+            tag: 0,
+            is_pressed: false,
+            presses: events.filter(|event| event.what == What::Button).collect(),
+            arrived: Arrived::default(),
+        }
+    }
+
+    /// Sends what is due in the tick that begins at `t_s`, in the order of its times.
+    pub(super) fn send(&mut self, t_s: f64, session: &mut Session) -> Result<(), Error> {
+        let was_pressed = self.is_pressed;
+        self.is_pressed = self.presses.iter().any(|press| press.lasts(t_s));
+        self.arrived.is_arm |= self.is_pressed && !was_pressed;
+        let end_s = t_s + self.tick_s;
+        let (mut held, mut requests) = (vec![false; self.senders.len()], 0);
+        while let Some(n) = self.first_due(end_s, &held) {
+            let Some(sender) = self.senders.get(n) else {
+                break;
+            };
+            let is_sent = match &sender.event.what {
+                What::Serial { line } => self.write(line, sender.is_flood, session),
+                What::Probe { command } => {
+                    requests += 1;
+                    requests <= MOST_A_TICK && self.ask(*command, session)?
+                }
+                _ => true,
+            };
+            if let Some(sender) = self.senders.get_mut(n) {
+                if is_sent {
+                    sender.sent += 1;
+                } else {
+                    // Sent once, it is tried again in the next tick.
+                    sender.skip_to(end_s);
+                    held[n] = true;
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// The one that is due first in this tick.
+    fn first_due(&self, end_s: f64, held: &[bool]) -> Option<usize> {
+        let due = self.senders.iter().zip(held).enumerate();
+        let due = due.filter(|(_, (_, held))| !**held);
+        let due = due.filter_map(|(n, (sender, _))| Some((n, sender.next_s()?)));
+        let due = due.filter(|(_, at_s)| *at_s < end_s);
+        due.min_by(|a, b| a.1.total_cmp(&b.1)).map(|(n, _)| n)
+    }
+
+    /// Writes a line, unless the serial line has enough to do.
+    fn write(&mut self, line: &str, is_flood: bool, session: &mut Session) -> bool {
+        let waiting = session.machine().with_chip(|chip| chip.serial_pending());
+        let enough = if is_flood {
+            self.tick_bytes
+        } else {
+            MOST_WAITING
+        };
+        if waiting > enough {
+            return false;
+        }
+        for part in line.split_inclusive('\n') {
+            let is_ended = part.ends_with('\n');
+            self.written += part.len() as u64;
+            if is_ended {
+                self.note(part);
+            }
+            session.serial_write(part.as_bytes());
+        }
+        session.serial_write(b"\n");
+        self.written += 1;
+        if !line.ends_with('\n') {
+            let last = line.split('\n').next_back();
+            self.note(last.unwrap_or_default());
+        }
+        true
+    }
+
+    fn note(&mut self, line: &str) {
+        if let Ok(Spoken::Command(command)) = wire::text::parse(line.as_bytes()) {
+            self.on_the_way.push_back((self.written, command));
+        }
+    }
+
+    /// Writes a request into the probe's ring; whether there was room.
+    fn ask(&mut self, command: Command, session: &mut Session) -> Result<bool, Error> {
+        self.tag = self.tag.wrapping_add(1);
+        let tag = self.tag;
+        let is_sent = session.request(TaggedCommand { tag, command })?;
+        if is_sent {
+            self.arrived.add(command);
+        }
+        Ok(is_sent)
+    }
+
+    /// What has arrived in the tick that was just made; what came while none was, is lost.
+    pub(super) fn arrived(&mut self, session: &mut Session) -> Arrived {
+        let pending = session
+            .machine()
+            .with_chip(|chip: &mut Chip| chip.serial_pending());
+        let carried = self.written - pending as u64;
+        let mut arrived = std::mem::take(&mut self.arrived);
+        let is_heard = !session.board_mut().is_late;
+        while let Some((end, command)) = self.on_the_way.front().copied()
+            && end <= carried
+        {
+            self.on_the_way.pop_front();
+            if is_heard {
+                arrived.add(command);
+            }
+        }
+        arrived
+    }
+}

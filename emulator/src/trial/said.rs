@@ -1,0 +1,191 @@
+//! What the board says: the lines of its log, and its answers on both links.
+
+use std::collections::BTreeMap;
+
+use firmware::Packet;
+use host_sim::Error;
+use host_sim::received::{Received, Receiver};
+use serde::Serialize;
+use wire::{Answer, Command, CommandStatus, WhiskerId};
+
+use crate::session::Session;
+
+/// More events than so many are counted, and not listed.
+const MOST_LISTED: usize = 100_000;
+
+/// Something that the board has said, or that has happened to it.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub(super) struct Told {
+    /// At the end of the tick in which it was read.
+    pub(super) t_s: f64,
+    /// The first word of its line, if docs/protocol.md has it; otherwise `log`. `answer`: to a
+    /// request; `reset`: of the chip.
+    pub(super) kind: String,
+    /// `left` or `right`; none: of the whole board.
+    pub(super) side: Option<String>,
+    /// Of a fault or a limit.
+    pub(super) number: Option<u8>,
+    /// Its name.
+    pub(super) name: Option<String>,
+    /// The whole line.
+    pub(super) text: String,
+}
+
+/// Keeps all of it.
+#[derive(Debug, Default)]
+pub(super) struct Teller {
+    line: Receiver,
+    /// In order.
+    pub(super) told: Vec<Told>,
+    /// How often each answer came.
+    pub(super) answers: BTreeMap<String, u64>,
+    /// Events that are not listed, as there were too many.
+    pub(super) unlisted: u64,
+}
+
+/// First words of the lines that are events.
+const KINDS: [&str; 13] = [
+    "armed",
+    "back",
+    "decision",
+    "end",
+    "fault",
+    "health",
+    "limit",
+    "not-armed",
+    "off",
+    "retry",
+    "start",
+    "touch",
+    "zero",
+];
+
+/// Commands that can be asked for in words.
+const SPOKEN: [Command; 11] = {
+    let left = WhiskerId { side: 0, number: 0 };
+    [
+        Command::Hello,
+        Command::Status,
+        Command::Stream(true),
+        Command::Arm,
+        Command::Stop,
+        Command::Clear(left),
+        Command::Home(left),
+        Command::Gain(left, 0),
+        Command::Setpoint(left, 0),
+        Command::Release(left),
+        Command::Zero(left),
+    ]
+};
+
+/// An answer in the words that the serial line has for it.
+fn in_words(answer: &Answer) -> String {
+    let mut spoken = SPOKEN.iter();
+    let command = spoken.find(|command| command.number() == answer.command);
+    let name = command.map_or("?", |command| command.name());
+    match answer.status {
+        CommandStatus::Done => format!("ok {name}"),
+        status => format!("refused {name}: {status}"),
+    }
+}
+
+impl Teller {
+    /// Takes what was said since the last call.
+    pub(super) fn listen(&mut self, session: &mut Session) -> Result<(), Error> {
+        let t_s = session.run.t_s();
+        for line in session.log() {
+            self.tell(of_log(t_s, &line));
+        }
+        let by_probe = session.board_mut().heard()?.into_iter();
+        let bytes = session.serial_read();
+        for heard in by_probe.chain(self.line.take(&bytes)) {
+            match heard {
+                Received::Packet(Packet::Answer(answer)) => self.answered(t_s, in_words(&answer)),
+                // What begins with a time is in the log, too.
+                Received::Line(line) if !line.starts_with(|c: char| c.is_ascii_digit()) => {
+                    self.answered(t_s, line);
+                }
+                Received::Packet(_) | Received::Line(_) | Received::Garbled => {}
+            }
+        }
+        Ok(())
+    }
+
+    /// Counts an answer; those about `stop` and `arm` are events.
+    fn answered(&mut self, t_s: f64, text: String) {
+        let about = text.split([' ', ':']).nth(1);
+        if matches!(about, Some("stop" | "arm")) {
+            self.tell(Told {
+                t_s,
+                kind: "answer".to_owned(),
+                side: None,
+                number: None,
+                name: None,
+                text: text.clone(),
+            });
+        }
+        *self.answers.entry(text).or_default() += 1;
+    }
+
+    pub(super) fn tell(&mut self, told: Told) {
+        if self.told.len() < MOST_LISTED {
+            self.told.push(told);
+        } else {
+            self.unlisted += 1;
+        }
+    }
+}
+
+/// What a line of the log tells.
+fn of_log(t_s: f64, line: &str) -> Told {
+    // Time and level come first.
+    let mut rest = line.splitn(3, ' ').nth(2).unwrap_or(line).trim_start();
+    let text = rest.to_owned();
+    let mut word = || {
+        let (word, after) = rest.split_once(' ').unwrap_or((rest, ""));
+        rest = after;
+        word.to_owned()
+    };
+    let kind = word();
+    let side = match &*kind {
+        "fault" | "back" | "retry" | "off" | "touch" | "end" | "decision" | "zero" => Some(word()),
+        _ => None,
+    };
+    let number = match &*kind {
+        "fault" | "limit" | "not-armed" => word().parse().ok(),
+        _ => None,
+    };
+    let is_known = KINDS.contains(&&*kind);
+    let name = number.map(|_| {
+        let (name, _) = rest.split_once(" (").unwrap_or((rest, ""));
+        name.to_owned()
+    });
+    Told {
+        t_s,
+        kind: if is_known { kind } else { "log".to_owned() },
+        side: side.filter(|side| side != "board"),
+        number,
+        name: name.filter(|name| !name.is_empty()),
+        text,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::of_log;
+
+    #[test]
+    fn a_line_of_the_log_is_taken_apart() {
+        let line = "0.250 ERROR fault left 9 motor held (a, b?)";
+        let told = of_log(0.2505, line);
+        assert_eq!(told.kind, "fault");
+        assert_eq!(told.side.as_deref(), Some("left"));
+        assert_eq!(told.number, Some(9));
+        assert_eq!(told.name.as_deref(), Some("motor held"));
+        assert_eq!(told.text, "fault left 9 motor held (a, b?)");
+        let told = of_log(0.0, "0.000 INFO  start 0.1.0 bench 2000 power-up 1 0");
+        assert_eq!((&*told.kind, told.side, told.number), ("start", None, None));
+        let told = of_log(0.0, "0.000 ERROR fault board 52 watchdog (a?)");
+        assert_eq!((told.side, told.number), (None, Some(52)));
+    }
+}

@@ -1,0 +1,120 @@
+//! What the motors' position controls do, for who judges them. It rests on names in the module
+//! that may change: what is not found is taken as not there.
+
+use scene::Scene;
+
+use super::{Variable, along, name};
+use crate::chip::Fault;
+use crate::debug_info::{DebugInfo, Place};
+use crate::memory::Memories;
+use crate::program::Program;
+
+/// What a motor is to do.
+#[derive(Debug, Clone, Copy, Default)]
+pub(crate) struct Wants {
+    /// The setpoint that was commanded in place of the pattern generator's, degrees.
+    pub(crate) commanded_deg: Option<f64>,
+    /// By how much the setpoint that it follows is behind, as it is brought there slowly, degrees.
+    pub(crate) behind_deg: f64,
+    /// It looks for its stop.
+    pub(crate) is_homing: bool,
+}
+
+/// A byte that is this value.
+#[derive(Debug, Clone, Copy)]
+struct Tag {
+    address: u32,
+    value: u8,
+}
+
+impl Tag {
+    fn is_so(self, ram: &Memories) -> Result<bool, Fault> {
+        let mut byte = [0];
+        ram.read(self.address, &mut byte)?;
+        Ok(byte == [self.value])
+    }
+}
+
+#[derive(Debug)]
+struct Servo {
+    homing: Option<Tag>,
+    /// By how much it is behind, while it runs.
+    behind: Option<(Tag, Variable)>,
+    commanded: Option<(Tag, Variable)>,
+}
+
+impl Servo {
+    fn at(servo: Place<'_>) -> Self {
+        Self {
+            homing: within(servo, &[name::DOES], name::HOMING).map(|(tag, _)| tag),
+            behind: within(servo, &[name::DOES], name::RUNNING).and_then(|(tag, held)| {
+                let behind = Variable::at(held.member(name::BEHIND).ok()?).ok()?;
+                Some((tag, behind))
+            }),
+            commanded: within(servo, &name::COMMANDED, name::SOME)
+                .and_then(|(tag, held)| Some((tag, Variable::at(held.member("__0").ok()?).ok()?))),
+        }
+    }
+}
+
+/// A variant of what these names lead to, and what it holds.
+fn within<'d>(from: Place<'d>, names: &[&str], variant: &str) -> Option<(Tag, Place<'d>)> {
+    let (address, value, held) = along(from, names).ok()?.variant(variant).ok()?;
+    Some((Tag { address, value }, held))
+}
+
+/// The position controls of all motors, left side first.
+#[derive(Debug)]
+pub(crate) struct Servos {
+    servos: Vec<Servo>,
+    armed: Option<u32>,
+}
+
+impl Servos {
+    pub(crate) fn new(program: &Program, scene: &Scene) -> Result<Self, Fault> {
+        let info = DebugInfo::new(program)?;
+        let module = info.variable(name::MODULE)?;
+        let whiskers = module.member(name::WHISKERS)?;
+        let sides = scene.head.sides.count() as u32;
+        let servos = (0..sides).filter_map(|n| {
+            let servo = whiskers.element(n).ok()?.member(name::SERVO).ok()?;
+            Some(Servo::at(servo))
+        });
+        let armed = along(module, &name::ARMED).ok();
+        Ok(Self {
+            servos: servos.collect(),
+            armed: armed.map(|armed| armed.address),
+        })
+    }
+
+    /// Whether motors are armed; none: it is not known.
+    pub(crate) fn are_armed(&self, ram: &Memories) -> Result<Option<bool>, Fault> {
+        let read = |address| {
+            let tag = Tag { address, value: 1 };
+            tag.is_so(ram)
+        };
+        self.armed.map(read).transpose()
+    }
+
+    /// What the motor of a side is to do.
+    pub(crate) fn wants(&self, side: usize, ram: &Memories) -> Result<Wants, Fault> {
+        let mut wants = Wants::default();
+        let Some(servo) = self.servos.get(side) else {
+            return Ok(wants);
+        };
+        if let Some(homing) = servo.homing {
+            wants.is_homing = homing.is_so(ram)?;
+        }
+        if let Some((running, behind)) = servo.behind
+            && running.is_so(ram)?
+        {
+            wants.behind_deg = whisking::degrees(behind.read(ram)?) - whisking::REST_DEG;
+        }
+        if let Some((is_there, commanded)) = servo.commanded
+            && is_there.is_so(ram)?
+        {
+            wants.commanded_deg = Some(whisking::degrees(commanded.read(ram)?));
+        }
+        Ok(wants)
+    }
+}

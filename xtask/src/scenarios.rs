@@ -1,0 +1,273 @@
+//! Faults from files: what tests/scenarios lists befalls a board's own program, and what became of
+//! it must be within bounds.
+
+use std::path::PathBuf;
+use std::process::Command;
+
+use serde_json::Value;
+
+use crate::emulate::{Emulated, variants};
+use crate::firmware::Board;
+use crate::run::{Fault, no_faults, read, run_at_once, target, top};
+
+/// What must be so.
+enum Bound {
+    /// The number under this key is at most, or at least, so much.
+    Most(&'static str, f64),
+    Least(&'static str, f64),
+    /// There is a fault, or none.
+    Fault(bool),
+    /// An event of one of these kinds comes after so many seconds.
+    Told(&'static [&'static str], f64),
+    /// No event of this kind comes.
+    NotTold(&'static str),
+    /// The motors are off at the end.
+    Off,
+}
+
+use Bound::{Fault as Faults, Least, Most, NotTold, Off, Told};
+
+/// A file of tests/scenarios, the keys of [`SCENE`] that are set for it, and what must be so.
+struct Row {
+    file: &'static str,
+    set: &'static [&'static str],
+    bounds: &'static [Bound],
+}
+
+/// What a lab flashes, which names no model.
+const SCENE: &str = crate::emulate::BENCH;
+
+/// A simulated motor, and nothing within reach.
+const PLANT: &[&str] = &[
+    "plant.kind=textured",
+    "plant.obstacle_deg=[300.0]",
+    "plant.stiffness=0.01",
+    "plant.textures=['smooth']",
+    "plant.present_s=1000.0",
+];
+/// It never leaves its whisk by more than this, degrees.
+const INSIDE: Bound = Most("worst_outside_deg", 20.0);
+/// It is off so soon after 5 degrees between its angle and its setpoint, s.
+const SOON: Bound = Most("off_after_5deg_s", 0.1);
+/// Nothing but what the protocol of the fault allows.
+const STAYS_OFF: Bound = Most("driven_with_fault_s", 0.0);
+const STOPPED: &[Bound] = &[
+    Least("stops", 1.0),
+    Most("stops_late", 0.0),
+    Most("driven_after_stop_s", 0.0),
+    Most("stop_to_off_ticks", 1.0),
+    Least("answers/ok stop", 1.0),
+    Off,
+];
+/// What is no fault of the module, and what it must bear.
+const WHISKS_ON: &[Bound] = &[Faults(false), INSIDE, Least("driven_s", 3.0)];
+
+/// Rows that are not within their bounds yet. One that is, must not stand here.
+const OPEN: &[&str] = &[];
+
+const fn row(file: &'static str, set: &'static [&'static str], bounds: &'static [Bound]) -> Row {
+    Row { file, set, bounds }
+}
+
+/// All of them.
+const ROWS: &[Row] = &[
+    row("whisking", &[], WHISKS_ON),
+    row("whisking", &["whisking.frequency_hz=0.2"], WHISKS_ON),
+    row(
+        "stuck-encoder",
+        &[],
+        &[Faults(true), INSIDE, SOON, STAYS_OFF],
+    ),
+    row(
+        "stuck-encoder",
+        &["motor.on_fault=stop-all"],
+        &[Faults(true), INSIDE, SOON, STAYS_OFF],
+    ),
+    row(
+        "jittering-encoder",
+        &[],
+        &[Faults(true), INSIDE, SOON, STAYS_OFF],
+    ),
+    row(
+        "jittering-encoder",
+        &["whisking.frequency_hz=0.5"],
+        &[Faults(true), INSIDE, SOON],
+    ),
+    row(
+        "jittering-encoder",
+        &["whisking.frequency_hz=8.0"],
+        &[Faults(true), INSIDE, SOON],
+    ),
+    row(
+        "jittering-encoder",
+        &["motor.driver=six-step"],
+        &[Faults(true), INSIDE, SOON],
+    ),
+    row("noisy-encoder", &[], WHISKS_ON),
+    row(
+        "reversed-encoder",
+        &[],
+        &[Faults(true), INSIDE, SOON, STAYS_OFF],
+    ),
+    row(
+        "scaled-encoder",
+        &[],
+        &[Faults(true), Most("at_stop_s", 0.0)],
+    ),
+    row(
+        "slipping-encoder",
+        &[],
+        &[Faults(true), INSIDE, Most("at_stop_s", 0.0)],
+    ),
+    row(
+        "creeping-encoder",
+        &[],
+        &[Told(&["fault", "limit"], 1.0), Most("at_stop_s", 0.0)],
+    ),
+    row("stop-under-gains", &[], STOPPED),
+    row("stop-under-flood", &[], STOPPED),
+    row("probe-stop-under-flood", &[], STOPPED),
+    row("stop-beside-arming", &[], &[Least("answers/ok stop", 20.0)]),
+    row(
+        "reset-after-stop",
+        &[],
+        &[Most("driven_after_stop_s", 0.0), Off],
+    ),
+    row(
+        "power-lost-after-stop",
+        &[],
+        &[Most("driven_after_stop_s", 0.0), Off],
+    ),
+    row("power-lost", &[], &[INSIDE, Most("at_stop_s", 0.0)]),
+    row("arming-again", &[], &[INSIDE, Most("at_stop_s", 0.0)]),
+    row("hand-while-homing", &["motor.rest=find"], &[INSIDE]),
+    row("friction", &["whisking.frequency_hz=0.5"], WHISKS_ON),
+    row("much-friction", &["whisking.frequency_hz=0.5"], WHISKS_ON),
+    row("much-friction", &[], WHISKS_ON),
+    row(
+        "finger",
+        &[],
+        &[INSIDE, NotTold("off"), Least("driven_s", 4.0)],
+    ),
+    row(
+        "touches",
+        &[],
+        &[INSIDE, NotTold("off"), Least("driven_s", 4.0)],
+    ),
+    row("low-supply", &[], &[INSIDE, Most("at_stop_s", 0.0)]),
+    row("magnet-gone", &[], &[Told(&["fault", "limit"], 1.0)]),
+    row("sensor-gone", &[], &[Faults(true), INSIDE, STAYS_OFF]),
+    row("two-faults", &[], &[Faults(true), INSIDE, STAYS_OFF]),
+];
+
+impl Bound {
+    /// What is not so.
+    fn broken(&self, json: &Value) -> Option<String> {
+        let number = |key: &str| {
+            let value = json.pointer(&format!("/{key}"));
+            value.and_then(Value::as_f64).unwrap_or(0.0)
+        };
+        let events = || json["events"].as_array().into_iter().flatten();
+        let first = &json["first_fault"];
+        match *self {
+            Most(key, most) => {
+                let found = number(key);
+                (found > most).then(|| format!("{key}: found {found:.4}, at most {most}"))
+            }
+            Least(key, least) => {
+                let found = number(key);
+                (found < least).then(|| format!("{key}: found {found:.4}, at least {least}"))
+            }
+            Faults(true) => first.is_null().then(|| "no fault".to_owned()),
+            Faults(false) => (!first.is_null()).then(|| format!("fault {first}")),
+            Told(kinds, after_s) => {
+                let is_it = |event: &Value| {
+                    let kind = event["kind"].as_str().unwrap_or_default();
+                    kinds.contains(&kind) && event["t_s"].as_f64() > Some(after_s)
+                };
+                let is_told = events().any(is_it);
+                (!is_told).then(|| format!("nothing of {} after {after_s} s", kinds.join(", ")))
+            }
+            NotTold(kind) => {
+                let is_told = events().any(|event| event["kind"] == kind);
+                is_told.then(|| format!("an event \"{kind}\""))
+            }
+            Off => (json["armed_at_end"] != false).then(|| "armed at the end".to_owned()),
+        }
+    }
+}
+
+impl Row {
+    /// The file, with the keys that are set.
+    fn name(&self) -> String {
+        [&[self.file], self.set].concat().join(" ")
+    }
+
+    fn json(&self) -> PathBuf {
+        let name = self.name().replace([' ', '.', '='], "-");
+        target().join(format!("scenarios/{name}.json"))
+    }
+
+    fn command(&self, on: &Emulated) -> Result<Command, Fault> {
+        let set: Vec<String> = [PLANT, self.set]
+            .concat()
+            .iter()
+            .map(|&key| key.to_owned())
+            .collect();
+        let scene = variants::with(&top().join(SCENE), &set)?;
+        let file = top().join(format!("tests/scenarios/{}.toml", self.file));
+        crate::emulate::trying(on, &scene, &file, None, &self.json())
+    }
+
+    /// What is not as it should be.
+    fn judged(&self) -> Result<Option<String>, Fault> {
+        let path = self.json();
+        let json = serde_json::from_str(&read(&path)?);
+        let json: Value = json.map_err(|error| format!("{}: {error}", path.display()))?;
+        let broken: Vec<String> = self
+            .bounds
+            .iter()
+            .filter_map(|bound| bound.broken(&json))
+            .collect();
+        Ok((!broken.is_empty()).then(|| broken.join("; ")))
+    }
+}
+
+/// Runs every row on the first board.
+pub(crate) fn all() -> Result<(), Fault> {
+    let on = Emulated::deployed(Board::ALL[0])?;
+    crate::run::write(&target().join("scenarios/.here"), "")?;
+    let commands = ROWS.iter().map(|row| row.command(&on));
+    run_at_once(commands.collect::<Result<_, _>>()?, 2)?;
+    let mut faults = Vec::new();
+    for row in ROWS {
+        let name = row.name();
+        match (row.judged()?, OPEN.contains(&&*name)) {
+            (None, false) => println!("as it should be: {name}"),
+            (Some(broken), true) => println!("open: {name}: {broken}"),
+            (Some(broken), false) => faults.push(format!("{name}: {broken}")),
+            (None, true) => faults.push(format!(
+                "{name}: within its bounds, but in the list of open rows"
+            )),
+        }
+    }
+    no_faults(&faults)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{OPEN, ROWS};
+    use crate::run::{listing, top};
+
+    #[test]
+    fn every_file_has_a_row_and_every_open_row_is_one() {
+        let files = listing(&top().join("tests/scenarios"), "toml").unwrap();
+        for file in files {
+            let name = file.file_stem().unwrap().to_string_lossy().into_owned();
+            assert!(ROWS.iter().any(|row| row.file == name), "{name}");
+        }
+        for open in OPEN {
+            assert!(ROWS.iter().any(|row| row.name() == *open), "{open}");
+        }
+    }
+}
