@@ -76,6 +76,7 @@ impl Link {
             Event::SensorBack(_)
             | Event::MotorRetry(_)
             | Event::Armed
+            | Event::Stopped
             | Event::Health(_)
             | Event::Limit(_) => {}
         }

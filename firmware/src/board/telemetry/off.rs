@@ -57,7 +57,7 @@ pub(crate) struct Exchange {
 }
 
 impl Exchange {
-    pub(crate) fn new(_: Ends, _: Configs) -> Self {
+    pub(crate) fn new(_: Ends, _: Configs, _: bool) -> Self {
         Self { probe: ProbeLine }
     }
 
@@ -83,6 +83,13 @@ impl Telemetry {
     pub(crate) fn new(_: &Settings, _: &Inner, _: ModelState, _: Ends) -> Self {
         Self
     }
+
+    #[inline]
+    pub(crate) fn look_for_stop(&mut self, _: u32) -> bool {
+        false
+    }
+
+    pub(crate) fn stop(&mut self) {}
 
     pub(crate) fn note(&mut self, _: &Event) {}
 
