@@ -129,9 +129,8 @@ impl Said {
     #[inline]
     const fn and(self, byte: u8, is_garbled: bool) -> Self {
         match (self, byte) {
-            // The splitter leaves it out.
-            (_, b'\r') => self,
-            (Self::StopRemark, _) => self,
+            // The splitter leaves a CR out.
+            (_, b'\r') | (Self::StopRemark, _) => self,
             (Self::Remark, _) if !is_garbled => self,
             (Self::Nothing, b' ' | b'\t' | 12) => Self::Nothing,
             (Self::Nothing, b's') => Self::S,

@@ -32,6 +32,11 @@ impl Chip {
         self.serial.sending.extend(bytes);
     }
 
+    /// Bytes that the other end has not sent yet.
+    pub(crate) fn serial_waiting(&self) -> usize {
+        self.serial.sending.len()
+    }
+
     /// What the other end has received since the last call.
     pub(crate) fn serial_read(&mut self) -> Vec<u8> {
         std::mem::take(&mut self.serial.heard)

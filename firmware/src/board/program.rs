@@ -141,7 +141,6 @@ pub(crate) fn start(core: cortex_m::Peripherals, queues: &'static mut Queues) ->
         settings,
         second,
     };
-    let has_motors = about.has_motors;
     let idle = IDLE.try_init(Idle {
         integrity,
         names,
@@ -149,9 +148,9 @@ pub(crate) fn start(core: cortex_m::Peripherals, queues: &'static mut Queues) ->
         button: UserButton::start(),
         serial: Serial::start(&about),
         pins: SignalPins::start(about.links.has_pins),
+        exchange: Exchange::new(idle_ends, configs, &about),
         about,
         events: of_events,
-        exchange: Exchange::new(idle_ends, configs, has_motors),
         in_use: deployed.map(|deployed| deployed.slot),
         fed: 0,
         logged: 0,

@@ -181,9 +181,11 @@ impl Serial {
         {
             exchange.has_answered();
         }
-        if exchange.is_free()
-            && let Some(asked) = self.waiting.pop_front()
-        {
+        if exchange.is_free_for_serial() {
+            exchange.was_serials_turn();
+            let Some(asked) = self.waiting.pop_front() else {
+                return;
+            };
             exchange.ask(asked.request, (asked.origin, asked.at), names);
         }
     }

@@ -9,6 +9,7 @@ use super::configs::{Configs, Verdict};
 use super::probe::ProbeLine;
 use super::stops::{By, OWED, STOPPED_IN};
 use super::{Asked, IdleEnds};
+use crate::board::about::About;
 use crate::board::counters::TICKS;
 use crate::board::perception::Names;
 use crate::board::{log, serial};
@@ -71,13 +72,17 @@ pub(crate) struct Exchange {
     number: u8,
     /// What was [`OWED`] when it was paid last.
     paid: [u32; 3],
-    /// There are motors that stop.
+    /// There are motors that stop, and a serial line.
     has_motors: bool,
+    has_serial: bool,
+    /// The serial line's request comes before the probe's: neither link waits for ever for the
+    /// other.
+    is_serials_turn: bool,
 }
 
 impl Exchange {
     /// Nothing was asked for yet.
-    pub(crate) fn new(ends: IdleEnds, configs: Configs, has_motors: bool) -> Self {
+    pub(crate) fn new(ends: IdleEnds, configs: Configs, about: &About) -> Self {
         Self {
             ends,
             configs,
@@ -87,13 +92,25 @@ impl Exchange {
             answer: None,
             number: 0,
             paid: [0; 3],
-            has_motors,
+            has_motors: about.has_motors,
+            has_serial: about.links.serial_baud.is_some(),
+            is_serials_turn: false,
         }
     }
 
     /// Whether another request can be taken: its predecessor is answered.
     pub(crate) const fn is_free(&self) -> bool {
         self.pending.is_none()
+    }
+
+    /// Whether a request of the serial line can be taken.
+    pub(crate) fn is_free_for_serial(&self) -> bool {
+        self.is_free() && (self.is_serials_turn || !self.probe.is_waiting())
+    }
+
+    /// The serial line has had its turn.
+    pub(crate) const fn was_serials_turn(&mut self) {
+        self.is_serials_turn = false;
     }
 
     /// Says in the log that settings were changed.
@@ -104,11 +121,13 @@ impl Exchange {
     /// Takes what a probe asks for.
     pub(crate) fn take_from_probe(&mut self, names: &Names) {
         if self.is_free()
+            && !self.is_serials_turn
             && let Some(request) = self.probe.next_looked_at()
         {
             let is_stop = request.is_ok_and(|request| request.command == Command::Stop);
             // The tick has seen it.
             if !is_stop {
+                self.is_serials_turn = self.has_serial;
                 self.ask(request, (Origin::Probe, self.probe.count()), names);
             }
         }

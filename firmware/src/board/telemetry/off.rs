@@ -3,6 +3,7 @@
 use firmware::{Event, EventRecord, ModelState};
 use wire::{Answer, Load, TaggedCommand, UnknownCommand};
 
+use crate::board::about::About;
 use crate::board::perception::Names;
 use crate::board::scene::Deployed;
 use crate::board::types::{Inner, Number, Settings};
@@ -57,7 +58,7 @@ pub(crate) struct Exchange {
 }
 
 impl Exchange {
-    pub(crate) fn new(_: Ends, _: Configs, _: bool) -> Self {
+    pub(crate) fn new(_: Ends, _: Configs, _: &About) -> Self {
         Self { probe: ProbeLine }
     }
 

@@ -29,6 +29,11 @@ impl ProbeLine {
         self.next_looked_at()
     }
 
+    /// Whether there is something that it has not read.
+    pub(crate) fn is_waiting(&self) -> bool {
+        DOWN.reader() as usize != PROBE.until(REQUESTS.len())
+    }
+
     /// The bytes that had come with the last one.
     pub(crate) fn count(&self) -> u32 {
         PROBE.bytes_until(DOWN.reader() as usize, REQUESTS.len())
@@ -36,7 +41,7 @@ impl ProbeLine {
 
     /// The next request in what the tick has looked at.
     pub(crate) fn next_looked_at(&mut self) -> Option<Result<TaggedCommand, UnknownCommand>> {
-        while DOWN.reader() as usize != PROBE.until(REQUESTS.len()) {
+        while self.is_waiting() {
             let at = DOWN.reader() as usize;
             // Erased, lest a flipped bit in an offset has a request carried out again.
             let byte = REQUESTS.get(at).map_or(0, |place| {
