@@ -168,7 +168,7 @@ impl Pair {
                     (record.sequence, Packet::Record(plain))
                 }
                 Packet::Event(EventRecord { sequence, event }) => match event {
-                    Event::Armed | Event::Health(_) | Event::Limit(_) => continue,
+                    Event::Armed | Event::Stopped | Event::Health(_) | Event::Limit(_) => continue,
                     _ => (*sequence, *packet),
                 },
                 Packet::Answer(_) => continue,

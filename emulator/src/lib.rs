@@ -41,6 +41,7 @@ pub mod registers;
 pub mod scenario;
 mod serial;
 pub mod session;
+mod stopping;
 mod talk;
 mod telemetry;
 pub mod trial;

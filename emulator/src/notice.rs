@@ -30,6 +30,7 @@ impl Notice {
             | Event::TouchEnd { .. }
             | Event::ZeroMoved(..)
             | Event::Armed
+            | Event::Stopped
             | Event::Health(_)
             | Event::Limit(_) => None,
         }

@@ -18,7 +18,7 @@ use crate::compare::{self, Probe};
 use crate::deployment::flashed;
 use crate::program::Program;
 use crate::session::Session;
-use crate::{deadlines, deploying, latency, serial, telemetry};
+use crate::{deadlines, deploying, latency, serial, stopping, telemetry};
 use step::Case;
 
 /// A scene and what is flashed for it; to a program that brings no scene with it this one is
@@ -67,6 +67,9 @@ pub struct Given {
     /// Over how many minutes of simulated time deadlines are measured
     #[arg(long, default_value_t = 10.0)]
     minutes: f64,
+    /// How often motors are stopped under each flood
+    #[arg(long, default_value_t = 100)]
+    stops: u32,
     /// Prints them as a table of comma-separated values
     #[arg(long)]
     csv: bool,
@@ -98,7 +101,7 @@ pub struct Scenario {
 }
 
 /// All of them.
-pub const ALL: [Scenario; 11] = [
+pub const ALL: [Scenario; 12] = [
     Scenario {
         name: "compare",
         what: "Runs the scene on PC and board and compares every tick",
@@ -177,6 +180,16 @@ pub const ALL: [Scenario; 11] = [
         how: What::Work(|given| {
             let (scene, program) = given.parts();
             telemetry::talk(scene, program, named(given.without.as_ref())?)
+        }),
+    },
+    Scenario {
+        name: "stopping",
+        what: "Stops the board's motors by every way while its links are flooded, --stops times a \
+               flood; fails if a motor is driven later than in the tick after the stop has come, \
+               or a stop is not answered",
+        how: What::Work(|given| {
+            let (scene, program) = given.parts();
+            stopping::stopping(scene, program, given.stops)
         }),
     },
     Scenario {

@@ -9,7 +9,7 @@ use host_sim::Error;
 use host_sim::bench::config_of;
 use host_sim::classifier::Classifier;
 use host_sim::loaded::Loaded;
-use scene::{Arm, Rule, Scene};
+use scene::{MotorSection, Rule, Scene};
 use whisking::Real;
 use wire::{CONFIG_CHANGED, Command, CommandStatus, TaggedCommand};
 
@@ -119,7 +119,7 @@ fn refusable(
     let is_armed = scene
         .motor
         .as_ref()
-        .is_some_and(|motor| motor.arm == Arm::AtStart);
+        .is_some_and(MotorSection::arms_at_start);
     if is_armed {
         let mut held = scene.clone();
         held.sensor.frozen_s *= 2.0;

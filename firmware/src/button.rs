@@ -10,7 +10,8 @@ pub struct ButtonLimits {
 }
 
 /// A button that is asked at a steady rate. A press is a release that was seen, a push, and
-/// a release soon after: a button that sticks, or that something leans on, does nothing.
+/// a release soon after: a button that sticks, or that something leans on, arms nothing. A push that
+/// [has stopped](Self::has_stopped) the motors is none, until the button has settled again.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Button {
     is_down: bool,
@@ -18,6 +19,8 @@ pub struct Button {
     changed: u16,
     /// Samples since it went down.
     held: u16,
+    /// Samples for which it is to be up before a push counts.
+    wait: u16,
 }
 
 impl Default for Button {
@@ -33,12 +36,23 @@ impl Button {
             is_down: true,
             changed: 0,
             held: u16::MAX,
+            wait: 0,
         }
+    }
+
+    /// It was down, and that has stopped the motors.
+    pub const fn has_stopped(&mut self, limits: ButtonLimits) {
+        self.wait = limits.settle;
     }
 
     /// A sample of its level; whether a press has just ended.
     pub fn sample(&mut self, limits: ButtonLimits, is_down: bool) -> bool {
         self.held = self.held.saturating_add(1);
+        let is_waiting = self.wait > 0;
+        if is_waiting && is_down {
+            self.wait = limits.settle;
+        }
+        self.wait = self.wait.saturating_sub((!is_down).into());
         if is_down == self.is_down {
             self.changed = 0;
             return false;
@@ -50,7 +64,7 @@ impl Button {
         self.is_down = is_down;
         self.changed = 0;
         let held = core::mem::take(&mut self.held);
-        !is_down && held <= limits.longest
+        !is_down && held <= limits.longest && !is_waiting
     }
 }
 
@@ -82,6 +96,40 @@ mod tests {
     fn bounces_are_no_presses() {
         assert_eq!(presses("''''-'--''-'--''''"), []);
         assert_eq!(presses("'''-'----'-''-''''"), [16]);
+    }
+
+    /// After which samples a press has ended, where the `at`-th has stopped the motors.
+    fn presses_after_stop(levels: &str, at: usize) -> Vec<usize> {
+        let mut button = Button::new();
+        let samples = levels.chars().enumerate();
+        samples
+            .filter_map(|(n, level)| {
+                if n == at {
+                    button.has_stopped(LIMITS);
+                }
+                button.sample(LIMITS, level == '-').then_some(n)
+            })
+            .collect()
+    }
+
+    #[test]
+    fn a_push_that_stops_does_not_arm_and_the_next_does() {
+        assert_eq!(presses_after_stop("''''----''''''----''''", 4), [20]);
+        assert_eq!(
+            presses_after_stop("''''-'--'-''''''----''''", 4),
+            [22],
+            "bounces"
+        );
+        assert_eq!(
+            presses_after_stop("''''-'''''----'''", 4),
+            [16],
+            "too short to settle"
+        );
+        assert_eq!(
+            presses_after_stop("''''------------------'''''---''''", 4),
+            [32],
+            "held"
+        );
     }
 
     #[test]

@@ -100,7 +100,7 @@ impl fmt::Display for SensorFault {
 
 impl core::error::Error for SensorFault {}
 
-/// Something worth a line in the log. Ticks report all but the last three, which are the board's
+/// Something worth a line in the log. Ticks report all but the last four, which are the board's
 /// own.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Event {
@@ -137,6 +137,8 @@ pub enum Event {
     MotorGivenUp(Place),
     /// The user button has armed the motors.
     Armed,
+    /// The user button has stopped the motors.
+    Stopped,
     /// Once a second: how the ticks keep their time.
     Health(Health),
     /// A limit with this number in the [table](crate::faults) was passed.

@@ -60,7 +60,7 @@ pub use event::TiltFault;
 pub use event::{Event, Health, Place, SensorFault};
 pub use io::{AngleInput, BusError, Clock, FrameSource, Polled, WordSource};
 pub use module::{Hardware, Module, Whisker, WhiskerParts};
-pub use motion::{Command, Motion, NoActiveWhisker};
+pub use motion::{Command, Motion, NoActiveWhisker, NotDone};
 pub use packet::{EventRecord, Packet};
 pub use perception::{
     ClassifierConfig, CodeClassifier, ModelLimits, ModelState, NotCodes, Perception, Refusal,
@@ -68,7 +68,7 @@ pub use perception::{
 };
 pub use record::{NotArmed, RECORD_WORDS, RESET_WINDOW_S, RESETS, Record, StartCause, Startup};
 pub use sensing::{BAD_WEIGHT, Reading, Sensor, SensorHealth, SensorLimits};
-pub use servo::{FAULTS, HELD, MotorRecord, Retry, Servo, ServoConfig, ServoState};
+pub use servo::{FAULTS, HELD, MotorRecord, Retry, Servo, ServoConfig, ServoState, TooManyFaults};
 pub use signals::Signals;
 pub use telemetry::{About, Link, letters, may_load};
 #[cfg(feature = "tmag5170")]

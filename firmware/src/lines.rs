@@ -64,6 +64,9 @@ macro_rules! say_event {
             $crate::Event::MotorGivenUp(place) if $crate::Part::Motion.is_built() => {
                 $say!(error, "off {=str}", place.side_name());
             }
+            $crate::Event::Stopped if $crate::Part::Motion.is_built() => {
+                $say!(info, "stopped");
+            }
             $crate::Event::Armed if $crate::Part::Motion.is_built() => {
                 $say!(info, "armed");
             }
@@ -163,6 +166,12 @@ macro_rules! say_not_armed {
             }
             $crate::NotArmed::OnCommand => {
                 $say!(info, "not-armed 0 the scene waits for a command");
+            }
+            $crate::NotArmed::Stopped => {
+                $say!(info, "not-armed 0 somebody has stopped the motors");
+            }
+            $crate::NotArmed::Reset => {
+                $say!(info, "not-armed 0 it was reset");
             }
         }
     };

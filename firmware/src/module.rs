@@ -7,7 +7,7 @@ use whisking::{MAX_SIDES, MAX_WHISKERS, Number, Real, filter};
 
 use crate::config::Part;
 use crate::io::{AngleInput, Clock, WordSource};
-use crate::motion::{Command, Motion, NoActiveWhisker};
+use crate::motion::{Command, Motion, NoActiveWhisker, NotDone};
 use crate::perception::{Perception, SampleClassifier, Sensed};
 use crate::sensing::{Reading, Sensor};
 use crate::servo::Servo;
@@ -292,8 +292,9 @@ impl<R: Real, H: Hardware> Module<R, H> {
     /// Carries out `command` for the whisker at `place`, between two ticks.
     ///
     /// # Errors
-    /// [`NoActiveWhisker`] if there is none, or if it is passive.
-    pub fn command(&mut self, place: Place, command: Command<R>) -> Result<(), NoActiveWhisker> {
+    /// [`NoActiveWhisker`] if there is none, or if it is passive; for [`Command::Clear`] as
+    /// [`Servo::clear`].
+    pub fn command(&mut self, place: Place, command: Command<R>) -> Result<(), NotDone> {
         let mut all = self.whiskers.iter_mut().enumerate();
         let found = all.find(|(_, whisker)| whisker.place == place);
         let (n, whisker) = found.ok_or(NoActiveWhisker)?;
@@ -304,16 +305,15 @@ impl<R: Real, H: Hardware> Module<R, H> {
                 motion.set_gain(n, gain)?;
             }
             Command::Setpoint(setpoint) => servo.set_setpoint(setpoint),
-            Command::Clear => servo.clear(),
+            Command::Clear => servo.clear()?,
             Command::Home => servo.home(),
         }
         Ok(())
     }
 
-    /// Arms the motors of all whiskers, those that rest or were given up too, or keeps them
-    /// off from the next tick on; all else goes on. A module starts with motors that are not
-    /// armed. Whoever arms a motor that is off says that its whisker is at rest, unless it is
-    /// homed.
+    /// Arms the motors of all whiskers, or keeps them off from the next tick on; all else goes on,
+    /// and what [rests](Servo::rests) rests on. A module starts with motors that are not armed.
+    /// Whoever arms them first says that their whiskers are at rest, unless they are homed.
     pub fn arm(&mut self, is_armed: bool) {
         let Some(motion) = self.motion_mut() else {
             return;

@@ -5,6 +5,7 @@ use wire::CommandStatus;
 
 use crate::MotionConfig;
 use crate::config::Part;
+use crate::servo::TooManyFaults;
 
 /// What can be done to a whisker between two ticks.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -15,7 +16,7 @@ pub enum Command<R> {
     /// to the range of the position control; `None`: the pattern generator's
     /// again.
     Setpoint(Option<R>),
-    /// Runs a motor that was given up, or that rests, again.
+    /// Runs a motor that was given up, or that rests, again; its faults count on.
     Clear,
     /// Finds rest again, where it is found.
     Home,
@@ -25,6 +26,27 @@ pub enum Command<R> {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
 #[error("no such whisker, or it is passive")]
 pub struct NoActiveWhisker;
+
+/// Why a command is not carried out.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
+pub enum NotDone {
+    /// There is no such whisker, or it is passive.
+    #[error(transparent)]
+    NoWhisker(#[from] NoActiveWhisker),
+    /// Its motor was cleared not long ago.
+    #[error(transparent)]
+    TooManyFaults(#[from] TooManyFaults),
+}
+
+impl NotDone {
+    /// It in an answer.
+    pub const fn status(self) -> CommandStatus {
+        match self {
+            Self::NoWhisker(_) => CommandStatus::NoWhisker,
+            Self::TooManyFaults(_) => CommandStatus::TooManyFaults,
+        }
+    }
+}
 
 /// Oscillators, gates and muscles of an active module.
 #[derive(Debug)]

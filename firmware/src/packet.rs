@@ -80,6 +80,7 @@ mod kind {
     pub(super) const ARMED: u8 = 9;
     pub(super) const HEALTH: u8 = 10;
     pub(super) const LIMIT: u8 = 11;
+    pub(super) const STOPPED: u8 = 12;
 }
 
 impl EventRecord {
@@ -113,6 +114,7 @@ impl EventRecord {
             Event::MotorRetry(place) => (kind::MOTOR_RETRY, place, 0, NONE),
             Event::MotorGivenUp(place) => (kind::MOTOR_GIVEN_UP, place, 0, NONE),
             Event::Armed => (kind::ARMED, nowhere, 0, NONE),
+            Event::Stopped => (kind::STOPPED, nowhere, 0, NONE),
             Event::Health(health) => {
                 let worst = health.worst_tenths.into();
                 let values = [worst, health.missed, health.dropped];
@@ -153,6 +155,7 @@ impl EventRecord {
             kind::MOTOR_RETRY => Event::MotorRetry(place),
             kind::MOTOR_GIVEN_UP => Event::MotorGivenUp(place),
             kind::ARMED => Event::Armed,
+            kind::STOPPED => Event::Stopped,
             kind::HEALTH => Event::Health(Health {
                 worst_tenths: a as u16,
                 missed: b,
@@ -267,7 +270,7 @@ mod tests {
     fn event() -> impl Strategy<Value = Event> {
         let place = any::<(u8, u8)>().prop_map(|(side, whisker)| Place::new(side, whisker));
         let health = any::<(u16, u32, u32)>();
-        let parts = (0..12, place, any::<(u16, [i16; 2], u8)>());
+        let parts = (0..13, place, any::<(u16, [i16; 2], u8)>());
         let faults = (decision(), sensor_fault(), motor_fault());
         (parts, faults, health).prop_map(|((which, place, values), faults, health)| {
             let (number, codes, limit) = values;
@@ -284,6 +287,7 @@ mod tests {
                 7 => Event::MotorRetry(place),
                 8 => Event::MotorGivenUp(place),
                 9 => Event::Armed,
+                12 => Event::Stopped,
                 10 => Event::Health(Health {
                     worst_tenths,
                     missed,

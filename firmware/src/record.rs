@@ -61,6 +61,10 @@ pub enum NotArmed {
     Unknown,
     /// The scene waits for a command.
     OnCommand,
+    /// Somebody stopped them, and nobody has armed them since.
+    Stopped,
+    /// The chip was reset, and has not started because its supply came.
+    Reset,
 }
 
 /// How often the chip has started and what befell it last. The default is that of a chip
@@ -73,6 +77,8 @@ pub struct Record {
     fault: u8,
     /// Whether the chip has not started since.
     is_fresh: bool,
+    /// Somebody stopped the motors, and nobody has armed them since.
+    is_stopped: bool,
     /// Seconds for which each of the last resets still counts.
     windows: [u8; RESETS - 1],
 }
@@ -108,12 +114,13 @@ impl Record {
     /// The record in these words; none if their sum is not right.
     pub fn load(words: [u32; RECORD_WORDS]) -> Option<Self> {
         let [starts, state, windows, found] = words;
-        let [fault, is_fresh, ..] = state.to_le_bytes();
+        let [fault, is_fresh, is_stopped, _] = state.to_le_bytes();
         let [first, second, ..] = windows.to_le_bytes();
         (sum([starts, state, windows]) == found).then_some(Self {
             starts,
             fault,
             is_fresh: is_fresh != 0,
+            is_stopped: is_stopped != 0,
             windows: [first, second],
         })
     }
@@ -121,7 +128,8 @@ impl Record {
     /// What [`load`](Self::load) takes.
     pub fn words(&self) -> [u32; RECORD_WORDS] {
         let [first, second] = self.windows;
-        let state = u32::from_le_bytes([self.fault, self.is_fresh.into(), 0, 0]);
+        let state = [self.fault, self.is_fresh.into(), self.is_stopped.into(), 0];
+        let state = u32::from_le_bytes(state);
         let windows = u32::from_le_bytes([first, second, 0, 0]);
         let sum = sum([self.starts, state, windows]);
         [self.starts, state, windows, sum]
@@ -131,6 +139,11 @@ impl Record {
     pub const fn note(&mut self, fault: u8) {
         self.fault = fault;
         self.is_fresh = true;
+    }
+
+    /// The motors were stopped, or armed.
+    pub const fn set_stopped(&mut self, is_stopped: bool) {
+        self.is_stopped = is_stopped;
     }
 
     /// A second has passed.
@@ -143,9 +156,8 @@ impl Record {
     /// Counts a start for `cause`. `found` is the record of the time before; without one RAM
     /// has lost its contents, and nothing is known of it.
     ///
-    /// No motor may be armed by itself after a fault that ended in a reset, after the
-    /// watchdog, after a dip of the supply (one so short that RAM has kept its contents, too),
-    /// after [`RESETS`] resets in a minute, and after a reset for no known reason.
+    /// No motor may be armed by itself but where the supply has come, and RAM has lost what it
+    /// had: only then nobody has stopped them, and no whisker was left where it is not at rest.
     pub fn start(found: Option<Self>, cause: StartCause) -> (Self, Startup) {
         let mut record = found.unwrap_or_default();
         record.starts = record.starts.saturating_add(1);
@@ -166,11 +178,17 @@ impl Record {
         };
         record.fault = fault.unwrap_or(record.fault);
         record.is_fresh = false;
-        let unknown = (cause == StartCause::Other).then_some(NotArmed::Unknown);
+        let refusal = match (fault, cause) {
+            (Some(fault), _) => Some(NotArmed::After(fault)),
+            _ if record.is_stopped => Some(NotArmed::Stopped),
+            (None, StartCause::Other) => Some(NotArmed::Unknown),
+            (None, StartCause::Power) => None,
+            (None, _) => Some(NotArmed::Reset),
+        };
         let start = Startup {
             number: record.starts,
             fault: record.fault,
-            refusal: fault.map(NotArmed::After).or(unknown),
+            refusal,
         };
         (record, start)
     }
@@ -216,10 +234,10 @@ mod tests {
     }
 
     #[test]
-    fn people_arm_and_faults_do_not() {
+    fn a_reset_arms_nothing() {
         for (cause, arms) in [
-            (StartCause::Pin, Ok(())),
-            (StartCause::Software, Ok(())),
+            (StartCause::Pin, Err(NotArmed::Reset)),
+            (StartCause::Software, Err(NotArmed::Reset)),
             (StartCause::Watchdog, Err(NotArmed::After(number::WATCHDOG))),
             (StartCause::BrownOut, Err(NotArmed::After(number::SUPPLY))),
             // RAM has kept its contents: the supply was away for a moment.
@@ -229,9 +247,42 @@ mod tests {
             let (_, start) = after(powered(), 100, cause);
             assert_eq!(start.may_arm(true), arms, "{cause:?}");
             assert_eq!(start.number, 2);
-            let on_command = start.may_arm(false);
-            assert_eq!(on_command, arms.and(Err(NotArmed::OnCommand)), "{cause:?}");
+            assert_eq!(start.may_arm(false), arms, "{cause:?}");
         }
+        let (_, start) = Record::start(None, StartCause::Power);
+        assert_eq!(start.may_arm(false), Err(NotArmed::OnCommand));
+        // Without a record nothing is known of what was before.
+        let (_, start) = Record::start(None, StartCause::Pin);
+        assert_eq!(start.may_arm(true), Err(NotArmed::Reset));
+    }
+
+    #[test]
+    fn a_stop_outlives_every_reset_until_somebody_arms() {
+        for cause in [
+            StartCause::Pin,
+            StartCause::Software,
+            StartCause::Watchdog,
+            StartCause::BrownOut,
+            StartCause::Power,
+            StartCause::Other,
+        ] {
+            let mut record = powered();
+            record.set_stopped(true);
+            let (record, start) = after(record, 100, cause);
+            assert!(start.may_arm(true).is_err(), "{cause:?}");
+            let (mut record, start) = after(record, 100, StartCause::Pin);
+            assert_eq!(start.may_arm(true), Err(NotArmed::Stopped), "{cause:?}");
+            record.set_stopped(false);
+            let (_, start) = after(record, 100, StartCause::Pin);
+            assert_eq!(start.may_arm(true), Err(NotArmed::Reset), "{cause:?}");
+        }
+        let mut record = powered();
+        record.set_stopped(true);
+        record.note(number::PANIC);
+        let (record, start) = after(record, 0, StartCause::Watchdog);
+        assert_eq!(start.may_arm(true), Err(NotArmed::After(number::PANIC)));
+        let (_, start) = after(record, 0, StartCause::Pin);
+        assert_eq!(start.may_arm(true), Err(NotArmed::Stopped));
     }
 
     #[test]
@@ -245,7 +296,8 @@ mod tests {
                 assert_eq!(start.may_arm(true), Err(NotArmed::After(fault)));
                 assert!(start.follows(fault) && !start.follows(number::WATCHDOG));
                 let (_, start) = after(record, 100, StartCause::Pin);
-                assert_eq!((start.may_arm(true), start.fault), (Ok(()), fault));
+                assert_eq!(start.may_arm(true), Err(NotArmed::Reset));
+                assert_eq!(start.fault, fault);
             }
         }
     }
@@ -265,8 +317,8 @@ mod tests {
         let refused = Err(NotArmed::After(number::TOO_MANY_RESETS));
         assert_eq!(arms([0, 0, 0]), refused);
         assert_eq!(arms([90, 29, 30]), refused);
-        assert_eq!(arms([0, 30, 30]), Ok(()));
-        assert_eq!(arms([0, 60, 0]), Ok(()));
+        assert_eq!(arms([0, 30, 30]), Err(NotArmed::Reset));
+        assert_eq!(arms([0, 60, 0]), Err(NotArmed::Reset));
     }
 
     #[test]

@@ -39,6 +39,11 @@ impl<R: Real> ServoConfig<R> {
     }
 }
 
+/// A motor that was given up was cleared, and given up again, less than [`Retry::window`] ago.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
+#[error("the motor has had too many faults")]
+pub struct TooManyFaults;
+
 /// What is done after a fault of a motor.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Retry {
@@ -106,6 +111,8 @@ pub struct Servo<R, M, A> {
     counts: i32,
     /// Whether home was found, where it is to be.
     is_homed: bool,
+    /// Whether it was armed since the start: rest is where the whisker was then.
+    has_rest: bool,
     /// Takes the place of the pattern generator's θ.
     setpoint: Voted<Option<R>>,
     state: ServoState<R>,
@@ -114,6 +121,8 @@ pub struct Servo<R, M, A> {
     windows: [u32; FAULTS - 1],
     /// Tests of its motion that it has failed since it moved last.
     held: u8,
+    /// Ticks until a motor that was given up may be cleared once more.
+    until_clear: u32,
 }
 
 impl<R: Real, M: MotorDriver, A: AngleInput> Servo<R, M, A> {
@@ -127,11 +136,13 @@ impl<R: Real, M: MotorDriver, A: AngleInput> Servo<R, M, A> {
             home: Voted::new(home),
             counts: home,
             is_homed: false,
+            has_rest: false,
             setpoint: Voted::new(None),
             state: ServoState::Off,
             heat: Heat::default(),
             windows: [0; FAULTS - 1],
             held: 0,
+            until_clear: 0,
         }
     }
 
@@ -158,24 +169,39 @@ impl<R: Real, M: MotorDriver, A: AngleInput> Servo<R, M, A> {
         self.rests() || matches!(self.state, ServoState::Homing(_))
     }
 
-    /// Where the motor is off, whoever arms it says that the whisker is at rest, θ = 0, now,
-    /// unless it is homed; a fault is forgotten.
+    /// Whoever arms it first says that the whisker is at rest, θ = 0, now, unless it is homed.
+    /// After that the encoder counts on, whether the motor is off or not, and arming it moves rest
+    /// no more, but to where it is found. Faults are neither forgotten nor ended.
     pub fn arm(&mut self) {
-        self.clear();
         if let ServoState::Off = self.state {
-            self.home = Voted::new(self.counts);
             self.is_homed = false;
+        }
+        if !self.has_rest {
+            self.has_rest = true;
+            self.home = Voted::new(self.counts);
         }
     }
 
-    /// Runs a motor that rests or was given up again; its faults are forgotten.
-    pub fn clear(&mut self) {
+    /// Runs a motor that rests or was given up again. Its faults count on, so that the next one
+    /// may give it up; where it was given up, this can be done once within [`Retry::window`].
+    ///
+    /// # Errors
+    /// [`TooManyFaults`] where it was done within it.
+    pub fn clear(&mut self) -> Result<(), TooManyFaults> {
+        if let ServoState::GivenUp = self.state {
+            if self.until_clear > 0 {
+                return Err(TooManyFaults);
+            }
+            // Limited to the window as it ages.
+            self.until_clear = u32::MAX;
+        }
         if self.rests() {
             self.state = ServoState::Off;
-            self.windows = [0; FAULTS - 1];
-            self.held = 0;
+            // It is tested first.
+            self.held = self.held.min(HELD - 1);
             self.motor.clear();
         }
+        Ok(())
     }
 
     /// The setpoint that was commanded, if any.
@@ -370,6 +396,9 @@ impl<R: Real, M: MotorDriver, A: AngleInput> Servo<R, M, A> {
     /// where one has passed, it was not its faults that led there but flipped bits.
     #[inline]
     fn age(&mut self, retry: Retry) {
+        if self.until_clear != 0 {
+            self.until_clear = self.until_clear.saturating_sub(1).min(retry.window);
+        }
         if matches!(self.state, ServoState::GivenUp) {
             if self.held < HELD && self.windows.contains(&0) {
                 self.state = ServoState::Off;

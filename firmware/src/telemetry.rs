@@ -10,7 +10,7 @@ use wire::{
 use crate::config::Part;
 use crate::module::{Hardware, Module, Whisker};
 use crate::servo::MotorRecord;
-use crate::{Command, Config, Event, ModelState, Place};
+use crate::{Command, Config, Event, ModelState, NotDone, Place};
 
 /// What a module says of itself besides its configuration.
 #[derive(Debug, Clone, Copy)]
@@ -76,6 +76,7 @@ impl Link {
             Event::SensorBack(_)
             | Event::MotorRetry(_)
             | Event::Armed
+            | Event::Stopped
             | Event::Health(_)
             | Event::Limit(_) => {}
         }
@@ -106,7 +107,7 @@ impl Link {
             let motion = motion.ok_or(CommandStatus::NoWhisker)?;
             motion.allows(&command)?;
             let found = module.command(place, command);
-            found.map_err(|_| CommandStatus::NoWhisker)
+            found.map_err(NotDone::status)
         };
         let done = match request.command {
             Said::Hello => {

@@ -6,8 +6,8 @@ mod sensor;
 
 use config::{Mismatch, NumberFormat, RunsOn, Target};
 use firmware::{
-    Command, Config, Event, ModelState, Module, NoActiveWhisker, Packet, Perception, Place,
-    Refusal, Whisker, WhiskerParts,
+    Command, Config, Event, ModelState, Module, NoActiveWhisker, NotDone, Packet, Perception,
+    Place, Refusal, Whisker, WhiskerParts,
 };
 use scene::{Deciding, Scene, SensorSection};
 use whisking::{Fix, Number, Real};
@@ -87,8 +87,8 @@ pub trait HostModule: Bench + Send {
     /// Carries out `command` for whisker `n`, counted from 0, left side first.
     ///
     /// # Errors
-    /// [`NoActiveWhisker`].
-    fn command(&mut self, n: usize, command: Command<f64>) -> Result<(), NoActiveWhisker>;
+    /// As [`Module::command`].
+    fn command(&mut self, n: usize, command: Command<f64>) -> Result<(), NotDone>;
 
     /// Arms the motors or keeps them off, from the next tick on.
     fn arm(&mut self, is_armed: bool);
@@ -212,7 +212,7 @@ where
         Ok(())
     }
 
-    fn command(&mut self, n: usize, command: Command<f64>) -> Result<(), NoActiveWhisker> {
+    fn command(&mut self, n: usize, command: Command<f64>) -> Result<(), NotDone> {
         let place = self.place(n).ok_or(NoActiveWhisker)?;
         let command = match command {
             Command::Gain(gain) => Command::Gain(R::from_f64(gain)),

@@ -142,7 +142,8 @@ fn other_boards() -> Result<(), Fault> {
     emulate::emulate(&board, Path::new(emulate::CIA), &coupled)?;
     let both_sides = ["deadlines --minutes 0.05", "sensor-loss", "telemetry"];
     emulate::emulate(&board, &emulate::noisiest()?, &both_sides)?;
-    emulate::emulate(&board, Path::new(emulate::FULL), &["serial"])?;
+    let talks = ["serial", "stopping --stops 10"];
+    emulate::emulate(&board, Path::new(emulate::FULL), &talks)?;
     emulate::compare_with_slow_sensors(&board)?;
     emulate::compare_with_zeros(&board)?;
     let in_short = ["compare --probe pulled", "sensor-loss"];

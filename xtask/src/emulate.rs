@@ -61,6 +61,12 @@ pub(crate) fn emulate(on: &Emulated, scene: &Path, scenarios: &[&str]) -> Result
                 run(&mut command)?;
                 continue;
             }
+            _ if scenario.starts_with("stopping") => {
+                let fast = variants::with_serial(scene, SERIAL_BAUDS[0])?;
+                command.arg(absolute(&fast)?);
+                run(command.arg("--program").arg(on.program(&fast)?))?;
+                continue;
+            }
             "deploying" => {
                 command.arg("--world").arg(top().join(WORLD));
                 command.arg("--model").arg(top().join(MODEL));

@@ -224,6 +224,9 @@ struct Emulate {
     /// Over how many minutes of simulated time
     #[arg(long, requires = "deadlines", default_value_t = 10.0)]
     minutes: f64,
+    /// How often under each flood
+    #[arg(long, requires = "stopping", default_value_t = 100)]
+    stops: u32,
 }
 
 /// One of them is done; only the first writes files. Each other is a scenario of the emulator
@@ -276,6 +279,9 @@ struct EmulateWhat {
     /// Talk with the board over its serial line: lines, records, commands and garbage
     #[arg(long)]
     serial: bool,
+    /// Stop motors by every way while the links are flooded, and see each stop obeyed and answered
+    #[arg(long)]
+    stopping: bool,
 }
 
 impl Emulate {
@@ -298,6 +304,7 @@ impl Emulate {
         }
         let compare = format!("compare --probe {}", self.probe);
         let deadlines = format!("deadlines --minutes {}", self.minutes);
+        let stopping = format!("stopping --stops {}", self.stops);
         let scenarios = [
             (what.check, &*compare),
             (what.deadlines, &*deadlines),
@@ -310,6 +317,7 @@ impl Emulate {
             (what.deploying, "deploying"),
             (what.telemetry, "telemetry"),
             (what.serial, "serial"),
+            (what.stopping, &*stopping),
         ];
         let wanted = scenarios.into_iter().filter(|(is_wanted, _)| *is_wanted);
         let names: Vec<&str> = wanted.map(|(_, name)| name).collect();

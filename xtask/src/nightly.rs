@@ -103,6 +103,9 @@ fn boards() -> Result<(), Fault> {
             // What the port costs is seen where the program is the same with it and without.
             emulate::emulate(&deployed, scene, &["serial"])?;
         }
+        // Eleven floods.
+        let stops = ["stopping --stops 1000"];
+        emulate::emulate(&linked, Path::new(emulate::FULL), &stops)?;
     }
     Ok(())
 }

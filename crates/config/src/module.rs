@@ -5,7 +5,7 @@ use firmware::{
     ClassifierConfig, Config, ConfigError, Field, HeadConfig, Links, MotionConfig, SensingConfig,
     SensorLimits, ServoConfig,
 };
-use scene::{Arm, Deciding, MotorSection, OnFault, PlantKind, Rest, Rule, Scene, SensorMode};
+use scene::{Deciding, MotorSection, OnFault, PlantKind, Rest, Rule, Scene, SensorMode};
 use tactile::{RuleSettings, Threshold};
 use whisking::motor::{GuardSettings, HomingSettings, ModelSettings};
 use whisking::{Real, filter, pd};
@@ -185,7 +185,7 @@ fn motion<R: Real>(scene: &Scene, is_ideal: bool) -> Result<Option<MotionConfig<
         },
         driver: motor.driver,
         stops_all: motor.on_fault == OnFault::StopAll,
-        arms_at_start: motor.arm == Arm::AtStart,
+        arms_at_start: motor.arms_at_start(),
     }))
 }
 

@@ -4,10 +4,10 @@
 use crate::key::{Need, Row};
 use crate::kind::Kind;
 use crate::section::{Presence, Section};
-use crate::sections::{Sides, Texture, sections};
+use crate::sections::{Arm, Sides, Texture, sections};
 use crate::text::Text;
 use crate::value::Value;
-use crate::values::{Given, Values};
+use crate::values::{Entry, Given, Values};
 
 /// Checks all sections and keys, noting problems in `text`.
 pub(crate) fn check(values: &Values, text: &mut Text<'_>) {
@@ -28,9 +28,15 @@ pub(crate) fn check(values: &Values, text: &mut Text<'_>) {
 }
 
 /// Completes the values of a file without problems: one number for all whiskers
-/// becomes one for each, and the default of a key that would be an error here is
-/// removed.
+/// becomes one for each, the default of a key that would be an error here is
+/// removed, and a module in a world arms at its start.
 pub(crate) fn settle(values: &mut Values) {
+    // Nobody stands at a module that is simulated.
+    if values.section("plant").is_some() {
+        let value = Some(Value::Text(Arm::AtStart.to_string()));
+        let offset = None;
+        values.add("motor", "arm", Entry { offset, value });
+    }
     let whiskers = match head(values) {
         Some((sides, Some(whiskers))) => sides * whiskers,
         _ => 0,

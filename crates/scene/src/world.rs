@@ -1,6 +1,6 @@
 //! A module of one scene in the world of another.
 
-use crate::sections::{PlantKind, Scene};
+use crate::sections::{Arm, PlantKind, Scene};
 
 impl Scene {
     /// This module in the world of another scene: what its whiskers meet, for how long, and
@@ -25,6 +25,9 @@ impl Scene {
             ));
         }
         self.plant = world.plant.clone();
+        if let Some(motor) = &mut self.motor {
+            motor.arm = motor.arm.or(Some(Arm::AtStart));
+        }
         self.duration_s = world.duration_s;
         self.seed = world.seed;
         if self.ticks() == 0 {

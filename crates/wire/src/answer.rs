@@ -35,6 +35,10 @@ pub enum CommandStatus {
     Armed,
     /// The model's flash did not take what was written.
     NotWritten,
+    /// It was asked for before a stop, which has come since.
+    Stopped,
+    /// Too many faults: not before a minute after the last time.
+    TooManyFaults,
     /// A number that this version does not know.
     Other(u8),
 }
@@ -51,6 +55,8 @@ impl CommandStatus {
             Self::TooSlow => 5,
             Self::Armed => 6,
             Self::NotWritten => 7,
+            Self::Stopped => 8,
+            Self::TooManyFaults => 9,
             Self::Other(code) => code,
         }
     }
@@ -66,6 +72,8 @@ impl CommandStatus {
             Self::TooSlow => "too much for this baud",
             Self::Armed => "a motor is armed",
             Self::NotWritten => "the flash did not take it",
+            Self::Stopped => "a stop has come since",
+            Self::TooManyFaults => "too many faults, wait a minute",
             Self::Other(_) => "a status of a later version",
         }
     }
@@ -81,6 +89,8 @@ impl CommandStatus {
             5 => Self::TooSlow,
             6 => Self::Armed,
             7 => Self::NotWritten,
+            8 => Self::Stopped,
+            9 => Self::TooManyFaults,
             code => Self::Other(code),
         }
     }

@@ -21,6 +21,7 @@ mod loading;
 mod record;
 mod request;
 mod splitter;
+mod stop;
 pub mod text;
 
 #[cfg(doctest)]
@@ -35,3 +36,4 @@ pub use loading::{Load, LoadedWord};
 pub use record::{TickRecord, degrees, q13, unit};
 pub use request::{CONFIG_CHANGED, Command, TaggedCommand, UnknownCommand, WhiskerId};
 pub use splitter::{Garbled, Piece, Splitter};
+pub use stop::{COMMAND_BYTES, Stop, StopWatch};

@@ -32,8 +32,8 @@ impl Chip {
         self.serial.sending.extend(bytes);
     }
 
-    /// How many bytes the other end has still to send.
-    pub(crate) fn serial_pending(&self) -> usize {
+    /// Bytes that the other end has not sent yet.
+    pub(crate) fn serial_waiting(&self) -> usize {
         self.serial.sending.len()
     }
 

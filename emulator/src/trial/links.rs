@@ -159,7 +159,7 @@ impl<'s> Links<'s> {
 
     /// Writes a line, unless the serial line has enough to do.
     fn write(&mut self, line: &str, is_flood: bool, session: &mut Session) -> bool {
-        let waiting = session.machine().with_chip(|chip| chip.serial_pending());
+        let waiting = session.machine().with_chip(|chip| chip.serial_waiting());
         let enough = if is_flood {
             self.tick_bytes
         } else {
@@ -206,7 +206,7 @@ impl<'s> Links<'s> {
     pub(super) fn arrived(&mut self, session: &mut Session) -> Arrived {
         let pending = session
             .machine()
-            .with_chip(|chip: &mut Chip| chip.serial_pending());
+            .with_chip(|chip: &mut Chip| chip.serial_waiting());
         let carried = self.written - pending as u64;
         let mut arrived = std::mem::take(&mut self.arrived);
         let is_heard = !session.board_mut().is_late;

@@ -51,6 +51,14 @@ impl PinName {
     }
 }
 
+impl PinName {
+    /// Whether the level of an input is low.
+    #[inline]
+    pub(crate) fn is_low(self) -> bool {
+        self.port.idr().read().0 & 1 << self.number == 0
+    }
+}
+
 /// A pin that was configured.
 pub(crate) struct Pin(PinName);
 
@@ -91,11 +99,11 @@ impl OutputPin for Pin {
 impl InputPin for Pin {
     #[inline]
     fn is_high(&mut self) -> Result<bool, Infallible> {
-        Ok(self.0.port.idr().read().0 & 1 << self.0.number != 0)
+        Ok(!self.0.is_low())
     }
 
     #[inline]
     fn is_low(&mut self) -> Result<bool, Infallible> {
-        self.is_high().map(|high| !high)
+        Ok(self.0.is_low())
     }
 }

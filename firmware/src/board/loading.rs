@@ -16,7 +16,7 @@ use super::serial::Serial;
 use super::slots::{self, SLOTS};
 use super::telemetry::ProbeLine;
 use super::watchdog::Watchdog;
-use super::{outputs, pace, tick_timer};
+use super::{outputs, pace, retained, tick_timer};
 use crate::here::TICK_INTERRUPT;
 use crate::here::flash::Writer;
 
@@ -111,6 +111,11 @@ pub(crate) fn run(mut line: Line<'_>, order: Order) -> ! {
         let status = match request.command {
             Command::Word(number, word) => loading.word(number, word),
             Command::Restart => CommandStatus::Done,
+            // They are off, and stay so after the reset.
+            Command::Stop => {
+                retained::set_stopped(true);
+                CommandStatus::Done
+            }
             _ => CommandStatus::NotHere,
         };
         let values = [loading.written, load.words()].map(u32::cast_signed);

@@ -28,7 +28,7 @@ use super::serial::{self, Serial};
 use super::signal_pins::SignalPins;
 use super::telemetry::{self, Configs, Exchange, Telemetry};
 use super::types::{Inner, Settings};
-use super::user_button::{REQUEST, UserButton};
+use super::user_button::{self, HAS_STOPPED, REQUEST, UserButton};
 use super::watchdog::Watchdog;
 use super::{faults, hardware, loading, log, outputs, pace, perception, retained, scene, supply};
 use crate::here::{self, Counter};
@@ -148,9 +148,9 @@ pub(crate) fn start(core: cortex_m::Peripherals, queues: &'static mut Queues) ->
         button: UserButton::start(),
         serial: Serial::start(&about),
         pins: SignalPins::start(about.links.has_pins),
+        exchange: Exchange::new(idle_ends, configs, &about),
         about,
         events: of_events,
-        exchange: Exchange::new(idle_ends, configs),
         in_use: deployed.map(|deployed| deployed.slot),
         fed: 0,
         logged: 0,
@@ -178,8 +178,16 @@ fn no_scene(found: &Scene) -> ConfigError {
 /// One tick of the module.
 #[inline]
 pub(crate) fn tick(module: &mut Module, events: &mut Events) {
-    if Part::Motion.is_built() && REQUEST.take() {
-        module.inner.arm(true);
+    let is_stop = module.telemetry.look_for_stop(TICKS.get());
+    if Part::Motion.is_built() {
+        // Down, the button stops motors that are armed and arms none.
+        let is_armed = module.inner.is_armed();
+        let is_down = is_armed && user_button::is_down();
+        if is_stop || is_down {
+            stop(module, events, is_down);
+        } else if !is_armed && REQUEST.take() {
+            arm(module);
+        }
     }
     let Module {
         inner,
@@ -198,6 +206,29 @@ pub(crate) fn tick(module: &mut Module, events: &mut Events) {
         module.second = now.wrapping_add(tick_hz);
         tell_timing(module);
     }
+}
+
+/// Stops the motors with this tick, by a link or by the button, until somebody arms them: what was
+/// asked for before arms none, and no reset does.
+#[cold]
+#[inline(never)]
+fn stop(module: &mut Module, events: &mut Events, is_by_button: bool) {
+    module.inner.arm(false);
+    retained::set_stopped(module.inner.motion().is_some());
+    REQUEST.take();
+    module.telemetry.stop();
+    if is_by_button {
+        HAS_STOPPED.make();
+        put(events, &mut module.telemetry, Event::Stopped);
+    }
+}
+
+/// Arms the motors, as somebody has pressed the button.
+#[cold]
+#[inline(never)]
+fn arm(module: &mut Module) {
+    module.inner.arm(true);
+    retained::set_stopped(false);
 }
 
 /// Puts an event into the queue. Events are few and come from many places, so that this stands in

@@ -52,6 +52,15 @@ pub(crate) fn note(fault: u8) {
     RETAINED.store(&record);
 }
 
+/// Notes that motors were stopped, or armed. For the tick, and a loader in its place.
+#[cold]
+#[inline(never)]
+pub(crate) fn set_stopped(is_stopped: bool) {
+    let mut record = RETAINED.load().unwrap_or_default();
+    record.set_stopped(is_stopped);
+    RETAINED.store(&record);
+}
+
 /// Notes that a second has passed. For the tick.
 pub(crate) fn second() {
     let mut record = RETAINED.load().unwrap_or_default();

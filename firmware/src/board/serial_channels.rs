@@ -15,7 +15,6 @@ pub(crate) struct SerialRoute {
 
 /// The transfers of a serial port.
 pub(crate) struct SerialTransfers {
-    rx: Ch,
     tx: Ch,
 }
 
@@ -35,12 +34,13 @@ impl SerialTransfers {
             w.set_en(true);
         });
         tx.par().write_value(to);
-        Self { rx, tx }
+        Self { tx }
     }
 
-    /// How many bytes of the ring are left until it wraps.
-    pub(crate) fn left(&self) -> u16 {
-        self.rx.ndtr().read().ndt()
+    /// How many bytes of a route's ring are left until it wraps.
+    #[inline]
+    pub(crate) fn left(route: &SerialRoute) -> u16 {
+        DMA1.ch(route.rx % 7).ndtr().read().ndt()
     }
 
     /// Whether a piece is under way. It is none after an error, which switches a channel off.

@@ -18,7 +18,6 @@ pub(crate) struct SerialRoute {
 /// The transfers of a serial port.
 pub(crate) struct SerialTransfers {
     dma: Dma,
-    rx: St,
     tx: St,
     tx_channel: u8,
     /// The flags of tx in HISR and HIFCR.
@@ -44,16 +43,17 @@ impl SerialTransfers {
         tx.par().write_value(to);
         Self {
             dma: route.dma,
-            rx,
             tx,
             tx_channel: route.tx.1,
             tx_flags: 0x3F << [0, 6, 16, 22][usize::from(route.tx.0 % 4)],
         }
     }
 
-    /// How many bytes of the ring are left until it wraps.
-    pub(crate) fn left(&self) -> u16 {
-        self.rx.ndtr().read().ndt()
+    /// How many bytes of a route's ring are left until it wraps.
+    #[inline]
+    pub(crate) fn left(route: &SerialRoute) -> u16 {
+        let rx = route.dma.st(usize::from(route.rx.0 % 8));
+        rx.ndtr().read().ndt()
     }
 
     /// Whether a piece is under way. It is none after an error, which switches a stream off.

@@ -1,7 +1,7 @@
-//! The user button, which arms the motors, and what idle asks of the tick.
+//! The user button, which stops the motors and arms them, and what idle asks of the tick.
 //!
-//! Idle watches the button, the tick has the module: what is pressed goes through
-//! [`REQUEST`], and so can a command from elsewhere.
+//! The tick stops motors that are armed as soon as the button is down, and none is armed while it
+//! is. Idle finds out what a press is, which arms motors that are not armed.
 
 use core::sync::atomic::{AtomicBool, Ordering};
 
@@ -16,6 +16,9 @@ use super::wiring::USER_BUTTON;
 /// From idle to the tick: motors are to be armed.
 pub(crate) static REQUEST: Request = Request(AtomicBool::new(false));
 
+/// From the tick to idle: the button has stopped them.
+pub(crate) static HAS_STOPPED: Request = Request(AtomicBool::new(false));
+
 /// Something that is to be done once.
 pub(crate) struct Request(AtomicBool);
 
@@ -25,8 +28,8 @@ impl Request {
         self.0.store(true, Ordering::Relaxed);
     }
 
-    /// Whether it is to be done now. A load and a store, because a Cortex-M0+ has no swap;
-    /// who asks cannot interrupt who does it.
+    /// Whether it is to be done now. A load and a store, because a Cortex-M0+ has no swap: what is
+    /// asked for again between both was asked for before it is done.
     #[inline]
     pub(crate) fn take(&self) -> bool {
         let is_made = self.0.load(Ordering::Relaxed);
@@ -35,6 +38,12 @@ impl Request {
         }
         is_made
     }
+}
+
+/// Whether it is down now, once it is watched.
+#[inline]
+pub(crate) fn is_down() -> bool {
+    USER_BUTTON.is_low()
 }
 
 /// The button, low while it is pressed.
@@ -56,6 +65,9 @@ impl UserButton {
 
     /// Looks at it, once a tick; whether a press has ended.
     pub(crate) fn is_pressed(&mut self) -> bool {
+        if HAS_STOPPED.take() {
+            self.button.has_stopped(self.limits);
+        }
         let Ok(is_down) = self.pin.is_low();
         self.button.sample(self.limits, is_down)
     }

@@ -178,12 +178,12 @@ fn whiskers_that_are_not_there_or_passive_are_refused() {
     for (side, whisker) in [(0, 2), (1, 0), (255, 255)] {
         let place = Place { side, whisker };
         for command in [Command::Gain(1.0), Command::Setpoint(None)] {
-            assert_eq!(module.command(place, command), Err(NoActiveWhisker));
+            assert_eq!(module.command(place, command), Err(NoActiveWhisker.into()));
         }
     }
     let config = feeling::<f32>(None);
     let mut passive = passive(&config, [Bent(0xC000)]);
     let refused = passive.command(Place::new(0, 0), Command::Gain(1.0));
-    assert_eq!(refused, Err(NoActiveWhisker));
+    assert_eq!(refused, Err(NoActiveWhisker.into()));
     passive.tick(&config, &mut |event| panic!("{event:?}"));
 }

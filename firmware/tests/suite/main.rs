@@ -7,3 +7,4 @@ mod control_loop;
 mod deployed;
 mod hardware;
 mod link;
+mod stopping;

@@ -22,7 +22,7 @@ choice! {
 choice! {
     /// When motors are armed.
     pub enum Arm {
-        /// When the program starts, unless a fault made it start.
+        /// When the program starts as the supply has come.
         AtStart = "at-start",
         /// By command only.
         OnCommand = "on-command",
@@ -32,7 +32,7 @@ choice! {
 choice! {
     /// How it is known where a whisker is.
     pub enum Rest {
-        /// It is at rest when it is armed.
+        /// It is at rest when it is first armed.
         AtStart = "at-start",
         /// Its retracted stop is found.
         Find = "find",
@@ -98,12 +98,13 @@ keys! {
         /// every motor until no whisker has a fault.
         on_fault: OnFault = word().default("\"stop-whisker\""),
 
-        /// When the motors are armed: when the program starts, or by a command, on a board also
-        /// by the user button. After a fault that restarted it, a dip of the supply, or three
-        /// resets in a minute, the program waits for the command in either case.
-        arm: Arm = word().default("\"at-start\""),
+        /// When the motors are armed: when the supply has come and the program starts, or by a
+        /// command, on a board also by the user button. After any other reset the program waits
+        /// for the command in either case.
+        arm: Option<Arm> = word()
+            .optional("`\"at-start\"` in a simulated world (`[plant]`, `--world`), else `\"on-command\"`"),
 
-        /// Where a whisker is: at rest, 50 degrees, when its motor is armed; or found by driving
+        /// Where a whisker is: at rest, 50 degrees, when its motor is first armed; or found by driving
         /// it gently against its retracted stop, before it whisks and after every fault of
         /// the motor. Plant `ideal` has no stop to find.
         rest: Rest = word().default("\"at-start\""),
@@ -123,6 +124,11 @@ keys! {
 }
 
 impl MotorSection {
+    /// Whether motors are armed when the program starts.
+    pub fn arms_at_start(&self) -> bool {
+        self.arm == Some(Arm::AtStart)
+    }
+
     /// Angle of the retracted stop, degrees: `stop_deg`, or as far as the whisker retracts.
     pub fn retracted_deg(&self) -> f64 {
         let lowest = self.min_deg.min(whisking::REST_DEG);

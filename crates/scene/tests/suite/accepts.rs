@@ -78,7 +78,7 @@ fn every_key_reaches_its_field() {
             time_constant_s: 0.048,
             continuous_duty: 0.4,
             on_fault: OnFault::StopWhisker,
-            arm: Arm::AtStart,
+            arm: Some(Arm::AtStart),
             rest: Rest::AtStart,
             homing_duty: 0.1,
             stop_deg: None,
@@ -141,7 +141,7 @@ approach_deg_s = 90
         time_constant_s: 0.048,
         continuous_duty: 0.3,
         on_fault: OnFault::StopAll,
-        arm: Arm::OnCommand,
+        arm: Some(Arm::OnCommand),
         rest: Rest::Find,
         homing_duty: 0.125,
         stop_deg: Some(-30.0),
@@ -359,8 +359,16 @@ fn a_module_has_the_world_of_another_scene() {
     let world = read(&with(&world, "seed        = 1  ", "seed = 77 "));
     let bench = on_a_bench();
     let placed = bench.clone().in_world(&world).expect("it fits");
+    // Nobody stands at a module that is simulated; on a bench somebody does.
+    let arm = |scene: &Scene| scene.motor.as_ref().expect("it whisks").arm;
+    assert_eq!((arm(&bench), arm(&placed)), (None, Some(Arm::AtStart)));
+    let mut waits = bench.clone();
+    waits.motor.as_mut().expect("it whisks").arm = Some(Arm::OnCommand);
+    let waits = waits.in_world(&world).expect("it fits");
+    assert_eq!(arm(&waits), Some(Arm::OnCommand));
     // All else is the module's own.
     let expected = Scene {
+        motor: placed.motor.clone(),
         plant: world.plant.clone(),
         duration_s: 9.0,
         seed: 77,

@@ -14,7 +14,8 @@ use firmware::{Event, NotArmed, Packet, StartCause, Startup};
 use heapless::Deque;
 use wire::text::{self, Spoken};
 use wire::{
-    Answer, Command, CommandStatus, Frame, Line, Piece, Splitter, TaggedCommand, UnknownCommand,
+    Answer, COMMAND_BYTES, Command, CommandStatus, Frame, Line, Piece, Splitter, TaggedCommand,
+    UnknownCommand,
 };
 
 use crate::board::about::About;
@@ -27,12 +28,10 @@ use crate::board::wiring::SERIAL;
 use crate::here::serial_dma::SerialTransfers;
 use crate::here::{self, SERIAL_FUNCTION, SERIAL_ROUTE, SERIAL_USART, usart};
 use received::Received;
+pub(crate) use received::ring;
 
 /// Of the firmware.
 const VERSION: &str = env!("CARGO_PKG_VERSION");
-
-/// Most bytes of a line that is understood.
-const SAID_BYTES: usize = 80;
 
 /// Requests that may wait for others.
 const WAITING: usize = 4;
@@ -42,6 +41,17 @@ const WAITING: usize = 4;
 struct Asked {
     request: Result<TaggedCommand, UnknownCommand>,
     origin: Origin,
+    /// The bytes that had come with its last one.
+    at: u32,
+}
+
+impl Asked {
+    const fn is_stop(&self) -> bool {
+        let Ok(request) = self.request else {
+            return false;
+        };
+        matches!(request.command, Command::Stop)
+    }
 }
 
 /// A line that begins now.
@@ -85,11 +95,17 @@ pub(crate) fn send_record(frame: &Frame) -> bool {
     sent::record(frame)
 }
 
+/// Where in its ring the next byte that comes will be.
+#[inline]
+pub(crate) fn writer() -> usize {
+    received::writer(SerialTransfers::left(&SERIAL_ROUTE))
+}
+
 /// The port.
 pub(crate) struct Serial {
     transfers: SerialTransfers,
     received: Received,
-    splitter: Splitter<SAID_BYTES>,
+    splitter: Splitter<COMMAND_BYTES>,
     /// The tick in which the last byte came.
     last_byte: u32,
     waiting: Deque<Asked, WAITING>,
@@ -101,6 +117,8 @@ pub(crate) struct Serial {
     records_baud: u32,
     /// Ticks without a byte after which a frame that was begun is none: 0.1 s.
     pause: u32,
+    /// A loader has it.
+    is_loading: bool,
 }
 
 impl Serial {
@@ -131,6 +149,7 @@ impl Serial {
             baud,
             records_baud: about.records_baud(),
             pause: pace::tick_hz() / 10,
+            is_loading: false,
         })
     }
 
@@ -155,25 +174,28 @@ impl Serial {
         (exchange, names): (&mut Exchange, &Names),
     ) {
         self.receive(now);
+        exchange.answer_stops(|origin, answer| reply(origin, answer, about));
         if let Some((origin, answer)) = exchange.answer()
             && origin != Origin::Probe
             && reply(origin, &answer, about)
         {
             exchange.has_answered();
         }
-        if exchange.is_free()
-            && let Some(asked) = self.waiting.pop_front()
-        {
-            exchange.ask(asked.request, asked.origin, names);
+        if exchange.is_free_for_serial() {
+            exchange.was_serials_turn();
+            let Some(asked) = self.waiting.pop_front() else {
+                return;
+            };
+            exchange.ask(asked.request, (asked.origin, asked.at), names);
         }
     }
 
     /// Takes what has come.
     #[inline(never)]
     fn receive(&mut self, now: u32) {
-        let left = self.transfers.left();
-        while let Some(byte) = self.received.next(left) {
+        while let Some(byte) = self.received.next() {
             self.last_byte = now;
+            let at = self.received.count();
             match self.splitter.push(byte) {
                 None => {}
                 Some(Piece::Line(said)) => match text::parse(said) {
@@ -185,6 +207,7 @@ impl Serial {
                         self.take(Asked {
                             request: Ok(TaggedCommand { tag: 0, command }),
                             origin: Origin::Line(command),
+                            at,
                         });
                     }
                     Err((first, fault)) => refuse(first, fault.text()),
@@ -193,6 +216,7 @@ impl Serial {
                     Some(request) => self.take(Asked {
                         request,
                         origin: Origin::Frame,
+                        at,
                     }),
                     None => refuse(b"", "a frame that is no request"),
                 },
@@ -204,8 +228,12 @@ impl Serial {
         }
     }
 
-    /// Has a request wait for its turn, unless it cannot be carried out here.
+    /// Has a request wait for its turn, unless it cannot be carried out here, or is a stop, which
+    /// the tick has seen.
     fn take(&mut self, asked: Asked) {
+        if asked.is_stop() && !self.is_loading {
+            return;
+        }
         if let Ok(request) = asked.request
             && request.command == Command::Stream(true)
             && !self.carries_records()
@@ -252,8 +280,11 @@ impl Serial {
 
 /// What a loader uses, which has the port for itself.
 impl Serial {
-    /// The next request.
+    /// The next request. No tick looks for stops any more.
     pub(crate) fn next(&mut self) -> Option<Result<TaggedCommand, UnknownCommand>> {
+        let (ring, looked) = ring();
+        looked.is_at(writer(), ring.len());
+        self.is_loading = true;
         // No time passes that would end a frame.
         self.receive(self.last_byte);
         Some(self.waiting.pop_front()?.request)

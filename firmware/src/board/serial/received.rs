@@ -1,11 +1,28 @@
-//! What the serial port has received: a ring that the DMA fills, and idle reads.
+//! What the serial port has received: a ring that the DMA fills, the tick looks at for a stop, and
+//! idle reads.
 
 use core::sync::atomic::{AtomicU8, Ordering, compiler_fence};
 
 use firmware::boards::RECEIVED_BYTES;
 
+use crate::board::telemetry::Looked;
+
 /// Atomic, as the compiler does not see that the DMA writes them.
 static RING: [AtomicU8; RECEIVED_BYTES] = [const { AtomicU8::new(0) }; RECEIVED_BYTES];
+
+/// What the tick has looked at of it.
+static LOOKED: Looked = Looked::new();
+
+/// The ring, and what the tick has looked at of it.
+pub(crate) fn ring() -> (&'static [AtomicU8], &'static Looked) {
+    (&RING, &LOOKED)
+}
+
+/// Where the next byte will be, where so many are left until the DMA begins again.
+#[inline]
+pub(crate) fn writer(left: u16) -> usize {
+    RECEIVED_BYTES.saturating_sub(left.into()) % RECEIVED_BYTES
+}
 
 /// Where the ring is.
 pub(crate) fn address() -> u32 {
@@ -25,10 +42,9 @@ impl Received {
         Self { at: 0 }
     }
 
-    /// The next byte, where so many are left until the DMA begins again.
-    pub(crate) fn next(&mut self, left: u16) -> Option<u8> {
-        let writer = RECEIVED_BYTES.saturating_sub(left.into()) % RECEIVED_BYTES;
-        if self.at == writer {
+    /// The next byte of those that the tick has looked at.
+    pub(crate) fn next(&mut self) -> Option<u8> {
+        if self.at == LOOKED.until(RECEIVED_BYTES) {
             return None;
         }
         compiler_fence(Ordering::Acquire);
@@ -38,5 +54,10 @@ impl Received {
             .map_or(0, |byte| byte.load(Ordering::Relaxed));
         self.at = (self.at + 1) % RECEIVED_BYTES;
         Some(byte)
+    }
+
+    /// Bytes that had come with the last one, since the start.
+    pub(crate) fn count(&self) -> u32 {
+        LOOKED.bytes_until(self.at, RECEIVED_BYTES)
     }
 }

@@ -1,11 +1,15 @@
 //! Idle's end of the link: frames of what comes from the tick, and requests on their way there.
 
+use core::sync::atomic::Ordering;
+
 use firmware::{EventRecord, Packet, letters};
 use wire::{Answer, Command, CommandStatus, Load, TaggedCommand, UnknownCommand};
 
 use super::configs::{Configs, Verdict};
 use super::probe::ProbeLine;
+use super::stops::{By, OWED, STOPPED_IN};
 use super::{Asked, IdleEnds};
+use crate::board::about::About;
 use crate::board::counters::TICKS;
 use crate::board::perception::Names;
 use crate::board::{log, serial};
@@ -19,6 +23,15 @@ pub(crate) enum Origin {
     Frame,
     /// By a line of text there, which says this.
     Line(Command),
+}
+
+impl Origin {
+    const fn link(self) -> By {
+        match self {
+            Self::Probe => By::Probe,
+            Self::Frame | Self::Line(_) => By::Serial,
+        }
+    }
 }
 
 /// A request that is not answered yet.
@@ -57,11 +70,19 @@ pub(crate) struct Exchange {
     answer: Option<Answer>,
     /// The number of the next request for the tick.
     number: u8,
+    /// What was [`OWED`] when it was paid last.
+    paid: [u32; 3],
+    /// There are motors that stop, and a serial line.
+    has_motors: bool,
+    has_serial: bool,
+    /// The serial line's request comes before the probe's: neither link waits for ever for the
+    /// other.
+    is_serials_turn: bool,
 }
 
 impl Exchange {
     /// Nothing was asked for yet.
-    pub(crate) fn new(ends: IdleEnds, configs: Configs) -> Self {
+    pub(crate) fn new(ends: IdleEnds, configs: Configs, about: &About) -> Self {
         Self {
             ends,
             configs,
@@ -70,12 +91,26 @@ impl Exchange {
             pending: None,
             answer: None,
             number: 0,
+            paid: [0; 3],
+            has_motors: about.has_motors,
+            has_serial: about.links.serial_baud.is_some(),
+            is_serials_turn: false,
         }
     }
 
     /// Whether another request can be taken: its predecessor is answered.
     pub(crate) const fn is_free(&self) -> bool {
         self.pending.is_none()
+    }
+
+    /// Whether a request of the serial line can be taken.
+    pub(crate) fn is_free_for_serial(&self) -> bool {
+        self.is_free() && (self.is_serials_turn || !self.probe.is_waiting())
+    }
+
+    /// The serial line has had its turn.
+    pub(crate) const fn was_serials_turn(&mut self) {
+        self.is_serials_turn = false;
     }
 
     /// Says in the log that settings were changed.
@@ -86,17 +121,23 @@ impl Exchange {
     /// Takes what a probe asks for.
     pub(crate) fn take_from_probe(&mut self, names: &Names) {
         if self.is_free()
-            && let Some(request) = self.probe.next()
+            && !self.is_serials_turn
+            && let Some(request) = self.probe.next_looked_at()
         {
-            self.ask(request, Origin::Probe, names);
+            let is_stop = request.is_ok_and(|request| request.command == Command::Stop);
+            // The tick has seen it.
+            if !is_stop {
+                self.is_serials_turn = self.has_serial;
+                self.ask(request, (Origin::Probe, self.probe.count()), names);
+            }
         }
     }
 
-    /// Answers a request, or hands it to the tick.
+    /// Answers a request, or hands it to the tick. So many bytes had come with its last one.
     pub(crate) fn ask(
         &mut self,
         request: Result<TaggedCommand, UnknownCommand>,
-        origin: Origin,
+        (origin, at): (Origin, u32),
         names: &Names,
     ) {
         let command = request.ok().map(|request| request.command);
@@ -122,6 +163,8 @@ impl Exchange {
             number: self.number,
             request,
             takes_over: matches!(verdict, Verdict::TakeOver),
+            by: origin.link(),
+            at,
         };
         // There is room for one.
         if self.ends.requests.enqueue(asked).is_ok() {
@@ -147,6 +190,10 @@ impl Exchange {
 
     /// What is to be loaded, once it may be, and whether that was asked for at the serial port.
     pub(crate) fn load_due(&mut self) -> Option<(Load, Answer, bool)> {
+        // The loader answers no stop that was before it.
+        if !self.has_answered_stops() {
+            return None;
+        }
         let (pending, answer) = self.answered()?;
         let load = pending.load(&answer)?;
         Some((load, answer, pending.origin != Origin::Probe))
@@ -168,8 +215,55 @@ impl Exchange {
         }
     }
 
+    /// Answers stops, which wait for no other answer, but for room; those that have come by one
+    /// link since the last answer have one. `reply` says whether there was room.
+    pub(crate) fn answer_stops(&mut self, reply: impl Fn(Origin, &Answer) -> bool) {
+        for (way, origin) in [Origin::Frame, Origin::Line(Command::Stop)]
+            .into_iter()
+            .enumerate()
+        {
+            self.answer_stop(way + 1, |answer| reply(origin, answer));
+        }
+    }
+
+    /// The same of one way.
+    fn answer_stop(&mut self, way: usize, reply: impl Fn(&Answer) -> bool) {
+        let (Some(owed), Some(paid)) = (OWED.get(way), self.paid.get_mut(way)) else {
+            return;
+        };
+        let now = owed.get();
+        let sequence = STOPPED_IN.load(Ordering::Relaxed);
+        // A tick that comes between both has another stop: that is answered next.
+        if now == *paid || owed.get() != now {
+            return;
+        }
+        let status = if self.has_motors {
+            CommandStatus::Done
+        } else {
+            CommandStatus::NoWhisker
+        };
+        let request = TaggedCommand {
+            tag: now as u16,
+            command: Command::Stop,
+        };
+        if reply(&firmware::answer(request, sequence, (status, [0; 2]))) {
+            *paid = now;
+            log::requested(Command::Stop);
+        }
+    }
+
+    /// Whether every stop is answered.
+    pub(crate) fn has_answered_stops(&self) -> bool {
+        OWED.iter()
+            .zip(self.paid)
+            .all(|(owed, paid)| owed.get() == paid)
+    }
+
     /// Answers a probe.
     pub(crate) fn answer_probe(&mut self) {
+        self.answer_stop(0, |answer| {
+            ProbeLine::put(&wire::frame(&Packet::Answer(*answer)))
+        });
         if let Some((Origin::Probe, answer)) = self.answer()
             && ProbeLine::put(&wire::frame(&Packet::Answer(answer)))
         {

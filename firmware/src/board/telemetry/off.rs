@@ -3,6 +3,7 @@
 use firmware::{Event, EventRecord, ModelState};
 use wire::{Answer, Load, TaggedCommand, UnknownCommand};
 
+use crate::board::about::About;
 use crate::board::perception::Names;
 use crate::board::scene::Deployed;
 use crate::board::types::{Inner, Number, Settings};
@@ -57,7 +58,7 @@ pub(crate) struct Exchange {
 }
 
 impl Exchange {
-    pub(crate) fn new(_: Ends, _: Configs) -> Self {
+    pub(crate) fn new(_: Ends, _: Configs, _: &About) -> Self {
         Self { probe: ProbeLine }
     }
 
@@ -83,6 +84,13 @@ impl Telemetry {
     pub(crate) fn new(_: &Settings, _: &Inner, _: ModelState, _: Ends) -> Self {
         Self
     }
+
+    #[inline]
+    pub(crate) fn look_for_stop(&mut self, _: u32) -> bool {
+        false
+    }
+
+    pub(crate) fn stop(&mut self) {}
 
     pub(crate) fn note(&mut self, _: &Event) {}
 

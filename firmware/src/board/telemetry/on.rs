@@ -11,12 +11,15 @@ mod configs;
 mod exchange;
 #[path = "probe.rs"]
 mod probe;
+#[path = "stops.rs"]
+mod stops;
 
 use firmware::{About, Event, Link, ModelState, Part};
 use heapless::spsc::{Consumer, Producer};
 use wire::{Answer, Command, CommandStatus, Load, TaggedCommand, TickRecord};
 
 use crate::board::integrity::Changed;
+use crate::board::retained;
 use crate::board::slots::{self, ROOM};
 use crate::board::types::{Inner, Settings};
 pub(crate) use configs::Configs;
@@ -25,6 +28,9 @@ pub(crate) use exchange::Exchange;
 #[cfg(feature = "serial")]
 pub(crate) use exchange::Origin;
 pub(crate) use probe::ProbeLine;
+#[cfg(feature = "serial")]
+pub(crate) use stops::Looked;
+use stops::{By, Stops};
 
 /// Records of as many ticks as idle may be late, of two whiskers, and one more.
 const RECORDS: usize = 32;
@@ -37,6 +43,9 @@ struct Asked {
     request: TaggedCommand,
     /// The settings that it asks for are on their way.
     takes_over: bool,
+    /// The link by which it has come, and what had come by it then.
+    by: By,
+    at: u32,
 }
 
 /// Between idle and the tick, there and back.
@@ -102,6 +111,7 @@ pub(crate) struct Telemetry {
     ends: TickEnds,
     about: About,
     changed: Changed,
+    stops: Stops,
     /// The number of the next request.
     next: u8,
 }
@@ -120,8 +130,21 @@ impl Telemetry {
             ends,
             about: About { model },
             changed: Changed::new(settings, inner),
+            stops: Stops::new(settings.links),
             next: 0,
         }
+    }
+
+    /// Looks at what has come by the links before a tick, after so many; whether there is a stop
+    /// in it.
+    #[inline]
+    pub(crate) fn look_for_stop(&mut self, tick: u32) -> bool {
+        self.stops.look(tick)
+    }
+
+    /// What has come by now came before a stop.
+    pub(crate) fn stop(&mut self) {
+        self.stops.stop();
     }
 
     /// Notes an event of this tick.
@@ -165,6 +188,9 @@ impl Telemetry {
                 };
                 answer
             }
+            Command::Arm if self.stops.is_before(asked.at, asked.by) => {
+                firmware::answer(request, tick, (CommandStatus::Stopped, [0; 2]))
+            }
             Command::Load(load) if Part::Deploy.is_built() => {
                 let status = may_load(load, module.is_armed());
                 firmware::answer(request, tick, (status, [load.words().cast_signed(), 0]))
@@ -173,6 +199,9 @@ impl Telemetry {
                 .link
                 .carry_out(module, settings, request, self.about, tick),
         };
+        if request.command == Command::Arm && answer.status == CommandStatus::Done {
+            retained::set_stopped(false);
+        }
         // Idle asks for no more before it has this.
         let _ = self.ends.answers.enqueue(answer);
     }

@@ -4,6 +4,7 @@ use core::sync::atomic::Ordering;
 
 use wire::{Answer, CONTENT_BYTES, Frame, Piece, Splitter, TaggedCommand, UnknownCommand};
 
+use super::stops::PROBE;
 use crate::board::rtt::{DOWN, PACKETS, REQUESTS, UP};
 
 /// Bytes of the ring that records leave free, for events and answers.
@@ -22,9 +23,25 @@ impl ProbeLine {
         }
     }
 
-    /// The next request.
+    /// The next request, for a loader: no tick looks for stops any more.
     pub(crate) fn next(&mut self) -> Option<Result<TaggedCommand, UnknownCommand>> {
-        while DOWN.waiting() > 0 {
+        PROBE.is_at(DOWN.writer() as usize, REQUESTS.len());
+        self.next_looked_at()
+    }
+
+    /// Whether there is something that it has not read.
+    pub(crate) fn is_waiting(&self) -> bool {
+        DOWN.reader() as usize != PROBE.until(REQUESTS.len())
+    }
+
+    /// The bytes that had come with the last one.
+    pub(crate) fn count(&self) -> u32 {
+        PROBE.bytes_until(DOWN.reader() as usize, REQUESTS.len())
+    }
+
+    /// The next request in what the tick has looked at.
+    pub(crate) fn next_looked_at(&mut self) -> Option<Result<TaggedCommand, UnknownCommand>> {
+        while self.is_waiting() {
             let at = DOWN.reader() as usize;
             // Erased, lest a flipped bit in an offset has a request carried out again.
             let byte = REQUESTS.get(at).map_or(0, |place| {

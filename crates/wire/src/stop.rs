@@ -1,0 +1,337 @@
+//! Looks for a stop among the bytes of a link, as they arrive.
+//!
+//! A stop is seen with its last byte, whatever waits before it. It is a frame with that request,
+//! or a line that says it, as [`text`](crate::text) reads it. In doubt a stop is one: a line that
+//! is too long, or has bytes that are no text, is no command; where it ends with `stop`, that
+//! is what somebody said behind what was not understood.
+
+use heapless::Vec;
+
+use crate::frame::summed;
+use crate::request::Command;
+
+/// Most bytes of a line that is a command.
+pub const COMMAND_BYTES: usize = 80;
+
+/// Least and most bytes of a stop between the zeros of its frame: a code, the tag, the command and
+/// the sum.
+const LEAST: usize = 7;
+const MOST: usize = 9;
+
+/// How a stop has come, and so how it is answered.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Stop {
+    /// As a line.
+    Line,
+    /// In a frame, with this tag.
+    Frame(u16),
+}
+
+/// What the line says up to the last byte.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Said {
+    /// Nothing: it is empty so far.
+    Nothing,
+    S,
+    St,
+    Sto,
+    Stop,
+    /// That, and a space.
+    StopAlone,
+    /// That, and a remark.
+    StopRemark,
+    /// A remark on something else.
+    Remark,
+    /// Something else.
+    Other,
+}
+
+/// Looks at every byte of a link.
+#[derive(Debug)]
+pub struct StopWatch {
+    said: Said,
+    /// The line has more bytes than a command, or such as are no text.
+    is_garbled: bool,
+    /// Bytes of the line.
+    line: u8,
+    /// The bytes since the last zero, and how many came.
+    frame: [u8; MOST],
+    length: u8,
+}
+
+impl StopWatch {
+    /// Before the first byte.
+    pub const fn new() -> Self {
+        Self {
+            said: Said::Nothing,
+            is_garbled: false,
+            line: 0,
+            frame: [0; MOST],
+            length: 0,
+        }
+    }
+
+    /// Takes the next byte; the stop that is complete with it.
+    #[inline]
+    pub fn push(&mut self, byte: u8) -> Option<Stop> {
+        if byte == 0 {
+            return self.zero();
+        }
+        if let Some(place) = self.frame.get_mut(usize::from(self.length)) {
+            *place = byte;
+        }
+        self.length = self.length.saturating_add(1);
+        if byte == b'\n' {
+            return self.end_of_line();
+        }
+        self.line = self.line.saturating_add(1);
+        self.said = self.said.and(byte, self.is_garbled);
+        let is_text = matches!(byte, b' '..=b'~' | b'\t' | b'\r' | 12);
+        let is_remark = matches!(self.said, Said::Remark | Said::StopRemark);
+        if !(is_text || is_remark) || usize::from(self.line) > COMMAND_BYTES {
+            self.is_garbled = true;
+        }
+        None
+    }
+
+    fn end_of_line(&mut self) -> Option<Stop> {
+        let is_stop = matches!(self.said, Said::Stop | Said::StopAlone | Said::StopRemark);
+        self.begin_line();
+        is_stop.then_some(Stop::Line)
+    }
+
+    const fn begin_line(&mut self) {
+        self.said = Said::Nothing;
+        self.is_garbled = false;
+        self.line = 0;
+    }
+
+    /// A zero ends a frame, and cuts a line short.
+    fn zero(&mut self) -> Option<Stop> {
+        self.begin_line();
+        let length = usize::from(core::mem::take(&mut self.length));
+        if !(LEAST..=MOST).contains(&length) {
+            return None;
+        }
+        tag_of_stop(self.frame.get(..length)?).map(Stop::Frame)
+    }
+}
+
+impl Default for StopWatch {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
+impl Said {
+    /// With one more byte, which does not end the line. The end alone counts of one that is
+    /// garbled.
+    #[inline]
+    const fn and(self, byte: u8, is_garbled: bool) -> Self {
+        match (self, byte) {
+            // The splitter leaves a CR out.
+            (_, b'\r') | (Self::StopRemark, _) => self,
+            (Self::Remark, _) if !is_garbled => self,
+            (Self::Nothing, b' ' | b'\t' | 12) => Self::Nothing,
+            (Self::Nothing, b's') => Self::S,
+            (Self::S, b't') => Self::St,
+            (Self::St, b'o') => Self::Sto,
+            (Self::Sto, b'p') => Self::Stop,
+            (Self::Stop | Self::StopAlone, b' ' | b'\t' | 12) => Self::StopAlone,
+            (Self::Stop | Self::StopAlone, b'#') => Self::StopRemark,
+            (_, b's') if is_garbled => Self::S,
+            (_, b'#') if !is_garbled => Self::Remark,
+            _ => Self::Other,
+        }
+    }
+}
+
+/// The tag of a stop, where what lies between two zeros is one.
+// Apart, as it is rare.
+#[cold]
+#[inline(never)]
+fn tag_of_stop(coded: &[u8]) -> Option<u16> {
+    let mut content = Vec::<u8, MOST>::new();
+    // Bytes up to the next code.
+    let mut left = 0;
+    for &byte in coded {
+        if left > 0 {
+            content.push(byte).ok()?;
+        } else {
+            // A code stands for the zero before it, but the first one.
+            content.push(0).ok()?;
+            left = byte;
+        }
+        left -= 1;
+    }
+    let content = content.get(1..).filter(|_| left == 0)?;
+    let (value, _) = content.split_last_chunk::<4>()?;
+    if value.last() != Some(&Command::Stop.number()) {
+        return None;
+    }
+    let (tag, rest) = postcard::take_from_bytes(summed(content)?).ok()?;
+    (rest.len() == 1).then_some(tag)
+}
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+
+    use super::{COMMAND_BYTES, Stop, StopWatch};
+    use crate::text::{self, Spoken};
+    use crate::{Command, Piece, Splitter, TaggedCommand, WhiskerId, frame};
+
+    /// The stops among some bytes, and how many bytes had come with each.
+    fn stops(bytes: &[u8]) -> Vec<(usize, Stop)> {
+        let mut watch = StopWatch::new();
+        let pushed = bytes.iter().map(|byte| watch.push(*byte));
+        (1..)
+            .zip(pushed)
+            .filter_map(|(n, stop)| Some((n, stop?)))
+            .collect()
+    }
+
+    /// The stops that a board reads.
+    fn read(bytes: &[u8]) -> Vec<(usize, Stop)> {
+        let mut splitter = Splitter::<COMMAND_BYTES>::new();
+        let mut found = Vec::new();
+        for (n, byte) in (1..).zip(bytes) {
+            let stop = match splitter.push(*byte) {
+                Some(Piece::Line(line)) => match text::parse(line) {
+                    Ok(Spoken::Command(Command::Stop)) => Some(Stop::Line),
+                    _ => None,
+                },
+                Some(Piece::Frame(content)) => match TaggedCommand::read(content) {
+                    Some(Ok(TaggedCommand {
+                        tag,
+                        command: Command::Stop,
+                    })) => Some(Stop::Frame(tag)),
+                    _ => None,
+                },
+                _ => None,
+            };
+            found.extend(stop.map(|stop| (n, stop)));
+        }
+        found
+    }
+
+    #[test]
+    fn a_line_that_says_stop_is_one() {
+        for line in [
+            "stop\n",
+            "stop\r\n",
+            "  stop \t\n",
+            "stop#now\n",
+            "stop # → now\n",
+            "st\rop\n",
+        ] {
+            let all = line.len();
+            assert_eq!(stops(line.as_bytes()), [(all, Stop::Line)], "{line:?}");
+            assert_eq!(read(line.as_bytes()), [(all, Stop::Line)], "{line:?}");
+        }
+    }
+
+    #[test]
+    fn another_line_is_none_whatever_it_has_in_it() {
+        for line in [
+            "stop",
+            "nonstop\n",
+            "stopp\n",
+            "stop left\n",
+            "do stop\n",
+            "sstop\n",
+            "# stop\n",
+            "gain left 1 # → stop\n",
+            "gain left 1#stop\n",
+            "st\0op\n",
+            "st\nop\n",
+            "STOP\n",
+        ] {
+            assert_eq!(stops(line.as_bytes()), [], "{line:?}");
+        }
+    }
+
+    /// Nobody waits for the end of garbage before they stop a motor.
+    #[test]
+    fn behind_garbage_it_is_one_without_a_line_of_its_own() {
+        let long = vec![b'a'; COMMAND_BYTES + 1];
+        for before in [&b"\xA5"[..], b"\x80\x01 #", b"\0\x05ab", &long] {
+            let bytes = [before, b"stop\n"].concat();
+            assert_eq!(stops(&bytes), [(bytes.len(), Stop::Line)], "{before:?}");
+        }
+    }
+
+    fn pieces() -> impl Strategy<Value = Vec<u8>> {
+        let words = &[
+            "stop",
+            "stop",
+            "st",
+            "op",
+            "gain left 1",
+            "arm",
+            "#",
+            " ",
+            "\r",
+            "\n",
+            "\n",
+            "\n",
+            "\0",
+            "\t",
+            "\x0C",
+            "s",
+            "→",
+        ][..];
+        prop_oneof![
+            6 => prop::sample::select(words).prop_map(|word| word.as_bytes().to_vec()),
+            2 => any::<u16>().prop_map(|tag| {
+                let command = Command::Stop;
+                frame(&TaggedCommand { tag, command }).to_vec()
+            }),
+            1 => any::<(u16, i32)>().prop_map(|(tag, gain)| {
+                let command = Command::Gain(WhiskerId::default(), gain);
+                frame(&TaggedCommand { tag, command }).to_vec()
+            }),
+            1 => any::<u16>().prop_map(|tag| {
+                let command = Command::Arm;
+                frame(&TaggedCommand { tag, command }).to_vec()
+            }),
+            1 => prop::collection::vec(any::<u8>(), 0..100),
+            1 => (0..120_usize).prop_map(|count| vec![b'x'; count]),
+        ]
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(2_000))]
+
+        #[test]
+        fn whatever_a_board_reads_as_a_stop_is_seen_with_the_same_byte(
+            pieces in prop::collection::vec(pieces(), 0..40),
+        ) {
+            let bytes = pieces.concat();
+            let seen = stops(&bytes);
+            for stop in read(&bytes) {
+                prop_assert!(seen.contains(&stop), "{stop:?} of {bytes:?}");
+            }
+        }
+
+        #[test]
+        fn a_frame_is_one_by_its_sum_alone(tag: u16, bit in 0..120_usize) {
+            let command = Command::Stop;
+            let mut bytes = frame(&TaggedCommand { tag, command }).to_vec();
+            let all = bytes.len();
+            prop_assert_eq!(stops(&bytes), [(all, Stop::Frame(tag))]);
+            bytes[bit / 8 % all] ^= 1 << (bit % 8);
+            let found = stops(&bytes);
+            prop_assert!(!found.contains(&(all, Stop::Frame(tag))) || bit / 8 % all == 0);
+        }
+
+        #[test]
+        fn commands_are_no_stop(lines in prop::collection::vec(
+            prop::sample::select(&["gain left 0.5", "arm", "status", "setpoint right 70",
+                "stream on", "help", "stop it", "nonstop", "# stop"][..]), 0..20,
+        )) {
+            let bytes = lines.join("\r\n") + "\n";
+            prop_assert_eq!(stops(bytes.as_bytes()), []);
+        }
+    }
+}

@@ -1,0 +1,199 @@
+//! What the tick does about the bytes that have come: it looks for a stop among them before
+//! anything else is done with them.
+//!
+//! Idle reads a link as far as the tick has looked at it. So a stop takes effect in the tick after
+//! its last byte, whatever waits before it; and it has a place among what comes, by which an
+//! arming that was asked for before it is known.
+
+use core::sync::atomic::{AtomicU8, AtomicU32, Ordering, compiler_fence};
+
+use wire::{Stop, StopWatch};
+
+use crate::board::rtt::{DOWN, REQUESTS};
+#[cfg(feature = "serial")]
+use crate::board::serial;
+
+/// Bytes of a link that the tick has looked at, since the start.
+pub(crate) struct Looked(AtomicU32);
+
+impl Looked {
+    /// None yet.
+    pub(crate) const fn new() -> Self {
+        Self(AtomicU32::new(0))
+    }
+
+    /// How many.
+    #[inline]
+    pub(crate) fn bytes(&self) -> u32 {
+        self.0.load(Ordering::Relaxed)
+    }
+
+    /// The place in a ring of so many bytes, a power of two, up to which it has looked.
+    #[inline]
+    pub(crate) fn until(&self, ring: usize) -> usize {
+        self.bytes() as usize % ring
+    }
+
+    /// How many had come with the byte before `at`, to which idle has read the ring.
+    pub(crate) fn bytes_until(&self, at: usize, ring: usize) -> u32 {
+        let bytes = self.bytes();
+        let ahead = (bytes as usize).wrapping_sub(at) % ring;
+        bytes.wrapping_sub(ahead as u32)
+    }
+
+    /// It has looked at all of a ring before its writer.
+    pub(crate) fn is_at(&self, writer: usize, ring: usize) {
+        let bytes = self.bytes();
+        let more = writer.wrapping_sub(bytes as usize) % ring;
+        self.0
+            .store(bytes.wrapping_add(more as u32), Ordering::Relaxed);
+    }
+}
+
+/// Those of the probe's ring.
+pub(crate) static PROBE: Looked = Looked::new();
+
+/// Stops that idle is to answer: their count in the high half, the last one's tag in the other.
+/// In one word, as the tick may write it while idle reads it.
+pub(crate) struct Owed(AtomicU32);
+
+impl Owed {
+    const fn new() -> Self {
+        Self(AtomicU32::new(0))
+    }
+
+    /// Another stop is to be answered.
+    fn add(&self, tag: u16) {
+        let count = (self.get() >> 16).wrapping_add(1) << 16;
+        self.0.store(count | u32::from(tag), Ordering::Relaxed);
+    }
+
+    /// What it says now: it differs from what it said before if something is owed.
+    pub(crate) fn get(&self) -> u32 {
+        self.0.load(Ordering::Relaxed)
+    }
+}
+
+/// To a probe, as a frame and as a line of the serial port.
+pub(crate) static OWED: [Owed; 3] = [const { Owed::new() }; 3];
+
+/// The tick in which the last stop took effect.
+pub(crate) static STOPPED_IN: AtomicU32 = AtomicU32::new(0);
+
+/// Bytes behind which a stop is followed.
+const FAR: u32 = 1 << 20;
+
+/// A link.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(crate) enum By {
+    Probe,
+    Serial,
+}
+
+/// The tick's look at the links.
+pub(crate) struct Stops {
+    probe: Option<StopWatch>,
+    #[cfg(feature = "serial")]
+    serial: Option<StopWatch>,
+    /// What had come by each when the last stop was seen: the probe, the serial port.
+    stopped_at: [u32; 2],
+}
+
+impl Stops {
+    /// Of a module that has these links.
+    pub(crate) fn new(links: firmware::Links) -> Self {
+        Self {
+            probe: links.has_rtt.then(StopWatch::new),
+            #[cfg(feature = "serial")]
+            serial: links.serial_baud.map(|_| StopWatch::new()),
+            stopped_at: [0; 2],
+        }
+    }
+
+    /// Looks at what has come since the last tick; whether there is a stop in it.
+    #[inline]
+    pub(crate) fn look(&mut self, tick: u32) -> bool {
+        let mut is_stop = false;
+        if let Some(watch) = &mut self.probe {
+            let writer = DOWN.writer() as usize;
+            if writer != PROBE.until(REQUESTS.len()) {
+                is_stop |= look(watch, &PROBE, (&REQUESTS, writer), By::Probe);
+                follow(&mut self.stopped_at[0], &PROBE);
+            }
+        }
+        #[cfg(feature = "serial")]
+        if let Some(watch) = &mut self.serial {
+            let (ring, looked) = serial::ring();
+            let writer = serial::writer();
+            if writer != looked.until(ring.len()) {
+                is_stop |= look(watch, looked, (ring, writer), By::Serial);
+                follow(&mut self.stopped_at[1], looked);
+            }
+        }
+        if is_stop {
+            STOPPED_IN.store(tick, Ordering::Relaxed);
+            self.stop();
+        }
+        is_stop
+    }
+
+    /// What has come by now came before a stop.
+    pub(crate) fn stop(&mut self) {
+        self.stopped_at[0] = PROBE.bytes();
+        #[cfg(feature = "serial")]
+        {
+            self.stopped_at[1] = serial::ring().1.bytes();
+        }
+    }
+}
+
+impl Stops {
+    /// Whether what had come with the last byte of a request came before a stop.
+    pub(crate) fn is_before(&self, at: u32, by: By) -> bool {
+        // Counts wrap around.
+        at.wrapping_sub(self.stopped_at[by as usize]).cast_signed() <= 0
+    }
+}
+
+/// Keeps what had come with a stop long ago within half a round of the count: as far behind as no
+/// request is.
+fn follow(stopped_at: &mut u32, looked: &Looked) {
+    let since = looked.bytes().wrapping_sub(*stopped_at);
+    if since > FAR {
+        *stopped_at = stopped_at.wrapping_add(FAR / 2);
+    }
+}
+
+/// A link as it is looked at: its ring, and where the next byte will be written.
+type Arrived<'r> = (&'r [AtomicU8], usize);
+
+/// Looks at what has come by a link; whether a stop is in it.
+// Apart, so that a tick in which nothing has come keeps its registers.
+#[cold]
+#[inline(never)]
+fn look(watch: &mut StopWatch, looked: &Looked, (ring, writer): Arrived<'_>, by: By) -> bool {
+    compiler_fence(Ordering::Acquire);
+    let mut is_stop = false;
+    let mut at = looked.until(ring.len());
+    while at != writer
+        && let Some(byte) = ring.get(at)
+    {
+        let stop = watch.push(byte.load(Ordering::Relaxed));
+        is_stop |= stop.is_some_and(|stop| owe(stop, by));
+        at = if at + 1 < ring.len() { at + 1 } else { 0 };
+    }
+    looked.is_at(writer, ring.len());
+    is_stop
+}
+
+/// Has idle answer a stop; whether it is one: a probe's ring has no lines.
+fn owe(stop: Stop, by: By) -> bool {
+    let (owed, tag) = match (stop, by) {
+        (Stop::Frame(tag), By::Probe) => (&OWED[0], tag),
+        (Stop::Frame(tag), By::Serial) => (&OWED[1], tag),
+        (Stop::Line, By::Serial) => (&OWED[2], 0),
+        (Stop::Line, By::Probe) => return false,
+    };
+    owed.add(tag);
+    true
+}
