@@ -83,7 +83,7 @@ impl Bench {
         let guards = GuardSettings {
             degrees_per_count: 0.1,
             hard_duty: 0.5,
-            unmoved_duty: 0.12,
+            model: None,
             following_deg: 40.0,
             ..GuardSettings::NONE
         };
