@@ -5,7 +5,7 @@
 
 use mlx90333::timing::SS_HIGH_US;
 
-use crate::{ButtonLimits, Retry, SensorLimits, ZeroLimits};
+use crate::{ButtonLimits, Retry, SensorLimits, SwingLimits, ZeroLimits};
 
 /// How long the last good reading stands in for a missing or faulty one, s.
 ///
@@ -91,6 +91,7 @@ pub const fn sensor_limits(tick_hz: u32, plausible: Plausible) -> SensorLimits {
         jump: jump as u16,
         burst: ticks(BURST_S, tick_hz),
         zero: None,
+        swing: None,
     }
 }
 
@@ -101,6 +102,24 @@ pub const fn zero_limits(tick_hz: u32, after_s: f64, calm: f64, most: u16) -> Ze
         ticks: ticks(after_s, tick_hz),
         most: most.saturating_mul(4),
         calm: (calm * 16_777_216.0) as i32,
+    }
+}
+
+/// How long whisking is looked at for what it does to a reading, s: two and a half of the slowest
+/// whisks for which that is known.
+pub const SWING_S: f64 = 2.0;
+
+/// From how wide a whisk on a look tells anything, degrees; its reading moves by two thirds of
+/// what a full whisk moves it by.
+pub const SWING_DEG: f64 = 30.0;
+
+/// What whisking must do to a reading at `tick_hz` ticks a second: move x by `codes`, where it is
+/// [`SWING_DEG`] wide by an encoder of so many degrees a count.
+pub fn swing_limits(tick_hz: u32, codes: u16, degrees_per_count: f64) -> SwingLimits {
+    SwingLimits {
+        ticks: ticks(SWING_S, tick_hz),
+        counts: (SWING_DEG / degrees_per_count) as u32,
+        least: codes.saturating_mul(4),
     }
 }
 

@@ -67,7 +67,7 @@ pub use perception::{
     Sample, SampleClassifier, Sensed, shifts,
 };
 pub use record::{NotArmed, RECORD_WORDS, RESET_WINDOW_S, RESETS, Record, StartCause, Startup};
-pub use sensing::{BAD_WEIGHT, Reading, Sensor, SensorHealth, SensorLimits};
+pub use sensing::{BAD_WEIGHT, Reading, Sensor, SensorHealth, SensorLimits, SwingLimits};
 pub use servo::{FAULTS, HELD, MotorRecord, Retry, Servo, ServoConfig, ServoState, TooManyFaults};
 pub use signals::Signals;
 pub use telemetry::{About, Link, letters, may_load};

@@ -9,7 +9,7 @@ use crate::config::Part;
 use crate::io::{AngleInput, Clock, WordSource};
 use crate::motion::{Command, Motion, NoActiveWhisker, NotDone};
 use crate::perception::{Perception, SampleClassifier, Sensed};
-use crate::sensing::{Reading, Sensor};
+use crate::sensing::{Reading, Sensor, Swing, SwingLimits};
 use crate::servo::Servo;
 use crate::{Config, Event, HeadConfig, MotionConfig, Place, Timing, ZeroLimits};
 
@@ -44,6 +44,8 @@ pub struct Whisker<R, H: Hardware> {
     felt: R,
     /// What counts of its reading: nothing while its motor [inhibits](Servo::is_inhibited) it.
     reading: Reading,
+    /// Whether it feels that it is whisked.
+    swing: Swing,
     servo: Option<Servo<R, H::Motor, H::Angle>>,
 }
 
@@ -160,6 +162,7 @@ impl<R: Real, H: Hardware> Module<R, H> {
                 filter: filter::State::default(),
                 felt: R::ZERO,
                 reading: Reading::REST,
+                swing: Swing::new(),
                 servo: motor
                     .filter(|_| Part::Motion.is_built())
                     .map(|(motor, angle)| Servo::new(motor, angle)),
@@ -337,7 +340,7 @@ impl<R: Number, H: Hardware> Module<R, H> {
                 .sensor
                 .read(Decoder::new(), limits, whisker.place, events);
             let is_inhibited = whisker.servo().is_some_and(Servo::is_inhibited);
-            whisker.reading = if is_inhibited {
+            whisker.reading = if is_inhibited || whisker.swing.is_lost() {
                 Reading::FAULT
             } else {
                 reading
@@ -353,10 +356,11 @@ impl<R: Number, H: Hardware> Module<R, H> {
                 self.follow_zeros(limits, events);
             }
         }
+        let swing = config.sensor.limits.swing;
         if Part::Motion.is_built()
             && let Some(config) = &config.motion
         {
-            self.step(config, events);
+            self.step(config, swing, events);
         }
         if Part::Classifier.is_built()
             && let (Some(perception), Some(config)) = (&mut self.perception, &config.classifier)
@@ -376,7 +380,12 @@ impl<R: Number, H: Hardware> Module<R, H> {
 
     /// Moves the whiskers: pattern generator, then the servo of each.
     #[inline]
-    fn step(&mut self, config: &MotionConfig<R>, events: &mut impl FnMut(Event)) {
+    fn step(
+        &mut self,
+        config: &MotionConfig<R>,
+        swing: Option<SwingLimits>,
+        events: &mut impl FnMut(Event),
+    ) {
         let Some(motion) = &mut self.motion else {
             return;
         };
@@ -391,6 +400,12 @@ impl<R: Number, H: Hardware> Module<R, H> {
             if let Some(servo) = &mut whisker.servo {
                 let theta = moved.muscle.theta;
                 servo.step(&config.servo, theta, may_run, whisker.place, events);
+                let x = whisker.sensor.reading().x;
+                if let Some(limits) = swing
+                    && let Some(lost) = whisker.swing.look(limits, x, servo.running_at())
+                {
+                    events(Event::Limit(lost.number()));
+                }
             }
         }
     }

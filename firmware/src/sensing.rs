@@ -2,6 +2,7 @@
 
 mod limits;
 mod plausible;
+mod swing;
 
 use mlx90333::{Decoder, Word};
 
@@ -11,6 +12,8 @@ use crate::zero::{Zero, ZeroLimits};
 use crate::{Event, Place, SensorFault};
 pub use limits::{BAD_WEIGHT, SensorLimits};
 use plausible::Course;
+pub(crate) use swing::Swing;
+pub use swing::SwingLimits;
 
 /// What one whisker's sensor reads in one tick.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

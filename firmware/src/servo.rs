@@ -151,6 +151,15 @@ impl<R: Real, M: MotorDriver, A: AngleInput> Servo<R, M, A> {
         (&mut self.motor, &mut self.angle)
     }
 
+    /// Counts of its angle input in the last tick, while it follows its setpoint.
+    #[inline]
+    pub(crate) const fn running_at(&self) -> Option<i32> {
+        match self.state {
+            ServoState::Running { .. } => Some(self.counts),
+            _ => None,
+        }
+    }
+
     /// What it is doing.
     pub const fn state(&self) -> &ServoState<R> {
         &self.state

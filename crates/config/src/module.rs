@@ -1,9 +1,9 @@
 //! The configuration of a module, in one number format.
 
-use firmware::design_parameters::{Plausible, retry, sensor_limits, zero_limits};
+use firmware::design_parameters::{Plausible, retry, sensor_limits, swing_limits, zero_limits};
 use firmware::{
     ClassifierConfig, Config, ConfigError, Field, HeadConfig, Links, MotionConfig, SensingConfig,
-    SensorLimits, ServoConfig,
+    SensorLimits, ServoConfig, SwingLimits,
 };
 use scene::{Deciding, MotorSection, OnFault, PlantKind, Rest, Rule, Scene, SensorMode};
 use tactile::{RuleSettings, Threshold};
@@ -115,11 +115,33 @@ fn sensor(scene: &Scene, is_ideal: bool) -> SensorLimits {
         },
     };
     SensorLimits {
+        swing: swing(scene).filter(|_| !is_ideal),
         zero: sensor
             .zero_after_s
             .map(|after_s| zero_limits(scene.tick_hz, after_s, sensor.zero_calm, sensor.zero_most)),
         ..sensor_limits(scene.tick_hz, plausible)
     }
+}
+
+/// Codes by which whisking moves a reading at least, and from how many whisks a second: an
+/// inertia of 300 codes at 2 Hz (the plant `textured`; a shaft of the papers gives more), noise of
+/// 30 from end to end.
+const SWING_CODES: u16 = 50;
+const SWING_HZ: f64 = 1.25;
+
+/// What whisking must do to the readings of a scene, if that is known.
+fn swing(scene: &Scene) -> Option<SwingLimits> {
+    let (whisking, motor) = (scene.whisking.as_ref()?, scene.motor.as_ref()?);
+    let is_known = whisking.frequency_hz >= SWING_HZ;
+    let codes = scene.sensor.swing_codes;
+    let codes = codes.unwrap_or(if is_known { SWING_CODES } else { 0 });
+    let limits = swing_limits(scene.tick_hz, codes, degrees_per_count(motor));
+    (codes > 0).then_some(limits)
+}
+
+/// Degrees of the whisker a count of its encoder.
+fn degrees_per_count(motor: &MotorSection) -> f64 {
+    360.0 / (f64::from(motor.counts_per_rev) * motor.gear)
 }
 
 /// The settings of a scene's rule.
@@ -153,7 +175,7 @@ fn motion<R: Real>(scene: &Scene, is_ideal: bool) -> Result<Option<MotionConfig<
         return Err(Mismatch::Shape);
     }
     let tick_hz = f64::from(scene.tick_hz);
-    let degrees_per_count = 360.0 / (f64::from(motor.counts_per_rev) * motor.gear);
+    let degrees_per_count = degrees_per_count(motor);
     let pd = pd::Settings {
         kp: motor.kp,
         kd: motor.kd,

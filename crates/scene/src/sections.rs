@@ -70,7 +70,7 @@ mod tests {
         }
         // Eighteen of the motor, twelve of the plant, six of the sensor, two of telemetry, one of
         // the head, of whisking and of the classifier.
-        assert_eq!(defaults, 41);
+        assert_eq!(defaults, 42);
     }
 
     #[test]

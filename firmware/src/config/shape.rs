@@ -6,6 +6,7 @@ use whisking::{Real, muscle, oscillator};
 
 use super::{Config, ConfigError, Field, MotionConfig, Part};
 use crate::perception::ClassifierConfig;
+use crate::sensing::SensorLimits;
 
 type Checked = Result<(), ConfigError>;
 
@@ -64,7 +65,12 @@ impl<R: Real> Config<R> {
                 Err(ConfigError::Armed(field))
             }
         };
-        let (old_sensor, new_sensor) = (&self.sensor.limits, &new.sensor.limits);
+        let new_sensor = new.sensor.limits;
+        // What whisking must do to a reading follows from how fast it is.
+        let old_sensor = SensorLimits {
+            swing: new_sensor.swing,
+            ..self.sensor.limits
+        };
         kept(Field::SensorLimits, old_sensor == new_sensor)?;
         let (Some(old), Some(new)) = (&self.motion, &new.motion) else {
             return Ok(());

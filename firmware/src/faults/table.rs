@@ -145,6 +145,14 @@ macro_rules! fault_table {
                 "none was deployed; writing it was interrupted; one of another scene or version",
                 "the line below it; `whisker deploy` ([flashing.md](flashing.md))",
                 GoesOn, Deployed;
+            35 UNFELT: "whisking does not move a reading",
+                "magnet gone; whisker broken off; sensor frozen but for its noise",
+                "the magnet and the whisker; `swing_codes`; no contact is reported meanwhile",
+                GoesOn, Counted;
+            36 AT_END: "a reading is at the end of its range",
+                "magnet off its place; too near, or turned over",
+                "the gap: [mount](build.md#field-and-gap); no contact is reported meanwhile",
+                GoesOn, Counted;
 
             48 PANIC: "panic",
                 "a fault of this program",

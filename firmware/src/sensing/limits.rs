@@ -2,6 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::swing::SwingLimits;
 use crate::zero::ZeroLimits;
 
 /// What is tolerated of a sensor, and how long a recovery takes; in ticks but for `jump`.
@@ -25,6 +26,8 @@ pub struct SensorLimits {
     pub burst: u16,
     /// When its zero is found; `None`: it is mid-scale.
     pub zero: Option<ZeroLimits>,
+    /// What whisking must do to it, where that is known.
+    pub swing: Option<SwingLimits>,
 }
 
 impl SensorLimits {
@@ -38,6 +41,7 @@ impl SensorLimits {
         jump: u16::MAX,
         burst: u16::MAX,
         zero: None,
+        swing: None,
     };
 }
 

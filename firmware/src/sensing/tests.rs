@@ -14,6 +14,7 @@ const LIMITS: SensorLimits = SensorLimits {
     jump: 0x2000,
     burst: 40,
     zero: None,
+    swing: None,
 };
 
 type Taken = Result<Option<[u8; FRAME_LEN]>, BusError>;

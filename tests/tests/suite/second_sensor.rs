@@ -26,6 +26,7 @@ const LIMITS: SensorLimits = SensorLimits {
     jump: u16::MAX,
     burst: 1000,
     zero: None,
+    swing: None,
 };
 
 const PLACE: Place = Place::new(0, 0);

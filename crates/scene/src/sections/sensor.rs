@@ -58,5 +58,11 @@ keys! {
         /// How far from mid-scale the zero may be found. Beyond it the whisker leans against
         /// something, or its magnet is not in its place: the last zero stays.
         zero_most: u16 = integer(1..=8_191).unit("codes").default("160"),
+
+        /// Codes by which whisking alone moves x at least, whisks of 30 degrees or wider: where it
+        /// moves by less for 2 s the magnet or the whisker is gone, which is a limit, and no contact
+        /// is reported. `whisker calibrate` shows how many there are in the air; 0: not looked at.
+        swing_codes: Option<u16> = integer(0..=8_191).unit("codes")
+            .optional("50 from 1.25 Hz on; below, where noise moves it as far, 0"),
     }
 }

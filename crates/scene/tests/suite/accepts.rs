@@ -38,6 +38,7 @@ fn every_key_reaches_its_field() {
             zero_after_s: None,
             zero_calm: 0.05,
             zero_most: 160,
+            swing_codes: None,
         },
         telemetry: TelemetrySection {
             rtt: true,

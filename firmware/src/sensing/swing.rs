@@ -1,0 +1,181 @@
+//! Whether a whisker feels that it is whisked: its inertia alone moves the reading.
+//!
+//! A sensor whose magnet is gone, and one on a stub of a whisker, answer with good frames in which
+//! nothing moves; a magnet that has come off its place may read the end of the range for ever. What
+//! such a sensor says is no touch, nor the air.
+
+use mlx90333::Word;
+use serde::{Deserialize, Serialize};
+
+use crate::faults::number;
+
+/// What whisking must do to a reading.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+pub struct SwingLimits {
+    /// Ticks of a look, some whisks.
+    pub ticks: u16,
+    /// Counts of the encoder from one end of the whisks to the other from which a look tells
+    /// anything.
+    pub counts: u32,
+    /// Steps of a word, of 65,536, that x must move by in them.
+    pub least: u16,
+}
+
+/// Within this of either end of the range, of 65,536 steps, x says nothing.
+const END: u16 = 16;
+
+/// What a look has found.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Lost {
+    /// The reading does not move.
+    Still,
+    /// It is at the end of its range, for a whole look.
+    AtEnd,
+}
+
+impl Lost {
+    /// Its number in the table of limits.
+    pub(crate) const fn number(self) -> u8 {
+        match self {
+            Self::Still => number::UNFELT,
+            Self::AtEnd => number::AT_END,
+        }
+    }
+}
+
+/// The extremes of a look that is under way.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct Swing {
+    ticks: u16,
+    x: [u16; 2],
+    counts: [i32; 2],
+    is_at_end: bool,
+    is_lost: bool,
+}
+
+impl Swing {
+    pub(crate) const fn new() -> Self {
+        Self {
+            ticks: 0,
+            x: [u16::MAX, 0],
+            counts: [i32::MAX, i32::MIN],
+            is_at_end: true,
+            is_lost: false,
+        }
+    }
+
+    /// Whether the last look has found that nothing is felt.
+    #[inline]
+    pub(crate) const fn is_lost(&self) -> bool {
+        self.is_lost
+    }
+
+    /// The look begins again; what the last has found stays.
+    const fn pause(&mut self) {
+        let is_lost = self.is_lost;
+        *self = Self::new();
+        self.is_lost = is_lost;
+    }
+
+    /// One tick with the reading x, and with the counts of a motor that runs; `None`: it does not.
+    /// Says what is lost where it was not lost before.
+    #[inline]
+    pub(crate) fn look(
+        &mut self,
+        limits: SwingLimits,
+        x: Word,
+        counts: Option<i32>,
+    ) -> Option<Lost> {
+        let Some(counts) = counts else {
+            self.pause();
+            return None;
+        };
+        let x = x.raw();
+        let [low, high] = &mut self.x;
+        (*low, *high) = ((*low).min(x), (*high).max(x));
+        let [low, high] = &mut self.counts;
+        (*low, *high) = ((*low).min(counts), (*high).max(counts));
+        self.is_at_end &= !(END..=u16::MAX - END).contains(&x);
+        self.ticks = self.ticks.saturating_add(1);
+        if self.ticks < limits.ticks {
+            return None;
+        }
+        self.judge(limits)
+    }
+
+    #[cold]
+    fn judge(&mut self, limits: SwingLimits) -> Option<Lost> {
+        let [low, high] = self.x;
+        let [from, to] = self.counts;
+        let tells = to.wrapping_sub(from).cast_unsigned() >= limits.counts;
+        let found = if self.is_at_end {
+            Some(Lost::AtEnd)
+        } else if tells && high.saturating_sub(low) < limits.least {
+            Some(Lost::Still)
+        } else {
+            None
+        };
+        let was_lost = self.is_lost;
+        // What does not whisk tells nothing about a reading that did not move before.
+        self.is_lost = found.is_some() || (was_lost && !tells);
+        self.pause();
+        found.filter(|_| !was_lost)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Lost, Swing, SwingLimits};
+    use mlx90333::Word;
+
+    const LIMITS: SwingLimits = SwingLimits {
+        ticks: 100,
+        counts: 500,
+        least: 400,
+    };
+
+    /// What ten looks say of an x and an angle by tick, and whether nothing is felt in the end.
+    fn looks(x: impl Fn(i32) -> u16, counts: impl Fn(i32) -> i32) -> (Vec<Lost>, bool) {
+        let mut swing = Swing::new();
+        let said = (0..1000)
+            .filter_map(|tick| swing.look(LIMITS, Word::new(x(tick)), Some(counts(tick))))
+            .collect();
+        (said, swing.is_lost())
+    }
+
+    fn whisks(tick: i32) -> i32 {
+        10 * (tick % 60)
+    }
+
+    #[test]
+    fn a_reading_that_does_not_move_with_the_whisker_is_said_once() {
+        let noise = |tick: i32| 0x8000 + (tick % 7 * 57) as u16;
+        assert_eq!(looks(noise, whisks), (vec![Lost::Still], true));
+        let moves = |tick: i32| 0x8000 + (tick % 60 * 8) as u16;
+        assert_eq!(looks(moves, whisks), (vec![], false));
+        // A whisker that hardly whisks tells nothing.
+        assert_eq!(looks(noise, |tick| whisks(tick) / 2), (vec![], false));
+    }
+
+    #[test]
+    fn a_reading_at_the_end_of_its_range_is_lost_and_one_that_touches_it_is_not() {
+        for end in [0, 15, u16::MAX - 15, u16::MAX] {
+            assert_eq!(looks(|_| end, |_| 0), (vec![Lost::AtEnd], true));
+        }
+        let touches = |tick: i32| if tick % 100 < 99 { u16::MAX } else { 0xF000 };
+        assert_eq!(looks(touches, whisks), (vec![], false));
+    }
+
+    #[test]
+    fn a_reading_that_moves_again_counts_again() {
+        let late = |tick: i32| {
+            0x8000
+                + if tick < 500 {
+                    0
+                } else {
+                    (tick % 60 * 8) as u16
+                }
+        };
+        assert_eq!(looks(late, whisks), (vec![Lost::Still], false));
+    }
+}
