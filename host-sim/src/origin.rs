@@ -11,11 +11,12 @@ const MARK: &str = "#";
 pub struct Origin(Vec<(String, String)>);
 
 impl Origin {
-    /// Says one thing more. An end of a line becomes a space.
+    /// Says one thing more. What is not to be seen, such as an end of a line, becomes a space.
     #[must_use]
     pub fn with(mut self, key: &str, value: impl Display) -> Self {
-        let value = format!("{value}").replace(['\n', '\r'], " ");
-        self.0.push((key.to_owned(), value));
+        let value = value.to_string().replace(tactile::name::is_hidden, " ");
+        let key = key.replace(tactile::name::is_hidden, " ");
+        self.0.push((key, value));
         self
     }
 

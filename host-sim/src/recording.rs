@@ -32,7 +32,10 @@ pub struct Stream {
 
 /// The columns of a recording, in the order in which one is written.
 pub const COLUMNS: [Column; 7] = columns! {
-    "label", "", "what was touched: the name of a class";
+    "label", "",
+        "what was touched: the name of a class. Neither it nor a trial or a pose may have a control \
+        character, or begin as a formula of a spreadsheet does: with `=` or `@`, or with `+` or \
+        `-` where no number follows";
     "trial", "",
         "any token; rows of one label and trial that follow each other are one stream in time \
         order";
@@ -121,6 +124,37 @@ impl Recorder {
     /// The recorded streams, those of the first whisker first.
     pub fn into_streams(self) -> Vec<Stream> {
         self.streams.into_iter().flatten().collect()
+    }
+}
+
+/// What a row is of.
+#[derive(Debug, Clone, Copy)]
+pub struct Tokens<'t> {
+    /// The label.
+    pub label: &'t str,
+    /// The trial.
+    pub trial: &'t str,
+    /// The pose, where there is one.
+    pub pose: Option<&'t str>,
+}
+
+impl Tokens<'_> {
+    /// Whether they can be such.
+    ///
+    /// # Errors
+    /// What is wrong with the first that cannot.
+    pub fn check(&self) -> Result<(), String> {
+        if self.label.is_empty() {
+            return Err("the label is empty".to_owned());
+        }
+        let named = [("label", self.label), ("trial", self.trial)];
+        let named = named
+            .into_iter()
+            .chain(self.pose.map(|pose| ("pose", pose)));
+        named.into_iter().try_for_each(|(name, text)| {
+            let checked = tactile::name::check(text);
+            checked.map_err(|reason| format!("{name} {text:?} {reason}"))
+        })
     }
 }
 
@@ -319,9 +353,14 @@ fn parse(file: &[u8], channels: [&str; 2]) -> Result<Vec<Stream>, String> {
             touch: touch.map(whole).transpose()?,
         };
         let (label, trial) = (cell(label), cell(trial));
-        if label.is_empty() {
-            return Err(format!("line {line}: the label is empty"));
-        }
+        let tokens = Tokens {
+            label,
+            trial,
+            pose: pose.map(cell),
+        };
+        tokens
+            .check()
+            .map_err(|fault| format!("line {line}: {fault}"))?;
         let before = streams.len();
         append(&mut streams, label, trial, Some(sample));
         // A stream is of the pose in which it begins.
@@ -424,6 +463,15 @@ mod tests {
         );
         assert!(fault("label,trial,x,y\n,1,2,3\n").contains("label is empty"));
         assert_eq!(fault("label,trial,x,y\n"), "no samples");
+        let forged = fault("label,trial,x,y\na,1,2,3\n\"b\nok stop\",1,2,3\n");
+        assert!(forged.starts_with(r#"line 3: label "b\nok stop" has the character '\n'"#));
+        let turned = fault("label,trial,x,y,pose\na,1,2,3,\u{202e}b\n");
+        assert!(turned.starts_with(r#"line 2: pose "\u{202e}b" has the character '\u{202e}'"#));
+        let formula = fault("label,trial,x,y\na,=1,2,3\n");
+        assert!(
+            formula.starts_with(r#"line 2: trial "=1" begins with '='"#),
+            "{formula}"
+        );
         assert!(fault("").contains("line 1"));
     }
 }

@@ -2,6 +2,8 @@
 
 use std::fmt;
 
+use tactile::name::Shown;
+
 /// One problem of a scene file.
 ///
 /// It prints on one line as `file:line: key: what was found; what is allowed`.
@@ -22,7 +24,11 @@ pub struct Problem {
 
 impl fmt::Display for Problem {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(&self.file)?;
+        // A key that is given beside the file may have several lines.
+        for (n, line) in self.file.split('\n').enumerate() {
+            f.write_str(if n > 0 { "\n" } else { "" })?;
+            Shown(line).fmt(f)?;
+        }
         if let Some(line) = self.line {
             write!(f, ":{line}")?;
         }

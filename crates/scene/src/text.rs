@@ -3,6 +3,8 @@
 
 use std::ops::Range;
 
+use tactile::name::Shown;
+
 use crate::overriding::Override;
 use crate::problem::{Problem, Problems};
 
@@ -117,14 +119,10 @@ impl<'a> Text<'a> {
         std::iter::once(file.to_owned()).chain(beside).collect()
     }
 }
-/// Control characters become spaces, runs of space one; long text is cut.
+/// Runs of space become one, what else is not to be seen is shown escaped; long text is cut.
 fn one_line(text: &str) -> String {
-    let plain: String = text
-        .chars()
-        .map(|c| if c.is_control() { ' ' } else { c })
-        .collect();
-    let words: Vec<&str> = plain.split_whitespace().collect();
-    let line = words.join(" ");
+    let words: Vec<&str> = text.split_whitespace().collect();
+    let line = Shown(&words.join(" ")).to_string();
     if line.chars().count() <= LONGEST_EXCERPT {
         return line;
     }

@@ -124,3 +124,40 @@ fn huge_numbers_are_classified() {
     assert_eq!(decided.len(), 3);
     assert!(decided.iter().all(|d| d.decision == d.label), "{decided:?}");
 }
+
+#[test]
+fn labels_that_could_forge_a_line_or_a_formula() {
+    for (row, naming) in [
+        (
+            &b"\"a\nok stop\",0,1,2"[..],
+            r#"line 4: label "a\nok stop" has the character '\n'"#,
+        ),
+        (
+            b"\x1b[31mred,0,1,2",
+            r#"line 4: label "\u{1b}[31mred" has the character '\u{1b}'"#,
+        ),
+        (
+            b"low,=cmd|' /C calc'!A0,1,2",
+            "line 4: trial \"=cmd|' /C calc'!A0\" begins with '='",
+        ),
+    ] {
+        refused_by_both(with_row(row), &[naming]);
+    }
+}
+
+#[cfg(unix)]
+#[test]
+fn nothing_of_others_commands_the_terminal() {
+    let place = Place::new();
+    for line in [
+        "run \x1b[2J\u{9b}.toml",
+        "train --data \x1b[2J.csv --out \u{202e}m",
+        "classify --rule \x1b[2J",
+        "run s.toml --set \x1b[2J=1 --out o",
+    ] {
+        let ran = place.run(line);
+        assert_eq!(ran.status, Some(2), "{line:?}");
+        let seen = ran.stderr.replace('\n', "");
+        assert!(!seen.contains(tactile::name::is_hidden), "{seen:?}");
+    }
+}

@@ -3,7 +3,6 @@
 use std::path::{Path, PathBuf};
 
 use clap::Args;
-use clap::builder::NonEmptyStringValueParser;
 use host_sim::origin::Origin;
 use host_sim::progress::{Progress, Verbosity};
 use host_sim::{Error, report};
@@ -12,7 +11,7 @@ use toml_edit::DocumentMut;
 use wire::Command;
 
 use super::order::SideName;
-use crate::capture::{Checks, Label, Recording, Sampler, Touches};
+use crate::capture::{Checks, Label, Recording, Sampler, Touches, token};
 use crate::conversation::Conversation;
 use crate::source::{Source, SourceChoice, seconds};
 use crate::tally::{Before, Tally, side};
@@ -38,7 +37,7 @@ pub(crate) struct Arguments {
     #[arg(long)]
     resume: bool,
     /// What this pose of the samples is called; with --resume others can follow in one file
-    #[arg(long, value_name = "NAME", value_parser = NonEmptyStringValueParser::new())]
+    #[arg(long, value_name = "NAME", value_parser = token)]
     pose: Option<String>,
     /// For how long nothing may be touched
     #[arg(long, value_name = "S", default_value = "10", value_parser = seconds)]

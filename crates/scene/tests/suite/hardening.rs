@@ -6,6 +6,25 @@ use proptest::prelude::*;
 use proptest::sample::Index;
 use scene::Scene;
 
+#[test]
+fn what_is_not_to_be_seen_is_refused_in_a_path_and_shown_escaped_elsewhere() {
+    let problems = |file: &str, text: &str| Scene::from_str(file, text).unwrap_err().to_string();
+    let text = FULL.replacen("\"models/", "\"\\u001b[2Jmodels/", 1);
+    let found = problems("s.toml", &text);
+    assert!(
+        found.contains(r"has the character '\u{1b}', which is not to be seen"),
+        "{found}"
+    );
+    let text = FULL.replacen("\"models/", "\"=1+1", 1);
+    assert!(problems("s.toml", &text).contains("which begins with '='"));
+    let found = problems("\u{1b}]0;s\u{7}.toml", "'a\u{9b}\u{202e}b' = 1\n");
+    assert!(
+        !found.replace('\n', "").contains(tactile::name::is_hidden),
+        "{found}"
+    );
+    assert!(found.starts_with(r"\u{1b}]0;s\u{7}.toml:1: "), "{found}");
+}
+
 /// Pieces that are apt to upset a reader: short ones, and longer ones.
 const MARKS: [&str; 37] = [
     "", "\n", "=", "[", "]", "[[", "]]", "{", "}", "\"", "'", "\"\"\"", ",", ".", "#", "-", "0x",
