@@ -5,6 +5,7 @@
 //! contact in the air. `pose` is there only of scenes whose poses differ. Lines that begin
 //! with `# ` may stand above the table.
 
+use std::collections::HashSet;
 use std::io::{self, Read, Write};
 
 use crate::Error;
@@ -50,6 +51,9 @@ pub const COLUMNS: [Column; 7] = columns! {
         `plant.tilt_spread_deg`, `plant.obstacle_spread_deg` or `plant.gain_spread`: a number from \
         0, each presentation another";
 };
+
+/// Most labels of a recording: a model takes 32 of them, and of each pair decisions are counted.
+const MOST_LABELS: usize = 1000;
 
 /// The channels of a recording, unless said otherwise.
 pub const CHANNELS: [&str; 2] = ["x", "y"];
@@ -318,6 +322,7 @@ fn parse(file: &[u8], channels: [&str; 2]) -> Result<Vec<Stream>, String> {
     let pose = optional("pose")?;
 
     let mut streams: Vec<Stream> = Vec::new();
+    let mut labels = HashSet::new();
     let mut record = csv::StringRecord::new();
     while table.read_record(&mut record).map_err(broken)? {
         let line = above + record.position().map_or(0, csv::Position::line);
@@ -363,6 +368,12 @@ fn parse(file: &[u8], channels: [&str; 2]) -> Result<Vec<Stream>, String> {
             .map_err(|fault| format!("line {line}: {fault}"))?;
         let before = streams.len();
         append(&mut streams, label, trial, Some(sample));
+        if streams.len() > before && labels.insert(label.to_owned()) && labels.len() > MOST_LABELS {
+            return Err(format!(
+                "line {line}: label {label:?} is one of more than {MOST_LABELS}; a label is the \
+                 name of what was touched"
+            ));
+        }
         // A stream is of the pose in which it begins.
         if let (true, Some(place), Some(stream)) =
             (streams.len() > before, pose, streams.last_mut())
@@ -463,6 +474,12 @@ mod tests {
         );
         assert!(fault("label,trial,x,y\n,1,2,3\n").contains("label is empty"));
         assert_eq!(fault("label,trial,x,y\n"), "no samples");
+        let rows: String = (0..2000).map(|n| format!("l{n},1,2,3\n")).collect();
+        let many = fault(&format!("label,trial,x,y\n{rows}"));
+        assert!(
+            many.starts_with("line 1002: label \"l1000\" is one of more than 1000"),
+            "{many}"
+        );
         let forged = fault("label,trial,x,y\na,1,2,3\n\"b\nok stop\",1,2,3\n");
         assert!(forged.starts_with(r#"line 3: label "b\nok stop" has the character '\n'"#));
         let turned = fault("label,trial,x,y,pose\na,1,2,3,\u{202e}b\n");

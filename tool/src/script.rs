@@ -5,7 +5,7 @@ use std::path::Path;
 
 use firmware::Packet;
 use host_sim::Error;
-use scene::Override;
+use scene::{Override, file};
 use wire::text::{self, Spoken};
 use wire::{Command, CommandStatus};
 
@@ -51,7 +51,7 @@ impl Script {
         let Some(path) = path else {
             return Ok(Self::default());
         };
-        let text = std::fs::read_to_string(path).map_err(|error| Error::file(path, error))?;
+        let text = file::read_text(path).map_err(|error| Error::file(path, error))?;
         let mut script = Self::parse(&text).map_err(|fault| Error::file(path, fault))?;
         script.tuner = script.tuner(source)?;
         Ok(script)

@@ -47,18 +47,20 @@ impl std::error::Error for Problem {}
 
 /// All problems of a scene file, in the order of its lines; at least one.
 ///
-/// It prints one line a problem, without a newline at the end.
+/// It prints one line a problem, without a newline at the end. Of very many the first are listed,
+/// and the others counted.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Problems {
     list: Vec<Problem>,
+    more: usize,
 }
 
 impl Problems {
-    pub(crate) fn new(list: Vec<Problem>) -> Self {
-        Self { list }
+    pub(crate) fn new(list: Vec<Problem>, more: usize) -> Self {
+        Self { list, more }
     }
 
-    /// The problems, in the order of the file's lines.
+    /// The problems that are listed, in the order of the file's lines.
     pub fn as_slice(&self) -> &[Problem] {
         &self.list
     }
@@ -71,6 +73,9 @@ impl fmt::Display for Problems {
                 f.write_str("\n")?;
             }
             problem.fmt(f)?;
+        }
+        if self.more > 0 {
+            write!(f, "\n{} more problems", self.more)?;
         }
         Ok(())
     }

@@ -161,3 +161,53 @@ fn nothing_of_others_commands_the_terminal() {
         assert!(!seen.contains(tactile::name::is_hidden), "{seen:?}");
     }
 }
+
+#[cfg(unix)]
+#[test]
+fn devices_pipes_and_what_is_too_large_are_refused_at_once() {
+    let place = Place::new();
+    place.write("m", model(2, 20, true));
+    place.write("r.csv", RECORDING);
+    let made = std::process::Command::new("mkfifo")
+        .arg(place.path("fifo"))
+        .status();
+    assert!(made.unwrap().success());
+    let large = std::fs::File::create(place.path("large")).unwrap();
+    large.set_len(1 << 40).unwrap();
+    for (name, why) in [
+        ("/dev/zero", "not a regular file"),
+        ("fifo", "not a regular file"),
+        ("large", "larger than "),
+    ] {
+        for line in [
+            "run FILE --out o",
+            "record FILE --out o",
+            "train --data FILE --out o",
+            "classify --model m --data FILE --rule window --window 20 --out o",
+            "classify --model FILE --data r.csv --rule window --window 20 --out o",
+            "evaluate --model m --data FILE",
+        ] {
+            let line = line.replace("FILE", name);
+            let ran = place.run(&line);
+            assert_eq!(ran.status, Some(2), "{line}: {ran:?}");
+            assert!(ran.stderr.contains(&format!("{name}: ")), "{line}: {ran:?}");
+            assert!(ran.stderr.contains(why), "{line}: {ran:?}");
+        }
+    }
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_recording_may_come_through_a_pipe_of_the_shell() {
+    let place = Place::new();
+    place.write("r.csv", RECORDING);
+    place.done("train --tables single --data r.csv --out m --block 2");
+    let line = format!(
+        "cat r.csv | {} train --tables single --data /dev/stdin --out piped --block 2",
+        env!("CARGO_BIN_EXE_host-sim")
+    );
+    let mut shell = std::process::Command::new("sh");
+    let done = shell.args(["-c", &line]).current_dir(place.path("."));
+    assert!(done.output().unwrap().status.success());
+    assert_eq!(place.bytes("piped"), place.bytes("m"));
+}

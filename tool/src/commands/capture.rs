@@ -7,6 +7,7 @@ use host_sim::origin::Origin;
 use host_sim::progress::{Progress, Verbosity};
 use host_sim::{Error, report};
 use jiff::Timestamp;
+use scene::file;
 use toml_edit::DocumentMut;
 use wire::Command;
 
@@ -179,7 +180,7 @@ fn complete(
 /// What a calibration says, as a recording has it in its header.
 fn calibration(path: &Path) -> Result<Origin, Error> {
     let wrong = |error: String| Error::file(path, error);
-    let text = std::fs::read_to_string(path).map_err(|error| Error::file(path, error))?;
+    let text = file::read_text(path).map_err(|error| Error::file(path, error))?;
     let document: DocumentMut = text.parse().map_err(|error| wrong(format!("{error}")))?;
     if !document.contains_key("zero_codes") {
         return Err(wrong(
