@@ -6,6 +6,9 @@ use std::io::{self, Write};
 /// What such a line begins with, before a space or its end: a column may be called `#`.
 const MARK: &str = "#";
 
+/// What Windows writes before a text in UTF-8.
+const BYTE_ORDER_MARK: &[u8] = "\u{feff}".as_bytes();
+
 /// Where a table comes from.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct Origin(Vec<(String, String)>);
@@ -44,17 +47,24 @@ impl Origin {
 }
 
 /// Takes the lines that begin with `# ` from the top of a file. Returns what they say, how many
-/// there are, and the table below them. A line without `=` is a remark, which says nothing.
+/// there are, and the table below them. A line without `=` is a remark, which says nothing. What a
+/// spreadsheet adds is left out: a byte-order mark, quotation marks, and commas behind the text.
 pub fn split(file: &[u8]) -> (Origin, u64, &[u8]) {
+    let file = file.strip_prefix(BYTE_ORDER_MARK).unwrap_or(file);
     let (mut origin, mut lines, mut rest) = (Origin::default(), 0, file);
     loop {
         let end = rest.iter().position(|byte| *byte == b'\n');
         let (line, below) = rest.split_at(end.map_or(rest.len(), |end| end + 1));
         let line = String::from_utf8_lossy(line);
+        let line = line.trim_end().trim_end_matches(',').trim_end();
+        let quoted = line
+            .strip_prefix('"')
+            .and_then(|line| line.strip_suffix('"'));
+        let line = quoted.map_or(line.to_owned(), |line| line.replace("\"\"", "\""));
         let Some(said) = line.strip_prefix(MARK) else {
             break;
         };
-        if !said.starts_with(' ') && !said.trim_end().is_empty() {
+        if !said.starts_with(' ') && !said.is_empty() {
             break;
         }
         if let Some((key, value)) = said.split_once('=') {
@@ -79,6 +89,15 @@ mod tests {
         file.extend(b"a,b\n#1,2\n");
         let (read, lines, table) = split(&file);
         assert_eq!((read, lines, table), (origin, 2, &b"a,b\n#1,2\n"[..]));
+    }
+
+    #[test]
+    fn what_a_spreadsheet_adds_is_left_out() {
+        let file = "\u{feff}# tick_hz = 2000,,,,\r\n\"# scene = a,\"\"b\"\"\",,\r\n#,,\r\na,b\r\n";
+        let (origin, lines, table) = split(file.as_bytes());
+        assert_eq!(origin.get("tick_hz"), Some("2000"));
+        assert_eq!(origin.get("scene"), Some("a,\"b\""));
+        assert_eq!((lines, table), (3, &b"a,b\r\n"[..]));
     }
 
     #[test]

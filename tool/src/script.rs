@@ -59,6 +59,7 @@ impl Script {
 
     fn parse(text: &str) -> Result<Self, String> {
         let mut entries: VecDeque<Entry> = VecDeque::new();
+        let text = text.trim_start_matches('\u{feff}');
         for (n, line) in (1..).zip(text.lines()) {
             let words = line.split('#').next().unwrap_or_default();
             if words.trim().is_empty() {
@@ -231,6 +232,8 @@ mod tests {
     fn faults_name_their_line() {
         let fault = |text: &str| Script::parse(text).unwrap_err();
         assert!(fault("0 arm\nsoon stop").starts_with("line 2: found the time \"soon\""));
+        // What Windows writes first changes nothing.
+        assert!(Script::parse("\u{feff}0 arm\r\n").is_ok());
         assert!(fault("1 stop\n0 arm").starts_with("line 2: its time is before"));
         for text in [
             "0 arm left",
