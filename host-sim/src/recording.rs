@@ -271,7 +271,7 @@ pub(crate) fn lines(table: &[u8]) -> Vec<u64> {
 }
 
 /// What is wrong with a table as a table, which `above` lines stand above.
-fn broken(error: &csv::Error, above: u64) -> String {
+pub fn broken(error: &csv::Error, above: u64) -> String {
     match error.kind() {
         csv::ErrorKind::UnequalLengths {
             pos: Some(at),
