@@ -75,9 +75,36 @@ pub fn split(file: &[u8]) -> (Origin, u64, &[u8]) {
     (origin, lines, rest)
 }
 
+/// What is wrong with a file whose table is in a form that no reader here takes: the encoding or
+/// what stands between columns.
+pub fn foreign(file: &[u8]) -> Option<String> {
+    let is_wide = file.starts_with(&[0xff, 0xfe]) || file.starts_with(&[0xfe, 0xff]);
+    if is_wide {
+        return Some("line 1: the text is in UTF-16; save it as CSV in UTF-8".to_owned());
+    }
+    let (_, above, table) = split(file);
+    let header = table.split(|byte| *byte == b'\n').next()?;
+    let (name, _) = [("semicolons", b';'), ("tabs", b'\t')]
+        .into_iter()
+        .find(|(_, byte)| header.contains(byte) && !header.contains(&b','))?;
+    Some(format!(
+        "line {}: {name} stand between the columns; allowed: commas, and points in numbers",
+        above + 1
+    ))
+}
+
 #[cfg(test)]
 mod tests {
-    use super::{Origin, split};
+    use super::{Origin, foreign, split};
+
+    #[test]
+    fn other_encodings_and_separators_are_named_with_their_line() {
+        let fault = |file: &[u8]| foreign(file).unwrap_or_default();
+        assert!(fault(b"\xff\xfel\0a\0").starts_with("line 1: the text is in UTF-16"));
+        assert!(fault(b"# a\nlabel;trial;x;y\nice;1;0,5;2\n").starts_with("line 2: semicolons"));
+        assert!(fault(b"label\ttrial\tx\ty\n").starts_with("line 1: tabs"));
+        assert_eq!(foreign(b"label,trial,x,y,a;b\n"), None);
+    }
 
     #[test]
     fn what_is_written_is_read() {

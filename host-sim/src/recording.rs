@@ -282,13 +282,17 @@ pub fn broken(error: &csv::Error, above: u64) -> String {
             above + at.line()
         ),
         csv::ErrorKind::Utf8 { pos: Some(at), .. } => {
-            format!("line {}: not UTF-8", above + at.line())
+            let line = above + at.line();
+            format!("line {line}: not UTF-8 (Latin-1?); save it as CSV in UTF-8")
         }
         _ => error.to_string(),
     }
 }
 
 fn parse(file: &[u8], channels: [&str; 2]) -> Result<Vec<Stream>, String> {
+    if let Some(fault) = origin::foreign(file) {
+        return Err(fault);
+    }
     let (_, above, table) = origin::split(file);
     let broken = |error: csv::Error| broken(&error, above);
     let first = above + 1;
@@ -331,6 +335,10 @@ fn parse(file: &[u8], channels: [&str; 2]) -> Result<Vec<Stream>, String> {
             let text = cell(place);
             match text.parse::<f64>() {
                 Ok(value) if value.is_finite() => Ok(value),
+                _ if text.contains(',') => Err(format!(
+                    "line {line}: {name} is {text:?}, not a finite number; a point is needed, no \
+                     comma"
+                )),
                 _ => Err(format!(
                     "line {line}: {name} is {text:?}, not a finite number"
                 )),
@@ -475,6 +483,14 @@ mod tests {
         assert!(fault("label,trial,x,y\n,1,2,3\n").contains("label is empty"));
         assert_eq!(fault("label,trial,x,y\n"), "no samples");
         let rows: String = (0..2000).map(|n| format!("l{n},1,2,3\n")).collect();
+        let comma = fault("label,trial,x,y\na,1,\"0,5\",3\n");
+        assert!(comma.ends_with("a point is needed, no comma"), "{comma}");
+        let latin = super::parse(b"label,trial,x,y\na,1,2,3\nh\xf6lz,1,2,3\n", CHANNELS);
+        assert!(
+            latin
+                .unwrap_err()
+                .starts_with("line 3: not UTF-8 (Latin-1?)")
+        );
         let many = fault(&format!("label,trial,x,y\n{rows}"));
         assert!(
             many.starts_with("line 1002: label \"l1000\" is one of more than 1000"),

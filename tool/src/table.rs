@@ -150,6 +150,9 @@ fn truth(text: &str) -> Option<bool> {
 
 /// Reads a table; the error names the line.
 pub(crate) fn read(file: &[u8]) -> Result<Kept, String> {
+    if let Some(fault) = origin::foreign(file) {
+        return Err(fault);
+    }
     let (origin, above, table) = origin::split(file);
     let tick_hz = origin.get(TICK_HZ).map(|text| {
         let fault = || format!("{TICK_HZ} is {text:?}, not a whole number above 0");
