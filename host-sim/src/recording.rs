@@ -482,7 +482,8 @@ mod tests {
         );
         assert!(fault("label,trial,x,y\n,1,2,3\n").contains("label is empty"));
         assert_eq!(fault("label,trial,x,y\n"), "no samples");
-        let rows: String = (0..2000).map(|n| format!("l{n},1,2,3\n")).collect();
+        let rows: Vec<_> = (0..2000).map(|n| format!("l{n},1,2,3\n")).collect();
+        let rows = rows.concat();
         let comma = fault("label,trial,x,y\na,1,\"0,5\",3\n");
         assert!(comma.ends_with("a point is needed, no comma"), "{comma}");
         let latin = super::parse(b"label,trial,x,y\na,1,2,3\nh\xf6lz,1,2,3\n", CHANNELS);

@@ -49,8 +49,11 @@ fn with_ends_of(text: &str, edited: &str) -> String {
     let (before, after) = (lines(text), lines(edited));
     let mut ends = vec![has_return.first() == Some(&true); after.len()];
     for change in TextDiff::from_slices(&as_refs(&before), &as_refs(&after)).iter_all_changes() {
-        if let (Some(old), Some(new)) = (change.old_index(), change.new_index()) {
-            ends[new] = has_return.get(old) == Some(&true);
+        let (old, new) = (change.old_index(), change.new_index());
+        let old = old.and_then(|old| has_return.get(old));
+        let new = new.and_then(|new| ends.get_mut(new));
+        if let (Some(old), Some(new)) = (old, new) {
+            *new = *old;
         }
     }
     let mark = if text.starts_with(MARK) {
@@ -58,11 +61,11 @@ fn with_ends_of(text: &str, edited: &str) -> String {
     } else {
         ""
     };
-    let body = after.iter().zip(ends).map(|(line, has_return)| {
-        let end = if has_return { "\r\n" } else { "\n" };
-        format!("{line}{end}")
-    });
-    let mut whole = format!("{mark}{}", body.collect::<String>());
+    let mut whole = mark.to_owned();
+    for (line, has_return) in after.iter().zip(ends) {
+        whole.push_str(line);
+        whole.push_str(if has_return { "\r\n" } else { "\n" });
+    }
     if !edited.ends_with('\n') {
         whole.truncate(whole.trim_end_matches(['\r', '\n']).len());
     }
