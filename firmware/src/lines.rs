@@ -29,19 +29,27 @@ macro_rules! say_event {
                 let class = decision.class().map_or("unknown", &name);
                 let among = decision.among().map_or([""; 2], |among| among.map(&name));
                 let [why, leader, and, rival] = $crate::lines::why(decision.reason(), among);
+                let [quote, of_leader, of_rival] = [class, leader, rival].map($crate::lines::quote);
                 let posterior = $crate::lines::percent(decision);
                 $say!(
                     info,
-                    "decision {=str} {=str} {=u32}.{=u32:04} {=u32}{=str}{=str}{=str}{=str}",
+                    "decision {=str} {=str}{=str}{=str} {=u32}.{=u32:04} {=u32}\
+                     {=str}{=str}{=str}{=str}{=str}{=str}{=str}{=str}",
                     place.side_name(),
+                    quote,
                     class,
+                    quote,
                     posterior / 10_000,
                     posterior % 10_000,
                     decision.samples(),
                     why,
+                    of_leader,
                     leader,
+                    of_leader,
                     and,
-                    rival
+                    of_rival,
+                    rival,
+                    of_rival
                 );
             }
             $crate::Event::SensorLost(place, why) => {
@@ -182,6 +190,16 @@ pub fn percent(decision: tactile::Decision) -> u32 {
     ((u64::from(decision.posterior().q32()) * 1_000_000) >> 32) as u32
 }
 
+/// What stands before and after a name on a line: a quotation mark where it has spaces, which would
+/// make fields of it.
+pub fn quote(name: &str) -> &'static str {
+    if name.bytes().any(|byte| byte == b' ') {
+        "\""
+    } else {
+        ""
+    }
+}
+
 /// Why a decision names no class, in words that follow each other, a space before them; empty
 /// where one is named, or where "unknown" says it all. `among` are the leader and its rival.
 pub const fn why(reason: Option<Reason>, among: [&str; 2]) -> [&str; 4] {
@@ -310,6 +328,37 @@ mod tests {
         ] {
             assert_eq!(said(&mut at(ticks, tick_hz)), expected);
         }
+    }
+
+    #[test]
+    fn a_name_is_one_field_and_ends_no_line() {
+        let said_of = |names: [&'static str; 2], bits| {
+            let decision = Decision::from_memory(34, 1 << 27, bits).unwrap();
+            let context = Context {
+                class_name: |class: usize| names[class],
+                period_us: 500,
+                lost: 0,
+            };
+            let mut line = at(0, 2_000);
+            event(&mut line, &Event::Decision(RIGHT, decision), context);
+            said(&mut line)
+        };
+        let spaced = ["rough carpet", "ice"];
+        let line = said_of(["ice", "rough carpet"], 0);
+        assert!(
+            line.starts_with("0.000 decision right \"rough carpet\" "),
+            "{line}"
+        );
+        let line = said_of(spaced, 5 << 16);
+        assert!(
+            line.ends_with(" between ice and \"rough carpet\""),
+            "{line}"
+        );
+        let line = said_of(["ice", "x\r\nok stop"], 0);
+        assert!(
+            line.contains("\"x??ok stop\" ") && !line.contains('\n'),
+            "{line}"
+        );
     }
 
     #[test]

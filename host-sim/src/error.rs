@@ -2,6 +2,8 @@
 
 use std::path::{Path, PathBuf};
 
+use tactile::name::Shown;
+
 /// Why a command ended early.
 #[derive(Debug, thiserror::Error)]
 pub enum Error {
@@ -26,9 +28,10 @@ impl Error {
     /// with the file's name.
     pub fn file(path: &Path, fault: impl std::fmt::Display) -> Self {
         let fault = fault.to_string();
+        let name = path.display().to_string();
         let lines = fault
             .lines()
-            .map(|line| format!("{}: {line}", path.display()));
+            .map(|line| format!("{}: {}", Shown(&name), Shown(line)));
         Self::Input(lines.collect::<Vec<_>>().join("\n"))
     }
 

@@ -3,6 +3,7 @@
 use std::io;
 use std::path::{Path, PathBuf};
 
+use scene::file;
 use tactile::ModelBuf;
 
 use crate::Error;
@@ -17,7 +18,8 @@ use crate::trace::{TraceLine, TraceShape, TraceWriter};
 /// # Errors
 /// [`Error::Input`] names the file, the line and what is wrong with it.
 pub fn read_recording(path: &Path, channels: [&str; 2]) -> Result<Vec<Stream>, Error> {
-    let bytes = std::fs::read(path).map_err(|error| Error::file(path, error))?;
+    let bytes = file::read_piped(path, file::TABLE_BYTES);
+    let bytes = bytes.map_err(|error| Error::file(path, error))?;
     recording::read(bytes.as_slice(), channels).map_err(|fault| Error::file(path, fault))
 }
 
@@ -56,7 +58,7 @@ fn write(
 /// # Errors
 /// [`Error::Input`] names the file and why it is refused.
 pub fn load_model(path: &Path) -> Result<(PathBuf, ModelBuf), Error> {
-    let bytes = std::fs::read(path).map_err(|error| Error::file(path, error))?;
+    let bytes = file::read(path, file::BINARY_BYTES).map_err(|error| Error::file(path, error))?;
     model_of(path, &bytes)
 }
 

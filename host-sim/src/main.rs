@@ -177,5 +177,5 @@ fn work(arguments: Arguments) -> Result<(), Error> {
 }
 
 fn main() -> ExitCode {
-    report::program("host-sim", || work(Arguments::parse()))
+    report::program("host-sim", || work(report::arguments()))
 }

@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use scene::file;
 use tactile::ModelBuf;
 
 use crate::classifier;
@@ -61,7 +62,7 @@ pub fn misfits(
         return Vec::new();
     }
     // Read again for its lines: few recordings need them.
-    let lines = std::fs::read(path).map(|bytes| recording::lines(&bytes));
+    let lines = file::read(path, file::TABLE_BYTES).map(|bytes| recording::lines(&bytes));
     let lines = lines.unwrap_or_default();
     let place = |sample: usize| match lines.get(sample) {
         Some(line) => format!("{}:{line}", path.display()),

@@ -6,16 +6,20 @@ use std::io::{self, Write};
 /// What such a line begins with, before a space or its end: a column may be called `#`.
 const MARK: &str = "#";
 
+/// What Windows writes before a text in UTF-8.
+const BYTE_ORDER_MARK: &[u8] = "\u{feff}".as_bytes();
+
 /// Where a table comes from.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct Origin(Vec<(String, String)>);
 
 impl Origin {
-    /// Says one thing more. An end of a line becomes a space.
+    /// Says one thing more. What is not to be seen, such as an end of a line, becomes a space.
     #[must_use]
     pub fn with(mut self, key: &str, value: impl Display) -> Self {
-        let value = format!("{value}").replace(['\n', '\r'], " ");
-        self.0.push((key.to_owned(), value));
+        let value = value.to_string().replace(tactile::name::is_hidden, " ");
+        let key = key.replace(tactile::name::is_hidden, " ");
+        self.0.push((key, value));
         self
     }
 
@@ -43,17 +47,24 @@ impl Origin {
 }
 
 /// Takes the lines that begin with `# ` from the top of a file. Returns what they say, how many
-/// there are, and the table below them. A line without `=` is a remark, which says nothing.
+/// there are, and the table below them. A line without `=` is a remark, which says nothing. What a
+/// spreadsheet adds is left out: a byte-order mark, quotation marks, and commas behind the text.
 pub fn split(file: &[u8]) -> (Origin, u64, &[u8]) {
+    let file = file.strip_prefix(BYTE_ORDER_MARK).unwrap_or(file);
     let (mut origin, mut lines, mut rest) = (Origin::default(), 0, file);
     loop {
         let end = rest.iter().position(|byte| *byte == b'\n');
         let (line, below) = rest.split_at(end.map_or(rest.len(), |end| end + 1));
         let line = String::from_utf8_lossy(line);
+        let line = line.trim_end().trim_end_matches(',').trim_end();
+        let quoted = line
+            .strip_prefix('"')
+            .and_then(|line| line.strip_suffix('"'));
+        let line = quoted.map_or(line.to_owned(), |line| line.replace("\"\"", "\""));
         let Some(said) = line.strip_prefix(MARK) else {
             break;
         };
-        if !said.starts_with(' ') && !said.trim_end().is_empty() {
+        if !said.starts_with(' ') && !said.is_empty() {
             break;
         }
         if let Some((key, value)) = said.split_once('=') {
@@ -64,9 +75,36 @@ pub fn split(file: &[u8]) -> (Origin, u64, &[u8]) {
     (origin, lines, rest)
 }
 
+/// What is wrong with a file whose table is in a form that no reader here takes: the encoding or
+/// what stands between columns.
+pub fn foreign(file: &[u8]) -> Option<String> {
+    let is_wide = file.starts_with(&[0xff, 0xfe]) || file.starts_with(&[0xfe, 0xff]);
+    if is_wide {
+        return Some("line 1: the text is in UTF-16; save it as CSV in UTF-8".to_owned());
+    }
+    let (_, above, table) = split(file);
+    let header = table.split(|byte| *byte == b'\n').next()?;
+    let (name, _) = [("semicolons", b';'), ("tabs", b'\t')]
+        .into_iter()
+        .find(|(_, byte)| header.contains(byte) && !header.contains(&b','))?;
+    Some(format!(
+        "line {}: {name} stand between the columns; allowed: commas, and points in numbers",
+        above + 1
+    ))
+}
+
 #[cfg(test)]
 mod tests {
-    use super::{Origin, split};
+    use super::{Origin, foreign, split};
+
+    #[test]
+    fn other_encodings_and_separators_are_named_with_their_line() {
+        let fault = |file: &[u8]| foreign(file).unwrap_or_default();
+        assert!(fault(b"\xff\xfel\0a\0").starts_with("line 1: the text is in UTF-16"));
+        assert!(fault(b"# a\nlabel;trial;x;y\nice;1;0,5;2\n").starts_with("line 2: semicolons"));
+        assert!(fault(b"label\ttrial\tx\ty\n").starts_with("line 1: tabs"));
+        assert_eq!(foreign(b"label,trial,x,y,a;b\n"), None);
+    }
 
     #[test]
     fn what_is_written_is_read() {
@@ -78,6 +116,15 @@ mod tests {
         file.extend(b"a,b\n#1,2\n");
         let (read, lines, table) = split(&file);
         assert_eq!((read, lines, table), (origin, 2, &b"a,b\n#1,2\n"[..]));
+    }
+
+    #[test]
+    fn what_a_spreadsheet_adds_is_left_out() {
+        let file = "\u{feff}# tick_hz = 2000,,,,\r\n\"# scene = a,\"\"b\"\"\",,\r\n#,,\r\na,b\r\n";
+        let (origin, lines, table) = split(file.as_bytes());
+        assert_eq!(origin.get("tick_hz"), Some("2000"));
+        assert_eq!(origin.get("scene"), Some("a,\"b\""));
+        assert_eq!((lines, table), (3, &b"a,b\r\n"[..]));
     }
 
     #[test]

@@ -1,6 +1,7 @@
 //! What comes from a module, taken apart: packets, and lines of text between them.
 
 use firmware::Packet;
+use tactile::name::is_hidden;
 use wire::{LINE_BYTES, Piece, Splitter};
 
 /// What has come.
@@ -27,7 +28,10 @@ impl Receiver {
         let mut received = Vec::new();
         for byte in bytes {
             received.extend(self.splitter.push(*byte).map(|piece| match piece {
-                Piece::Line(line) => Received::Line(String::from_utf8_lossy(line).into_owned()),
+                Piece::Line(line) => Received::Line(
+                    // It goes to terminals and into files.
+                    String::from_utf8_lossy(line).replace(is_hidden, "\u{fffd}"),
+                ),
                 Piece::Frame(frame) => {
                     wire::open(frame).map_or(Received::Garbled, Received::Packet)
                 }
@@ -75,7 +79,7 @@ mod tests {
             &wire::frame(&record)[..],
             &damaged,
             &wire::frame(&touch),
-            b"ok stop\r\n",
+            b"ok \x1b[2Jstop\r\n",
         ];
         // Whatever comes in one go.
         let mut receiver = Receiver::default();
@@ -89,7 +93,7 @@ mod tests {
             Received::Packet(record),
             Received::Garbled,
             Received::Packet(touch),
-            Received::Line("ok stop".into()),
+            Received::Line("ok \u{fffd}[2Jstop".into()),
         ];
         assert_eq!(received, expected);
         assert_eq!(

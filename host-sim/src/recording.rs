@@ -5,6 +5,7 @@
 //! contact in the air. `pose` is there only of scenes whose poses differ. Lines that begin
 //! with `# ` may stand above the table.
 
+use std::collections::HashSet;
 use std::io::{self, Read, Write};
 
 use crate::Error;
@@ -32,7 +33,10 @@ pub struct Stream {
 
 /// The columns of a recording, in the order in which one is written.
 pub const COLUMNS: [Column; 7] = columns! {
-    "label", "", "what was touched: the name of a class";
+    "label", "",
+        "what was touched: the name of a class. Neither it nor a trial or a pose may have a control \
+        character, or begin as a formula of a spreadsheet does: with `=` or `@`, or with `+` or \
+        `-` where no number follows";
     "trial", "",
         "any token; rows of one label and trial that follow each other are one stream in time \
         order";
@@ -47,6 +51,9 @@ pub const COLUMNS: [Column; 7] = columns! {
         `plant.tilt_spread_deg`, `plant.obstacle_spread_deg` or `plant.gain_spread`: a number from \
         0, each presentation another";
 };
+
+/// Most labels of a recording: a model takes 32 of them, and of each pair decisions are counted.
+const MOST_LABELS: usize = 1000;
 
 /// The channels of a recording, unless said otherwise.
 pub const CHANNELS: [&str; 2] = ["x", "y"];
@@ -121,6 +128,37 @@ impl Recorder {
     /// The recorded streams, those of the first whisker first.
     pub fn into_streams(self) -> Vec<Stream> {
         self.streams.into_iter().flatten().collect()
+    }
+}
+
+/// What a row is of.
+#[derive(Debug, Clone, Copy)]
+pub struct Tokens<'t> {
+    /// The label.
+    pub label: &'t str,
+    /// The trial.
+    pub trial: &'t str,
+    /// The pose, where there is one.
+    pub pose: Option<&'t str>,
+}
+
+impl Tokens<'_> {
+    /// Whether they can be such.
+    ///
+    /// # Errors
+    /// What is wrong with the first that cannot.
+    pub fn check(&self) -> Result<(), String> {
+        if self.label.is_empty() {
+            return Err("the label is empty".to_owned());
+        }
+        let named = [("label", self.label), ("trial", self.trial)];
+        let named = named
+            .into_iter()
+            .chain(self.pose.map(|pose| ("pose", pose)));
+        named.into_iter().try_for_each(|(name, text)| {
+            let checked = tactile::name::check(text);
+            checked.map_err(|reason| format!("{name} {text:?} {reason}"))
+        })
     }
 }
 
@@ -233,7 +271,7 @@ pub(crate) fn lines(table: &[u8]) -> Vec<u64> {
 }
 
 /// What is wrong with a table as a table, which `above` lines stand above.
-fn broken(error: &csv::Error, above: u64) -> String {
+pub fn broken(error: &csv::Error, above: u64) -> String {
     match error.kind() {
         csv::ErrorKind::UnequalLengths {
             pos: Some(at),
@@ -244,13 +282,17 @@ fn broken(error: &csv::Error, above: u64) -> String {
             above + at.line()
         ),
         csv::ErrorKind::Utf8 { pos: Some(at), .. } => {
-            format!("line {}: not UTF-8", above + at.line())
+            let line = above + at.line();
+            format!("line {line}: not UTF-8 (Latin-1?); save it as CSV in UTF-8")
         }
         _ => error.to_string(),
     }
 }
 
 fn parse(file: &[u8], channels: [&str; 2]) -> Result<Vec<Stream>, String> {
+    if let Some(fault) = origin::foreign(file) {
+        return Err(fault);
+    }
     let (_, above, table) = origin::split(file);
     let broken = |error: csv::Error| broken(&error, above);
     let first = above + 1;
@@ -284,6 +326,7 @@ fn parse(file: &[u8], channels: [&str; 2]) -> Result<Vec<Stream>, String> {
     let pose = optional("pose")?;
 
     let mut streams: Vec<Stream> = Vec::new();
+    let mut labels = HashSet::new();
     let mut record = csv::StringRecord::new();
     while table.read_record(&mut record).map_err(broken)? {
         let line = above + record.position().map_or(0, csv::Position::line);
@@ -292,6 +335,10 @@ fn parse(file: &[u8], channels: [&str; 2]) -> Result<Vec<Stream>, String> {
             let text = cell(place);
             match text.parse::<f64>() {
                 Ok(value) if value.is_finite() => Ok(value),
+                _ if text.contains(',') => Err(format!(
+                    "line {line}: {name} is {text:?}, not a finite number; a point is needed, no \
+                     comma"
+                )),
                 _ => Err(format!(
                     "line {line}: {name} is {text:?}, not a finite number"
                 )),
@@ -319,11 +366,22 @@ fn parse(file: &[u8], channels: [&str; 2]) -> Result<Vec<Stream>, String> {
             touch: touch.map(whole).transpose()?,
         };
         let (label, trial) = (cell(label), cell(trial));
-        if label.is_empty() {
-            return Err(format!("line {line}: the label is empty"));
-        }
+        let tokens = Tokens {
+            label,
+            trial,
+            pose: pose.map(cell),
+        };
+        tokens
+            .check()
+            .map_err(|fault| format!("line {line}: {fault}"))?;
         let before = streams.len();
         append(&mut streams, label, trial, Some(sample));
+        if streams.len() > before && labels.insert(label.to_owned()) && labels.len() > MOST_LABELS {
+            return Err(format!(
+                "line {line}: label {label:?} is one of more than {MOST_LABELS}; a label is the \
+                 name of what was touched"
+            ));
+        }
         // A stream is of the pose in which it begins.
         if let (true, Some(place), Some(stream)) =
             (streams.len() > before, pose, streams.last_mut())
@@ -424,6 +482,30 @@ mod tests {
         );
         assert!(fault("label,trial,x,y\n,1,2,3\n").contains("label is empty"));
         assert_eq!(fault("label,trial,x,y\n"), "no samples");
+        let rows: Vec<_> = (0..2000).map(|n| format!("l{n},1,2,3\n")).collect();
+        let rows = rows.concat();
+        let comma = fault("label,trial,x,y\na,1,\"0,5\",3\n");
+        assert!(comma.ends_with("a point is needed, no comma"), "{comma}");
+        let latin = super::parse(b"label,trial,x,y\na,1,2,3\nh\xf6lz,1,2,3\n", CHANNELS);
+        assert!(
+            latin
+                .unwrap_err()
+                .starts_with("line 3: not UTF-8 (Latin-1?)")
+        );
+        let many = fault(&format!("label,trial,x,y\n{rows}"));
+        assert!(
+            many.starts_with("line 1002: label \"l1000\" is one of more than 1000"),
+            "{many}"
+        );
+        let forged = fault("label,trial,x,y\na,1,2,3\n\"b\nok stop\",1,2,3\n");
+        assert!(forged.starts_with(r#"line 3: label "b\nok stop" has the character '\n'"#));
+        let turned = fault("label,trial,x,y,pose\na,1,2,3,\u{202e}b\n");
+        assert!(turned.starts_with(r#"line 2: pose "\u{202e}b" has the character '\u{202e}'"#));
+        let formula = fault("label,trial,x,y\na,=1,2,3\n");
+        assert!(
+            formula.starts_with(r#"line 2: trial "=1" begins with '='"#),
+            "{formula}"
+        );
         assert!(fault("").contains("line 1"));
     }
 }

@@ -12,6 +12,7 @@ use std::process::ExitCode;
 
 use firmware::Event;
 use firmware::lines::{self, Context};
+use tactile::name::{self, Shown};
 use wire::Line;
 
 use crate::Error;
@@ -23,14 +24,36 @@ pub use runs::{OverRuns, SeedRange};
 pub use training::TrainingReport;
 
 /// A line on standard output. A closed pipe does not stop the work: what
-/// counts is in the files.
+/// counts is in the files. What is not to be seen, as of a file's name, is shown escaped, so that
+/// nothing of others can command the terminal.
 pub fn say(line: impl Display) {
-    let _ = writeln!(io::stdout().lock(), "{line}");
+    let _ = writeln!(io::stdout().lock(), "{}", seen(line));
 }
 
 /// A line on standard error, likewise.
 pub fn warn(line: impl Display) {
-    let _ = writeln!(io::stderr().lock(), "{line}");
+    let _ = writeln!(io::stderr().lock(), "{}", seen(line));
+}
+
+/// Lines that have no other control character than their ends.
+fn seen(lines: impl Display) -> String {
+    let lines = lines.to_string();
+    let shown = lines.split('\n').map(|line| Shown(line).to_string());
+    shown.collect::<Vec<_>>().join("\n")
+}
+
+/// A program's arguments; where they are wrong, or help is asked for, that is said, and the
+/// program ends.
+pub fn arguments<A: clap::Parser>() -> A {
+    A::try_parse().unwrap_or_else(|refused| {
+        let said = refused.to_string();
+        // Colours are only for what has nothing of others in it that is not to be seen.
+        if said.replace('\n', "").contains(name::is_hidden) && refused.use_stderr() {
+            warn(said.trim_end());
+            std::process::exit(refused.exit_code());
+        }
+        refused.exit()
+    })
 }
 
 /// A program from start to end: an interrupt leaves no half-written file; returns its exit

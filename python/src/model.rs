@@ -7,6 +7,7 @@ use host_sim::training::TrainedModel;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyType};
+use scene::file;
 use tactile::ModelBuf;
 use tactile::train::joint::Report;
 
@@ -120,7 +121,7 @@ pub(crate) fn bytes(model: &Bound<'_, PyAny>) -> PyResult<Vec<u8>> {
         return Ok(bytes.as_bytes().to_vec());
     }
     let path: PathBuf = model.extract()?;
-    std::fs::read(&path).map_err(|error| file_error(&path, error))
+    file::read(&path, file::BINARY_BYTES).map_err(|error| file_error(&path, error))
 }
 
 /// The model of a [`Model`], of bytes or of a file.

@@ -1,6 +1,6 @@
 //! Recordings from and to arrays.
 
-use host_sim::recording::{COLUMNS, Stream};
+use host_sim::recording::{COLUMNS, Stream, Tokens};
 use numpy::{PyReadonlyArray1, PyReadonlyArray2};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
@@ -56,9 +56,12 @@ impl Prepared<'_> {
             return Err(PyValueError::new_err(format!("{}: no samples", self.name)));
         }
         let stream = |(label, trial, first, end, pose): &Rows| {
-            if label.is_empty() {
-                return Err(wrong(*first, "the label is empty"));
-            }
+            let tokens = Tokens {
+                label,
+                trial,
+                pose: pose.as_deref(),
+            };
+            tokens.check().map_err(|fault| wrong(*first, &fault))?;
             let rows = *first..*end;
             Ok(Stream {
                 label: label.clone(),

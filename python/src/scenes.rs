@@ -8,7 +8,7 @@ use pyo3::create_exception;
 use pyo3::exceptions::{PyOSError, PyRuntimeError, PyTypeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::{PyBool, PyDict, PyList, PyTuple, PyType};
-use scene::{Override, Problems, Scene};
+use scene::{Override, Problems, Scene, file};
 use tactile::ModelBuf;
 
 use crate::model;
@@ -151,7 +151,7 @@ impl Given {
         })?;
         Ok(Self {
             file: path.display().to_string(),
-            text: std::fs::read_to_string(&path).map_err(|error| file_error(&path, error))?,
+            text: file::read_text(&path).map_err(|error| file_error(&path, error))?,
             set: Vec::new(),
             folder: path.parent().map(Path::to_owned).unwrap_or_default(),
         })
@@ -179,7 +179,8 @@ impl Given {
         let given = model.map(model::bytes).transpose()?;
         let named = |path: &Path| match &given {
             Some(bytes) => Ok(bytes.clone()),
-            None => std::fs::read(self.folder.join(path)).map_err(|error| error.to_string()),
+            None => file::read(&self.folder.join(path), file::BINARY_BYTES)
+                .map_err(|error| error.to_string()),
         };
         let loaded = Loaded::from_text(&self.file, &self.text, &self.set, named);
         let mut loaded = loaded.map_err(|error| raised(py, error))?;

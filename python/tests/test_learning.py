@@ -79,3 +79,22 @@ def test_what_is_wrong_is_said(heard):
         whisker.classify(b"", heard)
     with pytest.raises(ValueError, match="gate: found 2"):
         whisker.train(heard, gate=2.0)
+
+
+def test_labels_are_text_and_none_is_missing(heard):
+    columns = {name: heard[name] for name in heard.dtype.names}
+    of_bytes = {**columns, "label": np.char.encode(columns["label"])}
+    assert whisker.train(of_bytes).classes == ["smooth", "p600", "p240", "carpet"]
+    for missing in (None, float("nan")):
+        label = columns["label"].astype(object)
+        label[7] = missing
+        with pytest.raises(ValueError, match="row 7: the label is missing"):
+            whisker.train({**columns, "label": label})
+
+
+def test_a_label_cannot_forge_a_line(heard):
+    label = heard["label"].astype(object)
+    label[label == "smooth"] = "a\nok stop"
+    columns = {name: heard[name] for name in heard.dtype.names}
+    with pytest.raises(ValueError, match="label .* has the character"):
+        whisker.train({**columns, "label": label})

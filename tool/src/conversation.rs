@@ -152,6 +152,8 @@ impl Conversation {
             }
         }
         letters.retain(|letter| *letter != 0);
-        Ok(String::from_utf8_lossy(&letters).into_owned())
+        // A board of another version may have others in its names than are allowed.
+        let name = String::from_utf8_lossy(&letters);
+        Ok(name.replace(tactile::name::is_hidden, "\u{fffd}"))
     }
 }

@@ -98,7 +98,7 @@ enum Command {
 }
 
 fn main() -> ExitCode {
-    let Arguments { quiet, command } = Arguments::parse();
+    let Arguments { quiet, command } = report::arguments();
     let work = || run(&command, Verbosity::of(quiet));
     match command {
         // An interrupt stops the motors there before it ends the program.

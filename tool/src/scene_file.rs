@@ -2,6 +2,7 @@
 
 use host_sim::Error;
 use scene::{Override, Scene};
+use similar::TextDiff;
 use toml_edit::{DocumentMut, Item, TableLike, Value};
 
 /// The text of `file` with these values in it, which is read again as the scene that they come
@@ -19,7 +20,7 @@ pub(crate) fn edit(file: &str, text: &str, values: &[Override]) -> Result<String
         let value = value(one.value());
         put(&mut document, one.key(), value).map_err(wrong)?;
     }
-    let edited = document.to_string();
+    let edited = with_ends_of(text, &document.to_string());
     let found = Scene::from_str(file, &edited).map_err(refused)?;
     if found == wanted {
         Ok(edited)
@@ -28,6 +29,51 @@ pub(crate) fn edit(file: &str, text: &str, values: &[Override]) -> Result<String
             "its text could not be edited as it should be".to_owned(),
         ))
     }
+}
+
+/// The edited text with the byte-order mark and the ends of lines that `text` has: of a line that
+/// is unchanged its own, of others those of the first line.
+fn with_ends_of(text: &str, edited: &str) -> String {
+    const MARK: char = '\u{feff}';
+    let bare = |line: &str| line.trim_end_matches(['\r', '\n']).to_owned();
+    let lines = |text: &str| {
+        text.trim_start_matches(MARK)
+            .lines()
+            .map(bare)
+            .collect::<Vec<_>>()
+    };
+    let has_return: Vec<bool> = text
+        .split_inclusive('\n')
+        .map(|line| line.ends_with("\r\n"))
+        .collect();
+    let (before, after) = (lines(text), lines(edited));
+    let mut ends = vec![has_return.first() == Some(&true); after.len()];
+    for change in TextDiff::from_slices(&as_refs(&before), &as_refs(&after)).iter_all_changes() {
+        let (old, new) = (change.old_index(), change.new_index());
+        let old = old.and_then(|old| has_return.get(old));
+        let new = new.and_then(|new| ends.get_mut(new));
+        if let (Some(old), Some(new)) = (old, new) {
+            *new = *old;
+        }
+    }
+    let mark = if text.starts_with(MARK) {
+        "\u{feff}"
+    } else {
+        ""
+    };
+    let mut whole = mark.to_owned();
+    for (line, has_return) in after.iter().zip(ends) {
+        whole.push_str(line);
+        whole.push_str(if has_return { "\r\n" } else { "\n" });
+    }
+    if !edited.ends_with('\n') {
+        whole.truncate(whole.trim_end_matches(['\r', '\n']).len());
+    }
+    whole
+}
+
+fn as_refs(lines: &[String]) -> Vec<&str> {
+    lines.iter().map(String::as_str).collect()
 }
 
 /// TOML, or a word without its quotes.
@@ -80,6 +126,17 @@ mod tests {
         let found = edited(&["whisking.frequency_hz=3.5", "tick_hz=1000"]).unwrap();
         let expected = SCENE.replace("frequency_hz = 2.0 ", "frequency_hz = 3.5 ");
         assert_eq!(found, expected.replace("2000", "1000"));
+    }
+
+    #[test]
+    fn ends_of_lines_and_a_byte_order_mark_stay() {
+        let windows = format!("\u{feff}{}", SCENE.replace('\n', "\r\n"));
+        let values: Vec<Override> = vec!["tick_hz=1000".parse().unwrap()];
+        let found = edit("a.toml", &windows, &values).unwrap();
+        assert_eq!(found, windows.replace("2000", "1000"));
+        let mixed = SCENE.replacen("seed = 1\n", "seed = 1\r\n", 1);
+        let found = edit("a.toml", &mixed, &values).unwrap();
+        assert_eq!(found, mixed.replace("2000", "1000"));
     }
 
     #[test]

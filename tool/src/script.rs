@@ -5,7 +5,7 @@ use std::path::Path;
 
 use firmware::Packet;
 use host_sim::Error;
-use scene::Override;
+use scene::{Override, file};
 use wire::text::{self, Spoken};
 use wire::{Command, CommandStatus};
 
@@ -51,7 +51,7 @@ impl Script {
         let Some(path) = path else {
             return Ok(Self::default());
         };
-        let text = std::fs::read_to_string(path).map_err(|error| Error::file(path, error))?;
+        let text = file::read_text(path).map_err(|error| Error::file(path, error))?;
         let mut script = Self::parse(&text).map_err(|fault| Error::file(path, fault))?;
         script.tuner = script.tuner(source)?;
         Ok(script)
@@ -59,6 +59,7 @@ impl Script {
 
     fn parse(text: &str) -> Result<Self, String> {
         let mut entries: VecDeque<Entry> = VecDeque::new();
+        let text = text.trim_start_matches('\u{feff}');
         for (n, line) in (1..).zip(text.lines()) {
             let words = line.split('#').next().unwrap_or_default();
             if words.trim().is_empty() {
@@ -231,6 +232,8 @@ mod tests {
     fn faults_name_their_line() {
         let fault = |text: &str| Script::parse(text).unwrap_err();
         assert!(fault("0 arm\nsoon stop").starts_with("line 2: found the time \"soon\""));
+        // What Windows writes first changes nothing.
+        assert!(Script::parse("\u{feff}0 arm\r\n").is_ok());
         assert!(fault("1 stop\n0 arm").starts_with("line 2: its time is before"));
         for text in [
             "0 arm left",

@@ -4,6 +4,7 @@ use std::fmt::Write as _;
 use std::io::{self, Write};
 
 use host_sim::origin::{self, Origin};
+use host_sim::recording;
 use wire::{Flags, TickRecord};
 
 use crate::sample::Sample;
@@ -138,8 +139,20 @@ pub(crate) struct Kept {
     pub(crate) records: Vec<TickRecord>,
 }
 
+/// A flag, as we write it, or as tables of other programs have it.
+fn truth(text: &str) -> Option<bool> {
+    match text.to_ascii_lowercase().as_str() {
+        "1" | "1.0" | "true" => Some(true),
+        "0" | "0.0" | "false" => Some(false),
+        _ => None,
+    }
+}
+
 /// Reads a table; the error names the line.
 pub(crate) fn read(file: &[u8]) -> Result<Kept, String> {
+    if let Some(fault) = origin::foreign(file) {
+        return Err(fault);
+    }
     let (origin, above, table) = origin::split(file);
     let tick_hz = origin.get(TICK_HZ).map(|text| {
         let fault = || format!("{TICK_HZ} is {text:?}, not a whole number above 0");
@@ -148,7 +161,8 @@ pub(crate) fn read(file: &[u8]) -> Result<Kept, String> {
     let mut table = csv::ReaderBuilder::new()
         .trim(csv::Trim::All)
         .from_reader(table);
-    let header = table.headers().map_err(|error| error.to_string())?.clone();
+    let broken = |error: csv::Error| recording::broken(&error, above);
+    let header = table.headers().map_err(broken)?.clone();
     let place = |name: &str| {
         let found = header.iter().position(|column| column == name);
         found.ok_or_else(|| format!("line {}: no column {name:?}", above + 1))
@@ -161,7 +175,7 @@ pub(crate) fn read(file: &[u8]) -> Result<Kept, String> {
     let flags = flags.collect::<Result<Vec<_>, String>>()?;
     let mut records = Vec::new();
     for row in table.records() {
-        let row = row.map_err(|error| error.to_string())?;
+        let row = row.map_err(broken)?;
         let line = above + row.position().map_or(0, csv::Position::line);
         let cell = |n: usize| row.get(numbers[n]).unwrap_or_default();
         let wrong = |n: usize, text: &str| format!("line {line}: {} is {text:?}", NUMBERS[n]);
@@ -181,7 +195,12 @@ pub(crate) fn read(file: &[u8]) -> Result<Kept, String> {
         let side = side.ok_or_else(|| wrong(2, cell(2)))?;
         let mut said = Flags::RIGHT.when(side > 0);
         for (place, flag) in &flags {
-            said = said | flag.when(row.get(*place) == Some("1"));
+            let text = row.get(*place).unwrap_or_default();
+            let is_set = truth(text).ok_or_else(|| {
+                let name = header.get(*place).unwrap_or_default();
+                format!("line {line}: {name} is {text:?}, allowed: 0 or 1")
+            })?;
+            said = said | flag.when(is_set);
         }
         let sequence = cell(0);
         records.push(TickRecord {
@@ -278,5 +297,20 @@ mod tests {
         assert_eq!(fault("left,0,", "left,16384,"), "line 4: x is \"16384\"");
         assert_eq!(fault(",duty", ",force"), "line 3: no column \"duty\"");
         assert!(fault("= 2000", "= 0").starts_with("tick_hz is"));
+        assert_eq!(
+            fault(",0\n", ",foo\n"),
+            "line 4: lost is \"foo\", allowed: 0 or 1"
+        );
+        assert_eq!(fault(",0\n", "\n"), "line 4: 19 cells; the header has 20");
+        for (no, yes) in [("0.0", "1.0"), ("False", "True")] {
+            let others = text.replace(",0\n", &format!(",{yes}\n"));
+            let others = others.replacen(
+                ",0,0,0,0,0,0,0,0,0,",
+                &format!(",0,0,0{},", format!(",{no}").repeat(6)),
+                1,
+            );
+            let flags = read(others.as_bytes()).unwrap().records[0].flags;
+            assert_eq!(flags, Flags::LOST, "{others}");
+        }
     }
 }

@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use firmware::{ConfigError, OVERRIDES_BYTES, Part};
 use host_sim::Error;
 use host_sim::loaded::Loaded;
-use scene::{Override, Scene};
+use scene::{Override, Scene, file};
 
 use crate::configuration::{Running, not_built};
 use crate::conversation::Conversation;
@@ -39,7 +39,7 @@ impl Tuner {
     pub(crate) fn open(path: &Path, source: &SourceChoice) -> Result<Self, Error> {
         let loaded = Loaded::new(path)?;
         loaded.classifier()?;
-        let text = std::fs::read_to_string(path).map_err(|error| Error::file(path, error))?;
+        let text = file::read_text(path).map_err(|error| Error::file(path, error))?;
         Ok(Self {
             path: path.to_owned(),
             text,
@@ -55,9 +55,10 @@ impl Tuner {
     /// The scene's file with keys in place of its own.
     fn with(&self, set: &[Override]) -> Result<Loaded, Error> {
         let folder = self.path.parent().unwrap_or(Path::new("."));
-        let file = self.path.display().to_string();
-        let loaded = Loaded::from_text(&file, &self.text, set, |model| {
-            std::fs::read(folder.join(model)).map_err(|error| error.to_string())
+        let name = self.path.display().to_string();
+        let loaded = Loaded::from_text(&name, &self.text, set, |model| {
+            let bytes = file::read(&folder.join(model), file::BINARY_BYTES);
+            bytes.map_err(|error| error.to_string())
         })?;
         self.source.of_module(loaded)
     }

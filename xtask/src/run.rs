@@ -7,6 +7,8 @@ use std::process::Command;
 use std::sync::{Mutex, OnceLock};
 use std::thread;
 
+use scene::file;
+
 /// What went wrong, for a person to read.
 pub(crate) type Fault = String;
 
@@ -28,12 +30,12 @@ pub(crate) fn absolute(path: &Path) -> Result<PathBuf, Fault> {
 
 /// The text of a file.
 pub(crate) fn read(path: &Path) -> Result<String, Fault> {
-    fs::read_to_string(path).map_err(|error| format!("{}: {error}", path.display()))
+    String::from_utf8(read_bytes(path)?).map_err(|error| format!("{}: {error}", path.display()))
 }
 
 /// The bytes of a file.
 pub(crate) fn read_bytes(path: &Path) -> Result<Vec<u8>, Fault> {
-    fs::read(path).map_err(|error| format!("{}: {error}", path.display()))
+    file::read(path, file::BINARY_BYTES).map_err(|error| format!("{}: {error}", path.display()))
 }
 
 /// Writes a file, and the folder it stands in.

@@ -35,6 +35,7 @@
 
 mod choice;
 mod facts;
+pub mod file;
 mod key;
 mod keys;
 mod kind;

@@ -4,6 +4,7 @@ use std::path::Path;
 
 use toml::de::DeTable;
 
+use crate::file;
 use crate::overriding::Override;
 use crate::places::Places;
 use crate::problem::{Problem, Problems};
@@ -96,16 +97,19 @@ impl Scene {
         overrides: &[Override],
     ) -> Result<(Self, Places), Problems> {
         let path = path.as_ref();
-        let file = path.display().to_string();
-        match std::fs::read_to_string(path) {
-            Ok(text) => Self::from_str_with(&file, &text, overrides),
-            Err(error) => Err(Problems::new(vec![Problem {
-                file,
-                line: None,
-                key: String::new(),
-                found: format!("cannot be read: {error}"),
-                allowed: "allowed: a readable scene file in UTF-8".to_owned(),
-            }])),
+        let name = path.display().to_string();
+        match file::read_text(path) {
+            Ok(text) => Self::from_str_with(&name, &text, overrides),
+            Err(error) => {
+                let problem = Problem {
+                    file: name,
+                    line: None,
+                    key: String::new(),
+                    found: format!("cannot be read: {error}"),
+                    allowed: "allowed: a readable scene file in UTF-8".to_owned(),
+                };
+                Err(Problems::new(vec![problem], 0))
+            }
         }
     }
 }

@@ -2,6 +2,8 @@
 
 use std::fmt;
 
+use tactile::name::Shown;
+
 /// One problem of a scene file.
 ///
 /// It prints on one line as `file:line: key: what was found; what is allowed`.
@@ -22,7 +24,11 @@ pub struct Problem {
 
 impl fmt::Display for Problem {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(&self.file)?;
+        // A key that is given beside the file may have several lines.
+        for (n, line) in self.file.split('\n').enumerate() {
+            f.write_str(if n > 0 { "\n" } else { "" })?;
+            Shown(line).fmt(f)?;
+        }
         if let Some(line) = self.line {
             write!(f, ":{line}")?;
         }
@@ -41,18 +47,20 @@ impl std::error::Error for Problem {}
 
 /// All problems of a scene file, in the order of its lines; at least one.
 ///
-/// It prints one line a problem, without a newline at the end.
+/// It prints one line a problem, without a newline at the end. Of very many the first are listed,
+/// and the others counted.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Problems {
     list: Vec<Problem>,
+    more: usize,
 }
 
 impl Problems {
-    pub(crate) fn new(list: Vec<Problem>) -> Self {
-        Self { list }
+    pub(crate) fn new(list: Vec<Problem>, more: usize) -> Self {
+        Self { list, more }
     }
 
-    /// The problems, in the order of the file's lines.
+    /// The problems that are listed, in the order of the file's lines.
     pub fn as_slice(&self) -> &[Problem] {
         &self.list
     }
@@ -65,6 +73,9 @@ impl fmt::Display for Problems {
                 f.write_str("\n")?;
             }
             problem.fmt(f)?;
+        }
+        if self.more > 0 {
+            write!(f, "\n{} more problems", self.more)?;
         }
         Ok(())
     }

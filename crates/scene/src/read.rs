@@ -112,6 +112,15 @@ fn resolve(
     if let Some(exact) = candidates.iter().find(|c| **c == written) {
         return Some(exact);
     }
+    if text.is_full() {
+        text.report(
+            name.span().start,
+            String::new(),
+            String::new(),
+            String::new(),
+        );
+        return None;
+    }
     // A key that another section has stands in the wrong place; so does a table
     // inside a table.
     let homes: Vec<String> = sections()

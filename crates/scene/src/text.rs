@@ -3,11 +3,16 @@
 
 use std::ops::Range;
 
+use tactile::name::Shown;
+
 use crate::overriding::Override;
 use crate::problem::{Problem, Problems};
 
 /// Longest excerpt of the file that a message quotes, in characters.
 const LONGEST_EXCERPT: usize = 60;
+
+/// Most problems that are reported singly; the others are counted.
+const MOST_PROBLEMS: usize = 100;
 
 /// A file's name and text, with the problems found in it so far. What is given beside the
 /// file follows it, so that an offset says where in either something stands.
@@ -17,8 +22,12 @@ pub(crate) struct Text<'a> {
     content: String,
     /// Where each of these begins, and what messages call it.
     beside: Vec<(usize, &'a str)>,
+    /// Where the lines of both end, in order.
+    ends: Vec<usize>,
     /// Problems with the byte offset they stand at.
     problems: Vec<(usize, Problem)>,
+    /// How many more there are.
+    more: usize,
 }
 
 impl<'a> Text<'a> {
@@ -30,18 +39,20 @@ impl<'a> Text<'a> {
             beside.push((content.len(), one.source()));
             content.push_str(&one.toml());
         }
+        let ends = content.match_indices('\n').map(|(at, _)| at).collect();
         Self {
             file,
             content,
             beside,
+            ends,
             problems: Vec::new(),
+            more: 0,
         }
     }
 
     /// Line of the byte at `offset`, from 1; the last line for offsets beyond.
     pub(crate) fn line(&self, offset: usize) -> usize {
-        let before = self.content.bytes().take(offset);
-        1 + before.filter(|byte| *byte == b'\n').count()
+        1 + self.ends.partition_point(|end| *end < offset)
     }
 
     /// What stands at `offset`: the file, with the line, or what is beside it.
@@ -68,12 +79,19 @@ impl<'a> Text<'a> {
 
     /// The whole line around the byte at `offset`, as an excerpt.
     pub(crate) fn line_at(&self, offset: usize) -> String {
-        let line = self.line(offset).saturating_sub(1);
-        one_line(self.content.split('\n').nth(line).unwrap_or_default())
+        let line = self.line(offset) - 1;
+        let before = line.checked_sub(1).and_then(|last| self.ends.get(last));
+        let start = before.map_or(0, |end| end + 1);
+        let end = self.ends.get(line).copied().unwrap_or(self.content.len());
+        self.excerpt(start..end)
     }
 
     /// Notes a problem at a byte offset.
     pub(crate) fn report(&mut self, offset: usize, key: String, found: String, allowed: String) {
+        if self.is_full() {
+            self.more += 1;
+            return;
+        }
         let (file, line) = self.place(offset);
         let problem = Problem {
             file: file.to_owned(),
@@ -85,6 +103,11 @@ impl<'a> Text<'a> {
         self.problems.push((offset, problem));
     }
 
+    /// Whether further problems are only counted.
+    pub(crate) fn is_full(&self) -> bool {
+        self.problems.len() >= MOST_PROBLEMS
+    }
+
     /// Whether no problem was noted.
     pub(crate) fn is_clean(&self) -> bool {
         self.problems.is_empty()
@@ -93,7 +116,8 @@ impl<'a> Text<'a> {
     /// All problems noted, in file order.
     pub(crate) fn into_problems(mut self) -> Problems {
         self.problems.sort_by_key(|(offset, _)| *offset);
-        Problems::new(self.problems.into_iter().map(|(_, p)| p).collect())
+        let list = self.problems.into_iter().map(|(_, p)| p).collect();
+        Problems::new(list, self.more)
     }
 
     /// How much of the text is the file, bytes.
@@ -117,14 +141,12 @@ impl<'a> Text<'a> {
         std::iter::once(file.to_owned()).chain(beside).collect()
     }
 }
-/// Control characters become spaces, runs of space one; long text is cut.
+/// Runs of space become one, what else is not to be seen is shown escaped; long text is cut.
 fn one_line(text: &str) -> String {
-    let plain: String = text
-        .chars()
-        .map(|c| if c.is_control() { ' ' } else { c })
-        .collect();
-    let words: Vec<&str> = plain.split_whitespace().collect();
-    let line = words.join(" ");
+    // No word of what lies beyond is shown.
+    let words = text.split_whitespace().take(LONGEST_EXCERPT + 1);
+    let words: Vec<&str> = words.collect();
+    let line = Shown(&words.join(" ")).to_string();
     if line.chars().count() <= LONGEST_EXCERPT {
         return line;
     }

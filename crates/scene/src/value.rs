@@ -2,6 +2,7 @@
 
 use std::ops::Range as Span;
 
+use tactile::name;
 use toml::Spanned;
 use toml::de::{DeArray, DeValue};
 
@@ -70,7 +71,7 @@ pub(crate) fn check(kind: &Kind, value: &Spanned<DeValue<'_>>) -> Result<Value, 
         Kind::Number(range) => one(number(*range, value).map(Value::Number)),
         Kind::Word(words) => one(word(words, value).map(|w| Value::Text(w.to_owned()))),
         Kind::Name { longest } => one(text(value, |name| is_name(name, *longest))),
-        Kind::Path => one(text(value, |path| !path.is_empty())),
+        Kind::Path => one(path(value)),
         Kind::PerWhisker(range) if value.get_ref().as_array().is_none() => {
             one(number(*range, value).map(Value::Number))
         }
@@ -188,6 +189,14 @@ fn text(value: &Spanned<DeValue<'_>>, is_good: impl Fn(&str) -> bool) -> Result<
         Some(text) if is_good(text) => Ok(Value::Text(text.to_owned())),
         _ => Err(Fault::at(value)),
     }
+}
+
+/// A path, which messages print and tables have.
+fn path(value: &Spanned<DeValue<'_>>) -> Result<Value, Fault> {
+    let path = text(value, |path| !path.is_empty())?;
+    let written = value.get_ref().as_str().unwrap_or_default();
+    name::check(written).map_err(|reason| Fault::at(value).with_note(format!("which {reason}")))?;
+    Ok(path)
 }
 
 /// Whether a name can stand in a file name: short, of plain characters, and not

@@ -4,6 +4,7 @@
 //! refuse a sample of another number of channels.
 
 use crate::format::{MAX_STREAMS, VERSION};
+use crate::name::NameError;
 
 /// Why a model file is refused.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
@@ -77,6 +78,14 @@ pub enum ModelError {
     NameNotUtf8 {
         /// The class, from zero.
         class: usize,
+    },
+    /// A class's name is one that no class may have (see [`crate::name`]).
+    #[error("the name of class {class} {reason}")]
+    Name {
+        /// The class, from zero.
+        class: usize,
+        /// What is wrong with it.
+        reason: NameError,
     },
     /// Bytes that the format keeps at zero are not.
     #[error("bytes reserved as zero are not zero")]

@@ -11,6 +11,7 @@ use crate::format::{
     OF_SAMPLES, ROUGH_CHANNELS, TABLE_WORDS, TableRecord, VERSION, WITHOUT_OPINION, checksum,
     row_words,
 };
+use crate::name;
 use crate::opinion::Section;
 use crate::quantiser::Quantiser;
 
@@ -390,9 +391,9 @@ fn check_names(bytes: &[u8], classes: usize) -> Result<(), ModelError> {
         if name.is_empty() {
             return Err(ModelError::NameLength { class });
         }
-        if core::str::from_utf8(name).is_err() {
-            return Err(ModelError::NameNotUtf8 { class });
-        }
+        let text = core::str::from_utf8(name);
+        let text = text.map_err(|_| ModelError::NameNotUtf8 { class })?;
+        name::check(text).map_err(|reason| ModelError::Name { class, reason })?;
         used += 1 + name.len();
     }
     let padding = bytes.get(used..).ok_or(ModelError::Length)?;

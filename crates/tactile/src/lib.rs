@@ -81,6 +81,7 @@ mod model;
 #[cfg(feature = "std")]
 mod model_buf;
 mod naive_bayes;
+pub mod name;
 mod opinion;
 mod quantiser;
 mod roughness;

@@ -20,9 +20,7 @@ use std::vec::Vec;
 pub use self::opinion::{Expect, Opinion};
 use crate::binner::Binner;
 use crate::error::ModelError;
-use crate::format::{
-    ENTRIES_PER_BIT, ENTRY_MAX, ENTRY_OFFSET_BITS, LOG_FLOOR, MAX_CLASSES, MAX_NAME_BYTES,
-};
+use crate::format::{ENTRIES_PER_BIT, ENTRY_MAX, ENTRY_OFFSET_BITS, LOG_FLOOR, MAX_CLASSES};
 use crate::layout::{check_bins, check_counts};
 use crate::model_buf::{Axis, ModelBuf, ModelParts, TableParts};
 use crate::quantiser::Quantiser;
@@ -109,12 +107,7 @@ impl Trainer {
             // At most 31.
             return Ok(class as u8);
         }
-        if label.is_empty() {
-            return Err(TrainError::NameEmpty);
-        }
-        if label.len() > MAX_NAME_BYTES {
-            return Err(TrainError::NameTooLong { bytes: label.len() });
-        }
+        TrainError::check_name(label)?;
         if self.names.len() == MAX_CLASSES {
             return Err(TrainError::TooManyClasses);
         }

@@ -4,6 +4,7 @@ use std::string::String;
 
 use crate::error::ModelError;
 use crate::format::{MAX_CLASSES, MAX_NAME_BYTES};
+use crate::name::NameError;
 
 /// Why no model can be trained.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -41,6 +42,14 @@ pub enum TrainError {
         /// Its length in bytes.
         bytes: usize,
     },
+    /// A class name that no class may have (see [`crate::name`]).
+    #[error("the class name {name:?} {reason}")]
+    Name {
+        /// The name.
+        name: String,
+        /// What is wrong with it.
+        reason: NameError,
+    },
     /// The smoothing is not between 0 and 4096 bins.
     #[error("smoothing over {0} bins; 0 to 4096 is allowed")]
     Smooth(f64),
@@ -72,4 +81,25 @@ pub enum TrainError {
     /// A setting that no model file can hold.
     #[error(transparent)]
     Model(#[from] ModelError),
+}
+
+impl TrainError {
+    /// Whether a class may have this name.
+    ///
+    /// # Errors
+    ///
+    /// What is wrong with it.
+    pub(crate) fn check_name(name: &str) -> Result<(), Self> {
+        let bytes = name.len();
+        if bytes == 0 {
+            return Err(Self::NameEmpty);
+        }
+        if bytes > MAX_NAME_BYTES {
+            return Err(Self::NameTooLong { bytes });
+        }
+        crate::name::check(name).map_err(|reason| Self::Name {
+            name: name.into(),
+            reason,
+        })
+    }
 }

@@ -23,9 +23,11 @@ impl Line {
         }
     }
 
-    /// Appends a byte, which is no line's end, if it fits before that.
+    /// Appends a byte if it fits before the line's end: a question mark for a control character,
+    /// whoever wrote it, as no text may end a line or begin another.
     #[inline(never)]
     fn put(&mut self, byte: u8) {
+        let byte = if byte.is_ascii_control() { b'?' } else { byte };
         if self.length < LINE_BYTES - END.len()
             && let Some(place) = self.bytes.get_mut(self.length)
         {
@@ -219,6 +221,14 @@ mod tests {
         let fields = ["left".into(), 7_u8.into(), 42_u32.into(), (-5_i16).into()];
         line.form("{=str} {=u8}.{=u32:04} %, {=i16}!{=str}", &fields);
         assert_eq!(text(&mut line), "left 7.0042 %, -5!\r\n");
+    }
+
+    #[test]
+    fn no_text_ends_a_line() {
+        let mut line = Line::new();
+        line.text("a\r\nok stop").word("\u{1b}[2J\u{7f}");
+        line.form("{=str}\n", &["b\n".into()]);
+        assert_eq!(text(&mut line), "a??ok stop ?[2J?b??\r\n");
     }
 
     #[test]

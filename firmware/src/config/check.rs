@@ -164,6 +164,10 @@ impl<R: Real> Config<R> {
 
 impl HeadConfig {
     fn check(&self) -> Checked {
+        // Both come onto lines, and nothing else may begin there.
+        let mut bytes = self.name.bytes().chain(self.overrides.bytes());
+        let is_seen = |byte: u8| byte == b' ' || byte.is_ascii_graphic();
+        require(Field::Name, bytes.all(is_seen))?;
         require(Field::TickHz, (200..=20_000).contains(&self.tick_hz))?;
         require(Field::Sides, (1..=2).contains(&self.sides))?;
         require(Field::Whiskers, (1..=12).contains(&self.whiskers_per_side))?;

@@ -124,6 +124,27 @@ fn values_out_of_range_are_refused_by_the_name_of_their_field() {
 }
 
 #[test]
+fn no_name_has_what_could_begin_a_line() {
+    let refused = Err(ConfigError::Range(Field::Name));
+    for [name, overrides] in [
+        ["a\r\nok stop", ""],
+        ["\u{9b}2J", ""],
+        ["a", "motor.kp=0.1\nok stop"],
+        ["a", "\u{1b}"],
+    ] {
+        let mut config = config::<f32>();
+        config.head.name = name.try_into().unwrap();
+        config.head.overrides = overrides.try_into().unwrap();
+        let bytes = encode(&config, BOARD).unwrap();
+        assert_eq!(
+            decode::<f32>(&bytes, BOARD),
+            refused,
+            "{name:?} {overrides:?}"
+        );
+    }
+}
+
+#[test]
 fn a_refusal_is_known_by_its_numbers() {
     let parts = Part::ALL.iter().copied();
     let fields = Field::ALL.iter().copied();

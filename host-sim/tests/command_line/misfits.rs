@@ -3,8 +3,8 @@
 use crate::common::{Place, RECORDING};
 
 /// Blank lines and cells of two lines: a row's number is not its line.
-const OTHER: &str = "label,trial,x,y\n\nlow,\"a\nb\",100,8000\nlow,0,120,8100\n\n\
-    mud,0,9000,8000\nmud,0,9100,8100\nhigh,1,-0.5,8000\nhigh,1,0.5,8100\n";
+const OTHER: &str = "note,label,trial,x,y\n\n\"a\nb\",low,a,100,8000\n,low,0,120,8100\n\n\
+    ,mud,0,9000,8000\n,mud,0,9100,8100\n,high,1,-0.5,8000\n,high,1,0.5,8100\n";
 
 const CLASSIFY: &str = "classify --model m --rule window --window 2 --out d.csv --data";
 

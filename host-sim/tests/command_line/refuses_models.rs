@@ -85,3 +85,20 @@ fn models_for_something_else() {
     place.refuses_to_write("run s.toml", &["the.model: ", "codes"]);
     place.done(&format!("{CLASSIFY} --out d.csv"));
 }
+
+#[test]
+fn a_class_whose_name_could_forge_a_line() {
+    let place = Place::new();
+    let mut forged = model(2, 20, true);
+    let at = forged.windows(6).position(|name| name == b"smooth");
+    forged[at.unwrap() + 2] = b'\n';
+    let end = forged.len() - 4;
+    let sum = tactile::checksum(&forged[..end]).to_le_bytes();
+    forged[end..].copy_from_slice(&sum);
+    place.write("m", forged);
+    place.write("r.csv", RECORDING);
+    place.refuses_to_write(
+        "classify --model m --data r.csv --rule window --window 20",
+        &["m: the name of class 0 has the character '\\n', which is not to be seen"],
+    );
+}

@@ -124,3 +124,90 @@ fn huge_numbers_are_classified() {
     assert_eq!(decided.len(), 3);
     assert!(decided.iter().all(|d| d.decision == d.label), "{decided:?}");
 }
+
+#[test]
+fn labels_that_could_forge_a_line_or_a_formula() {
+    for (row, naming) in [
+        (
+            &b"\"a\nok stop\",0,1,2"[..],
+            r#"line 4: label "a\nok stop" has the character '\n'"#,
+        ),
+        (
+            b"\x1b[31mred,0,1,2",
+            r#"line 4: label "\u{1b}[31mred" has the character '\u{1b}'"#,
+        ),
+        (
+            b"low,=cmd|' /C calc'!A0,1,2",
+            "line 4: trial \"=cmd|' /C calc'!A0\" begins with '='",
+        ),
+    ] {
+        refused_by_both(with_row(row), &[naming]);
+    }
+}
+
+#[cfg(unix)]
+#[test]
+fn nothing_of_others_commands_the_terminal() {
+    let place = Place::new();
+    for line in [
+        "run \x1b[2J\u{9b}.toml",
+        "train --data \x1b[2J.csv --out \u{202e}m",
+        "classify --rule \x1b[2J",
+        "run s.toml --set \x1b[2J=1 --out o",
+    ] {
+        let ran = place.run(line);
+        assert_eq!(ran.status, Some(2), "{line:?}");
+        let seen = ran.stderr.replace('\n', "");
+        assert!(!seen.contains(tactile::name::is_hidden), "{seen:?}");
+    }
+}
+
+#[cfg(unix)]
+#[test]
+fn devices_pipes_and_what_is_too_large_are_refused_at_once() {
+    let place = Place::new();
+    place.write("m", model(2, 20, true));
+    place.write("r.csv", RECORDING);
+    let made = std::process::Command::new("mkfifo")
+        .arg(place.path("fifo"))
+        .status();
+    assert!(made.unwrap().success());
+    let large = std::fs::File::create(place.path("large")).unwrap();
+    large.set_len(1 << 40).unwrap();
+    for (name, why) in [
+        ("/dev/zero", "not a regular file"),
+        ("fifo", "not a regular file"),
+        ("large", "larger than "),
+    ] {
+        for line in [
+            "run FILE --out o",
+            "record FILE --out o",
+            "train --data FILE --out o",
+            "classify --model m --data FILE --rule window --window 20 --out o",
+            "classify --model FILE --data r.csv --rule window --window 20 --out o",
+            "evaluate --model m --data FILE",
+        ] {
+            let line = line.replace("FILE", name);
+            let ran = place.run(&line);
+            assert_eq!(ran.status, Some(2), "{line}: {ran:?}");
+            assert!(ran.stderr.contains(&format!("{name}: ")), "{line}: {ran:?}");
+            assert!(ran.stderr.contains(why), "{line}: {ran:?}");
+        }
+    }
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_recording_may_come_through_a_pipe_of_the_shell() {
+    let place = Place::new();
+    place.write("r.csv", RECORDING);
+    place.done("train --tables single --data r.csv --out m --block 2");
+    let line = format!(
+        "cat r.csv | {} train --tables single --data /dev/stdin --out piped --block 2",
+        env!("CARGO_BIN_EXE_host-sim")
+    );
+    let mut shell = std::process::Command::new("sh");
+    let done = shell.args(["-c", &line]).current_dir(place.path("."));
+    assert!(done.output().unwrap().status.success());
+    assert_eq!(place.bytes("piped"), place.bytes("m"));
+}

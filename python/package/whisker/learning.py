@@ -79,12 +79,31 @@ def _column(recording: Any, name: str) -> Any:
     return np.asarray(recording[name]) if name in names else None
 
 
+def _is_missing(value: Any) -> bool:
+    try:
+        return value is None or bool(value != value)
+    except TypeError:  # pandas.NA
+        return True
+
+
+def _tokens(name: str, column: str, values: np.ndarray) -> np.ndarray:
+    """Labels or trials as text; those that are missing are refused by their row."""
+    if values.dtype.kind in "iubU":
+        return values
+    for row, value in enumerate(values):
+        if _is_missing(value):
+            raise ValueError(f"{name}: row {row}: the {column} is missing")
+    texts = [value.decode() if isinstance(value, bytes) else str(value) for value in values]
+    return np.asarray(texts, dtype=str)
+
+
 def _prepared(name: str, recording: Any, channels: tuple[str, str]) -> _Prepared:
     found = {column: _column(recording, column) for column in ("label", "trial", *channels)}
     missing = [column for column, values in found.items() if values is None]
     if missing:
         raise ValueError(f"{name}: no column {missing[0]!r}; a recording has {', '.join(found)}")
     label, trial, x, y = found.values()
+    label, trial = _tokens(name, "label", label), _tokens(name, "trial", trial)
     contact, touch = _column(recording, "contact"), _column(recording, "touch")
     pose = _column(recording, "pose")
     columns = {**found, "contact": contact, "touch": touch, "pose": pose}

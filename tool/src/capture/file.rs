@@ -8,6 +8,7 @@ use host_sim::origin::{self, Origin};
 use host_sim::output::{self, Output};
 use host_sim::recording::{self, CHANNELS, Stream};
 use jiff::Timestamp;
+use scene::file;
 
 use super::touches::count;
 
@@ -40,7 +41,8 @@ impl Recording {
         let (mut origin, mut streams) = (Origin::default(), Vec::new());
         if is_there {
             streams = read_recording(path, CHANNELS)?;
-            let bytes = std::fs::read(path).map_err(|error| Error::file(path, error))?;
+            let bytes =
+                file::read(path, file::TABLE_BYTES).map_err(|error| Error::file(path, error))?;
             (origin, ..) = origin::split(&bytes);
         }
         Ok(Self {

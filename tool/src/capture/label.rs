@@ -17,12 +17,25 @@ impl FromStr for Label {
         let (name, sample) = text.split_once('=').unwrap_or((text, text));
         let (name, sample) = (name.trim(), sample.trim());
         // `unknown` is what a decision for none of the classes says.
-        let is_name = |name: &str| !name.is_empty() && !name.contains(char::is_control);
-        if is_name(name) && is_name(sample) && name != host_sim::decisions::UNKNOWN {
-            let [name, sample] = [name, sample].map(str::to_owned);
-            return Ok(Self { name, sample });
+        if name.is_empty() || sample.is_empty() || name == host_sim::decisions::UNKNOWN {
+            return Err("allowed: a name but \"unknown\", or LABEL=SAMPLE".to_owned());
         }
-        Err("allowed: a name but \"unknown\", or LABEL=SAMPLE".to_owned())
+        for one in [name, sample] {
+            token(one)?;
+        }
+        let [name, sample] = [name, sample].map(str::to_owned);
+        Ok(Self { name, sample })
+    }
+}
+
+/// What may stand in a recording: a label, or a pose.
+pub(crate) fn token(text: &str) -> Result<String, String> {
+    if text.trim().is_empty() {
+        return Err("allowed: a name".to_owned());
+    }
+    match tactile::name::check(text) {
+        Ok(()) => Ok(text.to_owned()),
+        Err(reason) => Err(format!("{text:?} {reason}")),
     }
 }
 
@@ -39,7 +52,7 @@ mod tests {
         let both = |a: &str, b: &str| Some((a.to_owned(), b.to_owned()));
         assert_eq!(parts("felt"), both("felt", "felt"));
         assert_eq!(parts("a = smooth"), both("a", "smooth"));
-        for text in ["", "=smooth", "a=", "unknown", "a\nb"] {
+        for text in ["", "=smooth", "a=", "unknown", "a\nb", "@a", "a=\u{1b}"] {
             assert_eq!(parts(text), None, "{text:?}");
         }
     }

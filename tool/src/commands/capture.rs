@@ -3,16 +3,16 @@
 use std::path::{Path, PathBuf};
 
 use clap::Args;
-use clap::builder::NonEmptyStringValueParser;
 use host_sim::origin::Origin;
 use host_sim::progress::{Progress, Verbosity};
 use host_sim::{Error, report};
 use jiff::Timestamp;
+use scene::file;
 use toml_edit::DocumentMut;
 use wire::Command;
 
 use super::order::SideName;
-use crate::capture::{Checks, Label, Recording, Sampler, Touches};
+use crate::capture::{Checks, Label, Recording, Sampler, Touches, token};
 use crate::conversation::Conversation;
 use crate::source::{Source, SourceChoice, seconds};
 use crate::tally::{Before, Tally, side};
@@ -38,7 +38,7 @@ pub(crate) struct Arguments {
     #[arg(long)]
     resume: bool,
     /// What this pose of the samples is called; with --resume others can follow in one file
-    #[arg(long, value_name = "NAME", value_parser = NonEmptyStringValueParser::new())]
+    #[arg(long, value_name = "NAME", value_parser = token)]
     pose: Option<String>,
     /// For how long nothing may be touched
     #[arg(long, value_name = "S", default_value = "10", value_parser = seconds)]
@@ -180,7 +180,7 @@ fn complete(
 /// What a calibration says, as a recording has it in its header.
 fn calibration(path: &Path) -> Result<Origin, Error> {
     let wrong = |error: String| Error::file(path, error);
-    let text = std::fs::read_to_string(path).map_err(|error| Error::file(path, error))?;
+    let text = file::read_text(path).map_err(|error| Error::file(path, error))?;
     let document: DocumentMut = text.parse().map_err(|error| wrong(format!("{error}")))?;
     if !document.contains_key("zero_codes") {
         return Err(wrong(

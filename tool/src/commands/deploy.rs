@@ -7,6 +7,7 @@ use host_sim::loaded::Loaded;
 use host_sim::recording::CHANNELS;
 use host_sim::{Error, files, misfit, origin, report};
 use jiff::Timestamp;
+use scene::file;
 use tactile::ModelBuf;
 
 use crate::capture::FIRST_TOUCH;
@@ -146,7 +147,7 @@ pub(crate) fn deploy(arguments: &Arguments) -> Result<(), Error> {
 
 /// When the first touch of a recording was, where it says so.
 fn first_touch(data: &Path) -> Result<Option<(String, Timestamp)>, Error> {
-    let bytes = std::fs::read(data).map_err(|error| Error::file(data, error))?;
+    let bytes = file::read(data, file::TABLE_BYTES).map_err(|error| Error::file(data, error))?;
     let (origin, ..) = origin::split(&bytes);
     let when = origin.get(FIRST_TOUCH).and_then(|when| when.parse().ok());
     Ok(when.map(|when| (data.display().to_string(), when)))

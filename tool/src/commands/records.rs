@@ -7,6 +7,7 @@ use firmware::Packet;
 use host_sim::output::is_stdout;
 use host_sim::progress::{Progress, Verbosity};
 use host_sim::{Error, report};
+use scene::file;
 use wire::{Command, Flags, TickRecord};
 
 use crate::record_file::{self, RecordFile};
@@ -43,9 +44,10 @@ pub(crate) struct Arguments {
 
 /// Writes a row a record, or looks at a table that was written before.
 pub(crate) fn records(arguments: &Arguments, verbosity: Verbosity) -> Result<(), Error> {
-    if let Some(file) = &arguments.file {
-        let bytes = std::fs::read(file).map_err(|error| Error::file(file, error))?;
-        let table = crate::table::read(&bytes).map_err(|fault| Error::file(file, fault))?;
+    if let Some(path) = &arguments.file {
+        let bytes = file::read_piped(path, file::TABLE_BYTES);
+        let bytes = bytes.map_err(|error| Error::file(path, error))?;
+        let table = crate::table::read(&bytes).map_err(|fault| Error::file(path, fault))?;
         let mut summary = Summary::default();
         table.records.iter().for_each(|record| summary.take(record));
         if let Some(scene) = table.origin.get("scene") {

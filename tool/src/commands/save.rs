@@ -2,7 +2,7 @@
 
 use clap::Args;
 use host_sim::{Error, output, report};
-use scene::Override;
+use scene::{Override, file};
 use similar::TextDiff;
 
 use super::get::Which;
@@ -28,17 +28,17 @@ pub(crate) struct Arguments {
 
 /// Writes values into the scene file, whose comments and order stay.
 pub(crate) fn save(arguments: &Arguments) -> Result<(), Error> {
-    let file = arguments.which.scene_file()?;
-    output::check(file)?;
-    let wrong = |error: std::io::Error| Error::file(file, error);
-    let text = std::fs::read_to_string(file).map_err(wrong)?;
+    let path = arguments.which.scene_file()?;
+    output::check(path)?;
+    let wrong = |error: std::io::Error| Error::file(path, error);
+    let text = file::read_text(path).map_err(wrong)?;
     let values = values(arguments)?;
     if values.is_empty() {
         report::say("the module has what the scene says; nothing to save");
         return Ok(());
     }
-    let edited = scene_file::edit(&file.display().to_string(), &text, &values)?;
-    let name = file.display().to_string();
+    let edited = scene_file::edit(&path.display().to_string(), &text, &values)?;
+    let name = path.display().to_string();
     let diff = TextDiff::from_lines(&text, &edited);
     let diff = diff
         .unified_diff()
@@ -50,11 +50,11 @@ pub(crate) fn save(arguments: &Arguments) -> Result<(), Error> {
         return Ok(());
     }
     // Another may have written it meanwhile, by an editor.
-    if std::fs::read_to_string(file).map_err(wrong)? != text {
+    if file::read_text(path).map_err(wrong)? != text {
         let fault = "it has changed meanwhile; nothing was saved";
         return Err(Error::Work(format!("{name}: {fault}")));
     }
-    output::write_whole(file, edited.as_bytes())?;
+    output::write_whole(path, edited.as_bytes())?;
     report::say(format_args!(
         "{name}: saved; whisker deploy --scene {name} has the module start with it"
     ));

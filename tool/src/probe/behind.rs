@@ -9,6 +9,7 @@ use host_sim::Error;
 use host_sim::origin::Origin;
 use host_sim::received::Receiver;
 use rtt::{LogDecoder, Ram, Ring, Rtt};
+use scene::file;
 use wire::TaggedCommand;
 
 use super::find;
@@ -57,7 +58,8 @@ impl Behind {
         memory.check(board)?;
         let (rtt, decoder) = match program {
             Some(path) => {
-                let elf = std::fs::read(path).map_err(|error| Error::file(path, error))?;
+                let elf = file::read(path, file::BINARY_BYTES);
+                let elf = elf.map_err(|error| Error::file(path, error))?;
                 let wrong = |error| Error::file(path, error);
                 let rtt = Rtt::of_program(&elf).map_err(wrong)?;
                 if !rtt.is_there(&mut memory)? {

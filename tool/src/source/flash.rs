@@ -7,6 +7,7 @@ use std::path::{Path, PathBuf};
 
 use host_sim::Error;
 use host_sim::output::write_whole;
+use scene::file;
 
 const ERASED: u8 = 0xFF;
 
@@ -20,7 +21,7 @@ pub(crate) struct Flash {
 impl Flash {
     /// What the file has; nothing where there is none yet.
     pub(crate) fn open(path: Option<&Path>) -> Result<Self, Error> {
-        let contents = match path.map(std::fs::read) {
+        let contents = match path.map(|path| file::read(path, file::BINARY_BYTES)) {
             Some(Ok(contents)) => contents,
             Some(Err(error)) if error.kind() == ErrorKind::NotFound => Vec::new(),
             Some(Err(error)) => return Err(Error::file(path.unwrap_or(Path::new("")), error)),

@@ -6,6 +6,65 @@ use proptest::prelude::*;
 use proptest::sample::Index;
 use scene::Scene;
 
+#[test]
+fn what_is_not_to_be_seen_is_refused_in_a_path_and_shown_escaped_elsewhere() {
+    let problems = |file: &str, text: &str| Scene::from_str(file, text).unwrap_err().to_string();
+    let text = FULL.replacen("\"models/", "\"\\u001b[2Jmodels/", 1);
+    let found = problems("s.toml", &text);
+    assert!(
+        found.contains(r"has the character '\u{1b}', which is not to be seen"),
+        "{found}"
+    );
+    let text = FULL.replacen("\"models/", "\"=1+1", 1);
+    assert!(problems("s.toml", &text).contains("which begins with '='"));
+    let found = problems("\u{1b}]0;s\u{7}.toml", "'a\u{9b}\u{202e}b' = 1\n");
+    assert!(
+        !found.replace('\n', "").contains(tactile::name::is_hidden),
+        "{found}"
+    );
+    assert!(found.starts_with(r"\u{1b}]0;s\u{7}.toml:1: "), "{found}");
+}
+
+#[test]
+fn very_much_that_is_wrong_takes_no_long_time_and_no_long_message() {
+    use std::fmt::Write as _;
+    use std::time::{Duration, Instant};
+
+    let wrong = |line: &dyn Fn(usize) -> String| {
+        let mut text = String::new();
+        (0..40_000).for_each(|n| writeln!(text, "{}", line(n)).unwrap());
+        let begun = Instant::now();
+        let found = Scene::from_str("s.toml", &text).unwrap_err().to_string();
+        let took = begun.elapsed();
+        assert!(took < Duration::from_secs(2), "{}: {took:?}", line(7));
+        assert!(found.len() < 100_000, "{} bytes", found.len());
+        found
+    };
+    let found = wrong(&|n| format!("key_{n} = 1"));
+    assert!(found.starts_with("s.toml:1: key_0: unknown key"), "{found}");
+    assert!(found.ends_with(" more problems"), "{found}");
+    wrong(&|n| format!("tick_hz_{n} = 1"));
+    wrong(&|n| format!("[whisking.a{n}]"));
+    wrong(&|_| "seed = 1".to_owned());
+    wrong(&|n| format!("seed {n}"));
+    wrong(&|n| format!("[[plant]]\nx = {n}"));
+    wrong(&|n| format!("[[plant.own_{n}]]"));
+}
+
+#[test]
+fn what_is_nested_deeply_is_refused() {
+    for [open, close] in [["[", "]"], ["{a=", "}"], ["a.", ""], ["[[", "]]"]] {
+        let (open, close) = (open.repeat(200_000), close.repeat(200_000));
+        for text in [
+            format!("seed = {open}1{close}\n"),
+            format!("{open}a{close} = 1\n"),
+            format!("[{open}a{close}]\n"),
+        ] {
+            assert!(Scene::from_str("s.toml", &text).is_err());
+        }
+    }
+}
+
 /// Pieces that are apt to upset a reader: short ones, and longer ones.
 const MARKS: [&str; 37] = [
     "", "\n", "=", "[", "]", "[[", "]]", "{", "}", "\"", "'", "\"\"\"", ",", ".", "#", "-", "0x",

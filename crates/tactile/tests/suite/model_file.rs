@@ -3,6 +3,7 @@
 
 use crate::common;
 use proptest::prelude::*;
+use tactile::name::NameError;
 use tactile::{
     Aligned, Axis, Model, ModelBuf, ModelError, ModelParts, Quantiser, QuantiserError, Sequential,
     TableParts, Threshold,
@@ -124,6 +125,12 @@ fn damage_is_named() {
         quantiser(QuantiserError::Exponent(1024))
     );
     assert_eq!(set(32 + 20 + 18, 1), ModelError::Padding);
+    // A name's letter.
+    let (class, reason) = (0, NameError::Hidden('\n'));
+    assert_eq!(
+        set(32 + 40 + 80 + 3, b'\n'),
+        ModelError::Name { class, reason }
+    );
     // Table 1: its source, axes, rows, channel, bins, range, slope, unused axis.
     assert_eq!(set(112, 1), ModelError::Padding);
     assert_eq!(set(113, 3), ModelError::Padding);
@@ -244,6 +251,9 @@ fn what_could_not_be_read_is_not_written() {
     assert!(ModelBuf::new(&parts).is_ok());
     let long = ["a".to_owned(), "b".repeat(256)];
     let long_name = ModelError::NameLength { class: 1 };
+    let forged = ["a".to_owned(), "x\r\nok stop".to_owned()];
+    let reason = NameError::Hidden('\r');
+    let forged_name = ModelError::Name { class: 1, reason };
     let more_bins = Axis { bins: 3, ..axis };
     let tables = [TableParts::of_channel(&more_bins, &[1, 2, 3, 4])];
     let (block, too_short) = (
@@ -278,6 +288,13 @@ fn what_could_not_be_read_is_not_written() {
                 ..parts
             },
             long_name,
+        ),
+        (
+            ModelParts {
+                names: &forged,
+                ..parts
+            },
+            forged_name,
         ),
         (
             ModelParts {

@@ -6,7 +6,7 @@ use std::vec::Vec;
 
 use super::blocks::Blocks;
 use super::trial::Trial;
-use crate::format::{MAX_CLASSES, MAX_NAME_BYTES};
+use crate::format::MAX_CLASSES;
 use crate::train_error::TrainError;
 
 /// The blocks of a trial, or of half a trial.
@@ -25,13 +25,7 @@ pub(super) fn names(trials: &[Trial]) -> Result<Vec<String>, TrainError> {
         if names.contains(&trial.label) {
             continue;
         }
-        if trial.label.is_empty() {
-            return Err(TrainError::NameEmpty);
-        }
-        let bytes = trial.label.len();
-        if bytes > MAX_NAME_BYTES {
-            return Err(TrainError::NameTooLong { bytes });
-        }
+        TrainError::check_name(&trial.label)?;
         if names.len() == MAX_CLASSES {
             return Err(TrainError::TooManyClasses);
         }
