@@ -177,12 +177,12 @@ impl Figures {
         let efforts = session.efforts();
         let is_driven = efforts.iter().any(|effort| *effort > 0.0);
         self.driven += u64::from(is_driven);
-        self.note_stops(is_driven, arrived);
         // While the chip starts its RAM says nothing of motors.
         let is_up = !session.board_mut().is_late;
         if is_up {
             self.is_armed = servos.are_armed(&session.machine().memories)?;
         }
+        self.note_stops(is_driven, arrived);
         let row = *session.run.row();
         self.angles_deg.clear();
         let mut is_at_stop = false;
@@ -276,8 +276,12 @@ impl Figures {
             self.pending = None;
             self.just_stopped = 0;
         }
+        // A duty that passes zero is not off.
+        let is_off = !is_driven && self.is_armed != Some(true);
         if is_driven {
             self.after_stop += u64::from(self.is_stopped);
+        }
+        if !is_off {
             self.stops_late += self.just_stopped;
         } else if let Some(since) = self.pending.take() {
             self.stop_to_off = self.stop_to_off.max(self.ticks - since);
@@ -297,7 +301,7 @@ impl Figures {
             self.is_stopped = true;
             self.first_stop = Some(self.ticks);
         }
-        if is_driven {
+        if !is_off {
             self.pending.get_or_insert(self.ticks);
         }
     }

@@ -35,6 +35,7 @@ pub(super) enum Kind {
     Friction,
     Supply,
     Hand,
+    Held,
     SensorFrozen,
     SensorGone,
     MagnetGone,
@@ -89,6 +90,7 @@ pub(super) enum What {
     Friction { factor: f64 },
     Supply { volts: f64 },
     Hand { torque_nm: f64 },
+    Held,
     SensorFrozen,
     SensorGone,
     MagnetGone,
@@ -273,6 +275,7 @@ impl Written {
             Kind::Hand => What::Hand {
                 torque_nm: number("torque_nm", self.torque_nm.take(), -1.0..=1.0)?,
             },
+            Kind::Held => What::Held,
             Kind::SensorFrozen => What::SensorFrozen,
             Kind::SensorGone => What::SensorGone,
             Kind::MagnetGone => What::MagnetGone,
@@ -324,10 +327,10 @@ fn command(words: &str) -> Result<Command, String> {
         ))
     };
     match words.trim() {
-        // Of a configuration of one word, which never comes.
+        // Of a short configuration, which never comes.
         "load" => {
             let load = Load {
-                config: 1,
+                config: 64,
                 model: 0,
             };
             return Ok(Command::Load(load));
@@ -354,6 +357,7 @@ impl What {
                 | Self::Friction { .. }
                 | Self::Supply { .. }
                 | Self::Hand { .. }
+                | Self::Held
         )
     }
 }
