@@ -140,7 +140,12 @@ const ROWS: &[Row] = &[
     ),
     row("power-lost", &[], &[INSIDE, Most("at_stop_s", 0.0)]),
     row("arming-again", &[], &[INSIDE, Most("at_stop_s", 0.0)]),
-    row("hand-while-homing", &["motor.rest=find"], &[INSIDE]),
+    row(
+        "hand-while-homing",
+        &["motor.rest=find", "motor.arm=on-command"],
+        // From the stop to the whisk it is 20 degrees.
+        &[Most("worst_outside_deg", 25.0)],
+    ),
     row("friction", &["whisking.frequency_hz=0.5"], WHISKS_ON),
     row("much-friction", &["whisking.frequency_hz=0.5"], WHISKS_ON),
     row("much-friction", &[], WHISKS_ON),
