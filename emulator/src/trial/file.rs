@@ -7,7 +7,7 @@ use std::io::Read;
 use std::path::Path;
 
 use host_sim::Error;
-use scene::Scene;
+use scene::{Scene, SensorModel};
 use wire::Command;
 
 use super::wrong;
@@ -116,6 +116,11 @@ impl Scenario {
                 }
                 _ if what.is_at_motor() && scene.motor.is_none() => {
                     "an event of a motor, but the scene has none"
+                }
+                What::SensorFrozen | What::SensorGone | What::MagnetGone
+                    if scene.sensor.model != SensorModel::Mlx90333 =>
+                {
+                    "an event of an MLX90333, but the scene has another sensor"
                 }
                 _ if event.side >= sides => "an event on the right, which the scene has not",
                 _ => continue,
