@@ -273,6 +273,13 @@ impl Board {
         Ok(sent == bytes.len())
     }
 
+    /// How many bytes of requests there is room for.
+    pub(crate) fn request_room(&self) -> Result<usize, Fault> {
+        let Machine { rtt, memories, .. } = &self.machine;
+        let ring = rtt.requests(memories)?;
+        ring.map_or(Ok(0), |ring| ring.room(memories))
+    }
+
     pub(crate) fn packets(&mut self) -> Result<Vec<Packet>, Fault> {
         let bytes = self.ring_bytes()?;
         Ok(packets(&read(&mut self.ring, &bytes)?))

@@ -54,6 +54,20 @@ struct Subject {
     runs: Option<u64>,
 }
 
+/// Of a scene with real motors, other ways of its motors, each with a name of its own.
+const MOTORS: [(&str, &str); 2] = [
+    ("stop-all", "motor.on_fault=stop-all"),
+    ("six-step", "motor.driver=six-step"),
+];
+
+fn other_motors() -> Result<Vec<PathBuf>, Fault> {
+    let scene = top().join(crate::emulate::WORLD);
+    let other = |(name, key): (&str, &str)| {
+        variants::with(&scene, &[format!("name={name}"), key.to_owned()])
+    };
+    MOTORS.into_iter().map(other).collect()
+}
+
 fn has_mlx90333(scene: &PathBuf) -> bool {
     let scene = Scene::load(scene);
     scene.is_ok_and(|scene| scene.sensor.model == SensorModel::Mlx90333)
@@ -66,7 +80,10 @@ impl Subject {
             PC => Ok(Self {
                 name: PC,
                 // What is injected befalls an MLX90333.
-                scenes: scenes.into_iter().filter(has_mlx90333).collect(),
+                scenes: {
+                    let scenes = scenes.into_iter().filter(has_mlx90333);
+                    scenes.chain(other_motors()?).collect()
+                },
                 programs: Vec::new(),
                 runs: Some(runs),
             }),

@@ -68,6 +68,13 @@ struct Described {
     reader: u32,
 }
 
+impl Described {
+    /// A ring that is full to the last byte would look empty.
+    const fn room(&self) -> usize {
+        ((self.reader + self.length - self.writer - 1) % self.length) as usize
+    }
+}
+
 impl Ring {
     pub(crate) const fn at(at: u32) -> Self {
         Self { at }
@@ -132,6 +139,15 @@ impl Ring {
         Ok(bytes)
     }
 
+    /// How many bytes there is room for.
+    ///
+    /// # Errors
+    /// Any of `ram`.
+    pub fn room<R: Ram>(self, mut ram: R) -> Result<usize, R::Fault> {
+        let described = self.described(&mut ram)?;
+        Ok(described.map_or(0, |described| described.room()))
+    }
+
     /// Writes what a PC sends, as far as there is room; how many bytes there was room for.
     ///
     /// # Errors
@@ -144,11 +160,9 @@ impl Ring {
             buffer,
             length,
             writer,
-            reader,
+            ..
         } = described;
-        // A ring that is full to the last byte would look empty.
-        let room = (reader + length - writer - 1) % length;
-        let sent = bytes.len().min(room as usize);
+        let sent = bytes.len().min(described.room());
         // As each write takes a probe a while: up to the end of the ring, and from its start.
         let to_end = sent.min((length - writer) as usize);
         let (first, rest) = bytes[..sent].split_at(to_end);

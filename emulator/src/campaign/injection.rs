@@ -1,7 +1,7 @@
 //! What can be injected, and how it is done.
 
 use host_sim::bus::WireFault;
-use host_sim::motor::Wire;
+use host_sim::motor::{EncoderFlaws, SimMotor, Wire};
 use mlx90333::Faults;
 use rand_core::Rng;
 use rand_xoshiro::Xoshiro256PlusPlus;
@@ -21,6 +21,12 @@ pub enum Kind {
     EncoderExchanged,
     /// The encoder's cable has a loose contact.
     EncoderLoose,
+    /// The encoder's count jitters, in half of the runs around one that stands still.
+    EncoderJitter,
+    /// The encoder loses a share of the counts of protraction.
+    EncoderSlip,
+    /// The encoder counts so many times what it should.
+    EncoderScale,
     /// The winding's cable is cut.
     WindingOpen,
     /// The winding's cable has a loose contact.
@@ -31,6 +37,10 @@ pub enum Kind {
     Held,
     /// Something turns the whisker with up to twice the motor's torque.
     Pushed,
+    /// Motor and gear have up to ten times their friction.
+    Friction,
+    /// The motor has another supply, from none to twice its own.
+    Supply,
     /// The sensor does not answer: a cut wire, or no supply.
     SensorSilent,
     /// The sensor's cable has a loose contact.
@@ -71,15 +81,20 @@ pub enum Kind {
 
 impl Kind {
     /// Those that befall the wires of a motor.
-    pub(super) const MOTOR: [Self; 8] = [
+    pub(super) const MOTOR: [Self; 13] = [
         Self::EncoderStuck,
         Self::EncoderExchanged,
         Self::EncoderLoose,
+        Self::EncoderJitter,
+        Self::EncoderSlip,
+        Self::EncoderScale,
         Self::WindingOpen,
         Self::WindingLoose,
         Self::WindingExchanged,
         Self::Held,
         Self::Pushed,
+        Self::Friction,
+        Self::Supply,
     ];
     /// Those that befall a sensor and its wires.
     pub(super) const SENSOR: [Self; 12] = [
@@ -220,12 +235,7 @@ impl Injection {
         } else if let Some(motor) = subject.motor(self.whisker)
             && Kind::MOTOR.contains(&self.kind)
         {
-            // The torque at standstill is 6.6 mN·m at the whisker.
-            let share = (self.detail % 4001) as f64 / 1000.0 - 2.0;
-            match self.kind {
-                Kind::Held => motor.block(lasts),
-                _ => motor.set_load_nm(if lasts { share * 6.6e-3 } else { 0.0 }),
-            }
+            self.at_motor(motor, lasts);
         } else if let Some(slave) = subject.slave(self.whisker) {
             match self.kind {
                 Kind::SensorNoise if begins || ends => {
@@ -241,6 +251,44 @@ impl Injection {
             }
         }
         Ok(())
+    }
+
+    /// What is done to a motor while it `lasts`, or no more.
+    fn at_motor(&self, motor: &mut SimMotor, lasts: bool) {
+        let drawn = (self.detail % 4001) as f64 / 4000.0;
+        let flawed = |flaws| if lasts { flaws } else { EncoderFlaws::NONE };
+        match self.kind {
+            Kind::Held => motor.block(lasts),
+            Kind::EncoderJitter => {
+                if lasts && self.detail.is_multiple_of(2) {
+                    motor.cut(Wire::Encoder);
+                } else {
+                    motor.mend(Wire::Encoder);
+                }
+                motor.set_encoder(flawed(EncoderFlaws {
+                    jitter: 1 + (8.0 * drawn) as u16,
+                    ..EncoderFlaws::NONE
+                }));
+            }
+            Kind::EncoderSlip => motor.set_encoder(flawed(EncoderFlaws {
+                slip: drawn,
+                ..EncoderFlaws::NONE
+            })),
+            Kind::EncoderScale => motor.set_encoder(flawed(EncoderFlaws {
+                scale: 3.0 * drawn,
+                ..EncoderFlaws::NONE
+            })),
+            Kind::Friction => motor.set_friction(if lasts { 1.0 + 9.0 * drawn } else { 1.0 }),
+            Kind::Supply => {
+                let own_v = motor.settings().supply_v;
+                motor.set_supply_v(lasts.then_some(2.0 * drawn * own_v));
+            }
+            // The torque at standstill is 6.6 mN·m at the whisker.
+            _ => {
+                let share = (self.detail % 4001) as f64 / 1000.0 - 2.0;
+                motor.set_load_nm(if lasts { share * 6.6e-3 } else { 0.0 });
+            }
+        }
     }
 
     fn befall(&self, board: &mut OnBoard<'_>) -> Result<(), Fault> {

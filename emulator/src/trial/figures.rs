@@ -1,5 +1,7 @@
 //! What a run is judged by.
 
+mod stops;
+
 use std::collections::BTreeMap;
 
 use host_sim::Error;
@@ -11,6 +13,7 @@ use super::said::{Teller, Told};
 use crate::notice::Notice;
 use crate::session::Session;
 use crate::watch::Servos;
+use stops::Stops;
 
 /// So near to an end stop a whisker is at it, degrees.
 const AT_STOP_DEG: f64 = 0.1;
@@ -101,13 +104,7 @@ pub(super) struct Figures {
     limits_deg: [f64; 2],
     ticks: u64,
     sides: Vec<OfSide>,
-    /// The tick in which the first stop has arrived, and whether nothing has armed since.
-    first_stop: Option<u64>,
-    is_stopped: bool,
-    /// The first of the stops that have not switched off yet, and how many came a tick ago.
-    pending: Option<u64>,
-    just_stopped: u64,
-    after_stop: u64,
+    stops: Stops,
     with_fault: u64,
     at_stop: u64,
     driven: u64,
@@ -117,9 +114,6 @@ pub(super) struct Figures {
     resets: Vec<f64>,
     max_following_deg: f64,
     longest_excursion: u64,
-    stops: u64,
-    stops_late: u64,
-    stop_to_off: u64,
     is_armed: Option<bool>,
     angles_deg: Vec<f64>,
 }
@@ -140,11 +134,7 @@ impl Figures {
             }),
             ticks: 0,
             sides: vec![side; scene.head.sides.count()],
-            first_stop: None,
-            is_stopped: false,
-            pending: None,
-            just_stopped: 0,
-            after_stop: 0,
+            stops: Stops::default(),
             with_fault: 0,
             at_stop: 0,
             driven: 0,
@@ -153,9 +143,6 @@ impl Figures {
             resets: Vec::new(),
             max_following_deg: 0.0,
             longest_excursion: 0,
-            stops: 0,
-            stops_late: 0,
-            stop_to_off: 0,
             is_armed: None,
             angles_deg: Vec::new(),
         }
@@ -177,12 +164,14 @@ impl Figures {
         let efforts = session.efforts();
         let is_driven = efforts.iter().any(|effort| *effort > 0.0);
         self.driven += u64::from(is_driven);
-        self.note_stops(is_driven, arrived);
         // While the chip starts its RAM says nothing of motors.
         let is_up = !session.board_mut().is_late;
         if is_up {
             self.is_armed = servos.are_armed(&session.machine().memories)?;
         }
+        // A duty that passes zero is not off.
+        let may_drive = is_driven || self.is_armed == Some(true);
+        self.stops.look(is_driven, may_drive, arrived);
         let row = *session.run.row();
         self.angles_deg.clear();
         let mut is_at_stop = false;
@@ -270,43 +259,9 @@ impl Figures {
         }
     }
 
-    fn note_stops(&mut self, is_driven: bool, arrived: Arrived) {
-        if arrived.is_arm {
-            self.is_stopped = false;
-            self.pending = None;
-            self.just_stopped = 0;
-        }
-        if is_driven {
-            self.after_stop += u64::from(self.is_stopped);
-            self.stops_late += self.just_stopped;
-        } else if let Some(since) = self.pending.take() {
-            self.stop_to_off = self.stop_to_off.max(self.ticks - since);
-        }
-        self.just_stopped = 0;
-        if arrived.stops == 0 {
-            return;
-        }
-        self.stops += arrived.stops;
-        if arrived.is_arm {
-            // Whichever came first, it may be armed.
-            self.first_stop.get_or_insert(self.ticks);
-            return;
-        }
-        self.just_stopped = arrived.stops;
-        if self.first_stop.is_none() {
-            self.is_stopped = true;
-            self.first_stop = Some(self.ticks);
-        }
-        if is_driven {
-            self.pending.get_or_insert(self.ticks);
-        }
-    }
-
     pub(super) fn outcome(mut self, mut teller: Teller) -> Outcome {
         let seconds = |ticks: u64| ticks as f64 / self.tick_hz;
-        if let Some(since) = self.pending.take() {
-            self.stop_to_off = self.stop_to_off.max(self.ticks - since);
-        }
+        self.stops.end();
         let resets = self.resets.iter().map(|t_s| Told {
             t_s: *t_s,
             kind: "reset".to_owned(),
@@ -328,16 +283,16 @@ impl Figures {
             first_fault: first.map(named),
             first_fault_s: first.map(|told| told.t_s),
             worst_outside_deg: outside.fold(0.0, f64::max),
-            driven_after_stop_s: seconds(self.after_stop),
+            driven_after_stop_s: seconds(self.stops.driven),
             driven_with_fault_s: seconds(self.with_fault),
             at_stop_s: seconds(self.at_stop),
             rms_duty: (self.squares / self.duties.max(1) as f64).sqrt(),
             resets: self.resets.len() as u64,
             max_following_deg: self.max_following_deg,
             off_after_5deg_s: seconds(self.longest_excursion),
-            stops: self.stops,
-            stops_late: self.stops_late,
-            stop_to_off_ticks: self.stop_to_off,
+            stops: self.stops.arrived,
+            stops_late: self.stops.late,
+            stop_to_off_ticks: self.stops.longest,
             driven_s: seconds(self.driven),
             armed_at_end: self.is_armed,
             angle_at_end_deg: self.angles_deg,

@@ -1,82 +1,23 @@
 //! The file: a list of events, each with its time, its kind and its value.
 
+mod written;
+
 use std::fs::File;
 use std::io::Read;
-use std::ops::RangeInclusive;
 use std::path::Path;
 
 use host_sim::Error;
-use scene::Scene;
-use serde::{Deserialize, Serialize};
-use wire::text::Spoken;
-use wire::{Command, Load};
+use scene::{Scene, SensorModel};
+use wire::Command;
 
 use super::wrong;
+use written::{WrittenFile, within};
 
 /// Bytes of the longest file, and most events in it.
 const MOST_BYTES: u64 = 1 << 20;
 const MOST_EVENTS: usize = 1_000;
-/// Most bytes of a text.
-const MOST_TEXT: usize = 4_096;
 /// Latest time, s.
 const LATEST_S: f64 = 3_600.0;
-/// For how long a button is pressed and power is off, unless the event says so, s.
-const SHORT_S: f64 = 0.1;
-
-/// What can befall a board and what hangs on it.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, Serialize)]
-#[serde(rename_all = "kebab-case")]
-pub(super) enum Kind {
-    EncoderStuck,
-    EncoderJitter,
-    EncoderSlip,
-    EncoderScale,
-    EncoderReversed,
-    Friction,
-    Supply,
-    Hand,
-    SensorFrozen,
-    SensorGone,
-    MagnetGone,
-    Serial,
-    Probe,
-    Button,
-    PowerOff,
-}
-
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, Serialize)]
-#[serde(rename_all = "kebab-case")]
-pub(super) enum Side {
-    Left,
-    Right,
-}
-
-/// An event as it is written.
-#[derive(Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
-struct Written {
-    at_s: f64,
-    for_s: Option<f64>,
-    side: Option<Side>,
-    kind: Kind,
-    counts: Option<u16>,
-    share: Option<f64>,
-    factor: Option<f64>,
-    volts: Option<f64>,
-    torque_nm: Option<f64>,
-    text: Option<String>,
-    request: Option<String>,
-    repeat_hz: Option<f64>,
-}
-
-#[derive(Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
-struct WrittenFile {
-    duration_s: Option<f64>,
-    seed: Option<u64>,
-    #[serde(default)]
-    event: Vec<Written>,
-}
 
 /// What befalls it.
 #[derive(Debug, Clone, PartialEq)]
@@ -89,6 +30,7 @@ pub(super) enum What {
     Friction { factor: f64 },
     Supply { volts: f64 },
     Hand { torque_nm: f64 },
+    Held,
     SensorFrozen,
     SensorGone,
     MagnetGone,
@@ -146,7 +88,7 @@ impl Scenario {
             within("duration_s", duration_s, 1e-3..=LATEST_S)?;
         }
         let events = (1..).zip(written.event).map(|(n, event)| {
-            let name = serde_name(event.kind);
+            let name = event.name();
             event
                 .read()
                 .map_err(|fault| format!("event {n} ({name}): {fault}"))
@@ -175,6 +117,11 @@ impl Scenario {
                 _ if what.is_at_motor() && scene.motor.is_none() => {
                     "an event of a motor, but the scene has none"
                 }
+                What::SensorFrozen | What::SensorGone | What::MagnetGone
+                    if scene.sensor.model != SensorModel::Mlx90333 =>
+                {
+                    "an event of an MLX90333, but the scene has another sensor"
+                }
                 _ if event.side >= sides => "an event on the right, which the scene has not",
                 _ => continue,
             };
@@ -201,147 +148,6 @@ fn read(path: &Path) -> Result<String, String> {
     Ok(text)
 }
 
-fn within(name: &str, value: f64, allowed: RangeInclusive<f64>) -> Result<f64, String> {
-    if allowed.contains(&value) {
-        return Ok(value);
-    }
-    let (least, most) = (allowed.start(), allowed.end());
-    Err(format!("{name}: found {value}, allowed: {least} to {most}"))
-}
-
-/// The name of a kind in the file.
-fn serde_name(kind: Kind) -> String {
-    let name = serde_json::to_value(kind).ok();
-    name.and_then(|name| Some(name.as_str()?.to_owned()))
-        .unwrap_or_default()
-}
-
-impl Written {
-    fn read(mut self) -> Result<Event, String> {
-        let at_s = within("at_s", self.at_s, 0.0..=LATEST_S)?;
-        let for_s = self
-            .for_s
-            .map(|for_s| within("for_s", for_s, 1e-6..=LATEST_S));
-        let for_s = match self.kind {
-            Kind::Button | Kind::PowerOff => Some(for_s.unwrap_or(Ok(SHORT_S))?),
-            _ => for_s.transpose()?,
-        };
-        let repeat_hz = match self.kind {
-            Kind::Serial | Kind::Probe => self.repeat_hz.take(),
-            _ => None,
-        };
-        if let Some(repeat_hz) = repeat_hz {
-            within("repeat_hz", repeat_hz, 1e-3..=1e6)?;
-        }
-        let what = self.take_what()?;
-        self.has_nothing_else()?;
-        Ok(Event {
-            at_s,
-            until_s: for_s.map(|for_s| at_s + for_s),
-            side: usize::from(self.side == Some(Side::Right)),
-            what,
-            repeat_hz,
-        })
-    }
-
-    fn take_what(&mut self) -> Result<What, String> {
-        let number = |name: &str, value: Option<f64>, allowed| {
-            let value = value.ok_or_else(|| format!("{name}: missing"))?;
-            within(name, value, allowed)
-        };
-        Ok(match self.kind {
-            Kind::EncoderStuck => What::Stuck,
-            Kind::EncoderJitter => {
-                let counts = number("counts", self.counts.take().map(f64::from), 1.0..=10_000.0)?;
-                What::Jitter {
-                    counts: counts as u16,
-                }
-            }
-            Kind::EncoderSlip => What::Slip {
-                share: number("share", self.share.take(), 0.0..=1.0)?,
-            },
-            Kind::EncoderScale => What::Scale {
-                factor: number("factor", self.factor.take(), 0.0..=100.0)?,
-            },
-            Kind::EncoderReversed => What::Reversed,
-            Kind::Friction => What::Friction {
-                factor: number("factor", self.factor.take(), 0.0..=1_000.0)?,
-            },
-            Kind::Supply => What::Supply {
-                volts: number("volts", self.volts.take(), 0.0..=100.0)?,
-            },
-            Kind::Hand => What::Hand {
-                torque_nm: number("torque_nm", self.torque_nm.take(), -1.0..=1.0)?,
-            },
-            Kind::SensorFrozen => What::SensorFrozen,
-            Kind::SensorGone => What::SensorGone,
-            Kind::MagnetGone => What::MagnetGone,
-            Kind::Serial => What::Serial {
-                line: text("text", self.text.take())?,
-            },
-            Kind::Probe => What::Probe {
-                command: command(&text("request", self.request.take())?)?,
-            },
-            Kind::Button => What::Button,
-            Kind::PowerOff => What::PowerOff,
-        })
-    }
-
-    /// Refuses what belongs to other kinds.
-    fn has_nothing_else(&self) -> Result<(), String> {
-        let left = [
-            ("counts", self.counts.is_some()),
-            ("share", self.share.is_some()),
-            ("factor", self.factor.is_some()),
-            ("volts", self.volts.is_some()),
-            ("torque_nm", self.torque_nm.is_some()),
-            ("text", self.text.is_some()),
-            ("request", self.request.is_some()),
-            ("repeat_hz", self.repeat_hz.is_some()),
-        ];
-        let strange = left.iter().find(|(_, is_there)| *is_there);
-        strange.map_or(Ok(()), |(name, _)| {
-            Err(format!("{name}: not a key of this kind"))
-        })
-    }
-}
-
-fn text(name: &str, text: Option<String>) -> Result<String, String> {
-    let text = text.ok_or_else(|| format!("{name}: missing"))?;
-    if text.len() > MOST_TEXT {
-        let found = text.len();
-        return Err(format!("{name}: found {found} bytes, allowed: {MOST_TEXT}"));
-    }
-    Ok(text)
-}
-
-/// What words ask for: as the serial line has them, and two that only programs send.
-fn command(words: &str) -> Result<Command, String> {
-    let refused = |why: &dyn std::fmt::Display| {
-        let allowed = wire::text::ALLOWED;
-        Err(format!(
-            "request: {words:?}: {why}; allowed: {allowed}, load, restart"
-        ))
-    };
-    match words.trim() {
-        // Of a configuration of one word, which never comes.
-        "load" => {
-            let load = Load {
-                config: 1,
-                model: 0,
-            };
-            return Ok(Command::Load(load));
-        }
-        "restart" => return Ok(Command::Restart),
-        _ => {}
-    }
-    match wire::text::parse(words.as_bytes()) {
-        Ok(Spoken::Command(command)) => Ok(command),
-        Ok(_) => refused(&"no command"),
-        Err((_, fault)) => refused(&fault),
-    }
-}
-
 impl What {
     const fn is_at_motor(&self) -> bool {
         matches!(
@@ -354,6 +160,7 @@ impl What {
                 | Self::Friction { .. }
                 | Self::Supply { .. }
                 | Self::Hand { .. }
+                | Self::Held
         )
     }
 }

@@ -15,6 +15,7 @@ struct Around {
     friction: f64,
     volts: Option<f64>,
     torque_nm: f64,
+    is_held: bool,
     sensor: Option<WireFault>,
 }
 
@@ -26,6 +27,7 @@ impl Around {
         friction: 1.0,
         volts: None,
         torque_nm: 0.0,
+        is_held: false,
         sensor: None,
     };
 
@@ -40,6 +42,7 @@ impl Around {
             What::Friction { factor } => self.friction = factor,
             What::Supply { volts } => self.volts = Some(volts),
             What::Hand { torque_nm } => self.torque_nm = torque_nm,
+            What::Held => self.is_held = true,
             What::SensorFrozen => self.sensor = Some(WireFault::Frozen),
             What::SensorGone => self.sensor = Some(WireFault::Silent),
             What::MagnetGone => self.sensor = Some(WireFault::NoField),
@@ -124,4 +127,5 @@ fn surround(session: &mut Session, side: usize, around: &Around) {
     motor.set_friction(around.friction);
     motor.set_supply_v(around.volts);
     motor.set_load_nm(around.torque_nm);
+    motor.block(around.is_held);
 }

@@ -193,13 +193,16 @@ impl<'s> Links<'s> {
 
     /// Writes a request into the probe's ring; whether there was room.
     fn ask(&mut self, command: Command, session: &mut Session) -> Result<bool, Error> {
-        self.tag = self.tag.wrapping_add(1);
-        let tag = self.tag;
-        let is_sent = session.request(TaggedCommand { tag, command })?;
-        if is_sent {
-            self.arrived.add(command);
+        let tag = self.tag.wrapping_add(1);
+        let request = TaggedCommand { tag, command };
+        // Half of one would spoil the next.
+        if session.board_mut().request_room()? < wire::frame(&request).len() {
+            return Ok(false);
         }
-        Ok(is_sent)
+        self.tag = tag;
+        session.request(request)?;
+        self.arrived.add(command);
+        Ok(true)
     }
 
     /// What has arrived in the tick that was just made; what came while none was, is lost.

@@ -6,7 +6,7 @@ use firmware::Packet;
 use host_sim::Error;
 use host_sim::received::{Received, Receiver};
 use serde::Serialize;
-use wire::{Answer, Command, CommandStatus, WhiskerId};
+use wire::{Answer, Command, CommandStatus, Load, WhiskerId};
 
 use crate::session::Session;
 
@@ -60,8 +60,8 @@ const KINDS: [&str; 13] = [
     "zero",
 ];
 
-/// Commands that can be asked for in words.
-const SPOKEN: [Command; 11] = {
+/// Commands that can be asked for.
+const SPOKEN: [Command; 13] = {
     let left = WhiskerId { side: 0, number: 0 };
     [
         Command::Hello,
@@ -75,6 +75,11 @@ const SPOKEN: [Command; 11] = {
         Command::Setpoint(left, 0),
         Command::Release(left),
         Command::Zero(left),
+        Command::Load(Load {
+            config: 0,
+            model: 0,
+        }),
+        Command::Restart,
     ]
 };
 
@@ -124,7 +129,12 @@ impl Teller {
                 text: text.clone(),
             });
         }
-        *self.answers.entry(text).or_default() += 1;
+        // Behind what is done stand values.
+        let counted = match text.strip_prefix("ok ") {
+            Some(rest) => format!("ok {}", rest.split(' ').next().unwrap_or_default()),
+            None => text,
+        };
+        *self.answers.entry(counted).or_default() += 1;
     }
 
     pub(super) fn tell(&mut self, told: Told) {

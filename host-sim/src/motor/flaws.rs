@@ -51,3 +51,55 @@ impl Jitter {
         (self.0.next_u64() % values) as i32 - i32::from(most)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use firmware::AngleInput;
+
+    use super::EncoderFlaws;
+    use crate::motor::{MotorSettings, SimMotor, Wire};
+
+    /// Counts of a whisker that is turned there and back by 50 degrees, at either end.
+    fn counts(flaws: EncoderFlaws) -> [i32; 2] {
+        let (mut motor, mut pins) = SimMotor::brushed(MotorSettings::DEFAULT).unwrap();
+        motor.set_encoder(flaws);
+        [100.0, 50.0].map(|angle_deg| {
+            motor.turn_to_deg(angle_deg);
+            pins.encoder.counts()
+        })
+    }
+
+    #[test]
+    fn counts_are_lost_one_way_scaled_and_turned() {
+        // 11 turns of 512 counts a whisker turn.
+        assert_eq!(counts(EncoderFlaws::NONE), [782, 0]);
+        let slip = EncoderFlaws {
+            slip: 0.5,
+            ..EncoderFlaws::NONE
+        };
+        assert_eq!(counts(slip), [391, -391]);
+        let turned = EncoderFlaws {
+            scale: -2.0,
+            ..EncoderFlaws::NONE
+        };
+        assert_eq!(counts(turned), [-1564, 0]);
+    }
+
+    #[test]
+    fn a_stuck_encoder_jitters_about_its_count() {
+        let (mut motor, mut pins) = SimMotor::brushed(MotorSettings::DEFAULT).unwrap();
+        motor.cut(Wire::Encoder);
+        motor.set_encoder(EncoderFlaws {
+            jitter: 3,
+            ..EncoderFlaws::NONE
+        });
+        motor.set_load_nm(1e-3);
+        let mut seen = std::collections::BTreeSet::new();
+        for _ in 0..200 {
+            motor.advance(5e-4);
+            seen.insert(pins.encoder.counts());
+        }
+        assert!(seen.iter().copied().eq(-3..=3), "{seen:?}");
+        assert!(motor.angle_deg() > 60.0);
+    }
+}
