@@ -27,9 +27,24 @@ pub(crate) fn refuses(
 }
 
 /// Has a board whose motors are off load a scene and its model, of which only so many `words`
-/// come: then there are no more requests, and it starts again by itself.
+/// come: then there are no more requests, and it starts again by itself. Then somebody arms it.
 pub(crate) fn load(session: &mut Session, what: &Deployment, words: usize) -> Result<(), Error> {
     load_watched(session, what, words, |_, _| Ok(()))
+}
+
+/// Ticks for which a board that was reset drives nothing before it is armed.
+const WAITS: u32 = 200;
+
+/// A board that was reset arms no motor by itself; somebody does.
+fn arm(session: &mut Session) -> Result<(), Error> {
+    for _ in 0..WAITS {
+        session.tick()?;
+        if session.drives() {
+            let fault = "a board arms its motors by itself after a reset";
+            return Err(Error::Work(fault.to_owned()));
+        }
+    }
+    session.must(Command::Arm, CommandStatus::Done)
 }
 
 /// The same; `watch` looks at it after each word, with the number of those that were written.
@@ -66,7 +81,7 @@ pub(crate) fn load_watched(
         session.tick()?;
         if session.was_reset() {
             session.bear_resets(false);
-            return Ok(());
+            return arm(session);
         }
     }
     let fault = "a board does not start again after loading";

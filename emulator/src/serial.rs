@@ -22,9 +22,10 @@ const RECORDS_S: f64 = 0.5;
 /// A baud that does not carry the records of the scene.
 const SLOW_BAUD: u32 = 115_200;
 
-/// By how many instructions a tick may be longer for the port: what the compiler does otherwise
-/// where another part of the program differs.
-const MORE: f64 = 2.0;
+/// By how many instructions a tick may be longer for the port: a look at whether something has come
+/// in which there may be a stop, and what the compiler does otherwise where another part of the
+/// program differs.
+const MORE: f64 = 15.0;
 
 /// Talks with a board that runs the scene in `path` by the program that has its serial port,
 /// one with [`SLOW_BAUD`] and one without. Returns what was found.
@@ -216,7 +217,7 @@ fn refuse_records(path: &Path, program: &Path) -> Result<String, Error> {
 }
 
 /// What the serial port costs a tick, without records and with records that go there in place of
-/// to a probe: nothing.
+/// to a probe: that look.
 fn prices(path: &Path, program: &Path, without: &Path) -> Result<Vec<String>, Error> {
     let (mut loaded, program) = flashed(path, program)?;
     let scene = &mut loaded.scene;

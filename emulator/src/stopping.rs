@@ -152,7 +152,35 @@ pub(crate) fn stopping(path: &Path, program: &Path, stops: u32) -> Result<Vec<St
         let found = flooded(&loaded.scene, &program, flood, stops).map_err(in_flood)?;
         said.push(found);
     }
+    said.push(together(&loaded.scene, &program)?);
     Ok(said)
+}
+
+/// A stop and an arming that come in one tick: the later one holds.
+fn together(scene: &scene::Scene, program: &Program) -> Result<String, Error> {
+    let mut session = Session::of(scene, program)?;
+    for (said, answers, is_driven) in [
+        ("stop\narm\n", "ok stop\r\nok arm\r\n", true),
+        (
+            "arm\nstop\n",
+            "ok stop\r\nrefused arm: a stop has come since\r\n",
+            false,
+        ),
+    ] {
+        session.serial_read();
+        session.serial_write(said.as_bytes());
+        let mut driven = false;
+        for tick in 0..ANSWERED {
+            session.tick()?;
+            driven |= tick > OFF && session.drives();
+        }
+        let heard = session.serial_read();
+        if !has(&heard, answers.as_bytes()) || driven != is_driven {
+            let heard = String::from_utf8_lossy(&heard).into_owned();
+            return wrong(format!("{said:?}: driven: {driven}, answered by {heard:?}"));
+        }
+    }
+    Ok("of a stop and an arming that come in one tick the later one holds".to_owned())
 }
 
 fn flooded(

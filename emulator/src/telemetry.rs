@@ -20,9 +20,9 @@ use crate::tuning::tune;
 const STREAMING: f64 = 180.0;
 const STREAMING_NO_FPU: f64 = 265.0;
 
-/// The same where nothing is asked for: a look at that queue's fellow for requests, and the events
-/// of a tick noted for a record.
-const QUIET: f64 = 14.0;
+/// The same where nothing is asked for: a look at whether something has come in which there may be a
+/// stop, one at that queue's fellow for requests, and the events of a tick noted for a record.
+const QUIET: f64 = 29.0;
 
 /// By how much a record may be away from the world, degrees: a step of its numbers, and of
 /// the encoder.

@@ -191,11 +191,14 @@ mod tests {
             .collect()
     }
 
-    /// The stops that a board reads.
-    fn read(bytes: &[u8]) -> Vec<(usize, Stop)> {
+    /// The stops that a board reads, where nothing comes for a while after these bytes.
+    fn read(bytes: &[u8], pauses: &[usize]) -> Vec<(usize, Stop)> {
         let mut splitter = Splitter::<COMMAND_BYTES>::new();
         let mut found = Vec::new();
         for (n, byte) in (1..).zip(bytes) {
+            if pauses.contains(&(n - 1)) {
+                splitter.pause();
+            }
             let stop = match splitter.push(*byte) {
                 Some(Piece::Line(line)) => match text::parse(line) {
                     Ok(Spoken::Command(Command::Stop)) => Some(Stop::Line),
@@ -227,7 +230,7 @@ mod tests {
         ] {
             let all = line.len();
             assert_eq!(stops(line.as_bytes()), [(all, Stop::Line)], "{line:?}");
-            assert_eq!(read(line.as_bytes()), [(all, Stop::Line)], "{line:?}");
+            assert_eq!(read(line.as_bytes(), &[]), [(all, Stop::Line)], "{line:?}");
         }
     }
 
@@ -306,10 +309,11 @@ mod tests {
         #[test]
         fn whatever_a_board_reads_as_a_stop_is_seen_with_the_same_byte(
             pieces in prop::collection::vec(pieces(), 0..40),
+            pauses in prop::collection::vec(0..300_usize, 0..6),
         ) {
             let bytes = pieces.concat();
             let seen = stops(&bytes);
-            for stop in read(&bytes) {
+            for stop in read(&bytes, &pauses) {
                 prop_assert!(seen.contains(&stop), "{stop:?} of {bytes:?}");
             }
         }

@@ -2,6 +2,7 @@
 //! notice, are its motors off in time, does it say why, and does it carry on?
 
 use scene::Scene;
+use wire::{Command, TaggedCommand};
 
 use super::step::Step::{Do, Forget, Hang, Health, Move, Pass, Press, SaysTimes, Upset, Within};
 use super::step::{Case, MS, Step, US, says, whisk};
@@ -114,5 +115,45 @@ pub(super) fn starting(scene: &Scene) -> Vec<Case> {
     vec![
         case("starts that were not asked for", steps),
         case("a stack that overflows", stack),
+        case("a stop, and resets after it", stopped(scene)),
+    ]
+}
+
+/// Motors that somebody has stopped are off after every reset, and the log says why, until the
+/// button is pressed; pressed again it stops them.
+fn stopped(scene: &Scene) -> Vec<Step> {
+    let off = |ms| Move {
+        ms,
+        off: all(scene),
+    };
+    let stop = Do(|board| {
+        let request = TaggedCommand {
+            tag: 1,
+            command: Command::Stop,
+        };
+        board.board_mut().request(&wire::frame(&request)).map(drop)
+    });
+    let why = "not-armed 0 somebody has stopped the motors";
+    vec![
+        whisk(1_000),
+        stop,
+        off(100),
+        Do(|board| board.board_mut().reset_now(ResetCause::Pin)),
+        off(100),
+        says(why),
+        Forget,
+        Do(|board| board.board_mut().reset_now(ResetCause::Software)),
+        off(100),
+        says(why),
+        Press(100),
+        whisk(1_000),
+        says("INFO  armed"),
+        Press(100),
+        off(100),
+        says("INFO  stopped"),
+        Forget,
+        Do(|board| board.board_mut().reset_now(ResetCause::BrownOut)),
+        off(100),
+        says("not-armed 53 "),
     ]
 }

@@ -216,8 +216,8 @@ fn stop(module: &mut Module, events: &mut Events, is_by_button: bool) {
     module.inner.arm(false);
     retained::set_stopped(module.inner.motion().is_some());
     REQUEST.take();
-    module.telemetry.stop();
     if is_by_button {
+        module.telemetry.stop();
         HAS_STOPPED.make();
         put(events, &mut module.telemetry, Event::Stopped);
     }

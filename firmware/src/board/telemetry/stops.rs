@@ -113,11 +113,11 @@ impl Stops {
     /// Looks at what has come since the last tick; whether there is a stop in it.
     #[inline]
     pub(crate) fn look(&mut self, tick: u32) -> bool {
-        let mut is_stop = false;
+        let mut stops = [None; 2];
         if let Some(watch) = &mut self.probe {
             let writer = DOWN.writer() as usize;
             if writer != PROBE.until(REQUESTS.len()) {
-                is_stop |= look(watch, &PROBE, (&REQUESTS, writer), By::Probe);
+                stops[0] = look(watch, &PROBE, (&REQUESTS, writer), By::Probe);
                 follow(&mut self.stopped_at[0], &PROBE);
             }
         }
@@ -126,15 +126,27 @@ impl Stops {
             let (ring, looked) = serial::ring();
             let writer = serial::writer();
             if writer != looked.until(ring.len()) {
-                is_stop |= look(watch, looked, (ring, writer), By::Serial);
+                stops[1] = look(watch, looked, (ring, writer), By::Serial);
                 follow(&mut self.stopped_at[1], looked);
             }
         }
+        let is_stop = stops != [None; 2];
         if is_stop {
-            STOPPED_IN.store(tick, Ordering::Relaxed);
-            self.stop();
+            self.stop_at(tick, stops);
         }
         is_stop
+    }
+
+    /// There were stops, after so many bytes of each link. What has come by the other link in the
+    /// same tick may have come before: then it has.
+    #[cold]
+    #[inline(never)]
+    fn stop_at(&mut self, tick: u32, stops: [Option<u32>; 2]) {
+        STOPPED_IN.store(tick, Ordering::Relaxed);
+        self.stop();
+        if let [Some(at), None] | [None, Some(at)] = stops {
+            self.stopped_at[usize::from(stops[0].is_none())] = at;
+        }
     }
 
     /// What has come by now came before a stop.
@@ -145,9 +157,7 @@ impl Stops {
             self.stopped_at[1] = serial::ring().1.bytes();
         }
     }
-}
 
-impl Stops {
     /// Whether what had come with the last byte of a request came before a stop.
     pub(crate) fn is_before(&self, at: u32, by: By) -> bool {
         // Counts wrap around.
@@ -167,23 +177,30 @@ fn follow(stopped_at: &mut u32, looked: &Looked) {
 /// A link as it is looked at: its ring, and where the next byte will be written.
 type Arrived<'r> = (&'r [AtomicU8], usize);
 
-/// Looks at what has come by a link; whether a stop is in it.
+/// Looks at what has come by a link; how many bytes had come with the last stop in it.
 // Apart, so that a tick in which nothing has come keeps its registers.
 #[cold]
 #[inline(never)]
-fn look(watch: &mut StopWatch, looked: &Looked, (ring, writer): Arrived<'_>, by: By) -> bool {
+fn look(
+    watch: &mut StopWatch,
+    looked: &Looked,
+    (ring, writer): Arrived<'_>,
+    by: By,
+) -> Option<u32> {
     compiler_fence(Ordering::Acquire);
-    let mut is_stop = false;
+    let mut last = None;
     let mut at = looked.until(ring.len());
     while at != writer
         && let Some(byte) = ring.get(at)
     {
         let stop = watch.push(byte.load(Ordering::Relaxed));
-        is_stop |= stop.is_some_and(|stop| owe(stop, by));
         at = if at + 1 < ring.len() { at + 1 } else { 0 };
+        if stop.is_some_and(|stop| owe(stop, by)) {
+            last = Some(at);
+        }
     }
     looked.is_at(writer, ring.len());
-    is_stop
+    last.map(|at| looked.bytes_until(at, ring.len()))
 }
 
 /// Has idle answer a stop; whether it is one: a probe's ring has no lines.
