@@ -2,7 +2,7 @@
 //! encoder, and switched off.
 
 use crate::played::{Played, TICK_HZ, angles, extent, play, textured, undisturbed};
-use firmware::{Event, FAULTS, Place};
+use firmware::{Event, FAULTS, HELD, Place};
 use host_sim::motor::Wire;
 use scene::Scene;
 use whisking::motor::{FOLLOWING_S, Fault};
@@ -129,7 +129,7 @@ fn a_motor_that_was_given_up_runs_when_it_is_cleared() {
             done.unwrap();
         }
     });
-    assert_eq!(faults(&played).len(), FAULTS);
+    assert_eq!(faults(&played).len(), usize::from(HELD));
     let last = played.events.last().unwrap();
     assert!(
         last.0 < cleared && last.1 == Event::MotorGivenUp(LEFT),
