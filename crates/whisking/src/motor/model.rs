@@ -304,7 +304,10 @@ impl<R: Real> Expected<R> {
             moved.wrapping_neg()
         };
         test.at = test.at.saturating_add(moved);
-        test.least = test.least.min(test.at);
+        // What turns back only while it is braked has turned the other way.
+        if test.ticks <= test.end {
+            test.least = test.least.min(test.at);
+        }
         test.most = test.most.max(test.at.saturating_sub(test.least));
         test.ticks = test.ticks.saturating_add(1);
         let turns = self.speed != R::ZERO && (self.speed > R::ZERO) == test.is_forward;
