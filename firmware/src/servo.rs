@@ -405,20 +405,24 @@ impl<R: Real, M: MotorDriver, A: AngleInput> Servo<R, M, A> {
     /// where one has passed, it was not its faults that led there but flipped bits.
     #[inline]
     fn age(&mut self, retry: Retry) {
-        if self.until_clear != 0 {
-            self.until_clear = self.until_clear.saturating_sub(1).min(retry.window);
-        }
-        if matches!(self.state, ServoState::GivenUp) {
-            if self.held < HELD && self.windows.contains(&0) {
-                self.state = ServoState::Off;
-            }
-            return;
-        }
         // Nearly always there is none, and nothing to count.
         let [first, second] = self.windows;
-        if first | second != 0 {
-            let older = |window: u32| window.saturating_sub(1).min(retry.window);
-            self.windows = [older(first), older(second)];
+        let is_given_up = matches!(self.state, ServoState::GivenUp);
+        if is_given_up || first | second | self.until_clear != 0 {
+            self.age_faults(retry, is_given_up);
+        }
+    }
+
+    /// The same where there are some.
+    #[cold]
+    #[inline(never)]
+    fn age_faults(&mut self, retry: Retry, is_given_up: bool) {
+        let older = |window: u32| window.saturating_sub(1).min(retry.window);
+        self.until_clear = older(self.until_clear);
+        if !is_given_up {
+            self.windows = self.windows.map(older);
+        } else if self.held < HELD && self.windows.contains(&0) {
+            self.state = ServoState::Off;
         }
     }
 

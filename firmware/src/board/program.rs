@@ -178,17 +178,7 @@ fn no_scene(found: &Scene) -> ConfigError {
 /// One tick of the module.
 #[inline]
 pub(crate) fn tick(module: &mut Module, events: &mut Events) {
-    let is_stop = module.telemetry.look_for_stop(TICKS.get());
-    if Part::Motion.is_built() {
-        // Down, the button stops motors that are armed and arms none.
-        let is_armed = module.inner.is_armed();
-        let is_down = is_armed && user_button::is_down();
-        if is_stop || is_down {
-            stop(module, events, is_down);
-        } else if !is_armed && REQUEST.take() {
-            arm(module);
-        }
-    }
+    obey(module, events);
     let Module {
         inner,
         telemetry,
@@ -205,6 +195,24 @@ pub(crate) fn tick(module: &mut Module, events: &mut Events) {
     if module.second.wrapping_sub(now).wrapping_sub(1) >= tick_hz {
         module.second = now.wrapping_add(tick_hz);
         tell_timing(module);
+    }
+}
+
+/// Stops the motors before a tick, or arms them, if that was asked for.
+// Apart, so that the tick keeps its registers.
+#[inline(never)]
+fn obey(module: &mut Module, events: &mut Events) {
+    let is_stop = module.telemetry.look_for_stop(TICKS.get());
+    if !Part::Motion.is_built() {
+        return;
+    }
+    // Down, the button stops motors that are armed and arms none.
+    let is_armed = module.inner.is_armed();
+    let is_down = is_armed && user_button::is_down();
+    if is_stop || is_down {
+        stop(module, events, is_down);
+    } else if !is_armed && REQUEST.take() {
+        arm(module);
     }
 }
 

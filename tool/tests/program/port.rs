@@ -102,10 +102,15 @@ fn a_board_on_a_port_is_taught_without_a_probe() {
     for said in [
         "before, the module decides by no model: none was deployed".to_owned(),
         format!("now it decides by model {crc:08x}, 4 classes\n"),
-        " decision left ".to_owned(),
     ] {
         ran.prints(&said);
     }
+    // No reset arms a motor.
+    assert!(!ran.stdout.contains(" touch "), "{}", ran.stdout);
+    let armed = place.done(&format!("arm {}", served.port));
+    armed.prints("armed, after tick ");
+    let log = place.done(&format!("log {} --seconds 3", served.port));
+    log.prints(" decision left ");
     let kept = std::fs::read(place.path("kept.flash")).unwrap();
     let [first, second] = NUCLEO_F446RE.flash.slots;
     let of_models = [first, second].map(|slot| {
