@@ -51,8 +51,8 @@ macro_rules! fault_table {
                 "exchange the motor's two wires, or A and B; `top_speed_deg_s`",
                 WhiskerOff, Retry;
             9 ENCODER: "driven and not a count",
-                "encoder without supply or not connected; whisker clamped; a winding open",
-                "the encoder's supply; A and B with an oscilloscope; whether it moves freely",
+                "encoder without supply or not connected; motor supply off; whisker clamped; a winding open",
+                "the supplies of encoder and motor; A and B with an oscilloscope; whether it moves freely",
                 WhiskerOff, Retry;
             10 TRAVEL: "beyond its travel",
                 "not at rest at the start; turned by something",
