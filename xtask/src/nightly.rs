@@ -11,7 +11,7 @@ use crate::run::{Fault, cargo, installed, run, target};
 use crate::steps::Steps;
 use crate::{
     ci, cost, dependencies, docs, emulate, endurance, faults, fuzz, mutants, panics, python,
-    reproducible, size, studies, walk,
+    reproducible, scenarios, size, studies, walk,
 };
 
 /// In how many nights every mutation is tried once.
@@ -41,6 +41,7 @@ pub(crate) fn all(only: Vec<String>) -> Result<(), Fault> {
     steps.try_run("the walk through the book", walk::nightly);
     steps.try_run("endurance", endurance::nightly);
     steps.try_run("injected faults", faults::whole);
+    steps.try_run("faults from files, all of them", scenarios::all);
     steps.try_run("untrusted input", || fuzz::all(&[], 60.0, false));
     steps.try_run("dependencies", dependencies::install_and_check);
     steps.try_run("two builds, the same bytes", || {
