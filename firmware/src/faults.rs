@@ -116,8 +116,8 @@ mod tests {
     #[test]
     fn every_fault_of_a_motor_has_its_row() {
         let motor = TABLE.iter().filter(|row| row.number < 16);
-        assert!(motor.map(|row| row.number).eq(1..=number::HOMING));
-        assert_eq!(Fault::from_code(number::HOMING + 1), None);
+        assert!(motor.map(|row| row.number).eq(1..=number::LOST_COUNTS));
+        assert_eq!(Fault::from_code(number::LOST_COUNTS + 1), None);
         let named = [
             (Fault::Pin, number::MOTOR_PIN),
             (Fault::Pwm, number::MOTOR_PWM),
@@ -131,6 +131,7 @@ mod tests {
             (Fault::Travel, number::TRAVEL),
             (Fault::Heat, number::HEAT),
             (Fault::Homing, number::HOMING),
+            (Fault::LostCounts, number::LOST_COUNTS),
         ];
         assert!(named.into_iter().all(|(fault, code)| fault.code() == code));
     }

@@ -398,6 +398,7 @@ impl<R: Number, H: Hardware> Module<R, H> {
             let is_valid = whisker.sensor.reading().valid;
             let may_run = motion.is_armed && is_valid && !all_stop;
             if let Some(servo) = &mut whisker.servo {
+                servo.check_home(&config.servo, whisker.felt);
                 let theta = moved.muscle.theta;
                 servo.step(&config.servo, theta, may_run, whisker.place, events);
                 let x = whisker.sensor.reading().x;

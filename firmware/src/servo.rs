@@ -109,8 +109,14 @@ pub struct Servo<R, M, A> {
     home: Voted<i32>,
     /// Counts at the last tick.
     counts: i32,
-    /// Whether home was found, where it is to be.
+    /// Whether home was found, where it is to be, since the motor was off.
     is_homed: bool,
+    /// Whether home was found at all, and not elsewhere since.
+    is_known: bool,
+    /// Ticks of following its setpoint since home was found.
+    since_home: u32,
+    /// Ticks for which it has touched nothing.
+    calm: u16,
     /// Whether it was armed since the start: rest is where the whisker was then.
     has_rest: bool,
     /// Takes the place of the pattern generator's θ.
@@ -136,6 +142,9 @@ impl<R: Real, M: MotorDriver, A: AngleInput> Servo<R, M, A> {
             home: Voted::new(home),
             counts: home,
             is_homed: false,
+            is_known: false,
+            since_home: 0,
+            calm: 0,
             has_rest: false,
             setpoint: Voted::new(None),
             state: ServoState::Off,
@@ -233,6 +242,28 @@ impl<R: Real, M: MotorDriver, A: AngleInput> Servo<R, M, A> {
         self.is_homed = false;
     }
 
+    /// Looks for home again where it was found long ago: in the air, or where a whisker that feels
+    /// so much contact has not been there for as long again.
+    #[inline]
+    pub(crate) fn check_home(&mut self, config: &ServoConfig<R>, felt: R) {
+        let Some(how) = config.homing() else {
+            return;
+        };
+        if let ServoState::Running { .. } = self.state {
+            self.since_home = self.since_home.saturating_add(1);
+            let is_calm = felt.to_q24() < how.calm;
+            self.calm = if is_calm {
+                self.calm.saturating_add(1)
+            } else {
+                0
+            };
+            let is_due = self.since_home > how.every && self.calm >= how.still;
+            if is_due || self.since_home > how.every.saturating_mul(2) {
+                self.home();
+            }
+        }
+    }
+
     /// What a tick towards protraction `theta` has done.
     #[inline]
     pub fn record(&self, config: &ServoConfig<R>, theta: R) -> MotorRecord {
@@ -310,7 +341,8 @@ impl<R: Real, M: MotorDriver, A: AngleInput> Servo<R, M, A> {
                 return;
             }
             ServoState::Off if config.homing().is_some() && !self.is_homed => {
-                self.state = ServoState::Homing(Homing::new(counts));
+                let known = home.filter(|_| self.is_known);
+                self.state = ServoState::Homing(Homing::new(counts, known));
             }
             ServoState::Off => {
                 let measured = config.pd.measured(at);
@@ -395,6 +427,8 @@ impl<R: Real, M: MotorDriver, A: AngleInput> Servo<R, M, A> {
             Homed::At(home) => {
                 self.home = Voted::new(home);
                 self.is_homed = true;
+                self.is_known = true;
+                self.since_home = 0;
                 self.off();
                 Ok(None)
             }
@@ -454,6 +488,9 @@ impl<R: Real, M: MotorDriver, A: AngleInput> Servo<R, M, A> {
         self.motor.off();
         // Whatever it was, the encoder may have lost counts.
         self.is_homed = false;
+        if let motor::Fault::LostCounts = fault {
+            self.is_known = false;
+        }
         events(Event::MotorFault(place, fault));
         let retry = config.retry;
         let did_not_move = matches!(fault, motor::Fault::Stall | motor::Fault::Encoder);

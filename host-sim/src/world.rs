@@ -266,7 +266,7 @@ fn ideal_motors(scene: &Scene) -> (Motors, Vec<Pins>) {
 /// How far beyond the travel that is no fault the end stops are, degrees.
 const STOP_MARGIN_DEG: f64 = 5.0;
 
-/// Where the end stops are: the retracted one where the scene says, if it is to be found;
+/// Where the end stops are: where the scene says, if they are to be found;
 /// otherwise a little beyond the travel in which the whisker may be.
 fn stops_deg(motor: &scene::MotorSection) -> [f64; 2] {
     let margin = motor.travel_margin_deg + STOP_MARGIN_DEG;
@@ -274,7 +274,11 @@ fn stops_deg(motor: &scene::MotorSection) -> [f64; 2] {
         Rest::AtStart => motor.min_deg.min(whisking::REST_DEG) - margin,
         Rest::Find => motor.retracted_deg(),
     };
-    [retracted, motor.max_deg.max(whisking::REST_DEG) + margin]
+    let protracted = match (motor.rest, motor.far_stop_deg) {
+        (Rest::Find, Some(far_deg)) => far_deg,
+        _ => motor.max_deg.max(whisking::REST_DEG) + margin,
+    };
+    [retracted, protracted]
 }
 
 fn real_motors(scene: &Scene, pwm_counts: u16) -> Result<(Motors, Vec<Pins>), Error> {

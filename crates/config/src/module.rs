@@ -203,7 +203,8 @@ fn motion<R: Real>(scene: &Scene, is_ideal: bool) -> Result<Option<MotionConfig<
             retry: retry(scene.tick_hz),
             guards: guards.build(tick_hz),
             approach: R::from_f64(approach),
-            homing: finds_rest.then(|| homing(motor, degrees_per_count).build(tick_hz)),
+            homing: finds_rest
+                .then(|| homing(motor, degrees_per_count, scene.sensor.zero_calm).build(tick_hz)),
         },
         driver: motor.driver,
         stops_all: motor.on_fault == OnFault::StopAll,
@@ -238,10 +239,14 @@ fn guards(motor: &MotorSection, degrees_per_count: f64) -> GuardSettings {
 }
 
 /// How a whisker finds where it is.
-fn homing(motor: &MotorSection, degrees_per_count: f64) -> HomingSettings {
+fn homing(motor: &MotorSection, degrees_per_count: f64, calm: f64) -> HomingSettings {
     HomingSettings {
         degrees_per_count,
         duty: motor.homing_duty,
         stop_deg: motor.retracted_deg(),
+        max_deg: motor.max_deg.max(whisking::REST_DEG),
+        far_stop_deg: motor.far_stop_deg,
+        every_s: motor.home_every_s,
+        calm,
     }
 }

@@ -118,10 +118,12 @@ pub enum Fault {
     /// 12: its retracted stop was not found in time. Likely cause: the whisker turns freely,
     /// or too slowly.
     Homing,
+    /// 13: its retracted stop was found elsewhere than before: the encoder has lost counts.
+    LostCounts,
 }
 
 impl Fault {
-    /// The stable number of the fault, 1 to 12, for telemetry.
+    /// The stable number of the fault, 1 to 13, for telemetry.
     pub const fn code(self) -> u8 {
         match self {
             Self::Pin => 1,
@@ -136,6 +138,7 @@ impl Fault {
             Self::Travel => 10,
             Self::Heat => 11,
             Self::Homing => 12,
+            Self::LostCounts => 13,
         }
     }
 
@@ -156,6 +159,7 @@ impl Fault {
             10 => Some(Self::Travel),
             11 => Some(Self::Heat),
             12 => Some(Self::Homing),
+            13 => Some(Self::LostCounts),
             _ => None,
         }
     }

@@ -63,8 +63,12 @@ macro_rules! fault_table {
                 "what it presses against; `continuous_duty`",
                 WhiskerOff, Retry;
             12 HOMING: "retracted stop not found",
-                "the whisker turns freely, or too slowly",
-                "the stop; `homing_duty`",
+                "the whisker turns freely, or too slowly; something was taken for the stop, or stands in its range",
+                "the stop; `homing_duty`; that nothing is within reach; `far_stop_deg`",
+                WhiskerOff, Retry;
+            13 LOST_COUNTS: "the stop is not where it was",
+                "encoder losing counts; something was taken for the stop",
+                "A and B with an oscilloscope; the coupling of the encoder; that nothing is within reach",
                 WhiskerOff, Retry;
 
             16 NO_FRAME: "no frame in time",

@@ -10,6 +10,7 @@ mod facing;
 mod faults;
 mod faults_by_side;
 mod formats;
+mod homing_faults;
 mod motion_faults;
 mod played;
 mod precision;

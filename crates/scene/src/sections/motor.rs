@@ -106,7 +106,8 @@ keys! {
 
         /// Where a whisker is: at rest, 50 degrees, when its motor is first armed; or found by driving
         /// it gently against its retracted stop, before it whisks and after every fault of
-        /// the motor. Plant `ideal` has no stop to find.
+        /// the motor. The first time it then goes through its whole range, with nothing in reach.
+        /// Plant `ideal` has no stop to find.
         rest: Rest = word().default("\"at-start\""),
 
         /// Duty with which the stop is looked for, at most half of `duty_limit`: more than
@@ -116,6 +117,16 @@ keys! {
         /// Angle of the retracted stop.
         stop_deg: Option<f64> = number(-360.0..=whisking::REST_DEG).unit("degrees")
             .optional("`min_deg`, at most 50"),
+
+        /// Angle of the other stop. Where it is known, home is right if that stop is found in its
+        /// place, within 3 degrees; where it is not, if the whisker reaches `max_deg` and meets
+        /// nothing.
+        far_stop_deg: Option<f64> = number(whisking::REST_DEG..=360.0).unit("degrees")
+            .optional("not known"),
+
+        /// How often the stop is looked for again, while the whisker touches nothing, where it
+        /// is found: elsewhere by more than a degree is a fault.
+        home_every_s: f64 = number(1.0..=86_400.0).unit("s").default("20.0"),
 
         /// Soft start: how fast the setpoint comes from where the whisker is to where it should
         /// be, whenever the motor has been off.

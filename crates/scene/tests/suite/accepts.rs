@@ -83,6 +83,8 @@ fn every_key_reaches_its_field() {
             rest: Rest::AtStart,
             homing_duty: 0.1,
             stop_deg: None,
+            far_stop_deg: None,
+            home_every_s: 20.0,
             approach_deg_s: 400.0,
         }),
         plant: PlantSection {
@@ -121,6 +123,8 @@ rest = 'find'
 \
                  homing_duty = 0.125
 stop_deg = -30
+far_stop_deg = 210
+home_every_s = 45
 approach_deg_s = 90
 
 [plant]
@@ -146,6 +150,8 @@ approach_deg_s = 90
         rest: Rest::Find,
         homing_duty: 0.125,
         stop_deg: Some(-30.0),
+        far_stop_deg: Some(210.0),
+        home_every_s: 45.0,
         approach_deg_s: 90.0,
     };
     assert_eq!(read(&with(FULL, "[plant]\n", motor)).motor, Some(expected));

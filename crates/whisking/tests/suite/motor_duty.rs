@@ -55,6 +55,7 @@ fn fault_numbers_are_stable() {
         (Fault::Travel, 10),
         (Fault::Heat, 11),
         (Fault::Homing, 12),
+        (Fault::LostCounts, 13),
     ];
     for (fault, code) in all {
         assert_eq!(fault.code(), code);
@@ -66,7 +67,7 @@ fn fault_numbers_are_stable() {
         );
     }
     assert_eq!(Fault::from_code(0), None);
-    assert_eq!(Fault::from_code(13), None);
+    assert_eq!(Fault::from_code(14), None);
 }
 
 proptest! {

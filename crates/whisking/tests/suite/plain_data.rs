@@ -66,6 +66,10 @@ fn configurations_come_back_in_every_format() {
         degrees_per_count: 0.01,
         duty: 0.2,
         stop_deg: 20.0,
+        max_deg: 160.0,
+        far_stop_deg: Some(185.0),
+        every_s: 30.0,
+        calm: 0.05,
     };
     again::<HomingConfig>(&homing.build(2_000.0));
     again(&SixStepConfig::DEFAULT);

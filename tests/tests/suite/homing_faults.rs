@@ -1,0 +1,179 @@
+//! Whiskers that look for their stop: a hand that holds one meanwhile, and encoders that lose counts.
+
+use crate::played::{Played, TICK_HZ, angles, play, textured, undisturbed};
+use firmware::{Event, Place};
+use host_sim::motor::EncoderFlaws;
+use scene::Scene;
+use whisking::motor::Fault;
+
+const LEFT: Place = Place::new(0, 0);
+/// When an encoder begins to lose counts.
+const SLIPS: u64 = 3 * TICK_HZ;
+
+/// A whisker that looks for its stop and whisks freely, twice a second.
+fn finds(motor: &str) -> Scene {
+    let text = format!(
+        "name = \"finds\"\ntick_hz = {TICK_HZ}\nduration_s = 300\nseed = 1\n\
+         [head]\nwhiskers_per_side = 1\nsides = \"left\"\n\
+         [whisking]\nfrequency_hz = 2.0\nintegrator = \"exact\"\ncoupling = false\n\
+         noise = 0.005\ngain = 1.0\nstart = [[1.0, 0.0]]\n\
+         [plant]\n{}\n[motor]\nrest = \"find\"\n{motor}",
+        textured(300.0).replace("obstacle_deg = [300.0, 300.0]", "obstacle_deg = [300.0]")
+    );
+    Scene::from_str("finds.toml", &text).unwrap_or_else(|problems| panic!("{problems}"))
+}
+
+/// The faults of the motor with their ticks.
+fn faults(played: &Played) -> Vec<(u64, Fault)> {
+    let fault = |(tick, event): &(u64, Event)| match event {
+        Event::MotorFault(LEFT, fault) => Some((*tick, *fault)),
+        _ => None,
+    };
+    played.events.iter().filter_map(fault).collect()
+}
+
+/// The largest distance of the whisker from its setpoint, from a tick on.
+fn farthest(played: &Played, from: u64) -> f64 {
+    let rows = played.rows[from as usize..].iter();
+    let errors = rows.map(|row| (row.theta_deg[0] - row.angle_deg[0]).abs());
+    errors.fold(0.0, f64::max)
+}
+
+/// A whisker at 120 degrees is armed, and a hand holds it for two seconds where it meets it on its
+/// way to the stop: from behind only, so that it gives way forwards, or fast.
+fn held(hand_deg: f64, is_fast: bool, motor: &str) -> Played {
+    let scene = finds(&format!("arm = \"on-command\"\n{motor}"));
+    let mut until = None;
+    play(&scene, 12 * TICK_HZ, |tick, run| {
+        let motor = run.motor_mut(0).unwrap();
+        if tick == 0 {
+            motor.turn_to_deg(120.0);
+        }
+        let is_met = motor.angle_deg() <= hand_deg;
+        if is_met && until.is_none() {
+            until = Some(tick + 2 * TICK_HZ);
+        }
+        let holds = until.is_some_and(|until| tick < until);
+        motor.block(holds && (is_fast || is_met && motor.duty() <= 0.0));
+        if tick == 10 {
+            run.arm(true);
+        }
+    })
+}
+
+#[test]
+fn a_hand_is_not_taken_for_the_stop() {
+    for hand_deg in [60.0, 70.0, 80.0, 90.0] {
+        for is_fast in [false, true] {
+            let played = held(hand_deg, is_fast, "");
+            let found = faults(&played);
+            assert_eq!(
+                found.first().map(|(_, fault)| *fault),
+                Some(Fault::Homing),
+                "{hand_deg}"
+            );
+            // Once it is gone, the whisker whisks where it should.
+            let error = farthest(&played, 6 * TICK_HZ);
+            assert!(error < 25.0, "{hand_deg} {is_fast}: {error}");
+            // Until then it does not whisk: it is heard nowhere.
+            let early = played.heard.iter().map(|(tick, _)| *tick);
+            let early = early.filter(|tick| (11..2 * TICK_HZ).contains(tick));
+            assert!(early.count() < 5, "{hand_deg} {is_fast}: it is heard");
+        }
+    }
+}
+
+/// A hand nearer to the stop than the whisker's range is to the other one.
+#[test]
+fn a_hand_near_the_stop_is_found_where_the_far_stop_is_known() {
+    let first = |motor: &str| faults(&held(50.0, false, motor)).first().copied();
+    assert_eq!(first(""), None);
+    let found = first("far_stop_deg = 180\n").map(|(_, fault)| fault);
+    assert_eq!(found, Some(Fault::Homing));
+    let sound = undisturbed(&finds("far_stop_deg = 180\n"), 4 * TICK_HZ);
+    assert_eq!(sound.events, []);
+    assert!(farthest(&sound, 3 * TICK_HZ) < 25.0);
+}
+
+/// What became of an encoder that loses this share of the counts of protraction.
+fn slips(slip: f64, motor: &str, ticks: u64) -> Played {
+    play(&finds(motor), ticks, |tick, run| {
+        if tick == SLIPS {
+            run.motor_mut(0).unwrap().set_encoder(EncoderFlaws {
+                slip,
+                ..EncoderFlaws::NONE
+            });
+        }
+    })
+}
+
+/// By how much the whisker has drifted in the second that ends with a tick, degrees.
+fn drifted(played: &Played, end: u64) -> f64 {
+    let off = |end: u64| {
+        let rows = &played.rows[(end - TICK_HZ) as usize..end as usize];
+        let off = rows.iter().map(|row| row.angle_deg[0] - row.theta_deg[0]);
+        off.sum::<f64>() / TICK_HZ as f64
+    };
+    off(end) - off(SLIPS)
+}
+
+#[test]
+fn lost_counts_are_found_before_the_end_stop() {
+    for (slip, least_deg, most_deg) in [(0.001, 1.0, 3.0), (0.01, 10.0, 30.0)] {
+        let played = slips(slip, "", 90 * TICK_HZ);
+        let found = faults(&played);
+        let (first, _) = found[0];
+        let drifted = drifted(&played, first - TICK_HZ);
+        println!(
+            "{slip}: found after {} s at {drifted} degrees",
+            (first - SLIPS) as f64 / TICK_HZ as f64
+        );
+        assert!(first < 21 * TICK_HZ, "{slip}: {first}");
+        assert!(
+            (least_deg..most_deg).contains(&drifted),
+            "{slip}: {drifted}"
+        );
+        let counted = [Fault::LostCounts; 3];
+        assert!(found.iter().map(|(_, fault)| *fault).eq(counted), "{slip}");
+        assert_eq!(played.events.last().unwrap().1, Event::MotorGivenUp(LEFT));
+    }
+}
+
+#[test]
+fn a_whisker_that_loses_half_its_counts_is_given_up() {
+    let played = slips(0.5, "", 20 * TICK_HZ);
+    let found = faults(&played);
+    let (first, fault) = found[0];
+    println!(
+        "0.5: {fault:?} after {} s",
+        (first - SLIPS) as f64 / TICK_HZ as f64
+    );
+    assert!(first - SLIPS < 3 * TICK_HZ, "{first}");
+    assert_eq!(found[1].1, Fault::LostCounts);
+    assert_eq!(played.events.last().unwrap().1, Event::MotorGivenUp(LEFT));
+}
+
+/// What drifts by less than is a fault is put right each time.
+#[test]
+fn a_sound_whisker_goes_home_now_and_then_without_a_fault() {
+    for slip in [0.0, 1e-4] {
+        let played = slips(slip, "", 65 * TICK_HZ);
+        assert_eq!(played.events, []);
+        let low: Vec<u64> = (2 * TICK_HZ..)
+            .zip(&angles(&played, 0)[2 * TICK_HZ as usize..])
+            .filter(|(_, angle)| **angle < 30.1)
+            .map(|(tick, _)| tick)
+            .collect();
+        let visits = 1 + low
+            .windows(2)
+            .filter(|pair| pair[1] - pair[0] > TICK_HZ)
+            .count();
+        assert_eq!(visits, 3, "every 20 s");
+        let (drifted, away) = (
+            drifted(&played, 60 * TICK_HZ),
+            low.len() as f64 / TICK_HZ as f64,
+        );
+        println!("{slip}: {drifted} degrees, {away} s at the stop");
+        assert!(drifted.abs() < 1.0, "{drifted}");
+    }
+}
