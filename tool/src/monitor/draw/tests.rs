@@ -76,7 +76,7 @@ fn all_is_there_in_the_smallest_usual_window() {
         "no model: --model",
         "touch 3",
         "carpet 99.50 % 640",
-        "fault left 6 driven",
+        "fault left 6 does not move",
         "longest tick 43.5 us (4 %)",
         "lost 0",
         "x stop",
