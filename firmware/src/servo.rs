@@ -451,10 +451,11 @@ impl<R: Real, M: MotorDriver, A: AngleInput> Servo<R, M, A> {
     #[cold]
     #[inline(never)]
     fn age_faults(&mut self, retry: Retry, is_given_up: bool) {
-        let older = |window: u32| window.saturating_sub(1).min(retry.window);
-        self.until_clear = older(self.until_clear);
+        let limited = |window: u32| window.saturating_sub(1).min(retry.window);
+        let [first, second] = self.windows;
+        self.until_clear = limited(self.until_clear);
         if !is_given_up {
-            self.windows = self.windows.map(older);
+            self.windows = [limited(first), limited(second)];
         } else if self.held < HELD && self.windows.contains(&0) {
             self.state = ServoState::Off;
         }

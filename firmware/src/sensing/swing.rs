@@ -2,7 +2,8 @@
 //!
 //! A sensor whose magnet is gone, and one on a stub of a whisker, answer with good frames in which
 //! nothing moves; a magnet that has come off its place may read the end of the range for ever. What
-//! such a sensor says is no touch, nor the air.
+//! such a sensor says is no touch, nor the air. A reading that whisking has never moved is not lost:
+//! of a mock-up without a whisker nothing else is known.
 
 use mlx90333::Word;
 use serde::{Deserialize, Serialize};
@@ -50,6 +51,8 @@ pub(crate) struct Swing {
     x: [u16; 2],
     counts: [i32; 2],
     is_at_end: bool,
+    /// Whether whisking has moved the reading since the start.
+    was_felt: bool,
     is_lost: bool,
 }
 
@@ -60,6 +63,7 @@ impl Swing {
             x: [u16::MAX, 0],
             counts: [i32::MAX, i32::MIN],
             is_at_end: true,
+            was_felt: false,
             is_lost: false,
         }
     }
@@ -72,9 +76,9 @@ impl Swing {
 
     /// The look begins again; what the last has found stays.
     const fn pause(&mut self) {
-        let is_lost = self.is_lost;
+        let (was_felt, is_lost) = (self.was_felt, self.is_lost);
         *self = Self::new();
-        self.is_lost = is_lost;
+        (self.was_felt, self.is_lost) = (was_felt, is_lost);
     }
 
     /// One tick with the reading x, and with the counts of a motor that runs; `None`: it does not.
@@ -108,13 +112,15 @@ impl Swing {
         let [low, high] = self.x;
         let [from, to] = self.counts;
         let tells = to.wrapping_sub(from).cast_unsigned() >= limits.counts;
+        let is_still = high.saturating_sub(low) < limits.least;
         let found = if self.is_at_end {
             Some(Lost::AtEnd)
-        } else if tells && high.saturating_sub(low) < limits.least {
+        } else if tells && is_still && self.was_felt {
             Some(Lost::Still)
         } else {
             None
         };
+        self.was_felt |= tells && !is_still;
         let was_lost = self.is_lost;
         // What does not whisk tells nothing about a reading that did not move before.
         self.is_lost = found.is_some() || (was_lost && !tells);
@@ -150,11 +156,14 @@ mod tests {
     #[test]
     fn a_reading_that_does_not_move_with_the_whisker_is_said_once() {
         let noise = |tick: i32| 0x8000 + (tick % 7 * 57) as u16;
-        assert_eq!(looks(noise, whisks), (vec![Lost::Still], true));
         let moves = |tick: i32| 0x8000 + (tick % 60 * 8) as u16;
+        let gone = |tick: i32| if tick < 200 { moves(tick) } else { noise(tick) };
+        assert_eq!(looks(gone, whisks), (vec![Lost::Still], true));
+        assert_eq!(looks(noise, whisks), (vec![], false), "never felt");
         assert_eq!(looks(moves, whisks), (vec![], false));
         // A whisker that hardly whisks tells nothing.
-        assert_eq!(looks(noise, |tick| whisks(tick) / 2), (vec![], false));
+        let hardly = |tick: i32| whisks(tick) / if tick < 200 { 1 } else { 2 };
+        assert_eq!(looks(gone, hardly), (vec![], false));
     }
 
     #[test]
