@@ -177,14 +177,9 @@ mod tests {
 
     #[test]
     fn a_reading_that_moves_again_counts_again() {
-        let late = |tick: i32| {
-            0x8000
-                + if tick < 500 {
-                    0
-                } else {
-                    (tick % 60 * 8) as u16
-                }
-        };
+        let moves = |tick: i32| (tick % 60 * 8) as u16;
+        let is_gone = |tick: i32| (200..500).contains(&tick);
+        let late = |tick: i32| 0x8000 + if is_gone(tick) { 0 } else { moves(tick) };
         assert_eq!(looks(late, whisks), (vec![Lost::Still], false));
     }
 }
