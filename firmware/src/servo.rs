@@ -61,7 +61,9 @@ pub const FAULTS: usize = 3;
 pub const HELD: u8 = 6;
 
 /// What a servo is doing.
+// With a tag of its own, by which the emulator reads each variant.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[repr(u8)]
 pub enum ServoState<R> {
     /// The motor is off: before the first tick, while it is not armed or the whisker's
     /// sensor has a fault, and where any fault [stops all](crate::MotionConfig::stops_all).

@@ -73,7 +73,6 @@ const OPEN: &[&str] = &[
     "reversed-encoder",
     "scaled-encoder",
     "slipping-encoder",
-    "creeping-encoder",
     "stop-under-gains",
     "stop-under-flood",
     "probe-stop-under-flood",
@@ -81,7 +80,6 @@ const OPEN: &[&str] = &[
     "power-lost-after-stop",
     "power-lost",
     "arming-again",
-    "hand-while-homing motor.rest=find motor.arm=on-command",
     "friction whisking.frequency_hz=0.5",
     "much-friction whisking.frequency_hz=0.5",
     "much-friction",
@@ -147,8 +145,13 @@ const ROWS: &[Row] = &[
     ),
     row(
         "creeping-encoder",
-        &[],
-        &[Told(&["fault", "limit"], 1.0), Most("at_stop_s", 0.0)],
+        &["motor.rest=find"],
+        // To the end stop it is 90 degrees. At the other one it rests once it has found that.
+        &[
+            Told(&["fault", "limit"], 1.0),
+            Most("max_following_deg", 45.0),
+            Off,
+        ],
     ),
     row("stop-under-gains", &[], STOPPED),
     row("stop-under-flood", &[], STOPPED),
@@ -169,8 +172,8 @@ const ROWS: &[Row] = &[
     row(
         "hand-while-homing",
         &["motor.rest=find", "motor.arm=on-command"],
-        // From the stop to the whisk it is 20 degrees.
-        &[Most("worst_outside_deg", 25.0)],
+        // It rests where it met what it should not, and whisks nowhere but about its setpoint.
+        &[Faults(true), Most("max_following_deg", 25.0)],
     ),
     row("friction", &["whisking.frequency_hz=0.5"], WHISKS_ON),
     row("much-friction", &["whisking.frequency_hz=0.5"], WHISKS_ON),

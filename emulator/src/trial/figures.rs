@@ -95,6 +95,8 @@ struct OfSide {
     faults: [Option<u64>; 2],
     /// For how many ticks it has been driven in this excursion.
     excursion: u64,
+    /// Whether it was being homed in the last tick.
+    was_homing: bool,
 }
 
 /// Looks at every tick.
@@ -125,6 +127,7 @@ impl Figures {
             reached: Span::EMPTY,
             faults: [None; 2],
             excursion: 0,
+            was_homing: false,
         };
         let motor = scene.motor.as_ref();
         Self {
@@ -191,8 +194,14 @@ impl Figures {
                 let [least, most] = self.limits_deg;
                 let whole = whole.max(least).min(most);
                 let following = angle - (whole - wants.behind_deg);
-                self.follow(side, whole, effort > 0.0 && !wants.is_homing, following);
-                if wants.is_homing {
+                let was_homing = match self.sides.get_mut(side) {
+                    Some(of_side) => std::mem::replace(&mut of_side.was_homing, wants.is_homing),
+                    None => false,
+                };
+                // The tick that ends it was still driven by it.
+                let homes = wants.is_homing || was_homing;
+                self.follow(side, whole, effort > 0.0 && !homes, following);
+                if homes {
                     continue;
                 }
             }
