@@ -150,7 +150,7 @@ const ROWS: &[Row] = &[
         &[
             Told(&["fault", "limit"], 1.0),
             Most("max_following_deg", 45.0),
-            Off,
+            Told(&["off"], 1.0),
         ],
     ),
     row("stop-under-gains", &[], STOPPED),
