@@ -64,29 +64,10 @@ const WHISKS_ON: &[Bound] = &[Faults(false), INSIDE, Least("driven_s", 3.0)];
 
 /// Rows that are not within their bounds yet. One that is, must not stand here.
 const OPEN: &[&str] = &[
-    "stuck-encoder",
-    "stuck-encoder motor.on_fault=stop-all",
-    "jittering-encoder",
-    "jittering-encoder whisking.frequency_hz=0.5",
-    "jittering-encoder whisking.frequency_hz=8.0",
-    "jittering-encoder motor.driver=six-step",
-    "reversed-encoder",
     "scaled-encoder",
     "slipping-encoder",
-    "stop-under-gains",
-    "stop-under-flood",
-    "probe-stop-under-flood",
-    "reset-after-stop",
     "power-lost-after-stop",
     "power-lost",
-    "arming-again",
-    "friction whisking.frequency_hz=0.5",
-    "much-friction whisking.frequency_hz=0.5",
-    "much-friction",
-    "finger",
-    "touches",
-    "magnet-gone",
-    "two-faults",
 ];
 
 const fn row(file: &'static str, set: &'static [&'static str], bounds: &'static [Bound]) -> Row {
