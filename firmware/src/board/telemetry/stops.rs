@@ -28,23 +28,24 @@ impl Looked {
         self.0.load(Ordering::Relaxed)
     }
 
-    /// The place in a ring of so many bytes, a power of two, up to which it has looked.
+    /// The place in a ring of so many bytes, a power of two (a remainder would have a panic for a
+    /// ring of none), up to which it has looked.
     #[inline]
     pub(crate) fn until(&self, ring: usize) -> usize {
-        self.bytes() as usize % ring
+        self.bytes() as usize & ring.wrapping_sub(1)
     }
 
     /// How many had come with the byte before `at`, to which idle has read the ring.
     pub(crate) fn bytes_until(&self, at: usize, ring: usize) -> u32 {
         let bytes = self.bytes();
-        let ahead = (bytes as usize).wrapping_sub(at) % ring;
+        let ahead = (bytes as usize).wrapping_sub(at) & ring.wrapping_sub(1);
         bytes.wrapping_sub(ahead as u32)
     }
 
     /// It has looked at all of a ring before its writer.
     pub(crate) fn is_at(&self, writer: usize, ring: usize) {
         let bytes = self.bytes();
-        let more = writer.wrapping_sub(bytes as usize) % ring;
+        let more = writer.wrapping_sub(bytes as usize) & ring.wrapping_sub(1);
         self.0
             .store(bytes.wrapping_add(more as u32), Ordering::Relaxed);
     }
