@@ -144,7 +144,6 @@ fn a_module_says_the_configuration_of_its_scene() {
 /// field of those whose limit protects. But for what the scene's start is computed from, of
 /// which there is a test of its own, and of the stop, which the world has too.
 const FREE: [(&[&str], &[&str], Option<Field>); 19] = [
-    // With kp goes how far the duty may change in vain: three counts' worth, armed or not.
     (&[], &["motor.kp=0.08"], None),
     (&[], &["motor.kd=0.0009"], None),
     (&[], &["motor.slew_per_s=55"], None),
@@ -164,19 +163,29 @@ const FREE: [(&[&str], &[&str], Option<Field>); 19] = [
         &["motor.min_deg=44", "motor.max_deg=91"],
         Some(Field::Guards),
     ),
+    // The world's other stop would move with the margin.
     (
-        &["motor.max_deg=90"],
+        &["motor.max_deg=90", "motor.far_stop_deg=100"],
         &["motor.travel_margin_deg=0"],
         Some(Field::Guards),
     ),
     (&[], &["motor.following_limit_deg=1"], Some(Field::Guards)),
-    (&[], &["motor.top_speed_deg_s=50"], Some(Field::Guards)),
+    // So slow a motor whisks only where nothing is asked of its winding.
+    (
+        &["motor.continuous_duty=1"],
+        &["motor.top_speed_deg_s=50"],
+        Some(Field::Guards),
+    ),
     (
         &["motor.kp=0.002"],
         &["motor.unmoved_duty=0"],
         Some(Field::Guards),
     ),
-    (&[], &["motor.continuous_duty=0.01"], Some(Field::Guards)),
+    (
+        &["whisking.frequency_hz=0.5"],
+        &["motor.continuous_duty=0.02"],
+        Some(Field::Guards),
+    ),
     (&[], &["motor.homing_duty=0.12"], Some(Field::Homing)),
     (&[], &["sensor.jump_per_s=20"], Some(Field::SensorLimits)),
     (&[], &["sensor.frozen_s=0.02"], Some(Field::SensorLimits)),
