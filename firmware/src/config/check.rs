@@ -7,7 +7,7 @@
 use core::fmt;
 
 use tactile::{Deciding, RuleSettings};
-use whisking::motor::{Driver, GuardConfig, HomingConfig};
+use whisking::motor::{Driver, GuardConfig, HomingConfig, ModelConfig};
 use whisking::{
     Bound, Bounded, MAX_WHISKERS, Real, Start, filter, gate, muscle, noise, oscillator, pd,
 };
@@ -353,15 +353,45 @@ fn of_servo<R: Real>(servo: &ServoConfig<R>) -> Checked {
         travel: [lowest, highest],
         heat,
         heat_shift,
+        model,
         ..
     } = &servo.guards;
     within(Field::Guards, &[stall.threshold], SHARE)?;
     within(Field::Guards, &[*error], Bound::positive(7))?;
     within(Field::Guards, &[*heat], Bound::positive(30))?;
     require(Field::Guards, lowest <= highest && *heat_shift < 32)?;
+    if let Some(model) = model {
+        moves(model)?;
+    }
     if_there(
         Part::Homing,
         servo.homing.as_ref(),
         |homing: &HomingConfig| within(Field::Homing, &[homing.duty], SHARE),
     )
+}
+
+/// How a motor moves as it is driven.
+fn moves<R: Real>(model: &ModelConfig<R>) -> Checked {
+    let ModelConfig {
+        speed,
+        rate,
+        shown,
+        root_stop,
+        friction,
+        slow,
+        doubt,
+        missing,
+        test,
+        learn,
+        ..
+    } = model;
+    let guards = |factors: &[R::Coefficient], bound| within(Field::Guards, factors, bound);
+    // 800,000 degrees a second at 200 ticks a second.
+    guards(&[*speed], Bound::positive(5))?;
+    guards(&[*rate, *learn], SHARE)?;
+    guards(&[*shown], Bound::positive(2))?;
+    // Where a motor hardly accelerates, the way to a stop is long.
+    guards(&[*root_stop], Bound::positive(29))?;
+    within(Field::Guards, &[*friction, *slow, *doubt, *missing], SHARE)?;
+    within(Field::Guards, &[*test], Bound::positive(24))
 }
