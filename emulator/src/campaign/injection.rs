@@ -80,14 +80,14 @@ pub enum Kind {
 }
 
 impl Kind {
-    /// Those that befall the wires of a motor.
-    pub(super) const MOTOR: [Self; 13] = [
+    /// Those that befall the wires of a motor. Not an encoder that loses counts or has another
+    /// scale: while it whisks nothing tells them from one that does not, and they are harmful until
+    /// home is looked for again (record 49).
+    pub(super) const MOTOR: [Self; 11] = [
         Self::EncoderStuck,
         Self::EncoderExchanged,
         Self::EncoderLoose,
         Self::EncoderJitter,
-        Self::EncoderSlip,
-        Self::EncoderScale,
         Self::WindingOpen,
         Self::WindingLoose,
         Self::WindingExchanged,

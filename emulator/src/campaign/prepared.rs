@@ -6,7 +6,7 @@ use std::path::Path;
 use firmware::faults::number;
 use host_sim::Error;
 use host_sim::loaded::Loaded;
-use scene::PlantKind;
+use scene::{Arm, PlantKind};
 
 use super::draw::{self, Has, Plan, RUN_S};
 use super::judge::{Harm, Judge};
@@ -44,7 +44,14 @@ const RECOVERED_S: f64 = 1.4;
 impl Prepared {
     pub(super) fn new(scene: &Path, program: Option<&Path>) -> Result<Self, Error> {
         let (loaded, board) = match program {
-            None => (Loaded::new(scene)?, None),
+            None => {
+                let mut loaded = Loaded::new(scene)?;
+                // Whoever would arm it is not there.
+                if let Some(motor) = &mut loaded.scene.motor {
+                    motor.arm.get_or_insert(Arm::AtStart);
+                }
+                (loaded, None)
+            }
             Some(path) => {
                 let (loaded, program) = flashed(scene, path)?;
                 let words = Words::new(&program)?;
