@@ -265,8 +265,9 @@ impl Injection {
                 } else {
                     motor.mend(Wire::Encoder);
                 }
+                // A test of a motor is not misled by so much (`whisking::motor::Expected`).
                 motor.set_encoder(flawed(EncoderFlaws {
-                    jitter: 1 + (8.0 * drawn) as u16,
+                    jitter: 1 + (3.0 * drawn) as u16,
                     ..EncoderFlaws::NONE
                 }));
             }
