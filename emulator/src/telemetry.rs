@@ -16,13 +16,15 @@ use crate::tuning::tune;
 
 /// Most instructions of a tick for a whisker's record, where the core has an FPU and where it
 /// has none. They were 120 and 240 while the scene was part of the types; now that it is data each
-/// record asks what there is, and goes by a queue to idle, which makes its frame.
-const STREAMING: f64 = 180.0;
+/// record asks what there is, and goes by a queue to idle, which makes its frame. They include what
+/// is paid where nothing is asked for.
+const STREAMING: f64 = 230.0;
 const STREAMING_NO_FPU: f64 = 265.0;
 
 /// The same where nothing is asked for: a look at whether something has come in which there may be a
-/// stop, one at that queue's fellow for requests, and the events of a tick noted for a record.
-const QUIET: f64 = 29.0;
+/// stop, one at that queue's fellow for requests, and the events of a tick noted for a record. It was
+/// 27.0 before motors were held against a model in the same tick, whose registers it now shares.
+const QUIET: f64 = 65.0;
 
 /// By how much a record may be away from the world, degrees: a step of its numbers, and of
 /// the encoder.
