@@ -137,7 +137,7 @@ struct Flooded<'f> {
     next: usize,
     /// Lines that have begun.
     lines: u32,
-    heard: Vec<u8>,
+    received: Vec<u8>,
     packets: Vec<Packet>,
     log: Vec<String>,
     random: u32,
@@ -174,10 +174,12 @@ fn together(scene: &scene::Scene, program: &Program) -> Result<String, Error> {
             session.tick()?;
             driven |= tick > OFF && session.drives();
         }
-        let heard = session.serial_read();
-        if !has(&heard, answers.as_bytes()) || driven != is_driven {
-            let heard = String::from_utf8_lossy(&heard).into_owned();
-            return wrong(format!("{said:?}: driven: {driven}, answered by {heard:?}"));
+        let received = session.serial_read();
+        if !has(&received, answers.as_bytes()) || driven != is_driven {
+            let received = String::from_utf8_lossy(&received).into_owned();
+            return wrong(format!(
+                "{said:?}: driven: {driven}, answered by {received:?}"
+            ));
         }
     }
     Ok("of a stop and an arming that come in one tick the later one holds".to_owned())
@@ -196,7 +198,7 @@ fn flooded(
         written: 0,
         next: 0,
         lines: 0,
-        heard: Vec::new(),
+        received: Vec::new(),
         packets: Vec::new(),
         log: Vec::new(),
         random: 1,
@@ -272,8 +274,8 @@ impl Flooded<'_> {
         }
         self.session.tick()?;
         self.ticks += 1;
-        let heard = self.session.serial_read();
-        self.heard.extend(heard);
+        let received = self.session.serial_read();
+        self.received.extend(received);
         let packets = self.session.packets()?;
         self.packets.extend(packets);
         let log = self.session.log();
@@ -327,7 +329,7 @@ impl Flooded<'_> {
             tag,
             command: Command::Stop,
         };
-        self.heard.clear();
+        self.received.clear();
         self.packets.clear();
         self.log.clear();
         match self.flood.by {
@@ -413,10 +415,10 @@ impl Flooded<'_> {
 
     fn is_answered(&self, tag: u16) -> bool {
         match self.flood.by {
-            By::Line => has(&self.heard, b"ok stop\r\n"),
+            By::Line => has(&self.received, b"ok stop\r\n"),
             By::SerialFrame => {
                 let mut receiver = host_sim::received::Receiver::default();
-                let packets = crate::board::packets(&receiver.take(&self.heard));
+                let packets = crate::board::packets(&receiver.take(&self.received));
                 answer_to(tag, &packets).is_some()
             }
             By::Probe => answer_to(tag, &self.packets).is_some(),

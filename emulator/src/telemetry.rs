@@ -23,7 +23,7 @@ const STREAMING_NO_FPU: f64 = 265.0;
 
 /// The same where nothing is asked for: a look at whether something has come in which there may be a
 /// stop, one at that queue's fellow for requests, and the events of a tick noted for a record. It was
-/// 27.0 before motors were held against a model in the same tick, whose registers it now shares.
+/// 27.0 before motors were held against a model in the same tick; why it is 62.0 since is not known.
 const QUIET: f64 = 65.0;
 
 /// By how much a record may be away from the world, degrees: a step of its numbers, and of

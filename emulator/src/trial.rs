@@ -22,7 +22,7 @@ use figures::{Figures, Outcome};
 use file::Scenario;
 use hands::Hands;
 use links::Links;
-use said::Teller;
+use said::Lister;
 
 /// Which scene runs against what.
 #[derive(Debug, Args)]
@@ -92,7 +92,7 @@ fn run(
     session.bear_resets(true);
     let mut hands = Hands::new(scenario);
     let mut links = Links::new(scenario, scene);
-    let mut teller = Teller::default();
+    let mut lister = Lister::default();
     let mut figures = Figures::new(scene);
     for _ in 0..session.run.ticks() {
         let t_s = session.run.t_s();
@@ -109,10 +109,10 @@ fn run(
             period * 3 / 2
         });
         let arrived = links.arrived(&mut session);
-        teller.listen(&mut session)?;
+        lister.listen(&mut session)?;
         figures.look(&mut session, servos, was_reset, arrived)?;
     }
-    Ok(figures.outcome(teller))
+    Ok(figures.outcome(lister))
 }
 
 /// A file that is wrong.

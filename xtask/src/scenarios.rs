@@ -18,14 +18,14 @@ enum Bound {
     /// There is a fault, or none.
     Fault(bool),
     /// An event of one of these kinds comes after so many seconds.
-    Told(&'static [&'static str], f64),
+    Said(&'static [&'static str], f64),
     /// No event of this kind comes.
-    NotTold(&'static str),
+    NeverSaid(&'static str),
     /// The motors are off at the end.
     Off,
 }
 
-use Bound::{Fault as Faults, Least, Most, NotTold, Off, Told};
+use Bound::{Fault as Faults, Least, Most, NeverSaid, Off, Said};
 
 /// A file of tests/scenarios, the keys of [`SCENE`] that are set for it, and what must be so.
 struct Row {
@@ -130,9 +130,9 @@ const ROWS: &[Row] = &[
         &["motor.rest=find"],
         // To the end stop it is 90 degrees. At the other one it rests once it has found that.
         &[
-            Told(&["fault", "limit"], 1.0),
+            Said(&["fault", "limit"], 1.0),
             Most("max_following_deg", 45.0),
-            Told(&["off"], 1.0),
+            Said(&["off"], 1.0),
         ],
     ),
     row("stop-under-gains", &[], STOPPED),
@@ -163,15 +163,15 @@ const ROWS: &[Row] = &[
     row(
         "finger",
         &[],
-        &[INSIDE, NotTold("off"), Least("driven_s", 2.5)],
+        &[INSIDE, NeverSaid("off"), Least("driven_s", 2.5)],
     ),
     row(
         "touches",
         &[],
-        &[INSIDE, NotTold("off"), Least("driven_s", 4.0)],
+        &[INSIDE, NeverSaid("off"), Least("driven_s", 4.0)],
     ),
     row("low-supply", &[], &[INSIDE, Most("at_stop_s", 0.0)]),
-    row("magnet-gone", &[], &[Told(&["fault", "limit"], 1.0)]),
+    row("magnet-gone", &[], &[Said(&["fault", "limit"], 1.0)]),
     row("sensor-gone", &[], &[Faults(true), INSIDE, STAYS_OFF]),
     row("two-faults", &[], &[Faults(true), INSIDE, STAYS_OFF]),
 ];
@@ -196,17 +196,17 @@ impl Bound {
             }
             Faults(true) => first.is_null().then(|| "no fault".to_owned()),
             Faults(false) => (!first.is_null()).then(|| format!("fault {first}")),
-            Told(kinds, after_s) => {
+            Said(kinds, after_s) => {
                 let is_it = |event: &Value| {
                     let kind = event["kind"].as_str().unwrap_or_default();
                     kinds.contains(&kind) && event["t_s"].as_f64() > Some(after_s)
                 };
-                let is_told = events().any(is_it);
-                (!is_told).then(|| format!("nothing of {} after {after_s} s", kinds.join(", ")))
+                let is_said = events().any(is_it);
+                (!is_said).then(|| format!("nothing of {} after {after_s} s", kinds.join(", ")))
             }
-            NotTold(kind) => {
-                let is_told = events().any(|event| event["kind"] == kind);
-                is_told.then(|| format!("an event \"{kind}\""))
+            NeverSaid(kind) => {
+                let is_said = events().any(|event| event["kind"] == kind);
+                is_said.then(|| format!("an event \"{kind}\""))
             }
             Off => (json["armed_at_end"] != false).then(|| "armed at the end".to_owned()),
         }

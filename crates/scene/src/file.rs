@@ -1,6 +1,6 @@
 //! Files that others wrote, read whole: only regular ones, and only up to a size.
 //!
-//! A device never ends, and a pipe that nobody writes to is waited for without end. What is too
+//! A device never ends, and a pipe that no one writes to is waited for without end. What is too
 //! large is refused before it fills the memory.
 
 use std::fs::{File, Metadata};

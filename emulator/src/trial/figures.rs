@@ -9,7 +9,7 @@ use scene::Scene;
 use serde::Serialize;
 
 use super::links::Arrived;
-use super::said::{Teller, Told};
+use super::said::{Listed, Lister};
 use crate::notice::Notice;
 use crate::session::Session;
 use crate::watch::Servos;
@@ -45,7 +45,7 @@ pub(super) struct Outcome {
     ran_s: f64,
     answers: BTreeMap<String, u64>,
     unlisted: u64,
-    events: Vec<Told>,
+    events: Vec<Listed>,
 }
 
 impl Outcome {
@@ -268,10 +268,10 @@ impl Figures {
         }
     }
 
-    pub(super) fn outcome(mut self, mut teller: Teller) -> Outcome {
+    pub(super) fn outcome(mut self, mut lister: Lister) -> Outcome {
         let seconds = |ticks: u64| ticks as f64 / self.tick_hz;
         self.stops.end();
-        let resets = self.resets.iter().map(|t_s| Told {
+        let resets = self.resets.iter().map(|t_s| Listed {
             t_s: *t_s,
             kind: "reset".to_owned(),
             side: None,
@@ -279,18 +279,18 @@ impl Figures {
             name: None,
             text: "reset".to_owned(),
         });
-        teller.told.extend(resets);
-        teller.told.sort_by(|a, b| a.t_s.total_cmp(&b.t_s));
-        let first = teller.told.iter().find(|told| told.kind == "fault");
-        let named = |told: &Told| {
-            let number = told.number.unwrap_or_default();
-            format!("{number} {}", told.name.as_deref().unwrap_or_default())
+        lister.listed.extend(resets);
+        lister.listed.sort_by(|a, b| a.t_s.total_cmp(&b.t_s));
+        let first = lister.listed.iter().find(|listed| listed.kind == "fault");
+        let named = |listed: &Listed| {
+            let number = listed.number.unwrap_or_default();
+            format!("{number} {}", listed.name.as_deref().unwrap_or_default())
         };
         let outside = self.sides.iter();
         let outside = outside.map(|side| side.whisk.exceeded_by(side.reached));
         Outcome {
             first_fault: first.map(named),
-            first_fault_s: first.map(|told| told.t_s),
+            first_fault_s: first.map(|listed| listed.t_s),
             worst_outside_deg: outside.fold(0.0, f64::max),
             driven_after_stop_s: seconds(self.stops.driven),
             driven_with_fault_s: seconds(self.with_fault),
@@ -306,9 +306,9 @@ impl Figures {
             armed_at_end: self.is_armed,
             angle_at_end_deg: self.angles_deg,
             ran_s: seconds(self.ticks),
-            answers: teller.answers,
-            unlisted: teller.unlisted,
-            events: teller.told,
+            answers: lister.answers,
+            unlisted: lister.unlisted,
+            events: lister.listed,
         }
     }
 }

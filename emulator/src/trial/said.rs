@@ -15,7 +15,7 @@ const MOST_LISTED: usize = 100_000;
 
 /// Something that the board has said, or that has happened to it.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub(super) struct Told {
+pub(super) struct Listed {
     /// At the end of the tick in which it was read.
     pub(super) t_s: f64,
     /// The first word of its line, if docs/protocol.md has it; otherwise `log`. `answer`: to a
@@ -33,10 +33,10 @@ pub(super) struct Told {
 
 /// Keeps all of it.
 #[derive(Debug, Default)]
-pub(super) struct Teller {
+pub(super) struct Lister {
     line: Receiver,
     /// In order.
-    pub(super) told: Vec<Told>,
+    pub(super) listed: Vec<Listed>,
     /// How often each answer came.
     pub(super) answers: BTreeMap<String, u64>,
     /// Events that are not listed, as there were too many.
@@ -94,17 +94,17 @@ fn in_words(answer: &Answer) -> String {
     }
 }
 
-impl Teller {
+impl Lister {
     /// Takes what was said since the last call.
     pub(super) fn listen(&mut self, session: &mut Session) -> Result<(), Error> {
         let t_s = session.run.t_s();
         for line in session.log() {
-            self.tell(of_log(t_s, &line));
+            self.list(of_log(t_s, &line));
         }
         let by_probe = session.board_mut().heard()?.into_iter();
         let bytes = session.serial_read();
-        for heard in by_probe.chain(self.line.take(&bytes)) {
-            match heard {
+        for seen in by_probe.chain(self.line.take(&bytes)) {
+            match seen {
                 Received::Packet(Packet::Answer(answer)) => self.answered(t_s, in_words(&answer)),
                 // What begins with a time is in the log, too.
                 Received::Line(line) if !line.starts_with(|c: char| c.is_ascii_digit()) => {
@@ -120,7 +120,7 @@ impl Teller {
     fn answered(&mut self, t_s: f64, text: String) {
         let about = text.split([' ', ':']).nth(1);
         if matches!(about, Some("stop" | "arm")) {
-            self.tell(Told {
+            self.list(Listed {
                 t_s,
                 kind: "answer".to_owned(),
                 side: None,
@@ -137,9 +137,9 @@ impl Teller {
         *self.answers.entry(counted).or_default() += 1;
     }
 
-    pub(super) fn tell(&mut self, told: Told) {
-        if self.told.len() < MOST_LISTED {
-            self.told.push(told);
+    pub(super) fn list(&mut self, listed: Listed) {
+        if self.listed.len() < MOST_LISTED {
+            self.listed.push(listed);
         } else {
             self.unlisted += 1;
         }
@@ -147,7 +147,7 @@ impl Teller {
 }
 
 /// What a line of the log tells.
-fn of_log(t_s: f64, line: &str) -> Told {
+fn of_log(t_s: f64, line: &str) -> Listed {
     // Time and level come first.
     let mut rest = line.splitn(3, ' ').nth(2).unwrap_or(line).trim_start();
     let text = rest.to_owned();
@@ -170,7 +170,7 @@ fn of_log(t_s: f64, line: &str) -> Told {
         let (name, _) = rest.split_once(" (").unwrap_or((rest, ""));
         name.to_owned()
     });
-    Told {
+    Listed {
         t_s,
         kind: if is_known { kind } else { "log".to_owned() },
         side: side.filter(|side| side != "board"),
@@ -187,15 +187,18 @@ mod tests {
     #[test]
     fn a_line_of_the_log_is_taken_apart() {
         let line = "0.250 ERROR fault left 9 motor held (a, b?)";
-        let told = of_log(0.2505, line);
-        assert_eq!(told.kind, "fault");
-        assert_eq!(told.side.as_deref(), Some("left"));
-        assert_eq!(told.number, Some(9));
-        assert_eq!(told.name.as_deref(), Some("motor held"));
-        assert_eq!(told.text, "fault left 9 motor held (a, b?)");
-        let told = of_log(0.0, "0.000 INFO  start 0.1.0 bench 2000 power-up 1 0");
-        assert_eq!((&*told.kind, told.side, told.number), ("start", None, None));
-        let told = of_log(0.0, "0.000 ERROR fault board 52 watchdog (a?)");
-        assert_eq!((told.side, told.number), (None, Some(52)));
+        let listed = of_log(0.2505, line);
+        assert_eq!(listed.kind, "fault");
+        assert_eq!(listed.side.as_deref(), Some("left"));
+        assert_eq!(listed.number, Some(9));
+        assert_eq!(listed.name.as_deref(), Some("motor held"));
+        assert_eq!(listed.text, "fault left 9 motor held (a, b?)");
+        let listed = of_log(0.0, "0.000 INFO  start 0.1.0 bench 2000 power-up 1 0");
+        assert_eq!(
+            (&*listed.kind, listed.side, listed.number),
+            ("start", None, None)
+        );
+        let listed = of_log(0.0, "0.000 ERROR fault board 52 watchdog (a?)");
+        assert_eq!((listed.side, listed.number), (None, Some(52)));
     }
 }

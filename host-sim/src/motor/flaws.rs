@@ -11,7 +11,7 @@ pub struct EncoderFlaws {
     /// Share of the counts of protraction that it loses, 0 to 1; it keeps those of retraction, so
     /// the whisker creeps towards protraction.
     pub slip: f64,
-    /// Its count is off by so much at most, anew in each tick.
+    /// Its count is off by so much at most, drawn in each tick.
     pub jitter: u16,
 }
 

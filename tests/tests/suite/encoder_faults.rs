@@ -148,7 +148,7 @@ fn what_makes_a_whisker_heavy_while_it_runs_is_no_fault() {
         ("supply", |motor| motor.set_supply_v(Some(4.5))),
         ("hand", |motor| motor.set_load_nm(1.5e-3)),
         ("hand back", |motor| motor.set_load_nm(-1.5e-3)),
-        ("play", |motor| motor.set_friction(0.0)),
+        ("no friction", |motor| motor.set_friction(0.0)),
     ];
     for (name, change) in changes {
         for frequency_hz in [0.2, 0.5, 2.0, 5.0, 8.0] {

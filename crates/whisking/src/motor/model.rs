@@ -13,8 +13,9 @@
 //! its drive was: from then on the model expects it.
 //!
 //! With motors whose ω₀ and τ are wrong by 30 % and whose friction is up to four times the
-//! model's, nothing is a fault from 0.05 to 14 Hz, and a whisker whose encoder fails leaves its
-//! whisk by less than 20° (`tests/tests/suite/encoder_faults.rs`).
+//! model's, nothing is a fault from 0.05 to 14 Hz, and from 0.5 to 12 Hz a whisker whose encoder
+//! fails leaves its whisk by less than 20° (`tests/tests/suite/encoder_faults.rs`). An encoder that
+//! counts the other way, loses counts or has another scale is not seen by it.
 
 use serde::{Deserialize, Serialize};
 
