@@ -22,6 +22,9 @@ pub struct SwingLimits {
     pub least: u16,
 }
 
+/// One tick of so many is looked at: whisks last far longer, and a tick is dearer with a look.
+const EVERY: u16 = 4;
+
 /// Within this of either end of the range, of 65,536 steps, x says nothing.
 const END: u16 = 16;
 
@@ -90,6 +93,16 @@ impl Swing {
         x: Word,
         counts: Option<i32>,
     ) -> Option<Lost> {
+        self.ticks = self.ticks.saturating_add(1);
+        if !self.ticks.is_multiple_of(EVERY) {
+            return None;
+        }
+        self.look_now(limits, x, counts)
+    }
+
+    // Apart, so that the other ticks keep their registers.
+    #[inline(never)]
+    fn look_now(&mut self, limits: SwingLimits, x: Word, counts: Option<i32>) -> Option<Lost> {
         let Some(counts) = counts else {
             self.pause();
             return None;
@@ -100,7 +113,6 @@ impl Swing {
         let [low, high] = &mut self.counts;
         (*low, *high) = ((*low).min(counts), (*high).max(counts));
         self.is_at_end &= !(END..=u16::MAX - END).contains(&x);
-        self.ticks = self.ticks.saturating_add(1);
         if self.ticks < limits.ticks {
             return None;
         }

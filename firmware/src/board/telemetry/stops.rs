@@ -114,22 +114,37 @@ impl Stops {
     /// Looks at what has come since the last tick; whether there is a stop in it.
     #[inline]
     pub(crate) fn look(&mut self, tick: u32) -> bool {
+        self.has_more() && self.look_at_links(tick)
+    }
+
+    /// Whether anything has come by a link.
+    #[inline]
+    fn has_more(&self) -> bool {
+        #[cfg(feature = "serial")]
+        if self.serial.is_some() {
+            let (ring, looked) = serial::ring();
+            if serial::writer() != looked.until(ring.len()) {
+                return true;
+            }
+        }
+        self.probe.is_some() && DOWN.writer() as usize != PROBE.until(REQUESTS.len())
+    }
+
+    // Apart, so that a tick in which nothing has come keeps its registers.
+    #[cold]
+    #[inline(never)]
+    fn look_at_links(&mut self, tick: u32) -> bool {
         let mut stops = [None; 2];
         if let Some(watch) = &mut self.probe {
             let writer = DOWN.writer() as usize;
-            if writer != PROBE.until(REQUESTS.len()) {
-                stops[0] = look(watch, &PROBE, (&REQUESTS, writer), By::Probe);
-                follow(&mut self.stopped_at[0], &PROBE);
-            }
+            stops[0] = look(watch, &PROBE, (&REQUESTS, writer), By::Probe);
+            follow(&mut self.stopped_at[0], &PROBE);
         }
         #[cfg(feature = "serial")]
         if let Some(watch) = &mut self.serial {
             let (ring, looked) = serial::ring();
-            let writer = serial::writer();
-            if writer != looked.until(ring.len()) {
-                stops[1] = look(watch, looked, (ring, writer), By::Serial);
-                follow(&mut self.stopped_at[1], looked);
-            }
+            stops[1] = look(watch, looked, (ring, serial::writer()), By::Serial);
+            follow(&mut self.stopped_at[1], looked);
         }
         let is_stop = stops != [None; 2];
         if is_stop {
@@ -179,7 +194,6 @@ fn follow(stopped_at: &mut u32, looked: &Looked) {
 type Arrived<'r> = (&'r [AtomicU8], usize);
 
 /// Looks at what has come by a link; how many bytes had come with the last stop in it.
-// Apart, so that a tick in which nothing has come keeps its registers.
 #[cold]
 #[inline(never)]
 fn look(
