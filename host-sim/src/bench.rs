@@ -7,7 +7,7 @@ mod sensor;
 use config::{Mismatch, NumberFormat, RunsOn, Target};
 use firmware::{
     Command, Config, Event, ModelState, Module, NoActiveWhisker, NotDone, Packet, Perception,
-    Place, Refusal, Whisker, WhiskerParts,
+    Place, Refusal, ServoState, Whisker, WhiskerParts,
 };
 use scene::{Deciding, Scene, SensorSection};
 use whisking::{Fix, Number, Real};
@@ -68,6 +68,11 @@ pub trait Bench {
     /// all that is known.
     fn felt_by(&self, _n: usize) -> Option<f64> {
         None
+    }
+
+    /// Whether whisker `n`, counted from 0, left side first, is being homed.
+    fn is_homing(&self, _n: usize) -> bool {
+        false
     }
 
     /// Whether its events tell of faults.
@@ -189,6 +194,11 @@ impl<R: Number> Bench for Hosted<R> {
     fn felt_by(&self, n: usize) -> Option<f64> {
         let whisker = self.module.whiskers().get(n)?;
         Some(whisker.felt().to_f64())
+    }
+
+    fn is_homing(&self, n: usize) -> bool {
+        let servo = self.module.whiskers().get(n).and_then(Whisker::servo);
+        servo.is_some_and(|servo| matches!(servo.state(), ServoState::Homing(_)))
     }
 }
 

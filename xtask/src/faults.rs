@@ -55,7 +55,9 @@ struct Subject {
 }
 
 /// Of a scene with real motors, other ways of its motors, each with a name of its own.
-const MOTORS: [(&str, &str); 2] = [
+const MOTORS: [(&str, &str); 4] = [
+    ("homing", "motor.rest=find"),
+    ("on-command", "motor.arm=on-command"),
     ("stop-all", "motor.on_fault=stop-all"),
     ("six-step", "motor.driver=six-step"),
 ];

@@ -5,13 +5,15 @@ use rand_xoshiro::Xoshiro256PlusPlus;
 
 use super::injection::{Injection, Kind};
 
-/// How long a run lasts, s: the injection, a rest after a fault, and whisks after that.
-pub(super) const RUN_S: f64 = 2.2;
-/// The injection falls between these, s.
+/// How long a run lasts, s: injections, rests after a fault, and whisks after that.
+pub(super) const RUN_S: f64 = 10.0;
+/// An injection begins between these, s: in some scenes while a whisker is homed.
 const FROM_S: f64 = 0.25;
-const TO_S: f64 = 0.5;
+const TO_S: f64 = 3.0;
 /// The longest that is taken away again, s.
-const LONGEST_S: f64 = 0.4;
+const LONGEST_S: f64 = 2.0;
+/// Of so many runs one has a second injection.
+const TWO_IN: u64 = 4;
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Plan {
@@ -45,15 +47,32 @@ fn one_of(random: &mut Xoshiro256PlusPlus, kinds: &[Kind]) -> Kind {
     kinds.get(n).copied().unwrap_or(Kind::SensorSilent)
 }
 
-/// Draws the injection of a run. Half of those that can be taken away again stay to the end.
-pub(super) fn injection(
+/// Draws what is injected in a run.
+pub(super) fn injections(
     plan: Plan,
     number: u64,
     has: Has,
     random: &mut Xoshiro256PlusPlus,
-) -> Injection {
+) -> Vec<Injection> {
+    let first = injection(random, has);
+    match plan {
+        Plan::Words => {
+            let word = number & u64::from(u32::MAX);
+            vec![Injection {
+                kind: Kind::RamBit,
+                ticks: Some(1),
+                detail: first.detail & !u64::from(u32::MAX) | word,
+                ..first
+            }]
+        }
+        Plan::Drawn if below(random, TWO_IN) == 0 => vec![first, injection(random, has)],
+        Plan::Drawn => vec![first],
+    }
+}
+
+/// Draws an injection. Half of those that can be taken away again stay to the end.
+fn injection(random: &mut Xoshiro256PlusPlus, has: Has) -> Injection {
     let kind = match below(random, 10) {
-        _ if plan == Plan::Words => Kind::RamBit,
         0..6 if has.chip => one_of(random, &Kind::CHIP),
         n if has.motors && n % 2 == 0 => one_of(random, &Kind::MOTOR),
         _ => one_of(random, &Kind::SENSOR),
@@ -68,25 +87,18 @@ pub(super) fn injection(
     } else {
         (!stays).then(|| longest.powf(share) as u64)
     };
-    let drawn = Injection {
+    Injection {
         kind,
         whisker: below(random, has.whiskers as u64) as usize,
         start,
         ticks: length,
         detail: random.next_u64(),
-    };
-    match plan {
-        Plan::Drawn => drawn,
-        Plan::Words => Injection {
-            detail: drawn.detail & !u64::from(u32::MAX) | number & u64::from(u32::MAX),
-            ..drawn
-        },
     }
 }
 
 #[cfg(test)]
 mod tests {
-    use super::{Has, Kind, Plan, injection, random};
+    use super::{Has, Kind, Plan, injections, random};
 
     #[test]
     fn every_word_has_its_run() {
@@ -97,12 +109,12 @@ mod tests {
             tick_hz: 2_000,
         };
         for number in [0, 1, 700, u64::from(u32::MAX)] {
-            let drawn = injection(Plan::Words, number, has, &mut random(number));
-            assert_eq!(
-                (drawn.kind, drawn.detail as u32),
-                (Kind::RamBit, number as u32)
-            );
-            assert_eq!(drawn.ticks, Some(1));
+            let drawn = injections(Plan::Words, number, has, &mut random(number));
+            let found = drawn
+                .iter()
+                .map(|drawn| (drawn.kind, drawn.detail as u32, drawn.ticks));
+            let expected = (Kind::RamBit, number as u32, Some(1));
+            assert_eq!(found.collect::<Vec<_>>(), [expected]);
         }
     }
 }

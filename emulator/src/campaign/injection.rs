@@ -6,6 +6,7 @@ use mlx90333::Faults;
 use rand_core::Rng;
 use rand_xoshiro::Xoshiro256PlusPlus;
 use serde::{Deserialize, Serialize};
+use wire::{Command, WhiskerId};
 
 use super::on_board::OnBoard;
 use super::subject::Subject;
@@ -41,6 +42,8 @@ pub enum Kind {
     Friction,
     /// The motor has another supply, from none to twice its own.
     Supply,
+    /// Somebody sends commands at random, by both links.
+    Commands,
     /// The sensor does not answer: a cut wire, or no supply.
     SensorSilent,
     /// The sensor's cable has a loose contact.
@@ -83,7 +86,7 @@ impl Kind {
     /// Those that befall the wires of a motor. Not an encoder that loses counts or has another
     /// scale: while it whisks nothing tells them from one that does not, and they are harmful until
     /// home is looked for again (record 49).
-    pub(super) const MOTOR: [Self; 11] = [
+    pub(super) const MOTOR: [Self; 12] = [
         Self::EncoderStuck,
         Self::EncoderExchanged,
         Self::EncoderLoose,
@@ -95,6 +98,7 @@ impl Kind {
         Self::Pushed,
         Self::Friction,
         Self::Supply,
+        Self::Commands,
     ];
     /// Those that befall a sensor and its wires.
     pub(super) const SENSOR: [Self; 12] = [
@@ -190,6 +194,16 @@ impl Injection {
         tick >= self.start && self.end().is_none_or(|end| tick < end)
     }
 
+    /// Whether the encoder's count stands still.
+    pub(super) fn cuts_encoder(&self) -> bool {
+        let jitters = self.kind == Kind::EncoderJitter && self.jitters_around_stillness();
+        jitters || self.kind == Kind::EncoderStuck
+    }
+
+    const fn jitters_around_stillness(&self) -> bool {
+        self.detail.is_multiple_of(2)
+    }
+
     /// Does what is to be done before `tick`, counted from 1; `random` is that of the run.
     pub(super) fn apply(
         &self,
@@ -227,6 +241,12 @@ impl Injection {
                 Some(motor) => motor.mend(wire),
                 None => {}
             }
+        } else if self.kind == Kind::Commands {
+            // Some fifty a second.
+            if lasts && random.next_u64().is_multiple_of(40) {
+                let command = self.command(random);
+                subject.send(command, random.next_u64().is_multiple_of(2))?;
+            }
         } else if self.kind.is_momentary() {
             match subject.board() {
                 Some(board) if begins => self.befall(board)?,
@@ -260,7 +280,7 @@ impl Injection {
         match self.kind {
             Kind::Held => motor.block(lasts),
             Kind::EncoderJitter => {
-                if lasts && self.detail.is_multiple_of(2) {
+                if lasts && self.jitters_around_stillness() {
                     motor.cut(Wire::Encoder);
                 } else {
                     motor.mend(Wire::Encoder);
@@ -289,6 +309,25 @@ impl Injection {
                 let share = (self.detail % 4001) as f64 / 1000.0 - 2.0;
                 motor.set_load_nm(if lasts { share * 6.6e-3 } else { 0.0 });
             }
+        }
+    }
+
+    /// A command that somebody may send at any time.
+    fn command(&self, random: &mut Xoshiro256PlusPlus) -> Command {
+        let whisker = WhiskerId {
+            side: (self.detail % 2) as u8,
+            number: 0,
+        };
+        let value = (random.next_u64() % (1 << 25)) as i32;
+        match random.next_u64() % 12 {
+            0 | 1 => Command::Stop,
+            2 | 3 => Command::Arm,
+            4 | 5 => Command::Clear(whisker),
+            6 | 7 => Command::Gain(whisker, value),
+            8 => Command::Home(whisker),
+            9 => Command::Status,
+            10 => Command::Scene,
+            _ => Command::Stream(value % 2 == 0),
         }
     }
 

@@ -2,8 +2,9 @@
 
 use firmware::design_parameters::{HOLD_S, RETRY_S};
 use scene::Scene;
+use wire::Command;
 
-use super::injection::{Injection, Kind};
+use super::injection::Injection;
 use super::subject::Seen;
 use crate::notice::Notice;
 
@@ -12,6 +13,12 @@ const OFF_TICKS: u32 = 2;
 /// For how long a whisker may be further from its setpoint than the scene allows, and be
 /// driven, s.
 const AWAY_S: f64 = 0.05;
+/// For how long it may be driven into an end stop, s: as long as what is away from its setpoint
+/// may be driven.
+const AT_STOP_S: f64 = 0.1;
+/// Within how many ticks of a stop its motors are off. A line takes some to arrive, behind others;
+/// how late the tick is after its last byte is measured by `emulate --stopping`.
+const STOP_TICKS: u32 = 8;
 /// For how long the core may come to the end of no tick, s.
 const HUNG_S: f64 = 0.75;
 /// Steps of a PWM by which a duty may be rounded.
@@ -27,6 +34,10 @@ pub(super) enum Harm {
     Away,
     #[error("decided by what is known to be bad")]
     Decided,
+    #[error("driven into its end stop")]
+    AtStop,
+    #[error("driven after a stop")]
+    Stopped,
     #[error("driven after a reset that must not arm it")]
     Armed,
     #[error("did not recover")]
@@ -37,15 +48,26 @@ pub(super) enum Harm {
     LockedUp,
 }
 
+/// Whether a motor may run.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+enum Motor {
+    #[default]
+    Runs,
+    Rests,
+    GivenUp,
+}
+
 #[derive(Debug, Clone, Copy, Default)]
 struct Whisker {
     sensor_is_lost: bool,
-    motor_rests: bool,
-    given_up: bool,
+    motor: Motor,
     /// Ticks since a fault was reported.
     off_for: u32,
     /// Ticks for which it has been driven too far from its setpoint.
     away_for: u32,
+    /// Ticks for which it has been driven into an end stop.
+    at_stop_for: u32,
+    was_homing: bool,
     /// By how much it is displaced from what its encoder has counted since the cable came
     /// loose last, degrees: nothing but an index could tell.
     displaced_deg: f64,
@@ -56,8 +78,8 @@ struct Whisker {
 }
 
 impl Whisker {
-    const fn must_rest(&self) -> bool {
-        self.sensor_is_lost || self.motor_rests
+    fn must_rest(&self) -> bool {
+        self.sensor_is_lost || self.motor != Motor::Runs
     }
 }
 
@@ -72,6 +94,8 @@ pub(super) struct Judge {
     /// Ticks in which a setpoint approaches through the whole travel.
     approach: u32,
     reset: bool,
+    /// Ticks since a stop that no arming has followed.
+    stopped_for: Option<u32>,
     /// Ticks for which the core has not come to the end of one.
     late_for: u32,
 }
@@ -92,6 +116,7 @@ impl Judge {
                 (travel_deg / motor.approach_deg_s * f64::from(scene.tick_hz)).ceil() as u32
             }),
             reset: false,
+            stopped_for: None,
             late_for: 0,
         }
     }
@@ -102,7 +127,7 @@ impl Judge {
         tick: u64,
         seen: &Seen,
         is_noticed: bool,
-        injection: &Injection,
+        injections: &[Injection],
     ) -> Option<Harm> {
         if seen.reset.is_some() {
             self.reset = true;
@@ -119,7 +144,11 @@ impl Judge {
         if f64::from(self.late_for) > HUNG_S * self.tick_hz {
             return Some(Harm::LockedUp);
         }
-        let cut = injection.kind == Kind::EncoderStuck && injection.lasts(tick);
+        self.obey(&seen.commands);
+        let mut stuck = injections
+            .iter()
+            .filter(|injection| injection.cuts_encoder());
+        let cut = stuck.any(|injection| injection.lasts(tick));
         for (whisker, &displaced) in self.whiskers.iter_mut().zip(&seen.displaced_deg) {
             // While the count stands still, the whisker is away from where it was lost.
             if displaced == whisker.last_displaced_deg && !cut {
@@ -131,11 +160,13 @@ impl Judge {
         let held = (HOLD_S * self.tick_hz).ceil() as u64 + 1;
         let decided = seen.decisions.iter().any(|(n, _)| {
             let known = self.whiskers.get(*n).is_some_and(Whisker::must_rest);
-            let spoilt = injection.kind.spoils_every_frame()
-                && injection.whisker == *n
-                && injection.lasts(tick)
-                && tick > injection.start + held;
-            known || spoilt
+            let spoilt = |injection: &Injection| {
+                injection.kind.spoils_every_frame()
+                    && injection.whisker == *n
+                    && injection.lasts(tick)
+                    && tick > injection.start + held
+            };
+            known || injections.iter().any(spoilt)
         });
         if decided {
             return Some(Harm::Decided);
@@ -152,6 +183,35 @@ impl Judge {
         None
     }
 
+    /// Notes what was commanded before this tick.
+    fn obey(&mut self, commands: &[Command]) {
+        self.stopped_for = self.stopped_for.map(|ticks| ticks + 1);
+        for command in commands {
+            match command {
+                Command::Stop => _ = self.stopped_for.get_or_insert(0),
+                Command::Arm => {
+                    self.stopped_for = None;
+                    self.reset = false;
+                    self.approach();
+                }
+                Command::Clear(_) => {
+                    for whisker in &mut self.whiskers {
+                        whisker.motor = Motor::Runs;
+                    }
+                    self.approach();
+                }
+                _ => {}
+            }
+        }
+    }
+
+    /// Setpoints may be approached from now on.
+    fn approach(&mut self) {
+        for whisker in &mut self.whiskers {
+            whisker.approaches = self.approach;
+        }
+    }
+
     fn note(&mut self, n: usize, notice: Notice) {
         let approach = self.approach;
         let Some(whisker) = self.whiskers.get_mut(n) else {
@@ -163,15 +223,12 @@ impl Judge {
                 whisker.sensor_is_lost = false;
                 whisker.approaches = approach;
             }
-            Notice::MotorFault => whisker.motor_rests = true,
+            Notice::MotorFault => whisker.motor = Motor::Rests,
             Notice::MotorRetry => {
-                whisker.motor_rests = false;
+                whisker.motor = Motor::Runs;
                 whisker.approaches = approach;
             }
-            Notice::MotorGivenUp => {
-                whisker.motor_rests = true;
-                whisker.given_up = true;
-            }
+            Notice::MotorGivenUp => whisker.motor = Motor::GivenUp,
         }
     }
 
@@ -185,6 +242,9 @@ impl Judge {
         if self.reset && effort > 0.0 {
             return Some(Harm::Armed);
         }
+        if self.stopped_for.is_some_and(|ticks| ticks > STOP_TICKS) && effort > 0.0 {
+            return Some(Harm::Stopped);
+        }
         whisker.off_for = if whisker.must_rest() {
             whisker.off_for + 1
         } else {
@@ -192,6 +252,22 @@ impl Judge {
         };
         if whisker.off_for > OFF_TICKS && effort > 0.0 {
             return Some(Harm::Driven);
+        }
+        let is_homing = seen.homing.get(n).copied().unwrap_or_default();
+        if is_homing || std::mem::replace(&mut whisker.was_homing, is_homing) {
+            whisker.at_stop_for = 0;
+            whisker.away_for = 0;
+            whisker.approaches = self.approach;
+            return None;
+        }
+        let is_into_stop = seen.into_stop.get(n).copied().unwrap_or_default();
+        whisker.at_stop_for = if is_into_stop {
+            whisker.at_stop_for + 1
+        } else {
+            0
+        };
+        if f64::from(whisker.at_stop_for) > AT_STOP_S * self.tick_hz {
+            return Some(Harm::AtStop);
         }
         // The trace shows the first whisker of each side.
         if !self.has_motors || !n.is_multiple_of(self.per_side) {
@@ -216,17 +292,24 @@ impl Judge {
     /// At the end of a run whose fault was taken away long enough ago: every motor must
     /// follow its setpoint again, unless it was given up or the chip was reset.
     pub(super) fn end(&self, seen: &Seen) -> Option<Harm> {
-        if self.reset {
+        if self.reset || self.stopped_for.is_some() {
             return None;
         }
-        let rest_ticks = (RETRY_S * self.tick_hz) as u32 + OFF_TICKS;
+        // A motor that did not move in one test after another rests for up to twice as long.
+        let rest_ticks = (2.0 * RETRY_S * self.tick_hz) as u32 + OFF_TICKS;
         for (n, whisker) in self.whiskers.iter().enumerate() {
             // A motor that has had another fault rests again, or is given up.
-            let rests = whisker.given_up || (whisker.motor_rests && whisker.off_for <= rest_ticks);
-            if whisker.sensor_is_lost || (whisker.motor_rests && !rests) {
+            let rests = match whisker.motor {
+                Motor::Runs => false,
+                Motor::Rests => whisker.off_for <= rest_ticks,
+                Motor::GivenUp => true,
+            };
+            if whisker.sensor_is_lost || (whisker.motor == Motor::Rests && !rests) {
                 return Some(Harm::Unrecovered);
             }
-            if !self.has_motors || rests || !n.is_multiple_of(self.per_side) {
+            let is_homing = seen.homing.get(n).copied().unwrap_or_default();
+            let is_under_way = is_homing || whisker.approaches > 0;
+            if !self.has_motors || rests || is_under_way || !n.is_multiple_of(self.per_side) {
                 continue;
             }
             let side = n / self.per_side;

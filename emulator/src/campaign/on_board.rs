@@ -3,16 +3,23 @@
 use host_sim::Error;
 use host_sim::loaded::Loaded;
 
+use wire::{Command, TaggedCommand};
+
 use super::subject::{Seen, number, seen};
 use super::words::{STACK, Words};
 use crate::chip::Fault;
 use crate::program::Program;
 use crate::session::Session;
 use crate::upset::{MIDDLE, REGISTERS, Upset};
+use crate::watch::Servos;
 
 pub(super) struct OnBoard<'p> {
     pub(super) session: Session,
     words: &'p Words,
+    servos: Servos,
+    /// What was sent to it since the last tick.
+    commands: Vec<Command>,
+    tag: u16,
     /// The word or register that was changed.
     pub(super) changed: Option<String>,
 }
@@ -24,6 +31,9 @@ impl<'p> OnBoard<'p> {
         Ok(Self {
             session,
             words,
+            servos: Servos::new(program, &loaded.scene)?,
+            commands: Vec::new(),
+            tag: 0,
             changed: None,
         })
     }
@@ -53,12 +63,34 @@ impl OnBoard<'_> {
         seen.reset = board.reset.take();
         seen.is_late = board.is_late;
         seen.effort = self.session.efforts();
+        seen.commands = std::mem::take(&mut self.commands);
         for n in 0..seen.effort.len() {
-            let motor = self.session.run.motor_mut(n);
-            seen.displaced_deg
-                .extend(motor.map(|motor| motor.displaced_deg()));
+            if let Some(motor) = self.session.run.motor_mut(n) {
+                seen.look_at(motor);
+            }
+            let wants = self.servos.wants(n, &self.session.machine().memories)?;
+            seen.homing.push(wants.is_homing);
         }
         Ok(seen)
+    }
+
+    /// Sends a command as a frame, by the serial line or by a probe.
+    pub(super) fn send(&mut self, command: Command, is_by_serial: bool) -> Result<(), Fault> {
+        self.tag = self.tag.wrapping_add(1);
+        let tag = self.tag;
+        let frame = wire::frame(&TaggedCommand { tag, command });
+        let board = self.session.board_mut();
+        let is_sent = if is_by_serial {
+            board.serial_write(&frame);
+            true
+        } else {
+            // Half of a frame would spoil the next.
+            board.request_room()? >= frame.len() && board.request(&frame)?
+        };
+        if is_sent {
+            self.commands.push(command);
+        }
+        Ok(())
     }
 
     /// Inverts a bit of RAM, between two ticks or within the next.

@@ -32,6 +32,8 @@ pub struct RunRow {
     pub scene: String,
     /// What was injected.
     pub kind: Kind,
+    /// What was injected beside it.
+    pub and: Option<Kind>,
     /// Before which tick, counted from 1.
     pub start: u64,
     /// For how many ticks; nothing: to the end.

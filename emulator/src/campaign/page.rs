@@ -9,6 +9,9 @@ use super::outcome::{Ending, RunRow};
 /// Why what is silent is silent, by the kind of fault or the beginning of a variable's name.
 const REASONS: &str = include_str!("reasons.toml");
 
+/// What runs with two injections are called.
+const TWO: &str = "two-at-once";
+
 /// Outcomes in the order of the columns.
 const OUTCOMES: [Ending; 5] = [
     Ending::Masked,
@@ -71,6 +74,7 @@ fn place(row: &RunRow) -> String {
             let named = word.split_once(' ').map_or(word, |(_, name)| name);
             without_indices(named)
         }
+        None if row.and.is_some() => TWO.to_owned(),
         None => name(row.kind),
     }
 }
@@ -112,16 +116,17 @@ pub fn page(rows: &[RunRow]) -> Result<String, String> {
     let _ = writeln!(
         text,
         "\n## By what was injected\n\n| | runs | masked | noticed | silent | harmful | not followed \
-         | told after, ms: middle | most |\n|---|---|---|---|---|---|---|---|---|"
+         | noticed after, ms: middle | most |\n|---|---|---|---|---|---|---|---|---|"
     );
-    let kinds: BTreeMap<Kind, Vec<&RunRow>> =
-        rows.iter().fold(BTreeMap::new(), |mut kinds, row| {
-            kinds.entry(row.kind).or_default().push(row);
-            kinds
-        });
-    for (kind, of) in &kinds {
-        let (cells, noticed) = (cells(of), noticed(of));
-        let _ = writeln!(text, "| {} | {} | {cells} {noticed}", name(kind), of.len());
+    let (two, one): (Vec<&RunRow>, _) = rows.iter().partition(|row| row.and.is_some());
+    let mut kinds: BTreeMap<Kind, Vec<&RunRow>> = BTreeMap::new();
+    for row in one {
+        kinds.entry(row.kind).or_default().push(row);
+    }
+    let kinds = kinds.into_iter().map(|(kind, of)| (name(kind), of));
+    for (kind, of) in kinds.chain([(TWO.to_owned(), two)]) {
+        let (cells, noticed) = (cells(&of), noticed(&of));
+        let _ = writeln!(text, "| {kind} | {} | {cells} {noticed}", of.len());
     }
 
     let _ = writeln!(text, "\n## Harmful\n");
@@ -135,7 +140,7 @@ pub fn page(rows: &[RunRow]) -> Result<String, String> {
 
     let _ = writeln!(
         text,
-        "\n## Silent, by what was hit\n\n| | runs | how it ends | why nothing is told |\n\
+        "\n## Silent, by what was hit\n\n| | runs | how it ends | why nothing is said |\n\
          |---|---|---|---|"
     );
     let mut silent: BTreeMap<String, Vec<&RunRow>> = BTreeMap::new();
@@ -172,13 +177,15 @@ pub fn page(rows: &[RunRow]) -> Result<String, String> {
 /// A run in a line.
 pub fn described(row: &RunRow) -> String {
     let changed = row.changed.as_ref().map(|word| format!(" of `{word}`"));
+    let and = row.and.map(|kind| format!(" and {}", name(kind)));
     format!(
-        "{}, run {}, scene {}: {}{} before tick {}: {}",
+        "{}, run {}, scene {}: {}{}{} before tick {}: {}",
         row.subject,
         row.run,
         row.scene,
         name(row.kind),
         changed.unwrap_or_default(),
+        and.unwrap_or_default(),
         row.start,
         row.reason
     )

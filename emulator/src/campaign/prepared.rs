@@ -7,8 +7,10 @@ use firmware::faults::number;
 use host_sim::Error;
 use host_sim::loaded::Loaded;
 use scene::{Arm, PlantKind};
+use wire::Command;
 
 use super::draw::{self, Has, Plan, RUN_S};
+use super::injection::Injection;
 use super::judge::{Harm, Judge};
 use super::on_board::OnBoard;
 use super::outcome::{Findings, RunRow};
@@ -26,6 +28,8 @@ pub(super) struct Prepared {
     undisturbed: Vec<Seen>,
 }
 
+/// When somebody arms motors that wait for a command, s.
+const ARMED_S: f64 = 0.1;
 /// At the end of a run it is compared with the undisturbed one for so long, s.
 const COMPARED_S: f64 = 0.5;
 /// By how much the angle of an undisturbed whisker may differ, degrees.
@@ -73,7 +77,9 @@ impl Prepared {
             undisturbed: Vec::new(),
         };
         let mut subject = prepared.subject()?;
-        let seen: Result<Vec<_>, Fault> = (0..ticks).map(|_| subject.tick()).collect();
+        let seen: Result<Vec<_>, Fault> = (1..=ticks)
+            .map(|tick| prepared.tick(&mut subject, tick))
+            .collect();
         drop(subject);
         prepared.undisturbed = seen?;
         Ok(prepared)
@@ -84,6 +90,16 @@ impl Prepared {
         Subject::new(&self.loaded, board.map(|(program, words)| (program, words)))
     }
 
+    /// One tick. Somebody arms motors that wait for a command.
+    fn tick(&self, subject: &mut Subject<'_>, tick: u64) -> Result<Seen, Fault> {
+        let motor = self.loaded.scene.motor.as_ref();
+        let waits = motor.is_some_and(|motor| motor.arm == Some(Arm::OnCommand));
+        if waits && tick == (ARMED_S * f64::from(self.has.tick_hz)) as u64 {
+            subject.send(Command::Arm, false)?;
+        }
+        subject.tick()
+    }
+
     pub(super) fn words(&self) -> u64 {
         let words = self.board.as_ref().map(|(_, words)| words.len());
         words.unwrap_or(0) as u64
@@ -91,7 +107,16 @@ impl Prepared {
 
     pub(super) fn run(&self, subject_name: &str, number: u64, plan: Plan) -> Result<RunRow, Error> {
         let mut random = draw::random(number);
-        let injection = draw::injection(plan, number, self.has, &mut random);
+        let injections = draw::injections(plan, number, self.has, &mut random);
+        let [first, rest @ ..] = injections.as_slice() else {
+            return Err(Error::Work("nothing is injected".to_owned()));
+        };
+        let ends = injections.iter().map(Injection::end);
+        let end = ends.collect::<Option<Vec<_>>>().unwrap_or_default();
+        let end = end.into_iter().max();
+        let all_momentary = injections
+            .iter()
+            .all(|injection| injection.kind.is_momentary());
         let settled = (SETTLED_S * f64::from(self.has.tick_hz)) as u64;
         let given_up = (GIVEN_UP_S * f64::from(self.has.tick_hz)) as u64;
         let [mut same_for, mut late_for] = [0, 0];
@@ -101,8 +126,10 @@ impl Prepared {
         let mut disturbed: Vec<Seen> = Vec::new();
         for tick in 1..=self.ticks {
             let done = catch_unwind(AssertUnwindSafe(|| {
-                injection.apply(tick, &mut subject, &mut random)?;
-                subject.tick()
+                for injection in &injections {
+                    injection.apply(tick, &mut subject, &mut random)?;
+                }
+                self.tick(&mut subject, tick)
             }));
             let seen = match done {
                 Ok(Ok(seen)) => seen,
@@ -121,11 +148,11 @@ impl Prepared {
                 findings.harm = Some((tick, Harm::Panicked));
                 break;
             }
-            if tick >= injection.start && findings.noticed.is_none() {
+            if tick >= first.start && findings.noticed.is_none() {
                 let said = first_notice(&seen, &complaints);
                 findings.noticed = said.map(|said| (tick, said));
             }
-            if let Some(harm) = judge.look(tick, &seen, findings.noticed.is_some(), &injection) {
+            if let Some(harm) = judge.look(tick, &seen, findings.noticed.is_some(), &injections) {
                 findings.harm = Some((tick, harm));
                 break;
             }
@@ -137,37 +164,38 @@ impl Prepared {
             if plan == Plan::Words && findings.noticed.is_some() && late_for >= given_up {
                 break;
             }
-            if injection.kind.is_momentary()
-                && findings.noticed.is_none()
+            if findings.noticed.is_none()
                 && same_for >= settled
-                && tick >= injection.start + settled
+                && end.is_some_and(|end| tick >= end + settled)
             {
                 break;
             }
         }
         let recovered = (RECOVERED_S * f64::from(self.has.tick_hz)) as u64;
-        if let (Some(end), Some(last)) = (injection.end(), disturbed.last())
+        if let (Some(end), Some(last)) = (end, disturbed.last())
             && !findings.is_over()
-            && !injection.kind.is_momentary()
+            && !all_momentary
+            && disturbed.len() as u64 == self.ticks
             && end + recovered <= self.ticks
         {
             let tick = self.ticks;
             findings.harm = judge.end(last).map(|harm| (tick, harm));
         }
         if !findings.is_over() && disturbed.len() as u64 == self.ticks {
-            findings.difference = self.difference(injection.start as usize, &disturbed);
+            findings.difference = self.difference(first.start as usize, &disturbed);
         }
         let noticed = findings.noticed.as_ref();
         let noticed_ms = noticed
-            .map(|(tick, _)| (tick - injection.start) as f64 * 1e3 / f64::from(self.has.tick_hz));
+            .map(|(tick, _)| (tick - first.start) as f64 * 1e3 / f64::from(self.has.tick_hz));
         let (outcome, reason) = findings.verdict();
         Ok(RunRow {
             subject: subject_name.to_owned(),
             run: number,
             scene: self.loaded.scene.name.clone(),
-            kind: injection.kind,
-            start: injection.start,
-            ticks: injection.ticks,
+            kind: first.kind,
+            and: rest.first().map(|injection| injection.kind),
+            start: first.start,
+            ticks: first.ticks,
             outcome,
             reason,
             changed: subject.board().and_then(|board| board.changed.clone()),

@@ -7,6 +7,7 @@ use host_sim::loaded::Loaded;
 use host_sim::motor::SimMotor;
 use host_sim::run::Run;
 use host_sim::trace::Row;
+use wire::{Command, TaggedCommand};
 
 use super::on_board::OnBoard;
 use super::words::Words;
@@ -22,6 +23,11 @@ pub(super) struct Seen {
     pub(super) effort: Vec<f64>,
     /// By how much each whisker is displaced from its encoder's count, degrees.
     pub(super) displaced_deg: Vec<f64>,
+    /// Which whiskers are driven into an end stop, and which are being homed.
+    pub(super) into_stop: Vec<bool>,
+    pub(super) homing: Vec<bool>,
+    /// What was sent to it before this tick.
+    pub(super) commands: Vec<Command>,
     /// What the module has reported, and of which whisker.
     pub(super) notices: Vec<(usize, Notice)>,
     /// The whiskers that have decided, and for what.
@@ -32,7 +38,20 @@ pub(super) struct Seen {
     pub(super) is_late: bool,
 }
 
+/// So near to an end stop a whisker is at it, degrees.
+const AT_STOP_DEG: f64 = 0.1;
+
 impl Seen {
+    /// Looks at the motor of the next whisker.
+    pub(super) fn look_at(&mut self, motor: &SimMotor) {
+        let (angle, duty) = (motor.angle_deg(), motor.duty());
+        let [back, front] = motor.settings().stops_deg;
+        let is_into_stop =
+            duty < 0.0 && angle <= back + AT_STOP_DEG || duty > 0.0 && angle >= front - AT_STOP_DEG;
+        self.into_stop.push(is_into_stop);
+        self.displaced_deg.push(motor.displaced_deg());
+    }
+
     /// Whether nothing at all differs from `other`.
     pub(super) fn is_same(&self, other: &Self) -> bool {
         // A side that does not exist has values that are not even equal to themselves.
@@ -41,6 +60,9 @@ impl Seen {
             && self.row.touch == other.row.touch
             && self.effort == other.effort
             && self.displaced_deg == other.displaced_deg
+            && self.into_stop == other.into_stop
+            && self.homing == other.homing
+            && self.commands == other.commands
             && self.notices == other.notices
             && self.decisions == other.decisions
             && self.reset == other.reset
@@ -50,7 +72,12 @@ impl Seen {
 
 /// A scene that runs: on this PC, or on a board.
 pub(super) enum Subject<'p> {
-    OnPc { run: Box<Run>, per_side: usize },
+    OnPc {
+        run: Box<Run>,
+        per_side: usize,
+        /// What was sent to it since the last tick.
+        commands: Vec<Command>,
+    },
     OnBoard(Box<OnBoard<'p>>),
 }
 
@@ -63,6 +90,7 @@ impl<'p> Subject<'p> {
             None => Self::OnPc {
                 run: Box::new(Run::new(&loaded.scene, loaded.classifier()?)?),
                 per_side: loaded.scene.head.whiskers_per_side,
+                commands: Vec::new(),
             },
             Some((program, words)) => {
                 Self::OnBoard(Box::new(OnBoard::new(loaded, program, words)?))
@@ -72,19 +100,39 @@ impl<'p> Subject<'p> {
 
     /// One tick, as far as the emulated chip goes along.
     pub(super) fn tick(&mut self) -> Result<Seen, Fault> {
-        let (run, per_side) = match self {
-            Self::OnPc { run, per_side } => (run, *per_side),
+        let (run, per_side, commands) = match self {
+            Self::OnPc {
+                run,
+                per_side,
+                commands,
+            } => (run, *per_side, commands),
             Self::OnBoard(board) => return board.tick(),
         };
         run.tick();
         let mut seen = seen(run, per_side);
+        seen.commands = std::mem::take(commands);
         let mut n = 0;
         while let Some(motor) = run.motor_mut(n) {
             seen.effort.push(motor.effort());
-            seen.displaced_deg.push(motor.displaced_deg());
+            seen.look_at(motor);
+            seen.homing.push(run.module_mut().is_homing(n));
             n += 1;
         }
         Ok(seen)
+    }
+
+    /// Sends a command, by the serial line or by the other way that it has.
+    pub(super) fn send(&mut self, command: Command, is_by_serial: bool) -> Result<(), Fault> {
+        match self {
+            Self::OnPc { run, commands, .. } => {
+                let module = run.module_mut();
+                module.request(TaggedCommand { tag: 0, command });
+                module.take_packets();
+                commands.push(command);
+                Ok(())
+            }
+            Self::OnBoard(board) => board.send(command, is_by_serial),
+        }
     }
 
     /// A whisker's motor; none where motors are ideal.
