@@ -48,14 +48,7 @@ const RECOVERED_S: f64 = 1.4;
 impl Prepared {
     pub(super) fn new(scene: &Path, program: Option<&Path>) -> Result<Self, Error> {
         let (loaded, board) = match program {
-            None => {
-                let mut loaded = Loaded::new(scene)?;
-                // Whoever would arm it is not there.
-                if let Some(motor) = &mut loaded.scene.motor {
-                    motor.arm.get_or_insert(Arm::AtStart);
-                }
-                (loaded, None)
-            }
+            None => (Loaded::new(scene)?, None),
             Some(path) => {
                 let (loaded, program) = flashed(scene, path)?;
                 let words = Words::new(&program)?;
@@ -93,7 +86,7 @@ impl Prepared {
     /// One tick. Somebody arms motors that wait for a command.
     fn tick(&self, subject: &mut Subject<'_>, tick: u64) -> Result<Seen, Fault> {
         let motor = self.loaded.scene.motor.as_ref();
-        let waits = motor.is_some_and(|motor| motor.arm == Some(Arm::OnCommand));
+        let waits = motor.is_some_and(|motor| motor.arm != Some(Arm::AtStart));
         if waits && tick == (ARMED_S * f64::from(self.has.tick_hz)) as u64 {
             subject.send(Command::Arm, false)?;
         }
