@@ -53,7 +53,7 @@ pub(crate) fn all(only: Vec<String>) -> Result<(), Fault> {
     steps.run("a panic would be found", || panics::control(Board::ALL[0]))?;
     steps.run("emulated boards, one side and two", board)?;
     steps.run("the walk through the book", walk::short)?;
-    steps.run("injected faults, a thousand", faults::short)?;
+    steps.run("injected faults, five hundred", faults::short)?;
     steps.run("faults from files", scenarios::short)?;
     steps.run("endurance, in short", endurance::short)?;
     steps.run("counts of a tick", count::short)?;

@@ -94,7 +94,10 @@ impl Subject {
                 runs: None,
                 ..Self::on(Board::ALL[0], &[top().join(crate::emulate::FULL)], runs)?
             }),
-            _ => Self::on(Board::named(name)?, &scenes, runs),
+            _ => {
+                let scenes: Vec<PathBuf> = scenes.into_iter().chain(other_motors()?).collect();
+                Self::on(Board::named(name)?, &scenes, runs)
+            }
         }
     }
 
@@ -245,8 +248,8 @@ fn summed_up(tables: &[PathBuf], page: Option<&Path>) -> Result<(), Fault> {
 /// The short form of CI: some runs on the PC, and a few as the program of a board.
 pub(crate) fn short() -> Result<(), Fault> {
     remove(&folder())?;
-    let mut tables = Subject::of(PC, 1000)?.run(2)?;
+    let mut tables = Subject::of(PC, 500)?.run(2)?;
     let one = [top().join(crate::emulate::FULL)];
-    tables.extend(Subject::on(Board::ALL[0], &one, 24)?.run(2)?);
+    tables.extend(Subject::on(Board::ALL[0], &one, 10)?.run(2)?);
     summed_up(&tables, None)
 }
