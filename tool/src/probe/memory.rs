@@ -10,20 +10,13 @@ use probe_rs::architecture::arm::{ArmDebugInterface, ArmError, FullyQualifiedApA
 use probe_rs::probe::{Probe, WireProtocol};
 use rtt::Ram;
 
+use super::debug_unit;
 use crate::source::{Board, BoardName};
 
 /// The register that resets the chip (AIRCR), and what asks for it (Armv7-M Architecture
 /// Reference Manual, "Application Interrupt and Reset Control Register"; Armv6-M has the same).
 const RESET_CONTROL: u32 = 0xE000_ED0C;
 const RESET: u32 = 0x05FA_0004;
-
-/// Where the identity of a board's chip stands: the first register of DBGMCU, or of DBG.
-const fn chip_id_at(board: BoardName) -> u32 {
-    match board {
-        BoardName::NucleoF446re | BoardName::NucleoF103rb => 0xE004_2000,
-        BoardName::NucleoG071rb => 0x4001_5800,
-    }
-}
 
 /// Where the RAM of a board's chip begins, and how many bytes it has.
 pub(super) const fn ram(board: BoardName) -> (u32, usize) {
@@ -62,16 +55,15 @@ impl MemoryPort {
 
     /// The identity of the chip, where such a board's has it.
     pub(super) fn chip_id(&mut self, board: BoardName) -> Result<u16, Error> {
-        let mut bytes = [0; 4];
-        self.read(chip_id_at(board), &mut bytes)?;
-        Ok(u32::from_le_bytes(bytes) as u16 & 0xFFF)
+        debug_unit::identity(self, board)
     }
 
+    /// Sees that it is the chip of this board, and has its motors stop with its core.
     pub(super) fn check(&mut self, board: BoardName) -> Result<(), Error> {
         let found = self.chip_id(board)?;
         let Board { name, chip_id, .. } = board.board();
         if found == chip_id {
-            return Ok(());
+            return debug_unit::freeze(self, board);
         }
         Err(Error::Work(format!(
             "the chip is of identity {found:#05x}, that of a {name} is {chip_id:#05x}; --board \
