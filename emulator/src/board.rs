@@ -104,8 +104,8 @@ pub(crate) struct Board {
 }
 
 /// Longer than the slowest tick with anything that may delay it: a fault handler waits for
-/// the probe before the watchdog resets the chip.
-const PATIENCE: Ps = 3_000_000_000_000;
+/// the probe before the watchdog resets the chip, and a start for a clock that never comes.
+const PATIENCE: Ps = 6_000_000_000_000;
 
 /// What `bytes` complete; all that a board sends can be read.
 fn read(receiver: &mut Receiver, bytes: &[u8]) -> Result<Vec<Received>, Fault> {

@@ -3,6 +3,8 @@
 //! faults there is no way to one, through calls or through code that stands inside other
 //! functions, and none through a pointer.
 //!
+//! Beside it, that no program sleeps but where it wakes well.
+//!
 //! The control: the same walk finds panics in the tick of a program that is built with checks
 //! of overflow.
 
@@ -66,8 +68,26 @@ pub(crate) fn all(board: Option<Board>, scenes: &[PathBuf]) -> Result<(), Fault>
     Ok(())
 }
 
+/// `wfi` and `isb`, as they stand in flash.
+const SLEEP: [u8; 6] = [0x30, 0xBF, 0xBF, 0xF3, 0x6F, 0x8F];
+
+/// That a program sleeps at one place, where a core that wakes fetches its code again: what
+/// cortex-m offers does not.
+fn sleeps_well(elf: &Path) -> Result<(), Fault> {
+    let sleeps = contents::occurrences(elf, &SLEEP)?;
+    let functions = contents::functions(elf)?;
+    let sleeps_else = functions.contains("cortex_m::asm::wfi");
+    if sleeps == 1 && !sleeps_else {
+        return Ok(());
+    }
+    Err(format!(
+        "it sleeps at {sleeps} places with a barrier; at others too: {sleeps_else}"
+    ))
+}
+
 /// Checks a program.
 pub(crate) fn check(elf: &Path) -> Result<Proven, Fault> {
+    sleeps_well(elf)?;
     let program = Program::of(elf)?;
     let tasks = program.calls.tasks()?;
     let tick = program.walk(&tasks)?;

@@ -21,18 +21,21 @@ pub const CLOCK_MAX_HZ: u32 = 320_000;
 /// set-ups worked.
 pub const CLOCK_COMFORTABLE_HZ: u32 = 160_000;
 
-/// Highest clock in the slow mode, in hertz: what a published driver that runs a part in the
-/// field was left at, after 320 kHz had been about its limit. Not confirmed.
-pub const CLOCK_SLOW_MAX_HZ: u32 = 240_000;
+/// Highest clock in the slow mode, in hertz: that of the MLX90316, whose clock has periods of 7 µs
+/// or more there. (A published driver runs a part in the field at up to 240 kHz.)
+pub const CLOCK_SLOW_MAX_HZ: u32 = 143_000;
 
 /// How long /SS must be low before the first byte in the slow mode, in nanoseconds. What is
 /// safe between bytes is taken for it: one driver waits 3 ms, the others do not wait; not
 /// confirmed.
 pub const SS_LEAD_SLOW_NS: u32 = BYTE_GAP_SAFE_NS;
 
-/// How long /SS must stay low after the last byte in the slow mode, in nanoseconds: what that
-/// driver waits. Not confirmed.
-pub const SS_LAG_SLOW_NS: u32 = 3_000;
+/// How long /SS must stay low after the last edge of the clock in the slow mode, in nanoseconds:
+/// 6.9 µs in the MLX90316. (A published driver waits 3 µs.)
+pub const SS_LAG_SLOW_NS: u32 = 7_000;
+
+/// The same in the fast mode. Drivers wait 1 to 3 µs.
+pub const SS_LAG_FAST_NS: u32 = 3_000;
 
 /// Gap between bytes that is safe in either of the part's speeds, in
 /// nanoseconds: at least 50 µs. From drivers and the MLX90316.

@@ -9,7 +9,7 @@
 
 use mlx90333::timing::{
     BYTE_GAP_FAST_NS, BYTE_GAP_SAFE_NS, CLOCK_MAX_HZ, CLOCK_SLOW_MAX_HZ, SS_HIGH_US,
-    SS_LAG_SLOW_NS, SS_LEAD_SLOW_NS, START_UP_US,
+    SS_LAG_FAST_NS, SS_LAG_SLOW_NS, SS_LEAD_SLOW_NS, START_UP_US,
 };
 use mlx90333::{Decoder, FRAME_LEN};
 
@@ -45,7 +45,7 @@ impl Needs {
         clock_max_hz: CLOCK_MAX_HZ,
         gap: ps(BYTE_GAP_FAST_NS),
         lead: 0,
-        lag: 0,
+        lag: ps(SS_LAG_FAST_NS),
     };
     const SLOW: Self = Self {
         clock_max_hz: CLOCK_SLOW_MAX_HZ,

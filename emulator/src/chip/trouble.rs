@@ -45,6 +45,17 @@ impl Chip {
         Ok(had)
     }
 
+    /// A probe lets go of the chip, and leaves its debug unit as after a power-up.
+    pub(crate) fn let_go(&mut self) {
+        self.debug.reset();
+    }
+
+    /// Whether a debugger that halts the core stops timers, the motors' among them, and the
+    /// watchdog.
+    pub(crate) fn stops_with_the_core(&self) -> bool {
+        self.debug.values().iter().any(|bits| *bits != 0)
+    }
+
     /// Whether the non-maskable interrupt is up.
     pub(crate) fn has_nmi(&self) -> bool {
         self.rcc.has_clock_failed()

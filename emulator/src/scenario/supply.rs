@@ -6,7 +6,9 @@ use firmware::BoardCode;
 use firmware::boards::BoardFacts;
 use scene::Scene;
 
-use super::step::Step::{Do, Forget, Move, SaysTimes, Stand, Supply, UntilDriven, Within};
+use super::step::Step::{
+    Do, Forget, Move, Pass, Press, SaysTimes, Stand, Supply, UntilDriven, Within,
+};
 use super::step::{Case, MS, Step, US, says, whisk};
 use super::trouble::{all, case};
 use crate::chip::{Chip, Ps, ResetCause, WELL_MV};
@@ -22,6 +24,8 @@ const LOWER_MV: u32 = 2_200;
 const GONE_MV: u32 = 1_000;
 /// Below the highest brown-out level, mV.
 const BROWN_MV: u32 = 2_800;
+/// For how long a start may wait for the clock from outside, ms.
+const WAIT_FOR_CLOCK: u32 = 6_000;
 /// For how long the supply is low, and for how long a fault handler is watched: longer than
 /// the watchdog bears.
 const DIP: Ps = 45 * MS;
@@ -126,7 +130,10 @@ fn falls(scene: &Scene, facts: &BoardFacts) -> Vec<Case> {
     cases
 }
 
-fn clock_fails(scene: &Scene, facts: &BoardFacts) -> [Case; 2] {
+/// The limit of a board that runs by its own oscillator.
+const INTERNAL_CLOCK: &str = "limit 37 ";
+
+fn clock_fails(scene: &Scene, facts: &BoardFacts) -> [Case; 4] {
     let what = "pins low as the clock stops in a tick";
     let stops = |board: &mut Session| board.machine().disturb(|chip| chip.stop_clock(true));
     let stopped = [
@@ -158,5 +165,48 @@ fn clock_fails(scene: &Scene, facts: &BoardFacts) -> [Case; 2] {
     });
     let comes = [comes, low(what)];
     let stray = case(what, begin(true).chain(comes).chain(dies(scene, 51)));
-    [stopped, stray]
+    [stopped, stray, never_comes(facts), lets_go()]
+}
+
+/// A supply without a PC: the clock from outside is not there as power comes, and the board whisks all
+/// the same.
+fn never_comes(facts: &BoardFacts) -> Case {
+    // Power that has come back arms none: somebody does.
+    let starts = Do(|board| {
+        board.machine().disturb(|chip| chip.stop_clock(true))?;
+        board.board_mut().reset_now(ResetCause::Power)
+    });
+    let is_said = if facts.code == BoardCode::NucleoG071rb {
+        SaysTimes(0, INTERNAL_CLOCK.to_owned())
+    } else {
+        says(INTERNAL_CLOCK)
+    };
+    let moves = [
+        starts,
+        Pass(WAIT_FOR_CLOCK),
+        Press(100),
+        whisk(1_100),
+        is_said,
+    ];
+    case("the clock from outside never comes", moves)
+}
+
+/// A probe lets go of a board, and another may halt it a second later.
+fn lets_go() -> Case {
+    let lets_go = Do(|board| {
+        board.machine().with_chip(Chip::let_go);
+        Ok(())
+    });
+    let stops = |board: &mut Session| {
+        Ok(board
+            .machine()
+            .with_chip(|chip| Chip::stops_with_the_core(chip)))
+    };
+    let steps = [
+        whisk(250),
+        lets_go,
+        whisk(1_100),
+        Within(0, "a debugger's halt stops the motors", stops),
+    ];
+    case("a probe lets go", steps)
 }

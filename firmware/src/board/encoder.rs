@@ -8,7 +8,7 @@ use super::gpio::Pin;
 use super::pin_config::{Mode, PinConfig};
 use super::wiring::EncoderPort;
 
-/// A level counts after eight equal samples of the timer's clock: 100 ns at 80 MHz.
+/// A level counts after eight equal samples of the timer's clock: 111 ns at 72 MHz.
 const FILTER: FilterValue = FilterValue::FCK_INT_N8;
 /// A capture channel uses its own input (the register description names
 /// the setting after channel 4's).

@@ -27,11 +27,7 @@ pub(crate) fn start(
     let clocks = pace::clocks();
     let frames = FramePace {
         slot: pace.slot_counts,
-        lag: if settings.sensor.is_slow {
-            clocks.lag_cycles()
-        } else {
-            0
-        },
+        lag: clocks.lag_cycles(settings.sensor.is_slow),
     };
     let motion = settings.motion.as_ref().filter(|_| Part::Motion.is_built());
     let motor = motion.map(|motion| start_motors(motion, sides));

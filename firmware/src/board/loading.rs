@@ -101,7 +101,7 @@ pub(crate) fn run(mut line: Line<'_>, order: Order) -> ! {
     let mut silent = 0;
     while silent < silence {
         line.has_sent();
-        sleep();
+        next_tick();
         silent += 1;
         let Some(request) = line.next() else {
             continue;
@@ -133,7 +133,7 @@ pub(crate) fn run(mut line: Line<'_>, order: Order) -> ! {
         if line.has_sent() {
             break;
         }
-        sleep();
+        next_tick();
     }
     cortex_m::asm::delay(pace::clocks().core_hz / LAST_BYTES_PART);
     SCB::sys_reset();
@@ -162,10 +162,9 @@ fn leave_the_tick() {
     }
 }
 
-/// Sleeps until the next tick would be. A masked interrupt wakes the core all the same, and is
-/// forgotten.
-fn sleep() {
-    cortex_m::asm::wfi();
+/// Waits until the next tick would be, awake, as interrupts are masked ([`sleep`](super::sleep)).
+fn next_tick() {
+    while !NVIC::is_pending(TICK_INTERRUPT) {}
     tick_timer::acknowledge();
     NVIC::unpend(TICK_INTERRUPT);
 }

@@ -17,7 +17,6 @@ use whisking::motor;
 use super::about::NO_SCENE;
 use super::counters::TICKS;
 use super::perception::Names;
-use super::reset::ClockError;
 use super::scene::Scene;
 use super::{pace, serial};
 
@@ -205,11 +204,8 @@ pub(crate) fn fatal(number: u8) {
 }
 
 /// The last lines where a clock did not start.
-pub(crate) fn clock(error: ClockError) {
-    match error {
-        ClockError::NoHse => defmt::error!("- no 8 MHz clock from the ST-LINK (PH0)"),
-        ClockError::NoPll => defmt::error!("- the PLL does not run"),
-    }
+pub(crate) fn no_clock() {
+    defmt::error!("- the PLL does not run");
 }
 
 /// The line of an event, and of what is known besides.

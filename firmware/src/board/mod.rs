@@ -53,6 +53,7 @@ pub(crate) mod serial;
 #[path = "serial/on.rs"]
 pub(crate) mod serial;
 pub(crate) mod signal_pins;
+pub(crate) mod sleep;
 pub(crate) mod slots;
 pub(crate) mod span;
 pub(crate) mod supply;

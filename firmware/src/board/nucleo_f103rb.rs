@@ -80,7 +80,7 @@ mod chip {
     use super::serial_dma::SerialRoute;
     use super::{APB1_HZ, CORE_HZ, FLASH_WAIT_STATES, PLL_MUL};
     use crate::board::pin_config::AlternateFunction;
-    use crate::board::reset::{ClockError, wait};
+    use crate::board::reset::{ClockSource, NoClock, comes, wait};
     /// Measures the ticks.
     pub(crate) use crate::board::systick::SysTick as Counter;
     use crate::board::wiring::{
@@ -147,16 +147,22 @@ mod chip {
         ])
     }
 
-    /// Goes from the internal 8 MHz to [`super::CLOCKS`], has the chip raise
-    /// the non-maskable interrupt should the ST-LINK's clock stop, and lets the
-    /// timer of the tick run.
+    /// Goes from the internal 8 MHz to [`super::CLOCKS`] by the ST-LINK's clock where that comes,
+    /// and has the chip raise the non-maskable interrupt should that stop; to 64 MHz, the most
+    /// that the PLL makes of the internal ones, where it does not. Lets the timer of the tick run.
     ///
     /// # Errors
-    /// The clock that did not come.
-    pub(crate) fn start_clocks() -> Result<(), ClockError> {
+    /// The PLL did not come.
+    pub(crate) fn start_clocks() -> Result<ClockSource, NoClock> {
         RCC.cr().modify(|w| w.set_hsebyp(true));
         RCC.cr().modify(|w| w.set_hseon(true));
-        wait(ClockError::NoHse, || RCC.cr().read().hserdy())?;
+        let is_fed = comes(|| RCC.cr().read().hserdy());
+        let (source, factor) = if is_fed {
+            (Pllsrc::HSE_DIV_PREDIV, Pllmul::MUL9)
+        } else {
+            RCC.cr().modify(|w| w.set_hseon(false));
+            (Pllsrc::HSI_DIV2, Pllmul::MUL16)
+        };
 
         // Wait states before the clock that needs them.
         FLASH.acr().modify(|w| {
@@ -165,18 +171,22 @@ mod chip {
         });
         const { assert!(PLL_MUL == 9 && APB1_HZ * 2 == CORE_HZ) };
         RCC.cfgr().modify(|w| {
-            w.set_pllsrc(Pllsrc::HSE_DIV_PREDIV);
-            w.set_pllmul(Pllmul::MUL9);
+            w.set_pllsrc(source);
+            w.set_pllmul(factor);
             w.set_ppre1(Ppre::DIV2);
         });
         RCC.cr().modify(|w| w.set_pllon(true));
-        wait(ClockError::NoPll, || RCC.cr().read().pllrdy())?;
+        wait(|| RCC.cr().read().pllrdy())?;
         RCC.cfgr().modify(|w| w.set_sw(Sw::PLL1_P));
-        wait(ClockError::NoPll, || RCC.cfgr().read().sws() == Sw::PLL1_P)?;
-        RCC.cr().modify(|w| w.set_csson(true));
+        wait(|| RCC.cfgr().read().sws() == Sw::PLL1_P)?;
+        RCC.cr().modify(|w| w.set_csson(is_fed));
 
         RCC.apb1enr().modify(|w| w.set_tim3en(true));
-        Ok(())
+        Ok(if is_fed {
+            ClockSource::Own
+        } else {
+            ClockSource::Internal
+        })
     }
 
     /// Halves the clocks that [`start_clocks`] has brought: the core's is divided before it

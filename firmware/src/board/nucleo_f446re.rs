@@ -1,4 +1,4 @@
-//! The NUCLEO-F446RE: STM32F446RE, Cortex-M4F at 160 MHz.
+//! The NUCLEO-F446RE: STM32F446RE, Cortex-M4F at 144 MHz.
 //!
 //! Two whiskers, one a side: [`LEFT`] and [`RIGHT`] say what each hangs on. A brushless
 //! motor, of which there can be one, has TIM1's outputs PA8 to PA10, PC10 to PC12, and Halls
@@ -19,14 +19,16 @@ pub(crate) type Number = whisking::Fix;
 
 /// The clock that the ST-LINK puts on the HSE input, Hz.
 const HSE_HZ: u32 = 8_000_000;
-/// PLL input divider: 2 MHz, the upper end of what the PLL takes, for least jitter.
+/// PLL input dividers of HSE, and of the chip's 16 MHz where that does not come: 2 MHz, the upper
+/// end of what the PLL takes, for least jitter.
 const PLL_M: u8 = 4;
-/// PLL multiplier: 320 MHz, inside the oscillator's 100 to 432 MHz.
-const PLL_N: u16 = 160;
+const PLL_M_INTERNAL: u8 = 8;
+/// PLL multiplier: 288 MHz, inside the oscillator's 100 to 432 MHz.
+const PLL_N: u16 = 144;
 /// PLL output divider, towards the core.
 const PLL_P: u32 = 2;
-/// Core clock, Hz. Not the chip's 180 MHz: with 160 MHz the SPI clock is just
-/// under the sensor's limit, and the supply needs no over-drive.
+/// Core clock, Hz. Not the chip's 180 MHz: halved, with the SPIs' largest dividers, it is just
+/// under the limit of a sensor in its slow mode, and the supply needs no over-drive.
 const CORE_HZ: u32 = HSE_HZ / PLL_M as u32 * PLL_N as u32 / PLL_P;
 /// Clock of the slow peripheral bus APB1, Hz: a quarter of the core's.
 const APB1_HZ: u32 = CORE_HZ / 4;
@@ -36,7 +38,7 @@ const APB2_HZ: u32 = CORE_HZ / 2;
 /// to 3.6 V.
 const FLASH_WAIT_STATES: u8 = ((CORE_HZ - 1) / 30_000_000) as u8;
 
-const _: () = assert!(CORE_HZ == 160_000_000 && CORE_HZ <= 168_000_000);
+const _: () = assert!(CORE_HZ == 144_000_000 && CORE_HZ <= 168_000_000);
 const _: () = assert!(APB1_HZ <= 45_000_000 && APB2_HZ <= 90_000_000);
 // The two sides' SPIs and byte timers run alike, from buses that do not.
 const _: () = assert!(APB2_HZ / 256 == APB1_HZ / 128 && APB2_HZ == 2 * APB1_HZ);
@@ -52,10 +54,10 @@ const _: () = assert!(
         && CLOCKS.serial_hz == APB1_HZ
 );
 
-// 25.6 µs a byte; a fast slot of 50 µs at 2 kHz, a safe one of 75.6 µs at 1 kHz.
+// 28.4 µs a byte; a fast slot of 50 µs at 2 kHz, a safe one of 78.4 µs at 1 kHz.
 const _: () = assert!(
-    matches!(CLOCKS.slot_counts(2_000), Some(4_000))
-        && matches!(CLOCKS.slot_counts(1_000), Some(6_048))
+    matches!(CLOCKS.slot_counts(2_000), Some(3_600))
+        && matches!(CLOCKS.slot_counts(1_000), Some(5_649))
 );
 
 #[path = "byte_update.rs"]
@@ -92,10 +94,12 @@ mod chip {
 
     use super::dma::Route;
     use super::serial_dma::SerialRoute;
-    use super::{APB1_HZ, APB2_HZ, CORE_HZ, FLASH_WAIT_STATES, PLL_M, PLL_N, PLL_P};
+    use super::{
+        APB1_HZ, APB2_HZ, CORE_HZ, FLASH_WAIT_STATES, PLL_M, PLL_M_INTERNAL, PLL_N, PLL_P,
+    };
     use crate::board::gpio::PinName;
     use crate::board::pin_config::AlternateFunction;
-    use crate::board::reset::{ClockError, settle, wait};
+    use crate::board::reset::{ClockSource, NoClock, comes, settle, wait};
     use crate::board::wiring::{
         BridgePort, EncoderPort, LEFT_BRIDGE, LEFT_ENCODER, LEFT_SENSOR, Output, PWMS, Received,
         SensorPins, SensorPort, Side,
@@ -226,26 +230,32 @@ mod chip {
         ])
     }
 
-    /// Goes from the internal 16 MHz to [`super::CLOCKS`], has the chip raise
-    /// the non-maskable interrupt should the ST-LINK's clock stop, and lets the
-    /// timers of the tick run.
+    /// Goes from the internal 16 MHz to [`super::CLOCKS`], by the ST-LINK's clock where that comes;
+    /// then it has the chip raise the non-maskable interrupt should that stop. Lets the timers of
+    /// the tick run.
     ///
     /// # Errors
-    /// The clock that did not come.
-    pub(crate) fn start_clocks() -> Result<(), ClockError> {
+    /// The PLL did not come.
+    pub(crate) fn start_clocks() -> Result<ClockSource, NoClock> {
         RCC.cr().modify(|w| w.set_hsebyp(true));
         RCC.cr().modify(|w| w.set_hseon(true));
-        wait(ClockError::NoHse, || RCC.cr().read().hserdy())?;
+        let is_fed = comes(|| RCC.cr().read().hserdy());
+        let (source, divider) = if is_fed {
+            (Pllsrc::HSE, PLL_M)
+        } else {
+            RCC.cr().modify(|w| w.set_hseon(false));
+            (Pllsrc::HSI, PLL_M_INTERNAL)
+        };
 
         const { assert!(PLL_P == 2) };
         RCC.pllcfgr().modify(|w| {
-            w.set_pllsrc(Pllsrc::HSE);
-            w.set_pllm(PLL_M.into());
+            w.set_pllsrc(source);
+            w.set_pllm(divider.into());
             w.set_plln(PLL_N.into());
             w.set_pllp(Pllp::DIV2);
         });
         RCC.cr().modify(|w| w.set_pllon(true));
-        wait(ClockError::NoPll, || RCC.cr().read().pllrdy())?;
+        wait(|| RCC.cr().read().pllrdy())?;
 
         // Wait states before the clock that needs them.
         let wait_states = Latency::from_bits(FLASH_WAIT_STATES);
@@ -255,24 +265,26 @@ mod chip {
             w.set_dcen(true);
             w.set_latency(wait_states);
         });
-        wait(ClockError::NoPll, || {
-            FLASH.acr().read().latency() == wait_states
-        })?;
+        wait(|| FLASH.acr().read().latency() == wait_states)?;
         const { assert!(APB1_HZ * 4 == CORE_HZ && APB2_HZ * 2 == CORE_HZ) };
         RCC.cfgr().modify(|w| {
             w.set_ppre1(Ppre::DIV4);
             w.set_ppre2(Ppre::DIV2);
             w.set_sw(Sw::PLL1_P);
         });
-        wait(ClockError::NoPll, || RCC.cfgr().read().sws() == Sw::PLL1_P)?;
-        RCC.cr().modify(|w| w.set_csson(true));
+        wait(|| RCC.cfgr().read().sws() == Sw::PLL1_P)?;
+        RCC.cr().modify(|w| w.set_csson(is_fed));
 
         RCC.apb1enr().modify(|w| {
             w.set_tim5en(true);
             w.set_tim7en(true);
         });
         settle();
-        Ok(())
+        Ok(if is_fed {
+            ClockSource::Own
+        } else {
+            ClockSource::Internal
+        })
     }
 
     /// Halves the clocks that [`start_clocks`] has brought: the core's is divided before it

@@ -80,7 +80,7 @@ mod chip {
     use super::serial_dma::SerialRoute;
     use super::{FLASH_WAIT_STATES, PLL_N, PLL_R};
     use crate::board::pin_config::AlternateFunction;
-    use crate::board::reset::{ClockError, settle, wait};
+    use crate::board::reset::{ClockSource, NoClock, settle, wait};
     /// Measures the ticks.
     pub(crate) use crate::board::systick::SysTick as Counter;
     use crate::board::wiring::{
@@ -164,7 +164,7 @@ mod chip {
     ///
     /// # Errors
     /// The clock that did not come.
-    pub(crate) fn start_clocks() -> Result<(), ClockError> {
+    pub(crate) fn start_clocks() -> Result<ClockSource, NoClock> {
         const { assert!(PLL_N == 8 && PLL_R == 2) };
         RCC.pllcfgr().write(|w| {
             w.set_pllsrc(Pllsrc::HSI);
@@ -174,7 +174,7 @@ mod chip {
             w.set_pllren(true);
         });
         RCC.cr().modify(|w| w.set_pllon(true));
-        wait(ClockError::NoPll, || RCC.cr().read().pllrdy())?;
+        wait(|| RCC.cr().read().pllrdy())?;
 
         // Wait states before the clock that needs them.
         let wait_states = Latency::from_bits(FLASH_WAIT_STATES);
@@ -183,15 +183,13 @@ mod chip {
             w.set_icen(true);
             w.set_latency(wait_states);
         });
-        wait(ClockError::NoPll, || {
-            FLASH.acr().read().latency() == wait_states
-        })?;
+        wait(|| FLASH.acr().read().latency() == wait_states)?;
         RCC.cfgr().modify(|w| w.set_sw(Sw::PLL1_R));
-        wait(ClockError::NoPll, || RCC.cfgr().read().sws() == Sw::PLL1_R)?;
+        wait(|| RCC.cfgr().read().sws() == Sw::PLL1_R)?;
 
         RCC.apbenr1().modify(|w| w.set_tim3en(true));
         settle();
-        Ok(())
+        Ok(ClockSource::Own)
     }
 
     /// Halves the clocks that [`start_clocks`] has brought: the core's is divided before it
@@ -272,7 +270,8 @@ mod chip {
     pub(crate) fn prepare_for_debuggers() {
         RCC.apbenr1().modify(|w| w.set_dbgen(true));
         settle();
-        // Sleep needs no bit here: the debug port has its clock in sleep too.
+        // No bit is for sleep (RM0444, DBG_CR): bus and RAM keep their clocks in it, as they do
+        // after a reset (RCC_AHBSMENR), and the log can be read.
         DBGMCU.apb1fzr().modify(|w| w.set_iwdg(true));
         DBGMCU.apb2fzr().modify(|w| w.set_tim1(true));
     }

@@ -5,19 +5,35 @@ use core::sync::atomic::{AtomicU32, Ordering};
 
 use firmware::boards::Clocks;
 
-use crate::here::CLOCKS;
+use super::reset::ClockSource;
+use crate::here::FACTS;
 
-/// The clocks of this board as slow sensors need them.
-const HALVED: Clocks = CLOCKS.halved();
+/// The clocks of this board, as they are and as slow sensors need them; and those where it runs by
+/// the chip's oscillator.
+static CLOCKS: [[Clocks; 2]; 2] = [
+    [FACTS.clocks, FACTS.clocks.halved()],
+    [FACTS.clocks_internal, FACTS.clocks_internal.halved()],
+];
 
-/// Ticks a second, and whether the clock is halved.
-static PACE: [AtomicU32; 2] = [AtomicU32::new(0), AtomicU32::new(0)];
+/// Ticks a second, whether the clock is halved, and whether it is the chip's own.
+static PACE: [AtomicU32; 3] = [const { AtomicU32::new(0) }; 3];
 
-/// Sets both, before the first tick and the first line.
+/// Sets the first two, before the first tick and the first line.
 pub(crate) fn set(tick_hz: u32, is_slow: bool) {
-    let [rate, slow] = &PACE;
+    let [rate, slow, _] = &PACE;
     rate.store(tick_hz, Ordering::Relaxed);
     slow.store(is_slow.into(), Ordering::Relaxed);
+}
+
+/// Sets the third, once it is known.
+pub(crate) fn runs_by(source: ClockSource) {
+    let is_internal = source == ClockSource::Internal;
+    PACE[2].store(is_internal.into(), Ordering::Relaxed);
+}
+
+/// Whether it runs by the chip's oscillator, as the clock from outside did not come.
+pub(crate) fn is_internal() -> bool {
+    PACE[2].load(Ordering::Relaxed) != 0
 }
 
 /// Ticks a second; 1 or more.
@@ -41,14 +57,16 @@ pub(crate) fn tenths(counts: u32) -> u16 {
 
 /// The clocks as they run once the start has halved them or not.
 pub(crate) fn clocks() -> &'static Clocks {
-    if PACE[1].load(Ordering::Relaxed) == 0 {
-        &CLOCKS
-    } else {
-        &HALVED
+    let [[own, halved], [internal, internal_halved]] = &CLOCKS;
+    match (PACE[1].load(Ordering::Relaxed) != 0, is_internal()) {
+        (false, false) => own,
+        (true, false) => halved,
+        (false, true) => internal,
+        (true, true) => internal_halved,
     }
 }
 
 /// What stays as it is from the start on.
-pub(crate) const fn constants() -> &'static [AtomicU32; 2] {
+pub(crate) const fn constants() -> &'static [AtomicU32; 3] {
     &PACE
 }

@@ -6,7 +6,7 @@ use stm32_metapac::{EXTI, FLASH, PWR, RCC};
 use crate::board::reset::settle;
 
 /// Threshold of the detector: 2.85 V or more as the supply falls, at most 3.10 V as it rises
-/// (PLS = 110; DS10693, reset and power control block). 160 MHz with five wait states need
+/// (PLS = 110; DS10693, reset and power control block). 144 MHz with four wait states need
 /// 2.7 V (RM0390, table 5), and the board has 3.3 V.
 const LEVEL: u8 = 6;
 

@@ -23,7 +23,7 @@ use super::counters::{MISSED, TICKS, WORST, WrappingCounter};
 use super::integrity::Integrity;
 use super::loading::{Line, Order};
 use super::perception::Names;
-use super::scene::Scene;
+use super::scene::{Pace, Scene};
 use super::serial::{self, Serial};
 use super::signal_pins::SignalPins;
 use super::telemetry::{self, Configs, Exchange, Telemetry};
@@ -92,9 +92,13 @@ pub(crate) fn start(core: cortex_m::Peripherals, queues: &'static mut Queues) ->
     log::start(cause, &start, &found);
     serial::started(cause, &start, &about);
     supply::start();
-    if let Err(error) = here::start_clocks() {
-        faults::die(number::NO_CLOCK, || log::clock(error));
-    }
+    let Ok(source) = here::start_clocks() else {
+        faults::die(number::NO_CLOCK, log::no_clock)
+    };
+    pace::runs_by(source);
+    let Some(pace) = Pace::of(pace::clocks(), pace::tick_hz()) else {
+        faults::die(number::NO_CLOCK, || {})
+    };
     if found.settings.sensor.is_slow {
         here::halve_clocks();
     }
@@ -102,10 +106,7 @@ pub(crate) fn start(core: cortex_m::Peripherals, queues: &'static mut Queues) ->
     let (idle_ends, settings_ways, tick_ends) = queues.link.split();
     let reason = no_scene(&found);
     let Scene {
-        settings,
-        pace,
-        deployed,
-        ..
+        settings, deployed, ..
     } = found;
     let Some(inner) = hardware::start(settings, &pace, Counter::start(core)) else {
         faults::die(number::MODEL, || {})
@@ -154,7 +155,7 @@ pub(crate) fn start(core: cortex_m::Peripherals, queues: &'static mut Queues) ->
         in_use: deployed.map(|deployed| deployed.slot),
         fed: 0,
         logged: 0,
-        before: Health::default(),
+        before: None,
     });
     let Some(idle) = idle else {
         faults::die(number::SETTINGS, || {})
@@ -316,7 +317,7 @@ pub(crate) struct Idle {
     /// Ticks at the last feed of the watchdog, and at the last line on timing.
     fed: u32,
     logged: u32,
-    before: Health,
+    before: Option<Health>,
 }
 
 impl Idle {
@@ -398,14 +399,19 @@ impl Idle {
 
     /// Once a second: how ticks have fared, and the limits that were passed.
     fn health(&mut self) {
+        // A probe that lets go has put them back as they were before it came.
+        here::prepare_for_debuggers();
         let health = Health {
             worst_tenths: pace::tenths(WORST.get()),
             missed: MISSED.get(),
             dropped: DROPPED.get(),
         };
-        let before = core::mem::replace(&mut self.before, health);
+        let before = self.before.replace(health);
+        let is_first = before.is_none();
+        let before = before.unwrap_or_default();
         self.report_now(Event::Health(health));
         for (number, has_passed) in [
+            (number::INTERNAL_CLOCK, is_first && pace::is_internal()),
             (number::MISSED, health.missed != before.missed),
             (number::DROPPED, health.dropped != before.dropped),
         ] {
@@ -428,6 +434,7 @@ macro_rules! program {
         )]
         mod app {
             use $crate::board::program::{self, Events, Idle, Module, Queues, Started};
+            use $crate::board::sleep;
             use $crate::board::tick_timer::TickTimer;
 
             #[shared]
@@ -482,7 +489,7 @@ macro_rules! program {
             fn idle(cx: idle::Context) -> ! {
                 loop {
                     cx.local.idle.run();
-                    cortex_m::asm::wfi();
+                    sleep::until_interrupt();
                 }
             }
         }

@@ -2,22 +2,31 @@
 
 use firmware::boards::CLOCK_WAIT_LOOPS;
 
-/// A clock that did not come.
+/// A clock that a board cannot run without did not come.
 #[derive(Clone, Copy, PartialEq, Eq)]
-pub(crate) enum ClockError {
-    /// Nothing on the HSE input.
-    NoHse,
-    /// The PLL did not lock.
-    NoPll,
+pub(crate) struct NoClock;
+
+/// By what a board runs.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(crate) enum ClockSource {
+    /// By the clock that it is made for.
+    Own,
+    /// By the chip's oscillator, as nothing comes from outside: that of the ST-LINK comes once a PC
+    /// has greeted it, late or, on a supply without a PC, never.
+    Internal,
 }
 
-/// Waits until `ready`, within [`CLOCK_WAIT_LOOPS`].
+/// Whether something is `ready` within [`CLOCK_WAIT_LOOPS`].
+pub(crate) fn comes(ready: impl Fn() -> bool) -> bool {
+    (0..CLOCK_WAIT_LOOPS).any(|_| ready())
+}
+
+/// Waits for what a board cannot run without.
 ///
 /// # Errors
-/// `error` if it did not come.
-pub(crate) fn wait(error: ClockError, ready: impl Fn() -> bool) -> Result<(), ClockError> {
-    let came = (0..CLOCK_WAIT_LOOPS).any(|_| ready());
-    if came { Ok(()) } else { Err(error) }
+/// It did not come.
+pub(crate) fn wait(ready: impl Fn() -> bool) -> Result<(), NoClock> {
+    if comes(ready) { Ok(()) } else { Err(NoClock) }
 }
 
 /// A peripheral answers two cycles after its clock came (errata sheet of the

@@ -1,6 +1,6 @@
 //! Which scene the board runs: that of the newest valid slot, or none.
 
-use firmware::boards::{Misfit, Needs, TickPeriod, newest_first};
+use firmware::boards::{Clocks, Misfit, Needs, TickPeriod, newest_first};
 use firmware::{ConfigError, Field, Header, Links, Part, decode_into};
 use static_cell::StaticCell;
 
@@ -20,25 +20,13 @@ pub(crate) struct Pace {
     pub(crate) slot_counts: u16,
 }
 
-/// That of a board without a scene.
-const PACE_WITHOUT_SCENE: Pace = {
-    let still = Settings::still();
-    let pace = Pace::of(still.head.tick_hz, still.sensor.is_slow);
-    // A constant drops nothing.
-    core::mem::forget(still);
-    match pace {
-        Some(pace) => pace,
-        None => panic!("every board has the rate of a module without a scene"),
-    }
-};
-
 impl Pace {
-    const fn of(tick_hz: u32, is_slow: bool) -> Option<Self> {
-        let clocks = FACTS.clocks_of(is_slow);
-        match (clocks.tick(tick_hz), clocks.slot_counts(tick_hz)) {
-            (Some(tick), Some(slot_counts)) => Some(Self { tick, slot_counts }),
-            _ => None,
-        }
+    /// That of so many ticks a second by these clocks; `None`: they are no such rate's.
+    pub(crate) fn of(clocks: &Clocks, tick_hz: u32) -> Option<Self> {
+        Some(Self {
+            tick: clocks.tick(tick_hz)?,
+            slot_counts: clocks.slot_counts(tick_hz)?,
+        })
     }
 }
 
@@ -58,7 +46,6 @@ pub(crate) struct Deployed {
 /// What a start has found.
 pub(crate) struct Scene {
     pub(crate) settings: &'static mut Settings,
-    pub(crate) pace: Pace,
     /// Where it lies; `None`: there is none, and nothing moves.
     pub(crate) deployed: Option<Deployed>,
     /// Why a slot before it does not count.
@@ -74,14 +61,12 @@ pub(crate) fn find() -> Option<Scene> {
     let settings = SETTINGS.try_init_with(Settings::still)?;
     let mut scene = Scene {
         settings,
-        pace: PACE_WITHOUT_SCENE,
         deployed: None,
         refused: [None; 2],
     };
     for slot in newest_first(slots::headers()) {
         let refused = match read(slot, scene.settings) {
-            Ok((pace, deployed)) => {
-                scene.pace = pace;
+            Ok(deployed) => {
                 scene.deployed = Some(deployed);
                 return Some(scene);
             }
@@ -108,28 +93,28 @@ fn still(settings: &mut Settings) {
 }
 
 /// Reads the scene of a slot into `settings`.
-fn read(slot: usize, settings: &mut Settings) -> Result<(Pace, Deployed), ConfigError> {
+fn read(slot: usize, settings: &mut Settings) -> Result<Deployed, ConfigError> {
     let place = SLOTS.get(slot).ok_or(ConfigError::Absent)?;
     let header = slots::header(place).ok_or_else(|| slots::no_header(place))?;
     let bytes = slots::config(place);
     decode_into(settings, bytes, FACTS.code)?;
-    let pace = fits(settings)?;
+    fits(settings)?;
     let crc = Header::of(bytes)?.crc;
-    let deployed = Deployed {
+    Ok(Deployed {
         slot,
         model: header.model,
         bytes,
         crc,
-    };
-    Ok((pace, deployed))
+    })
 }
 
-/// Whether this board, as the image was built, can do it, and by which timers.
-fn fits(settings: &Settings) -> Result<Pace, ConfigError> {
+/// Whether this board, as the image was built, can do it.
+fn fits(settings: &Settings) -> Result<(), ConfigError> {
     FACTS.fits(&Needs::of(settings)).map_err(Misfit::error)?;
     if usize::from(settings.head.sides) > SIDES.len() {
         return Err(ConfigError::Room(Field::Sides));
     }
-    let pace = Pace::of(settings.head.tick_hz, settings.sensor.is_slow);
-    pace.ok_or(ConfigError::Range(Field::TickHz))
+    let clocks = FACTS.clocks_of(settings.sensor.is_slow);
+    let pace = Pace::of(&clocks, settings.head.tick_hz);
+    pace.map(drop).ok_or(ConfigError::Range(Field::TickHz))
 }

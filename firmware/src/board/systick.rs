@@ -5,7 +5,7 @@ use cortex_m::peripheral::{SYST, syst::SystClkSource};
 use firmware::Clock;
 
 /// SysTick, 24 bits at the core's clock, widened to 32 when it is read. Right as
-/// long as it is read within its round (0.2 s at 80 MHz); each tick reads it
+/// long as it is read within its round (0.2 s at 72 MHz); each tick reads it
 /// twice.
 pub(crate) struct SysTick {
     last: u32,

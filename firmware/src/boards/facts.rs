@@ -12,6 +12,8 @@ pub struct BoardFacts {
     pub code: BoardCode,
     /// With the core's clock as it is; [halved](Clocks::halved) for slow sensors.
     pub clocks: Clocks,
+    /// The same where it runs by the chip's oscillator, as no clock comes from outside.
+    pub clocks_internal: Clocks,
     /// Whether its core computes f32 by itself.
     pub has_fpu: bool,
     /// Most classes of a model.
@@ -38,23 +40,26 @@ impl BoardFacts {
 
 const KIB: u32 = 1024;
 
-/// STM32F446RE, Cortex-M4F at 160 MHz. Its SPI clock is just under the sensor's limit, and the
-/// supply needs no over-drive, as at the chip's 180 MHz it would.
+/// Timers count at twice the clock of their bus.
+const F446_CLOCKS: Clocks = Clocks {
+    core_hz: 144_000_000,
+    spi_hz: 72_000_000 / 256,
+    byte_timer_hz: 72_000_000,
+    tick_timer_hz: 72_000_000,
+    counter_hz: 72_000_000,
+    pwm_hz: 144_000_000,
+    serial_hz: 36_000_000,
+    watchdog_hz: [17_000, 32_000, 47_000],
+}
+.checked();
+
+/// STM32F446RE, Cortex-M4F at 144 MHz. Halved, its SPI clock is just under the limit of a sensor in
+/// its slow mode, and the supply needs no over-drive, as at the chip's 180 MHz it would.
 pub const NUCLEO_F446RE: BoardFacts = BoardFacts {
     name: "NUCLEO-F446RE",
     code: BoardCode::NucleoF446re,
-    // Timers count at twice the clock of their bus.
-    clocks: Clocks {
-        core_hz: 160_000_000,
-        spi_hz: 80_000_000 / 256,
-        byte_timer_hz: 80_000_000,
-        tick_timer_hz: 80_000_000,
-        counter_hz: 80_000_000,
-        pwm_hz: 160_000_000,
-        serial_hz: 40_000_000,
-        watchdog_hz: [17_000, 32_000, 47_000],
-    }
-    .checked(),
+    clocks: F446_CLOCKS,
+    clocks_internal: F446_CLOCKS,
     has_fpu: true,
     // Two tables of 24 by 24 bins then take 36 KiB of the 124 KiB for a model.
     max_classes: 16,
@@ -83,23 +88,39 @@ const SMALL_FLASH: FlashMap = FlashMap::with_one_model(
 /// Two tables of 24 by 24 bins then take 13.5 KiB of the 26 KiB for a model.
 const SMALL_CLASSES: usize = 6;
 
+/// Timers on APB1 count at twice the clock of their bus, those on APB2 at the bus clock
+/// itself, which is not divided.
+const F103_CLOCKS: Clocks = Clocks {
+    core_hz: 72_000_000,
+    spi_hz: 72_000_000 / 256,
+    byte_timer_hz: 72_000_000,
+    tick_timer_hz: 72_000_000,
+    counter_hz: 72_000_000,
+    pwm_hz: 72_000_000,
+    serial_hz: 36_000_000,
+    watchdog_hz: [30_000, 40_000, 60_000],
+}
+.checked();
+
+/// The most that its PLL makes of its own 8 MHz.
+const F103_INTERNAL: Clocks = Clocks {
+    core_hz: 64_000_000,
+    spi_hz: 64_000_000 / 256,
+    byte_timer_hz: 64_000_000,
+    tick_timer_hz: 64_000_000,
+    counter_hz: 64_000_000,
+    pwm_hz: 64_000_000,
+    serial_hz: 32_000_000,
+    watchdog_hz: [30_000, 40_000, 60_000],
+}
+.checked();
+
 /// STM32F103RB, Cortex-M3 at 72 MHz.
 pub const NUCLEO_F103RB: BoardFacts = BoardFacts {
     name: "NUCLEO-F103RB",
     code: BoardCode::NucleoF103rb,
-    // Timers on APB1 count at twice the clock of their bus, those on APB2 at the bus clock
-    // itself, which is not divided.
-    clocks: Clocks {
-        core_hz: 72_000_000,
-        spi_hz: 72_000_000 / 256,
-        byte_timer_hz: 72_000_000,
-        tick_timer_hz: 72_000_000,
-        counter_hz: 72_000_000,
-        pwm_hz: 72_000_000,
-        serial_hz: 36_000_000,
-        watchdog_hz: [30_000, 40_000, 60_000],
-    }
-    .checked(),
+    clocks: F103_CLOCKS,
+    clocks_internal: F103_INTERNAL,
     has_fpu: false,
     max_classes: SMALL_CLASSES,
     takes_opinion: false,
@@ -107,21 +128,25 @@ pub const NUCLEO_F103RB: BoardFacts = BoardFacts {
     flash: SMALL_FLASH,
 };
 
+/// No bus is divided.
+const G071_CLOCKS: Clocks = Clocks {
+    core_hz: 64_000_000,
+    spi_hz: 64_000_000 / 256,
+    byte_timer_hz: 64_000_000,
+    tick_timer_hz: 64_000_000,
+    counter_hz: 64_000_000,
+    pwm_hz: 64_000_000,
+    serial_hz: 64_000_000,
+    watchdog_hz: [29_500, 32_000, 34_000],
+}
+.checked();
+
 /// STM32G071RB, Cortex-M0+ at 64 MHz. No bus is divided.
 pub const NUCLEO_G071RB: BoardFacts = BoardFacts {
     name: "NUCLEO-G071RB",
     code: BoardCode::NucleoG071rb,
-    clocks: Clocks {
-        core_hz: 64_000_000,
-        spi_hz: 64_000_000 / 256,
-        byte_timer_hz: 64_000_000,
-        tick_timer_hz: 64_000_000,
-        counter_hz: 64_000_000,
-        pwm_hz: 64_000_000,
-        serial_hz: 64_000_000,
-        watchdog_hz: [29_500, 32_000, 34_000],
-    }
-    .checked(),
+    clocks: G071_CLOCKS,
+    clocks_internal: G071_CLOCKS,
     has_fpu: false,
     max_classes: SMALL_CLASSES,
     takes_opinion: false,

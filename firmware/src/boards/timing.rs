@@ -2,8 +2,8 @@
 //! its derivation. Arithmetic of 32 bits throughout, as a board computes with it too.
 
 use mlx90333::timing::{
-    BYTE_GAP_FAST_NS, BYTE_GAP_SAFE_NS, CLOCK_MAX_HZ, CLOCK_SLOW_MAX_HZ, SS_LAG_SLOW_NS,
-    SS_LEAD_SLOW_NS, START_UP_WAIT_US,
+    BYTE_GAP_FAST_NS, BYTE_GAP_SAFE_NS, CLOCK_MAX_HZ, CLOCK_SLOW_MAX_HZ, SS_LAG_FAST_NS,
+    SS_LAG_SLOW_NS, SS_LEAD_SLOW_NS, START_UP_WAIT_US,
 };
 
 /// The clocks of a board, Hz.
@@ -137,9 +137,10 @@ impl Clocks {
     }
 
     /// A frame from /SS low to /SS high, ns: one slot before the first byte,
-    /// eight bytes in their slots, of which the last needs no gap.
+    /// eight bytes in their slots, of which the last needs no gap, and the longer of both waits
+    /// after it.
     const fn frame_ns(&self, slot_ns: u32) -> u32 {
-        8 * slot_ns + self.byte_ns()
+        8 * slot_ns + self.byte_ns() + SS_LAG_SLOW_NS
     }
 
     /// The shortest frame, ns.
@@ -223,9 +224,14 @@ impl Clocks {
         (self.watchdog_hz[1] / WATCHDOG_DIVIDER / 50) as u16
     }
 
-    /// Cycles of the core from the last byte to /SS high in the sensor's slow mode.
-    pub const fn lag_cycles(&self) -> u32 {
-        self.core_hz / 1_000_000 * SS_LAG_SLOW_NS / 1_000
+    /// Cycles of the core from a sensor's last byte to /SS high.
+    pub const fn lag_cycles(&self, is_slow: bool) -> u32 {
+        let lag_ns = if is_slow {
+            SS_LAG_SLOW_NS
+        } else {
+            SS_LAG_FAST_NS
+        };
+        self.core_hz / 1_000_000 * lag_ns / 1_000
     }
 
     /// Cycles of the core to wait for the sensor after power-up, with /SS high.

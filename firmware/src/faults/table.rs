@@ -158,6 +158,11 @@ macro_rules! fault_table {
                 "the gap: [mount](build.md#field-and-gap); no contact is reported meanwhile",
                 GoesOn, Counted;
 
+            37 INTERNAL_CLOCK: "the clock is the chip's own",
+                "a supply without a PC, from which the ST-LINK has no clock to give; solder bridges",
+                "whether it matters: times and frequencies are up to 4 % off, and the serial port may not be understood",
+                GoesOn, Restart;
+
             48 PANIC: "panic",
                 "a fault of this program",
                 "keep the line below it and report it",

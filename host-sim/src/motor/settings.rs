@@ -45,7 +45,7 @@ pub struct MotorSettings {
     pub pwm_counts: u16,
 }
 
-/// Steps of the duty on the NUCLEO-F446RE: its timer of 160 MHz at 20 kHz.
+/// Steps of the duty where no board says how many: a timer of 160 MHz at 20 kHz.
 pub const PWM_COUNTS: u16 = 8000;
 
 impl MotorSettings {

@@ -29,7 +29,7 @@ keys! {
     #[derive(Copy)]
     pub struct SensorSection {
         /// The sensor's own mode. In the slow one a board reads at half its clock, 125 to
-        /// 156 kHz, with 50 us between bytes, and a tick takes at least 1.03 ms; take 500 Hz,
+        /// 141 kHz, with 50 us between bytes, and a tick takes at least 1.03 ms; take 500 Hz,
         /// as values are computed no faster. Times from drivers in the field and a sister
         /// part: not confirmed.
         mode: SensorMode = word().default("\"fast\""),
