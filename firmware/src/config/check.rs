@@ -8,8 +8,9 @@ use core::fmt;
 
 use tactile::{Deciding, RuleSettings};
 use whisking::motor::{Driver, GuardConfig, HomingConfig, ModelConfig};
+use whisking::pd::{self, Unborne};
 use whisking::{
-    Bound, Bounded, MAX_WHISKERS, Real, Start, filter, gate, muscle, noise, oscillator, pd,
+    Bound, Bounded, MAX_WHISKERS, Real, Start, filter, gate, muscle, noise, oscillator,
 };
 
 use super::{Config, ConfigError, HeadConfig, Links, MotionConfig, Part, SensingConfig};
@@ -79,6 +80,12 @@ fields! {
     ContactMin = 35: "classifier.contact_min";
     SerialBaud = 36: "telemetry.serial_baud";
     Links = 37: "telemetry";
+    Following = 38: "motor.following_limit_deg";
+    Travel = 39: "motor.travel_margin_deg";
+    TopSpeed = 40: "motor.top_speed_deg_s";
+    Friction = 41: "motor.unmoved_duty";
+    TimeConstant = 42: "motor.time_constant_s";
+    Heat = 43: "motor.continuous_duty";
 }
 
 impl Field {
@@ -110,10 +117,10 @@ const Q24: Bound = Bound::positive(25);
 /// A state of an oscillator or a muscle.
 const STATE: Bound = Bound::signed(2);
 
-type Checked = Result<(), ConfigError>;
+pub(super) type Checked = Result<(), ConfigError>;
 
 #[inline]
-fn require(field: Field, holds: bool) -> Checked {
+pub(super) fn require(field: Field, holds: bool) -> Checked {
     if holds {
         Ok(())
     } else {
@@ -144,7 +151,7 @@ fn if_there<T>(part: Part, value: Option<&T>, check: impl FnOnce(&T) -> Checked)
 }
 
 impl<R: Real> Config<R> {
-    /// Whether a tick can run by it, in this image.
+    /// Whether a tick can run by it, in this image, and its motor settles under its gains.
     ///
     /// # Errors
     /// [`ConfigError::Range`] names the field that is out of its range, or contradicts another;
@@ -159,6 +166,17 @@ impl<R: Real> Config<R> {
             motion.check(&self.head)?;
         }
         if_there(Part::Classifier, self.classifier.as_ref(), classifier)
+    }
+}
+
+impl<R: Real> Config<R> {
+    /// Whether its limits protect a motor that is real.
+    ///
+    /// # Errors
+    /// [`ConfigError::Range`] names the limit that does not.
+    pub(super) fn protects(&self) -> Checked {
+        let motion = self.motion.as_ref().filter(|_| Part::Motion.is_built());
+        motion.map_or(Ok(()), |motion| motion.protects(self.head.tick_hz))
     }
 }
 
@@ -362,6 +380,13 @@ fn of_servo<R: Real>(servo: &ServoConfig<R>) -> Checked {
     require(Field::Guards, lowest <= highest && *heat_shift < 32)?;
     if let Some(model) = model {
         moves(model)?;
+        servo.pd.settles(model).map_err(|unborne| {
+            ConfigError::Range(match unborne {
+                Unborne::Kp => Field::Kp,
+                Unborne::Kd => Field::Kd,
+                Unborne::Slew => Field::Slew,
+            })
+        })?;
     }
     if_there(
         Part::Homing,
