@@ -12,7 +12,7 @@ pub struct Unsettled {
     pub what: Unborne,
     /// The gains and the slew that were found.
     pub found: pd::Settings,
-    /// The largest k_p with the other values.
+    /// The largest k_p with the other values; 0: none.
     pub kp: f64,
     /// The smallest and the largest k_d with the other values, if there is one.
     pub kd: Option<[f64; 2]>,
@@ -33,13 +33,16 @@ impl fmt::Display for Unsettled {
         write!(
             f,
             "motor.{key}: found kp {kp}, kd {kd}, slew_per_s {slew_per_s}; after a step the motor \
-             would overshoot by far, or not come to rest; allowed: kp at most {}",
-            rounded(self.kp)
+             would overshoot by far, or not come to rest; allowed: "
         )?;
-        if let Some([least, most]) = self.kd {
+        let most = rounded(self.kp);
+        let kp = (most > 0.0).then(|| format!("kp at most {most}"));
+        let kd = self.kd.map(|[least, most]| {
             let (least, most) = (rounded_up(least), rounded(most));
-            write!(f, ", or kd from {least} to {most}")?;
-        }
+            format!("kd from {least} to {most}")
+        });
+        let each: Vec<String> = [kp, kd].into_iter().flatten().collect();
+        f.write_str(&each.join(", or "))?;
         f.write_str(", with the other values as they are")
     }
 }

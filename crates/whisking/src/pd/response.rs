@@ -8,7 +8,7 @@
 //! (τ − ω₀ k_d T_v) d²x/dt² + (1 + ω₀ k_d − ω₀ k_p T) dx/dt + ω₀ k_p x = ω₀ k_p s.
 //!
 //! A damping ratio of [`DAMPING`] is asked of it, and that the delays and the slew of the duty stay
-//! small beside what it is driven by. So much leaves room for motors that are not as the model
+//! small beside how fast it swings. So much leaves room for motors that are not as the model
 //! has them: with speed and time constant wrong by 30 %, each way, a step of 5, 20 or 80 degrees
 //! overshoots by at most two thirds of it and then settles, by less than a half in 99 of 100
 //! combinations of motor, gains, encoder and rate (`tests/tests/suite/gains.rs`). Friction only
@@ -24,8 +24,8 @@ const DAMPING: i32 = 6_039_798;
 const LATE_VELOCITY: i32 = 12_582_912;
 /// Most radians that the natural frequency goes through in the delay, 0.5, squared.
 const LATE: i32 = 4_194_304;
-/// The fastest change of the duty, of what a swing of the largest duty at the natural frequency
-/// takes: 2.5 at least, squared; half of it.
+/// The fastest change of the duty, of what a swing at the natural frequency takes: 2.5 at least,
+/// squared; half of it.
 const SLEW: i32 = 52_428_800;
 /// The motor's speed, of the model's, which is weak: 4/3.
 const SPEED: i32 = 22_369_621;
@@ -68,8 +68,10 @@ impl<R: Real> Config<R> {
         if damping < R::ZERO || damping * damping * smooth < pulls * inertia * q24(DAMPING) {
             return Err(Unborne::Kp);
         }
-        let (limit, slew) = (q24(self.limit), q24(self.slew));
-        if slew * slew.halved() < pulls * q24(SLEW) * limit * limit {
+        // An error of a hundred degrees is one.
+        let swing = R::ONE.times(self.kp).clamp(R::ZERO, q24(self.limit));
+        let slew = q24(self.slew);
+        if slew * slew.halved() < pulls * q24(SLEW) * swing * swing {
             return Err(Unborne::Slew);
         }
         Ok(())
