@@ -84,12 +84,11 @@ impl<R: Real> MotionConfig<R> {
         let rests = u32::from(retry.rest) >= tick_hz && retry.window >= 60 * tick_hz;
         require(Field::Retry, rests)?;
         guards(&servo.guards, &servo.pd, &encoder, tick_hz)?;
-        match &servo.guards.model {
-            Some(model) => expects(model, &servo.pd, &encoder, tick_hz)?,
-            None => {
-                let is_coarse = encoder.turns_by(1) > degrees(69);
-                require(Field::Friction, is_coarse || servo.pd.limit <= duty(25))?;
-            }
+        if let Some(model) = &servo.guards.model {
+            expects(model, &servo.pd, &encoder, tick_hz)?;
+        } else {
+            let is_coarse = encoder.turns_by(1) > degrees(69);
+            require(Field::Friction, is_coarse || servo.pd.limit <= duty(25))?;
         }
         let homing = servo.homing.as_ref();
         homing.map_or(Ok(()), |homing| {

@@ -206,7 +206,7 @@ fn limits_that_would_not_protect_are_refused_by_a_board() {
         model(Field::Friction, |model| model.friction = R::from_f64(0.3));
         model(Field::TopSpeed, |model| model.speed = R::coefficient(1e-3));
         model(Field::TimeConstant, |model| {
-            model.rate = R::coefficient(2e-4)
+            model.rate = R::coefficient(2e-4);
         });
         model(Field::Guards, |model| model.missing = R::from_f64(0.1));
         model(Field::Guards, |model| model.doubt = R::from_f64(0.1));
@@ -222,7 +222,7 @@ fn limits_that_would_not_protect_are_refused_by_a_board() {
         check::<R>(Field::Retry, |servo| servo.retry.rest = 0);
         let homing = |change: fn(&mut whisking::motor::HomingConfig)| {
             check::<R>(Field::Homing, |servo| {
-                change(servo.homing.as_mut().unwrap())
+                change(servo.homing.as_mut().unwrap());
             });
         };
         homing(|homing| homing.duty = Duty::FULL);
