@@ -56,8 +56,6 @@ pub(crate) fn check(motor: &MotorSection, degrees_per_count: f64) -> Result<(), 
         motor.continuous_duty,
         allowed::CONTINUOUS_DUTY,
     )?;
-    let slew_per_s = allowed::SLEW_PER_S * motor.duty_limit;
-    within("slew_per_s", motor.slew_per_s, slew_per_s..=1e5)?;
     let is_gentle = motor.duty_limit <= allowed::GENTLE_DUTY;
     let is_coarse = degrees_per_count > allowed::COARSEST_DEG;
     if is_coarse || is_gentle && motor.unmoved_duty >= 2.0 * motor.duty_limit {
@@ -66,6 +64,9 @@ pub(crate) fn check(motor: &MotorSection, degrees_per_count: f64) -> Result<(), 
     }
     let most = motor.top_speed_deg_s / allowed::ACCELERATION_DEG_S2;
     within("time_constant_s", motor.time_constant_s, 1e-3..=most)?;
-    let most = allowed::UNMOVED_DUTY.min(motor.duty_limit);
-    within("unmoved_duty", motor.unmoved_duty, 0.0..=most)
+    within(
+        "unmoved_duty",
+        motor.unmoved_duty,
+        0.0..=allowed::UNMOVED_DUTY,
+    )
 }

@@ -10,7 +10,7 @@ use whisking::motor::{GuardConfig, HomingConfig, ModelConfig};
 use whisking::pd;
 
 use super::MotionConfig;
-use super::check::{Checked, Field, require};
+use super::check::Field;
 
 /// The ranges of keys on a board, in the units of the keys, with the reason for each.
 pub mod allowed {
@@ -28,7 +28,7 @@ pub mod allowed {
     /// `top_speed_deg_s` by `time_constant_s` at least: a little less than the slowest of those has.
     /// Of a motor that is slower nothing would be missed within half a whisk.
     pub const ACCELERATION_DEG_S2: f64 = 5e4;
-    /// `unmoved_duty` at most, and at most `duty_limit`: four times the friction of the papers'
+    /// `unmoved_duty` at most: four times the friction of the papers'
     /// motor. From more on a board expects nothing of a motor, which it must.
     pub const UNMOVED_DUTY: f64 = 0.5;
     /// Up to this `duty_limit` a board need not expect anything.
@@ -36,10 +36,14 @@ pub mod allowed {
     /// `continuous_duty`: half of the heat of a motor that is held at full duty, which it then
     /// bears for 5.4 s.
     pub const CONTINUOUS_DUTY: RangeInclusive<f64> = 0.0..=0.7;
-    /// `slew_per_s` by `duty_limit` at least, 1/s: the drive turns round within 40 ms.
-    pub const SLEW_PER_S: f64 = 50.0;
     /// Degrees a count of the coarsest encoder that can show whether a motor moves.
     pub const COARSEST_DEG: f64 = 0.7;
+}
+
+type Protected = Result<(), Field>;
+
+fn require(field: Field, holds: bool) -> Protected {
+    if holds { Ok(()) } else { Err(field) }
 }
 
 /// So many hundredths of a degree as protraction, Q24.
@@ -56,60 +60,54 @@ const fn duty(hundredths: i32) -> i32 {
 struct Encoder<R: Real>(R::Coefficient);
 
 impl<R: Real> Encoder<R> {
+    // Small rather than fast, as all here.
+    #[inline(never)]
     fn turns_by(&self, counts: i32) -> i32 {
         R::from_counts(counts, self.0).to_q24()
     }
 
-    /// Whether so many counts are these hundredths of a degree at most, or one more.
-    fn is_within(&self, counts: u32, hundredths: i32) -> bool {
+    /// Whether so many counts are as much protraction, Q24, at most, or one more.
+    fn is_within(&self, counts: u32, most: i32) -> bool {
         let counts = i32::try_from(counts).unwrap_or(i32::MAX);
-        self.turns_by(counts.saturating_sub(1)) <= degrees(hundredths)
+        self.turns_by(counts - 1) <= most
     }
 }
 
 /// Whether ticks last so many milliseconds at most, but for rounding.
-const fn lasts(ticks: u32, milliseconds: u32, tick_hz: u32) -> bool {
-    ticks.saturating_sub(1) <= milliseconds * tick_hz / 1_000
+#[inline(never)]
+const fn lasts(ticks: u16, milliseconds: u32, tick_hz: u32) -> bool {
+    1_000 * ticks as u32 <= milliseconds * tick_hz + 1_000
+}
+
+#[inline(never)]
+fn times<R: Real>(x: R, factor: R::Coefficient) -> R {
+    x.times(factor)
 }
 
 impl<R: Real> MotionConfig<R> {
     /// Whether its limits protect a motor that is real, at so many ticks a second.
     #[inline(never)]
-    pub(super) fn protects(&self, tick_hz: u32) -> Checked {
+    pub(super) fn protects(&self, tick_hz: u32) -> Protected {
         let servo = &self.servo;
         let encoder = Encoder::<R>(servo.pd.theta_per_count);
         require(Field::Encoder, encoder.turns_by(256) > 0)?;
-        drives(&servo.pd, tick_hz)?;
+        let [least, most] = [servo.pd.min, servo.pd.max].map(R::to_q24);
+        // Protraction is 0 at 50 degrees.
+        let is_near = least >= degrees(-14_001) && most <= degrees(22_001);
+        require(Field::Angles, is_near)?;
         let retry = servo.retry;
         let rests = u32::from(retry.rest) >= tick_hz && retry.window >= 60 * tick_hz;
         require(Field::Retry, rests)?;
         guards(&servo.guards, &servo.pd, &encoder, tick_hz)?;
         if let Some(model) = &servo.guards.model {
-            expects(model, &servo.pd, &encoder, tick_hz)?;
+            expects(model, &encoder, tick_hz)?;
         } else {
             let is_coarse = encoder.turns_by(1) > degrees(69);
             require(Field::Friction, is_coarse || servo.pd.limit <= duty(25))?;
         }
         let homing = servo.homing.as_ref();
-        homing.map_or(Ok(()), |homing| {
-            homes(homing, servo.pd.limit, &encoder, tick_hz)
-        })
+        homing.map_or(Ok(()), |homing| homes(homing, servo.pd.limit, tick_hz))
     }
-}
-
-fn drives<R: Real>(pd: &pd::Config<R>, tick_hz: u32) -> Checked {
-    let [least, most] = [pd.min, pd.max].map(R::to_q24);
-    // Protraction is 0 at 50 degrees.
-    let is_near = least >= degrees(-14_001) && most <= degrees(22_001);
-    require(Field::Angles, is_near)?;
-    // The corner of the low-pass is at a third of the lowest rate at most.
-    let smooth = R::ONE.times(pd.smooth).to_q24();
-    require(Field::Kd, smooth >= 1 << 18)?;
-    let slew = pd.limit.unsigned_abs() / (tick_hz / 50).max(1);
-    require(
-        Field::Slew,
-        pd.slew.unsigned_abs() >= slew.saturating_sub(1),
-    )
 }
 
 fn guards<R: Real>(
@@ -117,76 +115,52 @@ fn guards<R: Real>(
     pd: &pd::Config<R>,
     encoder: &Encoder<R>,
     tick_hz: u32,
-) -> Checked {
+) -> Protected {
     let hard = i32::from(guards.stall.threshold.magnitude()) << 10;
     let is_found = hard <= pd.limit.saturating_add(1 << 10)
-        && lasts(guards.stall.ticks.into(), 200, tick_hz)
-        && encoder.is_within(guards.against, 4_550);
+        && encoder.is_within(guards.against, degrees(4_550))
+        && lasts(guards.stall.ticks.max(guards.error_ticks), 250, tick_hz);
     require(Field::Guards, is_found)?;
-    let is_near =
-        guards.error.to_q24() <= degrees(9_001) && lasts(guards.error_ticks.into(), 40, tick_hz);
-    require(Field::Following, is_near)?;
+    require(Field::Following, guards.error.to_q24() <= degrees(9_001))?;
     let [lowest, highest] = guards.travel;
     let [least, most] = [pd.min.to_q24().min(0), pd.max.to_q24().max(0)];
     let margin = degrees(4_550);
     let is_near = encoder.turns_by(lowest) >= least - margin
         && encoder.turns_by(highest.saturating_sub(1)) <= most + margin;
     require(Field::Travel, is_near)?;
-    // 600 units a second, in which a tick is not rounded away.
-    let fastest = (601 << 20) / tick_hz.max(1);
-    let counts = i32::try_from(guards.speed).unwrap_or(i32::MAX);
-    let speed = encoder.turns_by(counts.saturating_sub(1)) >> 4;
-    require(Field::TopSpeed, speed.unsigned_abs() <= fastest)?;
+    // 600 units a second are too many for 32 bits: 120, and five ticks.
+    let fastest = (120_u32 << 24) / tick_hz.max(1);
+    let is_slow = encoder.is_within(guards.speed / 5, fastest.cast_signed());
+    require(Field::TopSpeed, is_slow)?;
     // 0.7 squared; 12 s.
     let cools = guards.heat <= 526_150_000 && 1_u32 << (guards.heat_shift & 31) <= 12 * tick_hz;
     require(Field::Heat, cools)
 }
 
 /// Whether it misses motion soon. Its own constants are those of every model.
-fn expects<R: Real>(
-    model: &ModelConfig<R>,
-    pd: &pd::Config<R>,
-    encoder: &Encoder<R>,
-    tick_hz: u32,
-) -> Checked {
-    let friction = model.friction.to_q24();
-    let most = duty(25).min(pd.limit / 2);
-    require(Field::Friction, friction <= most.saturating_add(1 << 8))?;
+fn expects<R: Real>(model: &ModelConfig<R>, encoder: &Encoder<R>, tick_hz: u32) -> Protected {
+    let is_small = model.friction.to_q24() <= duty(25);
+    require(Field::Friction, is_small)?;
     // Of the least speed and acceleration 0.6 is expected.
-    let a_second = |units: u32| ((units << 24) / tick_hz.max(1)).saturating_sub(1);
-    let speed = R::ONE.times(model.speed);
-    let is_fast = speed.to_q24().unsigned_abs() >= a_second(14);
+    let unit = (1 << 24) / tick_hz.max(1);
+    let speed = times(R::ONE, model.speed);
+    let is_fast = speed.to_q24().unsigned_abs() >= 14 * unit;
     require(Field::TopSpeed, is_fast)?;
-    let gains = speed.times(model.rate).to_q24().unsigned_abs();
-    // 300 a second in a second.
-    let is_quick = gains >= (2 * a_second(149) / tick_hz.max(1)).saturating_sub(1);
+    let gains = times(speed, model.rate).to_q24().unsigned_abs();
+    let is_quick = gains >= (298 * unit / tick_hz.max(1)).saturating_sub(1);
     require(Field::TimeConstant, is_quick)?;
-    let missing = model.missing.to_q24();
-    let way = R::from_q24(model.test).times(model.speed).times(model.rate);
-    let way = way.times(model.root_stop).times(model.root_stop);
+    let missing = model.missing.max(model.doubt).to_q24();
     let shown = R::from_counts(100, model.shown).to_q24();
     let is_kept = missing <= degrees(301)
-        && model.doubt.to_q24() <= missing
-        && way.to_q24() >= duty(40)
         && shown <= encoder.turns_by(260)
         && model.turned >= 3
-        && lasts(model.stroke.into(), 250, tick_hz)
-        && lasts(model.grace.into(), 40, tick_hz);
+        && lasts(model.stroke.max(model.grace), 250, tick_hz);
     require(Field::Guards, is_kept)
 }
 
-fn homes<R: Real>(
-    homing: &HomingConfig,
-    limit: i32,
-    encoder: &Encoder<R>,
-    tick_hz: u32,
-) -> Checked {
+/// Whether it is looked for gently, and not for long.
+fn homes(homing: &HomingConfig, limit: i32, tick_hz: u32) -> Protected {
     let hard = i32::from(homing.duty.magnitude()) << 10;
-    let is_gentle = hard <= limit.saturating_add(1 << 10)
-        && lasts(homing.still.into(), 100, tick_hz)
-        && lasts(homing.time_out.into(), 3_000, tick_hz)
-        && encoder.is_within(homing.forward.unsigned_abs(), 550)
-        && homing.stop <= 0
-        && homing.every <= 86_400 * tick_hz;
+    let is_gentle = hard <= limit.saturating_add(1 << 10) && lasts(homing.time_out, 3_000, tick_hz);
     require(Field::Homing, is_gentle)
 }

@@ -214,10 +214,8 @@ fn limits_that_would_not_protect_are_refused_by_a_board() {
         model(Field::Guards, |model| model.turned = 0);
         model(Field::Guards, |model| model.stroke = u16::MAX);
         model(Field::Guards, |model| model.grace = u16::MAX);
-        model(Field::Guards, |model| model.root_stop = R::coefficient(0.0));
         check::<R>(Field::Angles, |servo| servo.pd.max = number(2.5));
         check::<R>(Field::Angles, |servo| servo.pd.min = number(-2.0));
-        check::<R>(Field::Slew, |servo| servo.pd.slew = 1000);
         check::<R>(Field::Retry, |servo| servo.retry.window = 0);
         check::<R>(Field::Retry, |servo| servo.retry.rest = 0);
         let homing = |change: fn(&mut whisking::motor::HomingConfig)| {
@@ -226,11 +224,7 @@ fn limits_that_would_not_protect_are_refused_by_a_board() {
             });
         };
         homing(|homing| homing.duty = Duty::FULL);
-        homing(|homing| homing.still = u16::MAX);
         homing(|homing| homing.time_out = u16::MAX);
-        homing(|homing| homing.forward = i32::MAX);
-        homing(|homing| homing.stop = 1);
-        homing(|homing| homing.every = u32::MAX);
     }
     all::<f32>();
     all::<f64>();

@@ -55,7 +55,7 @@ keys! {
         /// Largest magnitude of the duty.
         duty_limit: f64 = number(ranges::pd::LIMIT).default("1.0"),
 
-        /// Fastest change of the duty. On a board at least 50 times `duty_limit`.
+        /// Fastest change of the duty. As `kp`.
         slew_per_s: f64 = positive(1e5).unit("duty per second").default("400.0"),
 
         /// Lower limit of the setpoint; below `max_deg`. On a board at least -90.
@@ -88,7 +88,7 @@ keys! {
         /// of it does not move the whisker as the motor should, that is tested by a short stroke,
         /// and is a fault if it fails. Friction that is larger by up to four times costs such
         /// strokes and is no fault. From 1.6 on nothing is expected of the motor. On a board at most
-        /// 0.5 and `duty_limit`, if that is above 0.25.
+        /// 0.5, if `duty_limit` is above 0.25.
         unmoved_duty: f64 = number(0.0..=2.0).default("0.12"),
 
         /// Time in which the motor comes to 63 % of its speed, with gear and whisker

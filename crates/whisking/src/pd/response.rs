@@ -51,29 +51,44 @@ impl<R: Real> Config<R> {
     pub fn settles(&self, model: &ModelConfig<R>) -> Result<(), Unborne> {
         let q24 = R::from_q24;
         // Per tick: 1/τ, ω₀/τ, and with the gains.
-        let rate = R::ONE.times(model.rate);
-        let drive = rate.times(model.speed) * q24(SPEED);
-        let (damps, pulls) = (drive.times(self.kd), drive.times(self.kp));
+        let rate = times(R::ONE, model.rate);
+        let drive = product(times(rate, model.speed), q24(SPEED));
+        let (damps, pulls) = (times(drive, self.kd), times(drive, self.kp));
         // 1/smooth ticks and a half is T_v: all is multiplied by it.
-        let smooth = R::ONE.times(self.smooth);
+        let smooth = times(R::ONE, self.smooth);
         let late = R::ONE + smooth.halved();
-        if damps * late > smooth * q24(LATE_VELOCITY) {
+        let damps_late = product(damps, late);
+        if damps_late > product(smooth, q24(LATE_VELOCITY)) {
             return Err(Unborne::Kd);
         }
-        if pulls > smooth || pulls * late * late > smooth * smooth * q24(LATE) {
+        let turns = product(product(pulls.clamp(R::ZERO, R::ONE), late), late);
+        if turns > product(product(smooth, smooth), q24(LATE)) {
             return Err(Unborne::Kp);
         }
         let damping = rate + damps - pulls - pulls.halved();
-        let inertia = smooth - damps * late;
-        if damping < R::ZERO || damping * damping * smooth < pulls * inertia * q24(DAMPING) {
+        let damped = product(product(damping, damping), smooth);
+        let inertia = product(product(pulls, smooth - damps_late), q24(DAMPING));
+        if damping < R::ZERO || damped < inertia {
             return Err(Unborne::Kp);
         }
         // An error of a hundred degrees is one.
-        let swing = R::ONE.times(self.kp).clamp(R::ZERO, q24(self.limit));
+        let swing = times(R::ONE, self.kp).clamp(R::ZERO, q24(self.limit));
+        let needed = product(product(product(pulls, q24(SLEW)), swing), swing);
         let slew = q24(self.slew);
-        if slew * slew.halved() < pulls * q24(SLEW) * swing * swing {
+        if product(slew, slew.halved()) < needed {
             return Err(Unborne::Slew);
         }
         Ok(())
     }
+}
+
+// Not in the tick: small rather than fast.
+#[inline(never)]
+fn product<R: Real>(x: R, y: R) -> R {
+    x * y
+}
+
+#[inline(never)]
+fn times<R: Real>(x: R, factor: R::Coefficient) -> R {
+    x.times(factor)
 }
