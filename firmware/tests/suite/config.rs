@@ -197,7 +197,7 @@ fn limits_that_would_not_protect_are_refused_by_a_board() {
         guards(Field::Guards, |guards| guards.stall.ticks = u16::MAX);
         guards(Field::Guards, |guards| guards.against = u32::MAX);
         guards(Field::Following, |guards| guards.error = R::from_f64(1.0));
-        guards(Field::Following, |guards| guards.error_ticks = u16::MAX);
+        guards(Field::Guards, |guards| guards.error_ticks = u16::MAX);
         guards(Field::Travel, |guards| guards.travel[0] = i32::MIN);
         guards(Field::Travel, |guards| guards.travel[1] = i32::MAX);
         guards(Field::TopSpeed, |guards| guards.speed = u32::MAX);
