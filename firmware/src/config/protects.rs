@@ -2,8 +2,8 @@
 //! leave open. Then a motor whose encoder stands still is not driven for long, whatever it is
 //! told (`tests/tests/suite/limits.rs` has the time).
 //!
-//! The times of guards are the firmware's own and have no key, so that they can only be as long
-//! as those. What has a key has the range that [`allowed`] names.
+//! The times of guards have no key: a quarter of a second is the most that one can be. What has a
+//! key has the range that [`allowed`] names.
 
 use whisking::Real;
 use whisking::motor::{GuardConfig, HomingConfig, ModelConfig};
