@@ -6,6 +6,7 @@ mod file;
 mod hands;
 mod links;
 mod said;
+mod staging;
 
 use std::path::{Path, PathBuf};
 
@@ -15,7 +16,7 @@ use host_sim::loaded::Loaded;
 use host_sim::output::{self, write_whole};
 use scene::{PlantKind, Scene};
 
-use crate::deployment::flashed;
+use crate::deployment::{flashed, model_of};
 use crate::session::Session;
 use crate::watch::Servos;
 use figures::{Figures, Outcome};
@@ -62,7 +63,11 @@ impl Choice {
         scenario.fits(&self.scenario, &loaded.scene)?;
         let session = Session::running(&loaded.scene, loaded.classes()?, &program)?;
         let servos = Servos::new(&program, &loaded.scene)?;
-        let outcome = run(session, &servos, &loaded.scene, &scenario)?;
+        let facts = program.model()?.facts;
+        let model = model_of(&loaded.scene, &self.scene)?;
+        let stage = |change| staging::frames(change, &loaded.scene, model.as_ref(), facts);
+        let links = Links::new(&scenario, &loaded.scene, stage)?;
+        let outcome = run(session, &servos, &loaded.scene, (&scenario, links))?;
         write_whole(&self.json, outcome.json()?.as_bytes())?;
         Ok(())
     }
@@ -87,11 +92,10 @@ fn run(
     mut session: Session,
     servos: &Servos,
     scene: &Scene,
-    scenario: &Scenario,
+    (scenario, mut links): (&Scenario, Links<'_>),
 ) -> Result<Outcome, Error> {
     session.bear_resets(true);
     let mut hands = Hands::new(scenario);
-    let mut links = Links::new(scenario, scene);
     let mut lister = Lister::default();
     let mut figures = Figures::new(scene);
     for _ in 0..session.run.ticks() {

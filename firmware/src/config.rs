@@ -15,6 +15,7 @@
 mod bytes;
 mod check;
 mod parts;
+mod protects;
 mod shape;
 
 use serde::{Deserialize, Serialize};
@@ -32,6 +33,7 @@ pub use bytes::{
 };
 pub use check::Field;
 pub use parts::Part;
+pub use protects::allowed;
 
 /// Longest name of a scene, bytes.
 pub const NAME_BYTES: usize = 64;

@@ -52,8 +52,8 @@ mod zero;
 pub use button::{Button, ButtonLimits};
 pub use config::{
     BoardCode, CONFIG_BYTES, Config, ConfigBytes, ConfigError, Field, HEADER_BYTES, HeadConfig,
-    Header, Links, MotionConfig, NAME_BYTES, OVERRIDES_BYTES, Part, SensingConfig, VERSION, decode,
-    decode_into, encode,
+    Header, Links, MotionConfig, NAME_BYTES, OVERRIDES_BYTES, Part, SensingConfig, VERSION,
+    allowed, decode, decode_into, encode,
 };
 #[cfg(feature = "tmag5170")]
 pub use event::TiltFault;

@@ -328,9 +328,11 @@ pub fn build(
 /// What is wrong with a scene for its module.
 fn broken(mismatch: Mismatch) -> Error {
     match mismatch {
-        Mismatch::Unstable(_) | Mismatch::Gate { .. } | Mismatch::Threshold { .. } => {
-            Error::Input(mismatch.to_string())
-        }
+        Mismatch::Unstable(_)
+        | Mismatch::Unbearable(_)
+        | Mismatch::Unsettled(_)
+        | Mismatch::Gate { .. }
+        | Mismatch::Threshold { .. } => Error::Input(mismatch.to_string()),
         mismatch => Error::Work(mismatch.to_string()),
     }
 }

@@ -109,6 +109,45 @@ const ROWS: &[Row] = &[
         &["motor.driver=six-step"],
         &[Faults(true), INSIDE, SOON],
     ),
+    row(
+        "opened-limits",
+        &[],
+        &[
+            Least(
+                "answers/refused apply: guards of the motor: out of range",
+                2.0,
+            ),
+            Most("answers/ok apply", 0.0),
+            Faults(true),
+            INSIDE,
+            SOON,
+            STAYS_OFF,
+        ],
+    ),
+    row(
+        "widened-limits",
+        &[],
+        &[
+            Least(
+                "answers/refused apply: guards of the motor: changes only while no motor is armed",
+                5.0,
+            ),
+            Faults(true),
+            INSIDE,
+            SOON,
+            STAYS_OFF,
+        ],
+    ),
+    row(
+        "wild-gains",
+        &[],
+        &[
+            Least("answers/refused apply: motor.kp: out of range", 5.0),
+            Faults(false),
+            INSIDE,
+            Least("driven_s", 3.0),
+        ],
+    ),
     row("noisy-encoder", &[], WHISKS_ON),
     row(
         "reversed-encoder",
@@ -254,6 +293,8 @@ const SHORT: &[&str] = &[
     "stuck-encoder",
     "jittering-encoder whisking.frequency_hz=0.5",
     "reversed-encoder",
+    "opened-limits",
+    "wild-gains",
     "stop-under-flood",
     "probe-stop-under-flood",
     "reset-after-stop",

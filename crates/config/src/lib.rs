@@ -9,6 +9,8 @@ mod fits;
 mod image;
 mod module;
 mod numbers;
+mod protecting;
+mod settling;
 mod stability;
 
 pub use bearable::Unbearable;
@@ -16,6 +18,8 @@ pub use fits::Unfit;
 pub use image::{AnyConfig, Image, image};
 pub use module::{GATE, RunsOn, Target, build};
 pub use numbers::{NoSuchFormat, NumberFormat, in_simulation, on_board};
+pub use protecting::Unprotected;
+pub use settling::Unsettled;
 pub use stability::{Instability, Unstable};
 
 use scene::Scene;
@@ -37,6 +41,12 @@ pub enum Mismatch {
     /// Its motor cannot bear its whisking.
     #[error(transparent)]
     Unbearable(#[from] Unbearable),
+    /// Its motor does not settle under its gains.
+    #[error(transparent)]
+    Unsettled(#[from] Unsettled),
+    /// A limit of a board's motor does not protect it.
+    #[error(transparent)]
+    Unprotected(#[from] Unprotected),
     /// Its classifier listens from another contact on than its model was trained from.
     #[error(
         "classifier.contact_min: found {found}; allowed: {gate}, from which the model was trained, \

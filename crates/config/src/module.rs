@@ -10,8 +10,8 @@ use tactile::{RuleSettings, Threshold};
 use whisking::motor::{GuardSettings, HomingSettings, ModelSettings};
 use whisking::{Real, filter, pd};
 
-use crate::bearable;
 use crate::{Mismatch, check, contact, contact_min, settings};
+use crate::{bearable, protecting, settling};
 
 /// Contact from which a sample counts in a recording, unless the scene says otherwise.
 pub const GATE: f64 = 0.05;
@@ -73,7 +73,7 @@ pub fn build<R: Real>(scene: &Scene, target: Target<'_>) -> Result<Config<R>, Mi
             limits: sensor(scene, is_ideal),
         },
         contact,
-        motion: motion(scene, is_ideal)?,
+        motion: motion(scene, runs_on)?,
         classifier: listens
             .then(|| -> Result<_, Mismatch> {
                 Ok(ClassifierConfig {
@@ -162,7 +162,9 @@ pub(crate) fn rule_settings(rule: Rule) -> Result<RuleSettings, Mismatch> {
 }
 
 /// How the whiskers of a scene move; `None`: they are passive.
-fn motion<R: Real>(scene: &Scene, is_ideal: bool) -> Result<Option<MotionConfig<R>>, Mismatch> {
+fn motion<R: Real>(scene: &Scene, runs_on: RunsOn) -> Result<Option<MotionConfig<R>>, Mismatch> {
+    let is_board = runs_on == RunsOn::Board;
+    let is_ideal = !is_board && scene.plant.kind == PlantKind::Ideal;
     let (Some(settings), Some(whisking), Some(motor)) =
         (settings(scene), &scene.whisking, &scene.motor)
     else {
@@ -190,7 +192,12 @@ fn motion<R: Real>(scene: &Scene, is_ideal: bool) -> Result<Option<MotionConfig<
         GuardSettings::NONE
     } else {
         bearable::check(whisking, motor)?;
-        guards(motor, degrees_per_count)
+        if is_board {
+            protecting::check(motor, degrees_per_count)?;
+        }
+        let guards = guards(motor, degrees_per_count);
+        settling::check(&pd, &guards, tick_hz)?;
+        guards
     };
     let finds_rest = motor.rest == Rest::Find && !is_ideal;
     let approach = motor.approach_deg_s / tick_hz / whisking::DEGREES_PER_UNIT;

@@ -15,7 +15,8 @@ fn scene(frequency_hz: f64, tick_hz: u32, integrator: &str, tau_s: [f64; 2]) -> 
          [whisking]\nfrequency_hz = {frequency_hz:?}\nintegrator = \"{integrator}\"\n\
          coupling = true\nnoise = 0.0\ngain = 1.0\nstart = [[1.0, 0.0], [0.6, 0.5]]\n\
          [rcp]\ngain = 0.7\ntau_s = {rcp:?}\n[cia]\ngain = 0.5\ntau_s = {cia:?}\n\
-         [plant]\nkind = \"ideal\"\n"
+         [plant]\nkind = \"ideal\"\n\
+         [motor]\nkp = 0.005\nkd = 0.0001\n"
     );
     Scene::from_str("s.toml", &text).unwrap()
 }

@@ -38,6 +38,7 @@ impl Bound {
 
     /// The same of a mantissa that is below 2^`scale`; its own bits are not looked at, so that
     /// up to four times the largest is allowed.
+    #[inline(never)]
     pub(crate) fn holds_scaled(self, mantissa: i32, scale: i32) -> bool {
         let is_small = mantissa == 0 || scale <= i32::from(self.power) + 1;
         self.holds(mantissa < 0, is_small)

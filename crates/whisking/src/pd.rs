@@ -7,7 +7,11 @@
 //! duty and its limits are integers in every number format, as a timer's register
 //! takes them.
 
+mod response;
+
 use serde::{Deserialize, Serialize};
+
+pub use response::Unborne;
 
 use crate::motor::Duty;
 use crate::ranges::pd as ranges;

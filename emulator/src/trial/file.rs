@@ -8,6 +8,7 @@ use std::path::Path;
 
 use host_sim::Error;
 use scene::{Scene, SensorModel};
+use serde::Deserialize;
 use wire::Command;
 
 use super::wrong;
@@ -36,8 +37,21 @@ pub(super) enum What {
     MagnetGone,
     Serial { line: String },
     Probe { command: Command },
+    Configuration { change: Change },
     Button,
     PowerOff,
+}
+
+/// What a configuration that is sent has in place of the board's own.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub(super) enum Change {
+    /// No guard is ever met.
+    NoLimits,
+    /// Some guards are as wide as a board takes them.
+    WideLimits,
+    /// Twenty times `kp`, and no `kd`.
+    WildGains,
 }
 
 /// An event.
@@ -108,7 +122,9 @@ impl Scenario {
         for event in &self.events {
             let what = &event.what;
             let missing = match what {
-                What::Serial { .. } if scene.telemetry.serial_baud.is_none() => {
+                What::Serial { .. } | What::Configuration { .. }
+                    if scene.telemetry.serial_baud.is_none() =>
+                {
                     "a serial event, but the scene has no telemetry.serial_baud"
                 }
                 What::Probe { .. } if !scene.telemetry.rtt => {
@@ -161,6 +177,7 @@ impl What {
                 | Self::Supply { .. }
                 | Self::Hand { .. }
                 | Self::Held
+                | Self::Configuration { .. }
         )
     }
 }

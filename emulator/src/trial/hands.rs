@@ -46,7 +46,11 @@ impl Around {
             What::SensorFrozen => self.sensor = Some(WireFault::Frozen),
             What::SensorGone => self.sensor = Some(WireFault::Silent),
             What::MagnetGone => self.sensor = Some(WireFault::NoField),
-            What::Serial { .. } | What::Probe { .. } | What::Button | What::PowerOff => {}
+            What::Serial { .. }
+            | What::Probe { .. }
+            | What::Configuration { .. }
+            | What::Button
+            | What::PowerOff => {}
         }
     }
 }

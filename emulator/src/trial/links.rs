@@ -5,9 +5,9 @@ use std::collections::VecDeque;
 use host_sim::Error;
 use scene::Scene;
 use wire::text::Spoken;
-use wire::{Command, TaggedCommand};
+use wire::{Command, Frame, TaggedCommand};
 
-use super::file::{Event, Scenario, What};
+use super::file::{Change, Event, Scenario, What};
 use crate::chip::Chip;
 use crate::session::Session;
 
@@ -15,6 +15,8 @@ use crate::session::Session;
 const BITS: f64 = 10.0;
 /// More than so many bytes never wait at the other end of the serial line.
 const MOST_WAITING: usize = 1 << 16;
+/// From one frame of a configuration to the next: it is answered in between, s.
+const FRAME_S: f64 = 2e-3;
 /// So many requests in a tick are more than the probe's ring holds.
 const MOST_A_TICK: usize = 256;
 
@@ -45,17 +47,21 @@ struct Sender<'s> {
     sent: u64,
     /// It asks for more than the serial line carries.
     is_flood: bool,
+    /// A configuration, which is sent again and again.
+    frames: Vec<Frame>,
 }
 
 impl Sender<'_> {
     /// When it sends next; never once it has ended.
     fn next_s(&self) -> Option<f64> {
         let at_s = match self.event.repeat_hz {
+            _ if !self.frames.is_empty() => self.event.at_s + self.sent as f64 * FRAME_S,
             None => (self.sent == 0).then_some(self.event.at_s)?,
             Some(repeat_hz) => self.event.at_s + self.sent as f64 / repeat_hz,
         };
         let is_in_time = self.event.until_s.is_none_or(|until| at_s < until);
-        (is_in_time || self.event.repeat_hz.is_none()).then_some(at_s)
+        let is_once = self.event.repeat_hz.is_none() && self.frames.is_empty();
+        (is_in_time || is_once).then_some(at_s)
     }
 
     /// What it would have sent before is not sent.
@@ -83,28 +89,33 @@ pub(super) struct Links<'s> {
 }
 
 impl<'s> Links<'s> {
-    pub(super) fn new(scenario: &'s Scenario, scene: &Scene) -> Self {
+    /// `stage` has the frames of a configuration.
+    pub(super) fn new(
+        scenario: &'s Scenario,
+        scene: &Scene,
+        stage: impl Fn(Change) -> Result<Vec<Frame>, Error>,
+    ) -> Result<Self, Error> {
         let tick_hz = f64::from(scene.tick_hz);
         let bytes_s = f64::from(scene.telemetry.serial_baud.unwrap_or(0)) / BITS;
-        let sender = |event: &'s Event| match &event.what {
-            What::Serial { line } => {
-                let asked = event.repeat_hz.unwrap_or(0.0) * (line.len() + 1) as f64;
-                Some(Sender {
-                    event,
-                    sent: 0,
-                    is_flood: asked >= bytes_s,
-                })
-            }
-            What::Probe { .. } => Some(Sender {
+        let mut senders = Vec::new();
+        for event in &scenario.events {
+            let asked = |line: &str| event.repeat_hz.unwrap_or(0.0) * (line.len() + 1) as f64;
+            let (is_flood, frames) = match &event.what {
+                What::Serial { line } => (asked(line) >= bytes_s, Vec::new()),
+                What::Probe { .. } => (false, Vec::new()),
+                What::Configuration { change } => (false, stage(*change)?),
+                _ => continue,
+            };
+            senders.push(Sender {
                 event,
                 sent: 0,
-                is_flood: false,
-            }),
-            _ => None,
-        };
+                is_flood,
+                frames,
+            });
+        }
         let events = scenario.events.iter();
-        Self {
-            senders: events.clone().filter_map(sender).collect(),
+        Ok(Self {
+            senders,
             tick_s: 1.0 / tick_hz,
             tick_bytes: (bytes_s / tick_hz).ceil() as usize,
             written: 0,
@@ -113,7 +124,7 @@ impl<'s> Links<'s> {
             is_pressed: false,
             presses: events.filter(|event| event.what == What::Button).collect(),
             arrived: Arrived::default(),
-        }
+        })
     }
 
     /// Sends what is due in the tick that begins at `t_s`, in the order of its times.
@@ -133,7 +144,13 @@ impl<'s> Links<'s> {
                     requests += 1;
                     requests <= MOST_A_TICK && self.ask(*command, session)?
                 }
-                _ => true,
+                _ => {
+                    let next = sender.sent as usize % sender.frames.len().max(1);
+                    let frame = sender.frames.get(next).cloned().unwrap_or_default();
+                    self.written += frame.len() as u64;
+                    session.serial_write(&frame);
+                    true
+                }
             };
             if let Some(sender) = self.senders.get_mut(n) {
                 if is_sent {

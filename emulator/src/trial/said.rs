@@ -61,7 +61,7 @@ const KINDS: [&str; 13] = [
 ];
 
 /// Commands that can be asked for.
-const SPOKEN: [Command; 13] = {
+const SPOKEN: [Command; 14] = {
     let left = WhiskerId { side: 0, number: 0 };
     [
         Command::Hello,
@@ -80,6 +80,7 @@ const SPOKEN: [Command; 13] = {
             model: 0,
         }),
         Command::Restart,
+        Command::Apply(0),
     ]
 };
 
@@ -88,9 +89,11 @@ fn in_words(answer: &Answer) -> String {
     let mut spoken = SPOKEN.iter();
     let command = spoken.find(|command| command.number() == answer.command);
     let name = command.map_or("?", |command| command.name());
-    match answer.status {
-        CommandStatus::Done => format!("ok {name}"),
-        status => format!("refused {name}: {status}"),
+    let refused = firmware::refusal_of(answer.values);
+    match (answer.status, refused) {
+        (CommandStatus::Done, _) => format!("ok {name}"),
+        (_, Some(error)) if name == "apply" => format!("refused apply: {error}"),
+        (status, _) => format!("refused {name}: {status}"),
     }
 }
 

@@ -202,7 +202,12 @@ pub fn decode_into<R: Real>(
         None
     };
     config.classifier = parts.optional(Part::Classifier)?;
-    config.check()
+    config.check()?;
+    // What is simulated cannot be harmed.
+    if board == BoardCode::Simulation {
+        return Ok(());
+    }
+    config.protects()
 }
 
 /// The parts, where the header says that they are whole, and for this program.

@@ -8,8 +8,9 @@ use core::fmt;
 
 use tactile::{Deciding, RuleSettings};
 use whisking::motor::{Driver, GuardConfig, HomingConfig, ModelConfig};
+use whisking::pd::{self, Unborne};
 use whisking::{
-    Bound, Bounded, MAX_WHISKERS, Real, Start, filter, gate, muscle, noise, oscillator, pd,
+    Bound, Bounded, MAX_WHISKERS, Real, Start, filter, gate, muscle, noise, oscillator,
 };
 
 use super::{Config, ConfigError, HeadConfig, Links, MotionConfig, Part, SensingConfig};
@@ -79,6 +80,12 @@ fields! {
     ContactMin = 35: "classifier.contact_min";
     SerialBaud = 36: "telemetry.serial_baud";
     Links = 37: "telemetry";
+    Following = 38: "motor.following_limit_deg";
+    Travel = 39: "motor.travel_margin_deg";
+    TopSpeed = 40: "motor.top_speed_deg_s";
+    Friction = 41: "motor.unmoved_duty";
+    TimeConstant = 42: "motor.time_constant_s";
+    Heat = 43: "motor.continuous_duty";
 }
 
 impl Field {
@@ -144,7 +151,7 @@ fn if_there<T>(part: Part, value: Option<&T>, check: impl FnOnce(&T) -> Checked)
 }
 
 impl<R: Real> Config<R> {
-    /// Whether a tick can run by it, in this image.
+    /// Whether a tick can run by it, in this image, and its motor settles under its gains.
     ///
     /// # Errors
     /// [`ConfigError::Range`] names the field that is out of its range, or contradicts another;
@@ -159,6 +166,18 @@ impl<R: Real> Config<R> {
             motion.check(&self.head)?;
         }
         if_there(Part::Classifier, self.classifier.as_ref(), classifier)
+    }
+}
+
+impl<R: Real> Config<R> {
+    /// Whether its limits protect a motor that is real.
+    ///
+    /// # Errors
+    /// [`ConfigError::Range`] names the limit that does not.
+    pub(super) fn protects(&self) -> Checked {
+        let motion = self.motion.as_ref().filter(|_| Part::Motion.is_built());
+        let protects = motion.map_or(Ok(()), |motion| motion.protects(self.head.tick_hz));
+        protects.map_err(ConfigError::Range)
     }
 }
 
@@ -362,12 +381,28 @@ fn of_servo<R: Real>(servo: &ServoConfig<R>) -> Checked {
     require(Field::Guards, lowest <= highest && *heat_shift < 32)?;
     if let Some(model) = model {
         moves(model)?;
+        if CHECKS_GAINS {
+            settles(servo, model)?;
+        }
     }
     if_there(
         Part::Homing,
         servo.homing.as_ref(),
         |homing: &HomingConfig| within(Field::Homing, &[homing.duty], SHARE),
     )
+}
+
+/// The flash of the STM32G071 is full: for it, only whoever makes a configuration asks.
+const CHECKS_GAINS: bool = !cfg!(feature = "nucleo-g071rb");
+
+fn settles<R: Real>(servo: &ServoConfig<R>, model: &ModelConfig<R>) -> Checked {
+    servo.pd.settles(model).map_err(|unborne| {
+        ConfigError::Range(match unborne {
+            Unborne::Kp => Field::Kp,
+            Unborne::Kd => Field::Kd,
+            Unborne::Slew => Field::Slew,
+        })
+    })
 }
 
 /// How a motor moves as it is driven.
@@ -387,9 +422,8 @@ fn moves<R: Real>(model: &ModelConfig<R>) -> Checked {
     } = model;
     let guards = |factors: &[R::Coefficient], bound| within(Field::Guards, factors, bound);
     // 800,000 degrees a second at 200 ticks a second.
-    guards(&[*speed], Bound::positive(5))?;
+    guards(&[*speed, *shown], Bound::positive(5))?;
     guards(&[*rate, *learn], SHARE)?;
-    guards(&[*shown], Bound::positive(2))?;
     // Where a motor hardly accelerates, the way to a stop is long.
     guards(&[*root_stop], Bound::positive(29))?;
     within(Field::Guards, &[*friction, *slow, *doubt, *missing], SHARE)?;

@@ -1,20 +1,63 @@
 //! Configurations as bytes: whatever they are, they give a good one or a refusal.
 
 use firmware::{
-    BoardCode, Config, ConfigError, Field, HEADER_BYTES, Part, decode, encode, refusal_code,
-    refusal_of,
+    BoardCode, Config, ConfigError, Field, HEADER_BYTES, Part, ServoConfig, decode, encode,
+    refusal_code, refusal_of,
 };
 use proptest::prelude::*;
 use tactile::{Deciding, RuleSettings, Threshold};
-use whisking::{Fix, Number};
+use whisking::motor::{
+    Duty, GuardConfig, GuardSettings, HomingSettings, ModelConfig, ModelSettings,
+};
+use whisking::{Fix, Number, pd};
 
 use crate::command::{Whiskers, module};
 
 const BOARD: BoardCode = BoardCode::NucleoF446re;
 
+const PD: pd::Settings = pd::Settings {
+    kp: 0.05,
+    kd: 0.0004,
+    limit: 1.0,
+    slew_per_s: 400.0,
+    min_deg: 30.0,
+    max_deg: 160.0,
+    degrees_per_count: 0.064,
+};
+
+const GUARDS: GuardSettings = GuardSettings {
+    degrees_per_count: PD.degrees_per_count,
+    hard_duty: 0.5,
+    model: Some(ModelSettings {
+        speed_deg_s: 12_000.0,
+        time_constant_s: 0.048,
+        friction_duty: 0.06,
+        duty_limit: PD.limit,
+        slew_per_s: PD.slew_per_s,
+    }),
+    following_deg: 40.0,
+    top_speed_deg_s: 15_000.0,
+    travel_deg: [10.0, 180.0],
+    continuous_duty: 0.4,
+};
+
+const HOMING: HomingSettings = HomingSettings {
+    degrees_per_count: PD.degrees_per_count,
+    duty: 0.1,
+    stop_deg: 30.0,
+    max_deg: 160.0,
+    far_stop_deg: Some(170.0),
+    every_s: 20.0,
+    calm: 0.05,
+};
+
 /// An active module that decides.
 fn config<R: Number>() -> Config<R> {
     let (_, mut config) = module::<R>();
+    let servo = &mut config.motion.as_mut().unwrap().servo;
+    servo.pd = PD.build(2000.0).unwrap();
+    servo.guards = GUARDS.build(2000.0);
+    servo.homing = Some(HOMING.build(2000.0));
     config.classifier = Some(firmware::ClassifierConfig {
         rule: Some(RuleSettings::Sequential(Threshold::new(0.99).unwrap())),
         deciding: Deciding::Each,
@@ -121,6 +164,71 @@ fn values_out_of_range_are_refused_by_the_name_of_their_field() {
         let refused = decode::<f32>(&bytes, BOARD);
         assert_eq!(refused, Err(ConfigError::Range(field)), "{field}");
     }
+}
+
+/// What a board refuses, and a simulation, which cannot be harmed, takes: each guard, left out or
+/// as wide as it can be.
+#[test]
+fn limits_that_would_not_protect_are_refused_by_a_board() {
+    fn check<R: Number>(field: Field, change: impl Fn(&mut ServoConfig<R>)) {
+        let mut config = config::<R>();
+        let servo = &mut config.motion.as_mut().unwrap().servo;
+        // Without gains every motor settles.
+        servo.pd.kp = R::coefficient(0.0);
+        servo.pd.kd = R::coefficient(0.0);
+        change(servo);
+        let refused = |board| {
+            let bytes = encode(&config, board).unwrap();
+            decode::<R>(&bytes, board).err()
+        };
+        assert_eq!(refused(BoardCode::Simulation), None, "{field}");
+        assert_eq!(refused(BOARD), Some(ConfigError::Range(field)), "{field}");
+    }
+    fn all<R: Number>() {
+        let guards = |field, change: fn(&mut GuardConfig<R>)| {
+            check::<R>(field, |servo| change(&mut servo.guards));
+        };
+        let model = |field, change: fn(&mut ModelConfig<R>)| {
+            check::<R>(field, |servo| change(servo.guards.model.as_mut().unwrap()));
+        };
+        let number = R::from_f64;
+        guards(Field::Friction, |guards| guards.model = None);
+        guards(Field::Guards, |guards| guards.stall.threshold = Duty::FULL);
+        guards(Field::Guards, |guards| guards.stall.ticks = u16::MAX);
+        guards(Field::Guards, |guards| guards.against = u32::MAX);
+        guards(Field::Following, |guards| guards.error = R::from_f64(1.0));
+        guards(Field::Guards, |guards| guards.error_ticks = u16::MAX);
+        guards(Field::Travel, |guards| guards.travel[0] = i32::MIN);
+        guards(Field::Travel, |guards| guards.travel[1] = i32::MAX);
+        guards(Field::TopSpeed, |guards| guards.speed = u32::MAX);
+        guards(Field::Heat, |guards| guards.heat = 1 << 30);
+        guards(Field::Heat, |guards| guards.heat_shift = 31);
+        model(Field::Friction, |model| model.friction = R::from_f64(0.3));
+        model(Field::TopSpeed, |model| model.speed = R::coefficient(1e-3));
+        model(Field::TimeConstant, |model| {
+            model.rate = R::coefficient(2e-4);
+        });
+        model(Field::Guards, |model| model.missing = R::from_f64(0.1));
+        model(Field::Guards, |model| model.doubt = R::from_f64(0.1));
+        model(Field::Guards, |model| model.shown = R::coefficient(0.1));
+        model(Field::Guards, |model| model.turned = 0);
+        model(Field::Guards, |model| model.stroke = u16::MAX);
+        model(Field::Guards, |model| model.grace = u16::MAX);
+        check::<R>(Field::Angles, |servo| servo.pd.max = number(2.5));
+        check::<R>(Field::Angles, |servo| servo.pd.min = number(-2.0));
+        check::<R>(Field::Retry, |servo| servo.retry.window = 0);
+        check::<R>(Field::Retry, |servo| servo.retry.rest = 0);
+        let homing = |change: fn(&mut whisking::motor::HomingConfig)| {
+            check::<R>(Field::Homing, |servo| {
+                change(servo.homing.as_mut().unwrap());
+            });
+        };
+        homing(|homing| homing.duty = Duty::FULL);
+        homing(|homing| homing.time_out = u16::MAX);
+    }
+    all::<f32>();
+    all::<f64>();
+    all::<Fix>();
 }
 
 #[test]

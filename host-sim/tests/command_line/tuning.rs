@@ -146,7 +146,11 @@ fn a_module_says_the_configuration_of_its_scene() {
 const FREE: [(&[&str], &[&str], Option<Field>); 19] = [
     (&[], &["motor.kp=0.08"], None),
     (&[], &["motor.kd=0.0009"], None),
-    (&[], &["motor.slew_per_s=55"], None),
+    (
+        &["motor.kp=0.004", "motor.kd=0.0012"],
+        &["motor.slew_per_s=35"],
+        None,
+    ),
     (&[], &["motor.approach_deg_s=222"], None),
     (&[], &["rcp.gain=2.5", "rcp.tau_s=0.4"], None),
     (&[], &["cia.gain=1.9", "cia.tau_s=0.03"], None),

@@ -6,6 +6,7 @@ use std::fmt::Write as _;
 use std::path::PathBuf;
 
 use clap::Args;
+use firmware::allowed;
 use host_sim::output::Output;
 use host_sim::plot::Ink;
 use host_sim::{Error, report};
@@ -99,6 +100,8 @@ fn all(
     // Gently, until direction and range are known; a whisker that stands at a stop is no fault
     // then.
     let gentle = (GENTLE * motor.homing_duty).min(motor.duty_limit);
+    // More is not taken where nothing is expected.
+    let gentle = gentle.min(allowed::GENTLE_DUTY);
     limit(whisker, tuner, [gentle, 2.0 * gentle + motor.unmoved_duty])?;
     whisker.arm()?;
     match push(whisker)? {

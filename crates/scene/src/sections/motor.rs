@@ -45,7 +45,8 @@ keys! {
         /// Power stage: one H-bridge (brushed motor) or six-step commutation (brushless motor).
         driver: Driver = word().default("\"h-bridge\""),
 
-        /// Proportional gain of the position control.
+        /// Proportional gain of the position control. Gains under which the motor would not
+        /// settle after a step are refused.
         kp: f64 = number(0.0..=10.0).unit("duty per degree").default("0.05"),
 
         /// Derivative gain of the position control.
@@ -54,13 +55,13 @@ keys! {
         /// Largest magnitude of the duty.
         duty_limit: f64 = number(ranges::pd::LIMIT).default("1.0"),
 
-        /// Fastest change of the duty.
+        /// Fastest change of the duty. As `kp`.
         slew_per_s: f64 = positive(1e5).unit("duty per second").default("400.0"),
 
-        /// Lower limit of the setpoint; below `max_deg`.
+        /// Lower limit of the setpoint; below `max_deg`. On a board at least -90.
         min_deg: f64 = number(-360.0..=360.0).unit("degrees").default("30.0"),
 
-        /// Upper limit of the setpoint; above `min_deg`.
+        /// Upper limit of the setpoint; above `min_deg`. On a board at most 270.
         max_deg: f64 = number(-360.0..=360.0).unit("degrees").default("160.0"),
 
         /// Gear ratio.
@@ -72,26 +73,30 @@ keys! {
         counts_per_rev: u32 = integer(4..=65_536).unit("counts").default("512"),
 
         /// Largest following error (setpoint against measured) that lasts for 40 ms without a fault.
+        /// On a board at most 90.
         following_limit_deg: f64 = number(1.0..=720.0).unit("degrees").default("40.0"),
 
-        /// How far beyond `min_deg` and `max_deg` the whisker may be turned without a fault.
+        /// How far beyond `min_deg` and `max_deg` the whisker may be turned without a fault. On a
+        /// board at most 45.
         travel_margin_deg: f64 = number(0.0..=720.0).unit("degrees").default("20.0"),
 
         /// Faster than the motor can turn the whisker: a fault. A quarter more than its speed
-        /// without load at full duty, which follows from it.
+        /// without load at full duty, which follows from it. On a board 2,500 to 60,000.
         top_speed_deg_s: f64 = positive(1e6).unit("degrees/s").default("15000.0"),
 
         /// Duty that friction of motor and gear takes, both ways together: where a duty beyond half
         /// of it does not move the whisker as the motor should, that is tested by a short stroke,
         /// and is a fault if it fails. Friction that is larger by up to four times costs such
-        /// strokes and is no fault. From 1.6 on nothing is expected of the motor.
+        /// strokes and is no fault. From 1.6 on nothing is expected of the motor. On a board at most
+        /// 0.5, if `duty_limit` is above 0.25.
         unmoved_duty: f64 = number(0.0..=2.0).default("0.12"),
 
         /// Time in which the motor comes to 63 % of its speed, with gear and whisker
-        /// (`whisker calibrate` measures it).
+        /// (`whisker calibrate` measures it). On a board at most `top_speed_deg_s`/50,000.
         time_constant_s: f64 = number(1e-3..=10.0).unit("s").default("0.048"),
 
-        /// Duty that the winding bears for ever; above it, a fault by I²t over some 8 s.
+        /// Duty that the winding bears for ever; above it, a fault by I²t over some 8 s. On a board
+        /// at most 0.7.
         continuous_duty: f64 = number(ranges::pd::LIMIT).default("0.4"),
 
         /// What a fault of a sensor or a motor switches off: the motor of its whisker, or

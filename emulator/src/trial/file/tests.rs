@@ -53,6 +53,11 @@ fn what_is_wrong_is_named() {
             "kind = 'serial'\ntext = 'stop'\nrepeat_hz = 0.0",
             "repeat_hz: found 0",
         ),
+        ("kind = 'configuration'", "change: missing"),
+        (
+            "kind = 'configuration'\nchange = 'all'",
+            "unknown variant `all`",
+        ),
         ("kind = 'button'\nfor_s = 0.0", "for_s: found 0"),
         ("kind = 'button'\nside = 'both'", "both"),
     ] {

@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 use wire::text::Spoken;
 use wire::{Command, Load};
 
-use super::{Event, LATEST_S, What};
+use super::{Change, Event, LATEST_S, What};
 
 /// Most bytes of a text.
 const MOST_TEXT: usize = 4_096;
@@ -31,6 +31,7 @@ pub(super) enum Kind {
     MagnetGone,
     Serial,
     Probe,
+    Configuration,
     Button,
     PowerOff,
 }
@@ -57,6 +58,7 @@ pub(super) struct Written {
     torque_nm: Option<f64>,
     text: Option<String>,
     request: Option<String>,
+    change: Option<Change>,
     repeat_hz: Option<f64>,
 }
 
@@ -156,6 +158,9 @@ impl Written {
             Kind::Probe => What::Probe {
                 command: command(&text("request", self.request.take())?)?,
             },
+            Kind::Configuration => What::Configuration {
+                change: self.change.take().ok_or("change: missing")?,
+            },
             Kind::Button => What::Button,
             Kind::PowerOff => What::PowerOff,
         })
@@ -171,6 +176,7 @@ impl Written {
             ("torque_nm", self.torque_nm.is_some()),
             ("text", self.text.is_some()),
             ("request", self.request.is_some()),
+            ("change", self.change.is_some()),
             ("repeat_hz", self.repeat_hz.is_some()),
         ];
         let strange = left.iter().find(|(_, is_there)| *is_there);

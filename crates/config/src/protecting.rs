@@ -1,0 +1,72 @@
+//! Limits of a board's motor that would not protect it, by the names of their keys. The board
+//! itself checks what comes of them.
+
+use std::ops::RangeInclusive;
+
+use firmware::allowed;
+use scene::MotorSection;
+
+/// A key whose value would leave a motor without one of its guards.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[error("motor.{key}: found {found}; allowed on a board: {allowed}")]
+pub struct Unprotected {
+    /// The key in `[motor]`.
+    pub key: &'static str,
+    /// Its value.
+    pub found: f64,
+    /// What it may be.
+    pub allowed: String,
+}
+
+/// Whether the limits of a motor protect it.
+///
+/// # Errors
+/// [`Unprotected`] for the first that does not.
+pub(crate) fn check(motor: &MotorSection, degrees_per_count: f64) -> Result<(), Unprotected> {
+    let within = |key, found: f64, range: RangeInclusive<f64>| {
+        if range.contains(&found) {
+            return Ok(());
+        }
+        let allowed = format!("{} to {}", range.start(), range.end());
+        Err(Unprotected {
+            key,
+            found,
+            allowed,
+        })
+    };
+    within("min_deg", motor.min_deg, allowed::ANGLES_DEG)?;
+    within("max_deg", motor.max_deg, allowed::ANGLES_DEG)?;
+    within(
+        "travel_margin_deg",
+        motor.travel_margin_deg,
+        allowed::MARGIN_DEG,
+    )?;
+    within(
+        "following_limit_deg",
+        motor.following_limit_deg,
+        allowed::FOLLOWING_DEG,
+    )?;
+    within(
+        "top_speed_deg_s",
+        motor.top_speed_deg_s,
+        allowed::TOP_SPEED_DEG_S,
+    )?;
+    within(
+        "continuous_duty",
+        motor.continuous_duty,
+        allowed::CONTINUOUS_DUTY,
+    )?;
+    let is_gentle = motor.duty_limit <= allowed::GENTLE_DUTY;
+    let is_coarse = degrees_per_count > allowed::COARSEST_DEG;
+    if is_coarse || is_gentle && motor.unmoved_duty >= 2.0 * motor.duty_limit {
+        // Nothing is expected of it.
+        return Ok(());
+    }
+    let most = motor.top_speed_deg_s / allowed::ACCELERATION_DEG_S2;
+    within("time_constant_s", motor.time_constant_s, 1e-3..=most)?;
+    within(
+        "unmoved_duty",
+        motor.unmoved_duty,
+        0.0..=allowed::UNMOVED_DUTY,
+    )
+}
