@@ -381,9 +381,7 @@ fn of_servo<R: Real>(servo: &ServoConfig<R>) -> Checked {
     require(Field::Guards, lowest <= highest && *heat_shift < 32)?;
     if let Some(model) = model {
         moves(model)?;
-        if CHECKS_GAINS {
-            settles(servo, model)?;
-        }
+        settles(servo, model)?;
     }
     if_there(
         Part::Homing,
@@ -391,9 +389,6 @@ fn of_servo<R: Real>(servo: &ServoConfig<R>) -> Checked {
         |homing: &HomingConfig| within(Field::Homing, &[homing.duty], SHARE),
     )
 }
-
-/// The flash of the STM32G071 is full: for it, only whoever makes a configuration asks.
-const CHECKS_GAINS: bool = !cfg!(feature = "nucleo-g071rb");
 
 fn settles<R: Real>(servo: &ServoConfig<R>, model: &ModelConfig<R>) -> Checked {
     servo.pd.settles(model).map_err(|unborne| {
