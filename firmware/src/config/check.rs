@@ -375,6 +375,7 @@ fn moves<R: Real>(model: &ModelConfig<R>) -> Checked {
     let ModelConfig {
         speed,
         rate,
+        braked,
         shown,
         root_stop,
         friction,
@@ -387,7 +388,7 @@ fn moves<R: Real>(model: &ModelConfig<R>) -> Checked {
     } = model;
     let guards = |factors: &[R::Coefficient], bound| within(Field::Guards, factors, bound);
     // 800,000 degrees a second at 200 ticks a second.
-    guards(&[*speed], Bound::positive(5))?;
+    guards(&[*speed, *braked], Bound::positive(5))?;
     guards(&[*rate, *learn], SHARE)?;
     guards(&[*shown], Bound::positive(2))?;
     // Where a motor hardly accelerates, the way to a stop is long.
