@@ -497,10 +497,19 @@ impl<R: Real, M: MotorDriver, A: AngleInput> Servo<R, M, A> {
         events(Event::MotorFault(place, fault));
         let retry = config.retry;
         let did_not_move = matches!(fault, motor::Fault::Stall | motor::Fault::Encoder);
-        let was_running = matches!(self.state, ServoState::Running { .. });
-        if did_not_move && was_running && config.guards.model.is_some() {
+        let running = match &self.state {
+            ServoState::Running { guards, .. } if config.guards.model.is_some() => Some(guards),
+            _ => None,
+        };
+        let is_tested = running.is_some_and(Guards::is_tested);
+        if did_not_move && running.is_some() {
             self.was_held(retry, place, events);
             return;
+        }
+        if is_tested {
+            // It turned the other way, or left its travel: it is tested first when it runs again,
+            // the other way round, as such tests would else add up.
+            self.held = self.held.saturating_add(1).min(HELD - 1);
         }
         if self.windows.iter().all(|window| *window > 0) {
             self.state = ServoState::GivenUp;

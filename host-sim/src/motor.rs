@@ -17,8 +17,10 @@
 //! over its period and the winding's inductance left out: its L/R, some tens of
 //! microseconds, is short against a tick. An H-bridge at PWM zero brakes
 //! (the winding is shorted), a phase that is not enabled carries no current
-//! (free-wheeling diodes are left out). The gear is ideal: its losses are in
+//! (free-wheeling diodes are left out). The gear is stiff: its losses are in
 //! τ_c and b.
+//! It may have play: then encoder and friction are on the motor's side, and the whisker is free
+//! between its ends ([`play`]).
 //!
 //! At an end stop the rotor comes to rest within the step (no rebound).
 //!
@@ -29,6 +31,7 @@
 mod flaws;
 mod ideal;
 mod pins;
+mod play;
 #[cfg(test)]
 pub(crate) mod rig;
 mod rotor;
@@ -42,6 +45,7 @@ use flaws::Jitter;
 pub use ideal::IdealMotor;
 use pins::{End, Wires};
 pub use pins::{SimEncoder, SimHall, SimPin, SimPwm, Wire};
+use play::{Coupled, Play};
 use rotor::Rotor;
 pub use settings::{BadMotorSetting, MotorSettings, PWM_COUNTS};
 use stage::Stage;
@@ -97,6 +101,7 @@ pub struct SimMotor {
     /// Its supply now, and how many times its Coulomb friction it has.
     supply_v: f64,
     friction: f64,
+    play: Play,
 }
 
 /// What follows from the settings alone.
@@ -157,6 +162,7 @@ impl SimMotor {
             jitter: Jitter::default(),
             supply_v: settings.supply_v,
             friction: 1.0,
+            play: Play::default(),
         })
     }
 
@@ -171,6 +177,7 @@ impl SimMotor {
         self.jitter = Jitter::default();
         self.supply_v = self.settings.supply_v;
         self.friction = 1.0;
+        self.play = Play::default();
         self.pins()
     }
 
@@ -220,17 +227,32 @@ impl SimMotor {
             return;
         }
         let s = &self.fed();
-        let inertia = self.derived.inertia_kg_m2;
+        let both = self.derived.inertia_kg_m2;
         let steps = self.stage.substeps(s, self.rotor.speed, dt_s);
         let step_s = dt_s / f64::from(steps);
         for _ in 0..steps {
             let winding = self.stage.winding(s, &self.wires, self.rotor.angle);
-            let law = rotor::Law {
-                push: (winding.drive_nm + self.load_nm) / inertia,
+            let law = |load_nm: f64, inertia: f64| rotor::Law {
+                push: (winding.drive_nm + load_nm) / inertia,
                 rate: (winding.damping_nm_s + s.viscous_nm_s) / inertia,
-                friction: self.friction * self.derived.friction,
+                friction: self.friction * self.derived.friction * both / inertia,
             };
-            self.rotor.advance(&law, step_s);
+            let before = self.rotor;
+            self.rotor.advance(&law(self.load_nm, both), step_s);
+            if !self.play.is_none() {
+                let coupled = Coupled {
+                    load_nm: self.load_nm,
+                    whisker_kg_m2: both - s.rotor_kg_m2,
+                    both_kg_m2: both,
+                };
+                if self.play.is_pushed(coupled, before, self.rotor, step_s) {
+                    self.play.follow(self.rotor);
+                } else {
+                    self.rotor = before;
+                    self.rotor.advance(&law(0.0, s.rotor_kg_m2), step_s);
+                    self.play.coast(coupled, before, &mut self.rotor, step_s);
+                }
+            }
             self.rotor.stop_at(self.derived.stops);
         }
         self.wires.set_angle(self.rotor.angle, self.flaws);
@@ -289,6 +311,14 @@ impl SimMotor {
         }
     }
 
+    /// A gear with so much play from now on, degrees of the whisker, in whose middle it is;
+    /// what is negative or not finite does nothing.
+    pub fn set_play_deg(&mut self, play_deg: f64) {
+        if play_deg >= 0.0 && play_deg.is_finite() {
+            self.play = Play::new(play_deg.to_radians() * self.settings.gear);
+        }
+    }
+
     /// Cuts a wire.
     pub fn cut(&mut self, wire: Wire) {
         self.wires.set_cut(wire, true);
@@ -301,7 +331,8 @@ impl SimMotor {
 
     /// Whisker angle θ′, degrees; [`MotorSettings::rest_deg`] at the start.
     pub fn angle_deg(&self) -> f64 {
-        self.settings.rest_deg + (self.rotor.angle / self.settings.gear).to_degrees()
+        let angle = self.rotor.angle + self.play.lag;
+        self.settings.rest_deg + (angle / self.settings.gear).to_degrees()
     }
 
     /// Speed of the whisker, degrees a second.

@@ -405,6 +405,7 @@ fn moves<R: Real>(model: &ModelConfig<R>) -> Checked {
     let ModelConfig {
         speed,
         rate,
+        braked,
         shown,
         root_stop,
         friction,
@@ -417,7 +418,7 @@ fn moves<R: Real>(model: &ModelConfig<R>) -> Checked {
     } = model;
     let guards = |factors: &[R::Coefficient], bound| within(Field::Guards, factors, bound);
     // 800,000 degrees a second at 200 ticks a second.
-    guards(&[*speed, *shown], Bound::positive(5))?;
+    guards(&[*speed, *shown, *braked], Bound::positive(5))?;
     guards(&[*rate, *learn], SHARE)?;
     // Where a motor hardly accelerates, the way to a stop is long.
     guards(&[*root_stop], Bound::positive(29))?;

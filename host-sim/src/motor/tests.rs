@@ -325,3 +325,24 @@ proptest! {
         prop_assert!(motor.angle_deg() > 50.0);
     }
 }
+
+/// With play of three degrees the whisker lags behind its motor by half of that either way.
+#[test]
+fn a_whisker_lags_within_its_play() {
+    let (mut motor, mut driver, mut encoder) = motor(MotorSettings::DEFAULT);
+    motor.set_play_deg(3.0);
+    let mut most = [0.0_f64; 2];
+    for tick in 0..4000 {
+        let sign = if tick % 200 < 100 { 1.0 } else { -1.0 };
+        driver.drive(Duty::from_f32(0.25 * sign)).unwrap();
+        motor.advance(5e-4);
+        let turned = f64::from(encoder.counts()) * motor.settings().degrees_per_count();
+        let lag = motor.angle_deg() - motor.settings().rest_deg - turned;
+        most = [most[0].min(lag), most[1].max(lag)];
+    }
+    // A count is 0.064 degrees.
+    assert!(
+        (most[0] + 1.5).abs() < 0.1 && (most[1] - 1.5).abs() < 0.1,
+        "{most:?}"
+    );
+}

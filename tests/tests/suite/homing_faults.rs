@@ -97,12 +97,15 @@ fn a_hand_near_the_stop_is_found_where_the_far_stop_is_known() {
 
 /// What became of an encoder that loses this share of the counts of protraction.
 fn slips(slip: f64, motor: &str, ticks: u64) -> Played {
+    let none = EncoderFlaws::NONE;
+    flawed(EncoderFlaws { slip, ..none }, SLIPS, motor, ticks)
+}
+
+/// What became of an encoder that has flaws from a tick on.
+fn flawed(flaws: EncoderFlaws, from: u64, motor: &str, ticks: u64) -> Played {
     play(&finds(motor), ticks, |tick, run| {
-        if tick == SLIPS {
-            run.motor_mut(0).unwrap().set_encoder(EncoderFlaws {
-                slip,
-                ..EncoderFlaws::NONE
-            });
+        if tick == from {
+            run.motor_mut(0).unwrap().set_encoder(flaws);
         }
     })
 }
@@ -175,5 +178,21 @@ fn a_sound_whisker_goes_home_now_and_then_without_a_fault() {
         );
         println!("{slip}: {drifted} degrees, {away} s at the stop");
         assert!(drifted.abs() < 1.0, "{drifted}");
+    }
+}
+
+/// Wherever in a whisk it begins.
+#[test]
+fn a_scale_that_is_wrong_is_found_at_home() {
+    for scale in [0.5, 2.0] {
+        for phase in 0..8 {
+            let from = SLIPS + phase * TICK_HZ / 16;
+            let none = EncoderFlaws::NONE;
+            let played = flawed(EncoderFlaws { scale, ..none }, from, "", 30 * TICK_HZ);
+            let found = faults(&played);
+            println!("{scale} from {from}: {found:?}");
+            let (first, _) = found[0];
+            assert!(first - from < 21 * TICK_HZ, "{scale} from {from}: {first}");
+        }
     }
 }

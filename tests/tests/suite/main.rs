@@ -7,6 +7,7 @@ mod disturbances;
 mod encoder_faults;
 mod euler_trace;
 mod facing;
+mod false_trips;
 mod faults;
 mod faults_by_side;
 mod formats;

@@ -7,7 +7,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::model::{Expected, ModelConfig, ModelSettings};
+use super::model::{Expected, ModelConfig, ModelSettings, Unturned};
 use super::{Duty, Fault, StallConfig};
 use crate::{DEGREES_PER_UNIT, REST_DEG, Real};
 
@@ -192,28 +192,44 @@ impl<R: Real> Guards<R> {
         if self.error_ticks > config.error_ticks {
             return Err(Fault::Following);
         }
+        if size > config.speed {
+            return Err(Fault::Runaway);
+        }
         if let Some(model) = &config.model {
             let found = self.expected.step(model, duty, velocity, moved);
-            found.map_err(|unturned| {
-                if unturned.is_silent {
-                    Fault::Encoder
-                } else {
-                    Fault::Stall
-                }
+            let moves = found.map_err(|unturned| match unturned {
+                Unturned::Silent => Fault::Encoder,
+                Unturned::Still => Fault::Stall,
+                Unturned::Backwards => Fault::Runaway,
             })?;
+            if moves {
+                self.still = [0; 2];
+                self.flicker = 0;
+                self.against = 0;
+                return Ok(());
+            }
         }
-        let duty = Duty::from_q24(duty);
+        self.check_unmoved(config, Duty::from_q24(duty), moved)
+    }
+
+    /// Whether it stands still, or moves the other way, for too long: of what does not move as its
+    /// model says, or has none.
+    #[inline]
+    fn check_unmoved(
+        &mut self,
+        config: &GuardConfig<R>,
+        duty: Duty,
+        moved: i32,
+    ) -> Result<(), Fault> {
         let is_hard = duty.magnitude() > config.stall.threshold.magnitude();
-        if is_hard {
-            self.against = if moved == 0 {
-                self.against
-            } else if (moved < 0) == duty.is_forward() {
-                self.against.saturating_add(size)
+        if is_hard && moved != 0 {
+            self.against = if (moved < 0) == duty.is_forward() {
+                self.against.saturating_add(moved.unsigned_abs())
             } else {
                 0
             };
         }
-        if size > config.speed || self.against > config.against {
+        if self.against > config.against {
             return Err(Fault::Runaway);
         }
         self.check_still(config, duty, is_hard, moved)
