@@ -24,10 +24,14 @@ struct Mutant {
     test: String,
 }
 
+fn kept() -> Result<Kept, Fault> {
+    let list = read(&top().join("xtask/mutants.toml"))?;
+    toml::from_str(&list).map_err(|error| error.to_string())
+}
+
 /// Fails with every mutant that survives, or whose place is not found.
 pub(crate) fn all() -> Result<(), Fault> {
-    let list = read(&top().join("xtask/mutants.toml"))?;
-    let kept: Kept = toml::from_str(&list).map_err(|error| error.to_string())?;
+    let kept = kept()?;
     let tree = copy(&target().join("mutants"))?;
     let faults = kept
         .mutant
@@ -48,14 +52,20 @@ impl Mutant {
 
     fn try_in(&self, tree: &Path) -> Result<(), Fault> {
         let file = tree.join(&self.file);
-        let whole = read(&file)?;
-        if whole.matches(&self.find).count() != 1 {
-            return Err(format!("{} does not stand there once", self.find));
-        }
+        let whole = self.find_in(&file)?;
         write(&file, whole.replace(&self.find, &self.replace))?;
         let asked = self.ask(tree);
         write(&file, whole)?;
         asked
+    }
+
+    /// Its file, in which its place is found.
+    fn find_in(&self, file: &Path) -> Result<String, Fault> {
+        let whole = read(file)?;
+        if whole.matches(&self.find).count() == 1 {
+            return Ok(whole);
+        }
+        Err(format!("{} does not stand there once", self.find))
     }
 
     /// Whether the test fails; a mutant that does not compile is no mutant.
@@ -71,6 +81,20 @@ impl Mutant {
         match test(&[]) {
             Ok(()) => Err("survives".to_owned()),
             Err(_) => Ok(()),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::kept;
+    use crate::run::top;
+
+    #[test]
+    fn every_mutant_has_its_place() {
+        for mutant in kept().unwrap().mutant {
+            let found = mutant.find_in(&top().join(&mutant.file));
+            assert!(found.is_ok(), "{}: {found:?}", mutant.file);
         }
     }
 }
