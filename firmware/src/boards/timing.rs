@@ -190,7 +190,11 @@ impl Clocks {
 
     /// A tick in counts of the counter.
     pub const fn tick_counts(&self, tick: TickPeriod) -> u32 {
-        tick.counts() * (self.counter_hz / self.tick_timer_hz)
+        match self.counter_hz.checked_div(self.tick_timer_hz) {
+            Some(each) => tick.counts() * each,
+            // No clocks that are checked.
+            None => 0,
+        }
     }
 
     /// Counts of the PWM's timer in a period; the duty has this many steps.

@@ -82,13 +82,10 @@ impl<R: Real> Config<R> {
     }
 }
 
-// Not in the tick: small rather than fast.
-#[inline(never)]
 fn product<R: Real>(x: R, y: R) -> R {
     x * y
 }
 
-#[inline(never)]
 fn times<R: Real>(x: R, factor: R::Coefficient) -> R {
     x.times(factor)
 }
