@@ -1,15 +1,18 @@
 //! Many runs of a scene side by side, as an agent meets them.
 
-use std::sync::{Mutex, PoisonError};
+use std::process;
+use std::sync::Arc;
 
 use host_sim::Error;
 use host_sim::run::Run;
 use host_sim::trace::WhiskerRow;
 use numpy::{IntoPyArray, PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray1, PyReadonlyArray2};
-use pyo3::exceptions::PyValueError;
+use parking_lot::Mutex;
+use pyo3::exceptions::{PyRuntimeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use rayon::prelude::*;
+use rayon::{ThreadPool, ThreadPoolBuilder};
 use scene::Scene;
 
 use crate::scenes::{Given, raised};
@@ -19,6 +22,27 @@ const OBSERVED: usize = 4;
 
 /// Runs that a thread takes at once: a tick is shorter than handing it over.
 const AT_ONCE: usize = 16;
+
+/// The threads of all environments, and the process that has them: one that was forked off has no
+/// threads but its own.
+static POOL: Mutex<Option<(u32, Arc<ThreadPool>)>> = Mutex::new(None);
+
+fn pool() -> PyResult<Arc<ThreadPool>> {
+    let mut pool = POOL.lock();
+    let process = process::id();
+    if let Some((of, pool)) = &*pool
+        && *of == process
+    {
+        return Ok(Arc::clone(pool));
+    }
+    let new = ThreadPoolBuilder::new().build();
+    let new = new.map_err(|error| PyRuntimeError::new_err(error.to_string()))?;
+    let new = Arc::new(new);
+    let before = pool.replace((process, Arc::clone(&new)));
+    // Its end would wait for threads that are not here.
+    std::mem::forget(before);
+    Ok(new)
+}
 
 #[derive(Clone, Copy)]
 enum Action {
@@ -163,8 +187,15 @@ impl Envs {
         }
         let mut seen = vec![0.0; self.count * width];
         let mut ended = vec![false; self.count];
+        for (values, begin) in actions.chunks_exact(each).zip(begin) {
+            if !begin && let Some(value) = values.iter().find(|value| !value.is_finite()) {
+                let fault = format!("actions: found {value}, allowed: finite numbers");
+                return Err(PyValueError::new_err(fault));
+            }
+        }
+        let pool = pool()?;
         py.detach(|| {
-            let mut members = self.members.lock().unwrap_or_else(PoisonError::into_inner);
+            let mut members = self.members.lock();
             let given = actions.par_chunks_exact(each).zip(begin).zip(seeds);
             let shown = seen.par_chunks_exact_mut(width).zip(&mut ended);
             let all = members
@@ -172,21 +203,49 @@ impl Envs {
                 .zip(given)
                 .zip(shown)
                 .with_min_len(AT_ONCE);
-            all.try_for_each(|((member, ((values, begin), seed)), (seen, ended))| {
-                if *begin {
-                    member.reset(*seed)?;
-                } else {
-                    member.act(self.action, values)?;
-                    member.advance(self.ticks);
-                }
-                member.observe(seen);
-                *ended = member.left == 0;
-                Ok(())
+            pool.install(|| {
+                all.try_for_each(|((member, ((values, begin), seed)), (seen, ended))| {
+                    if *begin {
+                        member.reset(*seed)?;
+                    } else {
+                        member.act(self.action, values)?;
+                        member.advance(self.ticks);
+                    }
+                    member.observe(seen);
+                    *ended = member.left == 0;
+                    Ok(())
+                })
             })
         })
         .map_err(|error: Error| PyValueError::new_err(error.to_string()))?;
         let seen = seen.into_pyarray(py).reshape((self.count, width))?;
         Ok((seen, ended.into_pyarray(py)))
+    }
+
+    /// Restarts those that `begin` names, with their `seeds`; the others stay as they are. Returns
+    /// what each whisker then feels.
+    fn restart<'py>(
+        &self,
+        py: Python<'py>,
+        begin: PyReadonlyArray1<'py, bool>,
+        seeds: PyReadonlyArray1<'py, u64>,
+    ) -> PyResult<Bound<'py, PyArray2<f32>>> {
+        let (begin, seeds) = (begin.as_slice()?, seeds.as_slice()?);
+        let width = OBSERVED * self.whiskers;
+        let mut seen = vec![0.0; self.count * width];
+        let restarted = py.detach(|| {
+            let mut members = self.members.lock();
+            let places = members.iter_mut().zip(seen.chunks_exact_mut(width));
+            for ((member, seen), (begin, seed)) in places.zip(begin.iter().zip(seeds)) {
+                if *begin {
+                    member.reset(*seed)?;
+                }
+                member.observe(seen);
+            }
+            Ok(())
+        });
+        restarted.map_err(|error: Error| PyValueError::new_err(error.to_string()))?;
+        seen.into_pyarray(py).reshape((self.count, width))
     }
 
     /// How many whiskers each has.

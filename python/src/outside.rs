@@ -2,11 +2,11 @@
 
 use std::path::Path;
 
-use pyo3::exceptions::PyMemoryError;
+use pyo3::exceptions::{PyMemoryError, PyValueError};
 use pyo3::{PyErr, PyResult, Python};
 
 /// Ticks after which it is seen whether an interrupt has come: some hundredths of a second.
-const HEEDED: u64 = 1 << 16;
+pub(crate) const HEEDED: u64 = 1 << 13;
 
 /// Python's own exception for the kind of error, with the path.
 pub(crate) fn file_error(path: &Path, error: std::io::Error) -> PyErr {
@@ -34,17 +34,27 @@ pub(crate) fn room(bytes: usize) -> PyResult<Vec<u8>> {
     Ok(all)
 }
 
-/// Every now and then: whether the user has interrupted, after `ticks` ticks.
+/// Every [`HEEDED`] ticks: lets the user's handlers of signals run. Nothing that they may ask for
+/// is locked meanwhile.
 ///
 /// # Errors
-/// `KeyboardInterrupt`, or what else the user's handler raises.
-pub(crate) fn heed(ticks: u64) -> PyResult<()> {
-    if ticks.is_multiple_of(HEEDED) {
-        #[expect(
-            clippy::redundant_closure_for_method_calls,
-            reason = "the method is of one lifetime, what is asked for of any"
-        )]
-        Python::attach(|py| py.check_signals())?;
+/// `KeyboardInterrupt`, or what else a handler raises.
+pub(crate) fn heed() -> PyResult<()> {
+    #[expect(
+        clippy::redundant_closure_for_method_calls,
+        reason = "the method is of one lifetime, what is asked for of any"
+    )]
+    Python::attach(|py| py.check_signals())
+}
+
+/// Whether a number that was given is within its range.
+///
+/// # Errors
+/// `ValueError` with the range.
+pub(crate) fn within(name: &str, found: f64, least: f64, most: f64) -> PyResult<()> {
+    if (least..=most).contains(&found) {
+        return Ok(());
     }
-    Ok(())
+    let fault = format!("{name}: found {found}, allowed: {least} to {most}");
+    Err(PyValueError::new_err(fault))
 }

@@ -7,7 +7,7 @@ use host_sim::loaded::Loaded;
 use pyo3::create_exception;
 use pyo3::exceptions::{PyOSError, PyRuntimeError, PyTypeError, PyValueError};
 use pyo3::prelude::*;
-use pyo3::types::{PyBool, PyDict, PyList, PyTuple, PyType};
+use pyo3::types::{PyDict, PyList, PyTuple, PyType};
 use scene::{Override, Problems, Scene, file};
 use tactile::ModelBuf;
 
@@ -117,6 +117,10 @@ impl Given {
         let mut given = Self::of(scene)?;
         for (key, value) in set.into_iter().flatten() {
             let key: String = key.extract()?;
+            // None, as in a dictionary of a scene: the scene's own stays.
+            if value.is_none() {
+                continue;
+            }
             let source = format!("set[{key:?}]");
             given
                 .set
@@ -137,9 +141,8 @@ impl Given {
             flatten(table, "scene", "", &mut given.set)?;
             return Ok(given);
         }
-        // No path has a line break or a key with its value.
         if let Ok(text) = scene.extract::<String>()
-            && text.contains(['\n', '='])
+            && is_text(&text)
         {
             return Ok(beside("scene", text));
         }
@@ -194,6 +197,17 @@ impl Given {
     }
 }
 
+/// Whether it is TOML and no path: no path has a line break. One may have a key and its value, as
+/// folders of a sweep do; then it is of a file that is there, or is called one.
+fn is_text(scene: &str) -> bool {
+    let path = Path::new(scene);
+    let is_path = path
+        .extension()
+        .is_some_and(|extension| extension == "toml")
+        || path.exists();
+    scene.contains('\n') || scene.contains('=') && !is_path
+}
+
 /// The keys of a table, of which messages say where they stand; None is left out.
 fn flatten(
     table: &Bound<'_, PyDict>,
@@ -218,12 +232,19 @@ fn flatten(
     Ok(())
 }
 
-/// A value as TOML has it.
+/// A value as TOML has it. NumPy's truths, numbers and arrays are taken as Python's own, and paths
+/// as text.
 fn literal(value: &Bound<'_, PyAny>) -> PyResult<String> {
-    if let Ok(truth) = value.cast::<PyBool>() {
-        return Ok(truth.is_true().to_string());
+    if let Ok(truth) = value.extract::<bool>() {
+        return Ok(truth.to_string());
     }
     if let Ok(text) = value.extract::<String>() {
+        return Ok(toml::Value::String(text).to_string());
+    }
+    if value.hasattr("__fspath__")?
+        && let Ok(path) = value.extract::<PathBuf>()
+    {
+        let text = path.display().to_string();
         return Ok(toml::Value::String(text).to_string());
     }
     if let Ok(whole) = value.extract::<i64>() {

@@ -1,13 +1,12 @@
 //! One run of a scene, tick by tick.
 
-use std::sync::{Mutex, MutexGuard, PoisonError};
-
 use host_sim::columns::Column;
 use host_sim::decisions::Decided;
 use host_sim::run::Run;
 use host_sim::trace::{self, TraceShape, TraceWriter, WhiskerRow};
 use host_sim::{decisions, pressing, recording};
 use numpy::PyArray2;
+use parking_lot::{Mutex, MutexGuard};
 use physics::Bent;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
@@ -52,25 +51,6 @@ impl State {
         first
     }
 
-    /// Ticks, of which every `every`th has a row.
-    fn rows(&mut self, ticks: u64, every: u64, tables: &RunTables) -> PyResult<Vec<u8>> {
-        let count = usize::try_from(ticks / every).unwrap_or(usize::MAX);
-        let mut rows = Packed {
-            bytes: outside::room(count.saturating_mul(tables.trace.bytes()))?,
-        };
-        for n in 1..=ticks {
-            outside::heed(n)?;
-            let has_row = n.is_multiple_of(every);
-            let first = self.tick(has_row);
-            if has_row {
-                self.run.look_at_whiskers(&mut self.whiskers);
-                let fell = self.decided.get(first..).unwrap_or_default();
-                tables.row(&mut rows, &self.run.trace_line(fell, &self.whiskers));
-            }
-        }
-        Ok(rows.bytes)
-    }
-
     fn left(&self) -> u64 {
         self.run.ticks().saturating_sub(self.done)
     }
@@ -94,12 +74,57 @@ pub(crate) struct Sim {
     name: String,
     has_textures: bool,
     tick_hz: u32,
+    /// How many the scene lasts.
+    ticks: u64,
+    /// Lowest and highest setpoint, degrees; none: nothing moves.
+    angles_deg: Option<[f64; 2]>,
     posteriors: Layout,
 }
 
 impl Sim {
     fn state(&self) -> MutexGuard<'_, State> {
-        self.state.lock().unwrap_or_else(PoisonError::into_inner)
+        self.state.lock()
+    }
+
+    /// Makes so many ticks, in parts: between two of them handlers of signals run, and whoever
+    /// asks for the state gets it.
+    fn each_tick(
+        &self,
+        ticks: u64,
+        mut tick: impl FnMut(&mut State, u64) -> PyResult<()>,
+    ) -> PyResult<()> {
+        let mut done = 0;
+        while done < ticks {
+            let part = (ticks - done).min(outside::HEEDED);
+            let mut state = self.state();
+            for n in done + 1..=done + part {
+                tick(&mut state, n)?;
+            }
+            MutexGuard::unlock_fair(state);
+            done += part;
+            outside::heed()?;
+        }
+        Ok(())
+    }
+
+    /// Makes ticks, of which every `every`th has a row.
+    fn rows(&self, ticks: u64, every: u64) -> PyResult<Vec<u8>> {
+        let tables = &self.tables;
+        let count = usize::try_from(ticks / every).unwrap_or(usize::MAX);
+        let mut rows = Packed {
+            bytes: outside::room(count.saturating_mul(tables.trace.bytes()))?,
+        };
+        self.each_tick(ticks, |state, n| {
+            let has_row = n.is_multiple_of(every);
+            let first = state.tick(has_row);
+            if has_row {
+                state.run.look_at_whiskers(&mut state.whiskers);
+                let fell = state.decided.get(first..).unwrap_or_default();
+                tables.row(&mut rows, &state.run.trace_line(fell, &state.whiskers));
+            }
+            Ok(())
+        })?;
+        Ok(rows.bytes)
     }
 
     fn bent(&self, py: Python<'_>, whisker: usize) -> PyResult<Bent> {
@@ -139,6 +164,11 @@ impl Sim {
             name: scene.name.clone(),
             has_textures: scene.plant.textured.is_some(),
             tick_hz: scene.tick_hz,
+            ticks: scene.ticks(),
+            angles_deg: scene
+                .motor
+                .as_ref()
+                .map(|motor| [motor.min_deg, motor.max_deg]),
             posteriors: Layout::new([("t_s", Kind::Number), ("posterior", Kind::Numbers(count))]),
             classes,
             state: Mutex::new(State {
@@ -160,7 +190,7 @@ impl Sim {
         if every == 0 {
             return Err(PyValueError::new_err("every: found 0, allowed: above 0"));
         }
-        let rows = py.detach(|| self.state().rows(n, every, &self.tables))?;
+        let rows = py.detach(|| self.rows(n, every))?;
         self.tables.trace.array(py, rows)
     }
 
@@ -188,18 +218,22 @@ impl Sim {
         .map_err(|error| raised(py, error))
     }
 
-    /// Sets θ′ of a whisker, degrees, from the next tick on, limited to the scene's
+    /// Sets θ′ of a whisker, degrees, from the next tick on, within the scene's
     /// `motor.min_deg` and `motor.max_deg`; None: the pattern generator's again. Whiskers are
     /// counted from 0, left side first.
     #[pyo3(signature = (degrees, whisker=0))]
     fn setpoint(&self, py: Python<'_>, degrees: Option<f64>, whisker: usize) -> PyResult<()> {
+        if let (Some(degrees), Some([least, most])) = (degrees, self.angles_deg) {
+            outside::within("setpoint", degrees, least, most)?;
+        }
         let set = py.detach(|| self.state().run.set_setpoint_deg(whisker, degrees));
         set.map_err(|error| PyValueError::new_err(error.to_string()))
     }
 
-    /// Sets the nominal gain g of a whisker from the next tick on, limited to 0 to 2.
+    /// Sets the nominal gain g of a whisker from the next tick on, 0 to 2.
     #[pyo3(signature = (gain, whisker=0))]
     fn gain(&self, py: Python<'_>, gain: f64, whisker: usize) -> PyResult<()> {
+        outside::within("gain", gain, 0.0, 2.0)?;
         let set = py.detach(|| self.state().run.set_gain(whisker, gain));
         set.map_err(|error| PyValueError::new_err(error.to_string()))
     }
@@ -239,15 +273,15 @@ impl Sim {
     /// `trace.csv` from here to the scene's end, byte for byte as host-sim writes it.
     fn trace_csv<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyBytes>> {
         let written = py.detach(|| {
-            let state = &mut *self.state();
             let mut table = TraceWriter::new(Vec::new(), self.shape)?;
-            for n in 1..=state.left() {
-                outside::heed(n)?;
+            let left = self.state().left();
+            self.each_tick(left, |state, _| {
                 let first = state.tick(true);
                 state.run.look_at_whiskers(&mut state.whiskers);
                 let fell = state.decided.get(first..).unwrap_or_default();
                 table.line(&state.run.trace_line(fell, &state.whiskers))?;
-            }
+                Ok(())
+            })?;
             PyResult::Ok(table.into_inner())
         });
         Ok(PyBytes::new(py, &written?))
@@ -294,8 +328,8 @@ impl Sim {
 
     /// How many ticks the scene lasts.
     #[getter]
-    fn ticks(&self, py: Python<'_>) -> u64 {
-        py.detach(|| self.state().run.ticks())
+    const fn ticks(&self) -> u64 {
+        self.ticks
     }
 
     /// How many have passed.
@@ -305,11 +339,9 @@ impl Sim {
     }
 
     fn __repr__(&self, py: Python<'_>) -> String {
-        let (done, ticks) = py.detach(|| {
-            let state = self.state();
-            (state.done, state.run.ticks())
-        });
-        format!("<whisker.Sim {:?}: tick {done} of {ticks}>", self.name)
+        let done = py.detach(|| self.state().done);
+        let Self { name, ticks, .. } = self;
+        format!("<whisker.Sim {name:?}: tick {done} of {ticks}>")
     }
 }
 

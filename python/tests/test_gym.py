@@ -1,5 +1,6 @@
 """Environments."""
 
+import multiprocessing
 import runpy
 import warnings
 from pathlib import Path
@@ -81,3 +82,55 @@ def test_what_is_wrong_is_said():
         WhiskerEnv(action="force")
     with pytest.raises(gymnasium.error.ResetNeeded):
         WhiskerEnv().step(np.zeros(1))
+
+
+def _steps(env, count):
+    return [env.step(np.full((env.num_envs, 1), 105.0))[0] for _ in range(count)]
+
+
+def test_the_same_seeds_are_the_same_past_a_restart():
+    runs = []
+    for _ in range(2):
+        env = WhiskerVectorEnv(2, set=SHORT, ticks=500)
+        env.reset(seed=[5, 9])
+        runs.append(_steps(env, 6))
+    assert np.array_equal(*runs) and not np.array_equal(runs[0][0], runs[0][2])
+
+
+@pytest.mark.parametrize("seed", [[None, 1], [1], [1, 2, 3], [1.5, 2], [True, 2], [2**64, 1], 2**64 - 1, -1, "1"])
+def test_a_wrong_seed_is_called_one(seed):
+    with pytest.raises(ValueError, match="seed"):
+        WhiskerVectorEnv(2, set=SHORT).reset(seed=seed)
+
+
+def test_a_mask_resets_some():
+    env = WhiskerVectorEnv(3, set=SHORT, ticks=100)
+    first, _ = env.reset(seed=1)
+    (moved,) = _steps(env, 1)
+    seen, info = env.reset(seed=1, options={"reset_mask": np.array([True, False, False])})
+    assert np.array_equal(seen[0], first[0]) and np.array_equal(seen[1:], moved[1:])
+    # The others have as much of their scene left as before.
+    ended = [env.step(np.full((3, 1), 105.0))[3].tolist() for _ in range(9)]
+    assert ended[8] == [False, True, True] and not any(map(any, ended[:8]))
+    for wrong in ([True], [1, 0, 0], [False] * 3):
+        with pytest.raises(ValueError, match="reset_mask"):
+            env.reset(options={"reset_mask": wrong})
+
+
+def test_an_action_that_is_no_number_moves_none():
+    env, other = (WhiskerVectorEnv(3, set=SHORT, ticks=100) for _ in range(2))
+    for each in (env, other):
+        each.reset(seed=1)
+    with pytest.raises(ValueError, match="found NaN"):
+        env.step(np.array([[72.0], [np.nan], [72.0]]))
+    assert np.array_equal(_steps(env, 1), _steps(other, 1))
+
+
+def test_environments_go_on_in_a_process_that_was_forked_off():
+    env = WhiskerVectorEnv(64, set=SHORT, ticks=20)
+    env.reset(seed=1)
+    env.step(np.full((64, 1), 90.0))
+    child = multiprocessing.get_context("fork").Process(target=env.step, args=(np.full((64, 1), 90.0),))
+    child.start()
+    child.join(60)
+    assert child.exitcode == 0

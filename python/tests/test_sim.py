@@ -8,6 +8,7 @@ import pathlib
 import pickle
 import re
 import signal
+import threading
 
 import numpy as np
 import pytest
@@ -16,6 +17,8 @@ import whisker
 
 TEXTURES = whisker.SCENES["textures"]
 SHORT = {"duration_s": 4.0}
+#: Some seconds of a scene without much in it.
+TICKS = 1_000_000
 STILL = {
     "name": "still",
     "tick_hz": 2000,
@@ -127,7 +130,7 @@ def test_setpoint_and_gain_move_the_whisker():
     assert np.ptp(sim.step(4000)["angle_left_deg"][2000:]) < 5.0
     with pytest.raises(ValueError, match="whisker 3"):
         sim.gain(1.0, whisker=3)
-    with pytest.raises(ValueError, match="finite"):
+    with pytest.raises(ValueError, match="setpoint: found"):
         sim.setpoint(float("nan"))
 
 
@@ -261,3 +264,54 @@ def test_the_readme_s_lines_decide(capsys):
     (lines,) = re.findall(r"```python\n(.*?)```", readme.read_text(), re.S)
     exec(lines, {})
     assert "smooth" in capsys.readouterr().out
+
+
+def test_handlers_of_signals_and_other_threads_see_a_run_go_on():
+    sim = whisker.Sim(STILL)
+    seen, polled = [], []
+
+    def look(*_):
+        seen.append((sim.done, sim.ticks, sim.seed, len(sim.decisions), len(sim.posteriors)))
+
+    def poll():
+        while sim.done < TICKS:
+            polled.append(sim.done)
+
+    ticks_before = signal.signal(signal.SIGALRM, look)
+    signal.setitimer(signal.ITIMER_REAL, 0.05, 0.05)
+    other = threading.Thread(target=poll)
+    other.start()
+    try:
+        sim.step(TICKS, every=TICKS)
+    finally:
+        signal.setitimer(signal.ITIMER_REAL, 0)
+        signal.signal(signal.SIGALRM, ticks_before)
+    other.join()
+    assert len(seen) > 1 and seen[0][0] < TICKS
+    assert len(set(polled)) > 3
+
+
+def test_values_of_numpy_and_paths_are_python_s_own(tmp_path):
+    own = {"whisking.coupling": np.bool_(False), "seed": None, "plant.stiffness": np.float32(0.5)}
+    sim = whisker.Sim(TEXTURES, set=own)
+    assert sim.seed == whisker.Sim(TEXTURES).seed
+    folder = tmp_path / "motor.kp=0.1"
+    folder.mkdir()
+    scene = folder / "scene.toml"
+    text = pathlib.Path(whisker.SCENES["free"]).read_text()
+    scene.write_text(text)
+    assert whisker.Sim(str(scene)).name == "free"
+    with pytest.raises(FileNotFoundError):
+        whisker.Sim(str(folder / "missing.toml"))
+    model = pathlib.Path(TEXTURES).parent / "models" / "textures.model"
+    assert whisker.Sim(TEXTURES, set={"classifier.model": model.resolve()}).classes
+
+
+def test_what_the_bench_refuses_is_refused():
+    sim = whisker.Sim(TEXTURES)
+    for wrong in (3, -0.1, float("nan")):
+        with pytest.raises(ValueError, match="gain: found .* allowed: 0 to 2"):
+            sim.gain(wrong)
+    for wrong in (1e9, float("nan")):
+        with pytest.raises(ValueError, match="setpoint: found"):
+            sim.setpoint(wrong)

@@ -99,6 +99,9 @@ class Envs:
     def step(
         self, actions: NDArray[np.float64], begin: NDArray[np.bool_], seeds: NDArray[np.uint64]
     ) -> tuple[NDArray[np.float32], NDArray[np.bool_]]: ...
+    def restart(
+        self, begin: NDArray[np.bool_], seeds: NDArray[np.uint64]
+    ) -> NDArray[np.float32]: ...
     @property
     def whiskers(self) -> int: ...
     @property

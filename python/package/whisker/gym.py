@@ -9,6 +9,7 @@ before, whose arrays have one more axis in front where there are several environ
 Needs ``gymnasium``.
 """
 
+import operator
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
@@ -57,6 +58,17 @@ def _spaces(envs: Envs) -> tuple[gymnasium.spaces.Box, gymnasium.spaces.Box]:
     )
 
 
+def _whole(name: str, seed: Any) -> int:
+    """A seed, which must be a whole number of 64 bits."""
+    try:
+        whole = operator.index(seed)
+    except TypeError:
+        whole = -1
+    if isinstance(seed, (bool, np.bool_)) or not 0 <= whole < 2**64:
+        raise ValueError(f"{name}: found {seed!r}, allowed: a whole number from 0 to 2**64 - 1")
+    return whole
+
+
 class WhiskerEnv(gymnasium.Env):
     """A scene in which an agent acts every ``ticks`` ticks until the scene has ended."""
 
@@ -83,8 +95,9 @@ class WhiskerEnv(gymnasium.Env):
     def reset(
         self, *, seed: int | None = None, options: dict[str, Any] | None = None
     ) -> tuple[np.ndarray, dict[str, Any]]:
-        super().reset(seed=seed)
-        number = int(self.np_random.integers(2**32)) if seed is None else seed
+        one = None if seed is None else _whole("seed", seed)
+        super().reset(seed=one)
+        number = int(self.np_random.integers(2**32)) if one is None else one
         observation, _ = self._step(np.zeros((1, self._envs.whiskers)), True, number)
         self._before = observation
         return observation, {"seed": number}
@@ -128,24 +141,44 @@ class WhiskerVectorEnv(VectorEnv):
         self.action_space = batch_space(self.single_action_space, num_envs)
         self._ended = np.zeros(num_envs, bool)
         self._seeds = np.zeros(num_envs, np.uint64)
+        #: Where each environment's next seeds come from.
+        self._randoms: list[np.random.Generator] = []
         self._before: np.ndarray | None = None
 
     def reset(
         self, *, seed: int | Sequence[int] | None = None, options: dict[str, Any] | None = None
     ) -> tuple[np.ndarray, dict[str, Any]]:
-        one = None if seed is None or np.ndim(seed) else int(seed)
+        mask = self._mask(options)
+        one = None if seed is None or np.ndim(seed) else _whole("seed", seed)
         super().reset(seed=one)
         if seed is None:
-            seeds = self.np_random.integers(2**32, size=self.num_envs, dtype=np.uint64)
+            seeds = [int(n) for n in self.np_random.integers(2**32, size=self.num_envs)]
         elif one is not None:
-            seeds = np.arange(one, one + self.num_envs, dtype=np.uint64)
+            seeds = [_whole("seed", one + n) for n in range(self.num_envs)]
         else:
-            seeds = np.array(seed, np.uint64)
-        actions = np.zeros((self.num_envs, self._envs.whiskers))
-        observations, _ = self._envs.step(actions, np.ones(self.num_envs, bool), seeds)
-        self._ended = np.zeros(self.num_envs, bool)
-        self._before = observations
-        return observations, {"seed": seeds}
+            seeds = [_whole(f"seed[{n}]", value) for n, value in enumerate(seed)]
+            if len(seeds) != self.num_envs:
+                raise ValueError(f"seed: found {len(seeds)}, allowed: {self.num_envs} of them")
+        if not self._randoms:
+            mask[:] = True
+            self._randoms = [np.random.default_rng()] * self.num_envs
+        for n in np.flatnonzero(mask):
+            self._randoms[n] = np.random.default_rng(seeds[n])
+        self._seeds = np.where(mask, np.array(seeds, np.uint64), self._seeds)
+        self._before = self._envs.restart(mask, self._seeds)
+        self._ended &= ~mask
+        return self._before, {"seed": self._seeds.copy()}
+
+    def _mask(self, options: dict[str, Any] | None) -> np.ndarray:
+        """Which environments are to be reset: Gymnasium's option ``reset_mask``."""
+        if options is None or options.get("reset_mask") is None:
+            return np.ones(self.num_envs, bool)
+        mask = np.asarray(options["reset_mask"])
+        if mask.dtype != bool or mask.shape != (self.num_envs,) or not mask.any():
+            raise ValueError(
+                f"reset_mask: found {mask!r}, allowed: {self.num_envs} truths, one of them at least true"
+            )
+        return mask.copy()
 
     def step(
         self, actions: np.ndarray
@@ -155,8 +188,8 @@ class WhiskerVectorEnv(VectorEnv):
         begin = self._ended
         restarts = begin.any()
         if restarts:
-            fresh = self.np_random.integers(2**32, size=self.num_envs, dtype=np.uint64)
-            self._seeds = np.where(begin, fresh, self._seeds)
+            for n in np.flatnonzero(begin):
+                self._seeds[n] = self._randoms[n].integers(2**32)
         actions = np.ascontiguousarray(actions, dtype=np.float64).reshape(self.num_envs, -1)
         observations, ended = self._envs.step(actions, begin, self._seeds)
         rewards = np.asarray(self._reward(observations, actions, self._before), np.float64)
