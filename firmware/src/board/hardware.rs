@@ -27,7 +27,7 @@ pub(crate) fn start(
     let clocks = pace::clocks();
     let frames = FramePace {
         slot: pace.slot_counts,
-        lag: clocks.lag_cycles(settings.sensor.is_slow),
+        lag: clocks.lag_rounds(settings.sensor.is_slow),
     };
     let motion = settings.motion.as_ref().filter(|_| Part::Motion.is_built());
     let motor = motion.map(|motion| start_motors(motion, sides));

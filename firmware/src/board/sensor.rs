@@ -34,7 +34,7 @@ pub(crate) struct Frames {
     port: &'static SensorPort,
     transfers: Transfers,
     running: bool,
-    /// Cycles of the core from the last byte to /SS high.
+    /// Rounds of delay from the last byte to /SS high.
     lag: u32,
 }
 
@@ -43,7 +43,7 @@ pub(crate) struct Frames {
 pub(crate) struct FramePace {
     /// Counts of the byte timer from the start of a byte to that of the next.
     pub(crate) slot: u16,
-    /// Cycles of the core from the last byte to /SS high.
+    /// Rounds of delay from the last byte to /SS high.
     pub(crate) lag: u32,
 }
 

@@ -228,14 +228,15 @@ impl Clocks {
         (self.watchdog_hz[1] / WATCHDOG_DIVIDER / 50) as u16
     }
 
-    /// Cycles of the core from a sensor's last byte to /SS high.
-    pub const fn lag_cycles(&self, is_slow: bool) -> u32 {
+    /// Rounds of `cortex_m::asm::delay`, of two cycles or more each, from a sensor's last byte to
+    /// /SS high.
+    pub const fn lag_rounds(&self, is_slow: bool) -> u32 {
         let lag_ns = if is_slow {
             SS_LAG_SLOW_NS
         } else {
             SS_LAG_FAST_NS
         };
-        self.core_hz / 1_000_000 * lag_ns / 1_000
+        self.core_hz / 2_000_000 * lag_ns / 1_000
     }
 
     /// Cycles of the core to wait for the sensor after power-up, with /SS high.
