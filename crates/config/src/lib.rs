@@ -268,7 +268,7 @@ kind = "ideal"
         // 0.8 of full duty, for 4.0 ms, in which a motor without friction would turn three times half
         // a degree, and half of the 2 ms of its rise; 8 counts of 0.064 degrees.
         assert_eq!((model.test, model.turned), (13_421_772, 8));
-        assert_eq!((model.stroke, model.grace), (11, 80));
+        assert_eq!((model.stroke, model.grace), (11, 20));
     }
 
     fn whisks<R: whisking::Real>(scene: &Scene, mhz: f64, ticks: f64) {

@@ -1,5 +1,7 @@
 //! From the number of a run to what is injected in it.
 
+use std::iter;
+
 use rand_core::{Rng, SeedableRng};
 use rand_xoshiro::Xoshiro256PlusPlus;
 
@@ -10,10 +12,12 @@ pub(super) const RUN_S: f64 = 10.0;
 /// An injection begins between these, s: in some scenes while a whisker is homed.
 const FROM_S: f64 = 0.25;
 const TO_S: f64 = 3.0;
+/// And before this where every word has its run, of which there are many, s.
+const WORDS_TO_S: f64 = 0.5;
 /// The longest that is taken away again, s.
 const LONGEST_S: f64 = 2.0;
-/// Of so many runs one has a second injection.
-const TWO_IN: u64 = 4;
+/// Of so many runs one has a second injection, if that befalls something else.
+const TWO_IN: u64 = 2;
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Plan {
@@ -54,7 +58,12 @@ pub(super) fn injections(
     has: Has,
     random: &mut Xoshiro256PlusPlus,
 ) -> Vec<Injection> {
-    let first = injection(random, has);
+    let to_s = if plan == Plan::Words {
+        WORDS_TO_S
+    } else {
+        TO_S
+    };
+    let first = injection(random, has, to_s);
     match plan {
         Plan::Words => {
             let word = number & u64::from(u32::MAX);
@@ -65,20 +74,26 @@ pub(super) fn injections(
                 ..first
             }]
         }
-        Plan::Drawn if below(random, TWO_IN) == 0 => vec![first, injection(random, has)],
-        Plan::Drawn => vec![first],
+        Plan::Drawn => {
+            let is_alone = below(random, TWO_IN) != 0;
+            // Two at one motor, or one sensor, would undo each other.
+            let second = injection(random, has, to_s);
+            let is_elsewhere = second.kind.befalls() != first.kind.befalls();
+            let second = (is_elsewhere && !is_alone).then_some(second);
+            iter::once(first).chain(second).collect()
+        }
     }
 }
 
 /// Draws an injection. Half of those that can be taken away again stay to the end.
-fn injection(random: &mut Xoshiro256PlusPlus, has: Has) -> Injection {
+fn injection(random: &mut Xoshiro256PlusPlus, has: Has, to_s: f64) -> Injection {
     let kind = match below(random, 10) {
         0..6 if has.chip => one_of(random, &Kind::CHIP),
         n if has.motors && n % 2 == 0 => one_of(random, &Kind::MOTOR),
         _ => one_of(random, &Kind::SENSOR),
     };
     let ticks = |seconds: f64| (seconds * f64::from(has.tick_hz)) as u64;
-    let start = ticks(FROM_S) + below(random, ticks(TO_S - FROM_S));
+    let start = ticks(FROM_S) + below(random, ticks(to_s - FROM_S));
     let longest = LONGEST_S * f64::from(has.tick_hz);
     let share = below(random, 1001) as f64 / 1000.0;
     let stays = random.next_u64().is_multiple_of(2);

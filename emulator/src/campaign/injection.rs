@@ -82,6 +82,14 @@ pub enum Kind {
     Late,
 }
 
+/// What a fault befalls.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Befallen {
+    Motor,
+    Sensor,
+    Chip,
+}
+
 impl Kind {
     /// Those that befall the wires of a motor. Not an encoder that loses counts or has another
     /// scale: while it whisks nothing tells them from one that does not, and they are harmful until
@@ -125,6 +133,17 @@ impl Kind {
         Self::Late,
     ];
 
+    /// What it befalls: a motor, a sensor or a chip.
+    pub(super) fn befalls(self) -> Befallen {
+        if Self::MOTOR.contains(&self) {
+            Befallen::Motor
+        } else if Self::CHIP.contains(&self) {
+            Befallen::Chip
+        } else {
+            Befallen::Sensor
+        }
+    }
+
     /// Whether every frame that the sensor sends while it lasts is bad.
     pub(super) const fn spoils_every_frame(self) -> bool {
         matches!(
@@ -140,7 +159,7 @@ impl Kind {
 
     /// Whether it happens once, and is not taken away again.
     pub(super) fn is_momentary(self) -> bool {
-        Self::CHIP.contains(&self)
+        self.befalls() == Befallen::Chip
     }
 
     /// What the sensor's frames then get, where `byte` is one of theirs.

@@ -72,12 +72,19 @@ struct Whisker {
     /// loose last, degrees: nothing but an index could tell.
     displaced_deg: f64,
     last_displaced_deg: f64,
+    /// The same when it was homed last, which knows it.
+    homed_deg: f64,
     /// Ticks left in which the setpoint that is followed approaches that of the pattern
     /// generator.
     approaches: u32,
 }
 
 impl Whisker {
+    /// By how much it is displaced from where the module can know it to be, degrees.
+    const fn displaced(&self) -> f64 {
+        self.displaced_deg - self.homed_deg
+    }
+
     fn must_rest(&self) -> bool {
         self.sensor_is_lost || self.motor != Motor::Runs
     }
@@ -254,6 +261,10 @@ impl Judge {
             return Some(Harm::Driven);
         }
         let is_homing = seen.homing.get(n).copied().unwrap_or_default();
+        if is_homing {
+            whisker.homed_deg = whisker.last_displaced_deg;
+            whisker.displaced_deg = whisker.last_displaced_deg;
+        }
         if is_homing || std::mem::replace(&mut whisker.was_homing, is_homing) {
             whisker.at_stop_for = 0;
             whisker.away_for = 0;
@@ -276,7 +287,7 @@ impl Judge {
         let side = n / self.per_side;
         let (angle, setpoint) = (seen.row.angle_deg[side], seen.row.theta_deg[side]);
         whisker.approaches = whisker.approaches.saturating_sub(1);
-        let angle = angle - whisker.displaced_deg;
+        let angle = angle - whisker.displaced();
         let away = (angle - setpoint).abs() > self.following_deg && whisker.approaches == 0;
         whisker.away_for = if away && effort > 0.0 {
             whisker.away_for + 1
@@ -314,7 +325,7 @@ impl Judge {
             }
             let side = n / self.per_side;
             let (angle, setpoint) = (seen.row.angle_deg[side], seen.row.theta_deg[side]);
-            if (angle - whisker.displaced_deg - setpoint).abs() > self.following_deg {
+            if (angle - whisker.displaced() - setpoint).abs() > self.following_deg {
                 return Some(Harm::Unrecovered);
             }
         }
