@@ -163,6 +163,12 @@ impl Judge {
             }
             whisker.last_displaced_deg = displaced;
         }
+        // What decides with the first good frame decides by what is good.
+        for &(n, notice) in &seen.notices {
+            if notice == Notice::SensorBack {
+                self.note(n, notice);
+            }
+        }
         // A frame is used a tick after it was sent, and the last good one is held.
         let held = (HOLD_S * self.tick_hz).ceil() as u64 + 1;
         let decided = seen.decisions.iter().any(|(n, _)| {
