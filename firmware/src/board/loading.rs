@@ -16,7 +16,7 @@ use super::serial::Serial;
 use super::slots::{self, SLOTS};
 use super::telemetry::ProbeLine;
 use super::watchdog::Watchdog;
-use super::{outputs, pace, retained, tick_timer};
+use super::{outputs, pace, retained, sleep, tick_timer};
 use crate::here::TICK_INTERRUPT;
 use crate::here::flash::Writer;
 
@@ -162,9 +162,10 @@ fn leave_the_tick() {
     }
 }
 
-/// Waits until the next tick would be, awake, as interrupts are masked ([`sleep`](super::sleep)).
+/// Sleeps until the next tick would be. A masked interrupt wakes the core all the same, and is
+/// forgotten.
 fn next_tick() {
-    while !NVIC::is_pending(TICK_INTERRUPT) {}
+    sleep::until_interrupt();
     tick_timer::acknowledge();
     NVIC::unpend(TICK_INTERRUPT);
 }
