@@ -192,12 +192,10 @@ fn motion<R: Real>(scene: &Scene, runs_on: RunsOn) -> Result<Option<MotionConfig
         GuardSettings::NONE
     } else {
         bearable::check(whisking, motor)?;
+        let guards = guards(motor, degrees_per_count);
+        // What is simulated cannot be harmed, and the papers' heads have gains beyond this.
         if is_board {
             protecting::check(motor, degrees_per_count)?;
-        }
-        let guards = guards(motor, degrees_per_count);
-        // The papers' own heads have other motors, and gains to match.
-        if is_board {
             settling::check(&pd, &guards, tick_hz)?;
         }
         guards

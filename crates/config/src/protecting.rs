@@ -5,6 +5,7 @@ use std::ops::RangeInclusive;
 
 use firmware::allowed;
 use scene::MotorSection;
+use whisking::motor::MOST_FRICTION;
 
 /// A key whose value would leave a motor without one of its guards.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -58,8 +59,8 @@ pub(crate) fn check(motor: &MotorSection, degrees_per_count: f64) -> Result<(), 
     )?;
     let is_gentle = motor.duty_limit <= allowed::GENTLE_DUTY;
     let is_coarse = degrees_per_count > allowed::COARSEST_DEG;
-    // What the model of a motor bears: nine tenths, there and back again.
-    let unmoved = 1.8 * motor.duty_limit;
+    // Both ways together.
+    let unmoved = 2.0 * MOST_FRICTION * motor.duty_limit;
     if is_coarse || is_gentle && motor.unmoved_duty >= unmoved {
         // Nothing is expected of it.
         return Ok(());

@@ -42,6 +42,9 @@ impl fmt::Display for Unsettled {
             format!("kd from {least} to {most}")
         });
         let each: Vec<String> = [kp, kd].into_iter().flatten().collect();
+        if each.is_empty() {
+            return f.write_str("no kp or kd with the other values as they are");
+        }
         f.write_str(&each.join(", or "))?;
         f.write_str(", with the other values as they are")
     }

@@ -48,7 +48,7 @@ pub use guard::{FOLLOWING_S, GuardConfig, GuardSettings, Guards, Heat, Moved, ST
 pub use hall::HallTracker;
 pub use hbridge::HBridge;
 pub use homing::{Homed, Homing, HomingConfig, HomingSettings};
-pub use model::{Expected, ModelConfig, ModelSettings};
+pub use model::{Expected, MOST_FRICTION, ModelConfig, ModelSettings};
 pub use phases::{HallInputs, PhaseEnables, PhasePwms};
 pub use six_step::{SixStep, SixStepConfig, SixStepState};
 pub use stall::{StallConfig, StallGuard};

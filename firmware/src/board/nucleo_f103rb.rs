@@ -182,11 +182,7 @@ mod chip {
         RCC.cr().modify(|w| w.set_csson(is_fed));
 
         RCC.apb1enr().modify(|w| w.set_tim3en(true));
-        Ok(if is_fed {
-            ClockSource::Own
-        } else {
-            ClockSource::Internal
-        })
+        Ok(ClockSource::of(is_fed))
     }
 
     /// Halves the clocks that [`start_clocks`] has brought: the core's is divided before it

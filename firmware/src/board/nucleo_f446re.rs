@@ -280,11 +280,7 @@ mod chip {
             w.set_tim7en(true);
         });
         settle();
-        Ok(if is_fed {
-            ClockSource::Own
-        } else {
-            ClockSource::Internal
-        })
+        Ok(ClockSource::of(is_fed))
     }
 
     /// Halves the clocks that [`start_clocks`] has brought: the core's is divided before it

@@ -16,6 +16,13 @@ pub(crate) enum ClockSource {
     Internal,
 }
 
+impl ClockSource {
+    /// Of a board whose clock from outside came, or did not.
+    pub(crate) const fn of(is_fed: bool) -> Self {
+        if is_fed { Self::Own } else { Self::Internal }
+    }
+}
+
 /// Whether something is `ready` within [`CLOCK_WAIT_LOOPS`].
 pub(crate) fn comes(ready: impl Fn() -> bool) -> bool {
     (0..CLOCK_WAIT_LOOPS).any(|_| ready())

@@ -8,9 +8,8 @@ use core::fmt;
 
 use tactile::{Deciding, RuleSettings};
 use whisking::motor::{Driver, GuardConfig, HomingConfig, ModelConfig};
-use whisking::pd::{self, Unborne};
 use whisking::{
-    Bound, Bounded, MAX_WHISKERS, Real, Start, filter, gate, muscle, noise, oscillator,
+    Bound, Bounded, MAX_WHISKERS, Real, Start, filter, gate, muscle, noise, oscillator, pd,
 };
 
 use super::{Config, ConfigError, HeadConfig, Links, MotionConfig, Part, SensingConfig};
@@ -151,7 +150,7 @@ fn if_there<T>(part: Part, value: Option<&T>, check: impl FnOnce(&T) -> Checked)
 }
 
 impl<R: Real> Config<R> {
-    /// Whether a tick can run by it, in this image, and its motor settles under its gains.
+    /// Whether a tick can run by it, in this image.
     ///
     /// # Errors
     /// [`ConfigError::Range`] names the field that is out of its range, or contradicts another;
@@ -170,10 +169,10 @@ impl<R: Real> Config<R> {
 }
 
 impl<R: Real> Config<R> {
-    /// Whether its limits protect a motor that is real.
+    /// Whether its limits protect a motor that is real, which settles under its gains.
     ///
     /// # Errors
-    /// [`ConfigError::Range`] names the limit that does not.
+    /// [`ConfigError::Range`] names the limit that does not, or the gain to change.
     pub(super) fn protects(&self) -> Checked {
         let motion = self.motion.as_ref().filter(|_| Part::Motion.is_built());
         let protects = motion.map_or(Ok(()), |motion| motion.protects(self.head.tick_hz));
@@ -381,23 +380,12 @@ fn of_servo<R: Real>(servo: &ServoConfig<R>) -> Checked {
     require(Field::Guards, lowest <= highest && *heat_shift < 32)?;
     if let Some(model) = model {
         moves(model)?;
-        settles(servo, model)?;
     }
     if_there(
         Part::Homing,
         servo.homing.as_ref(),
         |homing: &HomingConfig| within(Field::Homing, &[homing.duty], SHARE),
     )
-}
-
-fn settles<R: Real>(servo: &ServoConfig<R>, model: &ModelConfig<R>) -> Checked {
-    servo.pd.settles(model).map_err(|unborne| {
-        ConfigError::Range(match unborne {
-            Unborne::Kp => Field::Kp,
-            Unborne::Kd => Field::Kd,
-            Unborne::Slew => Field::Slew,
-        })
-    })
 }
 
 /// How a motor moves as it is driven.

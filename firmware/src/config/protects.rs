@@ -7,7 +7,7 @@
 
 use whisking::Real;
 use whisking::motor::{GuardConfig, HomingConfig, ModelConfig};
-use whisking::pd;
+use whisking::pd::{self, Unborne};
 
 use super::MotionConfig;
 use super::check::Field;
@@ -101,6 +101,7 @@ impl<R: Real> MotionConfig<R> {
         guards(&servo.guards, &servo.pd, &encoder, tick_hz)?;
         if let Some(model) = &servo.guards.model {
             expects(model, &encoder, tick_hz)?;
+            settles(&servo.pd, model)?;
         } else {
             let is_coarse = encoder.turns_by(1) > degrees(69);
             require(Field::Friction, is_coarse || servo.pd.limit <= duty(25))?;
@@ -156,6 +157,15 @@ fn expects<R: Real>(model: &ModelConfig<R>, encoder: &Encoder<R>, tick_hz: u32) 
         && model.turned >= 3
         && lasts(model.stroke.max(model.grace), 250, tick_hz);
     require(Field::Guards, is_kept)
+}
+
+/// Whether a motor settles under its gains.
+fn settles<R: Real>(pd: &pd::Config<R>, model: &ModelConfig<R>) -> Protected {
+    pd.settles(model).map_err(|unborne| match unborne {
+        Unborne::Kp => Field::Kp,
+        Unborne::Kd => Field::Kd,
+        Unborne::Slew => Field::Slew,
+    })
 }
 
 /// Whether it is looked for gently, and not for long.

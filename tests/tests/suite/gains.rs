@@ -2,6 +2,8 @@
 //! that are not quite as the model has them.
 
 use config::{RunsOn, Target};
+use rand_core::{Rng, SeedableRng};
+use rand_xoshiro::Xoshiro256PlusPlus;
 use scene::Scene;
 use whisking::motor::ModelSettings;
 use whisking::pd;
@@ -94,12 +96,9 @@ impl Case {
 
 /// Numbers that are spread evenly by their logarithm.
 fn logarithmic() -> impl FnMut(f64, f64) -> f64 {
-    let mut state = 88_172_645_463_325_252_u64;
+    let mut random = Xoshiro256PlusPlus::seed_from_u64(50);
     move |low, high| {
-        state ^= state << 13;
-        state ^= state >> 7;
-        state ^= state << 17;
-        let share = (state >> 11) as f64 / (1_u64 << 53) as f64;
+        let share = (random.next_u64() >> 11) as f64 / (1_u64 << 53) as f64;
         low * (high / low).powf(share)
     }
 }

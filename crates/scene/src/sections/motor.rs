@@ -45,8 +45,8 @@ keys! {
         /// Power stage: one H-bridge (brushed motor) or six-step commutation (brushless motor).
         driver: Driver = word().default("\"h-bridge\""),
 
-        /// Proportional gain of the position control. Gains under which the motor would not
-        /// settle after a step are refused.
+        /// Proportional gain of the position control. A board refuses gains under which the motor
+        /// would not settle after a step.
         kp: f64 = number(0.0..=10.0).unit("duty per degree").default("0.05"),
 
         /// Derivative gain of the position control.

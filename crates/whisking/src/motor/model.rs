@@ -48,8 +48,8 @@ const DOUBT_DEG: f64 = 1.0;
 const SLOW_DEG_S: f64 = 30.0;
 /// The duty of a test, at most: strong against friction, so that a test is short.
 const TEST_DUTY: f64 = 0.8;
-/// Of that, what friction must leave.
-const LEAST_SHARE: f64 = 0.1;
+/// The share of the largest duty of a test that friction may take.
+pub const MOST_FRICTION: f64 = 0.9;
 /// What a test must turn a whisker by, degrees, and counts of a coarse encoder: more than one
 /// that jitters by three counts (of 0.064 degrees) shows.
 const TURNED_DEG: f64 = 0.5;
@@ -88,7 +88,7 @@ impl ModelSettings {
     pub fn build<R: Real>(&self, tick_hz: f64, degrees_per_count: f64) -> Option<ModelConfig<R>> {
         let duty = TEST_DUTY.min(self.duty_limit);
         let beyond_friction = duty - self.friction_duty;
-        if beyond_friction <= LEAST_SHARE * duty || degrees_per_count > COARSEST_DEG {
+        if self.friction_duty >= MOST_FRICTION * duty || degrees_per_count > COARSEST_DEG {
             return None;
         }
         let ticks = |seconds: f64| libm::ceil(seconds * tick_hz).clamp(1.0, 65_535.0) as u16;
