@@ -16,7 +16,9 @@ mod timing;
 pub use facts::{ALL, BoardFacts, NUCLEO_F103RB, NUCLEO_F446RE, NUCLEO_G071RB};
 pub use fits::{Misfit, Needs};
 pub use flash::{FlashMap, Region, Slot};
-pub use slot::{SLOT_HEADER_BYTES, SLOT_HEADER_WORDS, SlotHeader, newest_first, next};
+pub use slot::{
+    MARK_WORDS, SLOT_HEADER_BYTES, SLOT_HEADER_WORDS, SlotHeader, has_armed, newest_first, next,
+};
 pub use timing::{
     CLOCK_WAIT_LOOPS, Clocks, PWM_HZ, RECEIVED_BYTES, REST_NS, SLOT_FAST_NS, TICK_MIN_HZ,
     TickPeriod, serial_keeps_up,

@@ -178,6 +178,9 @@ macro_rules! say_not_armed {
             $crate::NotArmed::Stopped => {
                 $say!(info, "not-armed 0 somebody has stopped the motors");
             }
+            $crate::NotArmed::Before => {
+                $say!(info, "not-armed 0 the supply has been away");
+            }
             $crate::NotArmed::Reset => {
                 $say!(info, "not-armed 0 it was reset");
             }

@@ -65,6 +65,8 @@ pub enum NotArmed {
     Stopped,
     /// The chip was reset, and has not started because its supply came.
     Reset,
+    /// The supply has come before since the scene was deployed, and the scene has armed them then.
+    Before,
 }
 
 /// How often the chip has started and what befell it last. The default is that of a chip

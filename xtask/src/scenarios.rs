@@ -63,12 +63,7 @@ const STOPPED: &[Bound] = &[
 const WHISKS_ON: &[Bound] = &[Faults(false), INSIDE, Least("driven_s", 3.0)];
 
 /// Rows that are not within their bounds yet. One that is, must not stand here.
-const OPEN: &[&str] = &[
-    "scaled-encoder",
-    "slipping-encoder",
-    "power-lost-after-stop",
-    "power-lost",
-];
+const OPEN: &[&str] = &["scaled-encoder", "slipping-encoder"];
 
 const fn row(file: &'static str, set: &'static [&'static str], bounds: &'static [Bound]) -> Row {
     Row { file, set, bounds }
@@ -187,7 +182,11 @@ const ROWS: &[Row] = &[
         &[],
         &[Most("driven_after_stop_s", 0.0), Off],
     ),
-    row("power-lost", &[], &[INSIDE, Most("at_stop_s", 0.0)]),
+    row(
+        "power-lost",
+        &[],
+        &[INSIDE, Least("driven_s", 0.5), Most("at_stop_s", 0.0), Off],
+    ),
     row("arming-again", &[], &[INSIDE, Most("at_stop_s", 0.0)]),
     row(
         "hand-while-homing",

@@ -120,6 +120,9 @@ impl Flash {
         let width = if layout.has_width { WIDTH } else { 0 };
         let known = PG | ERASES | layout.number | width | layout.strt | layout.lock;
         self.control = value & !layout.strt;
+        if value & layout.lock != 0 {
+            self.keys = 0;
+        }
         if value & layout.strt == 0 {
             return value & !known == 0;
         }

@@ -36,9 +36,16 @@ fn is_done() -> bool {
 pub(crate) struct Writer(());
 
 impl Writer {
-    /// Ready to write.
-    pub(crate) const fn new() -> Self {
+    /// Ready to write, until it is [closed](Self::close) or the next reset.
+    pub(crate) fn new() -> Self {
+        flash_lock::open();
+        FLASH.sr().write_value(Sr(ERRORS));
         Self(())
+    }
+
+    /// Nothing is written any more.
+    pub(crate) fn close(self) {
+        FLASH.cr().write(|w| w.set_lock(true));
     }
 
     /// Erases a sector of 128 KiB, which takes up to 2 s (STM32F446xC/E datasheet, flash
@@ -46,11 +53,9 @@ impl Writer {
     /// data cache holds of it is forgotten, and it is off until the next reset.
     pub(crate) fn erase(&mut self, region: Region) -> bool {
         let sector = SECTORS_BEFORE + region.start.wrapping_sub(FLASH_BASE) / SECTOR_BYTES;
-        flash_lock::open();
         FLASH.acr().modify(|w| w.set_dcen(false));
         FLASH.acr().modify(|w| w.set_dcrst(true));
         FLASH.acr().modify(|w| w.set_dcrst(false));
-        FLASH.sr().write_value(Sr(ERRORS));
         FLASH.cr().write(|w| {
             w.set_psize(AT_A_TIME);
             w.set_ser(true);

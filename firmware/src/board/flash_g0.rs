@@ -32,16 +32,21 @@ fn is_done() -> bool {
 }
 
 impl Writer {
-    /// Ready to write.
-    pub(crate) const fn new() -> Self {
+    /// Ready to write, until it is [closed](Self::close) or the next reset.
+    pub(crate) fn new() -> Self {
+        flash_lock::open();
+        FLASH.sr().write_value(Sr(ERRORS));
         Self { waiting: None }
+    }
+
+    /// Nothing is written any more.
+    pub(crate) fn close(self) {
+        FLASH.cr().write(|w| w.set_lock(true));
     }
 
     /// Erases whole pages, each of which takes up to 40 ms (STM32G071x8/xB datasheet, flash
     /// memory); whether all went well. Nothing else may read them any more.
     pub(crate) fn erase(&mut self, region: Region) -> bool {
-        flash_lock::open();
-        FLASH.sr().write_value(Sr(ERRORS));
         let first = region.start.wrapping_sub(FLASH_BASE) / PAGE;
         (0..region.bytes / PAGE).all(|page| {
             FLASH.cr().write(|w| {

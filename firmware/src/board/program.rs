@@ -30,7 +30,9 @@ use super::telemetry::{self, Configs, Exchange, Telemetry};
 use super::types::{Inner, Settings};
 use super::user_button::{self, HAS_STOPPED, REQUEST, UserButton};
 use super::watchdog::Watchdog;
-use super::{faults, hardware, loading, log, outputs, pace, perception, retained, scene, supply};
+use super::{
+    faults, hardware, loading, log, outputs, pace, perception, retained, scene, slots, supply,
+};
 use crate::here::{self, Counter};
 
 /// Events on their way from the tick to idle, and what idle sends to the tick. Fifteen events
@@ -124,7 +126,9 @@ pub(crate) fn start(core: cortex_m::Peripherals, queues: &'static mut Queues) ->
     let telemetry = Telemetry::new(settings, inner, model, tick_ends);
     let motion = settings.motion.as_ref().filter(|_| Part::Motion.is_built());
     if let Some(motion) = motion {
-        match start.may_arm(motion.arms_at_start) {
+        let slot = deployed.map_or(usize::MAX, |deployed| deployed.slot);
+        let may_arm = start.may_arm(motion.arms_at_start);
+        match may_arm.and_then(|()| slots::arm_once(slot)) {
             Ok(()) => inner.arm(true),
             Err(reason) => {
                 log::not_armed(reason);

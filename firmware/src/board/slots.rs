@@ -1,11 +1,12 @@
 //! The flash in which scenes and models lie apart from the program: two slots, of which the
 //! newest valid one counts (`firmware::boards`). A program may bring a first scene with it.
 
-use firmware::boards::{Region, Slot, SlotHeader};
-use firmware::{ConfigError, HEADER_BYTES, Part};
+use firmware::boards::{Region, Slot, SlotHeader, has_armed};
+use firmware::{ConfigError, HEADER_BYTES, NotArmed, Part};
 use wire::Load;
 
 use crate::here::FACTS;
+use crate::here::flash::Writer;
 
 /// Both slots.
 pub(crate) const SLOTS: [Slot; 2] = FACTS.flash.slots;
@@ -35,8 +36,9 @@ fn contents(region: Region) -> &'static [u8] {
     let start = core::ptr::with_exposed_provenance::<u8>(region.start as usize);
     #[allow(unsafe_code, reason = "flash beside the program is no variable")]
     // SAFETY: a region of the board's flash, of which a test says that the memory map has it
-    // beside the program's; it is there for ever, and only the loader writes it, which has the
-    // chip for itself and ends with a reset, so never while this slice is read.
+    // beside the program's; it is there for ever. The loader writes it, which has the chip for
+    // itself and ends with a reset, and a start the mark of a slot, of which no slice is in use
+    // then: so never while this slice is read.
     unsafe {
         core::slice::from_raw_parts(start, region.bytes as usize)
     }
@@ -69,6 +71,27 @@ pub(crate) fn no_header(slot: &Slot) -> ConfigError {
 /// The place of a slot's model.
 pub(crate) fn model(slot: &Slot) -> &'static [u8] {
     contents(slot.model)
+}
+
+/// Notes in the flash of a slot that its scene arms motors by itself, before it does: a loss of
+/// power leaves RAM without what it knew of a stop, and a whisker where it is not at rest.
+///
+/// # Errors
+/// It has done so before, or flash does not take the note.
+#[cold]
+#[inline(never)]
+pub(crate) fn arm_once(slot: usize) -> Result<(), NotArmed> {
+    let slot = SLOTS.get(slot).ok_or(NotArmed::Before)?;
+    if has_armed(contents(slot.head)) {
+        return Err(NotArmed::Before);
+    }
+    let mark = slot.mark();
+    let mut writer = Writer::new();
+    let is_noted = (mark.start..mark.end())
+        .step_by(4)
+        .all(|at| writer.write(at as usize, 0));
+    writer.close();
+    is_noted.then_some(()).ok_or(NotArmed::Before)
 }
 
 /// What the program brings with it: it lies where it would have been deployed to, and counts

@@ -77,15 +77,15 @@ pub const NUCLEO_F446RE: BoardFacts = BoardFacts {
 
 /// Of both chips with 128 KiB: pages of 1 or 2 KiB.
 const SMALL_FLASH: FlashMap = FlashMap::with_one_model(
-    Region::new(0x0800_0000, 100 * KIB),
+    Region::new(0x0800_0000, 104 * KIB),
     [
-        Region::new(0x0801_9000, 2 * KIB),
-        Region::new(0x0801_9800, 2 * KIB),
+        Region::new(0x0801_A000, 2 * KIB),
+        Region::new(0x0801_A800, 2 * KIB),
     ],
-    Region::new(0x0801_A000, 24 * KIB),
+    Region::new(0x0801_B000, 20 * KIB),
 );
 
-/// Two tables of 24 by 24 bins then take 13.5 KiB of the 24 KiB for a model.
+/// Two tables of 24 by 24 bins then take 13.5 KiB of the 20 KiB for a model.
 const SMALL_CLASSES: usize = 6;
 
 /// Timers on APB1 count at twice the clock of their bus, those on APB2 at the bus clock

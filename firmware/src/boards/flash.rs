@@ -1,6 +1,6 @@
 //! What lies where in a board's flash.
 
-use super::SLOT_HEADER_BYTES;
+use super::{MARK_WORDS, SLOT_HEADER_BYTES};
 
 /// Bytes of flash from an address on.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -48,6 +48,12 @@ impl Slot {
     pub const fn config(self) -> Region {
         let header = SLOT_HEADER_BYTES as u32;
         Region::new(self.head.start + header, self.head.bytes - header)
+    }
+
+    /// Where the mark is, between header and configuration.
+    pub const fn mark(self) -> Region {
+        let bytes = (MARK_WORDS * size_of::<u32>()) as u32;
+        Region::new(self.config().start - bytes, bytes)
     }
 
     /// Whether the model is erased with the rest.

@@ -1,11 +1,14 @@
-//! What stands before a configuration in flash: which of two is the newer, and which model it
-//! was deployed with.
+//! What stands before a configuration in flash: which of two is the newer, which model it was
+//! deployed with, and whether it has armed motors by itself.
 
 /// Words of a [`SlotHeader`].
 pub const SLOT_HEADER_WORDS: usize = 4;
 
-/// Bytes of a [`SlotHeader`]; the configuration begins behind them.
-pub const SLOT_HEADER_BYTES: usize = SLOT_HEADER_WORDS * size_of::<u32>();
+/// Words of the [mark](has_armed) behind it: a pair, by which the flash of some boards is written.
+pub const MARK_WORDS: usize = 2;
+
+/// Bytes of both; the configuration begins behind them.
+pub const SLOT_HEADER_BYTES: usize = (SLOT_HEADER_WORDS + MARK_WORDS) * size_of::<u32>();
 
 /// The first word.
 const MAGIC: u32 = u32::from_le_bytes(*b"WSLT");
@@ -33,13 +36,14 @@ impl SlotHeader {
         [MAGIC, sequence, model, sum([MAGIC, sequence, model])]
     }
 
-    /// The same byte by byte, little-endian.
+    /// The same byte by byte, little-endian, and a mark that is not set.
     pub const fn bytes(self) -> [u8; SLOT_HEADER_BYTES] {
         let [a, b, c, d] = self.words();
         let ([a0, a1, a2, a3], [b0, b1, b2, b3]) = (a.to_le_bytes(), b.to_le_bytes());
         let ([c0, c1, c2, c3], [d0, d1, d2, d3]) = (c.to_le_bytes(), d.to_le_bytes());
+        let e = u8::MAX;
         [
-            a0, a1, a2, a3, b0, b1, b2, b3, c0, c1, c2, c3, d0, d1, d2, d3,
+            a0, a1, a2, a3, b0, b1, b2, b3, c0, c1, c2, c3, d0, d1, d2, d3, e, e, e, e, e, e, e, e,
         ]
     }
 
@@ -58,6 +62,15 @@ impl SlotHeader {
     pub const fn is_newer_than(self, other: Self) -> bool {
         self.sequence.wrapping_sub(other.sequence).cast_signed() > 0
     }
+}
+
+/// Whether the scene of the slot that begins with `bytes` has armed motors by itself, which it does
+/// once: a mark in flash, of zeros, which can be written over what a linker left erased too, says
+/// so. It outlives a loss of power, and is gone with the next deployment.
+pub fn has_armed(bytes: &[u8]) -> bool {
+    let (words, _) = bytes.as_chunks::<4>();
+    let mut mark = words.iter().skip(SLOT_HEADER_WORDS).take(MARK_WORDS);
+    mark.any(|word| *word != [u8::MAX; 4])
 }
 
 const fn sum([a, b, c]: [u32; 3]) -> u32 {
@@ -96,7 +109,7 @@ pub fn next(headers: [Option<SlotHeader>; 2], in_use: Option<usize>) -> (usize, 
 mod tests {
     use proptest::prelude::*;
 
-    use super::{SLOT_HEADER_BYTES, SlotHeader, newest_first, next};
+    use super::{SLOT_HEADER_WORDS, SlotHeader, has_armed, newest_first, next};
 
     const fn header(sequence: u32) -> SlotHeader {
         SlotHeader { sequence, model: 7 }
@@ -112,11 +125,23 @@ mod tests {
         #[test]
         fn a_header_with_a_flipped_bit_is_none(
             sequence in any::<u32>(),
-            bit in 0..8 * SLOT_HEADER_BYTES,
+            bit in 0..32 * SLOT_HEADER_WORDS,
         ) {
             let mut bytes = SlotHeader { sequence, model: 3 }.bytes();
             bytes[bit / 8] ^= 1 << (bit % 8);
             prop_assert_eq!(SlotHeader::of(&bytes), None);
+        }
+    }
+
+    #[test]
+    fn a_mark_is_any_bit_that_is_written() {
+        let bytes = header(1).bytes();
+        assert!(!has_armed(&bytes));
+        for bit in 32 * SLOT_HEADER_WORDS..8 * bytes.len() {
+            let mut marked = bytes;
+            marked[bit / 8] ^= 1 << (bit % 8);
+            assert!(has_armed(&marked), "bit {bit}");
+            assert_eq!(SlotHeader::of(&marked), Some(header(1)));
         }
     }
 

@@ -22,7 +22,7 @@ choice! {
 choice! {
     /// When motors are armed.
     pub enum Arm {
-        /// When the program starts as the supply has come.
+        /// When the program starts as the supply has come, once for each deployment.
         AtStart = "at-start",
         /// By command only.
         OnCommand = "on-command",
@@ -103,9 +103,9 @@ keys! {
         /// every motor until no whisker has a fault.
         on_fault: OnFault = word().default("\"stop-whisker\""),
 
-        /// When the motors are armed: when the supply has come and the program starts, or by a
-        /// command, on a board also by the user button. After any other reset the program waits
-        /// for the command in either case.
+        /// When the motors are armed: when the supply comes for the first time since the scene was
+        /// deployed and the program starts, or by a command, on a board also by the user button.
+        /// After any other start the program waits for the command in either case.
         arm: Option<Arm> = word()
             .optional("`\"at-start\"` in a simulated world (`[plant]`, `--world`), else `\"on-command\"`"),
 
