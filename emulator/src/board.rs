@@ -18,7 +18,7 @@ use host_sim::bench::{Bench, Snapshot};
 use host_sim::bus::{Exchange, Slave};
 use host_sim::motor::{Pins, SimPwm};
 use host_sim::received::{Received, Receiver};
-use mlx90333::FRAME_LEN;
+use mlx90333::{Decoder, FRAME_LEN};
 use scene::Scene;
 
 use crate::chip::{Chip, Fault, Ps, ResetCause, SensorEnd, WELL_MV};
@@ -152,6 +152,9 @@ impl Board {
             bears_resets: false,
             fault: None,
         };
+        for side in 0..sides {
+            board.program_sensor(side, config::decoder(&scene.sensor), 0);
+        }
         match board.machine.run(PATIENCE, &mut board.sensors, &mut ())? {
             Stop::Ready => {}
             Stop::Reset(cause) => return Err(Fault::Reset(cause)),
@@ -163,6 +166,16 @@ impl Board {
         }
         board.drain()?;
         Ok(board)
+    }
+
+    /// The sensor of a side has frames that are read by `decoder`, and rests so many microseconds
+    /// between two.
+    pub(crate) fn program_sensor(&mut self, side: usize, decoder: Decoder, rest_us: u32) {
+        if let Some(sensor) = self.sensors.get_mut(side) {
+            sensor.slave.program(decoder);
+        }
+        self.machine
+            .with_chip(|chip| chip.program_sensor(side, decoder, rest_us));
     }
 
     /// Runs to the end of the next tick, through resets if they are borne.

@@ -29,6 +29,7 @@ impl Notice {
             | Event::Touch { .. }
             | Event::TouchEnd { .. }
             | Event::ZeroMoved(..)
+            | Event::Frame(..)
             | Event::Armed
             | Event::Stopped
             | Event::Health(_)

@@ -95,7 +95,7 @@ fn run(
     (scenario, mut links): (&Scenario, Links<'_>),
 ) -> Result<Outcome, Error> {
     session.bear_resets(true);
-    let mut hands = Hands::new(scenario);
+    let mut hands = Hands::new(scenario, scene);
     let mut lister = Lister::default();
     let mut figures = Figures::new(scene);
     for _ in 0..session.run.ticks() {

@@ -18,11 +18,13 @@ mod parts;
 mod protects;
 mod shape;
 
+use mlx90333::Decoder;
 use serde::{Deserialize, Serialize};
 use tactile::Whisked;
 use whisking::motor::Driver;
 use whisking::{Real, Start, filter};
 
+use crate::boards::REST_US;
 use crate::perception::ClassifierConfig;
 use crate::sensing::SensorLimits;
 use crate::servo::ServoConfig;
@@ -94,6 +96,10 @@ impl HeadConfig {
 pub struct SensingConfig {
     /// They compute in their slow mode, and are read at half the clock.
     pub is_slow: bool,
+    /// Least time for which one is deselected between two frames, µs.
+    pub rest_us: u16,
+    /// How frames of an MLX90333 are read.
+    pub decoder: Decoder,
     /// What is tolerated of them.
     pub limits: SensorLimits,
 }
@@ -157,6 +163,8 @@ impl<R: Real> Config<R> {
             },
             sensor: SensingConfig {
                 is_slow: false,
+                rest_us: REST_US,
+                decoder: Decoder::new(),
                 limits: SensorLimits::ANY,
             },
             contact: None,

@@ -6,7 +6,7 @@ mod tilt_fault;
 
 use core::fmt;
 
-use mlx90333::FrameError;
+use mlx90333::{FRAME_LEN, FrameError};
 use tactile::Decision;
 use whisking::motor;
 
@@ -124,6 +124,8 @@ pub enum Event {
     /// Readings of a whisker have been bad for longer than they may be: its
     /// motor is off (fault) and it touches nothing.
     SensorLost(Place, SensorFault),
+    /// The last frame of a sensor that is lost for its frames, as it came.
+    Frame(Place, [u8; FRAME_LEN]),
     /// Readings are good again; the whisker moves again.
     SensorBack(Place),
     /// The zero of a sensor was moved: to so many codes from mid-scale, x and y.

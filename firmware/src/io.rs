@@ -27,6 +27,11 @@ pub trait FrameSource {
     /// Starts a frame. Nothing to do where [`take`](Self::take) itself reads one.
     #[inline]
     fn start(&mut self) {}
+
+    /// The last frame as it came, good or not, where that is kept until another one is under way.
+    fn last(&self) -> Option<[u8; FRAME_LEN]> {
+        None
+    }
 }
 
 /// Where a whisker's words come from, whatever its sensor. Every [`FrameSource`] is one.
@@ -40,6 +45,11 @@ pub trait WordSource {
     /// Starts to read the next. Nothing to do where [`words`](Self::words) itself reads.
     #[inline]
     fn begin(&mut self) {}
+
+    /// The last frame as it came, where words come by frames.
+    fn last(&self) -> Option<[u8; FRAME_LEN]> {
+        None
+    }
 }
 
 #[inline]
@@ -64,6 +74,10 @@ impl<F: FrameSource> WordSource for F {
     fn begin(&mut self) {
         self.start();
     }
+
+    fn last(&self) -> Option<[u8; FRAME_LEN]> {
+        FrameSource::last(self)
+    }
 }
 
 /// Where the whisker is.
@@ -84,12 +98,16 @@ pub trait Clock {
 #[derive(Debug)]
 pub struct Polled<SPI> {
     sensor: Mlx90333<SPI>,
+    last: [u8; FRAME_LEN],
 }
 
 impl<SPI: SpiDevice> Polled<SPI> {
     /// Takes the sensor.
     pub const fn new(sensor: Mlx90333<SPI>) -> Self {
-        Self { sensor }
+        Self {
+            sensor,
+            last: [0; FRAME_LEN],
+        }
     }
 
     /// The sensor, for a simulation that looks at its bus.
@@ -100,6 +118,11 @@ impl<SPI: SpiDevice> Polled<SPI> {
 
 impl<SPI: SpiDevice> FrameSource for Polled<SPI> {
     fn take(&mut self) -> Result<Option<[u8; FRAME_LEN]>, BusError> {
-        self.sensor.read_raw().map(Some).map_err(|_| BusError)
+        self.last = self.sensor.read_raw().map_err(|_| BusError)?;
+        Ok(Some(self.last))
+    }
+
+    fn last(&self) -> Option<[u8; FRAME_LEN]> {
+        Some(self.last)
     }
 }

@@ -4,6 +4,7 @@
 //! The wording stands here once, as texts of defmt. A board's log sends their numbers; the serial
 //! port, and a simulated module, fill them in ([`wire::Line::form`]).
 
+use mlx90333::FRAME_LEN;
 use tactile::Reason;
 use wire::{Field, Line};
 
@@ -55,6 +56,16 @@ macro_rules! say_event {
             $crate::Event::SensorLost(place, why) => {
                 let [name, causes] = $texts(why.code());
                 $crate::say_fault!($say, place, why.code(), name, causes);
+            }
+            $crate::Event::Frame(place, bytes) => {
+                let [high, low] = $crate::lines::halves(bytes);
+                $say!(
+                    error,
+                    "frame {=str} {=u32:08x}{=u32:08x}",
+                    place.side_name(),
+                    high,
+                    low
+                );
             }
             $crate::Event::SensorBack(place) => {
                 $say!(info, "back {=str}", place.side_name());
@@ -191,6 +202,12 @@ macro_rules! say_not_armed {
 /// The posterior of a decision in units of 0.0001 %, rounded down: at most 99.9999 %.
 pub fn percent(decision: tactile::Decision) -> u32 {
     ((u64::from(decision.posterior().q32()) * 1_000_000) >> 32) as u32
+}
+
+/// The bytes of a frame, the first in the highest place.
+pub const fn halves(bytes: [u8; FRAME_LEN]) -> [u32; 2] {
+    let both = u64::from_be_bytes(bytes);
+    [(both >> 32) as u32, both as u32]
 }
 
 /// What stands before and after a name on a line: a quotation mark where it has spaces, which would

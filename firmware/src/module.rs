@@ -1,7 +1,6 @@
 //! The tick.
 
 use heapless::Vec;
-use mlx90333::Decoder;
 use whisking::motor::MotorDriver;
 use whisking::{MAX_SIDES, MAX_WHISKERS, Number, Real, filter};
 
@@ -334,11 +333,11 @@ impl<R: Number, H: Hardware> Module<R, H> {
     #[inline]
     pub fn tick(&mut self, config: &Config<R>, events: &mut impl FnMut(Event)) {
         self.timing.begin(self.clock.now(), self.period);
+        let crate::SensingConfig {
+            decoder, limits, ..
+        } = &config.sensor;
         for whisker in &mut self.whiskers {
-            let limits = &config.sensor.limits;
-            let reading = whisker
-                .sensor
-                .read(Decoder::new(), limits, whisker.place, events);
+            let reading = whisker.sensor.read(*decoder, limits, whisker.place, events);
             let is_inhibited = whisker.servo().is_some_and(Servo::is_inhibited);
             whisker.reading = if is_inhibited || whisker.swing.is_lost() {
                 Reading::FAULT

@@ -11,6 +11,7 @@ use whisking::motor;
 use wire::{Answer, TickRecord};
 
 use crate::faults::number;
+use crate::lines::halves;
 use crate::{Event, Health, Part, Place, SensorFault};
 
 /// What a module sends.
@@ -81,6 +82,7 @@ mod kind {
     pub(super) const HEALTH: u8 = 10;
     pub(super) const LIMIT: u8 = 11;
     pub(super) const STOPPED: u8 = 12;
+    pub(super) const FRAME: u8 = 13;
 }
 
 impl EventRecord {
@@ -98,6 +100,10 @@ impl EventRecord {
             Event::SensorLost(place, fault) => {
                 let values = [detail(fault).into(), 0, 0];
                 (kind::SENSOR_LOST, place, fault.code(), values)
+            }
+            Event::Frame(place, bytes) => {
+                let [high, low] = halves(bytes);
+                (kind::FRAME, place, 0, [high, low, 0])
             }
             Event::SensorBack(place) => (kind::SENSOR_BACK, place, 0, NONE),
             Event::ZeroMoved(place, codes) => {
@@ -143,6 +149,10 @@ impl EventRecord {
             },
             kind::DECISION => Event::Decision(place, Decision::from_memory(a, b, c)?),
             kind::SENSOR_LOST => Event::SensorLost(place, sensor_fault(number, a as u16)?),
+            kind::FRAME => {
+                let bytes = u64::from(a) << 32 | u64::from(b);
+                Event::Frame(place, bytes.to_be_bytes())
+            }
             kind::SENSOR_BACK => Event::SensorBack(place),
             kind::ZERO_MOVED => Event::ZeroMoved(place, [a, b].map(|code| code as i16)),
             kind::MOTOR_FAULT => {
@@ -270,7 +280,7 @@ mod tests {
     fn event() -> impl Strategy<Value = Event> {
         let place = any::<(u8, u8)>().prop_map(|(side, whisker)| Place::new(side, whisker));
         let health = any::<(u16, u32, u32)>();
-        let parts = (0..13, place, any::<(u16, [i16; 2], u8)>());
+        let parts = (0..14, place, any::<(u16, [i16; 2], u8)>());
         let faults = (decision(), sensor_fault(), motor_fault());
         (parts, faults, health).prop_map(|((which, place, values), faults, health)| {
             let (number, codes, limit) = values;
@@ -288,6 +298,7 @@ mod tests {
                 8 => Event::MotorGivenUp(place),
                 9 => Event::Armed,
                 12 => Event::Stopped,
+                13 => Event::Frame(place, u64::from(missed).to_be_bytes()),
                 10 => Event::Health(Health {
                     worst_tenths,
                     missed,

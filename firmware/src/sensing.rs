@@ -4,7 +4,7 @@ mod limits;
 mod plausible;
 mod swing;
 
-use mlx90333::{Decoder, Word};
+use mlx90333::{Decoder, FrameError, Word};
 
 use crate::config::Part;
 use crate::io::WordSource;
@@ -257,6 +257,21 @@ impl<F: WordSource> Sensor<F> {
         self.last = Reading::FAULT;
         self.health = SensorHealth::Faulted { good: 0 };
         events(Event::SensorLost(place, fault));
+        self.show(place, events);
+    }
+
+    /// Reports the last frame as it came, where that says more than what was wrong with it: all
+    /// ones and all zeros do not.
+    fn show(&self, place: Place, events: &mut impl FnMut(Event)) {
+        match self.why {
+            SensorFault::Frame(FrameError::NoSensor | FrameError::LineLow) => {}
+            SensorFault::Frame(_) => {
+                if let Some(bytes) = self.source.last() {
+                    events(Event::Frame(place, bytes));
+                }
+            }
+            _ => {}
+        }
     }
 }
 

@@ -23,7 +23,7 @@ pub mod tmag5170;
 mod wire;
 
 use embedded_hal::spi::{ErrorType, Operation, SpiDevice};
-use mlx90333::{FRAME_LEN, Faults, Mode, SumRule, Word, encode};
+use mlx90333::{Decoder, FRAME_LEN, Faults, Mode, SumRule, Word, encode};
 use rand_core::{Rng, SeedableRng};
 use rand_xoshiro::Xoshiro256PlusPlus;
 use wire::{Injected, RELEASED};
@@ -90,8 +90,8 @@ impl Disturbance {
 /// A new one is at rest (mid-scale) and without fault.
 #[derive(Debug, Clone)]
 pub struct Slave {
-    mode: Mode,
-    sum_rule: SumRule,
+    /// How its frames are to be read, which is set in its EEPROM, or in the part itself.
+    decoder: Decoder,
     words: [Word; 3],
     /// The words of the last frame, with noise.
     sent: [Word; 3],
@@ -111,9 +111,13 @@ impl Slave {
     /// A sensor programmed to `mode` that sums by `sum_rule`. In XYZ mode Z
     /// stays at mid-scale and there is no error word.
     pub fn with(mode: Mode, sum_rule: SumRule) -> Self {
+        Self::of(Decoder::with(mode, sum_rule))
+    }
+
+    /// A sensor whose frames are to be read by `decoder`.
+    pub fn of(decoder: Decoder) -> Self {
         Self {
-            mode,
-            sum_rule,
+            decoder,
             words: [Word::MID; 3],
             sent: [Word::MID; 3],
             is_noisy: true,
@@ -138,6 +142,11 @@ impl Slave {
             is_noisy: false,
             ..self
         }
+    }
+
+    /// Has its frames be read by another `decoder` from now on.
+    pub const fn program(&mut self, decoder: Decoder) {
+        self.decoder = decoder;
     }
 
     /// What the sensor reports about itself from now on.
@@ -224,10 +233,11 @@ impl Slave {
             Some(WireFault::Shift(by)) => Word::new(x.raw().wrapping_add(by)),
             _ => x,
         };
-        let mut frame = match self.mode {
-            Mode::AlphaBeta => encode::alpha_beta(x, y, self.error_word, self.sum_rule),
-            Mode::Xyz => encode::xyz(x, y, z, self.sum_rule),
+        let last = match self.decoder.mode {
+            Mode::AlphaBeta => self.error_word.bits(),
+            Mode::Xyz => z.raw(),
         };
+        let mut frame = encode::words([x.raw(), y.raw(), last], self.decoder);
         match fault {
             Some(WireFault::LowAfterStart) => {
                 let [_, rest @ ..] = &mut frame;

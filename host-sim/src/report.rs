@@ -95,6 +95,7 @@ pub fn said(event: &Event, classes: &[String]) -> Option<(&'static str, String)>
 /// Reports faults and recoveries on standard error; for decisions see [`decision`].
 pub fn limits_and_faults(t_s: f64, event: &Event) {
     let (Event::SensorLost(place, _)
+    | Event::Frame(place, _)
     | Event::ZeroMoved(place, _)
     | Event::SensorBack(place)
     | Event::MotorFault(place, _)

@@ -178,6 +178,23 @@ const ROWS: &[Row] = &[
         &[Most("driven_after_stop_s", 0.0), Off],
     ),
     row(
+        "summed-otherwise",
+        &[],
+        &[
+            Faults(true),
+            Said(&["fault"], 0.0),
+            Said(&["frame"], 0.0),
+            Most("driven_s", 0.1),
+        ],
+    ),
+    row(
+        "summed-otherwise",
+        &["sensor.sum_rule=not-b0-b6", "sensor.byte_order=high-first"],
+        WHISKS_ON,
+    ),
+    row("rested-longer", &[], &[Faults(true), Most("driven_s", 0.1)]),
+    row("rested-longer", &["tick_hz=1000"], WHISKS_ON),
+    row(
         "power-lost-after-stop",
         &[],
         &[Most("driven_after_stop_s", 0.0), Off],

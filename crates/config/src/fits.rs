@@ -56,6 +56,7 @@ fn needs(scene: &Scene) -> boards::Needs {
     boards::Needs {
         tick_hz: scene.tick_hz,
         is_slow: scene.sensor.mode == SensorMode::Slow,
+        rest_us: scene.sensor.rest_us,
         sides: scene.head.sides.count() as u8,
         whiskers_per_side: scene.head.whiskers_per_side as u8,
         driver: scene.motor.as_ref().map(|motor| motor.driver),

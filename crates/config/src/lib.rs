@@ -16,7 +16,7 @@ mod stability;
 pub use bearable::Unbearable;
 pub use fits::Unfit;
 pub use image::{AnyConfig, Image, image};
-pub use module::{GATE, RunsOn, Target, build};
+pub use module::{GATE, RunsOn, Target, build, decoder, decoder_of};
 pub use numbers::{NoSuchFormat, NumberFormat, in_simulation, on_board};
 pub use protecting::Unprotected;
 pub use settling::Unsettled;

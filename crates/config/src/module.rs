@@ -5,7 +5,11 @@ use firmware::{
     ClassifierConfig, Config, ConfigError, Field, HeadConfig, Links, MotionConfig, SensingConfig,
     SensorLimits, ServoConfig, SwingLimits,
 };
-use scene::{Deciding, MotorSection, OnFault, PlantKind, Rest, Rule, Scene, SensorMode};
+use mlx90333::{ByteOrder, Decoder, Mode, SumRule};
+use scene::{
+    Deciding, MotorSection, OnFault, PlantKind, Rest, Rule, Scene, SensorBytes, SensorMode,
+    SensorSection, SensorSum, SensorWords,
+};
 use tactile::{RuleSettings, Threshold};
 use whisking::motor::{GuardSettings, HomingSettings, ModelSettings};
 use whisking::{Real, filter, pd};
@@ -70,6 +74,8 @@ pub fn build<R: Real>(scene: &Scene, target: Target<'_>) -> Result<Config<R>, Mi
         head: head(scene, target.overrides)?,
         sensor: SensingConfig {
             is_slow: scene.sensor.mode == SensorMode::Slow,
+            rest_us: scene.sensor.rest_us,
+            decoder: decoder(&scene.sensor),
             limits: sensor(scene, is_ideal),
         },
         contact,
@@ -100,6 +106,32 @@ fn head(scene: &Scene, overrides: &str) -> Result<HeadConfig, Mismatch> {
         sides: scene.head.sides.count() as u8,
         whiskers_per_side: scene.head.whiskers_per_side as u8,
     })
+}
+
+/// How frames of an MLX90333 are read.
+pub fn decoder(sensor: &SensorSection) -> Decoder {
+    decoder_of(sensor.words, sensor.sum_rule, sensor.byte_order)
+}
+
+/// The same of its three keys.
+pub fn decoder_of(words: SensorWords, sum_rule: SensorSum, byte_order: SensorBytes) -> Decoder {
+    Decoder {
+        mode: match words {
+            SensorWords::AlphaBeta => Mode::AlphaBeta,
+            SensorWords::Xyz => Mode::Xyz,
+        },
+        sum_rule: match sum_rule {
+            SensorSum::B1ToB6 => SumRule::SumB1B6,
+            SensorSum::B0ToB6 => SumRule::SumB0B6,
+            SensorSum::NotB1ToB6 => SumRule::ComplementB1B6,
+            SensorSum::NotB0ToB6 => SumRule::ComplementB0B6,
+            SensorSum::Ignored => SumRule::Ignore,
+        },
+        byte_order: match byte_order {
+            SensorBytes::LowFirst => ByteOrder::Little,
+            SensorBytes::HighFirst => ByteOrder::Big,
+        },
+    }
 }
 
 /// What is tolerated of a scene's sensors.

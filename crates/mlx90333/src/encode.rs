@@ -3,7 +3,7 @@
 //! With [`SumRule::Ignore`], which says nothing of B7, the default rule's sum
 //! is sent. Decoding with the same mode and rule gives back what was encoded.
 
-use crate::{FRAME_LEN, Faults, START_BYTE, SumRule, Word};
+use crate::{Decoder, FRAME_LEN, Faults, START_BYTE, SumRule, Word};
 
 /// An alpha-beta frame. With `faults` other than [`Faults::NONE`] it decodes to
 /// [`FrameError::Sensor`](crate::FrameError::Sensor).
@@ -14,6 +14,24 @@ pub const fn alpha_beta(
     sum_rule: SumRule,
 ) -> [u8; FRAME_LEN] {
     frame([alpha.raw(), beta.raw(), faults.bits()], sum_rule)
+}
+
+/// The frame of three words, as whoever decodes by `decoder` takes it; the last is the error word
+/// in alpha-beta mode.
+pub const fn words(words: [u16; 3], decoder: Decoder) -> [u8; FRAME_LEN] {
+    let Decoder {
+        sum_rule,
+        byte_order,
+        ..
+    } = decoder;
+    // In the other order they are other numbers.
+    let [first, second, third] = words;
+    let swapped = [
+        u16::from_le_bytes(byte_order.bytes(first)),
+        u16::from_le_bytes(byte_order.bytes(second)),
+        u16::from_le_bytes(byte_order.bytes(third)),
+    ];
+    frame(swapped, sum_rule)
 }
 
 /// An XYZ frame.

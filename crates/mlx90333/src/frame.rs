@@ -8,9 +8,8 @@
 //! | B5, B6 | error word | Z |
 //! | B7 | sum | sum |
 //!
-//! All words are little-endian. Certainty: several drivers agree on B0..B6 of
-//! alpha-beta, two sources on XYZ; which bytes B7 sums is uncertain, hence
-//! [`SumRule`].
+//! Certainty: several drivers agree on B0..B6 of alpha-beta, all but one on little-endian words
+//! ([`ByteOrder`]), two sources on XYZ; which bytes B7 sums is uncertain, hence [`SumRule`].
 
 use core::fmt;
 
@@ -20,6 +19,7 @@ use crate::{FRAME_LEN, Faults, START_BYTE, Word};
 /// itself does not tell.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Mode {
     /// Two angles and an error word.
     #[default]
@@ -27,6 +27,38 @@ pub enum Mode {
     /// Three field components and no error word: the sensor cannot report
     /// [`Faults`].
     Xyz,
+}
+
+/// In which order the two bytes of a word come.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub enum ByteOrder {
+    /// The low byte first: four drivers.
+    #[default]
+    Little,
+    /// The high byte first: one driver.
+    Big,
+}
+
+impl ByteOrder {
+    /// The number in two bytes as they come.
+    #[inline]
+    pub const fn number(self, bytes: [u8; 2]) -> u16 {
+        match self {
+            Self::Little => u16::from_le_bytes(bytes),
+            Self::Big => u16::from_be_bytes(bytes),
+        }
+    }
+
+    /// The bytes of a number as they come.
+    #[inline]
+    pub const fn bytes(self, number: u16) -> [u8; 2] {
+        match self {
+            Self::Little => number.to_le_bytes(),
+            Self::Big => number.to_be_bytes(),
+        }
+    }
 }
 
 /// How B7 follows from the other bytes. Sums wrap modulo 256.
@@ -40,6 +72,7 @@ pub enum Mode {
 /// see two bytes that changed places.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum SumRule {
     /// B7 = B1 + … + B6.
     #[default]
@@ -189,11 +222,14 @@ impl core::error::Error for FrameError {}
 /// How to read a frame: fixed settings and no state.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Decoder {
     /// What the words mean.
     pub mode: Mode,
     /// How the sum byte is checked.
     pub sum_rule: SumRule,
+    /// How bytes make words.
+    pub byte_order: ByteOrder,
 }
 
 impl Decoder {
@@ -209,10 +245,14 @@ impl Decoder {
         Decoder::with(mode, SumRule::SumB1B6)
     }
 
-    /// The given mode and sum rule.
+    /// The given mode and sum rule, and little-endian words.
     #[inline]
     pub const fn with(mode: Mode, sum_rule: SumRule) -> Decoder {
-        Decoder { mode, sum_rule }
+        Decoder {
+            mode,
+            sum_rule,
+            byte_order: ByteOrder::Little,
+        }
     }
 
     /// Decodes a frame. Any eight bytes give an answer.
@@ -234,9 +274,10 @@ impl Decoder {
         {
             return Err(FrameError::BadSum { expected, found });
         }
-        let first = Word::new(u16::from_le_bytes([b1, b2]));
-        let second = Word::new(u16::from_le_bytes([b3, b4]));
-        let last = u16::from_le_bytes([b5, b6]);
+        let order = self.byte_order;
+        let first = Word::new(order.number([b1, b2]));
+        let second = Word::new(order.number([b3, b4]));
+        let last = order.number([b5, b6]);
         match self.mode {
             Mode::AlphaBeta if last != 0 => Err(FrameError::Sensor(Faults::new(last))),
             _ if matches!([first.raw(), second.raw()], [0, 0] | [u16::MAX, u16::MAX]) => {

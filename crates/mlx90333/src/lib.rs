@@ -2,7 +2,7 @@
 //!
 //! Glossary:
 //! - *frame*: the eight bytes B0..B7 that the sensor sends while /SS is low;
-//! - *word*: a 16-bit reading, sent low byte first ([`Word`]);
+//! - *word*: a 16-bit reading ([`Word`]), sent low byte first as far as is known ([`ByteOrder`]);
 //! - *alpha-beta*, *XYZ*: what the words mean, chosen in the sensor's EEPROM
 //!   ([`Mode`]);
 //! - *sum byte*: B7, which guards the other bytes ([`SumRule`]);
@@ -28,7 +28,7 @@ mod word;
 
 pub use driver::{Error, Mlx90333};
 pub use faults::Faults;
-pub use frame::{Decoder, Frame, FrameError, Mode, SumRule};
+pub use frame::{ByteOrder, Decoder, Frame, FrameError, Mode, SumRule};
 pub use timing::SPI_MODE;
 pub use transfer::{Step, Transfer};
 pub use word::Word;

@@ -4,7 +4,7 @@
 //! declarations, in the messages and in the reader are the same list.
 
 /// An enum whose variants each have a word in the scene file.
-pub(crate) trait Choice: Sized {
+pub trait Choice: Sized {
     /// The words, in the order in which messages list them.
     const WORDS: &'static [&'static str];
 

@@ -56,6 +56,7 @@ mod value;
 mod values;
 mod world;
 
+pub use choice::Choice;
 pub use facts::{KeyFacts, key_facts};
 pub use overriding::Override;
 pub use places::Places;
@@ -64,8 +65,8 @@ pub use reference::reference;
 pub use sections::{
     Arm, ClassifierSection, Exchanged, FacingChoice, HeadSection, MotorSection, Numbers, Obstacles,
     OnFault, OwnSurfaces, PlantKind, PlantSection, PoseSpread, Presentation, Rest, Rule, Scene,
-    SensorMode, SensorModel, SensorSection, ShaftChoice, ShaftName, ShaftNumbers, Sides,
-    TelemetrySection, Texture, WhiskingSection,
+    SensorBytes, SensorMode, SensorModel, SensorSection, SensorSum, SensorWords, ShaftChoice,
+    ShaftName, ShaftNumbers, Sides, TelemetrySection, Texture, WhiskingSection,
 };
 pub use tactile::Deciding;
 pub use whisking::motor::Driver;

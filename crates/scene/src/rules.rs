@@ -49,13 +49,22 @@ fn silence_can_be_counted(values: &Values, text: &mut Text<'_>) {
 }
 
 fn mode_is_the_mlx90333s(values: &Values, text: &mut Text<'_>) {
+    if values.get::<SensorModel>("sensor", "model") != Some(SensorModel::Tmag5170) {
+        return;
+    }
     let is_slow = values.get::<SensorMode>("sensor", "mode") == Some(SensorMode::Slow);
-    let is_tmag = values.get::<SensorModel>("sensor", "model") == Some(SensorModel::Tmag5170);
-    if is_slow && is_tmag {
+    if is_slow {
         let offset = values.offset("sensor", "mode").unwrap_or(0);
         let found = "found \"slow\" with model \"tmag5170\"".to_owned();
         let allowed = "allowed: \"fast\", as only the MLX90333 has a slow mode".to_owned();
         text.report(offset, "sensor.mode".to_owned(), found, allowed);
+    }
+    for key in ["words", "sum_rule", "byte_order", "rest_us"] {
+        if let Some(offset) = values.offset("sensor", key) {
+            let found = "found with model \"tmag5170\"".to_owned();
+            let allowed = "allowed: no such key, as it is the MLX90333's".to_owned();
+            text.report(offset, path("sensor", key), found, allowed);
+        }
     }
 }
 

@@ -75,18 +75,19 @@ impl Line {
     /// Appends a whole number.
     #[inline(never)]
     pub fn number(&mut self, number: u32) -> &mut Self {
-        self.digits(number, 1)
+        self.digits(number, 1, 10)
     }
 
-    /// Appends at least so many digits.
+    /// Appends at least so many digits to this base, 10 or 16.
     #[inline(never)]
-    fn digits(&mut self, number: u32, least: usize) -> &mut Self {
+    fn digits(&mut self, number: u32, least: usize, base: u32) -> &mut Self {
         // The last first.
         let mut digits = [b'0'; 10];
         let (mut rest, mut count) = (number, 0);
         for digit in &mut digits {
-            *digit = b'0' + (rest % 10) as u8;
-            rest /= 10;
+            let value = (rest % base) as u8;
+            *digit = value + if value < 10 { b'0' } else { b'a' - 10 };
+            rest /= base;
             count += 1;
             if rest == 0 && count >= least {
                 break;
@@ -101,18 +102,20 @@ impl Line {
     }
 
     /// Appends a text with its fields in the places of what stands in braces, as defmt's texts
-    /// have them: `{=u32}`, or `{=u32:04}` for at least so many digits.
+    /// have them: `{=u32}`, `{=u32:04}` for at least so many digits, `{=u32:08x}` for them to the
+    /// base of 16.
     #[inline(never)]
     pub fn form(&mut self, text: &str, fields: &[Field<'_>]) -> &mut Self {
         let mut fields = fields.iter();
-        let (mut is_hint, mut least) = (false, 1);
+        let (mut is_hint, mut least, mut base) = (false, 1, 10);
         for byte in text.bytes() {
             match byte {
-                b'{' => (is_hint, least) = (true, 1),
+                b'{' => (is_hint, least, base) = (true, 1, 10),
                 b'}' => {
                     is_hint = false;
-                    self.fill_in(fields.next(), least);
+                    self.fill_in(fields.next(), least, base);
                 }
+                b'x' if is_hint => base = 16,
                 // A hint of 1 is none: digits of a type's name are passed over.
                 b':' if is_hint => least = 0,
                 _ if is_hint && least != 1 => least = usize::from(byte.wrapping_sub(b'0')),
@@ -124,13 +127,13 @@ impl Line {
     }
 
     /// Appends a field, a number with at least so many digits, if that is a number of digits.
-    fn fill_in(&mut self, field: Option<&Field<'_>>, least: usize) {
+    fn fill_in(&mut self, field: Option<&Field<'_>>, least: usize, base: u32) {
         match field {
             Some(Field::Text(text)) => self.text(text),
-            Some(Field::Number(number)) => self.digits(*number, least),
+            Some(Field::Number(number)) => self.digits(*number, least, base),
             Some(Field::Signed(number)) => {
                 self.text(if *number < 0 { "-" } else { "" });
-                self.digits(number.unsigned_abs(), least)
+                self.digits(number.unsigned_abs(), least, base)
             }
             None => self,
         };

@@ -4,8 +4,8 @@
 //! gaps between bytes, and the time for which /SS must be high before the first
 //! frame. A sensor that has lost its place in a frame is taken to need the same
 //! time, so it is asked for after every frame that was broken off, or that the
-//! master cannot have taken for good. (What it needs between good frames is not
-//! known.)
+//! master cannot have taken for good. What it needs between good frames is not known: nothing,
+//! unless it is made to be silent in frames that come sooner.
 
 use mlx90333::timing::{
     BYTE_GAP_FAST_NS, BYTE_GAP_SAFE_NS, CLOCK_MAX_HZ, CLOCK_SLOW_MAX_HZ, SS_HIGH_US,
@@ -58,6 +58,13 @@ impl Needs {
 #[derive(Debug, Clone)]
 pub(super) struct SensorLines {
     needs: Needs,
+    /// How its frames are read.
+    decoder: Decoder,
+    /// In a frame that comes sooner after the last it is silent.
+    rest: Ps,
+    is_silent: bool,
+    /// When /SS rose.
+    rose: Option<Ps>,
     /// What messages call the side.
     side: &'static str,
     selected: bool,
@@ -87,6 +94,10 @@ impl SensorLines {
     pub(super) fn new(side: &'static str) -> Self {
         Self {
             needs: Needs::FAST,
+            decoder: Decoder::new(),
+            rest: 0,
+            is_silent: false,
+            rose: None,
             side,
             selected: false,
             fell: 0,
@@ -105,10 +116,18 @@ impl SensorLines {
         self.needs = Needs::SLOW;
     }
 
+    /// Its frames are read by `decoder`, and come `rest_us` after the last at the earliest.
+    pub(super) fn program(&mut self, decoder: Decoder, rest_us: u32) {
+        self.decoder = decoder;
+        self.rest = ps(rest_us * 1_000);
+    }
+
     /// /SS is at this level from `now` on.
     pub(super) fn select(&mut self, low: bool, now: Ps) {
         if low && !self.selected {
             self.fell = now;
+            let rested = self.rose.map(|rose| now.saturating_sub(rose));
+            self.is_silent = rested.is_some_and(|rested| rested < self.rest);
             self.fresh = true;
             self.ended = None;
             self.read.clear();
@@ -120,8 +139,9 @@ impl SensorLines {
                 self.wrong = None;
             }
         } else if !low && self.selected {
+            self.rose = Some(now);
             let bytes = <[u8; FRAME_LEN]>::try_from(self.read.as_slice());
-            let is_good = bytes.is_ok_and(|bytes| Decoder::new().decode(&bytes).is_ok());
+            let is_good = bytes.is_ok_and(|bytes| self.decoder.decode(&bytes).is_ok());
             let lag = self.ended.map(|ended| now.saturating_sub(ended));
             if is_good && lag.is_some_and(|lag| lag < self.needs.lag) {
                 self.wrong = Some(CUT);
@@ -174,7 +194,7 @@ impl SensorLines {
 
     /// The sensor has said this so far, and nothing else: where it was put.
     pub(super) fn say_again(&mut self, said: &[u8]) -> Vec<u32> {
-        if said.len() != self.read.len() || said.len() != self.put.len() {
+        if self.is_silent || said.len() != self.read.len() || said.len() != self.put.len() {
             return Vec::new();
         }
         self.read = said.to_vec();
@@ -185,7 +205,7 @@ impl SensorLines {
     pub(super) fn end(&mut self, sent: u8, now: Ps, sensor: Option<&mut impl SensorEnd>) -> u8 {
         self.ended = Some(now);
         let read = match sensor {
-            Some(sensor) if self.selected => sensor.exchange(sent),
+            Some(sensor) if self.selected && !self.is_silent => sensor.exchange(sent),
             _ => 0xFF,
         };
         self.read.push(read);

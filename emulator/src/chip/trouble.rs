@@ -1,5 +1,7 @@
 //! What befalls supply and clocks from outside, and what the chip makes of it by itself.
 
+use mlx90333::Decoder;
+
 use super::sensor_lines::SensorLines;
 use super::{Chip, Fault, ResetCause};
 
@@ -36,6 +38,13 @@ impl Chip {
     /// The sensors are in their slow mode, and need what they need there.
     pub(crate) fn slow_sensors(&mut self) {
         self.lines.iter_mut().for_each(SensorLines::slow_down);
+    }
+
+    /// How frames of a side's sensor are read, and how long it must rest between two, µs.
+    pub(crate) fn program_sensor(&mut self, side: usize, decoder: Decoder, rest_us: u32) {
+        if let Some(lines) = self.lines.get_mut(side) {
+            lines.program(decoder, rest_us);
+        }
     }
 
     /// The clock from outside stops, or is there again. Returns whether the chip runs by it.

@@ -7,6 +7,7 @@ use std::io::Read;
 use std::path::Path;
 
 use host_sim::Error;
+use mlx90333::Decoder;
 use scene::{Scene, SensorModel};
 use serde::Deserialize;
 use wire::Command;
@@ -35,11 +36,20 @@ pub(super) enum What {
     SensorFrozen,
     SensorGone,
     MagnetGone,
+    SensorPart { part: Part },
     Serial { line: String },
     Probe { command: Command },
     Configuration { change: Change },
     Button,
     PowerOff,
+}
+
+/// A sensor that is another part, or programmed otherwise, than the scene has it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) struct Part {
+    pub(super) decoder: Decoder,
+    /// It is silent in frames that come sooner after the last, µs.
+    pub(super) rest_us: u16,
 }
 
 /// What a configuration that is sent has in place of the board's own.
@@ -133,7 +143,10 @@ impl Scenario {
                 _ if what.is_at_motor() && scene.motor.is_none() => {
                     "an event of a motor, but the scene has none"
                 }
-                What::SensorFrozen | What::SensorGone | What::MagnetGone
+                What::SensorFrozen
+                | What::SensorGone
+                | What::MagnetGone
+                | What::SensorPart { .. }
                     if scene.sensor.model != SensorModel::Mlx90333 =>
                 {
                     "an event of an MLX90333, but the scene has another sensor"

@@ -4,7 +4,9 @@ use host_sim::Error;
 use host_sim::bus::WireFault;
 use host_sim::motor::{EncoderFlaws, Wire};
 
-use super::file::{Event, Scenario, What};
+use super::file::{Event, Part, Scenario, What};
+use scene::Scene;
+
 use crate::session::Session;
 
 /// What is so at a motor and its sensor.
@@ -17,6 +19,8 @@ struct Around {
     torque_nm: f64,
     is_held: bool,
     sensor: Option<WireFault>,
+    /// Another than the scene's.
+    part: Option<Part>,
 }
 
 impl Around {
@@ -29,6 +33,7 @@ impl Around {
         torque_nm: 0.0,
         is_held: false,
         sensor: None,
+        part: None,
     };
 
     /// Adds an event that has begun after those before.
@@ -46,6 +51,7 @@ impl Around {
             What::SensorFrozen => self.sensor = Some(WireFault::Frozen),
             What::SensorGone => self.sensor = Some(WireFault::Silent),
             What::MagnetGone => self.sensor = Some(WireFault::NoField),
+            What::SensorPart { part } => self.part = Some(part),
             What::Serial { .. }
             | What::Probe { .. }
             | What::Configuration { .. }
@@ -57,6 +63,8 @@ impl Around {
 
 /// Does what the events say.
 pub(super) struct Hands<'s> {
+    /// The scene's own sensor.
+    own: Part,
     events: &'s [Event],
     /// Of each side.
     around: Vec<Around>,
@@ -67,8 +75,12 @@ pub(super) struct Hands<'s> {
 }
 
 impl<'s> Hands<'s> {
-    pub(super) fn new(scenario: &'s Scenario) -> Self {
+    pub(super) fn new(scenario: &'s Scenario, scene: &Scene) -> Self {
         Self {
+            own: Part {
+                decoder: config::decoder(&scene.sensor),
+                rest_us: 0,
+            },
             events: &scenario.events,
             around: Vec::new(),
             is_pressed: false,
@@ -94,6 +106,9 @@ impl<'s> Hands<'s> {
         if self.around != around {
             for (side, around) in around.iter().enumerate() {
                 surround(session, side, around);
+                let part = around.part.unwrap_or(self.own);
+                let board = session.board_mut();
+                board.program_sensor(side, part.decoder, part.rest_us.into());
             }
             self.around = around.to_vec();
         }

@@ -44,12 +44,13 @@ pub(super) struct Lister {
 }
 
 /// First words of the lines that are events.
-const KINDS: [&str; 13] = [
+const KINDS: [&str; 14] = [
     "armed",
     "back",
     "decision",
     "end",
     "fault",
+    "frame",
     "health",
     "limit",
     "not-armed",
@@ -161,7 +162,9 @@ fn of_log(t_s: f64, line: &str) -> Listed {
     };
     let kind = word();
     let side = match &*kind {
-        "fault" | "back" | "retry" | "off" | "touch" | "end" | "decision" | "zero" => Some(word()),
+        "fault" | "frame" | "back" | "retry" | "off" | "touch" | "end" | "decision" | "zero" => {
+            Some(word())
+        }
         _ => None,
     };
     let number = match &*kind {

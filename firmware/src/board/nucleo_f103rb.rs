@@ -4,7 +4,7 @@
 //! PA10, PC10 to PC12, and Halls on PA15, PB3 and PB10. TIM3 makes the ticks, SysTick
 //! measures them.
 
-use firmware::boards::{self, BoardFacts, Clocks};
+use firmware::boards::{self, BoardFacts, Clocks, REST_US};
 
 /// What a PC knows of it too.
 pub(crate) const FACTS: BoardFacts = boards::NUCLEO_F103RB;
@@ -40,8 +40,8 @@ const _: () = assert!(
 
 // 28.4 µs a byte; a fast slot of 50 µs at 2 kHz, a safe one of 78.4 µs at 1 kHz.
 const _: () = assert!(
-    matches!(CLOCKS.slot_counts(2_000), Some(3_600))
-        && matches!(CLOCKS.slot_counts(1_000), Some(5_649))
+    matches!(CLOCKS.slot_counts(2_000, REST_US), Some(3_600))
+        && matches!(CLOCKS.slot_counts(1_000, REST_US), Some(5_649))
 );
 
 #[path = "byte_compare.rs"]

@@ -98,7 +98,7 @@ pub(crate) fn start(core: cortex_m::Peripherals, queues: &'static mut Queues) ->
         faults::die(number::NO_CLOCK, log::no_clock)
     };
     pace::runs_by(source);
-    let Some(pace) = Pace::of(pace::clocks(), pace::tick_hz()) else {
+    let Some(pace) = Pace::of(pace::clocks(), found.settings) else {
         faults::die(number::NO_CLOCK, || {})
     };
     if found.settings.sensor.is_slow {

@@ -21,11 +21,12 @@ pub(crate) struct Pace {
 }
 
 impl Pace {
-    /// That of so many ticks a second by these clocks; `None`: they are no such rate's.
-    pub(crate) fn of(clocks: &Clocks, tick_hz: u32) -> Option<Self> {
+    /// That of a scene by these clocks; `None`: its rate is none of theirs.
+    pub(crate) fn of(clocks: &Clocks, settings: &Settings) -> Option<Self> {
+        let tick_hz = settings.head.tick_hz;
         Some(Self {
             tick: clocks.tick(tick_hz)?,
-            slot_counts: clocks.slot_counts(tick_hz)?,
+            slot_counts: clocks.slot_counts(tick_hz, settings.sensor.rest_us)?,
         })
     }
 }
@@ -115,6 +116,6 @@ fn fits(settings: &Settings) -> Result<(), ConfigError> {
         return Err(ConfigError::Room(Field::Sides));
     }
     let clocks = FACTS.clocks_of(settings.sensor.is_slow);
-    let pace = Pace::of(&clocks, settings.head.tick_hz);
+    let pace = Pace::of(&clocks, settings);
     pace.map(drop).ok_or(ConfigError::Range(Field::TickHz))
 }

@@ -153,11 +153,16 @@ impl FrameSource for Frames {
         // In case the interrupt, and with it `end_of_frame`, is late.
         self.stop();
         compiler_fence(Ordering::Acquire);
+        Ok(self.last())
+    }
+
+    #[inline]
+    fn last(&self) -> Option<[u8; FRAME_LEN]> {
         // One by one: a program for size makes loops of what is done to an array.
         let [low, high] = &self.port.received.0;
         let low = u64::from(low.load(Ordering::Relaxed));
         let high = u64::from(high.load(Ordering::Relaxed));
-        Ok(Some((high << 32 | low).to_le_bytes()))
+        Some((high << 32 | low).to_le_bytes())
     }
 
     #[inline]

@@ -15,6 +15,8 @@ pub struct Needs {
     pub tick_hz: u32,
     /// Sensors are read at half the clock.
     pub is_slow: bool,
+    /// Least time for which a sensor is deselected between two frames, µs.
+    pub rest_us: u16,
     /// Sides.
     pub sides: u8,
     /// Whiskers on each.
@@ -31,6 +33,7 @@ impl Needs {
         Self {
             tick_hz: config.head.tick_hz,
             is_slow: config.sensor.is_slow,
+            rest_us: config.sensor.rest_us,
             sides: config.head.sides,
             whiskers_per_side: config.head.whiskers_per_side,
             driver: config.motion.as_ref().map(|motion| motion.driver),
@@ -54,6 +57,8 @@ pub enum Misfit {
         most: u32,
         /// How long it takes, µs.
         frame_us: u32,
+        /// For how long the sensor is deselected after it, µs.
+        rest_us: u16,
     },
     /// The clock of the serial port, Hz, is no multiple of its baud.
     BaudOfClock {
@@ -93,9 +98,14 @@ impl fmt::Display for Misfit {
                 "\"h-bridge\" on two sides, because one brushless motor takes every output of \
                  the PWM's timer",
             ),
-            Self::TickHz { most, frame_us } => write!(
+            Self::TickHz {
+                most,
+                frame_us,
+                rest_us,
+            } => write!(
                 f,
-                "{TICK_MIN_HZ} to {most}, because a sensor frame takes {frame_us} us"
+                "{TICK_MIN_HZ} to {most}, because a sensor frame takes {frame_us} us and its rest \
+                 {rest_us} us"
             ),
             Self::BaudOfClock { serial_hz } => write!(
                 f,
@@ -135,10 +145,12 @@ impl BoardFacts {
             return Err(Misfit::TwoBrushless);
         }
         let clocks = self.clocks_of(needs.is_slow);
-        if needs.tick_hz < TICK_MIN_HZ || needs.tick_hz > clocks.tick_max_hz() {
+        let most = clocks.tick_max_hz(needs.rest_us);
+        if needs.tick_hz < TICK_MIN_HZ || needs.tick_hz > most {
             return Err(Misfit::TickHz {
-                most: clocks.tick_max_hz(),
+                most,
                 frame_us: clocks.frame_least_ns() / 1_000,
+                rest_us: needs.rest_us,
             });
         }
         if let Some(baud) = needs.serial_baud {
@@ -158,7 +170,7 @@ impl BoardFacts {
 #[cfg(test)]
 mod tests {
     use super::{Misfit, Needs};
-    use crate::boards::{ALL, NUCLEO_F446RE, NUCLEO_G071RB};
+    use crate::boards::{ALL, NUCLEO_F446RE, NUCLEO_G071RB, REST_US};
     use crate::{Config, ConfigError, Driver, Field};
 
     fn still() -> Needs {
@@ -190,7 +202,7 @@ mod tests {
             ..both
         };
         assert_eq!(NUCLEO_F446RE.fits(&brushless), Err(Misfit::TwoBrushless));
-        let most = |is_slow| NUCLEO_F446RE.clocks_of(is_slow).tick_max_hz();
+        let most = |is_slow| NUCLEO_F446RE.clocks_of(is_slow).tick_max_hz(REST_US);
         let too_fast = [false, true].map(|is_slow| (most(is_slow) + 1, is_slow));
         for (tick_hz, is_slow) in [(199, false), (0, false)].into_iter().chain(too_fast) {
             let fast = Needs {

@@ -32,9 +32,9 @@ pub struct Clocks {
 /// room, ns: a gap of 18 µs or more, half as much again as the sensor asks for
 /// in its fast mode.
 pub const SLOT_FAST_NS: u32 = 50_000;
-/// Least time for which /SS is high between frames, ns. The sensor's own need
-/// is not known; this is what it needs between bytes.
-pub const REST_NS: u32 = BYTE_GAP_SAFE_NS;
+/// Least time for which /SS is high between frames, µs, unless a scene asks for more. The sensor's
+/// own need is not known; this is what it needs between bytes.
+pub const REST_US: u16 = (BYTE_GAP_SAFE_NS / 1_000) as u16;
 
 /// The lowest tick rate of a board, Hz.
 pub const TICK_MIN_HZ: u32 = 200;
@@ -72,10 +72,10 @@ impl Clocks {
     /// range. For constants: does not compile otherwise.
     pub(super) const fn checked(self) -> Self {
         assert!(self.spi_hz <= CLOCK_MAX_HZ);
-        assert!(self.has_fast_slot() && self.tick_max_hz() >= 2_000);
+        assert!(self.has_fast_slot() && self.tick_max_hz(REST_US) >= 2_000);
         let halved = self.halved();
         assert!(halved.spi_hz >= 100_000 && halved.spi_hz <= CLOCK_SLOW_MAX_HZ);
-        assert!(halved.slot_safe_ns() >= SS_LEAD_SLOW_NS && halved.tick_max_hz() >= 500);
+        assert!(halved.slot_safe_ns() >= SS_LEAD_SLOW_NS && halved.tick_max_hz(REST_US) >= 500);
         self.in_range();
         halved.in_range();
         self
@@ -88,16 +88,16 @@ impl Clocks {
         assert!(self.byte_timer_hz.is_multiple_of(1_000_000));
         assert!(self.counter_hz.is_multiple_of(self.tick_timer_hz));
         assert!(self.byte_timer_hz / 1_000_000 * self.slot_safe_ns() / 1_000 < u16::MAX as u32);
-        assert!(matches!(self.slot_counts(TICK_MIN_HZ), Some(1..)));
+        assert!(matches!(self.slot_counts(TICK_MIN_HZ, REST_US), Some(1..)));
         assert!(self.pwm_hz / PWM_HZ < u16::MAX as u32);
         // The motor drivers rest one tick at a reversal, which must cover a PWM period.
-        assert!(PWM_HZ >= self.tick_max_hz());
+        assert!(PWM_HZ >= self.tick_max_hz(REST_US));
         // Idle feeds after every tick. Even at the slowest tick and the fastest
         // watchdog one tick may be missing, and idle has time left for its logging.
         let bites_ms =
             self.watchdog_counts() as u32 * WATCHDOG_DIVIDER * 1_000 / self.watchdog_hz[2];
         assert!(bites_ms >= 2 * 1_000 / TICK_MIN_HZ + 2);
-        assert!(self.tick(TICK_MIN_HZ).is_some() && self.tick(self.tick_max_hz()).is_some());
+        assert!(self.tick(TICK_MIN_HZ).is_some() && self.tick(self.tick_max_hz(REST_US)).is_some());
     }
 
     /// With the core's clock halved, and so all but the watchdog's: for sensors in their slow
@@ -152,20 +152,21 @@ impl Clocks {
         }
     }
 
-    /// The highest tick rate that a frame fits into, Hz.
-    pub const fn tick_max_hz(&self) -> u32 {
-        1_000_000_000 / (self.frame_least_ns() + REST_NS)
+    /// The highest tick rate that a frame fits into, and so many microseconds of rest, Hz.
+    pub const fn tick_max_hz(&self, rest_us: u16) -> u32 {
+        1_000_000_000 / (self.frame_least_ns() + rest_us as u32 * 1_000)
     }
 
-    /// The slot for a tick rate, ns: the safe one if its frame fits into a tick,
-    /// the fast one otherwise; `None` above the rate at which that fits, and for 0.
-    pub const fn slot_ns(&self, tick_hz: u32) -> Option<u32> {
+    /// The slot for a tick rate, ns: the safe one if its frame and a rest of so many microseconds fit
+    /// into a tick, the fast one otherwise; `None` above the rate at which that fits, and for 0.
+    pub const fn slot_ns(&self, tick_hz: u32, rest_us: u16) -> Option<u32> {
+        let rest_ns = rest_us as u32 * 1_000;
         let Some(tick_ns) = 1_000_000_000_u32.checked_div(tick_hz) else {
             return None;
         };
-        if self.frame_ns(self.slot_safe_ns()) + REST_NS <= tick_ns {
+        if self.frame_ns(self.slot_safe_ns()) + rest_ns <= tick_ns {
             Some(self.slot_safe_ns())
-        } else if self.has_fast_slot() && self.frame_least_ns() + REST_NS <= tick_ns {
+        } else if self.has_fast_slot() && self.frame_least_ns() + rest_ns <= tick_ns {
             Some(SLOT_FAST_NS)
         } else {
             None
@@ -173,8 +174,8 @@ impl Clocks {
     }
 
     /// Counts of the byte timer in the slot for a tick rate, rounded up, where there is one.
-    pub const fn slot_counts(&self, tick_hz: u32) -> Option<u16> {
-        match self.slot_ns(tick_hz) {
+    pub const fn slot_counts(&self, tick_hz: u32, rest_us: u16) -> Option<u16> {
+        match self.slot_ns(tick_hz, rest_us) {
             // At most 90 µs of 80 MHz, which is certain of every board.
             Some(slot_ns) => {
                 Some((slot_ns * (self.byte_timer_hz / 1_000_000)).div_ceil(1_000) as u16)
@@ -301,7 +302,7 @@ const _: () = {
 
 #[cfg(test)]
 mod tests {
-    use super::{RECEIVED_BYTES, TICK_MIN_HZ, serial_keeps_up};
+    use super::{RECEIVED_BYTES, REST_US, TICK_MIN_HZ, serial_keeps_up};
     use crate::boards::ALL;
 
     #[test]
@@ -321,16 +322,16 @@ mod tests {
     fn every_rate_of_a_board_has_a_timer_and_no_other_has_a_slot() {
         for board in ALL {
             for clocks in [board.clocks, board.clocks.halved()] {
-                let most = clocks.tick_max_hz();
+                let most = clocks.tick_max_hz(REST_US);
                 for tick_hz in TICK_MIN_HZ..=most {
                     let tick = clocks.tick(tick_hz).unwrap();
                     let exact = f64::from(clocks.tick_timer_hz) / f64::from(tick_hz);
                     let error = f64::from(tick.counts()) / exact - 1.0;
                     assert!(error.abs() < 2.5e-5, "{}: {tick_hz} Hz", board.name);
-                    assert!(clocks.slot_counts(tick_hz).is_some());
+                    assert!(clocks.slot_counts(tick_hz, REST_US).is_some());
                 }
-                assert_eq!(clocks.slot_counts(most + 1), None);
-                assert_eq!(clocks.slot_counts(0), None);
+                assert_eq!(clocks.slot_counts(most + 1, REST_US), None);
+                assert_eq!(clocks.slot_counts(0, REST_US), None);
                 assert_eq!(clocks.tick(TICK_MIN_HZ - 1), None);
             }
         }

@@ -36,6 +36,7 @@ impl<R: Real> Config<R> {
             old.whiskers_per_side == head.whiskers_per_side,
         )?;
         same(Field::SensorMode, self.sensor.is_slow == new.sensor.is_slow)?;
+        same(Field::SensorMode, self.sensor.rest_us == new.sensor.rest_us)?;
         let zeros = [&self.sensor, &new.sensor].map(|sensor| sensor.limits.zero.is_some());
         same(Field::Zero, zeros[0] == zeros[1])?;
         same(Field::Links, self.links == new.links)?;

@@ -105,6 +105,8 @@ fn config() -> Config<f32> {
     Config {
         sensor: SensingConfig {
             is_slow: false,
+            rest_us: 50,
+            decoder: mlx90333::Decoder::new(),
             limits: SensorLimits {
                 hold: 1,
                 recover: 2,

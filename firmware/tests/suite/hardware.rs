@@ -27,6 +27,8 @@ pub(crate) fn feeling<R: Real>(contact: Option<filter::Config<R>>) -> Config<R> 
         },
         sensor: SensingConfig {
             is_slow: false,
+            rest_us: 50,
+            decoder: mlx90333::Decoder::new(),
             limits: AT_ONCE,
         },
         contact,

@@ -1,7 +1,7 @@
 //! The sensor of a simulated whisker, as the scene has it.
 
-use firmware::{Polled, SensorFault, TiltScale, TiltSource, WordSource};
-use mlx90333::{Decoder, Mlx90333, Word};
+use firmware::{FrameSource, Polled, SensorFault, TiltScale, TiltSource, WordSource};
+use mlx90333::{Decoder, FRAME_LEN, Mlx90333, Word};
 use physics::{Magnet, SensorSettings};
 use scene::{SensorModel, SensorSection};
 use tmag5170::{
@@ -40,7 +40,8 @@ impl AnySensor {
     pub(super) fn new(section: &SensorSection, seed: u64) -> Option<Self> {
         let kind = match section.model {
             SensorModel::Mlx90333 => {
-                Kind::Mlx90333(Polled::new(Mlx90333::new(Slave::new(), Decoder::new())))
+                let decoder = config::decoder(section);
+                Kind::Mlx90333(Polled::new(Mlx90333::new(Slave::of(decoder), decoder)))
             }
             SensorModel::Tmag5170 => Kind::Tmag5170(Box::new(Tilted::new(seed)?)),
         };
@@ -112,6 +113,13 @@ impl WordSource for AnySensor {
         match &mut self.0 {
             Kind::Mlx90333(polled) => polled.words(decoder),
             Kind::Tmag5170(tilted) => tilted.source.words(decoder),
+        }
+    }
+
+    fn last(&self) -> Option<[u8; FRAME_LEN]> {
+        match &self.0 {
+            Kind::Mlx90333(polled) => FrameSource::last(polled),
+            Kind::Tmag5170(_) => None,
         }
     }
 

@@ -24,6 +24,42 @@ choice! {
     }
 }
 
+choice! {
+    /// What the words of a frame are, which is set in the sensor's EEPROM.
+    pub enum SensorWords {
+        /// Two angles and an error word.
+        AlphaBeta = "alpha-beta",
+        /// Three fields, of which the first two are read, and no error word.
+        Xyz = "xyz",
+    }
+}
+
+choice! {
+    /// How the last byte of a frame follows from the others.
+    pub enum SensorSum {
+        /// The sum of B1 to B6.
+        B1ToB6 = "b1-b6",
+        /// The sum of B0 to B6.
+        B0ToB6 = "b0-b6",
+        /// The complement of the sum of B1 to B6.
+        NotB1ToB6 = "not-b1-b6",
+        /// The complement of the sum of B0 to B6.
+        NotB0ToB6 = "not-b0-b6",
+        /// Anything: damaged frames pass.
+        Ignored = "ignored",
+    }
+}
+
+choice! {
+    /// In which order the bytes of a word come.
+    pub enum SensorBytes {
+        /// The low one first.
+        LowFirst = "low-first",
+        /// The high one first.
+        HighFirst = "high-first",
+    }
+}
+
 keys! {
     /// Which sensor a whisker has, and what its readings cannot do.
     #[derive(Copy)]
@@ -33,6 +69,22 @@ keys! {
         /// as values are computed no faster. Times from drivers in the field and a sister
         /// part: not confirmed.
         mode: SensorMode = word().default("\"fast\""),
+
+        /// What the words of a frame of the MLX90333 are. With `"xyz"` x and y are the first two, and
+        /// the sensor cannot report its own faults.
+        words: SensorWords = word().default("\"alpha-beta\""),
+
+        /// How the last byte of a frame follows from the others. Which one a real part follows is
+        /// not certain: with another than its own every frame is fault 23.
+        sum_rule: SensorSum = word().default("\"b1-b6\""),
+
+        /// In which order the two bytes of a word come. One driver in five has the high one first.
+        byte_order: SensorBytes = word().default("\"low-first\""),
+
+        /// Least time for which the sensor is deselected between two frames. At 2 kHz a board
+        /// leaves it 64 us, at 1 kHz 300 us and more; a sister part asks for 300 us in its fast mode.
+        /// A board refuses ticks that leave less.
+        rest_us: u16 = integer(50..=4_000).unit("us").default("50"),
 
         /// Longest time for which both words may repeat to the bit; longer: a fault. Nothing
         /// is decided by a reading that has repeated for 7.5 ms.

@@ -4,8 +4,9 @@ use crate::common::{FULL, with};
 use scene::{
     Arm, ClassifierSection, Deciding, Driver, Exchanged, GateSettings, HeadSection, Integrator,
     MotorSection, Numbers, Obstacles, OnFault, OwnSurfaces, PlantKind, PlantSection, PoseSpread,
-    Presentation, Rest, Rule, Scene, SensorMode, SensorModel, SensorSection, ShaftChoice,
-    ShaftName, ShaftNumbers, Sides, TelemetrySection, Texture, WhiskingSection,
+    Presentation, Rest, Rule, Scene, SensorBytes, SensorMode, SensorModel, SensorSection,
+    SensorSum, SensorWords, ShaftChoice, ShaftName, ShaftNumbers, Sides, TelemetrySection, Texture,
+    WhiskingSection,
 };
 
 fn read(text: &str) -> Scene {
@@ -32,6 +33,10 @@ fn every_key_reaches_its_field() {
         },
         sensor: SensorSection {
             mode: SensorMode::Fast,
+            words: SensorWords::AlphaBeta,
+            sum_rule: SensorSum::B1ToB6,
+            byte_order: SensorBytes::LowFirst,
+            rest_us: 50,
             frozen_s: 0.25,
             jump_per_s: 1500.0,
             model: SensorModel::Mlx90333,

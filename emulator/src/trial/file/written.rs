@@ -2,11 +2,12 @@
 
 use std::ops::RangeInclusive;
 
+use scene::{Choice, SensorBytes, SensorSum, SensorWords};
 use serde::{Deserialize, Serialize};
 use wire::text::Spoken;
 use wire::{Command, Load};
 
-use super::{Change, Event, LATEST_S, What};
+use super::{Change, Event, LATEST_S, Part, What};
 
 /// Most bytes of a text.
 const MOST_TEXT: usize = 4_096;
@@ -29,6 +30,7 @@ pub(super) enum Kind {
     SensorFrozen,
     SensorGone,
     MagnetGone,
+    SensorPart,
     Serial,
     Probe,
     Configuration,
@@ -59,6 +61,10 @@ pub(super) struct Written {
     text: Option<String>,
     request: Option<String>,
     change: Option<Change>,
+    words: Option<String>,
+    sum_rule: Option<String>,
+    byte_order: Option<String>,
+    rest_us: Option<f64>,
     repeat_hz: Option<f64>,
 }
 
@@ -152,6 +158,7 @@ impl Written {
             Kind::SensorFrozen => What::SensorFrozen,
             Kind::SensorGone => What::SensorGone,
             Kind::MagnetGone => What::MagnetGone,
+            Kind::SensorPart => What::SensorPart { part: self.part()? },
             Kind::Serial => What::Serial {
                 line: text("text", self.text.take())?,
             },
@@ -166,6 +173,25 @@ impl Written {
         })
     }
 
+    /// The sensor, where it is another than by default.
+    fn part(&mut self) -> Result<Part, String> {
+        fn choice<T: Choice>(name: &str, word: Option<String>, otherwise: T) -> Result<T, String> {
+            let Some(word) = word else {
+                return Ok(otherwise);
+            };
+            let allowed = T::WORDS.join(", ");
+            T::of_word(&word).ok_or_else(|| format!("{name}: found {word}, allowed: {allowed}"))
+        }
+        let words = choice("words", self.words.take(), SensorWords::AlphaBeta)?;
+        let sum_rule = choice("sum_rule", self.sum_rule.take(), SensorSum::B1ToB6)?;
+        let byte_order = choice("byte_order", self.byte_order.take(), SensorBytes::LowFirst)?;
+        let rest_us = self.rest_us.take().unwrap_or_default();
+        Ok(Part {
+            decoder: config::decoder_of(words, sum_rule, byte_order),
+            rest_us: within("rest_us", rest_us, 0.0..=10_000.0)? as u16,
+        })
+    }
+
     /// Refuses what belongs to other kinds.
     fn has_nothing_else(&self) -> Result<(), String> {
         let left = [
@@ -177,6 +203,10 @@ impl Written {
             ("text", self.text.is_some()),
             ("request", self.request.is_some()),
             ("change", self.change.is_some()),
+            ("words", self.words.is_some()),
+            ("sum_rule", self.sum_rule.is_some()),
+            ("byte_order", self.byte_order.is_some()),
+            ("rest_us", self.rest_us.is_some()),
             ("repeat_hz", self.repeat_hz.is_some()),
         ];
         let strange = left.iter().find(|(_, is_there)| *is_there);
