@@ -212,9 +212,10 @@ mod tests {
         #[test]
         fn numbers_are_written_as_std_writes_them(number: u32, signed: i16) {
             let mut line = Line::new();
-            let fields = [number.into(), signed.into(), number.into()];
-            line.form("{=u32} {=i16} {=u32:04}", &fields);
-            prop_assert_eq!(text(&mut line), format!("{number} {signed} {number:04}\r\n"));
+            let fields = [number.into(), signed.into(), number.into(), number.into()];
+            line.form("{=u32} {=i16} {=u32:04} {=u32:08x}", &fields);
+            let expected = format!("{number} {signed} {number:04} {number:08x}\r\n");
+            prop_assert_eq!(text(&mut line), expected);
         }
     }
 

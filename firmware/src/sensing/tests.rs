@@ -24,13 +24,20 @@ const BAD: Taken = Ok(Some([0xFF; FRAME_LEN]));
 /// Frames for the taking, and the ticks in which the next was started.
 struct Script<I> {
     frames: I,
+    last: Option<[u8; FRAME_LEN]>,
     tick: usize,
     started: Vec<usize>,
 }
 
 impl<I: Iterator<Item = Taken>> FrameSource for Script<I> {
     fn take(&mut self) -> Taken {
-        self.frames.next().unwrap_or(Ok(None))
+        let taken = self.frames.next().unwrap_or(Ok(None));
+        self.last = taken.ok().flatten().or(self.last);
+        taken
+    }
+
+    fn last(&self) -> Option<[u8; FRAME_LEN]> {
+        self.last
     }
 
     fn start(&mut self) {
@@ -53,6 +60,7 @@ type Course = (Vec<Reading>, Vec<(usize, Event)>, Vec<usize>);
 fn course(limits: SensorLimits, script: &[Taken], ticks: usize) -> Course {
     let script = Script {
         frames: script.iter().copied(),
+        last: None,
         tick: 0,
         started: Vec::new(),
     };
@@ -193,6 +201,26 @@ fn bad_frames_that_are_too_many_are_a_fault_though_none_is_long() {
     assert_eq!(play(&every(2)).1, [lost(27)]);
     assert!(!play(&every(BAD_WEIGHT.into())).1.is_empty());
     assert_eq!(play(&every(usize::from(BAD_WEIGHT) + 1)).1, []);
+}
+
+/// Bytes say more than "all ones" and "all zeros" of what came.
+#[test]
+fn a_frame_that_was_refused_is_shown() {
+    let mut summed = frame(0x9000);
+    summed[7] ^= 0x55;
+    let shown = |bytes| {
+        let script = [Ok(Some(bytes)); 30];
+        let (_, events) = play(&script);
+        let of_frame = |event: &(usize, Event)| match event.1 {
+            Event::Frame(PLACE, bytes) => Some(bytes),
+            _ => None,
+        };
+        events.iter().find_map(of_frame)
+    };
+    assert_eq!(shown(summed), Some(summed));
+    assert_eq!(shown([0xFE; FRAME_LEN]), Some([0xFE; FRAME_LEN]));
+    assert_eq!(shown([0xFF; FRAME_LEN]), None);
+    assert_eq!(shown([0; FRAME_LEN]), None);
 }
 
 #[test]

@@ -1,7 +1,7 @@
 //! The decoder against frames written by hand, and against the encoder.
 
 use crate::common::{pair, rule, word};
-use mlx90333::{Decoder, Faults, Frame, FrameError, Mode, SumRule, Word, encode};
+use mlx90333::{ByteOrder, Decoder, Faults, Frame, FrameError, Mode, SumRule, Word, encode};
 use proptest::prelude::*;
 
 const MODES: [Mode; 2] = [Mode::AlphaBeta, Mode::Xyz];
@@ -30,6 +30,27 @@ fn alpha_beta_by_hand() {
     assert_eq!(frame.first().raw(), 0x1234);
     assert_eq!(frame.second().raw(), 0xABCD);
     assert_eq!(frame.third(), None);
+}
+
+/// The same words with their high bytes first, under the same sum, and two ways to encode them.
+#[test]
+fn high_bytes_first_by_hand() {
+    let bytes = [0xFF, 0x12, 0x34, 0xAB, 0xCD, 0x00, 0x00, 0xBE];
+    let decoder = Decoder {
+        byte_order: ByteOrder::Big,
+        ..Decoder::new()
+    };
+    assert_eq!(decoder.decode(&bytes), Decoder::new().decode(&ALPHA_BETA));
+    assert_eq!(encode::words([0x1234, 0xABCD, 0], decoder), bytes);
+    assert_eq!(
+        encode::words([0x1234, 0xABCD, 0], Decoder::new()),
+        ALPHA_BETA
+    );
+    // An error word too: 0x0200 is the clamp of the rough offset, 0x0002 unknown.
+    let bytes = encode::words([0x1234, 0xABCD, 0x0200], decoder);
+    assert_eq!(bytes[5..7], [0x02, 0x00]);
+    let faults = FrameError::Sensor(Faults::new(0x0200));
+    assert_eq!(decoder.decode(&bytes), Err(faults));
 }
 
 #[test]
