@@ -28,7 +28,7 @@ pub trait FrameSource {
     #[inline]
     fn start(&mut self) {}
 
-    /// The last frame as it came, good or not, where that is kept until another one is under way.
+    /// The last frame as it came, good or not, where that is kept.
     fn last(&self) -> Option<[u8; FRAME_LEN]> {
         None
     }

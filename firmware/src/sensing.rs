@@ -4,7 +4,7 @@ mod limits;
 mod plausible;
 mod swing;
 
-use mlx90333::{Decoder, FrameError, Word};
+use mlx90333::{Decoder, FRAME_LEN, FrameError, Word};
 
 use crate::config::Part;
 use crate::io::WordSource;
@@ -98,6 +98,11 @@ impl<F: WordSource> Sensor<F> {
     /// Where the words come from.
     pub const fn source_mut(&mut self) -> &mut F {
         &mut self.source
+    }
+
+    /// The last frame as it came, where there are frames.
+    pub fn last(&self) -> Option<[u8; FRAME_LEN]> {
+        self.source.last()
     }
 
     /// The zero that is taken out of its words, where it is found.

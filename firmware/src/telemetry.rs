@@ -8,6 +8,7 @@ use wire::{
 };
 
 use crate::config::Part;
+use crate::lines::halves;
 use crate::module::{Hardware, Module, Whisker};
 use crate::servo::MotorRecord;
 use crate::{Command, Config, Event, ModelState, NotDone, Place};
@@ -146,6 +147,13 @@ impl Link {
                 let zero = found
                     .and_then(|(_, whisker)| whisker.sensor().zero().ok_or(CommandStatus::NotHere));
                 zero.map(|zero| values = zero.codes().map(i32::from))
+            }
+            Said::Frame(whisker) => {
+                let place = Place::new(whisker.side, whisker.number);
+                let found = module.whisker(place).ok_or(CommandStatus::NoWhisker);
+                let last = found
+                    .and_then(|(_, whisker)| whisker.sensor().last().ok_or(CommandStatus::NotHere));
+                last.map(|bytes| values = halves(bytes).map(u32::cast_signed))
             }
             Said::Version => {
                 values = VERSION;

@@ -2,6 +2,7 @@
 
 #[cfg(unix)]
 pub(crate) mod board;
+pub(crate) mod bringup;
 pub(crate) mod calibrate;
 pub(crate) mod capture;
 pub(crate) mod check;

@@ -8,6 +8,7 @@ use firmware::{
     BoardCode, ConfigBytes, ConfigError, HeadConfig, Header, Links, Part, decode, encode,
 };
 use host_sim::Error;
+use mlx90333::Decoder;
 use scene::Scene;
 use serde_json::Value;
 use whisking::Real;
@@ -36,6 +37,8 @@ pub(crate) struct Running {
     pub(crate) crc: u32,
     pub(crate) head: HeadConfig,
     pub(crate) links: Links,
+    /// How frames of an MLX90333 are read.
+    pub(crate) decoder: Decoder,
     /// Whether it decides, by a model that is deployed with it.
     pub(crate) decides: bool,
     contact_min: Option<f64>,
@@ -60,6 +63,7 @@ fn read<R: Real>(program: Program, bytes: Vec<u8>) -> Result<Running, ConfigErro
         contact_min: classifier.and_then(|of| of.contact_min.map(Real::to_f64)),
         head: config.head,
         links: config.links,
+        decoder: config.sensor.decoder,
         program,
         bytes,
     })

@@ -17,6 +17,7 @@ mod deployment;
 mod doctor;
 mod exchange;
 mod faults;
+mod frames;
 mod interrupt;
 mod loading;
 mod monitor;
@@ -70,6 +71,9 @@ enum Command {
     /// Watches a whisker for a minute and writes a report: what is not as its simulation has it,
     /// and what that is a sign of
     Check(commands::check::Arguments),
+    /// Looks at a module that has just got its first power: its sensors' frames as they come, and
+    /// what of the scene does not fit them; motors stay off
+    Bringup(commands::bringup::Arguments),
     /// Programs a board through its debug probe with a scene
     Flash(commands::flash::Arguments),
     /// Says what this PC lacks to work with a board, and the command that mends it
@@ -117,6 +121,7 @@ fn run(command: &Command, verbosity: Verbosity) -> Result<(), Error> {
         Command::Log(arguments) => commands::log::log(arguments),
         Command::Records(arguments) => commands::records::records(arguments, verbosity),
         Command::Capture(arguments) => commands::capture::capture(arguments, verbosity),
+        Command::Bringup(arguments) => commands::bringup::bringup(arguments),
         Command::Flash(arguments) => commands::flash::flash(arguments, verbosity),
         Command::Doctor(arguments) => commands::doctor::doctor(arguments),
         Command::Arm(to) => commands::order::arm(to),

@@ -80,6 +80,9 @@ pub enum Command {
     Board,
     /// Says eight letters of the name of a class, from this one on, as [`Command::Name`] does.
     Class(u8, u8),
+    /// Says the last frame of the whisker's sensor as it came, B0 in the highest place of the first
+    /// value.
+    Frame(WhiskerId),
 }
 
 /// In the second value of the answer to [`Command::Scene`]: the configuration is not the one of
@@ -135,6 +138,7 @@ impl Command {
             Self::Scene => 21,
             Self::Board => 22,
             Self::Class(..) => 23,
+            Self::Frame(_) => 24,
         }
     }
 
@@ -165,6 +169,7 @@ impl Command {
             Self::Zero(_) => "zero",
             Self::Board => "board",
             Self::Class(..) => "class",
+            Self::Frame(_) => "frame",
         }
     }
 }
@@ -198,7 +203,7 @@ mod tests {
 
     fn commands() -> impl Strategy<Value = Command> {
         let whisker = any::<(u8, u8)>().prop_map(|(side, number)| WhiskerId { side, number });
-        (0..24_u8, whisker, any::<(i32, u8, u16)>()).prop_map(|(which, whisker, values)| {
+        (0..25_u8, whisker, any::<(i32, u8, u16)>()).prop_map(|(which, whisker, values)| {
             let (value, byte, half) = values;
             let word = value.cast_unsigned();
             match which {
@@ -226,6 +231,7 @@ mod tests {
                 18 => Command::Forget,
                 19 => Command::Restart,
                 20 => Command::Zero(whisker),
+                24 => Command::Frame(whisker),
                 21 => Command::Scene,
                 22 => Command::Board,
                 _ => Command::Class(byte, whisker.side),

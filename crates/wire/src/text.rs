@@ -7,7 +7,7 @@ use crate::request::{Command, WhiskerId};
 
 /// What can be said.
 pub const ALLOWED: &str = "arm, stop, clear SIDE, home SIDE, gain SIDE VALUE (0 to 2), setpoint SIDE \
-                           DEGREES, release SIDE, zero SIDE, stream on|off, hello, status";
+                           DEGREES, release SIDE, zero SIDE, frame SIDE, stream on|off, hello, status";
 
 /// Numbers are at most this far from zero.
 const FAR: u32 = 10_000;
@@ -94,6 +94,7 @@ fn spoken<'l>(
         b"home" => Command::Home(side(words)?),
         b"release" => Command::Release(side(words)?),
         b"zero" => Command::Zero(side(words)?),
+        b"frame" => Command::Frame(side(words)?),
         b"gain" => Command::Gain(side(words)?, number(words)?.q24()),
         // θ' = 100 θ + 50 degrees (BIOTACT section III).
         b"setpoint" => {
@@ -226,6 +227,7 @@ mod tests {
             ("home right", Command::Home(RIGHT)),
             ("release\tleft # a remark", Command::Release(LEFT)),
             ("zero right", Command::Zero(RIGHT)),
+            ("frame right", Command::Frame(RIGHT)),
             ("gain left 0.5", Command::Gain(LEFT, 1 << 23)),
             ("gain left +.25", Command::Gain(LEFT, 1 << 22)),
             ("gain right -1.", Command::Gain(RIGHT, -(1 << 24))),

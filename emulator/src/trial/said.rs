@@ -62,7 +62,7 @@ const KINDS: [&str; 14] = [
 ];
 
 /// Commands that can be asked for.
-const SPOKEN: [Command; 14] = {
+const SPOKEN: [Command; 15] = {
     let left = WhiskerId { side: 0, number: 0 };
     [
         Command::Hello,
@@ -76,6 +76,7 @@ const SPOKEN: [Command; 14] = {
         Command::Setpoint(left, 0),
         Command::Release(left),
         Command::Zero(left),
+        Command::Frame(left),
         Command::Load(Load {
             config: 0,
             model: 0,

@@ -34,6 +34,8 @@ pub(crate) struct Frames {
     port: &'static SensorPort,
     transfers: Transfers,
     running: bool,
+    /// The last frame as it came.
+    last: u64,
     /// Rounds of delay from the last byte to /SS high.
     lag: u32,
 }
@@ -81,6 +83,7 @@ impl Frames {
             port,
             transfers,
             running: false,
+            last: 0,
             lag,
         }
     }
@@ -153,16 +156,17 @@ impl FrameSource for Frames {
         // In case the interrupt, and with it `end_of_frame`, is late.
         self.stop();
         compiler_fence(Ordering::Acquire);
-        Ok(self.last())
-    }
-
-    #[inline]
-    fn last(&self) -> Option<[u8; FRAME_LEN]> {
         // One by one: a program for size makes loops of what is done to an array.
         let [low, high] = &self.port.received.0;
         let low = u64::from(low.load(Ordering::Relaxed));
         let high = u64::from(high.load(Ordering::Relaxed));
-        Some((high << 32 | low).to_le_bytes())
+        self.last = high << 32 | low;
+        Ok(FrameSource::last(self))
+    }
+
+    #[inline]
+    fn last(&self) -> Option<[u8; FRAME_LEN]> {
+        Some(self.last.to_le_bytes())
     }
 
     #[inline]

@@ -14,8 +14,8 @@ use firmware::{Event, NotArmed, Packet, StartCause, Startup};
 use heapless::Deque;
 use wire::text::{self, Spoken};
 use wire::{
-    Answer, COMMAND_BYTES, Command, CommandStatus, Frame, Line, Piece, Splitter, TaggedCommand,
-    UnknownCommand,
+    Answer, COMMAND_BYTES, Command, CommandStatus, Field, Frame, Line, Piece, Splitter,
+    TaggedCommand, UnknownCommand,
 };
 
 use crate::board::about::About;
@@ -326,6 +326,10 @@ fn reply(origin: Origin, answer: &Answer, about: &About) -> bool {
                 .values
                 .into_iter()
                 .for_each(|code| _ = said.signed(code)),
+            Command::Frame(_) => {
+                let fields = [Field::from(first), Field::from(second)];
+                said.form(" {=u32:08x}{=u32:08x}", &fields);
+            }
             Command::Hello => {
                 said.word(about.name()).field(first).field(second);
                 said.word(VERSION);
