@@ -164,6 +164,27 @@ fn a_board_on_a_port_runs_the_scene_that_is_deployed() {
     assert!(!get.contains("differs"), "{get}");
 }
 
+/// The sensor hangs on the board as before, whatever scene the board has.
+#[test]
+fn a_sensor_that_sums_otherwise_than_the_scene_has_it_is_found() {
+    let place = Place::new();
+    let served = Served::new(&place);
+    let bringup = format!("bringup {} --frames 60 --json seen.json", served.port);
+    let ran = place.done(&bringup);
+    ran.prints("motors: off until they are armed\n");
+    ran.prints("sensor left: as the scene has it\n");
+    let scene = std::fs::read_to_string(scenes("bench.toml")).unwrap();
+    let keys = "[sensor]\nsum_rule = \"not-b1-b6\"";
+    place.write("other.toml", &scene.replacen("[sensor]", keys, 1));
+    place.done(&format!("deploy {} --scene other.toml", served.port));
+    let ran = place.fails(&bringup);
+    ran.prints(
+        "sensor left: the sum is another than the scene has: set sensor.sum_rule = \"b1-b6\"\n",
+    );
+    let seen = place.text("seen.json");
+    assert!(seen.contains("\"sum_rule\": \"b1-b6\""), "{seen}");
+}
+
 #[test]
 fn a_deployment_that_is_cut_off_leaves_the_scene_before() {
     let place = Place::new();
