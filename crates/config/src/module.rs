@@ -3,9 +3,11 @@
 use firmware::design_parameters::{Plausible, retry, sensor_limits, swing_limits, zero_limits};
 use firmware::{
     ClassifierConfig, Config, ConfigError, Field, HeadConfig, Links, MotionConfig, SensingConfig,
-    SensorLimits, ServoConfig, SwingLimits,
+    SensorKind, SensorLimits, ServoConfig, SwingLimits,
 };
-use scene::{Deciding, MotorSection, OnFault, PlantKind, Rest, Rule, Scene, SensorMode};
+use scene::{
+    Deciding, MotorSection, OnFault, PlantKind, Rest, Rule, Scene, SensorMode, SensorModel,
+};
 use tactile::{RuleSettings, Threshold};
 use whisking::motor::{GuardSettings, HomingSettings, ModelSettings};
 use whisking::{Real, filter, pd};
@@ -69,7 +71,7 @@ pub fn build<R: Real>(scene: &Scene, target: Target<'_>) -> Result<Config<R>, Mi
     Ok(Config {
         head: head(scene, target.overrides)?,
         sensor: SensingConfig {
-            is_slow: scene.sensor.mode == SensorMode::Slow,
+            kind: kind(scene),
             limits: sensor(scene, is_ideal),
         },
         contact,
@@ -100,6 +102,14 @@ fn head(scene: &Scene, overrides: &str) -> Result<HeadConfig, Mismatch> {
         sides: scene.head.sides.count() as u8,
         whiskers_per_side: scene.head.whiskers_per_side as u8,
     })
+}
+
+const fn kind(scene: &Scene) -> SensorKind {
+    match (scene.sensor.model, scene.sensor.mode) {
+        (SensorModel::Mlx90333, SensorMode::Fast) => SensorKind::FastMlx90333,
+        (SensorModel::Mlx90333, SensorMode::Slow) => SensorKind::SlowMlx90333,
+        (SensorModel::Tmag5170, _) => SensorKind::Tmag5170,
+    }
 }
 
 /// What is tolerated of a scene's sensors.

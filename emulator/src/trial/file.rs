@@ -34,7 +34,10 @@ pub(super) enum What {
     Held,
     SensorFrozen,
     SensorGone,
+    SensorGarbled,
+    SensorRestart,
     MagnetGone,
+    MagnetNear,
     Serial { line: String },
     Probe { command: Command },
     Configuration { change: Change },
@@ -133,10 +136,10 @@ impl Scenario {
                 _ if what.is_at_motor() && scene.motor.is_none() => {
                     "an event of a motor, but the scene has none"
                 }
-                What::SensorFrozen | What::SensorGone | What::MagnetGone
-                    if scene.sensor.model != SensorModel::Mlx90333 =>
+                What::SensorRestart | What::MagnetNear
+                    if scene.sensor.model != SensorModel::Tmag5170 =>
                 {
-                    "an event of an MLX90333, but the scene has another sensor"
+                    "an event of a TMAG5170, but the scene has another sensor"
                 }
                 _ if event.side >= sides => "an event on the right, which the scene has not",
                 _ => continue,
