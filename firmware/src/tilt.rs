@@ -76,7 +76,9 @@ impl TiltScale {
         }
         let [x_slope, y_slope] = self.slopes;
         let tilt = |field: i16, slope: i32| {
-            let codes = -i32::from(field) * slope / i32::from(z);
+            let product = -i32::from(field) * slope;
+            // Z is not zero, which the compiler does not see here.
+            let codes = product.checked_div(i32::from(z)).unwrap_or(0);
             word(codes.clamp(-FULL_CODES, FULL_CODES) + FULL_CODES + 1)
         };
         Ok([tilt(x, x_slope), tilt(y, y_slope)])

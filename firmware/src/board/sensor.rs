@@ -4,7 +4,7 @@
 //! Why not by its driver over a blocking `SpiDevice`, as a TMAG5170 is (`tilt.rs`): 64 bits at the
 //! sensor's 400 kHz are 160 us, and with the gaps that it needs between bytes a frame takes 430 us
 //! of the 500 us of a tick at 2 kHz. A core that waited for it would have 70 us left, and on two
-//! sides less than nothing; three frames of a TMAG5170 take some 30 us. So a tick computes with the
+//! sides less than nothing; three frames of a TMAG5170 take some 25 us. So a tick computes with the
 //! frame that ended before it, while the next one comes.
 //!
 //! - *slot*: the time from the start of a byte to that of the next. The sensor
