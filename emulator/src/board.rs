@@ -8,67 +8,27 @@
 //! the tick before is latched again then, and what was clocked of it meanwhile is
 //! put right, where the DMA has put it; the next tick uses it. So tick n uses the
 //! deflection after tick n − 1 on the board as on the PC, as long as a tick is
-//! shorter than a frame. In the first tick there is no frame yet, and the
+//! shorter than a frame. (A TMAG5170 is read within the tick.) In the first tick there is no frame yet, and the
 //! module takes its sensor to be at rest, which in host-sim's first tick it is.
 
 use embedded_hal::digital::{InputPin, OutputPin};
 use embedded_hal::pwm::SetDutyCycle;
 use firmware::{AngleInput, Event, Packet, Place};
 use host_sim::bench::{Bench, Snapshot};
-use host_sim::bus::{Exchange, Slave};
+use host_sim::bus::Slave;
+use host_sim::bus::tmag5170::TmagSlave;
 use host_sim::motor::{Pins, SimPwm};
 use host_sim::received::{Received, Receiver};
-use mlx90333::{Decoder, FRAME_LEN};
+use mlx90333::Decoder;
 use scene::Scene;
 
-use crate::chip::{Chip, Fault, Ps, ResetCause, SensorEnd, WELL_MV};
+use crate::chip::{Chip, Fault, Ps, ResetCause, WELL_MV};
 use crate::machine::{Machine, Stop};
 use crate::meter::Meter;
 use crate::notice::Notice;
 use crate::program::Program;
 use crate::watch::{Said, Watch};
-
-#[derive(Debug, Default)]
-struct Wired {
-    slave: Slave,
-    /// The last frame as it began, and as it is now.
-    begun: Option<Exchange>,
-    exchange: Option<Exchange>,
-    /// What the master has sent in it.
-    sent: Vec<u8>,
-    /// When it began.
-    latched: Ps,
-}
-
-impl Wired {
-    /// The tick is over, and the world has moved on: what a frame under way has said so far
-    /// becomes this.
-    fn moved(&mut self) -> Option<Vec<u8>> {
-        if self.sent.len() >= FRAME_LEN {
-            return None;
-        }
-        let mut exchange = self.begun.clone()?;
-        self.slave.latch_again(&mut exchange);
-        let said = self.sent.iter().map(|sent| exchange.byte(*sent)).collect();
-        self.exchange = Some(exchange);
-        Some(said)
-    }
-}
-
-impl SensorEnd for Wired {
-    fn latch(&mut self, now: Ps) {
-        self.latched = now;
-        self.sent.clear();
-        self.exchange = Some(self.slave.select());
-        self.begun.clone_from(&self.exchange);
-    }
-
-    fn exchange(&mut self, sent: u8) -> u8 {
-        self.sent.push(sent);
-        let exchange = self.exchange.as_mut();
-        exchange.map_or(0xFF, |exchange| exchange.byte(sent))
-    }
-}
+use crate::wired::Wired;
 
 /// The emulated board and what hangs on it, as host-sim's runs see it. What goes wrong is kept for
 /// [`Board::check`]; after that it stands still.
@@ -133,11 +93,12 @@ impl Board {
     /// A board with `program` in its flash, sensors on the sides of `scene`, and the motors
     /// behind `pins`; started, and before its first tick.
     pub(crate) fn new(program: &Program, scene: &Scene, pins: Vec<Pins>) -> Result<Self, Fault> {
-        let sides = scene.head.sides.count();
+        let sensors = (0..scene.head.sides.count()).map(|side| Wired::new(scene, side));
+        let sensors = sensors.collect::<Option<_>>();
         let mut board = Self {
             machine: Machine::new(program)?,
             watch: Watch::new(program, scene)?,
-            sensors: std::iter::repeat_with(Wired::default).take(sides).collect(),
+            sensors: sensors.ok_or(Fault::NoMagnet)?,
             pins,
             ring: Receiver::default(),
             line: Receiver::default(),
@@ -171,8 +132,8 @@ impl Board {
     /// The sensor of a side has frames that are read by `decoder`, and rests so many microseconds
     /// between two.
     pub(crate) fn program_sensor(&mut self, side: usize, decoder: Decoder, rest_us: u32) {
-        if let Some(sensor) = self.sensors.get_mut(side) {
-            sensor.slave.program(decoder);
+        if let Some(slave) = self.slave_mut(side) {
+            slave.program(decoder);
         }
         self.machine
             .with_chip(|chip| chip.program_sensor(side, decoder, rest_us));
@@ -221,6 +182,7 @@ impl Board {
         if let Some(cause) = self.machine.set_supply(0)? {
             self.was_reset(cause);
         }
+        self.sensors.iter_mut().for_each(Wired::lose_power);
         self.machine.memories.lose_ram()
     }
 
@@ -438,8 +400,17 @@ impl Bench for Board {
     }
 
     fn slave_mut(&mut self, n: usize) -> Option<&mut Slave> {
-        let sensor = self.sensors.get_mut(n)?;
-        Some(&mut sensor.slave)
+        self.sensors.get_mut(n)?.slave_mut()
+    }
+
+    fn tmag_mut(&mut self, n: usize) -> Option<&mut TmagSlave> {
+        self.sensors.get_mut(n)?.tmag_mut()
+    }
+
+    fn bend(&mut self, n: usize, deflection: [f64; 2]) {
+        if let Some(sensor) = self.sensors.get_mut(n) {
+            sensor.bend(deflection);
+        }
     }
 
     fn tells_faults(&self) -> bool {

@@ -218,9 +218,12 @@ impl Chip {
         Ok(None)
     }
 
-    /// Tells the sensors of bytes that have begun.
+    /// Tells the sensors of frames that are over, and of bytes that have begun.
     fn begin_bytes(&mut self, sensors: &mut [impl SensorEnd]) -> Result<(), Fault> {
         for (side, sensor) in sensors.iter_mut().enumerate() {
+            if self.lines[side].take_over() {
+                sensor.release();
+            }
             if let Some(shift) = self.spis[side].shift {
                 let bit = self.spis[side].bit(self.spi_clock(side));
                 self.lines[side].begin(shift.began, bit, sensor)?;

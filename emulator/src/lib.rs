@@ -48,3 +48,4 @@ pub mod trial;
 mod tuning;
 mod upset;
 mod watch;
+mod wired;

@@ -14,7 +14,7 @@ use host_sim::Error;
 use host_sim::loaded::Loaded;
 use host_sim::progress::Verbosity;
 
-use crate::compare::{self, Probe};
+use crate::compare::{self, Circumstances, Probe};
 use crate::deployment::flashed;
 use crate::program::Program;
 use crate::session::Session;
@@ -64,6 +64,9 @@ pub struct Given {
     /// Who fetches the log while PC and board are compared
     #[arg(long, value_enum, default_value_t)]
     probe: Probe,
+    /// How many seconds of the scene PC and board are compared; none: all of it
+    #[arg(long, value_name = "S")]
+    duration: Option<f64>,
     /// Over how many minutes of simulated time deadlines are measured
     #[arg(long, default_value_t = 10.0)]
     minutes: f64,
@@ -107,7 +110,11 @@ pub const ALL: [Scenario; 12] = [
         what: "Runs the scene on PC and board and compares every tick",
         how: What::Work(|given| {
             let (scene, program) = given.parts();
-            compare::compare(scene, program, given.probe.into()).map(|agreed| {
+            let circumstances = Circumstances {
+                duration_s: given.duration,
+                ..given.probe.into()
+            };
+            compare::compare(scene, program, circumstances).map(|agreed| {
                 let scene = scene.display();
                 vec![format!(
                     "{scene}: {agreed}; {} bytes of stack",

@@ -91,12 +91,38 @@ impl HeadConfig {
     }
 }
 
+/// Which sensor whiskers have, and in which of its modes. Written as its number.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+pub enum SensorKind {
+    /// An MLX90333 in its fast mode.
+    FastMlx90333,
+    /// One in its slow mode, which is read at half the clock.
+    SlowMlx90333,
+    /// A TMAG5170.
+    Tmag5170,
+}
+
+impl SensorKind {
+    /// Whether it computes slowly, and is read at half the clock.
+    pub const fn is_slow(self) -> bool {
+        matches!(self, Self::SlowMlx90333)
+    }
+
+    /// What an image must have to read it.
+    pub const fn part(self) -> Part {
+        match self {
+            Self::FastMlx90333 | Self::SlowMlx90333 => Part::Mlx90333,
+            Self::Tmag5170 => Part::Tmag5170,
+        }
+    }
+}
+
 /// How sensors are read.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub struct SensingConfig {
-    /// They compute in their slow mode, and are read at half the clock.
-    pub is_slow: bool,
-    /// Least time for which one is deselected between two frames, µs.
+    /// Which they are.
+    pub kind: SensorKind,
+    /// Least time for which an MLX90333 is deselected between two frames, µs.
     pub rest_us: u16,
     /// How frames of an MLX90333 are read.
     pub decoder: Decoder,
@@ -162,7 +188,7 @@ impl<R: Real> Config<R> {
                 whiskers_per_side: 1,
             },
             sensor: SensingConfig {
-                is_slow: false,
+                kind: SensorKind::FastMlx90333,
                 rest_us: REST_US,
                 decoder: Decoder::new(),
                 limits: SensorLimits::ANY,

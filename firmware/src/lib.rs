@@ -52,8 +52,8 @@ mod zero;
 pub use button::{Button, ButtonLimits};
 pub use config::{
     BoardCode, CONFIG_BYTES, Config, ConfigBytes, ConfigError, Field, HEADER_BYTES, HeadConfig,
-    Header, Links, MotionConfig, NAME_BYTES, OVERRIDES_BYTES, Part, SensingConfig, VERSION,
-    allowed, decode, decode_into, encode,
+    Header, Links, MotionConfig, NAME_BYTES, OVERRIDES_BYTES, Part, SensingConfig, SensorKind,
+    VERSION, allowed, decode, decode_into, encode,
 };
 #[cfg(feature = "tmag5170")]
 pub use event::TiltFault;
@@ -72,7 +72,7 @@ pub use servo::{FAULTS, HELD, MotorRecord, Retry, Servo, ServoConfig, ServoState
 pub use signals::Signals;
 pub use telemetry::{About, Link, letters, may_load};
 #[cfg(feature = "tmag5170")]
-pub use tilt::{TiltScale, TiltSource};
+pub use tilt::{FULL_SCALE, TiltScale, TiltSource};
 pub use timing::Timing;
 pub use tuning::{Prepared, Tuning, answer, applied, refusal_code, refusal_of, take_over};
 pub use whisking::motor::Driver;

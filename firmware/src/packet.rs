@@ -98,8 +98,7 @@ impl EventRecord {
                 (kind::DECISION, place, 0, decision.words())
             }
             Event::SensorLost(place, fault) => {
-                let values = [detail(fault).into(), 0, 0];
-                (kind::SENSOR_LOST, place, fault.code(), values)
+                (kind::SENSOR_LOST, place, fault.code(), details(fault))
             }
             Event::Frame(place, bytes) => {
                 let [high, low] = halves(bytes);
@@ -148,7 +147,7 @@ impl EventRecord {
                 number: a as u16,
             },
             kind::DECISION => Event::Decision(place, Decision::from_memory(a, b, c)?),
-            kind::SENSOR_LOST => Event::SensorLost(place, sensor_fault(number, a as u16)?),
+            kind::SENSOR_LOST => Event::SensorLost(place, sensor_fault(number, [a, b])?),
             kind::FRAME => {
                 let bytes = u64::from(a) << 32 | u64::from(b);
                 Event::Frame(place, bytes.to_be_bytes())
@@ -178,8 +177,17 @@ impl EventRecord {
     }
 }
 
-/// What is known of a sensor's fault besides its number. Of a TMAG5170, which no board has yet,
-/// nothing.
+/// What is known of a sensor's fault besides its number.
+fn details(fault: SensorFault) -> [u32; 3] {
+    #[cfg(feature = "tmag5170")]
+    if let SensorFault::Tilt(fault) = fault {
+        let [a, b] = fault.values();
+        return [a, b, 0];
+    }
+    [detail(fault).into(), 0, 0]
+}
+
+/// Of an MLX90333.
 fn detail(fault: SensorFault) -> u16 {
     match fault {
         SensorFault::Frame(FrameError::BadStart(found)) => found.into(),
@@ -192,8 +200,13 @@ fn detail(fault: SensorFault) -> u16 {
     }
 }
 
-/// The fault of a number and that detail.
-fn sensor_fault(number: u8, detail: u16) -> Option<SensorFault> {
+/// The fault of a number and the first two of these details.
+fn sensor_fault(number: u8, details: [u32; 2]) -> Option<SensorFault> {
+    #[cfg(feature = "tmag5170")]
+    if let Some(fault) = crate::TiltFault::of(number, details) {
+        return Some(SensorFault::Tilt(fault));
+    }
+    let [detail, _] = details.map(|detail| detail as u16);
     let [low, high] = detail.to_le_bytes();
     let frame = match number {
         number::NO_FRAME => return Some(SensorFault::NoFrame),
@@ -267,6 +280,35 @@ mod tests {
                 _ => frame(FrameError::StuckWords),
             }
         })
+    }
+
+    #[cfg(feature = "tmag5170")]
+    #[test]
+    fn faults_of_a_tmag5170_come_as_they_were_sent() {
+        use crate::TiltFault::{NoMagnet, NotWritten, Reply, Reported};
+        use tmag5170::{Register, ReplyError, Status, StatusFaults};
+
+        let mut faults = vec![
+            Reply(ReplyError::NoSensor),
+            Reply(ReplyError::LineLow),
+            Reply(ReplyError::Rejected),
+            Reply(ReplyError::BadCrc {
+                expected: 3,
+                found: 12,
+            }),
+            Reply(ReplyError::Restarted),
+            Reply(ReplyError::Sensor(Status::new(0x308))),
+            Reply(ReplyError::OtherType(5)),
+            Reported(StatusFaults::NONE),
+            NoMagnet,
+        ];
+        faults.extend(StatusFaults::KNOWN.map(|known| Reported(known.bit)));
+        faults.extend(Register::ALL.map(NotWritten));
+        for fault in faults {
+            let event = Event::SensorLost(Place::new(1, 0), SensorFault::Tilt(fault));
+            let packet = Packet::Event(EventRecord { sequence: 7, event });
+            assert_eq!(received(&packet), Some(packet));
+        }
     }
 
     fn motor_fault() -> impl Strategy<Value = motor::Fault> {

@@ -7,7 +7,10 @@
 
 use embedded_hal::spi::SpiDevice;
 use mlx90333::{Decoder, Word};
-use tmag5170::{Config, DataType, Error, Field, ReplyError, StatusFaults, Tmag5170, Version};
+use tmag5170::{
+    Average, Channels, Config, DataType, DeviceConfig, Error, Field, OperatingMode, Range,
+    ReplyError, SensorConfig, StatusFaults, Tmag5170, Version,
+};
 
 use crate::io::WordSource;
 use crate::{SensorFault, TiltFault};
@@ -16,8 +19,17 @@ use crate::{SensorFault, TiltFault};
 /// it is upside down.
 const LEAST_Z: i32 = 512;
 
+/// The largest code of a field, of one conversion: there the field may be any that is larger.
+const END: u16 = 0x7FF0;
+
 /// Codes of a word from mid-scale to full scale.
 const FULL_CODES: i32 = 8191;
+
+/// Full scale of a module's words, as the tangent of the tilt.
+pub const FULL_SCALE: f32 = 0.15;
+
+/// Ranges of a module's X, Y and Z: docs/build.md has the fields.
+const RANGES: [Range; 3] = [Range::Narrow, Range::Narrow, Range::Wide];
 
 /// From fields to words.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -32,37 +44,59 @@ impl TiltScale {
     /// `None` if a field of X or Y would have more than 65,535 codes of a word for each of Z:
     /// with equal ranges, for full scales below 0.25; with X and Y a quarter of Z, below
     /// 0.0625.
-    pub fn new(config: &Config, full_scale: f32) -> Option<Self> {
-        // Both parts have the same ratios of ranges.
-        let ranges = config.sensor.ranges;
-        let [x, y, z] = ranges.map(|range| range.full_scale_mt(Version::A1));
-        let slope = |range_mt: f32| {
-            let slope = 2.0 * FULL_CODES as f32 * range_mt / (z * full_scale);
-            // A product with a code stays within 31 bits.
-            (1.0..65_535.0).contains(&slope).then_some(slope as i32)
-        };
-        Some(Self {
-            slopes: [slope(x)?, slope(y)?],
-        })
+    pub const fn new(config: &Config, full_scale: f32) -> Option<Self> {
+        Self::of_ranges(config.sensor.ranges, full_scale)
     }
 
-    /// The words of X, Y and Z, limited to full scale.
+    /// The same for these ranges.
+    const fn of_ranges([x, y, z]: [Range; 3], full_scale: f32) -> Option<Self> {
+        match (slope(x, z, full_scale), slope(y, z, full_scale)) {
+            (Some(x), Some(y)) => Some(Self { slopes: [x, y] }),
+            _ => None,
+        }
+    }
+
+    /// The words of X, Y and Z, limited to full scale. Where one of the three is at the end of its
+    /// range no tilt is known: then both words are at the end of theirs.
     ///
     /// # Errors
     /// [`TiltFault::NoMagnet`].
     #[inline]
-    pub fn words(self, [x, y, z]: [Field; 3]) -> Result<[Word; 2], TiltFault> {
-        let z = i32::from(z.code());
-        if z < LEAST_Z {
+    pub fn words(self, fields: [Field; 3]) -> Result<[Word; 2], TiltFault> {
+        let [x, y, z] = fields.map(Field::code);
+        if i32::from(z) < LEAST_Z {
             return Err(TiltFault::NoMagnet);
         }
+        // Below the 14 bits of a word stand some of the fields' noise, so that words at the end of
+        // their range are not taken for a sensor that stands still.
+        let noise = ((x ^ y ^ z) as u16 >> 4) & 3;
+        let word = |code: i32| Word::new((code as u16) << 2 | noise);
+        if [x, y, z].iter().any(|code| code.unsigned_abs() >= END) {
+            return Ok([word(2 * FULL_CODES + 1); 2]);
+        }
         let [x_slope, y_slope] = self.slopes;
-        let word = |field: Field, slope: i32| {
-            let codes = -i32::from(field.code()) * slope / z;
-            let code = codes.clamp(-FULL_CODES, FULL_CODES) + FULL_CODES + 1;
-            Word::new((code as u16) << 2)
+        let tilt = |field: i16, slope: i32| {
+            let product = -i32::from(field) * slope;
+            // Z is not zero, which the compiler does not see here.
+            let codes = product.checked_div(i32::from(z)).unwrap_or(0);
+            word(codes.clamp(-FULL_CODES, FULL_CODES) + FULL_CODES + 1)
         };
-        Ok([word(x, x_slope), word(y, y_slope)])
+        Ok([tilt(x, x_slope), tilt(y, y_slope)])
+    }
+}
+
+/// Codes of a word for a field of the range `across` and one of Z of the range `axial` with the
+/// same code; `None`: more than a product has room for.
+const fn slope(across: Range, axial: Range, full_scale: f32) -> Option<i32> {
+    // Both parts have the same ratios of ranges.
+    let across_mt = across.full_scale_mt(Version::A1);
+    let axial_mt = axial.full_scale_mt(Version::A1);
+    let slope = 2.0 * FULL_CODES as f32 * across_mt / (axial_mt * full_scale);
+    // A product with a code stays within 31 bits.
+    if slope >= 1.0 && slope < 65_535.0 {
+        Some(slope as i32)
+    } else {
+        None
     }
 }
 
@@ -92,6 +126,29 @@ impl<SPI: SpiDevice> TiltSource<SPI> {
             scale,
             is_configured: false,
         }
+    }
+
+    /// The sensor of a module behind `spi`: all axes, four conversions an average, which are the
+    /// most that are new in every tick of 2 kHz, and tilts in units of [`FULL_SCALE`].
+    pub fn of_module(spi: SPI) -> Self {
+        const SCALE: TiltScale = match TiltScale::of_ranges(RANGES, FULL_SCALE) {
+            Some(scale) => scale,
+            None => panic!("the ranges do not fit the full scale"),
+        };
+        let config = Config {
+            device: DeviceConfig {
+                average: Average::X4,
+                mode: OperatingMode::Active,
+                ..DeviceConfig::default()
+            },
+            sensor: SensorConfig {
+                channels: Channels::Xyz,
+                ranges: RANGES,
+                ..SensorConfig::default()
+            },
+            ..Config::default()
+        };
+        Self::new(Tmag5170::new(spi), config, SCALE)
     }
 
     /// The sensor, for a simulation that looks at its bus.

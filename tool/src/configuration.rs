@@ -47,6 +47,14 @@ pub(crate) struct Running {
 /// What helps where an image was built without a part.
 pub(crate) const ANY_SCENE: &str = "cargo xtask firmware --any-scene builds one that has it";
 
+/// What to do about an image that was built without this.
+pub(crate) const fn builds(part: Part) -> &'static str {
+    match part {
+        Part::Tmag5170 => "cargo xtask firmware --scene SCENE builds one that reads it",
+        _ => ANY_SCENE,
+    }
+}
+
 /// A request to an image that was built without what carries it out.
 pub(crate) fn not_built(part: Part) -> Error {
     Error::Work(format!(

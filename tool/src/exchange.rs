@@ -4,7 +4,7 @@ use firmware::{ConfigError, VERSION, refusal_of};
 use host_sim::Error;
 use wire::{CONFIG_CHANGED, Command, CommandStatus};
 
-use crate::configuration::{ANY_SCENE, Program, Running, RunsBy};
+use crate::configuration::{Program, Running, RunsBy, builds};
 use crate::conversation::Conversation;
 use crate::deployment::Deployment;
 
@@ -108,7 +108,7 @@ impl Deployment {
             Taken::Refused(refused) => refused,
         };
         let help = match refused {
-            ConfigError::NotBuilt(_) => format!("; {ANY_SCENE}"),
+            ConfigError::NotBuilt(part) => format!("; {}", builds(part)),
             _ => String::new(),
         };
         Err(Error::Work(format!(

@@ -5,6 +5,8 @@ pub(crate) mod variants;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
+use ::firmware::Part;
+
 use crate::firmware::{self, Board};
 use crate::run::{Fault, absolute, listing, output, run, top, workspace_program};
 
@@ -179,8 +181,20 @@ pub(crate) fn compare_all(on: &Emulated) -> Result<(), Fault> {
     let board = on.board;
     for scene in listing(&top().join("scenes"), "toml")? {
         let taken = variants::single(&scene)?;
-        if let Err(reason) = firmware::linked(board, &taken)? {
-            println!("not on the {}: {}: {reason}", board.name, taken.display());
+        let path = taken.display();
+        let linked = match firmware::linked(board, &taken)? {
+            Ok(linked) => linked,
+            Err(reason) => {
+                println!("not on the {}: {path}: {reason}", board.name);
+                continue;
+            }
+        };
+        let parts = linked.image.features;
+        if on.any_scene.is_some() && parts.contains(&Part::Tmag5170.feature()) {
+            println!(
+                "not by the program for any scene: {path}: {}",
+                Part::Tmag5170
+            );
             continue;
         }
         emulate(on, &taken, COMPARE)?;
@@ -202,6 +216,9 @@ const MODEL: &str = "scenes/models/textures.model";
 /// Both sides, where contact on one excites the other.
 pub(crate) const CIA: &str = "scenes/cia.toml";
 
+/// The main job with TMAG5170s.
+pub(crate) const TILT: &str = "scenes/tmag5170.toml";
+
 /// Of the scenes, those that are compared in fixed point too.
 const IN_FIXED_POINT: [&str; 2] = [FULL, CIA];
 
@@ -212,6 +229,17 @@ pub(crate) fn compare_in_fixed_point(board: Board) -> Result<(), Fault> {
         emulate(&Emulated::linked(board), &fixed, COMPARE)?;
     }
     Ok(())
+}
+
+/// Compares the start of [`TILT`] with host-sim, on every side of the board, by a program that reads
+/// its sensors, and breaks these.
+pub(crate) fn compare_with_tilt(board: Board) -> Result<(), Fault> {
+    let mut scene = top().join(TILT);
+    if board.facts.max_sides > 1 {
+        scene = variants::on_both_sides(&scene)?;
+    }
+    let in_short = ["compare --duration 4", "sensor-loss"];
+    emulate(&Emulated::linked(board), &scene, &in_short)
 }
 
 /// Compares [`FULL`] with host-sim where its sensors are in their slow mode, and the board at

@@ -95,7 +95,8 @@ impl Subject {
                 ..Self::on(Board::ALL[0], &[top().join(crate::emulate::FULL)], runs)?
             }),
             _ => {
-                let scenes: Vec<PathBuf> = scenes.into_iter().chain(other_motors()?).collect();
+                let scenes = scenes.into_iter().filter(has_mlx90333);
+                let scenes: Vec<PathBuf> = scenes.chain(other_motors()?).collect();
                 Self::on(Board::named(name)?, &scenes, runs)
             }
         }

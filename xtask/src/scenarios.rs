@@ -19,13 +19,15 @@ enum Bound {
     Fault(bool),
     /// An event of one of these kinds comes after so many seconds.
     Said(&'static [&'static str], f64),
+    /// An event of this kind with this number comes.
+    Numbered(&'static str, u64),
     /// No event of this kind comes.
     NeverSaid(&'static str),
     /// The motors are off at the end.
     Off,
 }
 
-use Bound::{Fault as Faults, Least, Most, NeverSaid, Off, Said};
+use Bound::{Fault as Faults, Least, Most, NeverSaid, Numbered, Off, Said};
 
 /// A file of tests/scenarios, the keys of [`SCENE`] that are set for it, and what must be so.
 struct Row {
@@ -36,6 +38,9 @@ struct Row {
 
 /// What a lab flashes, which names no model.
 const SCENE: &str = crate::emulate::BENCH;
+
+/// What they run on.
+const BOARD: Board = Board::ALL[0];
 
 /// A simulated motor, and nothing within reach.
 const PLANT: &[&str] = &[
@@ -67,6 +72,13 @@ const OPEN: &[&str] = &["scaled-encoder", "slipping-encoder"];
 
 const fn row(file: &'static str, set: &'static [&'static str], bounds: &'static [Bound]) -> Row {
     Row { file, set, bounds }
+}
+
+/// Whiskers with the other sensor, which a program of its own reads.
+const TILT: &[&str] = &["sensor.model=tmag5170"];
+
+const fn tilt(file: &'static str, bounds: &'static [Bound]) -> Row {
+    row(file, TILT, bounds)
 }
 
 /// All of them.
@@ -227,6 +239,28 @@ const ROWS: &[Row] = &[
     row("low-supply", &[], &[INSIDE, Most("at_stop_s", 0.0)]),
     row("magnet-gone", &[], &[Said(&["fault", "limit"], 1.0)]),
     row("sensor-gone", &[], &[Faults(true), INSIDE, STAYS_OFF]),
+    row(
+        "sensor-frozen",
+        &[],
+        &[Numbered("fault", 24), INSIDE, STAYS_OFF],
+    ),
+    row(
+        "sensor-garbled",
+        &[],
+        &[Numbered("fault", 21), INSIDE, STAYS_OFF],
+    ),
+    tilt("sensor-gone", &[Numbered("fault", 27), INSIDE, STAYS_OFF]),
+    tilt("sensor-frozen", &[Numbered("fault", 24), INSIDE, STAYS_OFF]),
+    tilt(
+        "sensor-garbled",
+        &[Numbered("fault", 29), INSIDE, STAYS_OFF],
+    ),
+    tilt("sensor-restart", WHISKS_ON),
+    tilt("magnet-gone", &[Numbered("fault", 31), INSIDE, STAYS_OFF]),
+    tilt(
+        "magnet-near",
+        &[Numbered("limit", 36), Faults(false), INSIDE],
+    ),
     row("two-faults", &[], &[Faults(true), INSIDE, STAYS_OFF]),
 ];
 
@@ -258,6 +292,11 @@ impl Bound {
                 let is_said = events().any(is_it);
                 (!is_said).then(|| format!("nothing of {} after {after_s} s", kinds.join(", ")))
             }
+            Numbered(kind, number) => {
+                let is_it = |event: &Value| event["kind"] == kind && event["number"] == number;
+                let is_said = events().any(is_it);
+                (!is_said).then(|| format!("no {kind} {number}"))
+            }
             NeverSaid(kind) => {
                 let is_said = events().any(|event| event["kind"] == kind);
                 is_said.then(|| format!("an event \"{kind}\""))
@@ -286,6 +325,8 @@ impl Row {
             .collect();
         let scene = variants::with(&top().join(SCENE), &set)?;
         let file = top().join(format!("tests/scenarios/{}.toml", self.file));
+        let linked = Emulated::linked(BOARD);
+        let on = if self.set == TILT { &linked } else { on };
         crate::emulate::trying(on, &scene, &file, None, &self.json())
     }
 
@@ -315,6 +356,9 @@ const SHORT: &[&str] = &[
     "reset-after-stop",
     "finger",
     "magnet-gone",
+    "magnet-near sensor.model=tmag5170",
+    "sensor-garbled sensor.model=tmag5170",
+    "sensor-restart sensor.model=tmag5170",
 ];
 
 /// Runs one row of each kind.
@@ -333,7 +377,7 @@ pub(crate) fn all() -> Result<(), Fault> {
 
 /// Runs rows on the first board.
 fn rows(rows: Vec<&Row>) -> Result<(), Fault> {
-    let on = Emulated::deployed(Board::ALL[0])?;
+    let on = Emulated::deployed(BOARD)?;
     crate::run::write(&target().join("scenarios/.here"), "")?;
     let commands = rows.iter().map(|row| row.command(&on));
     run_at_once(commands.collect::<Result<_, _>>()?, 2)?;

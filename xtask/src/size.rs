@@ -29,6 +29,8 @@ const SHORT: [&str; 2] = ["scenes/full.toml", "scenes/passive.toml"];
 const SILENT: [&str; 2] = ["scenes/passive.toml", "scenes/rcp.toml"];
 /// One with two sides, for the board that carries them.
 const TWO_SIDES: &str = "scenes/both.toml";
+/// One with the other sensor, for the board that has least room.
+const TILT: &str = crate::emulate::TILT;
 /// One whose model has a second opinion, for the board that has time for it.
 const JUDGED: &str = "scenes/bench-textures.toml";
 
@@ -80,7 +82,8 @@ pub(crate) fn print(board: Board, scene: &str, elf: &Path) -> Result<(), Fault> 
     Ok(())
 }
 
-/// Checks [`SHORT`] on every board, [`TWO_SIDES`] and [`JUDGED`] on one, and what a program holds.
+/// Checks [`SHORT`] on every board, [`TWO_SIDES`], [`JUDGED`] and [`TILT`] on one, and what a
+/// program holds.
 pub(crate) fn short() -> Result<(), Fault> {
     let mut measured = Measured::default();
     for scene in SHORT {
@@ -98,6 +101,9 @@ pub(crate) fn short() -> Result<(), Fault> {
     }
     measured.control(board)?;
     let [.., smallest] = Board::ALL;
+    if let Some(reason) = measured.take(smallest, Path::new(TILT), None)? {
+        return Err(reason);
+    }
     measured.any_scene(smallest)?;
     let found = measured.proven()?;
     TABLE.check_part(&found)?;

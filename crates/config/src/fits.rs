@@ -1,7 +1,7 @@
 //! What a board cannot do, in the words of the scene's keys.
 
 use firmware::boards::{self, BoardFacts};
-use scene::{Rule, Scene, SensorMode, SensorModel};
+use scene::{Rule, Scene, SensorMode};
 use tactile::{Deciding, ModelBuf, StreamClassifier};
 
 use crate::module::rule_settings;
@@ -33,13 +33,6 @@ pub(crate) fn fits(
     model: Option<&ModelBuf>,
     board: &BoardFacts,
 ) -> Result<(), Unfit> {
-    if scene.sensor.model != SensorModel::Mlx90333 {
-        return Err(Unfit::Board(format!(
-            "sensor.model: found \"{}\"; allowed on the {}: \"mlx90333\", because no board's \
-             program reads the other yet",
-            scene.sensor.model, board.name
-        )));
-    }
     let needs = needs(scene);
     if let Err(misfit) = board.fits(&needs) {
         let (key, found) = found(misfit, scene);

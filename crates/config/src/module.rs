@@ -3,12 +3,12 @@
 use firmware::design_parameters::{Plausible, retry, sensor_limits, swing_limits, zero_limits};
 use firmware::{
     ClassifierConfig, Config, ConfigError, Field, HeadConfig, Links, MotionConfig, SensingConfig,
-    SensorLimits, ServoConfig, SwingLimits,
+    SensorKind, SensorLimits, ServoConfig, SwingLimits,
 };
 use mlx90333::{ByteOrder, Decoder, Mode, SumRule};
 use scene::{
     Deciding, MotorSection, OnFault, PlantKind, Rest, Rule, Scene, SensorBytes, SensorMode,
-    SensorSection, SensorSum, SensorWords,
+    SensorModel, SensorSection, SensorSum, SensorWords,
 };
 use tactile::{RuleSettings, Threshold};
 use whisking::motor::{GuardSettings, HomingSettings, ModelSettings};
@@ -73,7 +73,7 @@ pub fn build<R: Real>(scene: &Scene, target: Target<'_>) -> Result<Config<R>, Mi
     Ok(Config {
         head: head(scene, target.overrides)?,
         sensor: SensingConfig {
-            is_slow: scene.sensor.mode == SensorMode::Slow,
+            kind: kind(scene),
             rest_us: scene.sensor.rest_us,
             decoder: decoder(&scene.sensor),
             limits: sensor(scene, is_ideal),
@@ -131,6 +131,14 @@ pub fn decoder_of(words: SensorWords, sum_rule: SensorSum, byte_order: SensorByt
             SensorBytes::LowFirst => ByteOrder::Little,
             SensorBytes::HighFirst => ByteOrder::Big,
         },
+    }
+}
+
+const fn kind(scene: &Scene) -> SensorKind {
+    match (scene.sensor.model, scene.sensor.mode) {
+        (SensorModel::Mlx90333, SensorMode::Fast) => SensorKind::FastMlx90333,
+        (SensorModel::Mlx90333, SensorMode::Slow) => SensorKind::SlowMlx90333,
+        (SensorModel::Tmag5170, _) => SensorKind::Tmag5170,
     }
 }
 

@@ -34,6 +34,9 @@ pub enum Fault {
     /// The chip was reset within a run that must not be interrupted.
     #[error("the chip was reset by {0:?}")]
     Reset(super::reset::ResetCause),
+    /// A scene's sensor has no magnet that can be simulated.
+    #[error("no such magnet")]
+    NoMagnet,
     /// It has sent what is neither a packet nor a line.
     #[error("it has sent what cannot be read")]
     Garbled,

@@ -87,10 +87,11 @@ impl Chip {
     pub(super) fn sensor_is_connected(&self, side: usize) -> bool {
         let [sck, miso, mosi] = self.model.wiring.sides[side].spi;
         let function = self.model.wiring.spi_function;
+        let (mode, is_joined) = self.lines[side].wires();
         self.drives(&[sck, mosi], function)
             && self.hears(&[miso], function)
-            && self.gpio[mosi.port].is_open_drain(mosi.number)
-            && self.spis[side].is_mode_1()
+            && self.gpio[mosi.port].is_open_drain(mosi.number) == is_joined
+            && self.spis[side].mode() == Some(mode)
     }
 
     /// Brings the levels of the pins to the sensors' /SS.

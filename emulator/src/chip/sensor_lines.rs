@@ -5,13 +5,15 @@
 //! frame. A sensor that has lost its place in a frame is taken to need the same
 //! time, so it is asked for after every frame that was broken off, or that the
 //! master cannot have taken for good. What it needs between good frames is not known: nothing,
-//! unless it is made to be silent in frames that come sooner.
+//! unless it is made to be silent in frames that come sooner. A TMAG5170 ([`Needs::TILT`]) asks for
+//! other times, mode and pins.
 
 use mlx90333::timing::{
     BYTE_GAP_FAST_NS, BYTE_GAP_SAFE_NS, CLOCK_MAX_HZ, CLOCK_SLOW_MAX_HZ, SS_HIGH_US,
     SS_LAG_FAST_NS, SS_LAG_SLOW_NS, SS_LEAD_SLOW_NS, START_UP_US,
 };
 use mlx90333::{Decoder, FRAME_LEN};
+use tmag5170::timing;
 
 use super::fault::Fault;
 use super::time::Ps;
@@ -23,35 +25,71 @@ pub(crate) trait SensorEnd {
 
     /// Eight clocks: what is on the line while the master sends `sent`.
     fn exchange(&mut self, sent: u8) -> u8;
+
+    /// The frame is over: /SS has risen.
+    fn release(&mut self) {}
 }
 
 const fn ps(nanoseconds: u32) -> Ps {
     nanoseconds as Ps * 1_000
 }
 
-/// What a sensor needs in one of its modes.
+/// What a sensor needs, in one of its modes.
 #[derive(Debug, Clone)]
 struct Needs {
     clock_max_hz: u32,
+    /// From the supply to the first byte.
+    start_up: Ps,
     /// Between two bytes.
     gap: Ps,
     /// From /SS low to the first byte, and from the last to /SS high.
     lead: Ps,
     lag: Ps,
+    /// For which /SS is high between two frames, and after one that is not good.
+    high: Ps,
+    rest: Ps,
+    /// Whether what the master has read is good.
+    is_good: fn(Decoder, &[u8]) -> bool,
+    /// The SPI mode, and whether data to the sensor comes by an open drain, as it is joined to
+    /// data from it.
+    mode: u32,
+    is_joined: bool,
 }
 
 impl Needs {
     const FAST: Self = Self {
         clock_max_hz: CLOCK_MAX_HZ,
+        start_up: ps(START_UP_US * 1_000),
         gap: ps(BYTE_GAP_FAST_NS),
         lead: 0,
         lag: ps(SS_LAG_FAST_NS),
+        high: 0,
+        rest: ps(SS_HIGH_US * 1_000),
+        is_good: |decoder, read| {
+            let frame = <[u8; FRAME_LEN]>::try_from(read);
+            frame.is_ok_and(|frame| decoder.decode(&frame).is_ok())
+        },
+        mode: 1,
+        is_joined: true,
     };
     const SLOW: Self = Self {
         clock_max_hz: CLOCK_SLOW_MAX_HZ,
         gap: ps(BYTE_GAP_SAFE_NS),
         lead: ps(SS_LEAD_SLOW_NS),
         lag: ps(SS_LAG_SLOW_NS),
+        ..Self::FAST
+    };
+    const TILT: Self = Self {
+        clock_max_hz: timing::CLOCK_MAX_HZ,
+        start_up: ps(timing::START_UP_US * 1_000),
+        gap: 0,
+        lead: ps(timing::CS_SETUP_NS),
+        lag: ps(timing::CS_SETUP_NS),
+        high: ps(timing::CS_HIGH_NS),
+        rest: 0,
+        is_good: |_, _| true,
+        mode: 0,
+        is_joined: false,
     };
 }
 
@@ -61,10 +99,8 @@ pub(super) struct SensorLines {
     /// How its frames are read.
     decoder: Decoder,
     /// In a frame that comes sooner after the last it is silent.
-    rest: Ps,
+    silence: Ps,
     is_silent: bool,
-    /// When /SS rose.
-    rose: Option<Ps>,
     /// What messages call the side.
     side: &'static str,
     selected: bool,
@@ -79,14 +115,17 @@ pub(super) struct SensorLines {
     /// What the master has read since /SS fell, and where the DMA has put it.
     read: Vec<u8>,
     put: Vec<u32>,
-    /// When /SS rose after a frame that was not good.
-    bad: Option<Ps>,
+    /// When /SS rose, and whether the frame was good.
+    rose: Option<(Ps, bool)>,
+    /// It has risen, and the sensor does not know.
+    is_over: bool,
     /// What /SS has done wrong: reported with the next byte.
     wrong: Option<&'static str>,
 }
 
 /// It fell too soon after it rose.
 const EARLY: &str = "a frame too soon after one that was not good";
+const CLOSE: &str = "a frame too soon after the last";
 /// It rose too soon after the last byte.
 const CUT: &str = "/SS high too soon after the last byte";
 
@@ -95,9 +134,8 @@ impl SensorLines {
         Self {
             needs: Needs::FAST,
             decoder: Decoder::new(),
-            rest: 0,
+            silence: 0,
             is_silent: false,
-            rose: None,
             side,
             selected: false,
             fell: 0,
@@ -106,7 +144,8 @@ impl SensorLines {
             seen: None,
             read: Vec::new(),
             put: Vec::new(),
-            bad: None,
+            rose: None,
+            is_over: false,
             wrong: None,
         }
     }
@@ -116,39 +155,59 @@ impl SensorLines {
         self.needs = Needs::SLOW;
     }
 
-    /// Its frames are read by `decoder`, and come `rest_us` after the last at the earliest.
+    /// Its frames are read by `decoder`; it is silent in those that come sooner than `rest_us` after
+    /// the last.
     pub(super) fn program(&mut self, decoder: Decoder, rest_us: u32) {
         self.decoder = decoder;
-        self.rest = ps(rest_us * 1_000);
+        self.silence = ps(rest_us * 1_000);
+    }
+
+    /// The sensor is a TMAG5170 from now on.
+    pub(super) fn tilt(&mut self) {
+        self.needs = Needs::TILT;
+    }
+
+    /// The SPI mode that the sensor needs, and whether its lines of data are joined.
+    pub(super) const fn wires(&self) -> (u32, bool) {
+        (self.needs.mode, self.needs.is_joined)
     }
 
     /// /SS is at this level from `now` on.
     pub(super) fn select(&mut self, low: bool, now: Ps) {
         if low && !self.selected {
             self.fell = now;
-            let rested = self.rose.map(|rose| now.saturating_sub(rose));
-            self.is_silent = rested.is_some_and(|rested| rested < self.rest);
+            let rested = self.rose.map(|(rose, _)| now.saturating_sub(rose));
+            self.is_silent = rested.is_some_and(|rested| rested < self.silence);
             self.fresh = true;
             self.ended = None;
             self.read.clear();
             self.put.clear();
-            let high = self.bad.map(|bad| now.saturating_sub(bad));
-            if high.is_some_and(|high| high < ps(SS_HIGH_US * 1_000)) {
-                self.wrong = Some(EARLY);
-            } else if self.wrong == Some(EARLY) {
+            if matches!(self.wrong, Some(EARLY | CLOSE)) {
                 self.wrong = None;
             }
+            if let Some((rose, is_good)) = self.rose {
+                let high = now.saturating_sub(rose);
+                if high < self.needs.high {
+                    self.wrong = Some(CLOSE);
+                } else if !is_good && high < self.needs.rest {
+                    self.wrong = Some(EARLY);
+                }
+            }
         } else if !low && self.selected {
-            self.rose = Some(now);
-            let bytes = <[u8; FRAME_LEN]>::try_from(self.read.as_slice());
-            let is_good = bytes.is_ok_and(|bytes| self.decoder.decode(&bytes).is_ok());
+            let is_good = (self.needs.is_good)(self.decoder, &self.read);
             let lag = self.ended.map(|ended| now.saturating_sub(ended));
             if is_good && lag.is_some_and(|lag| lag < self.needs.lag) {
                 self.wrong = Some(CUT);
             }
-            self.bad = (!is_good).then_some(now);
+            self.rose = Some((now, is_good));
+            self.is_over = true;
         }
         self.selected = low;
+    }
+
+    /// Whether /SS has risen since the last call.
+    pub(super) const fn take_over(&mut self) -> bool {
+        std::mem::replace(&mut self.is_over, false)
     }
 
     /// A byte began: the first of a frame makes the sensor latch.
@@ -167,7 +226,7 @@ impl SensorLines {
         if bit * Ps::from(self.needs.clock_max_hz) < 1_000_000_000_000 {
             return wrong("the clock is too fast");
         }
-        if began < ps(START_UP_US * 1_000) {
+        if began < self.needs.start_up {
             return wrong("a frame within the sensor's start-up");
         }
         if let Some(what) = self.wrong {

@@ -138,9 +138,12 @@ impl Spi {
         }
     }
 
-    /// Whether clock polarity, phase and bit order are those of SPI mode 1.
-    pub(super) const fn is_mode_1(&self) -> bool {
-        self.cr1 & (CPHA | CPOL | LSBFIRST) == CPHA
+    /// The SPI mode, 0 to 3, by clock polarity and phase; `None`: the least bit goes first.
+    pub(super) const fn mode(&self) -> Option<u32> {
+        match self.cr1 & LSBFIRST {
+            0 => Some(self.cr1 & (CPOL | CPHA)),
+            _ => None,
+        }
     }
 
     /// The period of the SPI's clock, from that of its bus.

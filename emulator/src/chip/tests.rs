@@ -5,6 +5,7 @@ mod pins;
 mod power;
 mod serial;
 mod side;
+mod tilt;
 mod time;
 
 use std::cell::RefCell;
@@ -36,6 +37,7 @@ struct Script {
     answers: Vec<u8>,
     heard: Vec<u8>,
     latched: usize,
+    released: usize,
 }
 
 impl SensorEnd for Script {
@@ -47,6 +49,10 @@ impl SensorEnd for Script {
         self.heard.push(sent);
         let answer = self.answers.get(self.heard.len() - 1);
         answer.copied().unwrap_or(0xFF)
+    }
+
+    fn release(&mut self) {
+        self.released += 1;
     }
 }
 

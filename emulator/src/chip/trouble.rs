@@ -47,6 +47,11 @@ impl Chip {
         }
     }
 
+    /// The sensors are TMAG5170s, and need what these need.
+    pub(crate) fn tilt_sensors(&mut self) {
+        self.lines.iter_mut().for_each(SensorLines::tilt);
+    }
+
     /// The clock from outside stops, or is there again. Returns whether the chip runs by it.
     pub(crate) fn stop_clock(&mut self, stopped: bool) -> Result<bool, Fault> {
         let had = self.rcc.stop_outside(stopped);

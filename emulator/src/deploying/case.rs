@@ -6,7 +6,7 @@ use firmware::boards::BoardFacts;
 use firmware::{ConfigError, Header, Part, Refusal};
 use host_sim::loaded::Loaded;
 use host_sim::{Error, files};
-use scene::Integrator;
+use scene::{Integrator, SensorModel};
 use tactile::ModelBuf;
 use wire::{Command, WhiskerId};
 
@@ -149,7 +149,8 @@ impl<'p> Case<'p> {
     }
 
     /// Configurations that a board must refuse; to one whose image has the parts of its scene alone,
-    /// that of another integrator is one.
+    /// that of another integrator is one, to one for any scene that of a sensor which it does not
+    /// read.
     pub(super) fn wrong_configs(&self) -> Result<Vec<(Vec<u8>, ConfigError)>, Error> {
         let mut wrong = damaged::configs(&self.new.deployment.config);
         if self.is_lean {
@@ -165,6 +166,11 @@ impl<'p> Case<'p> {
             }
             let config = Deployment::of(&scene, None, self.facts()?)?.config;
             wrong.extend(error.map(|error| (config, error)));
+        } else {
+            let mut scene = self.old.loaded.scene.clone();
+            scene.sensor.model = SensorModel::Tmag5170;
+            let config = Deployment::of(&scene, None, self.facts()?)?.config;
+            wrong.push((config, ConfigError::NotBuilt(Part::Tmag5170)));
         }
         Ok(wrong)
     }

@@ -1,34 +1,55 @@
 //! Boards of which a part breaks: the sensors' wires, or bits of memory.
 
 use host_sim::Error;
-use host_sim::bus::WireFault::{self, BadSum, Frozen, LineLow, LowAfterStart, Silent};
+use host_sim::bus::WireFault::{BadSum, Frozen, LineLow, LowAfterStart, Silent};
+use host_sim::bus::tmag5170::LineFault;
 use mlx90333::Faults;
-use scene::{OnFault, Scene};
+use scene::{OnFault, Scene, SensorModel};
+use tmag5170::StatusFaults;
 
 use super::step::Step::{
     Flip, Forget, Move, NoContact, Pass, SaysTimes, Sensors, Stand, UntilDriven,
 };
-use super::step::{Case, says, whisk};
+use super::step::{Case, Trouble, says, whisk};
 use super::trouble::all;
 use crate::chip::{Fault, Ps, SIDE_NAMES};
 use crate::debug_info::DebugInfo;
 use crate::program::Program;
 
+/// What befalls sensors, the fault that their whiskers then have, and within how many ms that is
+/// found.
+type Loss = (Trouble, u8, u32);
+
+/// A frozen sensor is found within a quarter of a second, unless the scene has another time.
+const LOSSES: [Loss; 6] = [
+    (Trouble::Mlx(Some(Silent), Faults::NONE), 18, 100),
+    (Trouble::Mlx(Some(LineLow), Faults::NONE), 19, 100),
+    (Trouble::Mlx(Some(BadSum), Faults::NONE), 21, 100),
+    (Trouble::Mlx(None, Faults::FIELD_TOO_LOW), 22, 100),
+    (Trouble::Mlx(Some(LowAfterStart), Faults::NONE), 23, 100),
+    (Trouble::Mlx(Some(Frozen), Faults::NONE), 24, 300),
+];
+
+/// The same of a TMAG5170: bit 12 of a reply is of its field.
+const TMAG_LOSSES: [Loss; 7] = [
+    (Trouble::Tmag(Some(LineFault::Silent), WELL), 27, 100),
+    (Trouble::Tmag(Some(LineFault::SdoLow), WELL), 28, 100),
+    (Trouble::Tmag(Some(LineFault::SdiLow), WELL), 29, 100),
+    (Trouble::Tmag(Some(LineFault::FlipReply(12)), WELL), 29, 100),
+    (Trouble::Tmag(None, StatusFaults::SUPPLY_LOW), 30, 100),
+    (Trouble::Tmag(Some(LineFault::NoField), WELL), 31, 100),
+    (Trouble::Tmag(Some(LineFault::Frozen), WELL), 24, 300),
+];
+const WELL: StatusFaults = StatusFaults::NONE;
+
 /// The sensors of either side and of both fail on their wires: those sides' motors must be off, or
 /// all where the scene says so, nothing be felt and decided there, the log say whose sensor fails
 /// and why, and all be well again once the sensor is back.
 pub(super) fn sensor_loss(scene: &Scene) -> Vec<Case> {
-    /// What befalls wires, what the sensor says of itself, the fault that its whisker then has,
-    /// and within how many ms that is found.
-    const LOSSES: [(Option<WireFault>, Faults, u8, u32); 6] = [
-        (Some(Silent), Faults::NONE, 18, 100),
-        (Some(LineLow), Faults::NONE, 19, 100),
-        (Some(BadSum), Faults::NONE, 21, 100),
-        (None, Faults::FIELD_TOO_LOW, 22, 100),
-        (Some(LowAfterStart), Faults::NONE, 23, 100),
-        // A quarter of a second, unless the scene has another.
-        (Some(Frozen), Faults::NONE, 24, 300),
-    ];
+    let losses: &[Loss] = match scene.sensor.model {
+        SensorModel::Mlx90333 => &LOSSES,
+        SensorModel::Tmag5170 => &TMAG_LOSSES,
+    };
     let sides = all(scene);
     let mut lost: Vec<&[usize]> = sides.chunks(1).collect();
     if sides.len() > 1 {
@@ -39,10 +60,10 @@ pub(super) fn sensor_loss(scene: &Scene) -> Vec<Case> {
     let mut steps = vec![Pass(100)];
     for lost in lost {
         let off = if stops_all { &sides } else { lost };
-        for (wire, word, fault, found_ms) in LOSSES {
+        for &(trouble, fault, found_ms) in losses {
             steps.extend([
                 Forget,
-                Sensors(lost.to_vec(), wire, word),
+                Sensors(lost.to_vec(), trouble),
                 Pass(found_ms),
                 Move {
                     ms: 100,
@@ -57,11 +78,11 @@ pub(super) fn sensor_loss(scene: &Scene) -> Vec<Case> {
                     SaysTimes(0, format!("fault {name} "))
                 });
             }
-            if word == Faults::FIELD_TOO_LOW {
+            if let Trouble::Mlx(_, Faults::FIELD_TOO_LOW) = trouble {
                 steps.push(says("field too low"));
             }
             steps.extend([
-                Sensors(lost.to_vec(), None, Faults::NONE),
+                Sensors(lost.to_vec(), trouble.over()),
                 Pass(100),
                 whisk(100),
             ]);

@@ -5,7 +5,9 @@ use std::ops::Range;
 use firmware::Event;
 use host_sim::Error;
 use host_sim::bus::WireFault;
+use host_sim::bus::tmag5170::LineFault;
 use mlx90333::Faults;
+use tmag5170::StatusFaults;
 
 use crate::chip::{Fault, Ps, SIDE_NAMES};
 use crate::session::Session;
@@ -45,8 +47,8 @@ pub(super) enum Step {
     Supply(u32),
     /// A bit of memory is inverted.
     Flip { address: u32, bit: u32 },
-    /// This befalls the wires of these sides' sensors, and they say this of themselves.
-    Sensors(Vec<usize>, Option<WireFault>, Faults),
+    /// This befalls these sides' sensors.
+    Sensors(Vec<usize>, Trouble),
 
     /// So it is now, or becomes within this time.
     Within(Ps, &'static str, fn(&mut Session) -> Result<bool, Fault>),
@@ -60,6 +62,40 @@ pub(super) enum Step {
     SaysTimes(usize, String),
     /// The log has been read up to here.
     Forget,
+}
+
+/// What befalls a sensor's wires, and what it says of itself.
+#[derive(Clone, Copy)]
+pub(super) enum Trouble {
+    /// Of an MLX90333.
+    Mlx(Option<WireFault>, Faults),
+    /// Of a TMAG5170.
+    Tmag(Option<LineFault>, StatusFaults),
+}
+
+impl Trouble {
+    /// What there is when there is nothing.
+    pub(super) const fn over(self) -> Self {
+        match self {
+            Self::Mlx(..) => Self::Mlx(None, Faults::NONE),
+            Self::Tmag(..) => Self::Tmag(None, StatusFaults::NONE),
+        }
+    }
+
+    /// Lets it befall the sensor of a side; whether there is such a sensor.
+    fn befall(self, session: &mut Session, side: usize) -> bool {
+        match self {
+            Self::Mlx(wire, word) => session.run.slave_mut(side).map(|slave| {
+                slave.set_fault(wire);
+                slave.set_error_word(word);
+            }),
+            Self::Tmag(line, report) => session.run.tmag_mut(side).map(|slave| {
+                slave.set_fault(line);
+                slave.set_report(report);
+            }),
+        }
+        .is_some()
+    }
 }
 
 /// Several steps on a board of their own.
@@ -124,13 +160,9 @@ impl Runner {
             Step::Flip { address, bit } => {
                 session.machine().memories.flip(*address, 1 << bit)?;
             }
-            Step::Sensors(sides, wire, word) => {
-                for side in sides {
-                    let Some(slave) = session.run.slave_mut(*side) else {
-                        return wrong("the scene has no such sensor".to_owned());
-                    };
-                    slave.set_fault(*wire);
-                    slave.set_error_word(*word);
+            Step::Sensors(sides, trouble) => {
+                if !sides.iter().all(|side| trouble.befall(session, *side)) {
+                    return wrong("the scene has no such sensor".to_owned());
                 }
             }
             Step::Within(time, what, is_so) => return self.within(*time, what, *is_so),

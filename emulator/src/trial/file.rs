@@ -35,8 +35,11 @@ pub(super) enum What {
     Held,
     SensorFrozen,
     SensorGone,
+    SensorGarbled,
+    SensorRestart,
     MagnetGone,
     SensorPart { part: Part },
+    MagnetNear,
     Serial { line: String },
     Probe { command: Command },
     Configuration { change: Change },
@@ -143,13 +146,13 @@ impl Scenario {
                 _ if what.is_at_motor() && scene.motor.is_none() => {
                     "an event of a motor, but the scene has none"
                 }
-                What::SensorFrozen
-                | What::SensorGone
-                | What::MagnetGone
-                | What::SensorPart { .. }
-                    if scene.sensor.model != SensorModel::Mlx90333 =>
-                {
+                What::SensorPart { .. } if scene.sensor.model != SensorModel::Mlx90333 => {
                     "an event of an MLX90333, but the scene has another sensor"
+                }
+                What::SensorRestart | What::MagnetNear
+                    if scene.sensor.model != SensorModel::Tmag5170 =>
+                {
+                    "an event of a TMAG5170, but the scene has another sensor"
                 }
                 _ if event.side >= sides => "an event on the right, which the scene has not",
                 _ => continue,

@@ -2,12 +2,49 @@
 
 use host_sim::Error;
 use host_sim::bus::WireFault;
+use host_sim::bus::tmag5170::LineFault;
 use host_sim::motor::{EncoderFlaws, Wire};
 
 use super::file::{Event, Part, Scenario, What};
 use scene::Scene;
 
 use crate::session::Session;
+
+/// What is wrong with a sensor.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Sensor {
+    Frozen,
+    Gone,
+    Garbled,
+    NoMagnet,
+    NearMagnet,
+}
+
+impl Sensor {
+    /// On the wires of an MLX90333; `None`: it is not simulated.
+    const fn of_mlx(self) -> Option<WireFault> {
+        match self {
+            Self::Frozen => Some(WireFault::Frozen),
+            Self::Gone => Some(WireFault::Silent),
+            // A bit of its first word.
+            Self::Garbled => Some(WireFault::Flip(20)),
+            Self::NoMagnet => Some(WireFault::NoField),
+            Self::NearMagnet => None,
+        }
+    }
+
+    /// On the wires of a TMAG5170.
+    const fn of_tmag(self) -> LineFault {
+        match self {
+            Self::Frozen => LineFault::Frozen,
+            Self::Gone => LineFault::Silent,
+            // A bit of the field.
+            Self::Garbled => LineFault::FlipReply(12),
+            Self::NoMagnet => LineFault::NoField,
+            Self::NearMagnet => LineFault::NearField,
+        }
+    }
+}
 
 /// What is so at a motor and its sensor.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -18,7 +55,8 @@ struct Around {
     volts: Option<f64>,
     torque_nm: f64,
     is_held: bool,
-    sensor: Option<WireFault>,
+    sensor: Option<Sensor>,
+    has_restarted: bool,
     /// Another than the scene's.
     part: Option<Part>,
 }
@@ -34,6 +72,7 @@ impl Around {
         is_held: false,
         sensor: None,
         part: None,
+        has_restarted: false,
     };
 
     /// Adds an event that has begun after those before.
@@ -48,9 +87,12 @@ impl Around {
             What::Supply { volts } => self.volts = Some(volts),
             What::Hand { torque_nm } => self.torque_nm = torque_nm,
             What::Held => self.is_held = true,
-            What::SensorFrozen => self.sensor = Some(WireFault::Frozen),
-            What::SensorGone => self.sensor = Some(WireFault::Silent),
-            What::MagnetGone => self.sensor = Some(WireFault::NoField),
+            What::SensorFrozen => self.sensor = Some(Sensor::Frozen),
+            What::SensorGone => self.sensor = Some(Sensor::Gone),
+            What::SensorGarbled => self.sensor = Some(Sensor::Garbled),
+            What::SensorRestart => self.has_restarted = true,
+            What::MagnetGone => self.sensor = Some(Sensor::NoMagnet),
+            What::MagnetNear => self.sensor = Some(Sensor::NearMagnet),
             What::SensorPart { part } => self.part = Some(part),
             What::Serial { .. }
             | What::Probe { .. }
@@ -105,7 +147,8 @@ impl<'s> Hands<'s> {
         }
         if self.around != around {
             for (side, around) in around.iter().enumerate() {
-                surround(session, side, around);
+                let had_restarted = self.around.get(side).is_some_and(|was| was.has_restarted);
+                surround(session, side, around, had_restarted);
                 let part = around.part.unwrap_or(self.own);
                 let board = session.board_mut();
                 board.program_sensor(side, part.decoder, part.rest_us.into());
@@ -130,9 +173,15 @@ impl<'s> Hands<'s> {
     }
 }
 
-fn surround(session: &mut Session, side: usize, around: &Around) {
+fn surround(session: &mut Session, side: usize, around: &Around, had_restarted: bool) {
     if let Some(slave) = session.run.slave_mut(side) {
-        slave.set_fault(around.sensor);
+        slave.set_fault(around.sensor.and_then(Sensor::of_mlx));
+    }
+    if let Some(slave) = session.run.tmag_mut(side) {
+        slave.set_fault(around.sensor.map(Sensor::of_tmag));
+        if around.has_restarted && !had_restarted {
+            slave.restart();
+        }
     }
     let Some(motor) = session.run.motor_mut(side) else {
         return;

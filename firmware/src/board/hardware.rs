@@ -6,7 +6,7 @@ use static_cell::StaticCell;
 use super::encoder::Encoder;
 use super::motors::{Motor, MotorStart};
 use super::scene::Pace;
-use super::sensor::{FramePace, Frames};
+use super::sensor::{self, FramePace};
 use super::types::{Inner, Number, Settings};
 use super::{pace, perception, pwm};
 use crate::here::{self, Counter, SIDES};
@@ -27,12 +27,12 @@ pub(crate) fn start(
     let clocks = pace::clocks();
     let frames = FramePace {
         slot: pace.slot_counts,
-        lag: clocks.lag_rounds(settings.sensor.is_slow),
+        lag: clocks.lag_rounds(settings.sensor.kind.is_slow()),
     };
     let motion = settings.motion.as_ref().filter(|_| Part::Motion.is_built());
     let motor = motion.map(|motion| start_motors(motion, sides));
     let parts = SIDES.iter().take(sides.into()).map(|side| WhiskerParts {
-        source: Frames::new(&side.sensor, frames),
+        source: sensor::start(&side.sensor, frames),
         motor: motor
             .and_then(|motor| Some((Motor::start(side, &motor)?, Encoder::start(&side.encoder)))),
     });

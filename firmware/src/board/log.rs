@@ -9,9 +9,13 @@
     reason = "arms differ in their texts, which clippy does not see within a macro"
 )]
 
+#[cfg(feature = "tmag5170")]
+use firmware::TiltFault;
 use firmware::faults::number;
 use firmware::{ConfigError, Event, ModelState, NotArmed, Part, SensorFault, StartCause, Startup};
 use mlx90333::{Faults, FrameError};
+#[cfg(feature = "tmag5170")]
+use tmag5170::ReplyError;
 use whisking::motor;
 
 use super::about::NO_SCENE;
@@ -246,6 +250,39 @@ fn sensor_lost(of: SensorFault) {
                 last,
                 name,
                 causes
+            );
+        }
+        #[cfg(feature = "tmag5170")]
+        SensorFault::Tilt(fault) => tilt_lost(fault),
+        _ => {}
+    }
+}
+
+/// What is known of a TMAG5170's fault.
+#[cfg(feature = "tmag5170")]
+fn tilt_lost(of: TiltFault) {
+    match of {
+        TiltFault::Reply(ReplyError::Rejected) => {
+            defmt::error!("- it found wrong check bits in a command");
+        }
+        TiltFault::Reply(ReplyError::BadCrc { expected, found }) => {
+            defmt::error!(
+                "- a reply with check bits {=u8:#03x} instead of {=u8:#03x}",
+                found,
+                expected
+            );
+        }
+        TiltFault::Reply(ReplyError::Sensor(status)) => {
+            defmt::error!("- status {=u16:#05x}", status.bits());
+        }
+        TiltFault::Reported(faults) => {
+            let (afe, sys) = (faults.afe_status(), faults.sys_status());
+            defmt::error!("- AFE_STATUS {=u16:#06x}, SYS_STATUS {=u16:#06x}", afe, sys);
+        }
+        TiltFault::NotWritten(register) => {
+            defmt::error!(
+                "- register {=u8:#04x} does not read back",
+                register.address()
             );
         }
         _ => {}

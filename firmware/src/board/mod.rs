@@ -45,6 +45,13 @@ pub(crate) mod reset;
 pub(crate) mod retained;
 pub(crate) mod rtt;
 pub(crate) mod scene;
+// Which of them a scene needs it is asked for by `Part::is_built`: a program has one.
+#[cfg(all(feature = "mlx90333", feature = "tmag5170"))]
+compile_error!("a board's program reads one sensor: mlx90333 or tmag5170");
+#[cfg(feature = "mlx90333")]
+pub(crate) mod sensor;
+#[cfg(not(feature = "mlx90333"))]
+#[path = "tilt.rs"]
 pub(crate) mod sensor;
 #[cfg(not(feature = "serial"))]
 #[path = "serial/off.rs"]

@@ -31,7 +31,8 @@ use super::types::{Inner, Settings};
 use super::user_button::{self, HAS_STOPPED, REQUEST, UserButton};
 use super::watchdog::Watchdog;
 use super::{
-    faults, hardware, loading, log, outputs, pace, perception, retained, scene, slots, supply,
+    faults, hardware, loading, log, outputs, pace, perception, retained, scene, sensor, slots,
+    supply,
 };
 use crate::here::{self, Counter};
 
@@ -89,7 +90,8 @@ pub(crate) fn start(core: cortex_m::Peripherals, queues: &'static mut Queues) ->
     let Some(found) = scene::find() else {
         faults::die(number::SETTINGS, || {})
     };
-    pace::set(found.settings.head.tick_hz, found.settings.sensor.is_slow);
+    let is_slow = found.settings.sensor.kind.is_slow();
+    pace::set(found.settings.head.tick_hz, is_slow);
     let about = About::new(found.settings);
     log::start(cause, &start, &found);
     serial::started(cause, &start, &about);
@@ -101,7 +103,7 @@ pub(crate) fn start(core: cortex_m::Peripherals, queues: &'static mut Queues) ->
     let Some(pace) = Pace::of(pace::clocks(), found.settings) else {
         faults::die(number::NO_CLOCK, || {})
     };
-    if found.settings.sensor.is_slow {
+    if is_slow {
         here::halve_clocks();
     }
     let (events, of_events) = queues.events.split();
@@ -301,7 +303,7 @@ fn tell_timing(module: &mut Module) {
 pub(crate) fn end_of_frame(module: &mut Module, side: usize) {
     // There is one on each side.
     if let Some(whisker) = module.inner.whiskers_mut().get_mut(side) {
-        whisker.sensor_mut().source_mut().end_of_frame();
+        sensor::end_of_frame(whisker.sensor_mut().source_mut());
     }
 }
 

@@ -115,7 +115,7 @@ fn fits(settings: &Settings) -> Result<(), ConfigError> {
     if usize::from(settings.head.sides) > SIDES.len() {
         return Err(ConfigError::Room(Field::Sides));
     }
-    let clocks = FACTS.clocks_of(settings.sensor.is_slow);
+    let clocks = FACTS.clocks_of(settings.sensor.kind.is_slow());
     let pace = Pace::of(&clocks, settings);
     pace.map(drop).ok_or(ConfigError::Range(Field::TickHz))
 }

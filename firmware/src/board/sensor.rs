@@ -1,5 +1,11 @@
-//! Reads a sensor's frames without the core: an SPI, whose bytes a timer
+//! Reads an MLX90333's frames without the core: an SPI, whose bytes a timer
 //! spaces and DMA moves.
+//!
+//! Why not by its driver over a blocking `SpiDevice`, as a TMAG5170 is (`tilt.rs`): 64 bits at the
+//! sensor's 400 kHz are 160 us, and with the gaps that it needs between bytes a frame takes 430 us
+//! of the 500 us of a tick at 2 kHz. A core that waited for it would have 70 us left, and on two
+//! sides less than nothing; three frames of a TMAG5170 take some 25 us. So a tick computes with the
+//! frame that ended before it, while the next one comes.
 //!
 //! - *slot*: the time from the start of a byte to that of the next. The sensor
 //!   needs a gap between bytes, which no SPI controller makes by itself.
@@ -29,6 +35,20 @@ use crate::here::{byte_request, dma::Transfers, reset_spi, spi};
 /// What every tx DMA sends.
 static SENT: AtomicU8 = AtomicU8::new(MASTER_BYTE);
 
+/// A side's sensor.
+pub(crate) type Source = Frames;
+
+/// Sets everything up, once the sensors' clocks run.
+pub(crate) fn start(port: &'static SensorPort, pace: FramePace) -> Source {
+    Frames::new(port, pace)
+}
+
+/// The rx DMA's interrupt of a side.
+#[inline]
+pub(crate) fn end_of_frame(source: &mut Source) {
+    source.end_of_frame();
+}
+
 /// A sensor's frames.
 pub(crate) struct Frames {
     port: &'static SensorPort,
@@ -52,7 +72,7 @@ pub(crate) struct FramePace {
 impl Frames {
     /// Sets everything up, once the sensors' clocks run; the first frame starts with the
     /// first [`start`](FrameSource::start). The sensor must have had its start-up time by then.
-    pub(crate) fn new(port: &'static SensorPort, pace: FramePace) -> Self {
+    fn new(port: &'static SensorPort, pace: FramePace) -> Self {
         let FramePace { slot, lag } = pace;
         let pins = &port.pins;
         Pin::new_high(pins.select);
@@ -100,7 +120,7 @@ impl Frames {
 
     /// The rx DMA's interrupt: the frame is complete, or broken.
     #[inline]
-    pub(crate) fn end_of_frame(&mut self) {
+    fn end_of_frame(&mut self) {
         if !self.transfers.has_ended() {
             // The interrupt came late, after `start` had begun another frame.
             return;

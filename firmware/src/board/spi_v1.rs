@@ -13,6 +13,18 @@ pub(crate) fn data_register(spi: Spi) -> u32 {
     spi.dr().as_ptr() as u32
 }
 
+/// Sends a byte.
+#[inline]
+pub(crate) fn send(spi: Spi, byte: u8) {
+    spi.dr().write(|w| w.set_dr(byte.into()));
+}
+
+/// The byte that was received.
+#[inline]
+pub(crate) fn receive(spi: Spi) -> u8 {
+    spi.dr().read().dr() as u8
+}
+
 /// Throws away a byte that was left over.
 #[inline]
 pub(crate) fn drain(spi: Spi) {

@@ -19,6 +19,18 @@ pub(crate) fn data_register(spi: Spi) -> u32 {
     spi.dr8().as_ptr() as u32
 }
 
+/// Sends a byte.
+#[inline]
+pub(crate) fn send(spi: Spi, byte: u8) {
+    spi.dr8().write_value(byte);
+}
+
+/// The byte that was received.
+#[inline]
+pub(crate) fn receive(spi: Spi) -> u8 {
+    spi.dr8().read()
+}
+
 /// Throws away bytes that were left over, at most the four of the queue.
 #[inline]
 pub(crate) fn drain(spi: Spi) {

@@ -4,7 +4,7 @@ use firmware::{CodeClassifier, Hardware};
 
 use super::encoder::Encoder;
 use super::motors::Motor;
-use super::sensor::Frames;
+use super::sensor;
 use crate::here::{self, Counter};
 
 /// The number format of the tick.
@@ -20,7 +20,7 @@ pub(crate) type Inner = firmware::Module<Number, Board>;
 pub(crate) struct Board;
 
 impl Hardware for Board {
-    type Source = Frames;
+    type Source = sensor::Source;
     type Motor = Motor;
     type Angle = Encoder;
     type Classifier = CodeClassifier<&'static [u32]>;

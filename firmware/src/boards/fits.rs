@@ -32,7 +32,7 @@ impl Needs {
     pub fn of<R: Real>(config: &Config<R>) -> Self {
         Self {
             tick_hz: config.head.tick_hz,
-            is_slow: config.sensor.is_slow,
+            is_slow: config.sensor.kind.is_slow(),
             rest_us: config.sensor.rest_us,
             sides: config.head.sides,
             whiskers_per_side: config.head.whiskers_per_side,

@@ -46,7 +46,7 @@ fields! {
     TickHz = 2: "tick_hz";
     Sides = 3: "head.sides";
     Whiskers = 4: "head.whiskers_per_side";
-    SensorMode = 5: "sensor.mode";
+    SensorMode = 5: "sensor.model, sensor.mode";
     SensorLimits = 6: "sensor limits";
     Zero = 7: "zero of the sensor";
     Contact = 8: "contact filter";
@@ -198,6 +198,7 @@ impl HeadConfig {
 
 impl SensingConfig {
     fn check(&self) -> Checked {
+        built(self.kind.part())?;
         let zero = |zero: &crate::ZeroLimits| require(Field::Zero, zero.ticks > 0 && zero.calm > 0);
         if_there(Part::Zero, self.limits.zero.as_ref(), zero)
     }

@@ -67,6 +67,8 @@ parts! {
     Pins "pins" = 20: "pins";
     Set "set" = 21: "settings by command";
     Deploy "deploy" = 22: "deployment by command";
+    Mlx90333 "mlx90333" = 23: "sensor mlx90333";
+    Tmag5170 "tmag5170" = 24: "sensor tmag5170";
 }
 
 impl Part {

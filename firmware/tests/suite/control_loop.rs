@@ -6,7 +6,7 @@ use embedded_hal_mock::eh1::pwm::{Mock as Pwm, Transaction as Pulse};
 use embedded_hal_mock::eh1::spi::{Mock as Spi, Transaction as Transfer};
 use firmware::{
     AngleInput, Clock, Config, Driver, Event, Hardware, Module, MotionConfig, Place, Polled, Retry,
-    SensingConfig, SensorFault, SensorLimits, ServoConfig, WhiskerParts,
+    SensingConfig, SensorFault, SensorKind, SensorLimits, ServoConfig, WhiskerParts,
 };
 use mlx90333::{Decoder, FrameError, Mlx90333};
 use whisking::motor::{GuardSettings, HBridge};
@@ -104,7 +104,7 @@ fn config() -> Config<f32> {
     };
     Config {
         sensor: SensingConfig {
-            is_slow: false,
+            kind: SensorKind::FastMlx90333,
             rest_us: 50,
             decoder: mlx90333::Decoder::new(),
             limits: SensorLimits {

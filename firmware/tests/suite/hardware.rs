@@ -2,7 +2,7 @@
 
 use firmware::{
     BusError, Clock, Config, FrameSource, Hardware, HeadConfig, Module, Sample, SampleClassifier,
-    SensingConfig, SensorLimits, WhiskerParts, WordSource,
+    SensingConfig, SensorKind, SensorLimits, WhiskerParts, WordSource,
 };
 use mlx90333::{FRAME_LEN, Faults, SumRule, Word, encode};
 use tactile::{Decision, RuleSettings};
@@ -26,7 +26,7 @@ pub(crate) fn feeling<R: Real>(contact: Option<filter::Config<R>>) -> Config<R> 
             ..still.head.clone()
         },
         sensor: SensingConfig {
-            is_slow: false,
+            kind: SensorKind::FastMlx90333,
             rest_us: 50,
             decoder: mlx90333::Decoder::new(),
             limits: AT_ONCE,

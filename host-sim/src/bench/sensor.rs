@@ -1,18 +1,11 @@
 //! The sensor of a simulated whisker, as the scene has it.
 
-use firmware::{FrameSource, Polled, SensorFault, TiltScale, TiltSource, WordSource};
+use firmware::{FrameSource, Polled, SensorFault, TiltSource, WordSource};
 use mlx90333::{Decoder, FRAME_LEN, Mlx90333, Word};
-use physics::{Magnet, SensorSettings};
 use scene::{SensorModel, SensorSection};
-use tmag5170::{
-    Average, Channels, Config, DeviceConfig, OperatingMode, Range, SensorConfig, Tmag5170, Version,
-};
 
 use crate::bus::Slave;
-use crate::bus::tmag5170::TmagSlave;
-
-/// Field of the magnet along the axis of a TMAG5170, mT: docs/build.md.
-const AXIAL_MT: f64 = 60.0;
+use crate::bus::tmag5170::{BelowMagnet, TmagSlave};
 
 /// A sensor on its mock bus.
 pub(super) struct AnySensor(Kind);
@@ -22,28 +15,23 @@ enum Kind {
     /// It measures what it is set to.
     Mlx90333(Polled<Slave>),
     /// It measures the field of a magnet.
-    Tmag5170(Box<Tilted>),
-}
-
-/// A TMAG5170 below a magnet.
-struct Tilted {
-    source: TiltSource<TmagSlave>,
-    magnet: Magnet,
-    /// Tilt that reads as a deflection of 1, rad.
-    full_scale_rad: f64,
+    Tmag5170(Box<TiltSource<BelowMagnet>>),
 }
 
 impl AnySensor {
     /// A sensor at rest, whose noise, where the bus does not make its own, follows from `seed`.
     ///
-    /// `None` if its range does not fit the magnet, which does not depend on the scene.
+    /// `None` if there is no such magnet, which does not depend on the scene.
     pub(super) fn new(section: &SensorSection, seed: u64) -> Option<Self> {
         let kind = match section.model {
             SensorModel::Mlx90333 => {
                 let decoder = config::decoder(section);
                 Kind::Mlx90333(Polled::new(Mlx90333::new(Slave::of(decoder), decoder)))
             }
-            SensorModel::Tmag5170 => Kind::Tmag5170(Box::new(Tilted::new(seed)?)),
+            SensorModel::Tmag5170 => {
+                let source = TiltSource::of_module(BelowMagnet::new(seed)?);
+                Kind::Tmag5170(Box::new(source))
+            }
         };
         Some(Self(kind))
     }
@@ -60,7 +48,7 @@ impl AnySensor {
     pub(super) fn tmag_mut(&mut self) -> Option<&mut TmagSlave> {
         match &mut self.0 {
             Kind::Mlx90333(_) => None,
-            Kind::Tmag5170(tilted) => Some(tilted.source.sensor_mut().spi_mut()),
+            Kind::Tmag5170(source) => Some(&mut source.sensor_mut().spi_mut().slave),
         }
     }
 
@@ -68,43 +56,8 @@ impl AnySensor {
     pub(super) fn bend(&mut self, deflection: [f64; 2]) {
         match &mut self.0 {
             Kind::Mlx90333(polled) => polled.sensor_mut().spi_mut().set(deflection),
-            Kind::Tmag5170(tilted) => tilted.bend(deflection),
+            Kind::Tmag5170(source) => source.sensor_mut().spi_mut().bend(deflection),
         }
-    }
-}
-
-impl Tilted {
-    fn new(seed: u64) -> Option<Self> {
-        let config = Config {
-            device: DeviceConfig {
-                // The most that are new in every tick of 2 kHz.
-                average: Average::X4,
-                mode: OperatingMode::Active,
-                ..DeviceConfig::default()
-            },
-            sensor: SensorConfig {
-                channels: Channels::Xyz,
-                ranges: [Range::Narrow, Range::Narrow, Range::Wide],
-                ..SensorConfig::default()
-            },
-            ..Config::default()
-        };
-        let [full_scale_rad, _] = SensorSettings::default().full_scale_rad;
-        let scale = TiltScale::new(&config, full_scale_rad as f32)?;
-        let slave = TmagSlave::new(Version::A1).with_noise(seed);
-        let mut tilted = Self {
-            source: TiltSource::new(Tmag5170::new(slave), config, scale),
-            magnet: Magnet::of_field(AXIAL_MT).ok()?,
-            full_scale_rad,
-        };
-        tilted.bend([0.0; 2]);
-        Some(tilted)
-    }
-
-    fn bend(&mut self, deflection: [f64; 2]) {
-        let tilt = deflection.map(|along| self.full_scale_rad * along);
-        let field = self.magnet.field_mt(tilt);
-        self.source.sensor_mut().spi_mut().set_field(field);
     }
 }
 
@@ -112,7 +65,7 @@ impl WordSource for AnySensor {
     fn words(&mut self, decoder: Decoder) -> Result<[Word; 2], SensorFault> {
         match &mut self.0 {
             Kind::Mlx90333(polled) => polled.words(decoder),
-            Kind::Tmag5170(tilted) => tilted.source.words(decoder),
+            Kind::Tmag5170(source) => source.words(decoder),
         }
     }
 
@@ -126,7 +79,7 @@ impl WordSource for AnySensor {
     fn begin(&mut self) {
         match &mut self.0 {
             Kind::Mlx90333(polled) => polled.begin(),
-            Kind::Tmag5170(tilted) => tilted.source.begin(),
+            Kind::Tmag5170(source) => source.begin(),
         }
     }
 }

@@ -7,12 +7,15 @@
 //!   moment, if it is a new one; a frame never mixes two of them;
 //! - *report*: the status registers, from what stands ([`TmagSlave::set_report`]) and what
 //!   happened since they were read;
-//! - *line fault*: what happens to frames on their way ([`LineFault`]).
+//! - *line fault*: what happens to frames on their way ([`LineFault`]);
+//! - *magnet*: what a whisker's base turns above the sensor ([`BelowMagnet`]).
 //!
 //! As the part does, the slave checks the CRC of every command, obeys none that is wrong or
 //! has not 32 clocks, and inverts the last bit of its reply to a wrong one. The one difference
 //! on the wire: it judges the whole command before it sends that bit, where the part has not
 //! seen the last bit yet. No time passes here.
+
+mod below_magnet;
 
 use embedded_hal::spi::{ErrorType, Operation, SpiDevice};
 use tmag5170::{
@@ -23,6 +26,7 @@ use tmag5170::{
 use physics::Noise;
 
 use super::wire::{self, Injected, RELEASED, SimSpiError, Traffic};
+pub use below_magnet::BelowMagnet;
 
 /// What happens to frames on the wire.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -45,6 +49,10 @@ pub enum LineFault {
     ShortFrame,
     /// The sensor converts no more: its results stay those of the start of the fault.
     Frozen,
+    /// No magnet is near: the sensor converts its noise.
+    NoField,
+    /// The magnet is too near: its field is four times what it is otherwise.
+    NearField,
 }
 
 /// Noise of an average of 32 conversions, root mean square, mT: what the data sheet has for it, as
@@ -162,6 +170,40 @@ impl TmagSlave {
         }
     }
 
+    /// The falling edge of /CS.
+    fn begin(&mut self) -> Frame {
+        self.traffic.transactions = self.traffic.transactions.saturating_add(1);
+        let fault = self.injected.next();
+        let mode = OperatingMode::of(self.register(Register::DeviceConfig));
+        let stands_still = matches!(fault, Some(LineFault::Bus | LineFault::Frozen));
+        if mode == Some(OperatingMode::Active) && !stands_still {
+            self.convert(fault);
+        }
+        Frame {
+            command: [0; FRAME_LEN],
+            arrived: 0,
+            clocked: 0,
+            fault,
+        }
+    }
+
+    /// The falling edge of /CS, for a master that clocks the frame byte by byte itself. On those
+    /// wires there is no controller to fail: [`LineFault::Bus`] reads as [`LineFault::Silent`].
+    pub fn select(&mut self) -> Frame {
+        let mut frame = self.begin();
+        if frame.fault == Some(LineFault::Bus) {
+            frame.fault = Some(LineFault::Silent);
+        }
+        frame
+    }
+
+    /// The rising edge of /CS.
+    pub fn release(&mut self, frame: &Frame) {
+        if frame.arrived > 0 {
+            self.obey(frame.command, frame.arrived);
+        }
+    }
+
     /// What has gone over the bus so far.
     pub const fn traffic(&self) -> Traffic {
         self.traffic
@@ -180,10 +222,15 @@ impl TmagSlave {
     }
 
     /// Measures, if there is something new to measure.
-    fn convert(&mut self) {
+    fn convert(&mut self, fault: Option<LineFault>) {
         if !self.due {
             return;
         }
+        let strength = match fault {
+            Some(LineFault::NoField) => 0.0,
+            Some(LineFault::NearField) => 4.0,
+            _ => 1.0,
+        };
         let device = self.register(Register::DeviceConfig);
         let sensor = self.register(Register::SensorConfig);
         let channels = Channels::of(sensor).unwrap_or_default();
@@ -199,7 +246,7 @@ impl TmagSlave {
                 let range = Range::of(sensor >> (2 * axis)).unwrap_or_default();
                 let full_scale = range.full_scale_mt(self.version);
                 let noise = self.noise.as_mut().map_or(0.0, Noise::next);
-                let field_mt = self.field_mt[axis] + noise_mt * noise;
+                let field_mt = strength * self.field_mt[axis] + noise_mt * noise;
                 let field = Field::from_mt(field_mt as f32, full_scale);
                 *self.at(register) = field.code() as u16 & resolved;
                 self.check_limits(field, thresholds, beyond);
@@ -315,7 +362,7 @@ impl TmagSlave {
         );
         if command.convert && trigger == Some(Trigger::Command) && waits {
             self.due = true;
-            self.convert();
+            self.convert(None);
         }
     }
 
@@ -341,7 +388,8 @@ impl TmagSlave {
 }
 
 /// One transaction, byte by byte.
-struct Frame {
+#[derive(Debug, Clone)]
+pub struct Frame {
     /// What has arrived at the sensor, and how many bytes.
     command: [u8; FRAME_LEN],
     arrived: usize,
@@ -351,7 +399,7 @@ struct Frame {
 
 impl Frame {
     /// Eight clocks: what the master reads while it sends a byte.
-    fn byte(&mut self, slave: &TmagSlave, sent: u8) -> u8 {
+    pub fn byte(&mut self, slave: &TmagSlave, sent: u8) -> u8 {
         let at = self.clocked;
         self.clocked += 1;
         let inverted = |bit: u8| {
@@ -388,27 +436,14 @@ impl ErrorType for TmagSlave {
 
 impl SpiDevice for TmagSlave {
     fn transaction(&mut self, operations: &mut [Operation<'_, u8>]) -> Result<(), SimSpiError> {
-        self.traffic.transactions = self.traffic.transactions.saturating_add(1);
-        let fault = self.injected.next();
-        if fault == Some(LineFault::Bus) {
+        let mut frame = self.begin();
+        if frame.fault == Some(LineFault::Bus) {
             return Err(SimSpiError);
         }
-        let mode = OperatingMode::of(self.register(Register::DeviceConfig));
-        if mode == Some(OperatingMode::Active) && fault != Some(LineFault::Frozen) {
-            self.convert();
-        }
-        let mut frame = Frame {
-            command: [0; FRAME_LEN],
-            arrived: 0,
-            clocked: 0,
-            fault,
-        };
         let mut traffic = self.traffic;
         wire::clock(operations, &mut traffic, |sent| frame.byte(self, sent));
         self.traffic = traffic;
-        if frame.arrived > 0 {
-            self.obey(frame.command, frame.arrived);
-        }
+        self.release(&frame);
         Ok(())
     }
 }

@@ -229,6 +229,27 @@ fn a_magnet_that_is_gone_or_upside_down_is_a_fault() {
     }
 }
 
+/// Beyond its range a field is larger than it reads; noise is all that changes.
+#[test]
+fn a_field_at_the_end_of_its_range_is_no_tilt_and_no_fault() {
+    for field in [[2.0, 1.0, 130.0], [30.0, 0.0, 60.0], [0.0, -30.0, 60.0]] {
+        let mut whisker = Whisker::new(60.0);
+        *whisker.slave() = whisker.slave().clone().with_noise(1);
+        whisker.tick([0.0; 2]);
+        for _ in 0..2 * LIMITS.frozen {
+            whisker.slave().set_field(field);
+            let events = &mut whisker.events;
+            let mut note = |event| events.push(event);
+            let reading = whisker
+                .sensor
+                .read(Decoder::new(), &LIMITS, PLACE, &mut note);
+            assert!(reading.fresh && reading.current);
+            assert_eq!([reading.x, reading.y].map(Word::signed14), [8191; 2]);
+        }
+        assert!(whisker.events.is_empty(), "{:?}", whisker.events);
+    }
+}
+
 #[test]
 fn a_sensor_that_stands_still_is_a_fault() {
     let mut whisker = Whisker::new(60.0);

@@ -105,3 +105,22 @@ fn a_cut_wire_switches_it_off_until_it_is_mended() {
     });
     assert!(high - low > 20.0, "{low} {high}");
 }
+
+/// What the end of the range means is said once, as a limit, and the whisker feels nothing.
+#[test]
+fn a_magnet_that_is_too_near_is_a_limit_and_no_contact() {
+    let played = play(&tilted(), 16_000, |tick, run| {
+        if tick == 2_000 {
+            let slave = run.tmag_mut(0).unwrap();
+            slave.set_fault(Some(LineFault::NearField));
+        }
+    });
+    let said: Vec<&Event> = played.events.iter().map(|(_, event)| event).collect();
+    assert_eq!(said, [&Event::Limit(36)]);
+    let [(at, _)] = played.events[..] else {
+        panic!("{said:?}");
+    };
+    let contact = |tick: u64| played.rows[tick as usize].contact[0];
+    assert!((2_000..at).any(|tick| contact(tick) > 0.0));
+    assert!((at + 2..16_000).all(|tick| contact(tick) == 0.0));
+}

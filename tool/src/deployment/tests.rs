@@ -113,12 +113,6 @@ fn what_a_board_has_not_is_refused_by_name() {
             &["whisking.numbers=f32"],
             "whisking.numbers: found \"f32\"; allowed on the NUCLEO-F103RB: ",
         ),
-        (
-            &NUCLEO_F446RE,
-            "tmag5170.toml",
-            &[],
-            "sensor.model: found \"tmag5170\"; allowed on the NUCLEO-F446RE: ",
-        ),
     ] {
         let found = refused(board, loaded(name, keys), None);
         assert!(found.contains(fault), "{fault}: {found}");
@@ -172,6 +166,9 @@ fn a_part_that_the_image_has_not_is_refused_before_anything_is_written() {
     let fault = "the module refuses the scene: rule sequential: this image was built without it; \
                  cargo xtask firmware --any-scene builds one that has it; nothing was written";
     assert_eq!(tried(refuses(without)), Err(fault.to_owned()));
+    let fault = tried(refuses(ConfigError::NotBuilt(Part::Tmag5170))).unwrap_err();
+    let says = "sensor tmag5170: this image was built without it; cargo xtask firmware --scene";
+    assert!(fault.contains(says), "{fault}");
     // Another scene than the one that runs, which can be read.
     assert_eq!(
         tried(refuses(ConfigError::Shape(firmware::Field::Name))),

@@ -4,7 +4,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use config::NumberFormat;
-use scene::{Deciding, Driver, Integrator, Rule, Scene};
+use scene::{Deciding, Driver, Integrator, Rule, Scene, SensorModel};
 use tactile::ModelBuf;
 
 use crate::run::Fault;
@@ -55,6 +55,7 @@ fn is_named(part: &str, named: Named<'_>, has_fpu: bool) -> Result<bool, Fault> 
         "classifier" => classifier.is_some(),
         "touch detector" => knows_touches,
         "several whiskers" => classifier.is_some_and(|c| c.whiskers != Deciding::First),
+        "TMAG5170" => scene.sensor.model == SensorModel::Tmag5170,
         "roughness" | "roughness or floors" => !is_single,
         "second opinion" => {
             // Only boards with an FPU have time for it.

@@ -94,8 +94,8 @@ keys! {
         /// frame beyond it is a bad one.
         jump_per_s: f64 = positive(1e6).unit("1/s").default("1500.0"),
 
-        /// Which sensor it is. The TMAG5170 has no `mode`, and is simulated: no board's
-        /// program reads it.
+        /// Which sensor it is. The TMAG5170 has no `mode`, and a board reads it by a program
+        /// that was built for a scene with it.
         model: SensorModel = word().default("\"mlx90333\""),
 
         /// How long a silence is, many whisks and at most 65,534 ticks. After it the module sets

@@ -1,0 +1,140 @@
+//! host-sim's sensors at the ends of the emulated wires.
+
+use host_sim::bus::tmag5170::{BelowMagnet, Frame, TmagSlave};
+use host_sim::bus::{Exchange, Slave};
+use mlx90333::FRAME_LEN;
+use scene::{Scene, SensorModel};
+
+use crate::chip::{Ps, SensorEnd};
+
+/// A side's sensor.
+#[derive(Debug)]
+pub(crate) struct Wired {
+    /// When its last frame began.
+    pub(crate) latched: Ps,
+    kind: Kind,
+}
+
+#[derive(Debug)]
+enum Kind {
+    Mlx90333(Box<Mlx>),
+    Tmag5170(Box<Tmag>),
+}
+
+#[derive(Debug, Default)]
+struct Mlx {
+    slave: Slave,
+    /// The last frame as it began, and as it is now.
+    begun: Option<Exchange>,
+    exchange: Option<Exchange>,
+    /// What the master has sent in it.
+    sent: Vec<u8>,
+}
+
+#[derive(Debug)]
+struct Tmag {
+    below: BelowMagnet,
+    /// The frame that is under way.
+    frame: Option<Frame>,
+}
+
+impl Wired {
+    /// That of a side of `scene`, at rest; `None`: there is no such magnet.
+    pub(crate) fn new(scene: &Scene, side: usize) -> Option<Self> {
+        let kind = match scene.sensor.model {
+            SensorModel::Mlx90333 => Kind::Mlx90333(Box::default()),
+            SensorModel::Tmag5170 => Kind::Tmag5170(Box::new(Tmag {
+                // As host-sim counts whiskers, of which there is one a side.
+                below: BelowMagnet::new(scene.seed.wrapping_add(side as u64))?,
+                frame: None,
+            })),
+        };
+        Some(Self { latched: 0, kind })
+    }
+
+    /// It, if it is an MLX90333.
+    pub(crate) fn slave_mut(&mut self) -> Option<&mut Slave> {
+        match &mut self.kind {
+            Kind::Mlx90333(mlx) => Some(&mut mlx.slave),
+            Kind::Tmag5170(_) => None,
+        }
+    }
+
+    /// It, if it is a TMAG5170.
+    pub(crate) fn tmag_mut(&mut self) -> Option<&mut TmagSlave> {
+        match &mut self.kind {
+            Kind::Mlx90333(_) => None,
+            Kind::Tmag5170(tmag) => Some(&mut tmag.below.slave),
+        }
+    }
+
+    /// Deflections along x and y from now on, in units of the range.
+    pub(crate) fn bend(&mut self, deflection: [f64; 2]) {
+        match &mut self.kind {
+            Kind::Mlx90333(mlx) => mlx.slave.set(deflection),
+            Kind::Tmag5170(tmag) => tmag.below.bend(deflection),
+        }
+    }
+
+    /// Its supply has gone.
+    pub(crate) fn lose_power(&mut self) {
+        if let Kind::Tmag5170(tmag) = &mut self.kind {
+            tmag.below.slave.restart();
+            tmag.frame = None;
+        }
+    }
+
+    /// The tick is over, and the world has moved on: what a frame under way has said so far
+    /// becomes this.
+    pub(crate) fn moved(&mut self) -> Option<Vec<u8>> {
+        let Kind::Mlx90333(mlx) = &mut self.kind else {
+            // Its frames begin and end within a tick.
+            return None;
+        };
+        if mlx.sent.len() >= FRAME_LEN {
+            return None;
+        }
+        let mut exchange = mlx.begun.clone()?;
+        mlx.slave.latch_again(&mut exchange);
+        let said = mlx.sent.iter().map(|sent| exchange.byte(*sent)).collect();
+        mlx.exchange = Some(exchange);
+        Some(said)
+    }
+}
+
+impl SensorEnd for Wired {
+    fn latch(&mut self, now: Ps) {
+        self.latched = now;
+        match &mut self.kind {
+            Kind::Mlx90333(mlx) => {
+                mlx.sent.clear();
+                mlx.exchange = Some(mlx.slave.select());
+                mlx.begun.clone_from(&mlx.exchange);
+            }
+            Kind::Tmag5170(tmag) => tmag.frame = Some(tmag.below.slave.select()),
+        }
+    }
+
+    fn exchange(&mut self, sent: u8) -> u8 {
+        let read = match &mut self.kind {
+            Kind::Mlx90333(mlx) => {
+                mlx.sent.push(sent);
+                let exchange = mlx.exchange.as_mut();
+                exchange.map(|exchange| exchange.byte(sent))
+            }
+            Kind::Tmag5170(tmag) => {
+                let frame = tmag.frame.as_mut();
+                frame.map(|frame| frame.byte(&tmag.below.slave, sent))
+            }
+        };
+        read.unwrap_or(0xFF)
+    }
+
+    fn release(&mut self) {
+        if let Kind::Tmag5170(tmag) = &mut self.kind
+            && let Some(frame) = tmag.frame.take()
+        {
+            tmag.below.slave.release(&frame);
+        }
+    }
+}
