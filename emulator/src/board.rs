@@ -113,7 +113,7 @@ impl Board {
             bears_resets: false,
             fault: None,
         };
-        for side in 0..sides {
+        for side in 0..scene.head.sides.count() {
             board.program_sensor(side, config::decoder(&scene.sensor), 0);
         }
         match board.machine.run(PATIENCE, &mut board.sensors, &mut ())? {
