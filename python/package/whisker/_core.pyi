@@ -130,6 +130,7 @@ def run_many(
 def train(
     data: list[Any],
     *,
+    channels: tuple[str, str],
     tables: str,
     bins: int | None,
     smooth: float | None,
@@ -140,6 +141,13 @@ def train(
     rate: int,
 ) -> Model: ...
 def classify(
-    model: _Model, data: Any, *, threshold: float, window: int | None
+    model: _Model,
+    data: Any,
+    *,
+    channels: tuple[str, str],
+    threshold: float,
+    window: int | None,
 ) -> NDArray[np.void]: ...
-def evaluate(model: _Model, data: Any, *, threshold: float) -> dict[str, Any]: ...
+def evaluate(
+    model: _Model, data: Any, *, channels: tuple[str, str], threshold: float
+) -> dict[str, Any]: ...
