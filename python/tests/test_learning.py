@@ -177,8 +177,8 @@ def test_each_rise_of_a_column_of_truths_begins_a_touch(heard):
         whisker.classify(model, broken)
 
 
-def test_a_model_of_another_rate_is_refused():
-    model = whisker.train(usual(), tables="single", rate=1000)
+def test_a_model_of_another_rate_is_refused(heard):
+    model = whisker.train(heard, tables="single", rate=1000)
     with pytest.raises(whisker.SceneError, match="1000 samples a second"):
         whisker.Sim(whisker.SCENES["bench"], model=model)
 

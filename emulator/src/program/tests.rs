@@ -18,7 +18,7 @@ fn elf(source: &str, at: u32, contents: &[u8]) -> Vec<u8> {
     let size = contents.len() as u32;
     let names = first + size;
     let strings = names + NAMES.len() as u32;
-    let sections = strings + source.len() as u32;
+    let sections = (strings + source.len() as u32).next_multiple_of(4);
     let halves = |low: u32, high: u32| low | high << 16;
     let mut file = words(&[u32::from_le_bytes(*b"\x7fELF"), 0x0001_0101, 0, 0]);
     file.extend(words(&[
@@ -36,6 +36,7 @@ fn elf(source: &str, at: u32, contents: &[u8]) -> Vec<u8> {
     file.extend_from_slice(contents);
     file.extend_from_slice(NAMES);
     file.extend_from_slice(source.as_bytes());
+    file.resize(sections as usize, 0);
     let table = |name: u32, kind: u32, at: u32, size: usize| {
         words(&[name, kind, 0, 0, at, size as u32, 0, 0, 1, 0])
     };
