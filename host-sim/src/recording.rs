@@ -393,12 +393,7 @@ fn parse(file: &[u8], channels: [&str; 2]) -> Result<Recording, String> {
             )),
         };
         let whole = |place: usize| {
-            touches::number(cell(place)).ok_or_else(|| {
-                format!(
-                    "line {line}: touch is {:?}, not a whole number from 0 to 65535",
-                    cell(place)
-                )
-            })
+            touches::number(cell(place)).map_err(|fault| format!("line {line}: {fault}"))
         };
         let sample = Cells {
             channels: [number(x_name, x)?, number(y_name, y)?],

@@ -94,16 +94,20 @@ pub fn train(arguments: &Arguments) -> Result<String, Error> {
     reserved(data, &recordings)?;
     let names = channels.each_ref().map(String::as_str);
     let odd = oddities(data, names, &recordings);
-    let trained = how
-        .train(&recordings, rate)
-        .map_err(|error| with_doubts(refusal(data, channels, &error), &error, &recordings, &odd))?;
+    let trained = how.train(&recordings, rate).map_err(|error| {
+        with_doubts(&refusal(data, channels, &error), &error, &recordings, &odd)
+    })?;
     // Opened first: nothing is written where one of them cannot be.
     let picture = plot.as_deref().map(Output::create).transpose()?;
     write_whole(out, trained.model.as_bytes())?;
     let streams = || recordings.iter().flat_map(|(_, streams)| streams);
     let counts = streams().flat_map(|stream| stream.counts(how.least()));
     let samples = counts.filter(|counts| *counts).count();
-    let odd: String = odd.iter().map(|line| format!("\n{line}")).collect();
+    let odd = if odd.is_empty() {
+        String::new()
+    } else {
+        format!("\n{}", odd.join("\n"))
+    };
     let summary = format!(
         "{}: {samples} samples in {} streams, {} bytes",
         out.display(),
@@ -123,7 +127,7 @@ pub fn train(arguments: &Arguments) -> Result<String, Error> {
 
 /// What is wrong, and what may be why.
 fn with_doubts(
-    refused: Error,
+    refused: &Error,
     why: &TrainError,
     recordings: &[(String, Vec<Stream>)],
     odd: &[String],

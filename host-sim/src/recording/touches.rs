@@ -3,18 +3,18 @@
 use super::Stream;
 
 /// The number of a touch from a cell: whole, as others write it too, or a truth.
-pub(super) fn number(cell: &str) -> Option<u16> {
-    if let Ok(number) = cell.parse() {
-        return Some(number);
-    }
-    match cell.to_ascii_lowercase().as_str() {
-        "true" => return Some(1),
-        "false" => return Some(0),
-        _ => {}
-    }
-    let number: f64 = cell.parse().ok()?;
-    let is_whole = number.trunc() == number && (0.0..=65_535.0).contains(&number);
-    is_whole.then_some(number as u16)
+///
+/// # Errors
+/// What is wrong with it.
+pub(super) fn number(cell: &str) -> Result<u16, String> {
+    let number = match cell.to_ascii_lowercase().as_str() {
+        "true" => Some(1.0),
+        "false" => Some(0.0),
+        number => number.parse::<f64>().ok(),
+    };
+    let is_whole = |number: &f64| number.trunc() == *number && (0.0..=65_535.0).contains(number);
+    let number = number.filter(is_whole).map(|number| number as u16);
+    number.ok_or_else(|| format!("touch is {cell:?}, not a whole number from 0 to 65535"))
 }
 
 /// Numbers touches that have no numbers of their own: where all that is not 0 is the same, as in a
@@ -74,7 +74,7 @@ mod tests {
     #[test]
     fn other_cells_are_no_numbers() {
         for cell in ["", "-1", "0.5", "65536", "nan", "yes"] {
-            assert_eq!(number(cell), None, "{cell}");
+            assert!(number(cell).is_err(), "{cell}");
         }
     }
 }
