@@ -32,6 +32,7 @@ pub(crate) fn flashed(scene: &Path, program: &Path) -> Result<(Loaded, Program),
 /// scene with it has this one in its first slot.
 pub(crate) fn flashed_for(scene: &Scene, path: &Path, program: &Path) -> Result<Program, Error> {
     let mut program = Program::load(program)?;
+    program.check_of(scene)?;
     if !program.brings_scene()? {
         let model = model_of(scene, path)?;
         let facts = program.model()?.facts;

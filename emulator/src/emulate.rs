@@ -19,7 +19,11 @@ use crate::program::Program;
 
 impl From<Fault> for Error {
     fn from(fault: Fault) -> Self {
-        Self::Work(format!("emulated board: {fault}"))
+        match fault {
+            // It was given as a file.
+            Fault::Program(_) => Self::Input(fault.to_string()),
+            _ => Self::Work(format!("emulated board: {fault}")),
+        }
     }
 }
 

@@ -3,10 +3,13 @@
 use std::ops::Range;
 use std::path::Path;
 
+use firmware::{BoardCode, ConfigError, HEADER_BYTES, HeadConfig, Header, decode};
 use object::elf::{FileHeader32, PT_LOAD};
 use object::read::elf::{FileHeader, ProgramHeader};
 use object::{Endianness, Object, ObjectSection};
 use rtt::LogDecoder;
+use scene::{Scene, file};
+use whisking::{Fix, FormatCode, Real};
 
 use crate::chip::{Fault, MODELS, Model};
 
@@ -24,7 +27,7 @@ fn bad(what: impl std::fmt::Display) -> Fault {
 impl Program {
     pub(crate) fn load(path: &Path) -> Result<Self, Fault> {
         let named = |fault: &dyn std::fmt::Display| bad(format!("{}: {fault}", path.display()));
-        let bytes = std::fs::read(path).map_err(|error| named(&error))?;
+        let bytes = file::read(path, file::BINARY_BYTES).map_err(|error| named(&error))?;
         Self::parse(bytes).map_err(|fault| named(&fault))
     }
 
@@ -88,6 +91,46 @@ impl Program {
         Ok(segments.any(|(at, _)| places.contains(&at)))
     }
 
+    /// Whether it is the program of `scene`, if it brings one with it.
+    pub(crate) fn check_of(&self, scene: &Scene) -> Result<(), Fault> {
+        let board = self.model()?.facts;
+        let Some(config) = self.config()? else {
+            return Ok(());
+        };
+        let head = head(config, board.code)
+            .map_err(|fault| bad(format!("the scene that it brings with it: {fault}")))?;
+        let (found, name) = (head.name.as_str(), scene.name.as_str());
+        if found != name {
+            return Err(bad(format!(
+                "found that of the scene {found:?}, allowed: that of {name:?}"
+            )));
+        }
+        let (found, tick_hz) = (head.tick_hz, scene.tick_hz);
+        if found != tick_hz {
+            return Err(bad(format!(
+                "found tick_hz = {found}, allowed: {tick_hz}, as the scene {name:?} has it"
+            )));
+        }
+        let (found, sides) = (usize::from(head.sides), scene.head.sides.count());
+        if found != sides {
+            return Err(bad(format!(
+                "found {found} sides, allowed: {sides}, as the scene {name:?} has them"
+            )));
+        }
+        Ok(())
+    }
+
+    /// The configuration that it brings with it, and what lies behind that.
+    fn config(&self) -> Result<Option<&[u8]>, Fault> {
+        let [slot, _] = self.model()?.facts.flash.slots;
+        let start = slot.config().start;
+        let mut segments = self.segments();
+        Ok(segments.find_map(|(at, contents)| {
+            let before = start.checked_sub(at)? as usize;
+            contents.get(before..).filter(|found| !found.is_empty())
+        }))
+    }
+
     /// Has `contents` lie at an address where scenes and models do, when it is flashed.
     pub(crate) fn add(&mut self, at: u32, contents: &[u8]) -> Result<(), Fault> {
         let places = self.scenes()?;
@@ -103,3 +146,21 @@ impl Program {
         Ok(rtt::symbol(&self.bytes, name)?)
     }
 }
+
+/// The head of a configuration.
+fn head(bytes: &[u8], board: BoardCode) -> Result<HeadConfig, ConfigError> {
+    let header = Header::of(bytes)?;
+    let end = HEADER_BYTES.saturating_add(header.length as usize);
+    let bytes = bytes.get(..end).unwrap_or(bytes);
+    if header.format == FormatCode::Fixed as u8 {
+        return read::<Fix>(bytes, board);
+    }
+    read::<f32>(bytes, board)
+}
+
+fn read<R: Real>(bytes: &[u8], board: BoardCode) -> Result<HeadConfig, ConfigError> {
+    decode::<R>(bytes, board).map(|config| config.head)
+}
+
+#[cfg(test)]
+mod tests;

@@ -40,15 +40,30 @@ pub struct Session {
 }
 
 impl Session {
+    /// The name of the board that a program was built for, as its main source file has it.
+    ///
+    /// # Errors
+    /// [`Error::Input`] for what is no program of a board.
+    pub fn board_of(program: &Path) -> Result<&'static str, Error> {
+        let loaded = Program::load(program)?;
+        let model = loaded.model();
+        Ok(model.map_err(|fault| Error::file(program, fault))?.program)
+    }
+
     /// The board that `program` was built for, in the world of `scene`; empty `flash`: scenes and
     /// models are what the program brings with it, otherwise what is there, as
     /// [`Session::flash`] gives it.
     ///
     /// # Errors
-    /// [`Error::Work`] for a program that cannot be run, a scene that its board cannot carry, and
-    /// for flash of another size.
+    /// [`Error::Input`] for a program that is none, or of another scene; [`Error::Work`] for a scene
+    /// that its board cannot carry, and for flash of another size.
     pub fn flashed(scene: &Scene, program: &Path, flash: &[u8]) -> Result<Self, Error> {
-        let mut program = Program::load(program)?;
+        let path = program;
+        let mut program = Program::load(path)?;
+        if flash.is_empty() {
+            let checked = program.check_of(scene);
+            checked.map_err(|fault| Error::file(path, fault))?;
+        }
         let (found, allowed) = (flash.len(), program.scenes()?.len());
         if found != 0 && found != allowed {
             return Err(Error::Work(format!(

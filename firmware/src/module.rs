@@ -149,6 +149,7 @@ impl<R: Real, H: Hardware> Module<R, H> {
         let HeadConfig {
             sides,
             whiskers_per_side,
+            tick_hz,
             ..
         } = config.head;
         let places = (0..sides)
@@ -172,7 +173,8 @@ impl<R: Real, H: Hardware> Module<R, H> {
             self.motion = config.motion.as_ref().map(Motion::new);
         }
         if Part::Classifier.is_built() {
-            self.perception = classifier.map(|classifier| Perception::new(classifier, count));
+            let perceives = |classifier| Perception::new(classifier, count, tick_hz);
+            self.perception = classifier.map(perceives);
         }
     }
 

@@ -226,6 +226,7 @@ pub fn deployed(
         classes,
         contact_min: classifier.contact_min.map(|least| least as f32),
         whisked: config::whisked(scene),
+        tick_hz: scene.tick_hz,
     };
     let words: Vec<u32> = flash
         .as_chunks()

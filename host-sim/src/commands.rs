@@ -28,6 +28,15 @@ pub fn channels(text: &str) -> Result<[String; 2], String> {
     }
 }
 
+/// Samples a second, as an option has them.
+///
+/// # Errors
+/// What is allowed instead.
+pub fn rate(text: &str) -> Result<u32, String> {
+    let rate = text.parse().ok().filter(|rate| *rate > 0);
+    rate.ok_or_else(|| "allowed: a whole number above 0".to_owned())
+}
+
 /// The path of a picture, as an option has it.
 ///
 /// # Errors

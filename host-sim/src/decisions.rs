@@ -321,6 +321,14 @@ impl Score {
         Statistics::of(rates).map(|rates| rates.mean)
     }
 
+    /// The classes that [`Score::hit_rate`] leaves out: all decisions on them said "unknown".
+    pub fn left_out(&self) -> Vec<&str> {
+        let names = self.names.iter().take(self.classes).enumerate();
+        let is_refused = |truth: usize| self.named(truth) == 0 && self.confusion.missed(truth) > 0;
+        let names = names.filter(|(truth, _)| is_refused(*truth));
+        names.map(|(_, name)| name.as_str()).collect()
+    }
+
     /// Mean decision time in samples; `None` without a decision.
     pub fn mean_samples(&self) -> Option<f64> {
         self.mean(self.samples as f64)

@@ -59,7 +59,8 @@ impl ClassFigures {
 pub struct Evaluation {
     /// The confusion matrix, labels that the model does not know below.
     pub score: Score,
-    /// Share of right decisions, mean over the classes presented.
+    /// Share of right decisions, mean over the classes presented but those that are
+    /// [left out](Self::left_out).
     pub hits: Option<f64>,
     /// Of each class of the model that was presented.
     pub classes: Vec<ClassFigures>,
@@ -105,6 +106,15 @@ impl Evaluation {
             strange: unknown(strange.flat_map(|p| &p.decided)),
             undecided: undecided(known()),
         }
+    }
+}
+
+impl Evaluation {
+    /// The classes that were presented and of which no decision named a class: there is no share
+    /// of right ones.
+    pub fn left_out(&self) -> Vec<&str> {
+        let classes = self.classes.iter().filter(|class| class.hits.count == 0);
+        classes.map(|class| class.name.as_str()).collect()
     }
 }
 

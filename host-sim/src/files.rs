@@ -9,8 +9,10 @@ use tactile::ModelBuf;
 use crate::Error;
 use crate::decisions::{self, Columns, Decided};
 use crate::loaded::model_of;
+use crate::origin::{Origin, TICK_HZ};
 use crate::output::Output;
-use crate::recording::{self, Stream};
+use crate::rate::{Said, USUAL_HZ};
+use crate::recording::{self, Recording, Stream};
 use crate::trace::{TraceLine, TraceShape, TraceWriter};
 
 /// Reads a recording whose channels are the columns `channels`.
@@ -18,17 +20,38 @@ use crate::trace::{TraceLine, TraceShape, TraceWriter};
 /// # Errors
 /// [`Error::Input`] names the file, the line and what is wrong with it.
 pub fn read_recording(path: &Path, channels: [&str; 2]) -> Result<Vec<Stream>, Error> {
-    let bytes = file::read_piped(path, file::TABLE_BYTES);
-    let bytes = bytes.map_err(|error| Error::file(path, error))?;
-    recording::read(bytes.as_slice(), channels).map_err(|fault| Error::file(path, fault))
+    whole_recording(path, channels).map(|recording| recording.streams)
 }
 
-/// Writes a recording, and finishes.
+/// The same with what stands above its table.
+///
+/// # Errors
+/// As [`read_recording`].
+pub fn whole_recording(path: &Path, channels: [&str; 2]) -> Result<Recording, Error> {
+    let bytes = file::read_piped(path, file::TABLE_BYTES);
+    let bytes = bytes.map_err(|error| Error::file(path, error))?;
+    recording::read_whole(bytes.as_slice(), channels).map_err(|fault| Error::file(path, fault))
+}
+
+/// What stands above the table in a file of the samples a second.
+pub fn rate_of(path: &Path, recording: &Recording) -> Said {
+    let who = format!("{}: {TICK_HZ}", path.display());
+    (who, recording.tick_hz)
+}
+
+/// Writes a recording of so many samples a second, which stand above it where they are not the
+/// usual ones, and finishes.
 ///
 /// # Errors
 /// As [`Output::finish`].
-pub fn write_recording(output: Output, streams: &[Stream]) -> Result<(), Error> {
-    write(output, |output| recording::write(output, streams))
+pub fn write_recording(output: Output, streams: &[Stream], tick_hz: u32) -> Result<(), Error> {
+    let mut origin = Origin::default();
+    if tick_hz != USUAL_HZ {
+        origin = origin.with(TICK_HZ, tick_hz);
+    }
+    write(output, |output| {
+        recording::write_from(output, &origin, streams)
+    })
 }
 
 /// Writes `decisions.csv`, and finishes.

@@ -90,6 +90,11 @@ impl Loaded {
         }))
     }
 
+    /// The bytes of the model that it decides by, if it has one.
+    pub fn model_bytes(&self) -> Option<&[u8]> {
+        self.model.as_ref().map(|(_, model)| model.as_bytes())
+    }
+
     /// The bytes of the model that is deployed to it, not linked; none where there is none.
     pub fn deployed(&self) -> &[u8] {
         match &self.model {
@@ -133,7 +138,7 @@ impl Loaded {
             let place = self.places.of("classifier.contact_min");
             Error::Input(format!("{place}: {fault}"))
         })?;
-        config::whisks_as(&self.scene, model.whisked()).map_err(|fault| {
+        config::suits(&self.scene, model).map_err(|fault| {
             let place = self.places.of("classifier.model");
             Error::Input(format!("{place}: {fault}"))
         })?;

@@ -1,11 +1,13 @@
-//! Where a recording does not fit a model: the file, the line and what is there.
+//! Where a recording does not fit a model, and what is odd about it: the file, the line and what
+//! is there.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use scene::file;
 use tactile::ModelBuf;
 
 use crate::classifier;
+use crate::doubts;
 use crate::evaluation;
 use crate::recording::{self, Stream};
 
@@ -58,6 +60,26 @@ pub fn misfits(
         }
         first += stream.samples.len();
     }
+    placed(path, found)
+}
+
+/// What is odd about recordings, a line each; `paths` have them.
+pub fn oddities(
+    paths: &[PathBuf],
+    channels: [&str; 2],
+    recordings: &[(String, Vec<Stream>)],
+) -> Vec<String> {
+    let doubts = doubts::doubts(recordings, channels);
+    let of = |(n, path): (usize, &PathBuf)| {
+        let own = doubts.iter().filter(|doubt| doubt.recording == n);
+        let own = own.map(|doubt| (doubt.sample, "warning", doubt.said.clone()));
+        placed(path, own.collect())
+    };
+    paths.iter().enumerate().flat_map(of).collect()
+}
+
+/// What was found at samples of a recording, with its kind, at the line of the file.
+fn placed(path: &Path, found: Vec<(usize, &str, String)>) -> Vec<String> {
     if found.is_empty() {
         return Vec::new();
     }

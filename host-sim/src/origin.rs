@@ -9,6 +9,9 @@ const MARK: &str = "#";
 /// What Windows writes before a text in UTF-8.
 const BYTE_ORDER_MARK: &[u8] = "\u{feff}".as_bytes();
 
+/// The key of ticks a second: a sample, or a record, is one of a tick.
+pub const TICK_HZ: &str = "tick_hz";
+
 /// Where a table comes from.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct Origin(Vec<(String, String)>);
@@ -27,6 +30,18 @@ impl Origin {
     pub fn get(&self, key: &str) -> Option<&str> {
         let (_, value) = self.0.iter().find(|(of, _)| of == key)?;
         Some(value)
+    }
+
+    /// The ticks a second that it says.
+    ///
+    /// # Errors
+    /// What is wrong with them.
+    pub fn tick_hz(&self) -> Result<Option<u32>, String> {
+        let wrong = |text: &str| format!("{TICK_HZ} is {text:?}, not a whole number above 0");
+        let number = |text: &str| text.parse().ok().filter(|hz| *hz > 0);
+        self.get(TICK_HZ)
+            .map(|text| number(text).ok_or_else(|| wrong(text)))
+            .transpose()
     }
 
     /// What it says, in order: keys and values.
@@ -116,6 +131,17 @@ mod tests {
         file.extend(b"a,b\n#1,2\n");
         let (read, lines, table) = split(&file);
         assert_eq!((read, lines, table), (origin, 2, &b"a,b\n#1,2\n"[..]));
+    }
+
+    #[test]
+    fn ticks_a_second_are_a_whole_number() {
+        let of = |text: &[u8]| split(text).0.tick_hz();
+        assert_eq!(of(b"a,b\n"), Ok(None));
+        assert_eq!(of(b"# tick_hz = 1000\na,b\n"), Ok(Some(1000)));
+        for wrong in ["0", "-1", "fast", "2.5", ""] {
+            let fault = of(format!("# tick_hz = {wrong}\na,b\n").as_bytes());
+            assert!(fault.unwrap_err().starts_with("tick_hz is"), "{wrong}");
+        }
     }
 
     #[test]

@@ -5,6 +5,8 @@
 //! contact in the air. `pose` is there only of scenes whose poses differ. Lines that begin
 //! with `# ` may stand above the table.
 
+pub mod touches;
+
 use std::collections::HashSet;
 use std::io::{self, Read, Write};
 
@@ -31,6 +33,15 @@ pub struct Stream {
     pub pose: Option<String>,
 }
 
+/// A recording as it is read.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Recording {
+    /// Samples a second, if it says them.
+    pub tick_hz: Option<u32>,
+    /// What was recorded.
+    pub streams: Vec<Stream>,
+}
+
 /// The columns of a recording, in the order in which one is written.
 pub const COLUMNS: [Column; 7] = columns! {
     "label", "",
@@ -44,7 +55,8 @@ pub const COLUMNS: [Column; 7] = columns! {
     "y", "any", "the same of y";
     "contact", "", "contact π as in the trace; may be left out: then every row is of contact";
     "touch", "",
-        "number of the touch, 0 in the air; may be left out: then contact says where one begins";
+        "number of the touch, 0 in the air; where all have the same number, such as 1, each rise \
+        from 0 begins another touch; may be left out: then contact says where one begins";
     "pose", "",
         "the pose in which it was presented, any token: rows of one value are of one pose; may be \
         left out: then a file is a pose. `host-sim record` writes it of a scene with \
@@ -131,6 +143,11 @@ impl Recorder {
     }
 }
 
+/// What programs write where there is no value.
+const MISSING: [&str; 9] = [
+    "nan", "NaN", "NAN", "NaT", "NA", "<NA>", "None", "null", "NULL",
+];
+
 /// What a row is of.
 #[derive(Debug, Clone, Copy)]
 pub struct Tokens<'t> {
@@ -148,8 +165,11 @@ impl Tokens<'_> {
     /// # Errors
     /// What is wrong with the first that cannot.
     pub fn check(&self) -> Result<(), String> {
-        if self.label.is_empty() {
+        if self.label.trim().is_empty() {
             return Err("the label is empty".to_owned());
+        }
+        if MISSING.contains(&self.label) {
+            return Err(format!("the label is missing: {:?}", self.label));
         }
         let named = [("label", self.label), ("trial", self.trial)];
         let named = named
@@ -199,7 +219,15 @@ fn append(streams: &mut Vec<Stream>, label: &str, trial: &str, sample: Option<Ce
 ///
 /// # Errors
 /// [`Error::Input`] names the line and what is wrong with it.
-pub fn read(mut table: impl Read, channels: [&str; 2]) -> Result<Vec<Stream>, Error> {
+pub fn read(table: impl Read, channels: [&str; 2]) -> Result<Vec<Stream>, Error> {
+    read_whole(table, channels).map(|recording| recording.streams)
+}
+
+/// The same with what stands above its table.
+///
+/// # Errors
+/// As [`read`].
+pub fn read_whole(mut table: impl Read, channels: [&str; 2]) -> Result<Recording, Error> {
     let mut file = Vec::new();
     let read = table.read_to_end(&mut file);
     read.map_err(|error| Error::Input(error.to_string()))?;
@@ -270,8 +298,20 @@ pub(crate) fn lines(table: &[u8]) -> Vec<u64> {
     records.map(of).collect()
 }
 
-/// What is wrong with a table as a table, which `above` lines stand above.
-pub fn broken(error: &csv::Error, above: u64) -> String {
+/// The line of a row of `table`, which `above` lines stand above. What is between two rows, as the
+/// rest of an end of a line or blank lines, belongs to the second.
+pub fn line_of(table: &[u8], above: u64, row: Option<&csv::Position>) -> u64 {
+    let Some(row) = row else {
+        return above;
+    };
+    let between = table.iter().skip(row.byte() as usize);
+    let between = between.take_while(|byte| matches!(byte, b'\r' | b'\n'));
+    let ends = between.filter(|byte| **byte == b'\n').count();
+    above + row.line() + ends as u64
+}
+
+/// What is wrong with `table` as a table, which `above` lines stand above.
+pub fn broken(error: &csv::Error, table: &[u8], above: u64) -> String {
     match error.kind() {
         csv::ErrorKind::UnequalLengths {
             pos: Some(at),
@@ -279,26 +319,26 @@ pub fn broken(error: &csv::Error, above: u64) -> String {
             len,
         } => format!(
             "line {}: {len} cells; the header has {expected_len}",
-            above + at.line()
+            line_of(table, above, Some(at))
         ),
         csv::ErrorKind::Utf8 { pos: Some(at), .. } => {
-            let line = above + at.line();
+            let line = line_of(table, above, Some(at));
             format!("line {line}: not UTF-8 (Latin-1?); save it as CSV in UTF-8")
         }
         _ => error.to_string(),
     }
 }
 
-fn parse(file: &[u8], channels: [&str; 2]) -> Result<Vec<Stream>, String> {
+fn parse(file: &[u8], channels: [&str; 2]) -> Result<Recording, String> {
     if let Some(fault) = origin::foreign(file) {
         return Err(fault);
     }
-    let (_, above, table) = origin::split(file);
-    let broken = |error: csv::Error| broken(&error, above);
+    let (origin, above, rows) = origin::split(file);
+    let broken = |error: csv::Error| broken(&error, rows, above);
     let first = above + 1;
     let mut table = csv::ReaderBuilder::new()
         .trim(csv::Trim::All)
-        .from_reader(table);
+        .from_reader(rows);
     let header = table.headers().map_err(broken)?.clone();
     let optional = |name: &str| {
         let mut found = header.iter().enumerate().filter(|(_, cell)| *cell == name);
@@ -329,7 +369,7 @@ fn parse(file: &[u8], channels: [&str; 2]) -> Result<Vec<Stream>, String> {
     let mut labels = HashSet::new();
     let mut record = csv::StringRecord::new();
     while table.read_record(&mut record).map_err(broken)? {
-        let line = above + record.position().map_or(0, csv::Position::line);
+        let line = line_of(rows, above, record.position());
         let cell = |place: usize| record.get(place).unwrap_or_default();
         let number = |name: &str, place: usize| -> Result<f64, String> {
             let text = cell(place);
@@ -352,13 +392,8 @@ fn parse(file: &[u8], channels: [&str; 2]) -> Result<Vec<Stream>, String> {
                 cell(place)
             )),
         };
-        // What matters is whether it is 0.
-        let whole = |place: usize| match cell(place).parse::<u16>() {
-            Ok(touch) => Ok(touch),
-            Err(_) => Err(format!(
-                "line {line}: touch is {:?}, not a whole number from 0 to 65535",
-                cell(place)
-            )),
+        let whole = |place: usize| {
+            touches::number(cell(place)).map_err(|fault| format!("line {line}: {fault}"))
         };
         let sample = Cells {
             channels: [number(x_name, x)?, number(y_name, y)?],
@@ -392,7 +427,11 @@ fn parse(file: &[u8], channels: [&str; 2]) -> Result<Vec<Stream>, String> {
     if streams.is_empty() {
         return Err("no samples".to_owned());
     }
-    Ok(streams)
+    touches::tell_apart(&mut streams);
+    Ok(Recording {
+        tick_hz: origin.tick_hz()?,
+        streams,
+    })
 }
 
 #[cfg(test)]
@@ -400,13 +439,13 @@ mod tests {
     use super::{CHANNELS, GATE, Stream};
 
     fn parse(table: &[u8]) -> Result<Vec<Stream>, String> {
-        super::parse(table, CHANNELS)
+        super::parse(table, CHANNELS).map(|recording| recording.streams)
     }
 
     #[test]
     fn contact_says_which_samples_count() {
         let text = "label,trial,u,contact,v,x\na,1,2,0.04,3,9\na,1,4,0.05,5,9\n";
-        let streams = super::parse(text.as_bytes(), ["u", "v"]).unwrap();
+        let streams = super::parse(text.as_bytes(), ["u", "v"]).unwrap().streams;
         assert_eq!(streams[0].samples, [[2.0, 3.0], [4.0, 5.0]]);
         let counts: Vec<_> = streams[0].counts(GATE).collect();
         assert_eq!(counts, [false, true]);
@@ -447,6 +486,23 @@ mod tests {
     }
 
     #[test]
+    fn ends_of_lines_and_blank_lines_are_counted() {
+        let faults = [
+            ("a,1,nan,3", "line 5: x is"),
+            ("a,1", "line 5: 2 cells"),
+            (",1,2,3", "line 5: the label is empty"),
+        ];
+        for (row, expected) in faults {
+            for end in ["\n", "\r\n"] {
+                let rows = ["# a remark", "label,trial,x,y", "a,1,2,3", "", row, ""];
+                let table = rows.join(end);
+                let fault = parse(table.as_bytes()).unwrap_err();
+                assert!(fault.starts_with(expected), "{table:?}: {fault}");
+            }
+        }
+    }
+
+    #[test]
     fn rows_that_follow_each_other_are_a_stream() {
         let text = "y,extra,label,x,trial\n1,a,ice,2,1\n3,b,ice,4,1\n5,c,ice,6,2\n7,d,ice,8,1\n";
         let streams = parse(text.as_bytes()).unwrap();
@@ -481,6 +537,13 @@ mod tests {
             "line 2: contact is \"1e39\", beyond single precision"
         );
         assert!(fault("label,trial,x,y\n,1,2,3\n").contains("label is empty"));
+        for missing in ["nan", "NaN", "<NA>", "None"] {
+            let missing = fault(&format!("# a\nlabel,trial,x,y\na,1,2,3\n{missing},1,2,3\n"));
+            assert!(
+                missing.starts_with("line 4: the label is missing"),
+                "{missing}"
+            );
+        }
         assert_eq!(fault("label,trial,x,y\n"), "no samples");
         let rows: Vec<_> = (0..2000).map(|n| format!("l{n},1,2,3\n")).collect();
         let rows = rows.concat();

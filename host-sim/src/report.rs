@@ -18,6 +18,7 @@ use wire::Line;
 use crate::Error;
 use crate::decisions::{Decided, Score, UNKNOWN};
 use crate::output::remove_on_interrupt;
+use evaluation::Over;
 pub use evaluation::{Doubts, Figures, Thresholds};
 pub use poses::of_model;
 pub use runs::{OverRuns, SeedRange};
@@ -151,7 +152,8 @@ impl fmt::Display for Summary<'_> {
         let decisions = score.decisions();
         write!(
             f,
-            "{score}{decisions} decisions, hit rate {hits:.1} % (mean over classes), mean "
+            "{score}{decisions} decisions, hit rate {hits:.1} % (mean over {}), mean ",
+            Over(&score.left_out())
         )?;
         match tick_hz {
             Some(tick_hz) => {

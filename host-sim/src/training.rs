@@ -5,6 +5,7 @@ use tactile::train::joint::{self, JointModel, Trial};
 use tactile::train::{Expect, Options, TrainError, Trainer};
 use tactile::{ModelBuf, Whisked};
 
+use crate::doubts::outliers;
 use crate::recording::{GATE, Stream};
 
 /// What a model is made of.
@@ -146,7 +147,9 @@ impl How {
         Ok(())
     }
 
-    /// Trains from recordings of `tick_hz` samples a second.
+    /// Trains from recordings of `tick_hz` samples a second, which the model keeps. A value that
+    /// stands apart from all others counts as the nearest that does not: one must not make the
+    /// scale.
     ///
     /// # Errors
     /// What the trainer refuses.
@@ -155,6 +158,8 @@ impl How {
         recordings: &[(String, Vec<Stream>)],
         tick_hz: u32,
     ) -> Result<TrainedModel, TrainError> {
+        let tamed = outliers::tamed(recordings);
+        let recordings = tamed.as_deref().unwrap_or(recordings);
         match self.tables {
             Tables::Joint => {
                 let default = joint::Options::default();
@@ -170,7 +175,7 @@ impl How {
                 };
                 let joint = joint(recordings, &options)?;
                 Ok(TrainedModel {
-                    model: joint.model()?,
+                    model: joint.model()?.at_rate(tick_hz)?,
                     joint: Some(joint),
                 })
             }
@@ -183,7 +188,10 @@ impl How {
                 };
                 let streams = recordings.iter().flat_map(|(_, streams)| streams);
                 let model = single(Trainer::new(2, options)?, streams, self.least())?;
-                Ok(TrainedModel { model, joint: None })
+                Ok(TrainedModel {
+                    model: model.at_rate(tick_hz)?,
+                    joint: None,
+                })
             }
         }
     }

@@ -4,6 +4,8 @@ use std::process;
 use std::sync::Arc;
 
 use host_sim::Error;
+use host_sim::classifier::Classifier;
+use host_sim::loaded::Loaded;
 use host_sim::run::Run;
 use host_sim::trace::WhiskerRow;
 use numpy::{IntoPyArray, PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray1, PyReadonlyArray2};
@@ -15,6 +17,7 @@ use rayon::prelude::*;
 use rayon::{ThreadPool, ThreadPoolBuilder};
 use scene::Scene;
 
+use crate::recipe::{Parts, Recipe};
 use crate::scenes::{Given, raised};
 
 /// What is observed of a whisker: angle, x, y, contact.
@@ -54,12 +57,39 @@ struct Member {
     run: Run,
     left: u64,
     whiskers: Vec<WhiskerRow>,
+    seed: u64,
+    /// What it did since its start: as many as fit into the scene.
+    acts: Vec<f64>,
 }
 
 impl Member {
+    /// Before the first tick of a scene.
+    fn new(scene: &Scene, classifier: Option<Classifier>) -> Result<Self, Error> {
+        let run = Run::new(scene, classifier)?;
+        Ok(Self {
+            left: run.ticks(),
+            run,
+            whiskers: Vec::new(),
+            seed: scene.seed,
+            acts: Vec::new(),
+        })
+    }
+
     fn reset(&mut self, seed: u64) -> Result<(), Error> {
         self.run.reset(seed)?;
         self.left = self.run.ticks();
+        self.seed = seed;
+        self.acts.clear();
+        Ok(())
+    }
+
+    /// Acts for so many ticks.
+    fn step(&mut self, action: Action, values: &[f64], ticks: u64) -> Result<(), Error> {
+        self.act(action, values)?;
+        if self.left > 0 {
+            self.acts.extend_from_slice(values);
+        }
+        self.advance(ticks);
         Ok(())
     }
 
@@ -103,22 +133,54 @@ pub(crate) struct Envs {
     whiskers: usize,
     count: usize,
     limits: [f64; 2],
+    recipe: Recipe,
+}
+
+/// What makes a copy: the function and its arguments, the last being the seed of each environment
+/// and what it did since its start.
+type Reduced<'py> = (Bound<'py, PyAny>, (Parts<'py>, String, u64, Vec<Did>));
+
+/// A seed, and actions one after the other.
+type Did = (u64, Vec<f64>);
+
+/// Environments as others were that were made from `recipe`.
+#[pyfunction]
+pub(crate) fn restored_envs(
+    py: Python<'_>,
+    recipe: Parts<'_>,
+    action: &str,
+    ticks: u64,
+    did: Vec<Did>,
+) -> PyResult<Envs> {
+    let (given, loaded) = Recipe::loaded(recipe, py)?;
+    let envs = Envs::of(py, &given, &loaded, did.len(), action, ticks)?;
+    let pool = pool()?;
+    let replayed = py.detach(|| {
+        let mut members = envs.members.lock();
+        let members = members.par_iter_mut().zip(&did);
+        pool.install(|| {
+            members.try_for_each(|(member, (seed, acts))| {
+                member.reset(*seed)?;
+                let mut acts = acts.chunks_exact(envs.whiskers.max(1));
+                acts.try_for_each(|values| member.step(envs.action, values, ticks))
+            })
+        })
+    });
+    replayed.map_err(|error: Error| PyValueError::new_err(error.to_string()))?;
+    Ok(envs)
 }
 
 type Stepped<'py> = (Bound<'py, PyArray2<f32>>, Bound<'py, PyArray1<bool>>);
 
-#[pymethods]
 impl Envs {
-    #[new]
-    #[pyo3(signature = (scene, count, *, action="setpoint", ticks=1, model=None, set=None))]
-    fn new(
+    /// So many of a scene, before their first tick.
+    fn of(
         py: Python<'_>,
-        scene: &Bound<'_, PyAny>,
+        given: &Given,
+        loaded: &Loaded,
         count: usize,
         action: &str,
         ticks: u64,
-        model: Option<&Bound<'_, PyAny>>,
-        set: Option<&Bound<'_, PyDict>>,
     ) -> PyResult<Self> {
         let action = match action {
             "setpoint" => Action::Setpoint,
@@ -134,7 +196,6 @@ impl Envs {
         if ticks == 0 {
             return Err(PyValueError::new_err("ticks: found 0, allowed: above 0"));
         }
-        let loaded = Given::new(scene, set)?.loaded(py, None, model)?;
         let raise = |error| raised(py, error);
         let classifier = loaded.classifier().map_err(raise)?;
         let Scene { motor, .. } = &loaded.scene;
@@ -147,14 +208,7 @@ impl Envs {
                 ));
             }
         };
-        let member = |_| {
-            let run = Run::new(&loaded.scene, classifier.clone())?;
-            Ok(Member {
-                left: run.ticks(),
-                run,
-                whiskers: Vec::new(),
-            })
-        };
+        let member = |_| Member::new(&loaded.scene, classifier.clone());
         let members = py.detach(|| (0..count).map(member).collect::<Result<_, Error>>());
         Ok(Self {
             members: Mutex::new(members.map_err(raise)?),
@@ -163,7 +217,44 @@ impl Envs {
             whiskers: loaded.scene.whiskers(),
             count,
             limits,
+            recipe: Recipe::new(given, loaded),
         })
+    }
+}
+
+#[pymethods]
+impl Envs {
+    #[new]
+    #[pyo3(signature = (scene, count, *, action="setpoint", ticks=1, model=None, set=None))]
+    fn new(
+        py: Python<'_>,
+        scene: &Bound<'_, PyAny>,
+        count: usize,
+        action: &str,
+        ticks: u64,
+        model: Option<&Bound<'_, PyAny>>,
+        set: Option<&Bound<'_, PyDict>>,
+    ) -> PyResult<Self> {
+        let given = Given::new(scene, set)?;
+        let loaded = given.loaded(py, None, model)?;
+        Self::of(py, &given, &loaded, count, action, ticks)
+    }
+
+    /// For other processes, and for copies, which go on apart: the scene, and of each environment
+    /// its seed and what it did since its start.
+    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<Reduced<'py>> {
+        let did = py.detach(|| {
+            let members = self.members.lock();
+            let did = members.iter().map(|one| (one.seed, one.acts.clone()));
+            did.collect::<Vec<Did>>()
+        });
+        let make = py.import("whisker._core")?.getattr("restored_envs")?;
+        let action = match self.action {
+            Action::Setpoint => "setpoint",
+            Action::Gain => "gain",
+        };
+        let parts = self.recipe.parts(py);
+        Ok((make, (parts, action.to_owned(), self.ticks, did)))
     }
 
     /// Restarts those that `begin` names, with their `seeds`; the others act, `actions` having
@@ -208,8 +299,7 @@ impl Envs {
                     if *begin {
                         member.reset(*seed)?;
                     } else {
-                        member.act(self.action, values)?;
-                        member.advance(self.ticks);
+                        member.step(self.action, values, self.ticks)?;
                     }
                     member.observe(seen);
                     *ended = member.left == 0;

@@ -2,8 +2,9 @@
 
 use host_sim::classifier::{self, Fault};
 use host_sim::decisions::{Columns, Decided, UNKNOWN};
+use host_sim::doubts;
 use host_sim::evaluation::{self, Evaluation};
-use host_sim::recording::Recorder;
+use host_sim::recording::{Recorder, Stream};
 use host_sim::replay::Replay;
 use host_sim::run::Run;
 use host_sim::training::{Expected, How, Tables};
@@ -12,6 +13,7 @@ use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use scene::Rule;
 use tactile::score::Interval;
+use tactile::train::TrainError;
 
 use crate::model::{self, Model};
 use crate::outside;
@@ -54,11 +56,12 @@ pub(crate) fn record<'py>(
 
 /// Trains a model from recordings that the Python side has prepared.
 #[pyfunction]
-#[pyo3(signature = (data, *, tables, bins, smooth, block, gate, gap, expect, rate))]
+#[pyo3(signature = (data, *, channels, tables, bins, smooth, block, gate, gap, expect, rate))]
 #[allow(clippy::too_many_arguments, reason = "they are Python's keywords")]
 pub(crate) fn train(
     py: Python<'_>,
     data: Vec<Prepared<'_>>,
+    channels: [String; 2],
     tables: &str,
     bins: Option<usize>,
     smooth: Option<f64>,
@@ -109,18 +112,34 @@ pub(crate) fn train(
         let fault = format!("label: {UNKNOWN:?} is what a decision for none of the classes says");
         return Err(wrong(fault));
     }
-    py.detach(|| how.train(&read, rate))
-        .map(Model::from)
-        .map_err(wrong)
+    let trained = py.detach(|| how.train(&read, rate));
+    recordings::warn(py, &read, &channels)?;
+    trained.map(Model::from).map_err(|fault| match fault {
+        TrainError::TooShort { .. } => wrong(format!("{fault}; {}", doubts::short(&read))),
+        _ => wrong(fault),
+    })
+}
+
+/// A recording that the Python side has prepared; what is odd about it becomes warnings.
+fn warned(
+    py: Python<'_>,
+    data: &Prepared<'_>,
+    channels: &[String; 2],
+) -> PyResult<(String, Vec<Stream>)> {
+    let read = [data.read()?];
+    recordings::warn(py, &read, channels)?;
+    let [read] = read;
+    Ok(read)
 }
 
 /// The decisions of a model on a recording that the Python side has prepared.
 #[pyfunction]
-#[pyo3(signature = (model, data, *, threshold, window))]
+#[pyo3(signature = (model, data, *, channels, threshold, window))]
 pub(crate) fn classify<'py>(
     py: Python<'py>,
     model: &Bound<'py, PyAny>,
     data: Prepared<'py>,
+    channels: [String; 2],
     threshold: f64,
     window: Option<u32>,
 ) -> PyResult<Bound<'py, PyAny>> {
@@ -138,7 +157,7 @@ pub(crate) fn classify<'py>(
         Fault::Model(fault) => wrong(format!("model: {fault}")),
         Fault::Rule(fault) => wrong(format!("{name}: {fault}")),
     })?;
-    let (_, streams) = data.read()?;
+    let (_, streams) = &warned(py, &data, &channels)?;
     let decided = py.detach(|| {
         let each = streams.iter().map(|stream| replay.stream(stream));
         each.collect::<Result<Vec<Vec<Decided>>, _>>()
@@ -149,20 +168,22 @@ pub(crate) fn classify<'py>(
 
 /// What a model is worth on a recording that the Python side has prepared.
 #[pyfunction]
-#[pyo3(signature = (model, data, *, threshold))]
+#[pyo3(signature = (model, data, *, channels, threshold))]
 pub(crate) fn evaluate<'py>(
     py: Python<'py>,
     model: &Bound<'py, PyAny>,
     data: Prepared<'py>,
+    channels: [String; 2],
     threshold: f64,
 ) -> PyResult<Bound<'py, PyDict>> {
     let model = model::given(model)?;
     let classes = classifier::names(&model);
-    let (_, streams) = data.read()?;
-    let presented = py.detach(|| evaluation::presentations(&model, threshold, &streams));
+    let (_, streams) = &warned(py, &data, &channels)?;
+    let presented = py.detach(|| evaluation::presentations(&model, threshold, streams));
     let found = Evaluation::new(&classes, &presented.map_err(wrong)?);
     let dict = PyDict::new(py);
     dict.set_item("hits", found.hits)?;
+    dict.set_item("left_out", found.left_out())?;
     dict.set_item("samples", found.samples)?;
     dict.set_item("samples_error", found.samples_error)?;
     let shares = [

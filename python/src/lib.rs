@@ -12,6 +12,7 @@ mod many;
 mod model;
 mod outside;
 mod press;
+mod recipe;
 mod recordings;
 mod scenes;
 mod sim;
@@ -22,7 +23,7 @@ use pyo3::prelude::pymodule;
 #[pymodule]
 mod _core {
     #[pymodule_export]
-    use crate::envs::Envs;
+    use crate::envs::{Envs, restored_envs};
     #[pymodule_export]
     use crate::learning::{classify, evaluate, record, train};
     #[pymodule_export]
@@ -34,5 +35,5 @@ mod _core {
     #[pymodule_export]
     use crate::scenes::{Problem, SceneError};
     #[pymodule_export]
-    use crate::sim::{Sim, columns};
+    use crate::sim::{Sim, columns, restored_sim};
 }

@@ -1,9 +1,11 @@
 //! Recordings from and to arrays.
 
-use host_sim::recording::{COLUMNS, Stream, Tokens};
+use host_sim::doubts;
+use host_sim::recording::{COLUMNS, Stream, Tokens, touches};
 use numpy::{PyReadonlyArray1, PyReadonlyArray2};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
+use pyo3::types::PyDict;
 
 use crate::table::{Kind, Layout, Packed};
 
@@ -72,9 +74,33 @@ impl Prepared<'_> {
                 pose: pose.clone(),
             })
         };
-        let streams = self.streams.iter().map(stream).collect::<PyResult<_>>()?;
+        let mut streams = self
+            .streams
+            .iter()
+            .map(stream)
+            .collect::<PyResult<Vec<_>>>()?;
+        touches::tell_apart(&mut streams);
         Ok((self.name.clone(), streams))
     }
+}
+
+/// Warns of what is odd about recordings, by row.
+pub(crate) fn warn(
+    py: Python<'_>,
+    recordings: &[(String, Vec<Stream>)],
+    channels: &[String; 2],
+) -> PyResult<()> {
+    let channels = channels.each_ref().map(String::as_str);
+    for doubt in py.detach(|| doubts::doubts(recordings, channels)) {
+        let name = recordings.get(doubt.recording).map_or("", |(name, _)| name);
+        let text = format!("{name}: row {}: {}", doubt.sample, doubt.said);
+        let keywords = PyDict::new(py);
+        // At the line that has called the function of Python.
+        keywords.set_item("stacklevel", 2)?;
+        let warnings = py.import("warnings")?;
+        warnings.call_method("warn", (text,), Some(&keywords))?;
+    }
+    Ok(())
 }
 
 /// Streams with the columns of a recording's file.

@@ -105,10 +105,10 @@ fn refused(py: Python<'_>, problems: &Problems) -> PyErr {
 
 /// A scene as it was given: what is checked, and where its model is looked for.
 pub(crate) struct Given {
-    file: String,
-    text: String,
-    set: Vec<Override>,
-    folder: PathBuf,
+    pub(crate) file: String,
+    pub(crate) text: String,
+    pub(crate) set: Vec<Override>,
+    pub(crate) folder: PathBuf,
 }
 
 impl Given {

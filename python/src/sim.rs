@@ -1,20 +1,23 @@
 //! One run of a scene, tick by tick.
 
+use host_sim::Error;
 use host_sim::columns::Column;
 use host_sim::decisions::Decided;
+use host_sim::loaded::Loaded;
 use host_sim::run::Run;
 use host_sim::trace::{self, TraceShape, TraceWriter, WhiskerRow};
 use host_sim::{decisions, pressing, recording};
 use numpy::PyArray2;
 use parking_lot::{Mutex, MutexGuard};
 use physics::Bent;
-use pyo3::exceptions::PyValueError;
+use pyo3::exceptions::{PyRuntimeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyDict};
 use scene::Texture;
 use tactile::Posteriors;
 
 use crate::outside;
+use crate::recipe::{Call, GAIN, LAY, Parts, Recipe, SETPOINT, Script};
 use crate::scenes::{Given, raised};
 use crate::table::{self, Kind, Layout, Packed, RunTables};
 
@@ -27,9 +30,37 @@ struct State {
     decided: Vec<Decided>,
     last: Option<Posteriors>,
     posteriors: Packed,
+    /// What was done to it since its start.
+    script: Script,
 }
 
 impl State {
+    /// Does again what was done.
+    fn repeat(&mut self, (_, kind, whisker, value): Call) -> Result<(), Error> {
+        match kind {
+            SETPOINT => {
+                let degrees = (!value.is_nan()).then_some(value);
+                self.run.set_setpoint_deg(whisker, degrees)
+            }
+            GAIN => self.run.set_gain(whisker, value),
+            _ => {
+                let name = Texture::NAMES.get(whisker);
+                if let Some(texture) = name.and_then(|name| Texture::named(name)) {
+                    self.run.lay(texture);
+                }
+                Ok(())
+            }
+        }
+    }
+
+    /// The same for the first time: it is kept.
+    fn call(&mut self, kind: u8, whisker: usize, value: f64) -> Result<(), Error> {
+        let call = (self.done, kind, whisker, value);
+        self.repeat(call)?;
+        self.script.add(call);
+        Ok(())
+    }
+
     /// One tick, with a row or without; its decisions begin at the index that is returned.
     fn tick(&mut self, has_row: bool) -> usize {
         if has_row {
@@ -79,9 +110,67 @@ pub(crate) struct Sim {
     /// Lowest and highest setpoint, degrees; none: nothing moves.
     angles_deg: Option<[f64; 2]>,
     posteriors: Layout,
+    recipe: Recipe,
 }
 
 impl Sim {
+    /// Before its first tick.
+    fn of(py: Python<'_>, given: &Given, loaded: &Loaded) -> PyResult<Self> {
+        let raised = |error| raised(py, error);
+        let scene = &loaded.scene;
+        let run = Run::new(scene, loaded.classifier().map_err(raised)?);
+        let mut run = run.map_err(raised)?;
+        let last = run.posteriors();
+        let classes = run.classes().to_vec();
+        let count = classes.len();
+        Ok(Self {
+            tables: RunTables::of(scene, &classes),
+            shape: TraceShape::of(scene),
+            name: scene.name.clone(),
+            has_textures: scene.plant.textured.is_some(),
+            tick_hz: scene.tick_hz,
+            ticks: scene.ticks(),
+            angles_deg: scene
+                .motor
+                .as_ref()
+                .map(|motor| [motor.min_deg, motor.max_deg]),
+            posteriors: Layout::new([("t_s", Kind::Number), ("posterior", Kind::Numbers(count))]),
+            classes,
+            state: Mutex::new(State {
+                run,
+                done: 0,
+                seed: scene.seed,
+                whiskers: Vec::new(),
+                decided: Vec::new(),
+                last,
+                posteriors: Packed::default(),
+                script: Script::default(),
+            }),
+            recipe: Recipe::new(given, loaded),
+        })
+    }
+
+    /// Does again what was done to another, up to the same tick.
+    fn replay(&self, calls: &[Call], done: u64) -> PyResult<()> {
+        let mut from = 0;
+        for call in calls {
+            let until = call.0.min(done);
+            self.pass(until - from)?;
+            from = until;
+            let mut state = self.state();
+            let repeated = state.call(call.1, call.2, call.3);
+            repeated.map_err(|error| PyValueError::new_err(error.to_string()))?;
+        }
+        self.pass(done - from)
+    }
+
+    fn pass(&self, ticks: u64) -> PyResult<()> {
+        self.each_tick(ticks, |state, _| {
+            state.tick(false);
+            Ok(())
+        })
+    }
+
     fn state(&self) -> MutexGuard<'_, State> {
         self.state.lock()
     }
@@ -150,37 +239,25 @@ impl Sim {
         model: Option<&Bound<'_, PyAny>>,
         set: Option<&Bound<'_, PyDict>>,
     ) -> PyResult<Self> {
-        let loaded = Given::new(scene, set)?.loaded(py, seed, model)?;
-        let raised = |error| raised(py, error);
-        let scene = &loaded.scene;
-        let run = Run::new(scene, loaded.classifier().map_err(raised)?);
-        let mut run = run.map_err(raised)?;
-        let last = run.posteriors();
-        let classes = run.classes().to_vec();
-        let count = classes.len();
-        Ok(Self {
-            tables: RunTables::of(scene, &classes),
-            shape: TraceShape::of(scene),
-            name: scene.name.clone(),
-            has_textures: scene.plant.textured.is_some(),
-            tick_hz: scene.tick_hz,
-            ticks: scene.ticks(),
-            angles_deg: scene
-                .motor
-                .as_ref()
-                .map(|motor| [motor.min_deg, motor.max_deg]),
-            posteriors: Layout::new([("t_s", Kind::Number), ("posterior", Kind::Numbers(count))]),
-            classes,
-            state: Mutex::new(State {
-                run,
-                done: 0,
-                seed: scene.seed,
-                whiskers: Vec::new(),
-                decided: Vec::new(),
-                last,
-                posteriors: Packed::default(),
-            }),
-        })
+        let given = Given::new(scene, set)?;
+        let loaded = given.loaded(py, seed, model)?;
+        Self::of(py, &given, &loaded)
+    }
+
+    /// For other processes, and for copies, which go on apart: the scene, the seed and what was
+    /// done since the start, from which all ticks are made again.
+    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<Reduced<'py>> {
+        let (seed, done, script) = py.detach(|| {
+            let state = self.state();
+            (state.seed, state.done, state.script.clone())
+        });
+        let Some(calls) = script.whole() else {
+            let fault = "it was told more than a million setpoints, gains and textures since its \
+                         start, which are not all kept: reset it before it is copied";
+            return Err(PyRuntimeError::new_err(fault));
+        };
+        let make = py.import("whisker._core")?.getattr("restored_sim")?;
+        Ok((make, (self.recipe.parts(py), seed, calls.to_vec(), done)))
     }
 
     /// Advances by `n` ticks, beyond the scene's end too, and returns every `every`th row of
@@ -210,6 +287,7 @@ impl Sim {
             state.seed = seed.unwrap_or(state.seed);
             state.run.reset(state.seed)?;
             state.done = 0;
+            state.script.clear();
             state.decided.clear();
             state.last = state.run.posteriors();
             state.posteriors.bytes.clear();
@@ -226,7 +304,8 @@ impl Sim {
         if let (Some(degrees), Some([least, most])) = (degrees, self.angles_deg) {
             outside::within("setpoint", degrees, least, most)?;
         }
-        let set = py.detach(|| self.state().run.set_setpoint_deg(whisker, degrees));
+        let value = degrees.unwrap_or(f64::NAN);
+        let set = py.detach(|| self.state().call(SETPOINT, whisker, value));
         set.map_err(|error| PyValueError::new_err(error.to_string()))
     }
 
@@ -234,13 +313,13 @@ impl Sim {
     #[pyo3(signature = (gain, whisker=0))]
     fn gain(&self, py: Python<'_>, gain: f64, whisker: usize) -> PyResult<()> {
         outside::within("gain", gain, 0.0, 2.0)?;
-        let set = py.detach(|| self.state().run.set_gain(whisker, gain));
+        let set = py.detach(|| self.state().call(GAIN, whisker, gain));
         set.map_err(|error| PyValueError::new_err(error.to_string()))
     }
 
     /// Has a texture laid in place of the present one, once that is not touched, and left there.
     fn lay(&self, py: Python<'_>, texture: &str) -> PyResult<()> {
-        let Some(texture) = Texture::named(texture) else {
+        let Some(place) = Texture::NAMES.iter().position(|name| *name == texture) else {
             let allowed = Texture::NAMES.join(", ");
             let fault = format!("texture: found {texture:?}, allowed: {allowed}");
             return Err(PyValueError::new_err(fault));
@@ -249,8 +328,8 @@ impl Sim {
             let fault = format!("texture: scene {:?} has none to exchange", self.name);
             return Err(PyValueError::new_err(fault));
         }
-        py.detach(|| self.state().run.lay(texture));
-        Ok(())
+        let laid = py.detach(|| self.state().call(LAY, place, 0.0));
+        laid.map_err(|error| PyValueError::new_err(error.to_string()))
     }
 
     /// Points of a whisker's shaft as it is bent now, from base to tip, m: an array of shape
@@ -343,6 +422,26 @@ impl Sim {
         let Self { name, ticks, .. } = self;
         format!("<whisker.Sim {name:?}: tick {done} of {ticks}>")
     }
+}
+
+/// What makes a copy: the function, and its arguments.
+type Reduced<'py> = (Bound<'py, PyAny>, (Parts<'py>, u64, Vec<Call>, u64));
+
+/// A simulation as another one was that was made from `recipe` with `seed`, `calls` being what was
+/// done to it in `done` ticks.
+#[pyfunction]
+pub(crate) fn restored_sim(
+    py: Python<'_>,
+    recipe: Parts<'_>,
+    seed: u64,
+    calls: Vec<Call>,
+    done: u64,
+) -> PyResult<Sim> {
+    let (given, mut loaded) = Recipe::loaded(recipe, py)?;
+    loaded.scene.seed = seed;
+    let sim = Sim::of(py, &given, &loaded)?;
+    py.detach(|| sim.replay(&calls, done))?;
+    Ok(sim)
 }
 
 /// Name to (unit, meaning) of every column: of "trace", "decisions", "recording" or "press". Those of

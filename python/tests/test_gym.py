@@ -1,6 +1,8 @@
 """Environments."""
 
+import copy
 import multiprocessing
+import pickle
 import runpy
 import warnings
 from pathlib import Path
@@ -134,3 +136,28 @@ def test_environments_go_on_in_a_process_that_was_forked_off():
     child.start()
     child.join(60)
     assert child.exitcode == 0
+
+
+@pytest.mark.parametrize("again", [copy.deepcopy, lambda env: pickle.loads(pickle.dumps(env))])
+def test_copies_of_environments_go_on_apart_to_the_same_bits(again):
+    env = WhiskerEnv(ticks=50, set=SHORT)
+    env.reset(seed=3)
+    for setpoint in [80.0, 110.0]:
+        env.step(np.array([setpoint], np.float32))
+    other = again(env)
+    action = np.array([100.0], np.float32)
+    assert np.array_equal(env.step(action)[0], other.step(action)[0])
+    assert np.array_equal(env.reset()[0], other.reset()[0])
+
+    many = WhiskerVectorEnv(3, ticks=100, set=SHORT, action="gain")
+    many.reset(seed=[5, 6, 7])
+    actions = np.array([[0.5], [1.0], [1.5]], np.float32)
+    # Past an autoreset.
+    for _ in range(12):
+        many.step(actions)
+    other = again(many)
+    for _ in range(12):
+        one, two = many.step(actions), other.step(actions)
+        assert all(np.array_equal(a, b) for a, b in zip(one[:4], two[:4]))
+    fresh = again(WhiskerVectorEnv(2, set=SHORT))
+    assert fresh.reset(seed=1)[0].shape == (2, 4)

@@ -98,3 +98,93 @@ def test_a_label_cannot_forge_a_line(heard):
     columns = {name: heard[name] for name in heard.dtype.names}
     with pytest.raises(ValueError, match="label .* has the character"):
         whisker.train({**columns, "label": label})
+
+
+def repeated(count, start=0):
+    """Samples that never repeat."""
+    return (np.arange(start, start + count, dtype=np.uint64) * 0x9E3779B9 >> 22) % 1024
+
+
+def plain(label, trial, samples):
+    """A recording of one trial."""
+    count = len(samples)
+    return {
+        "label": np.full(count, label),
+        "trial": np.full(count, trial),
+        "x": samples.astype(float),
+        "y": samples / 3.0,
+    }
+
+
+def joined(*parts):
+    return {name: np.concatenate([part[name] for part in parts]) for name in parts[0]}
+
+
+def usual():
+    levels = {"low": 1000, "high": 9000}
+    return joined(
+        *(
+            plain(label, trial, level + repeated(400, 1000 * trial))
+            for trial in range(3)
+            for label, level in levels.items()
+        )
+    )
+
+
+def test_missing_labels_are_refused_by_row():
+    for missing in [None, float("nan"), "", " "]:
+        data = usual()
+        data["label"] = data["label"].astype(object)
+        data["label"][3] = missing
+        with pytest.raises(ValueError, match="row 3: the label is"):
+            whisker.train(data, tables="single")
+    # NumPy makes text of it.
+    data = usual() | {"label": ["low", "high", float("nan")] + ["low"] * 2397}
+    with pytest.raises(ValueError, match="row 2: the label is missing"):
+        whisker.train(data, tables="single")
+    masked = np.ma.MaskedArray(usual()["label"], mask=np.arange(2400) == 5)
+    with pytest.raises(ValueError, match="row 5: the label is missing"):
+        whisker.train(usual() | {"label": masked}, tables="single")
+
+
+def test_what_is_odd_is_warned_of_by_row():
+    data = usual()
+    whole = whisker.evaluate(whisker.train(data, tables="single"), usual())
+    data["x"][7] = 1e9
+    with pytest.warns(UserWarning, match="row 7: x is 1000000000, far from"):
+        model = whisker.train(data, tables="single")
+    assert whisker.evaluate(model, usual()).hits == whole.hits
+    overlapping = joined(usual(), plain("low", 9, 1000 + repeated(400, 100)))
+    with pytest.warns(UserWarning, match="trials must not overlap"):
+        whisker.train(overlapping, tables="single")
+    with pytest.warns(UserWarning, match="in again too"):
+        whisker.train({"once": usual(), "again": usual()}, tables="single")
+    order = np.random.default_rng(1).permutation(2400)
+    shuffled = {name: values[order] for name, values in usual().items()}
+    with pytest.warns(UserWarning, match="must follow each other"):
+        with pytest.raises(ValueError, match="rows in the mean"):
+            whisker.train(shuffled)
+
+
+def test_each_rise_of_a_column_of_truths_begins_a_touch(heard):
+    truths = {name: heard[name] for name in heard.dtype.names} | {"touch": heard["touch"] > 0}
+    model = whisker.train(heard)
+    told = whisker.classify(model, truths)
+    assert len(set(told["touch"])) > 10
+    assert np.array_equal(told["decision"], whisker.classify(model, heard)["decision"])
+    broken = truths | {"touch": np.where(np.arange(len(heard)) == 9, np.nan, heard["touch"])}
+    with pytest.raises(ValueError, match="row 9: touch: found"):
+        whisker.classify(model, broken)
+
+
+def test_a_model_of_another_rate_is_refused(heard):
+    model = whisker.train(heard, tables="single", rate=1000)
+    with pytest.raises(whisker.SceneError, match="1000 samples a second"):
+        whisker.Sim(whisker.SCENES["bench"], model=model)
+
+
+def test_hits_say_which_classes_they_leave_out():
+    model = whisker.train(usual(), tables="single")
+    short = joined(plain("low", 0, 1000 + repeated(400)), plain("high", 0, 9000 + repeated(5)))
+    assert whisker.evaluate(model, short).left_out == ["high"]
+    assert whisker.evaluate(model, usual()).left_out == []

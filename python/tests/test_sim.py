@@ -1,5 +1,6 @@
 """Runs: rows, decisions and posteriors, and the same bytes as host-sim's."""
 
+import copy
 import csv
 import hashlib
 import io
@@ -315,3 +316,42 @@ def test_what_the_bench_refuses_is_refused():
     for wrong in (1e9, float("nan")):
         with pytest.raises(ValueError, match="setpoint: found"):
             sim.setpoint(wrong)
+
+
+def told(sim):
+    sim.step(700)
+    sim.setpoint(95.0)
+    sim.gain(1.5)
+    sim.step(100)
+    sim.setpoint(None)
+    sim.lay("carpet")
+    sim.step(300)
+    return sim
+
+
+@pytest.mark.parametrize(
+    "again", [copy.deepcopy, copy.copy, lambda sim: pickle.loads(pickle.dumps(sim))]
+)
+def test_copies_go_on_apart_to_the_same_bits(again):
+    sim = told(whisker.Sim(whisker.SCENES["textures"], seed=7, set={"duration_s": 4.0}))
+    other = again(sim)
+    assert (other.done, other.seed, other.name) == (sim.done, sim.seed, sim.name)
+    assert np.array_equal(other.decisions, sim.decisions)
+    assert np.array_equal(other.posteriors, sim.posteriors)
+    assert other.step(2000).tobytes() == sim.step(2000).tobytes()
+    other.step(10)
+    assert other.done == sim.done + 10
+    sim.reset(9)
+    assert again(sim).step(100).tobytes() == sim.step(100).tobytes()
+
+
+def test_a_copy_needs_no_file(tmp_path):
+    text = whisker.SCENES["textures"].read_text()
+    (tmp_path / "models").mkdir()
+    model = whisker.SCENES["textures"].parent / "models" / "textures.model"
+    (tmp_path / "models" / "textures.model").write_bytes(model.read_bytes())
+    (tmp_path / "s.toml").write_text(text)
+    sim = told(whisker.Sim(tmp_path / "s.toml"))
+    for path in tmp_path.rglob("*.*"):
+        path.unlink()
+    assert copy.deepcopy(sim).step(500).tobytes() == sim.step(500).tobytes()

@@ -54,6 +54,7 @@ fn with_model<R: Real>(
     let of_config = |fault: ConfigError| fault.to_string();
     let mut config = decode::<R>(running.bytes(), code).map_err(of_config)?;
     let (whiskers, whisked) = (config.head.whiskers(), config.whisked());
+    let tick_hz = config.head.tick_hz;
     let classifier = config.classifier.as_mut();
     let Some((classifier, rule)) = classifier.and_then(|of| of.rule.map(|rule| (of, rule))) else {
         return Err("it has no [classifier], and so no use for a model".to_owned());
@@ -62,6 +63,7 @@ fn with_model<R: Real>(
         classes: board.max_classes,
         contact_min: classifier.contact_min.map(|least| least.to_f64() as f32),
         whisked,
+        tick_hz,
     };
     let rule = (rule, classifier.deciding);
     let found = CodeClassifier::at_start(model.as_bytes(), limits, rule, whiskers);

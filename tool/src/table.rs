@@ -8,7 +8,7 @@ use host_sim::recording;
 use wire::{Flags, TickRecord};
 
 use crate::sample::Sample;
-use crate::tally::{SIDES, side};
+use crate::tally::{SIDES, TickTime, side};
 
 const FLAGS: [(&str, Flags); 10] = [
     ("fresh", Flags::FRESH),
@@ -41,11 +41,11 @@ const SIDE: &str = "side";
 const FULL: f32 = 32767.0;
 
 /// What is above the table: ticks a second.
-pub(crate) const TICK_HZ: &str = "tick_hz";
+pub(crate) use host_sim::origin::TICK_HZ;
 
-/// The columns of numbers of a record, as text; the side is a name.
-fn numbers(record: &TickRecord, tick_hz: f64) -> [String; NUMBERS.len()] {
-    let sample = Sample::new(record, f64::from(record.sequence) / tick_hz);
+/// The columns of numbers of a record at a time, s, as text; the side is a name.
+fn numbers(record: &TickRecord, t_s: f64) -> [String; NUMBERS.len()] {
+    let sample = Sample::new(record, t_s);
     let [x, y] = sample.codes;
     // A record has no more digits than these.
     let short = |value: f64| (value as f32).to_string();
@@ -63,11 +63,11 @@ fn numbers(record: &TickRecord, tick_hz: f64) -> [String; NUMBERS.len()] {
     ]
 }
 
-/// A record as an object of JSON, with the columns of the table as keys. Rust writes finite
-/// numbers as JSON has them.
-pub(crate) fn json(record: &TickRecord, tick_hz: f64) -> String {
+/// A record of a time, s, as an object of JSON, with the columns of the table as keys. Rust writes
+/// finite numbers as JSON has them.
+pub(crate) fn json(record: &TickRecord, t_s: f64) -> String {
     let mut text = String::with_capacity(320);
-    for (name, number) in NUMBERS.iter().zip(numbers(record, tick_hz)) {
+    for (name, number) in NUMBERS.iter().zip(numbers(record, t_s)) {
         let before = if text.is_empty() { '{' } else { ',' };
         let quote = if *name == SIDE { "\"" } else { "" };
         // Writing to a string does not fail.
@@ -99,6 +99,7 @@ pub(crate) fn schema() -> serde_json::Value {
 pub(crate) struct RecordWriter<W: Write> {
     table: csv::Writer<W>,
     tick_hz: f64,
+    time: TickTime,
 }
 
 impl<W: Write> RecordWriter<W> {
@@ -111,11 +112,13 @@ impl<W: Write> RecordWriter<W> {
         Ok(Self {
             table,
             tick_hz: f64::from(tick_hz),
+            time: TickTime::default(),
         })
     }
 
     pub(crate) fn row(&mut self, record: &TickRecord) -> io::Result<()> {
-        let numbers = numbers(record, self.tick_hz);
+        let t_s = self.time.take(record.sequence) as f64 / self.tick_hz;
+        let numbers = numbers(record, t_s);
         let digit = |so| if so { "1" } else { "0" };
         let flags = FLAGS.map(|(_, flag)| digit(record.flags.contains(flag)));
         let numbers = numbers.iter().map(String::as_str);
@@ -153,15 +156,12 @@ pub(crate) fn read(file: &[u8]) -> Result<Kept, String> {
     if let Some(fault) = origin::foreign(file) {
         return Err(fault);
     }
-    let (origin, above, table) = origin::split(file);
-    let tick_hz = origin.get(TICK_HZ).map(|text| {
-        let fault = || format!("{TICK_HZ} is {text:?}, not a whole number above 0");
-        text.parse().ok().filter(|hz| *hz > 0).ok_or_else(fault)
-    });
+    let (origin, above, rows) = origin::split(file);
+    let tick_hz = origin.tick_hz();
     let mut table = csv::ReaderBuilder::new()
         .trim(csv::Trim::All)
-        .from_reader(table);
-    let broken = |error: csv::Error| recording::broken(&error, above);
+        .from_reader(rows);
+    let broken = |error: csv::Error| recording::broken(&error, rows, above);
     let header = table.headers().map_err(broken)?.clone();
     let place = |name: &str| {
         let found = header.iter().position(|column| column == name);
@@ -176,7 +176,7 @@ pub(crate) fn read(file: &[u8]) -> Result<Kept, String> {
     let mut records = Vec::new();
     for row in table.records() {
         let row = row.map_err(broken)?;
-        let line = above + row.position().map_or(0, csv::Position::line);
+        let line = recording::line_of(rows, above, row.position());
         let cell = |n: usize| row.get(numbers[n]).unwrap_or_default();
         let wrong = |n: usize, text: &str| format!("line {line}: {} is {text:?}", NUMBERS[n]);
         let number = |n: usize, lowest: f32, highest: f32| {
@@ -216,7 +216,7 @@ pub(crate) fn read(file: &[u8]) -> Result<Kept, String> {
         });
     }
     Ok(Kept {
-        tick_hz: tick_hz.transpose()?,
+        tick_hz: tick_hz?,
         origin,
         records,
     })
@@ -258,6 +258,25 @@ mod tests {
              sequence,t_s,side,x,y,setpoint_deg,measured_deg,duty,z,contact,\
              fresh,valid,armed,running,homing,resting,touching,decided,fault,lost\n\
              500,0.25,right,8200,16383,100,0,-1,0.25,1,0,1,0,0,0,0,1,0,0,0\n"
+        );
+    }
+
+    #[test]
+    fn time_rises_where_the_counter_wraps() {
+        let records = [u32::MAX, 0, 1].map(|sequence| TickRecord {
+            sequence,
+            ..TickRecord::default()
+        });
+        let text = String::from_utf8(written(&records)).unwrap();
+        let rows = text.lines().skip(3).map(|row| row.split(',').take(2));
+        let rows: Vec<Vec<&str>> = rows.map(Iterator::collect).collect();
+        assert_eq!(
+            rows,
+            [
+                ["4294967295", "2147483.6475"],
+                ["0", "2147483.648"],
+                ["1", "2147483.6485"]
+            ]
         );
     }
 

@@ -58,6 +58,37 @@ impl Tally {
     }
 }
 
+/// Ticks since a module's last start, from numbers that wrap around. A few may come late, as a
+/// side's after the other's.
+#[derive(Debug, Clone, Copy, Default)]
+pub(crate) struct TickTime {
+    wraps: u64,
+    last: Option<u32>,
+}
+
+/// So many numbers back is late; farther back, the module has started again.
+const LATE: u32 = 64;
+
+impl TickTime {
+    /// Those of this number, the next that comes.
+    pub(crate) fn take(&mut self, sequence: u32) -> u64 {
+        let last = self.last.unwrap_or(sequence);
+        let back = last.wrapping_sub(sequence);
+        let of_wraps = |wraps: u64| (wraps << 32) + u64::from(sequence);
+        if (1..=LATE).contains(&back) {
+            // Perhaps of before the wrap.
+            return of_wraps(self.wraps.saturating_sub(u64::from(sequence > last)));
+        }
+        if back > 0 && back < 0x8000_0000 {
+            self.wraps = 0;
+        } else {
+            self.wraps += u64::from(sequence < last);
+        }
+        self.last = Some(sequence);
+        of_wraps(self.wraps)
+    }
+}
+
 /// Ticks since a module's first start, from numbers that wrap around and restart.
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct TickCount {
@@ -86,7 +117,7 @@ impl TickCount {
 mod tests {
     use wire::Flags;
 
-    use super::{Before, Tally, TickCount};
+    use super::{Before, Tally, TickCount, TickTime};
     use crate::source::record;
 
     #[test]
@@ -101,6 +132,26 @@ mod tests {
         assert_eq!(take(1, left), Before::Nothing);
         assert_eq!(take(1, left), Before::Restart);
         assert_eq!((tally.records, tally.lost, tally.restarts), (6, 2, 1));
+    }
+
+    #[test]
+    fn time_goes_on_where_numbers_wrap_and_begins_again_with_the_module() {
+        let mut time = TickTime::default();
+        let wrap = 1_u64 << 32;
+        for (number, expected) in [
+            (u32::MAX - 1, wrap - 2),
+            (u32::MAX, wrap - 1),
+            (1, wrap + 1),
+            // Late.
+            (u32::MAX, wrap - 1),
+            (0, wrap),
+            (0x7000_0000, wrap + 0x7000_0000),
+            // Started again.
+            (3, 3),
+            (4, 4),
+        ] {
+            assert_eq!(time.take(number), expected, "{number}");
+        }
     }
 
     #[test]

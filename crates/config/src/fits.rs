@@ -5,7 +5,7 @@ use scene::{Rule, Scene, SensorMode};
 use tactile::{Deciding, ModelBuf, StreamClassifier};
 
 use crate::module::rule_settings;
-use crate::{Mismatch, NoSuchFormat, whisks_as};
+use crate::{Mismatch, NoSuchFormat, suits};
 
 /// Largest exponent of a model's scale that still lets 14-bit codes fit it.
 const MAX_EXPONENT: i16 = 17;
@@ -98,7 +98,7 @@ fn model_fits(scene: &Scene, model: &ModelBuf, board: &BoardFacts) -> Result<(),
     let rule = rule_settings(classifier.rule)?;
     StreamClassifier::new(model.view(), rule, Deciding::First, 1)
         .map_err(|fault| Unfit::Model(fault.to_string()))?;
-    whisks_as(scene, model.whisked())?;
+    suits(scene, model)?;
     if model.has_opinion() && !board.takes_opinion {
         return Err(Unfit::Model(format!(
             "found a second opinion; allowed on the {}: none, because its core has no time for \

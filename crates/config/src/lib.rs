@@ -23,7 +23,7 @@ pub use settling::Unsettled;
 pub use stability::{Instability, Unstable};
 
 use scene::Scene;
-use tactile::Whisked;
+use tactile::{ModelBuf, Whisked};
 use whisking::{Error, Real, filter};
 
 /// What is wrong with a scene for its module.
@@ -47,6 +47,20 @@ pub enum Mismatch {
     /// A limit of a board's motor does not protect it.
     #[error(transparent)]
     Unprotected(#[from] Unprotected),
+    /// Its encoder is too coarse to find the retracted stop by.
+    #[error(
+        "motor.counts_per_rev: found {found}; allowed with a gear of {gear} and motor.rest = \
+         \"find\": at least {allowed}, or a motor that stands against its stop cannot be told from \
+         one that turns slowly"
+    )]
+    Coarse {
+        /// Counts a revolution.
+        found: u32,
+        /// The gear.
+        gear: f64,
+        /// The fewest that would do.
+        allowed: f64,
+    },
     /// Its classifier listens from another contact on than its model was trained from.
     #[error(
         "classifier.contact_min: found {found}; allowed: {gate}, from which the model was trained, \
@@ -69,6 +83,17 @@ pub enum Mismatch {
         trained: Whisked,
         /// The scene's.
         scene: Whisked,
+    },
+    /// It ticks otherwise than its classifier's model was trained.
+    #[error(
+        "classifier.model: found one that was trained at {trained} samples a second; the scene has \
+         tick_hz = {scene}"
+    )]
+    Rate {
+        /// The model's.
+        trained: u32,
+        /// The scene's.
+        scene: u32,
     },
     /// No rule can decide by it.
     #[error("classifier.threshold: found {found}; {fault}")]
@@ -114,6 +139,19 @@ pub fn whisks_as(scene: &Scene, trained: Whisked) -> Result<(), Mismatch> {
         return Err(Mismatch::Whisked { trained, scene });
     }
     Ok(())
+}
+
+/// Whether a scene moves and ticks as its model was trained, as far as that is known.
+///
+/// # Errors
+/// [`Mismatch::Whisked`]; [`Mismatch::Rate`]: blocks, gaps and roughness would be of other times.
+pub fn suits(scene: &Scene, model: &ModelBuf) -> Result<(), Mismatch> {
+    whisks_as(scene, model.whisked())?;
+    let scene = scene.tick_hz;
+    match model.rate_hz() {
+        Some(trained) if trained != scene => Err(Mismatch::Rate { trained, scene }),
+        _ => Ok(()),
+    }
 }
 
 /// The pattern generator's settings; `None` for a passive scene.

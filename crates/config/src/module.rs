@@ -241,6 +241,14 @@ fn motion<R: Real>(scene: &Scene, runs_on: RunsOn) -> Result<Option<MotionConfig
         guards
     };
     let finds_rest = motor.rest == Rest::Find && !is_ideal;
+    let homing = homing(motor, degrees_per_count, scene.sensor.zero_calm);
+    if finds_rest && degrees_per_count > homing.coarsest_deg() {
+        return Err(Mismatch::Coarse {
+            found: motor.counts_per_rev,
+            gear: motor.gear,
+            allowed: (360.0 / (motor.gear * homing.coarsest_deg())).ceil(),
+        });
+    }
     let approach = motor.approach_deg_s / tick_hz / whisking::DEGREES_PER_UNIT;
     Ok(Some(MotionConfig {
         whisking: settings.build()?,
@@ -251,8 +259,7 @@ fn motion<R: Real>(scene: &Scene, runs_on: RunsOn) -> Result<Option<MotionConfig
             retry: retry(scene.tick_hz),
             guards: guards.build(tick_hz),
             approach: R::from_f64(approach),
-            homing: finds_rest
-                .then(|| homing(motor, degrees_per_count, scene.sensor.zero_calm).build(tick_hz)),
+            homing: finds_rest.then(|| homing.build(tick_hz)),
         },
         driver: motor.driver,
         stops_all: motor.on_fault == OnFault::StopAll,

@@ -13,8 +13,8 @@
 //!   found and what is allowed. A file is read to its end, so that
 //!   [`Problems`] holds all of them.
 //! - **RCP**: rapid cessation of protraction, the gate that contact closes.
-//! - **CIA**: contact-induced asymmetry, the drive that contact lends to the
-//!   other side.
+//! - **CIA**: contact-induced asymmetry, the excitation of all whiskers by
+//!   contact.
 //!
 //! ```
 //! let text = "

@@ -10,7 +10,7 @@
 //! | u32 | length of the whole file in bytes |
 //! | u32, f32, u32 | rule of touches: limit of a deficit at an onset, 1/1024 bit; gate, 0 to 1; gap, samples; or 2³² − 1, 0, 0: none |
 //! | u32 | 1 if there are floors, else 0; and 256 times the words of the opinion |
-//! | C × 20 | per channel: origin f64, low i32, high i32, exponent i16, zero u16 (see [`crate::Quantiser`]) |
+//! | C × 20 | per channel: origin f64, low i32, high i32, exponent i16 (see [`crate::Quantiser`]), u16: of the first channel the samples a second of training, 0: not known, and of others zero |
 //! | T × 40 | per table: source u8 (0 samples, 1 roughness), axes u8 (1 or 2), zero u16, first word of its rows u32; two axes, of one the second is zero: channel u8 (0 or 1 of roughness), zero u8, bins − 1 u16 (to 4095), high i32, low i32, slope u32 (see [`crate::Binner`]) |
 //! | K × 4 | floors, if any, per class: of samples u16, of roughness u16 |
 //! | K names | per class: length u8 (not zero), UTF-8; then zeros up to a multiple of four |
@@ -106,7 +106,8 @@ pub(crate) struct ChannelRecord {
     pub(crate) low: I32,
     pub(crate) high: I32,
     pub(crate) exponent: I16,
-    pub(crate) reserved: U16,
+    /// Of the first channel samples a second, 0: not known; of others zero.
+    pub(crate) rate_hz: U16,
 }
 
 /// A table, as it is read in place: of whole words.

@@ -338,7 +338,7 @@ fn check_channels(records: &[ChannelRecord]) -> Result<(), ModelError> {
             .quantiser()
             .check(1)
             .map_err(|reason| ModelError::Quantiser { channel, reason })?;
-        if record.reserved.get() != 0 {
+        if channel > 0 && record.rate_hz.get() != 0 {
             return Err(ModelError::Padding);
         }
     }

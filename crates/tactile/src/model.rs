@@ -185,9 +185,19 @@ impl<W: Words> Model<W> {
 
     /// The scale of a channel's codes, and its range in training.
     pub fn quantiser(&self, channel: usize) -> Option<Quantiser> {
+        self.channel(channel).map(ChannelRecord::quantiser)
+    }
+
+    /// The samples a second of training, where they are known.
+    pub fn rate_hz(&self) -> Option<u32> {
+        let rate_hz = self.channel(0)?.rate_hz.get();
+        (rate_hz > 0).then_some(rate_hz.into())
+    }
+
+    fn channel(&self, channel: usize) -> Option<&ChannelRecord> {
         let records = self.part(RECORDS, self.layout.tables).as_bytes();
         let records = <[ChannelRecord]>::ref_from_bytes(records).ok()?;
-        records.get(channel).map(ChannelRecord::quantiser)
+        records.get(channel)
     }
 
     /// The floors of a class, if there are any.

@@ -1,5 +1,6 @@
 //! A model that owns its bytes: made by training, or read from a file on a PC.
 
+use core::mem::offset_of;
 use std::boxed::Box;
 use std::string::String;
 use std::vec::Vec;
@@ -156,7 +157,7 @@ impl ModelBuf {
                 high: q.high.into(),
                 // Checked: at most 1000 either way.
                 exponent: (q.exponent as i16).into(),
-                reserved: 0.into(),
+                rate_hz: 0.into(),
             };
             body.extend_from_slice(record.as_bytes());
         }
@@ -223,6 +224,26 @@ impl ModelBuf {
         };
         let mut bytes = header.as_bytes().to_vec();
         bytes.append(&mut body);
+        let crc = checksum(&bytes);
+        bytes.extend_from_slice(&crc.to_le_bytes());
+        Self::from_bytes(&bytes)
+    }
+
+    /// The same model, which knows the samples a second of its training; of more than 65535 it
+    /// knows nothing.
+    ///
+    /// # Errors
+    ///
+    /// None: a model stays one.
+    pub fn at_rate(&self, rate_hz: u32) -> Result<Self, ModelError> {
+        let mut bytes = self.as_bytes().to_vec();
+        let rate_hz = u16::try_from(rate_hz).unwrap_or(0).to_le_bytes();
+        let at = size_of::<Header>() + offset_of!(ChannelRecord, rate_hz);
+        let sum_at = bytes.len().saturating_sub(CRC_BYTES);
+        if let Some(place) = bytes.get_mut(at..at + rate_hz.len()) {
+            place.copy_from_slice(&rate_hz);
+        }
+        bytes.truncate(sum_at);
         let crc = checksum(&bytes);
         bytes.extend_from_slice(&crc.to_le_bytes());
         Self::from_bytes(&bytes)

@@ -106,8 +106,12 @@ const WEIGHT_MOST: i32 = 2 << WEIGHT_FRACTION;
 /// The rest moves by 2^−n of the difference a sample.
 const REST: u32 = 12;
 const REST_AT_START: u32 = 8;
-/// Samples at the start in which no touch is reported.
-const START: u16 = 2000;
+/// Seconds at the start in which no touch is reported.
+const START_S: u32 = 1;
+/// The most samples that it can have.
+const START_MOST: u16 = 20_000;
+/// Samples a second, unless said otherwise.
+const USUAL_HZ: u32 = 2000;
 
 /// What a whisker touches.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -141,8 +145,9 @@ pub struct TouchDetector {
     far: u32,
     peak: u32,
     course: Course,
-    /// Samples of the start that have been, of the block, and in contact without a sign, or
-    /// in the air far from rest.
+    /// Samples of the start, those of it that have been, of the block, and in contact without a
+    /// sign, or in the air far from rest.
+    start: u16,
     seen: u16,
     of_block: u8,
     quiet: u8,
@@ -162,8 +167,19 @@ impl Default for TouchDetector {
 }
 
 impl TouchDetector {
-    /// Before its first sample.
+    /// Before its first sample, of 2000 a second.
     pub const fn new() -> Self {
+        Self::at(USUAL_HZ)
+    }
+
+    /// Before its first sample, of so many a second: 200 to 20,000.
+    pub const fn at(tick_hz: u32) -> Self {
+        let start = tick_hz.saturating_mul(START_S);
+        let start = if start > START_MOST as u32 {
+            START_MOST
+        } else {
+            start as u16
+        };
         Self {
             kept: [[0; 2]; KEPT],
             mean: [0; 2],
@@ -175,6 +191,7 @@ impl TouchDetector {
             far: FAR,
             peak: 0,
             course: Course::Begins,
+            start,
             seen: 0,
             of_block: 0,
             quiet: 0,
@@ -327,7 +344,7 @@ impl TouchDetector {
                 self.in_touch = false;
                 if self.is_sure {
                     self.apart = 0;
-                } else if self.apart >= SETTLED && self.seen >= START {
+                } else if self.apart >= SETTLED && self.seen >= self.start {
                     self.quick.iter_mut().for_each(Quick::raise);
                 }
             }
@@ -336,7 +353,7 @@ impl TouchDetector {
 
     /// Weights, rest and levels. What is touched moves only the levels, and these slowly.
     fn learn(&mut self, sample: [i32; 2], now: &Signs) {
-        let is_start = self.seen < START;
+        let is_start = self.seen < self.start;
         self.seen += u16::from(is_start);
         if !self.in_touch {
             let (step, rest_rate) = if is_start {
@@ -389,13 +406,14 @@ impl TouchDetector {
             *weight = (*weight).clamp(-WEIGHT_MOST, WEIGHT_MOST);
         }
         self.deflection = bounded(self.deflection);
+        self.start = self.start.min(START_MOST);
     }
 
     fn count(&mut self) {
         self.touching.is_onset = false;
         if !self.in_touch {
             self.touching.number = 0;
-        } else if self.touching.number == 0 && self.seen >= START {
+        } else if self.touching.number == 0 && self.seen >= self.start {
             self.last = self.last.checked_add(1).unwrap_or(1);
             self.touching = Touching {
                 number: self.last,

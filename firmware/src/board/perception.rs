@@ -41,6 +41,7 @@ pub(crate) fn find(inner: &mut Inner, settings: &Settings, deployed: Option<Depl
         // Compared below, in the number format of the settings.
         contact_min: None,
         whisked: settings.whisked(),
+        tick_hz: settings.head.tick_hz,
     };
     let rule = (rule, config.deciding);
     classifier.find(slots::model(slot), limits, rule, settings.head.whiskers());

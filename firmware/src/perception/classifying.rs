@@ -82,19 +82,21 @@ pub struct Sensed<R> {
 pub struct Perception<C> {
     classifier: C,
     touches: Vec<TouchDetector, MAX_WHISKERS>,
+    tick_hz: u32,
 }
 
 impl<C: SampleClassifier> Perception<C> {
-    /// Of a module of so many whiskers, with this classifier.
-    pub fn new(classifier: C, whiskers: usize) -> Self {
+    /// Of a module of so many whiskers and ticks a second, with this classifier.
+    pub fn new(classifier: C, whiskers: usize, tick_hz: u32) -> Self {
         let mut touches = Vec::new();
         for _ in 0..whiskers.min(MAX_WHISKERS) {
             // There is room for them.
-            let _ = touches.push(TouchDetector::new());
+            let _ = touches.push(TouchDetector::at(tick_hz));
         }
         Self {
             classifier,
             touches,
+            tick_hz,
         }
     }
 
@@ -113,7 +115,7 @@ impl<C: SampleClassifier> Perception<C> {
     pub fn restarted(mut self) -> Self {
         self.classifier.reset();
         for touches in &mut self.touches {
-            *touches = TouchDetector::new();
+            *touches = TouchDetector::at(self.tick_hz);
         }
         self
     }

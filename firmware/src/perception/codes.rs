@@ -41,6 +41,8 @@ pub struct ModelLimits {
     pub contact_min: Option<f32>,
     /// How the scene whisks.
     pub whisked: Whisked,
+    /// The scene's ticks a second.
+    pub tick_hz: u32,
 }
 
 /// A classifier of sensors' codes with its model, or why there is none: then touches are
@@ -145,6 +147,9 @@ fn find(place: &[u8], limits: ModelLimits) -> Result<Model<&[u32]>, Refusal> {
     }
     if model.whisked().differs(&limits.whisked) {
         return Err(Refusal::Whisked);
+    }
+    if model.rate_hz().is_some_and(|hz| hz != limits.tick_hz) {
+        return Err(Refusal::Rate);
     }
     Ok(model)
 }

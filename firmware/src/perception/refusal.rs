@@ -54,6 +54,8 @@ refusals! {
     Whisked = 13: "it was trained at another whisk frequency, or with RCP otherwise";
     /// A model of several poses knows touches, and no windows.
     Touches = 14: "it decides in touches, and the scene by windows";
+    /// Its blocks, gaps and roughness hold for the samples a second of its training.
+    Rate = 15: "it was trained at another tick rate";
 }
 
 impl Refusal {

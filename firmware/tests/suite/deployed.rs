@@ -1,7 +1,7 @@
 //! Models that lie apart from the program: which are taken, and why others are not.
 
 use firmware::{CodeClassifier, ModelLimits, ModelState, Refusal};
-use tactile::{Aligned, CRC_BYTES, Deciding, RuleSettings, Threshold, Whisked, checksum};
+use tactile::{Aligned, CRC_BYTES, Deciding, ModelBuf, RuleSettings, Threshold, Whisked, checksum};
 
 /// The main job's: two channels of codes, four classes, a gate of 0.05.
 const MODEL: &[u8] = include_bytes!("../../../scenes/models/textures.model");
@@ -13,6 +13,7 @@ const LIMITS: ModelLimits = ModelLimits {
         frequency_mhz: None,
         has_rcp: None,
     },
+    tick_hz: 2000,
 };
 
 /// Flash for a model.
@@ -94,7 +95,7 @@ fn whatever_is_wrong_has_its_reason() {
     };
     refused(right, few, Refusal::Classes);
     let codes: Vec<_> = Refusal::ALL.iter().map(|why| why.code()).collect();
-    assert_eq!(codes, (1..=14).collect::<Vec<u8>>());
+    assert_eq!(codes, (1..=15).collect::<Vec<u8>>());
     for why in Refusal::ALL {
         assert_eq!(Refusal::from_code(why.code()), Some(*why));
     }
@@ -116,6 +117,18 @@ fn objecting(whisked: [u32; 2]) -> Vec<u8> {
     bytes[29..31].copy_from_slice(&(WORDS as u16).to_le_bytes());
     bytes.extend(checksum(&bytes).to_le_bytes());
     bytes
+}
+
+#[test]
+fn a_model_is_for_the_tick_rate_of_its_training() {
+    let at = |rate_hz| {
+        let model = ModelBuf::from_bytes(MODEL).and_then(|model| model.at_rate(rate_hz));
+        Place::with(model.unwrap().as_bytes())
+    };
+    let refused = ModelState::Refused(Refusal::Rate);
+    for (trained, is_taken) in [(2000, true), (1000, false), (0, true), (65_536, true)] {
+        assert_eq!(at(trained).state(LIMITS) != refused, is_taken, "{trained}");
+    }
 }
 
 #[test]

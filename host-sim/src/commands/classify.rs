@@ -6,11 +6,13 @@ use scene::Rule;
 
 use crate::Error;
 use crate::classifier::Fault;
-use crate::decisions::{Columns, Score};
+use crate::decisions::{Columns, Decided, Score};
 use crate::files;
-use crate::misfit::misfits;
+use crate::misfit::{misfits, oddities};
 use crate::output::{Output, check_or_stdout};
 use crate::progress::{Progress, Verbosity};
+use crate::rate;
+use crate::recording::Stream;
 use crate::replay::Replay;
 use crate::report::Summary;
 
@@ -33,8 +35,14 @@ pub fn classify(
         Rule::Sequential { threshold } => format!("--threshold {threshold}"),
         Rule::Window { samples } => format!("--window {samples}"),
     };
-    let streams = files::read_recording(data, channels)?;
-    let misfits = misfits(data, channels, &model, &streams);
+    let recording = files::whole_recording(data, channels)?;
+    let trained = (path.display().to_string(), model.rate_hz());
+    rate::agreed([trained, files::rate_of(data, &recording)]).map_err(Error::Input)?;
+    let streams = recording.streams;
+    let mut misfits = misfits(data, channels, &model, &streams);
+    let named = [(data.display().to_string(), streams)];
+    misfits.extend(oddities(&[data.to_owned()], channels, &named));
+    let [(_, streams)] = named;
     let mut replay = Replay::new(model, rule).map_err(|fault| match fault {
         Fault::Model(fault) => Error::file(&path, fault),
         Fault::Rule(fault) => Error::Input(format!("{option}: {fault}")),
@@ -54,6 +62,20 @@ pub fn classify(
     )?;
     let score = Score::new(replay.classes(), &decided);
     let mut lines = vec![Summary(&score, None).to_string()];
+    lines.extend(undecided(replay.classes(), &streams, &decided));
     lines.extend(misfits);
     Ok(lines.join("\n"))
+}
+
+/// The classes that are in a recording and on which nothing was decided, where something was.
+fn undecided(classes: &[String], streams: &[Stream], decided: &[Decided]) -> Option<String> {
+    let is_there = |class: &&String| streams.iter().any(|stream| stream.label == **class);
+    let is_decided = |class: &&String| decided.iter().any(|one| one.label == **class);
+    let classes = classes.iter().filter(is_there);
+    let silent: Vec<&str> = classes
+        .filter(|class| !is_decided(class))
+        .map(String::as_str)
+        .collect();
+    let is_said = !silent.is_empty() && !decided.is_empty();
+    is_said.then(|| format!("left out, nothing was decided on: {}", silent.join(", ")))
 }

@@ -1,18 +1,20 @@
 //! `host-sim evaluate`: what a model is worth on a recording.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::Args;
+use tactile::ModelBuf;
 
-use super::{channels, picture};
+use super::{channels, picture, rate as rate_option};
 use crate::Error;
 use crate::classifier::{self, Fault};
 use crate::evaluation::{self, Candidate, Evaluation, THRESHOLDS};
 use crate::files;
-use crate::misfit::misfits;
+use crate::misfit::{misfits, oddities};
 use crate::output::{self, write_whole};
 use crate::plot;
 use crate::progress::{Progress, Verbosity};
+use crate::rate::{self, Said};
 use crate::report::{self, Doubts, Figures, Thresholds};
 
 /// What to evaluate.
@@ -38,9 +40,10 @@ pub struct Arguments {
     /// contact in the mean
     #[arg(long, value_name = "S")]
     time: Option<f64>,
-    /// Samples a second of the recording; the model's own must have been the same
-    #[arg(long, value_name = "HZ", default_value_t = 2000)]
-    rate: u32,
+    /// Samples a second of the recording [default: what stands above it as tick_hz, or those that
+    /// the model was trained at, or 2000]; the model's own must have been the same
+    #[arg(long, value_name = "HZ", value_parser = rate_option)]
+    rate: Option<u32>,
     /// Where to write a picture of the calibration: stated against found
     #[arg(long, value_name = "FILE.svg", value_parser = picture)]
     plot: Option<PathBuf>,
@@ -63,14 +66,14 @@ pub fn evaluate(arguments: &Arguments, verbosity: Verbosity) -> Result<String, E
     } = arguments;
     wanted("--error-rate", *error_rate, 1.0)?;
     wanted("--time", *time, 1e6)?;
-    if *rate == 0 {
-        return Err(Error::Input("--rate: found 0, allowed: above 0".to_owned()));
-    }
     plot.as_deref().map_or(Ok(()), output::check)?;
-    let tick_hz = f64::from(*rate);
     let (path, model) = files::load_model(&arguments.model)?;
     let channels = channels.each_ref().map(String::as_str);
-    let streams = files::read_recording(data, channels)?;
+    let recording = files::whole_recording(data, channels)?;
+    let (tick_hz, otherwise) = rate_hz(*rate, &path, &model, files::rate_of(data, &recording))?;
+    let named = [(data.display().to_string(), recording.streams)];
+    let odd = oddities(std::slice::from_ref(data), channels, &named);
+    let [(_, streams)] = named;
     let wrong = |fault| match fault {
         Fault::Model(fault) => Error::file(&path, fault),
         Fault::Rule(fault) => Error::Input(format!("--threshold {threshold}: {fault}")),
@@ -87,10 +90,11 @@ pub fn evaluate(arguments: &Arguments, verbosity: Verbosity) -> Result<String, E
     let doubts = Doubts {
         classes: &classes,
         evaluation: &evaluation,
-        misfits: misfits(data, channels, &model, &streams),
+        misfits: [misfits(data, channels, &model, &streams), odd].concat(),
     };
     let figures = Figures(&evaluation, tick_hz);
     let mut sections = vec![format!("{figures}\n{}\n{doubts}", report::of_model(&model))];
+    sections.extend(otherwise.map(|note| format!("\nnote: {note}")));
     if error_rate.is_none() && time.is_none() {
         return Ok(sections.concat());
     }
@@ -111,6 +115,22 @@ pub fn evaluate(arguments: &Arguments, verbosity: Verbosity) -> Result<String, E
         sections.push(suggestion(found, &wanted));
     }
     Ok(sections.concat())
+}
+
+/// The samples a second of a recording, and what is to be known of them: the model was trained at
+/// others, which only an option says.
+fn rate_hz(
+    option: Option<u32>,
+    path: &Path,
+    model: &ModelBuf,
+    above: Said,
+) -> Result<(f64, Option<String>), Error> {
+    let trained = (path.display().to_string(), model.rate_hz());
+    rate::agreed([trained.clone(), above.clone()]).map_err(Error::Input)?;
+    let found = rate::agreed([("--rate".to_owned(), option), above]).map_err(Error::Input)?;
+    let note = rate::agreed([("--rate".to_owned(), found), trained.clone()]).err();
+    let hz = found.or(trained.1).unwrap_or(rate::USUAL_HZ);
+    Ok((f64::from(hz), note))
 }
 
 fn wanted(option: &str, value: Option<f64>, most: f64) -> Result<(), Error> {

@@ -47,7 +47,7 @@ pub fn main_job(verbosity: Verbosity) -> Result<(), Error> {
         "training: {TRAINING_S} s of whisking against each texture in turn, each time in another pose"
     ));
     let streams = record(&scene, verbosity)?;
-    files::write_recording(recording, &streams)?;
+    files::write_recording(recording, &streams, scene.tick_hz)?;
     let model = train(&scene, streams)?;
     trained.whole(model.as_bytes())?;
 

@@ -42,7 +42,7 @@ pub fn record(
     let recording = ("the recording", ROW_BYTES * rows);
     ahead::tell(&scene, 1, Some(recording), verbosity);
     let streams = streams(&scene, verbosity)?;
-    files::write_recording(output, &streams)?;
+    files::write_recording(output, &streams, scene.tick_hz)?;
     let samples: usize = streams.iter().map(|stream| stream.samples.len()).sum();
     Ok(format!(
         "{}: {samples} samples in {} streams",

@@ -7,12 +7,15 @@ use scene::Scene;
 use tactile::ModelError;
 use tactile::train::TrainError;
 
-use super::{channels, picture};
+use super::{channels, picture, rate as rate_option};
 use crate::Error;
 use crate::decisions::UNKNOWN;
+use crate::doubts;
 use crate::files;
+use crate::misfit::oddities;
 use crate::output::{self, Output, write_whole};
 use crate::plot;
+use crate::rate::{self, Said};
 use crate::recording::Stream;
 use crate::report::TrainingReport;
 use crate::training::{How, Tables};
@@ -30,9 +33,10 @@ pub struct Arguments {
     /// Where to write the model
     #[arg(long, value_name = "MODEL")]
     pub out: PathBuf,
-    /// Samples a second of the recording; the model is to be used at the same rate
-    #[arg(long, value_name = "HZ", default_value_t = 2000)]
-    pub rate: u32,
+    /// Samples a second of the recordings [default: what stands above them as tick_hz, or those of
+    /// the scene, or 2000]; the model keeps them, and is refused at another rate
+    #[arg(long, value_name = "HZ", value_parser = rate_option)]
+    pub rate: Option<u32>,
     /// A label that is left out: the model does not know it
     #[arg(long, value_name = "LABEL")]
     pub unknown: Option<String>,
@@ -64,32 +68,46 @@ pub fn train(arguments: &Arguments) -> Result<String, Error> {
         plot,
         how,
     } = arguments;
-    let scene = scene.as_deref().map(|path| of_scene(path, *rate));
-    let how = &scene.transpose()?.map_or(*how, |scene| how.like(&scene));
+    let scene = scene.as_deref().map(|path| Scene::load_with(path, &[]));
+    let scene = scene.transpose()?.map(|(scene, _)| scene);
+    let mut said = vec![("--rate".to_owned(), *rate)];
+    said.extend(
+        scene
+            .as_ref()
+            .map(|scene| ("the scene".to_owned(), Some(scene.tick_hz))),
+    );
+    rate::agreed(said.clone()).map_err(Error::Input)?;
+    let how = &scene.map_or(*how, |scene| how.like(&scene));
     how.check().map_err(|fault| of_option(&fault))?;
-    if *rate == 0 {
-        return Err(Error::Input("--rate: found 0, allowed: above 0".to_owned()));
-    }
     if plot.is_some() && how.tables == Tables::Single {
         let fault = "--plot: single tables have no report; see host-sim evaluate --plot";
         return Err(Error::Input(fault.to_owned()));
     }
     output::check(out)?;
     plot.as_deref().map_or(Ok(()), output::check)?;
-    let mut recordings = read(data, channels)?;
+    let mut recordings = read(data, channels, &mut said)?;
+    let rate = rate::agreed(said).map_err(Error::Input)?;
+    let rate = rate.unwrap_or(rate::USUAL_HZ);
     if let Some(label) = unknown {
         leave_out(&mut recordings, label)?;
     }
     reserved(data, &recordings)?;
-    let trained = how
-        .train(&recordings, *rate)
-        .map_err(|error| refusal(data, channels, &error))?;
+    let names = channels.each_ref().map(String::as_str);
+    let odd = oddities(data, names, &recordings);
+    let trained = how.train(&recordings, rate).map_err(|error| {
+        with_doubts(&refusal(data, channels, &error), &error, &recordings, &odd)
+    })?;
     // Opened first: nothing is written where one of them cannot be.
     let picture = plot.as_deref().map(Output::create).transpose()?;
     write_whole(out, trained.model.as_bytes())?;
     let streams = || recordings.iter().flat_map(|(_, streams)| streams);
     let counts = streams().flat_map(|stream| stream.counts(how.least()));
     let samples = counts.filter(|counts| *counts).count();
+    let odd = if odd.is_empty() {
+        String::new()
+    } else {
+        format!("\n{}", odd.join("\n"))
+    };
     let summary = format!(
         "{}: {samples} samples in {} streams, {} bytes",
         out.display(),
@@ -97,24 +115,29 @@ pub fn train(arguments: &Arguments) -> Result<String, Error> {
         trained.model.as_bytes().len()
     );
     let Some(joint) = &trained.joint else {
-        return Ok(summary);
+        return Ok(summary + &odd);
     };
     if let Some(picture) = picture {
         let points = joint.report.calibration.iter();
         let points: Vec<_> = points.map(|at| (at.stated, at.found)).collect();
         picture.whole(plot::calibration("trials that were held out", &points)?.as_bytes())?;
     }
-    Ok(format!("{summary}\n\n{}", TrainingReport(joint)))
+    Ok(format!("{summary}\n\n{}{odd}", TrainingReport(joint)))
 }
 
-/// The scene whose module was recorded.
-fn of_scene(path: &Path, rate: u32) -> Result<Scene, Error> {
-    let (scene, _) = Scene::load_with(path, &[])?;
-    if scene.tick_hz != rate {
-        let fault = format!("--rate: found {rate}, the scene has {}", scene.tick_hz);
-        return Err(Error::Input(fault));
+/// What is wrong, and what may be why.
+fn with_doubts(
+    refused: &Error,
+    why: &TrainError,
+    recordings: &[(String, Vec<Stream>)],
+    odd: &[String],
+) -> Error {
+    let mut lines = vec![refused.to_string()];
+    if matches!(why, TrainError::TooShort { .. }) {
+        lines.push(doubts::short(recordings));
     }
-    Ok(scene)
+    lines.extend_from_slice(odd);
+    Error::Input(lines.join("\n"))
 }
 
 /// Leaves out what is of this label.
@@ -150,12 +173,17 @@ fn reserved(data: &[PathBuf], recordings: &[(String, Vec<Stream>)]) -> Result<()
     }
 }
 
-/// Recordings, each with its name.
-fn read(data: &[PathBuf], channels: &[String; 2]) -> Result<Vec<(String, Vec<Stream>)>, Error> {
+/// Recordings, each with its name, and what they say of the samples a second.
+fn read(
+    data: &[PathBuf],
+    channels: &[String; 2],
+    said: &mut Vec<Said>,
+) -> Result<Vec<(String, Vec<Stream>)>, Error> {
     let channels = channels.each_ref().map(String::as_str);
     let read = |path: &PathBuf| {
-        let streams = files::read_recording(path, channels)?;
-        Ok((path.display().to_string(), streams))
+        let recording = files::whole_recording(path, channels)?;
+        said.push(files::rate_of(path, &recording));
+        Ok((path.display().to_string(), recording.streams))
     };
     data.iter().map(read).collect()
 }

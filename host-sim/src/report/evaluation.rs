@@ -27,6 +27,20 @@ impl fmt::Display for Percent {
     }
 }
 
+/// Over which classes a mean is: all but these.
+pub(crate) struct Over<'a>(pub(crate) &'a [&'a str]);
+
+impl fmt::Display for Over<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "classes")?;
+        if !self.0.is_empty() {
+            let names = self.0.join(", ");
+            write!(f, " without {names}: no decision names a class there")?;
+        }
+        Ok(())
+    }
+}
+
 /// The share of decisions that named no class, with its name, and below it that of each reason.
 pub(crate) struct Refused<'a>(pub(crate) &'a Evaluation);
 
@@ -73,7 +87,8 @@ impl fmt::Display for Figures<'_> {
             Some(hits) => {
                 let hits = 100.0 * hits;
                 let ms = samples * 1000.0 / tick_hz;
-                writeln!(f, "hit rate           {hits:.1} % (mean over classes)")?;
+                let over = Over(&evaluation.left_out()).to_string();
+                writeln!(f, "hit rate           {hits:.1} % (mean over {over})")?;
                 let error = samples_error * 1000.0 / tick_hz;
                 writeln!(
                     f,

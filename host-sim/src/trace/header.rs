@@ -14,8 +14,8 @@ pub const FIRST: [Column; 17] = columns! {
     "z_left", "", "suppression of protraction by contact (RCP), 0 without `[rcp]`";
     "z_right", "", "the same of the right side";
     "g_left", "",
-        "gain of the muscle of the side's first whisker, with what contact on the other side \
-        lends (CIA)";
+        "gain of the muscle of the side's first whisker, with the excitation by contact on \
+        either side (CIA)";
     "g_right", "", "the same of the right side";
     "contact_left", "",
         "contact π of the side as the module computes it: the largest of its whiskers'";

@@ -15,7 +15,7 @@ fn classifying() -> Place {
     let text = format!("{TEXTURED}{SEQUENTIAL}").replace("= 0.5", "= 3.0");
     let place = Place::with(&[("scenes/textured.toml", &text)]);
     let recorded = Output::create(&place.path("recorded.csv")).unwrap();
-    files::write_recording(recorded, &streams).unwrap();
+    files::write_recording(recorded, &streams, 2000).unwrap();
     place.done("train --tables single --data recorded.csv --out scenes/the.model");
     place
 }

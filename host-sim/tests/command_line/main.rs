@@ -11,6 +11,7 @@ mod main_job;
 mod meaning;
 mod misfits;
 mod mutations;
+mod others_recordings;
 mod outputs;
 mod pictures;
 mod poses;

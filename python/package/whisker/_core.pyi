@@ -17,6 +17,8 @@ __all__ = [
     "evaluate",
     "press",
     "record",
+    "restored_envs",
+    "restored_sim",
     "run_many",
     "train",
 ]
@@ -107,6 +109,14 @@ class Envs:
     @property
     def limits(self) -> list[float]: ...
 
+_Recipe = tuple[str, str, list[tuple[str, str]], bytes | None]
+
+def restored_envs(
+    recipe: _Recipe, action: str, ticks: int, did: list[tuple[int, list[float]]]
+) -> Envs: ...
+def restored_sim(
+    recipe: _Recipe, seed: int, calls: list[tuple[int, int, int, float]], done: int
+) -> Sim: ...
 def columns(table: str) -> dict[str, tuple[str, str]]: ...
 def press(
     shaft: str | dict[str, float],
@@ -130,6 +140,7 @@ def run_many(
 def train(
     data: list[Any],
     *,
+    channels: tuple[str, str],
     tables: str,
     bins: int | None,
     smooth: float | None,
@@ -140,6 +151,13 @@ def train(
     rate: int,
 ) -> Model: ...
 def classify(
-    model: _Model, data: Any, *, threshold: float, window: int | None
+    model: _Model,
+    data: Any,
+    *,
+    channels: tuple[str, str],
+    threshold: float,
+    window: int | None,
 ) -> NDArray[np.void]: ...
-def evaluate(model: _Model, data: Any, *, threshold: float) -> dict[str, Any]: ...
+def evaluate(
+    model: _Model, data: Any, *, channels: tuple[str, str], threshold: float
+) -> dict[str, Any]: ...

@@ -25,7 +25,7 @@ class Evaluation(NamedTuple):
     """
 
     hits: float | None
-    """Share of right decisions, mean over the classes presented."""
+    """Share of right decisions, mean over the classes presented but those of ``left_out``."""
     samples: float
     """Mean samples of contact of a decision."""
     samples_error: float
@@ -46,6 +46,8 @@ class Evaluation(NamedTuple):
     """The figures of each class."""
     confusion: str
     """The confusion matrix as text."""
+    left_out: list[str]
+    """The classes presented of which no decision named a class: they have no share of hits."""
 
 
 class Why(NamedTuple):
@@ -76,7 +78,13 @@ def _column(recording: Any, name: str) -> Any:
     names = getattr(getattr(recording, "dtype", None), "names", None)
     if names is None:
         names = list(recording.keys())
-    return np.asarray(recording[name]) if name in names else None
+    if name not in names:
+        return None
+    values = recording[name]
+    if isinstance(values, np.ma.MaskedArray):
+        # What is masked is missing.
+        return values.astype(object).filled(np.nan)
+    return np.asarray(values)
 
 
 def _is_missing(value: Any) -> bool:
@@ -97,6 +105,25 @@ def _tokens(name: str, column: str, values: np.ndarray) -> np.ndarray:
     return np.asarray(texts, dtype=str)
 
 
+def _pose(poses: np.ndarray | None, row: int) -> str | None:
+    if poses is None or _is_missing(poses[row]) or str(poses[row]) == "":
+        return None
+    return str(poses[row])
+
+
+def _touches(name: str, values: np.ndarray) -> np.ndarray:
+    """Numbers of touches, or truths."""
+    for row, value in enumerate(values if values.dtype.kind in "Of" else ()):
+        if _is_missing(value) or not 0 <= value <= 65535:
+            raise ValueError(
+                f"{name}: row {row}: touch: found {value!r}, allowed: whole numbers from 0 to 65535"
+            )
+    whole = values.astype(np.int64)
+    if np.any(whole != values) or np.any((whole < 0) | (whole > 65535)):
+        raise ValueError(f"{name}: touch: allowed: whole numbers from 0 to 65535")
+    return whole.astype(np.uint16)
+
+
 def _prepared(name: str, recording: Any, channels: tuple[str, str]) -> _Prepared:
     found = {column: _column(recording, column) for column in ("label", "trial", *channels)}
     missing = [column for column, values in found.items() if values is None]
@@ -111,14 +138,11 @@ def _prepared(name: str, recording: Any, channels: tuple[str, str]) -> _Prepared
         if values is not None and values.shape != label.shape:
             raise ValueError(f"{name}: {column} has the shape {values.shape}, not {label.shape}")
     if touch is not None:
-        whole = touch.astype(np.int64)
-        if np.any(whole != touch) or np.any((whole < 0) | (whole > 65535)):
-            raise ValueError(f"{name}: touch: allowed: whole numbers from 0 to 65535")
-        touch = whole.astype(np.uint16)
+        touch = _touches(name, touch)
     changes = np.flatnonzero((label[1:] != label[:-1]) | (trial[1:] != trial[:-1])) + 1
     ends = [0, *changes.tolist(), len(label)]
     streams = [
-        (str(label[a]), str(trial[a]), a, b, None if pose is None else str(pose[a]))
+        (str(label[a]), str(trial[a]), a, b, _pose(pose, a))
         for a, b in zip(ends, ends[1:])
         if b > a
     ]
@@ -157,17 +181,23 @@ def train(
     """Trains a model; its bytes are what a board runs.
 
     A recording has the columns ``label``, ``trial``, ``x``, ``y`` and, where samples are of the
-    air too, ``contact`` and ``touch``, and where the surface was held in several ways, ``pose``: a structured array as ``record`` returns it, a dictionary
-    of arrays, or a table of pandas. Several, as a list or by their names in a dictionary, are
+    air too, ``contact`` and ``touch``, and where the surface was held in several ways, ``pose``: a
+    structured array as ``record`` returns it, a dictionary of arrays, or a table of pandas. Where
+    all of ``touch`` that is not 0 is the same, each rise begins a touch. Several, as a list or by their names in a dictionary, are
     each held out to tell what is to be expected of another one.
 
     ``tables`` are "joint" or, as the papers have it, "single"; ``bins``, ``smooth`` (bins),
     ``block`` (samples), ``gate`` (contact from which a sample counts) and ``gap`` (seconds without
     contact that end a touch) and ``expect`` ("same", "bench" or "other": how much may differ
-    between training and use) are as the options of ``host-sim train``. ``rate`` is in Hz.
+    between training and use) are as the options of ``host-sim train``. ``rate`` is in Hz; the model
+    keeps it, and a scene of another ``tick_hz`` refuses it.
+
+    Warns, by row, of values that stand apart from all others, of trials whose rows do not follow
+    each other, and of trials that have samples in common.
     """
     return _core.train(
         _all(recordings, channels),
+        channels=channels,
         tables=tables,
         bins=bins,
         smooth=smooth,
@@ -193,7 +223,7 @@ def classify(
     samples. The arithmetic is the board's.
     """
     data = _prepared("recording", recording, channels)
-    return _core.classify(model, data, threshold=threshold, window=window)
+    return _core.classify(model, data, channels=channels, threshold=threshold, window=window)
 
 
 def evaluate(
@@ -205,6 +235,6 @@ def evaluate(
 ) -> Evaluation:
     """What a model is worth on a recording that it was not trained on."""
     data = _prepared("recording", recording, channels)
-    found = _core.evaluate(model, data, threshold=threshold)
+    found = _core.evaluate(model, data, channels=channels, threshold=threshold)
     shares = ("found", "refused", "strange", "undecided")
     return Evaluation(**{**found, **{name: Share(*found[name]) for name in shares}})

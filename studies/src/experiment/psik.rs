@@ -42,7 +42,8 @@ pub(super) fn evaluate(page: &mut Page, request: &Request, recordings: &Recordin
          (`studies/rigs/pad.toml`); the IMP of each, summed over the sweep, goes to a network of 33–33–8 \
          units, whose penalty on weights is chosen by a fifth of the training sweeps that is held \
          out. {training} sweeps of each paper to train on and {testing} to test with. The \
-         paper names neither the eight grades nor their order; here {} from coarse to fine.",
+         paper's grits vary from P180 to P50, and it does not say which lie between; here {} from \
+         coarse to fine, of which P40 is ours.",
         NAMES.join(", ")
     ));
 

@@ -3,6 +3,7 @@
 use crate::played::{Played, TICK_HZ, angles, play, textured, undisturbed};
 use firmware::{Event, Place};
 use host_sim::motor::EncoderFlaws;
+use host_sim::run::Run;
 use scene::Scene;
 use whisking::motor::Fault;
 
@@ -195,4 +196,28 @@ fn a_scale_that_is_wrong_is_found_at_home() {
             assert!(first - from < 21 * TICK_HZ, "{scale} from {from}: {first}");
         }
     }
+}
+
+#[test]
+fn a_coarse_encoder_finds_its_stop_or_is_refused() {
+    for motor in [
+        "counts_per_rev = 12\nhoming_duty = 0.055\n",
+        "counts_per_rev = 12\n",
+        "counts_per_rev = 16\nhoming_duty = 0.06\n",
+    ] {
+        let played = undisturbed(&finds(motor), 12 * TICK_HZ);
+        assert_eq!(faults(&played), [], "{motor}");
+        let whisks = played.rows[8 * TICK_HZ as usize..].iter();
+        let angles = whisks.map(|row| row.angle_deg[0]);
+        let most = angles.fold(0.0, f64::max);
+        assert!(most > 100.0, "{motor}: {most}");
+    }
+    let refused = Run::new(&finds("counts_per_rev = 4\ngear = 1.0\n"), None);
+    let fault = refused
+        .err()
+        .map(|error| error.to_string())
+        .unwrap_or_default();
+    let expected = "motor.counts_per_rev: found 4; allowed with a gear of 1 and motor.rest = \
+                    \"find\": at least 50";
+    assert!(fault.contains(expected), "{fault}");
 }

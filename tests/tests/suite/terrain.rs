@@ -39,7 +39,7 @@ fn terrain() -> Terrain {
         data: vec![data("terrain-train.csv")],
         channels: CHANNELS.map(str::to_owned),
         out: model.clone(),
-        rate: 2000,
+        rate: None,
         unknown: None,
         scene: None,
         plot: None,

@@ -25,12 +25,19 @@ impl Sampled {
 
 /// Numbers the touches: by the same rule from the same codes as the module does, of whose
 /// touches a record says only that there is one, and where nothing classifies not even that.
-#[derive(Debug, Default)]
+#[derive(Debug)]
 pub(crate) struct Sampler {
     touches: TouchDetector,
 }
 
 impl Sampler {
+    /// Of a module with so many ticks a second.
+    pub(crate) const fn new(tick_hz: u32) -> Self {
+        Self {
+            touches: TouchDetector::at(tick_hz),
+        }
+    }
+
     /// Takes a record; nothing while the whisker has a fault.
     pub(crate) fn take(&mut self, record: &TickRecord, before: Before) -> Option<Sampled> {
         if before != Before::Nothing {

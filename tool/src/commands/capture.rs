@@ -118,7 +118,7 @@ fn complete(
     let total = missing.len() * wanted - already;
     let mut capture = Capture {
         module,
-        sampler: Sampler::default(),
+        sampler: Sampler::new(about.tick_hz),
         tally: Tally::default(),
         side: usize::from(arguments.side.number()),
         tick_hz: about.tick_hz,

@@ -8,7 +8,7 @@ use host_sim::progress::Verbosity;
 
 use crate::conversation::Conversation;
 use crate::probe;
-use crate::source::{BoardName, Laying, build};
+use crate::source::{BoardName, Laying, build, is_of};
 
 /// Which program, and onto which board.
 #[derive(Debug, Args)]
@@ -32,6 +32,9 @@ pub(crate) struct Arguments {
 
 pub(crate) fn flash(arguments: &Arguments, verbosity: Verbosity) -> Result<(), Error> {
     let Arguments { board, probe, .. } = arguments;
+    if let Some(program) = &arguments.program {
+        is_of(program, Some(*board))?;
+    }
     // What cannot be flashed need not be built.
     probe::is_there(probe)?;
     let elf = match (&arguments.program, &arguments.scene) {

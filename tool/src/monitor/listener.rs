@@ -102,7 +102,7 @@ impl Listener {
             jump_per_s: f64::INFINITY,
         };
         Ok(Self {
-            perception: Some(Perception::new(known.classifier, SIDES.len())),
+            perception: Some(Perception::new(known.classifier, SIDES.len(), tick_hz)),
             least: known.contact_min.map(|least| least as f32),
             h50,
             limits: sensor_limits(tick_hz, plausible),

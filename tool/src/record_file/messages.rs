@@ -17,7 +17,7 @@ use wire::{Answer, TickRecord};
 
 use crate::faults::number;
 use crate::table;
-use crate::tally::{TickCount, side};
+use crate::tally::{TickCount, TickTime, side};
 
 const NS: u64 = 1_000_000_000;
 
@@ -29,6 +29,7 @@ pub(super) struct Messages {
     count: u32,
     tick_hz: u32,
     ticks: TickCount,
+    time: TickTime,
     classes: Vec<String>,
 }
 
@@ -87,6 +88,7 @@ impl Messages {
             count: 0,
             tick_hz,
             ticks: TickCount::default(),
+            time: TickTime::default(),
             classes: classes.to_vec(),
         })
     }
@@ -96,7 +98,7 @@ impl Messages {
             Packet::Record(record) => self.record(record),
             Packet::Answer(answer) => {
                 let channel = self.channels.answers;
-                let message = answer_message(answer, self.tick_hz);
+                let message = answer_message(answer, self.t_s(answer.sequence));
                 self.write(channel, message.to_string().as_bytes())
             }
             Packet::Event(event) => self.event(event),
@@ -104,7 +106,7 @@ impl Messages {
     }
 
     fn event(&mut self, EventRecord { sequence, event }: &EventRecord) -> io::Result<()> {
-        let t_s = f64::from(*sequence) / f64::from(self.tick_hz);
+        let t_s = self.t_s(*sequence);
         let (channel, message) = match event {
             Event::Decision(place, decision) => {
                 let among = decisions::among(*decision, &self.classes);
@@ -134,8 +136,13 @@ impl Messages {
     fn record(&mut self, record: &TickRecord) -> io::Result<()> {
         self.ticks.take(record.sequence);
         let channel = self.channels.records[side(record)];
-        let message = table::json(record, f64::from(self.tick_hz));
+        let message = table::json(record, self.t_s(record.sequence));
         self.write(channel, message.as_bytes())
+    }
+
+    /// The module's time at a tick of this number, s.
+    fn t_s(&mut self, sequence: u32) -> f64 {
+        self.time.take(sequence) as f64 / f64::from(self.tick_hz)
     }
 
     pub(super) fn line(&mut self, line: &str) -> io::Result<()> {
@@ -193,9 +200,9 @@ fn failed(error: McapError) -> io::Error {
     }
 }
 
-fn answer_message(answer: &Answer, tick_hz: u32) -> Value {
+fn answer_message(answer: &Answer, t_s: f64) -> Value {
     json!({
-        "t_s": f64::from(answer.sequence) / f64::from(tick_hz),
+        "t_s": t_s,
         "tag": answer.tag,
         "command": answer.command,
         "status": answer.status.code(),

@@ -42,14 +42,10 @@ pub(crate) struct SourceChoice {
     /// cannot be read
     #[arg(long, value_name = "ELF", conflicts_with = "sim")]
     program: Option<PathBuf>,
-    /// The board whose program is built, or that is behind the probe
-    #[arg(
-        long,
-        value_enum,
-        conflicts_with = "sim",
-        default_value = "nucleo-f446re"
-    )]
-    board: BoardName,
+    /// The board whose program is built, or that is behind the probe [default: nucleo-f446re, or
+    /// that of --program]
+    #[arg(long, value_enum, conflicts_with = "sim")]
+    board: Option<BoardName>,
     /// The scene in whose world the module is: what it meets, for how long, and the seed;
     /// without it the module's own
     #[arg(long, value_name = "SCENE", conflicts_with = "probe")]
@@ -79,6 +75,10 @@ impl SourceChoice {
         self.sim.as_deref().or(self.emulated.as_deref())
     }
 
+    fn board(&self) -> BoardName {
+        self.board.unwrap_or_default()
+    }
+
     /// Seconds in a second at which a module that has no clock of its own is watched.
     pub(crate) fn pace(&self) -> Option<f64> {
         self.sim.as_ref().map(|_| 1.0)
@@ -92,7 +92,7 @@ impl SourceChoice {
     pub(crate) fn open(&self, later: u64) -> Result<Box<dyn Source>, Error> {
         let laying = || Laying::by(self.lay_by.as_deref());
         if let Some(serial) = &self.probe {
-            return probe::open(serial, self.board, self.program.as_deref(), laying());
+            return probe::open(serial, self.board(), self.program.as_deref(), laying());
         }
         if let Some(port) = &self.port {
             return Ok(Box::new(Port::open(port, self.baud, laying())?));
@@ -121,8 +121,11 @@ impl SourceChoice {
             return Err(Error::file(path, fault));
         }
         let program = match &self.program {
-            Some(program) => program.clone(),
-            None => program::build(self.board, path)?,
+            Some(program) => {
+                program::is_of(program, self.board)?;
+                program.clone()
+            }
+            None => program::build(self.board(), path)?,
         };
         let emulated = Emulated::open(loaded, &program, flash)?;
         Ok(Box::new(emulated))

@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use clap::ValueEnum;
+use emulator::session::Session;
 use firmware::Header;
 use host_sim::loaded::Loaded;
 use host_sim::output::write_whole;
@@ -15,9 +16,10 @@ use super::board::Board;
 use crate::deployment::model_of;
 
 /// A board whose program can be built, emulated and flashed.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, ValueEnum)]
 pub(crate) enum BoardName {
     /// Cortex-M4F, a whisker a side
+    #[default]
     NucleoF446re,
     /// Cortex-M3, in fixed point, one whisker
     NucleoF103rb,
@@ -28,6 +30,20 @@ pub(crate) enum BoardName {
 /// Bytes of flash in which a program has room for all its parts, and so takes any scene. A smaller
 /// one has those that its scene needs.
 const ROOM_FOR_ALL: u32 = 128 * 1024;
+
+/// Whether the program in a file is one of a board, of this one if it is named.
+pub(crate) fn is_of(program: &Path, board: Option<BoardName>) -> Result<(), Error> {
+    let found = Session::board_of(program)?;
+    let Some(board) = board.map(BoardName::board) else {
+        return Ok(());
+    };
+    if found == board.program {
+        return Ok(());
+    }
+    let name = board.name;
+    let fault = format!("found the program of another board, {found}; allowed: that of {name}");
+    Err(Error::file(program, fault))
+}
 
 /// Builds the program of a board, which brings `scene` with it; returns its file.
 pub(crate) fn build(board: BoardName, scene: &Path) -> Result<PathBuf, Error> {

@@ -36,12 +36,15 @@ fn where_nothing_is_logged_it_says_why() {
 fn it_needs_one_module() {
     let place = Place::new();
     place.write("two.toml", &bench_with(&[("side = 1", "side = 2")]));
+    place.write("text.elf", "no program");
     for (options, why) in [
         ("", "--sim <SCENE>"),
         ("--sim bench.toml --emulated bench.toml", "cannot be used"),
         ("--sim none.toml", "none.toml"),
         ("--sim bench.toml --seconds 0", "above 0"),
         ("--sim bench.toml --program x.elf", "--emulated"),
+        ("--emulated bench.toml --program none.elf", "none.elf: "),
+        ("--emulated bench.toml --program text.elf", "text.elf: "),
         ("--sim two.toml", "head.whiskers_per_side = 1"),
     ] {
         place.refuses(&format!("log {options}"), why);

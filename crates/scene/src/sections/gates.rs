@@ -20,7 +20,7 @@ keys! {
 keys! {
     /// Contact-induced asymmetry.
     pub(crate) Cia fills GateSettings {
-        /// Gain σ_g on the other side's gate.
+        /// Gain σ_g with which contact excites the gates of all whiskers.
         gain: f64 = number(GATE_GAIN),
 
         /// Time constant τ_g of the recovery.

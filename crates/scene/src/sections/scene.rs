@@ -55,10 +55,11 @@ keys! {
             "contact does not gate the drive (no rapid cessation of protraction)"
         ).needs("whisking"),
 
-        /// Contact-induced asymmetry: contact lends drive to the other side
-        /// (BIOTACT eqs 12 and 13).
+        /// Contact-induced asymmetry: contact on either side excites the whiskers of both (BIOTACT
+        /// eqs 12 and 13); with `[rcp]`, which takes drive from its own side, the other side's
+        /// protract more.
         [cia]: Option<GateSettings> = optional::<Cia>(
-            "contact on one side leaves the other alone (no contact-induced asymmetry)"
+            "contact excites no whisker (no contact-induced asymmetry)"
         ).needs("whisking"),
 
         /// Motor, gear, encoder and position control.

@@ -96,6 +96,7 @@ fn words(detector: &mut TouchDetector) -> Vec<Word<'_>> {
         peak,
         // One of two, of which the board's code tells one.
         course: _,
+        start,
         seen,
         of_block,
         quiet,
@@ -126,7 +127,7 @@ fn words(detector: &mut TouchDetector) -> Vec<Word<'_>> {
         all.push(Word::Flag(began));
     }
     all.extend([deflection, far, peak].map(Word::U32));
-    all.extend([seen, number, last].map(Word::U16));
+    all.extend([start, seen, number, last].map(Word::U16));
     all.extend([of_block, quiet, apart].map(Word::U8));
     all.extend([in_contact, in_touch, is_sure, is_onset].map(Word::Flag));
     all

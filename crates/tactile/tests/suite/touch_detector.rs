@@ -167,3 +167,30 @@ fn a_step_that_saturates_is_a_touch() {
     }
     assert_eq!(onsets, 1);
 }
+
+/// The first touch that is reported, of those that begin every tenth of a second, s.
+fn first_reported_s(tick_hz: u32) -> f64 {
+    let mut noise = Noise(3);
+    let mut detector = TouchDetector::at(tick_hz);
+    let period = tick_hz / 10;
+    for n in 0..3 * tick_hz {
+        let x = if n % period < period / 4 {
+            3_000.0
+        } else {
+            0.0
+        };
+        let code = |x: f64| (x + noise.next()).round().clamp(0.0, 16383.0) as u16;
+        if detector.step([REST + x, REST].map(code)).is_onset {
+            return f64::from(n) / f64::from(tick_hz);
+        }
+    }
+    f64::NAN
+}
+
+#[test]
+fn touches_are_reported_from_the_same_time_on_at_any_rate() {
+    for tick_hz in [500, 1000, 2000, 4000] {
+        let first_s = first_reported_s(tick_hz);
+        assert!((1.0..1.11).contains(&first_s), "{tick_hz}: {first_s}");
+    }
+}

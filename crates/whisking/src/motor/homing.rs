@@ -13,6 +13,9 @@ use crate::{REST_DEG, Real};
 
 /// How long a whisker must stand still to be at its stop, s: longer than a gear sticks.
 const STILL_S: f64 = 0.1;
+/// The longest that it may have to, where counts are so coarse that the next ones take longer: a
+/// sixth of what its ways may take.
+const STILL_MOST_S: f64 = 0.5;
 /// How long each of the ways of homing may take, s: several times the way from stop to stop at a
 /// low duty.
 const TIME_OUT_S: f64 = 3.0;
@@ -48,6 +51,24 @@ pub struct HomingSettings {
 }
 
 impl HomingSettings {
+    /// How slow a whisker can be that comes through its range in time, degrees/s; of no range 1.
+    fn slowest_deg_s(&self) -> f64 {
+        let end = self.far_stop_deg.unwrap_or(self.max_deg);
+        ((end - self.stop_deg) / TIME_OUT_S).max(1.0)
+    }
+
+    /// The most degrees a count by which one that moves so can be told from one that stands.
+    pub fn coarsest_deg(&self) -> f64 {
+        STILL_MOST_S * self.slowest_deg_s() / f64::from(FLICKER + 1)
+    }
+
+    /// How long it must stand still: as long as the slowest one needs for more counts than those
+    /// by which one that stands flickers.
+    fn still_s(&self) -> f64 {
+        let degrees = f64::from(FLICKER + 1) * self.degrees_per_count;
+        (degrees / self.slowest_deg_s()).clamp(STILL_S, STILL_MOST_S)
+    }
+
     /// The constants at `tick_hz` ticks a second.
     pub fn build(&self, tick_hz: f64) -> HomingConfig {
         let ticks = |seconds: f64| libm::round(seconds * tick_hz).max(1.0) as u16;
@@ -55,7 +76,7 @@ impl HomingSettings {
         let within = |degrees: f64| counts(degrees).max(f64::from(FLICKER)) as u32;
         HomingConfig {
             duty: Duty::from_f32(self.duty as f32),
-            still: ticks(STILL_S),
+            still: ticks(self.still_s()),
             time_out: ticks(TIME_OUT_S),
             forward: counts(FORWARD_DEG).max(f64::from(FLICKER) + 1.0) as i32,
             stop: counts(self.stop_deg - REST_DEG) as i32,

@@ -1,0 +1,77 @@
+//! What is odd about recordings, though they can be read: values that stand apart, trials in
+//! pieces, trials that are there twice.
+
+pub mod equal;
+pub mod outliers;
+
+use std::collections::HashSet;
+
+use crate::recording::Stream;
+
+/// Something odd.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Doubt {
+    /// In which recording, from 0.
+    pub recording: usize,
+    /// At which of its samples, from 0 over all its streams.
+    pub sample: usize,
+    /// What it is.
+    pub said: String,
+}
+
+/// What is odd about recordings, each with its name, whose channels are called so.
+pub fn doubts(recordings: &[(String, Vec<Stream>)], channels: [&str; 2]) -> Vec<Doubt> {
+    let mut found = outliers::doubts(recordings, channels);
+    let each = recordings.iter().enumerate();
+    found.extend(each.filter_map(|(recording, (_, streams))| {
+        in_pieces(streams).map(|(sample, said)| Doubt {
+            recording,
+            sample,
+            said,
+        })
+    }));
+    found.extend(equal::doubts(recordings));
+    found
+}
+
+/// Where a trial begins again after rows of another, and how often that is so.
+fn in_pieces(streams: &[Stream]) -> Option<(usize, String)> {
+    let (mut trials, mut first, mut sample) = (HashSet::new(), None, 0);
+    for stream in streams {
+        let is_new = trials.insert((&stream.label, &stream.trial));
+        if !is_new {
+            first.get_or_insert((sample, stream));
+        }
+        sample += stream.samples.len();
+    }
+    let (sample, Stream { label, trial, .. }) = first?;
+    let said = format!(
+        "trial {trial:?} of {label:?} begins again after rows of another: {} trials are in {} \
+         pieces. The rows of a trial must follow each other in time order; a piece counts as a \
+         trial",
+        trials.len(),
+        streams.len()
+    );
+    Some((sample, said))
+}
+
+/// What makes trials too short to learn from.
+pub fn short(recordings: &[(String, Vec<Stream>)]) -> String {
+    let streams = || recordings.iter().flat_map(|(_, streams)| streams);
+    let rows: usize = streams().map(|stream| stream.samples.len()).sum();
+    let count = streams().count();
+    format!(
+        "a trial is what rows of one label and trial are that follow each other: found {count}, of \
+         {:.1} rows in the mean",
+        rows as f64 / count.max(1) as f64
+    )
+}
+
+/// Where a stream begins, from 0 over all samples of its recording.
+fn begins(streams: &[Stream], at: usize) -> usize {
+    let before = streams.iter().take(at);
+    before.map(|stream| stream.samples.len()).sum()
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,50 @@
+//! Samples a second: by an option, by what stands above a recording, by a scene or a model. All
+//! that say them must agree.
+
+/// Samples a second of a recording of which nothing is said.
+pub const USUAL_HZ: u32 = 2000;
+
+/// Who says it, and what; none: it says nothing.
+pub type Said = (String, Option<u32>);
+
+/// The samples a second that all agree on; none: nobody says them.
+///
+/// # Errors
+/// The first two that contradict each other.
+pub fn agreed(said: impl IntoIterator<Item = Said>) -> Result<Option<u32>, String> {
+    let mut first: Option<(String, u32)> = None;
+    for (who, hz) in said {
+        match (&first, hz) {
+            (Some((other, before)), Some(hz)) if *before != hz => {
+                return Err(format!("{other}: found {before}, {who} has {hz}"));
+            }
+            (None, Some(hz)) => first = Some((who, hz)),
+            _ => {}
+        }
+    }
+    Ok(first.map(|(_, hz)| hz))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Said, agreed};
+
+    #[test]
+    fn who_says_a_rate_must_agree_with_the_others() {
+        let said = |all: &[(&str, Option<u32>)]| {
+            let all: Vec<Said> = all.iter().map(|(who, hz)| ((*who).into(), *hz)).collect();
+            agreed(all)
+        };
+        assert_eq!(said(&[("a", None)]), Ok(None));
+        assert_eq!(
+            said(&[("a", None), ("b", Some(5)), ("c", Some(5))]),
+            Ok(Some(5))
+        );
+        let fault = said(&[
+            ("--rate", Some(5)),
+            ("b", None),
+            ("c.csv: tick_hz", Some(6)),
+        ]);
+        assert_eq!(fault, Err("--rate: found 5, c.csv: tick_hz has 6".into()));
+    }
+}

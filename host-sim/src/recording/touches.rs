@@ -1,0 +1,80 @@
+//! The touches of a recording, by their numbers.
+
+use super::Stream;
+
+/// The number of a touch from a cell: whole, as others write it too, or a truth.
+///
+/// # Errors
+/// What is wrong with it.
+pub(super) fn number(cell: &str) -> Result<u16, String> {
+    let number = match cell.to_ascii_lowercase().as_str() {
+        "true" => Some(1.0),
+        "false" => Some(0.0),
+        number => number.parse::<f64>().ok(),
+    };
+    let is_whole = |number: &f64| number.trunc() == *number && (0.0..=65_535.0).contains(number);
+    let number = number.filter(is_whole).map(|number| number as u16);
+    number.ok_or_else(|| format!("touch is {cell:?}, not a whole number from 0 to 65535"))
+}
+
+/// Numbers touches that have no numbers of their own: where all that is not 0 is the same, as in a
+/// column of 0 and 1, each rise from 0 begins another touch.
+pub fn tell_apart(streams: &mut [Stream]) {
+    let touches = streams.iter().filter_map(|stream| stream.touch.as_ref());
+    let mut numbers = touches.flatten().filter(|number| **number != 0);
+    let first = numbers.next().copied();
+    let Some(one) = first.filter(|one| numbers.all(|number| number == one)) else {
+        return;
+    };
+    for touch in streams
+        .iter_mut()
+        .filter_map(|stream| stream.touch.as_mut())
+    {
+        let (mut last, mut is_touching, mut is_first) = (one, false, true);
+        for number in touch {
+            let touches = *number != 0;
+            if touches && !is_touching && !is_first {
+                last = last.checked_add(1).unwrap_or(1);
+            }
+            is_first &= !touches;
+            is_touching = touches;
+            if touches {
+                *number = last;
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::number;
+    use crate::recording::{CHANNELS, read};
+
+    fn touches(cells: &[&str]) -> Vec<u16> {
+        let rows = cells.iter().map(|cell| format!("a,1,2,3,{cell}\n"));
+        let table = format!("label,trial,x,y,touch\n{}", rows.collect::<String>());
+        let streams = read(table.as_bytes(), CHANNELS).unwrap();
+        streams[0].touch.clone().unwrap()
+    }
+
+    #[test]
+    fn each_rise_of_a_column_of_0_and_1_begins_a_touch() {
+        let told = touches(&["0", "1", "1", "0", "1", "0", "0", "1"]);
+        assert_eq!(told, [0, 1, 1, 0, 2, 0, 0, 3]);
+        assert_eq!(touches(&["1.0", "0.0", "1.0"]), [1, 0, 2]);
+        assert_eq!(touches(&["False", "True", "False", "True"]), [0, 1, 0, 2]);
+    }
+
+    #[test]
+    fn touches_that_have_numbers_keep_them() {
+        assert_eq!(touches(&["0", "7", "7", "0"]), [0, 7, 7, 0]);
+        assert_eq!(touches(&["3", "0", "4", "0", "3"]), [3, 0, 4, 0, 3]);
+    }
+
+    #[test]
+    fn other_cells_are_no_numbers() {
+        for cell in ["", "-1", "0.5", "65536", "nan", "yes"] {
+            assert!(number(cell).is_err(), "{cell}");
+        }
+    }
+}

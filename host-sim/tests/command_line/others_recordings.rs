@@ -1,0 +1,239 @@
+//! Recordings of other people: what the page says of them is so.
+
+use crate::common::{Place, SEQUENTIAL, TEXTURED};
+
+const PAGE: &str = include_str!("../../../docs/recordings.md");
+const TRAIN: &str = "train --tables single --data r.csv";
+const TRAINED: &str = "train --tables single --data r.csv --out m";
+
+/// Samples that never repeat, from a place in their sequence, of a class by its level.
+fn rows(label: &str, trial: usize, level: u32, range: std::ops::Range<u32>) -> String {
+    let row = |n: u32| {
+        let x = level + (n.wrapping_mul(0x9E37_79B9) >> 22);
+        format!("{label},{trial},{x},{}\n", x / 3)
+    };
+    range.map(row).collect()
+}
+
+/// Three trials of each of two classes.
+fn usual() -> String {
+    let trials = (0..3).flat_map(|trial: u32| {
+        let at = 1_000 * trial;
+        ["low", "high"].map(|label| {
+            let level = if label == "low" { 1_000 } else { 9_000 };
+            rows(label, trial as usize, level, at..at + 400)
+        })
+    });
+    format!("label,trial,x,y\n{}", trials.collect::<String>())
+}
+
+#[test]
+fn what_the_page_says_is_refused_is_refused_so() {
+    let header = "label,trial,x,y\n";
+    let with = |rows: &str| format!("{header}{rows}").into_bytes();
+    let touch = b"label,trial,x,y,touch\na,1,2,3,yes\n".to_vec();
+    for (recording, message) in [
+        (
+            b"label,trial,x\na,1,2\n".to_vec(),
+            "line 1: no column \"y\"; a recording has label,trial,x,y",
+        ),
+        (
+            b"label;trial;x;y\na;1;2;3\n".to_vec(),
+            "line 1: semicolons stand between the columns; allowed: commas, and points in numbers",
+        ),
+        (
+            b"\xff\xfel\0a\0".to_vec(),
+            "line 1: the text is in UTF-16; save it as CSV in UTF-8",
+        ),
+        (
+            b"label,trial,x,y\na,1,2,3\nh\xf6lz,1,2,3\n".to_vec(),
+            "line 3: not UTF-8 (Latin-1?); save it as CSV in UTF-8",
+        ),
+        (
+            with("a,1,\"0,5\",3\n"),
+            "line 2: x is \"0,5\", not a finite number; a point is needed, no comma",
+        ),
+        (
+            with("a,1,nan,3\n"),
+            "line 2: x is \"nan\", not a finite number",
+        ),
+        (with("a,1,2\n"), "line 2: 3 cells; the header has 4"),
+        (with(",1,2,3\n"), "line 2: the label is empty"),
+        (with("nan,1,2,3\n"), "line 2: the label is missing: \"nan\""),
+        (
+            with("\"a\nb\",1,2,3\n"),
+            "line 2: label \"a\\nb\" has the character '\\n', which is not to be seen",
+        ),
+        (
+            touch,
+            "line 2: touch is \"yes\", not a whole number from 0 to 65535",
+        ),
+        (
+            b"# tick_hz = fast\nlabel,trial,x,y\na,1,2,3\n".to_vec(),
+            "tick_hz is \"fast\", not a whole number above 0",
+        ),
+        (header.as_bytes().to_vec(), "no samples"),
+    ] {
+        let place = Place::new();
+        place.write("r.csv", recording);
+        place.refuses_to_write(TRAIN, &["r.csv: ", message]);
+        assert!(PAGE.contains(&format!("`{message}`")), "{message}");
+    }
+}
+
+#[test]
+fn the_rate_above_the_table_is_the_recording_s() {
+    let place = Place::new();
+    place.write("r.csv", format!("# tick_hz = 1000\n{}", usual()));
+    let fault = "--rate: found 500, r.csv: tick_hz has 1000";
+    place.refuses_to_write(&format!("{TRAIN} --rate 500"), &[fault]);
+    assert!(PAGE.contains(&format!("`{fault}`")));
+    place.done(TRAINED);
+    let rate = |name: &str| {
+        let model = tactile::ModelBuf::from_bytes(&place.bytes(name));
+        model.unwrap().rate_hz()
+    };
+    assert_eq!(rate("m"), Some(1000));
+    place.done(&format!("{TRAINED} --rate 1000"));
+    // A millisecond a sample, without the option.
+    let evaluate = "evaluate --model m --data r.csv --threshold 0.6";
+    assert!(place.done(evaluate).stdout.contains("20 samples (20 ms)"));
+    place.refuses(&format!("{evaluate} --rate 2000"), &["--rate: found 2000"]);
+
+    place.write("other.csv", usual());
+    place.done("train --tables single --data other.csv --out usual");
+    assert_eq!(rate("usual"), Some(2000));
+    let evaluate = "evaluate --model usual --data r.csv";
+    place.refuses(evaluate, &["usual: found 2000, r.csv: tick_hz has 1000"]);
+    let classify = "classify --model usual --data r.csv --rule window --window 20 --out d.csv";
+    place.refuses(classify, &["usual: found 2000, r.csv: tick_hz has 1000"]);
+    place.write("2.csv", format!("# tick_hz = 2000\n{}", usual()));
+    place.refuses_to_write(
+        &format!("{TRAIN} --data 2.csv"),
+        &["r.csv: tick_hz: found 1000, 2.csv: tick_hz has 2000"],
+    );
+}
+
+#[test]
+fn a_model_of_another_rate_is_refused_by_a_scene() {
+    let place = Place::new();
+    let slow = TEXTURED.replace("tick_hz = 2000", "tick_hz = 1000");
+    place.write("slow.toml", &slow);
+    place.done("record slow.toml --out r.csv");
+    assert!(place.text("r.csv").starts_with("# tick_hz = 1000\n"));
+    place.done("train --tables single --data r.csv --out the.model");
+    place.write("slow.toml", format!("{slow}{SEQUENTIAL}"));
+    place.done("run slow.toml --out out");
+    place.write("fast.toml", format!("{TEXTURED}{SEQUENTIAL}"));
+    place.refuses(
+        "run fast.toml --out out2",
+        &[
+            "classifier.model",
+            "1000 samples a second; the scene has tick_hz = 2000",
+        ],
+    );
+}
+
+#[test]
+fn what_is_odd_is_warned_of_with_its_line() {
+    let place = Place::new();
+    let warned = |table: String, line: &str, message: &str| {
+        place.write("r.csv", format!("# from the bench\n{table}"));
+        let printed = place.done(TRAINED).stdout;
+        let warning = format!("\nwarning: r.csv:{line}: ");
+        assert!(printed.contains(&warning), "no {warning}: {printed}");
+        assert!(printed.contains(message), "no {message}: {printed}");
+        assert!(PAGE.contains(message), "{message}");
+    };
+    let rows_of = |table: &str| table.lines().count();
+    let table = usual();
+    let next = rows_of(&table) + 2;
+    warned(
+        format!("{table}high,9,1e9,7\n"),
+        &next.to_string(),
+        "a reading that failed? It does not make the scale",
+    );
+    warned(
+        format!("{table}{}", rows("low", 0, 1_000, 7_000..7_400)),
+        &next.to_string(),
+        "The rows of a trial must follow each other in time order; a piece counts as a trial",
+    );
+    warned(
+        format!("{table}{}", rows("low", 9, 1_000, 100..500)),
+        "3",
+        "What is held out is then not new, and figures are too good; trials must not overlap",
+    );
+    place.write("r.csv", &table);
+    place.write("copy.csv", &table);
+    let printed = place
+        .done("train --data r.csv --data copy.csv --out m")
+        .stdout;
+    assert!(
+        printed.contains("warning: r.csv:2: 100 % of trial"),
+        "{printed}"
+    );
+    assert!(printed.contains("in copy.csv too"), "{printed}");
+    assert!(!place.done(TRAINED).stdout.contains("warning"));
+}
+
+/// Codes with one word of ones: the model is still one of codes, and decides as before.
+#[test]
+fn one_outlier_changes_no_decision() {
+    let place = Place::new();
+    let evaluated = |table: String| {
+        place.write("r.csv", table);
+        place.write("test.csv", usual());
+        place.done(TRAINED);
+        let printed = place.done("evaluate --model m --data test.csv").stdout;
+        printed
+            .lines()
+            .find(|line| line.starts_with("hit rate"))
+            .map(str::to_owned)
+    };
+    let usual = usual();
+    let outlier = format!("{usual}high,2,4294967295,7\n");
+    assert_eq!(evaluated(usual), evaluated(outlier));
+}
+
+#[test]
+fn rows_in_no_order_are_named_where_nothing_can_be_learnt() {
+    let place = Place::new();
+    let mut alternating = String::from("label,trial,x,y\n");
+    for n in 0..400 {
+        alternating += &rows(["low", "high"][n % 2], 1, 1_000, n as u32..n as u32 + 1);
+    }
+    place.write("r.csv", alternating);
+    place.refuses_to_write(
+        "train --data r.csv",
+        &[
+            "less than two blocks",
+            "found 400, of 1.0 rows in the mean",
+            "r.csv:4: trial \"1\" of \"low\" begins again",
+            "2 trials are in 400 pieces. The rows of a trial must follow each other",
+        ],
+    );
+}
+
+#[test]
+fn a_hit_rate_says_which_classes_it_leaves_out() {
+    let place = Place::new();
+    place.write("r.csv", usual());
+    place.done(TRAINED);
+    // Too short for a decision.
+    let short = rows("high", 0, 9_000, 0..5);
+    place.write(
+        "short.csv",
+        format!("label,trial,x,y\n{}{short}", rows("low", 0, 1_000, 0..400)),
+    );
+    let printed = place.done("evaluate --model m --data short.csv").stdout;
+    let over = "(mean over classes without high: no decision names a class there)";
+    assert!(printed.contains(over), "{printed}");
+    let over = over.replace("high", "felt");
+    assert!(PAGE.contains(&over), "{over}");
+    let classify = "classify --model m --data short.csv --rule window --window 20 --out d.csv";
+    let printed = place.done(classify).stdout;
+    assert!(
+        printed.contains("left out, nothing was decided on: high"),
+        "{printed}"
+    );
+}
