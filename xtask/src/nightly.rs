@@ -6,8 +6,8 @@ use std::process::Command;
 use std::time::{SystemTime, UNIX_EPOCH};
 
 use crate::emulate::Emulated;
-use crate::firmware::{Board, every_part};
-use crate::run::{Fault, cargo, installed, run, target};
+use crate::firmware::{self, Board, every_part};
+use crate::run::{Fault, cargo, installed, run, target, top};
 use crate::steps::Steps;
 use crate::{
     ci, cost, dependencies, docs, emulate, endurance, faults, fuzz, mutants, panics, python,
@@ -67,6 +67,9 @@ fn lints() -> Result<(), Fault> {
         run(cargo(&["clippy"])
             .args(board.build_arguments(every_part(board)))
             .args(deny))?;
+        // What reads the other sensor.
+        let tilt = firmware::linked(board, &top().join(emulate::TILT))??.image.features;
+        run(cargo(&["clippy"]).args(board.build_arguments(&tilt)).args(deny))?;
     }
     Ok(())
 }
