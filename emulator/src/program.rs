@@ -28,7 +28,10 @@ impl Program {
     pub(crate) fn load(path: &Path) -> Result<Self, Fault> {
         let named = |fault: &dyn std::fmt::Display| bad(format!("{}: {fault}", path.display()));
         let bytes = file::read(path, file::BINARY_BYTES).map_err(|error| named(&error))?;
-        Self::parse(bytes).map_err(|fault| named(&fault))
+        Self::parse(bytes).map_err(|fault| match fault {
+            Fault::Program(what) => named(&what),
+            fault => fault,
+        })
     }
 
     fn parse(bytes: Vec<u8>) -> Result<Self, Fault> {

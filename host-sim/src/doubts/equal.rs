@@ -7,7 +7,7 @@ use super::{Doubt, begins};
 use crate::recording::{GATE, Stream};
 
 /// Samples that must be equal, one after the other.
-const STRETCH: usize = 32;
+const STRETCH: usize = 16;
 /// Steps between them in which they must change: what rests is equal by chance.
 const CHANGES: usize = STRETCH / 2;
 /// The share of a trial that must be found in another one.
