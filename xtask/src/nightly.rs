@@ -68,8 +68,12 @@ fn lints() -> Result<(), Fault> {
             .args(board.build_arguments(every_part(board)))
             .args(deny))?;
         // What reads the other sensor.
-        let tilt = firmware::linked(board, &top().join(emulate::TILT))??.image.features;
-        run(cargo(&["clippy"]).args(board.build_arguments(&tilt)).args(deny))?;
+        let tilt = firmware::linked(board, &top().join(emulate::TILT))??
+            .image
+            .features;
+        run(cargo(&["clippy"])
+            .args(board.build_arguments(&tilt))
+            .args(deny))?;
     }
     Ok(())
 }

@@ -153,6 +153,12 @@ fn the_sensor_s_own_report_is_logged_bit_by_bit() {
             (300 + RECOVER - 1, Event::SensorBack(place)),
         ];
         assert_eq!(played.events, expected);
+        // With the frame as it came, which has the report in B5 and B6.
+        let [(tick, of, frame)] = played.frames[..] else {
+            panic!("{:?}", played.frames);
+        };
+        assert_eq!((tick, of), (200 + HOLD, place));
+        assert_eq!([frame[5], frame[6]], faults.bits().to_le_bytes());
     }
 }
 

@@ -1,8 +1,9 @@
 //! A scene played tick by tick, with a hand on its sensors.
 
-use firmware::Event;
+use firmware::{Event, Place};
 use host_sim::run::Run;
 use host_sim::trace::Row;
+use mlx90333::FRAME_LEN;
 use scene::Scene;
 
 /// Ticks a second of [`scene`].
@@ -12,8 +13,10 @@ pub(crate) const TICK_HZ: u64 = 2000;
 pub(crate) struct Played {
     /// The trace.
     pub(crate) rows: Vec<Row>,
-    /// Events but touches, with their tick, from 0.
+    /// Events but touches and frames, with their tick, from 0.
     pub(crate) events: Vec<(u64, Event)>,
+    /// Frames that were shown, with their tick.
+    pub(crate) frames: Vec<(u64, Place, [u8; FRAME_LEN])>,
     /// What was listened to: tick and codes x, y of the left first whisker.
     pub(crate) heard: Vec<(u64, [u16; 2])>,
 }
@@ -45,15 +48,19 @@ pub(crate) fn play(scene: &Scene, ticks: u64, mut act: impl FnMut(u64, &mut Run)
     let mut played = Played {
         rows: Vec::new(),
         events: Vec::new(),
+        frames: Vec::new(),
         heard: Vec::new(),
     };
     for tick in 0..ticks {
         act(tick, &mut run);
         played.rows.push(run.tick());
-        let touches =
-            |event: &&Event| matches!(event, Event::Touch { .. } | Event::TouchEnd { .. });
-        let events = run.events().iter().filter(|event| !touches(event));
-        played.events.extend(events.map(|event| (tick, *event)));
+        for event in run.events() {
+            match *event {
+                Event::Touch { .. } | Event::TouchEnd { .. } => {}
+                Event::Frame(place, bytes) => played.frames.push((tick, place, bytes)),
+                event => played.events.push((tick, event)),
+            }
+        }
         played
             .heard
             .extend(run.sample().map(|sample| (tick, sample.codes)));
