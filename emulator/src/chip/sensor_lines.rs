@@ -100,7 +100,6 @@ pub(super) struct SensorLines {
     decoder: Decoder,
     /// In a frame that comes sooner after the last it is silent.
     silence: Ps,
-    is_silent: bool,
     /// What messages call the side.
     side: &'static str,
     selected: bool,
@@ -135,7 +134,6 @@ impl SensorLines {
             needs: Needs::FAST,
             decoder: Decoder::new(),
             silence: 0,
-            is_silent: false,
             side,
             selected: false,
             fell: 0,
@@ -176,8 +174,6 @@ impl SensorLines {
     pub(super) fn select(&mut self, low: bool, now: Ps) {
         if low && !self.selected {
             self.fell = now;
-            let rested = self.rose.map(|(rose, _)| now.saturating_sub(rose));
-            self.is_silent = rested.is_some_and(|rested| rested < self.silence);
             self.fresh = true;
             self.ended = None;
             self.read.clear();
@@ -203,6 +199,12 @@ impl SensorLines {
             self.is_over = true;
         }
         self.selected = low;
+    }
+
+    /// Whether it is silent in the frame that is under way.
+    fn is_silent(&self) -> bool {
+        let rested = self.rose.map(|(rose, _)| self.fell.saturating_sub(rose));
+        rested.is_some_and(|rested| rested < self.silence)
     }
 
     /// Whether /SS has risen since the last call.
@@ -253,7 +255,7 @@ impl SensorLines {
 
     /// The sensor has said this so far, and nothing else: where it was put.
     pub(super) fn say_again(&mut self, said: &[u8]) -> Vec<u32> {
-        if self.is_silent || said.len() != self.read.len() || said.len() != self.put.len() {
+        if self.is_silent() || said.len() != self.read.len() || said.len() != self.put.len() {
             return Vec::new();
         }
         self.read = said.to_vec();
@@ -264,7 +266,7 @@ impl SensorLines {
     pub(super) fn end(&mut self, sent: u8, now: Ps, sensor: Option<&mut impl SensorEnd>) -> u8 {
         self.ended = Some(now);
         let read = match sensor {
-            Some(sensor) if self.selected && !self.is_silent => sensor.exchange(sent),
+            Some(sensor) if self.selected && !self.is_silent() => sensor.exchange(sent),
             _ => 0xFF,
         };
         self.read.push(read);
