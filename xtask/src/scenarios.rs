@@ -351,6 +351,7 @@ const SHORT: &[&str] = &[
     "reversed-encoder",
     "opened-limits",
     "wild-gains",
+    "summed-otherwise",
     "stop-under-flood",
     "probe-stop-under-flood",
     "reset-after-stop",
