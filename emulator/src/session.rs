@@ -5,6 +5,7 @@ use std::ops::Range;
 use std::path::Path;
 
 use firmware::Packet;
+use firmware::boards::Slot;
 use host_sim::Error;
 use host_sim::received::Received;
 use host_sim::run::Run;
@@ -31,6 +32,7 @@ pub struct Session {
     board: &'static str,
     /// Where scenes and models lie.
     place: Range<u32>,
+    slots: [Slot; 2],
     sides: usize,
     pub(crate) tick_hz: u32,
     /// Whether requests go by the serial line.
@@ -96,6 +98,7 @@ impl Session {
             decoder: program.log_decoder()?,
             board: program.model()?.program,
             place: program.scenes()?,
+            slots: program.model()?.facts.flash.slots,
             sides: scene.head.sides.count(),
             tick_hz: scene.tick_hz,
             is_by_serial: false,
@@ -148,14 +151,22 @@ impl Session {
         self.efforts().iter().all(|effort| *effort > 0.0)
     }
 
-    /// What lies in the flash where scenes and models do.
+    /// What lies in the flash where scenes and models do, but for the marks of scenes that have
+    /// armed motors by themselves: whoever starts a board with it has whiskers at rest, as with one
+    /// that was just deployed to.
     ///
     /// # Errors
     /// [`Error::Work`] if it cannot be read.
     pub fn flash(&mut self) -> Result<Vec<u8>, Error> {
         let place = self.place.clone();
         let memories = &self.machine().memories;
-        Ok(memories.flashed_bytes(place.start, place.len())?)
+        let mut bytes = memories.flashed_bytes(place.start, place.len())?;
+        for mark in self.slots.map(Slot::mark) {
+            let from = (mark.start - place.start) as usize;
+            let marked = bytes.iter_mut().skip(from).take(mark.bytes as usize);
+            marked.for_each(|byte| *byte = u8::MAX);
+        }
+        Ok(bytes)
     }
 
     /// From now on a reset that the program or the watchdog makes is no fault, and the world
