@@ -64,7 +64,7 @@ fn decode(
     let frame = if decoder == const { Decoder::new() } {
         const { Decoder::new() }.decode(&bytes)
     } else {
-        decode_otherwise(decoder, &bytes)
+        decode_otherwise(decoder, bytes)
     };
     let frame = frame.map_err(SensorFault::Frame)?;
     Ok([frame.first(), frame.second()])
@@ -72,8 +72,8 @@ fn decode(
 
 #[cold]
 #[inline(never)]
-fn decode_otherwise(decoder: Decoder, bytes: &[u8; FRAME_LEN]) -> Result<Frame, FrameError> {
-    decoder.decode(bytes)
+fn decode_otherwise(decoder: Decoder, bytes: [u8; FRAME_LEN]) -> Result<Frame, FrameError> {
+    decoder.decode(&bytes)
 }
 
 impl<F: FrameSource> WordSource for F {

@@ -128,7 +128,7 @@ impl Seen {
         }
         if share(self.silent) > 1.0 - CLEAN {
             found.push(format!(
-                "{} frames are all ones, so nobody answers: supply, /SS, SCLK and data line with an \
+                "{} frames are all ones, so nothing answers: supply, /SS, SCLK and data line with an \
                  oscilloscope; if it is every second or third frame, the sensor may need a longer \
                  rest: try tick_hz = 1000",
                 self.silent
@@ -283,12 +283,12 @@ mod tests {
     }
 
     #[test]
-    fn nobody_a_short_and_a_report_are_found() {
+    fn silence_a_short_and_a_report_are_found() {
         let says = |frames: &[[u8; FRAME_LEN]], what: &str| {
             let found = Seen::of(frames).findings(Decoder::new());
             assert!(found.iter().any(|found| found.contains(what)), "{found:?}");
         };
-        says(&[[0xFF; FRAME_LEN]; 50], "nobody answers");
+        says(&[[0xFF; FRAME_LEN]; 50], "nothing answers");
         says(&[[0; FRAME_LEN]; 50], "no pull-up");
         says(&[[0xFE; FRAME_LEN]; 50], "do not begin with ff");
         says(&[], "no frame was read");
