@@ -114,7 +114,8 @@ fn board() -> Result<(), Fault> {
     })
 }
 
-/// What the first board does with one side, by a program made for it.
+/// What the first board does with one side, by a program made for it; and what is deployed to the
+/// last.
 fn first_board() -> Result<(), Fault> {
     let one_side = [
         "compare",
@@ -126,8 +127,15 @@ fn first_board() -> Result<(), Fault> {
         "damage",
         "sensor-loss",
     ];
-    let first = Emulated::linked(Board::ALL[0]);
-    emulate::emulate(&first, Path::new(emulate::FULL), &one_side)
+    let [first, _, smallest] = Board::ALL;
+    emulate::emulate(
+        &Emulated::linked(first),
+        Path::new(emulate::FULL),
+        &one_side,
+    )?;
+    // As long as all the rest: beside it.
+    let smallest = Emulated::deployed(smallest)?;
+    emulate::emulate(&smallest, Path::new(emulate::BENCH), &["deploying"])
 }
 
 /// What it does with two, and in other ways; and the others: a program a board, to which scenes
@@ -150,6 +158,5 @@ fn other_boards() -> Result<(), Fault> {
     let in_short = ["compare --probe pulled", "sensor-loss"];
     let [small, smallest] = [Emulated::deployed(small)?, Emulated::deployed(smallest)?];
     emulate::emulate(&small, Path::new(emulate::FULL), &in_short)?;
-    emulate::emulate(&smallest, Path::new(emulate::FULL), &in_short)?;
-    emulate::emulate(&smallest, Path::new(emulate::BENCH), &["deploying"])
+    emulate::emulate(&smallest, Path::new(emulate::FULL), &in_short)
 }
