@@ -15,8 +15,6 @@ const RULES: [(SumRule, &str); 4] = [
 ];
 /// Of a hundred frames a good line spoils fewer.
 const CLEAN: f64 = 0.99;
-/// A third word with more values than this is no report of faults.
-const REPORTS: usize = 4;
 /// By so much words change more from frame to frame when their bytes are exchanged.
 const ROUGHER: f64 = 4.0;
 
@@ -33,7 +31,7 @@ pub(crate) struct Seen {
     pub(crate) sum_rule: Option<&'static str>,
     pub(crate) words: Option<&'static str>,
     pub(crate) byte_order: Option<&'static str>,
-    /// The error word, where the frames have one and it is always the same.
+    /// All bits of the error words, where the frames have such.
     pub(crate) reports: Option<u16>,
     /// Root mean square of the change of each word from one frame to the next, codes.
     pub(crate) change_codes: [f64; 2],
@@ -87,10 +85,14 @@ impl Seen {
             .iter()
             .map(|frame| decoder_order.number([frame[5], frame[6]]))
             .collect();
-        let mode = match thirds.len() {
-            0 => None,
-            1..=REPORTS => Some((Mode::AlphaBeta, "alpha-beta")),
-            _ => Some((Mode::Xyz, "xyz")),
+        // A field has bits that stand for no fault.
+        let is_report = |word: &u16| Faults::new(*word).unknown() == 0;
+        let mode = if thirds.is_empty() {
+            None
+        } else if thirds.iter().all(is_report) {
+            Some((Mode::AlphaBeta, "alpha-beta"))
+        } else {
+            Some((Mode::Xyz, "xyz"))
         };
         let repeats = good.windows(2).filter(|pair| pair[0] == pair[1]).count();
         Self {
@@ -103,7 +105,11 @@ impl Seen {
             words: mode.map(|(_, name)| name),
             byte_order: order.map(|(_, name)| name),
             reports: match mode {
-                Some((Mode::AlphaBeta, _)) => thirds.last().copied().filter(|word| *word != 0),
+                Some((Mode::AlphaBeta, _)) => thirds
+                    .iter()
+                    .copied()
+                    .reduce(|all, word| all | word)
+                    .filter(|word| *word != 0),
                 _ => None,
             },
             change_codes: match decoder_order {
@@ -124,7 +130,7 @@ impl Seen {
         let mut found = Vec::new();
         let share = |count: usize| count as f64 / self.frames.max(1) as f64;
         if self.frames == 0 {
-            found.push("no frame was read: has the module such a sensor?".to_owned());
+            found.push("no frame was read: only those of an MLX90333 are looked at".to_owned());
         }
         if share(self.silent) > 1.0 - CLEAN {
             found.push(format!(
@@ -240,7 +246,8 @@ mod tests {
             let y = (32_768.0 + 500.0 * (1.3 * angle).cos()) as u16 + noise;
             let z = match decoder.mode {
                 Mode::AlphaBeta => 0,
-                Mode::Xyz => 40_000 + noise,
+                // One that stands still, as that of a magnet on the axis.
+                Mode::Xyz => 0x8000 + (noise & 1),
             };
             encode::words([x, y, z], decoder)
         });

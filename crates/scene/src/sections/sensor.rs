@@ -75,7 +75,7 @@ keys! {
         words: SensorWords = word().default("\"alpha-beta\""),
 
         /// How the last byte of a frame follows from the others. Which one a real part follows is
-        /// not certain: with another than its own every frame is fault 23.
+        /// not certain: with another than its own every frame is fault 21.
         sum_rule: SensorSum = word().default("\"b1-b6\""),
 
         /// In which order the two bytes of a word come. One driver in five has the high one first.
