@@ -60,6 +60,10 @@ pub const FAULTS: usize = 3;
 /// that something holds and an encoder that stands still look alike, and a test is gentle.
 pub const HELD: u8 = 6;
 
+/// So often an encoder that stood has shown more counts in a tick than any motor turns in it, and it
+/// has lost counts: its contact has closed again. A blow may do so once.
+const LEAPS: u8 = 2;
+
 /// What a servo is doing.
 // With a tag of its own, by which the emulator reads each variant.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -131,6 +135,10 @@ pub struct Servo<R, M, A> {
     held: u8,
     /// Ticks until a motor that was given up may be cleared once more.
     until_clear: u32,
+    /// Not a count was seen in the last tick.
+    stood: bool,
+    /// How often its encoder has leapt.
+    leaps: u8,
 }
 
 impl<R: Real, M: MotorDriver, A: AngleInput> Servo<R, M, A> {
@@ -154,6 +162,8 @@ impl<R: Real, M: MotorDriver, A: AngleInput> Servo<R, M, A> {
             windows: [0; FAULTS - 1],
             held: 0,
             until_clear: 0,
+            stood: true,
+            leaps: 0,
         }
     }
 
@@ -331,6 +341,10 @@ impl<R: Real, M: MotorDriver, A: AngleInput> Servo<R, M, A> {
         let counts = self.angle.counts();
         let moved = counts.wrapping_sub(self.counts);
         self.counts = counts;
+        let stood = core::mem::replace(&mut self.stood, moved == 0);
+        if stood && moved.unsigned_abs() >= config.guards.leap {
+            self.leap(config, place, events);
+        }
         self.age(config.retry);
 
         let setpoint = config.pd.clamp(self.setpoint().unwrap_or(setpoint));
@@ -402,6 +416,20 @@ impl<R: Real, M: MotorDriver, A: AngleInput> Servo<R, M, A> {
         });
         if let Err(fault) = driven {
             self.fail(fault, config, place, events);
+        }
+    }
+
+    /// The encoder has leapt, as no motor does.
+    #[cold]
+    #[inline(never)]
+    fn leap(&mut self, config: &ServoConfig<R>, place: Place, events: &mut impl FnMut(Event)) {
+        if let ServoState::Off | ServoState::GivenUp = self.state {
+            return;
+        }
+        self.leaps = self.leaps.saturating_add(1);
+        if self.leaps >= LEAPS {
+            self.leaps = 0;
+            self.fail(motor::Fault::LostCounts, config, place, events);
         }
     }
 
@@ -510,6 +538,10 @@ impl<R: Real, M: MotorDriver, A: AngleInput> Servo<R, M, A> {
             // It turned the other way, or left its travel: it is tested first when it runs again,
             // the other way round, as such tests would else add up.
             self.held = self.held.saturating_add(1).min(HELD - 1);
+        }
+        if fault == motor::Fault::LostCounts && config.homing().is_none() {
+            // Nothing finds rest again, and no retry helps.
+            self.windows = [retry.window; FAULTS - 1];
         }
         if self.windows.iter().all(|window| *window > 0) {
             self.state = ServoState::GivenUp;

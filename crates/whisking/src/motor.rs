@@ -118,7 +118,8 @@ pub enum Fault {
     /// 12: its retracted stop was not found in time. Likely cause: the whisker turns freely,
     /// or too slowly.
     Homing,
-    /// 13: its retracted stop was found elsewhere than before: the encoder has lost counts.
+    /// 13: the encoder has lost counts: it came back from standing faster than any motor turns,
+    /// twice, or its retracted stop was found elsewhere than before.
     LostCounts,
 }
 

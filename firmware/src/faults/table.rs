@@ -66,9 +66,9 @@ macro_rules! fault_table {
                 "the whisker turns freely, or too slowly; something was taken for the stop, or stands in its range",
                 "the stop; `homing_duty`; that nothing is within reach; `far_stop_deg`",
                 WhiskerOff, Retry;
-            13 LOST_COUNTS: "the stop is not where it was",
-                "encoder losing counts; something was taken for the stop",
-                "A and B with an oscilloscope; the coupling of the encoder; that nothing is within reach",
+            13 LOST_COUNTS: "the encoder has lost counts, or the stop is not where it was",
+                "a loose contact of the encoder; something was taken for the stop",
+                "A and B with an oscilloscope, the plug moved by hand; the coupling of the encoder; that nothing is within reach",
                 WhiskerOff, Retry;
 
             16 NO_FRAME: "no frame in time",

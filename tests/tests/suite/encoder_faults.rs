@@ -5,6 +5,8 @@ use crate::played::{TICK_HZ, angles, extent, play, textured};
 use firmware::{Event, Place};
 use host_sim::motor::{EncoderFlaws, SimMotor, Wire};
 use host_sim::trace::Row;
+use rand_core::{Rng, SeedableRng};
+use rand_xoshiro::Xoshiro256PlusPlus;
 use scene::Scene;
 
 pub(crate) const LEFT: Place = Place::new(0, 0);
@@ -158,6 +160,44 @@ fn a_motor_whose_encoder_counts_the_other_way_is_off_before_the_whisker_is_far()
         }
     }
     println!("the other way: {worst:?}");
+}
+
+/// How far a whisker whose encoder has a loose contact comes to be from where it is taken to be,
+/// while it is driven, degrees; the contact opens or closes every 16 ticks in the mean.
+fn loose(frequency_hz: f64, seed: u64) -> f64 {
+    let mut random = Xoshiro256PlusPlus::seed_from_u64(seed);
+    let mut displaced_deg: f64 = 0.0;
+    let played = play(&whisking(frequency_hz, ""), 30 * TICK_HZ, |tick, run| {
+        let motor = run.motor_mut(0).unwrap();
+        if tick > TICK_HZ && random.next_u64().is_multiple_of(8) {
+            if random.next_u64().is_multiple_of(2) {
+                motor.mend(Wire::Encoder);
+            } else {
+                motor.cut(Wire::Encoder);
+            }
+        }
+        if motor.effort() > 0.0 {
+            displaced_deg = displaced_deg.max(motor.displaced_deg().abs());
+        }
+    });
+    let last = played.events.last().map(|(_, event)| *event);
+    assert_eq!(last, Some(GIVEN_UP), "{frequency_hz} Hz, seed {seed}");
+    displaced_deg
+}
+
+/// An encoder with a loose contact loses what the whisker turns meanwhile, now one way and now the
+/// other: nearly always its motor is given up before the whisker can be pressed on its stops, 60
+/// degrees from its whisk.
+#[test]
+fn a_motor_whose_encoder_has_a_loose_contact_is_given_up_near_its_whisk() {
+    let mut found = Vec::new();
+    for frequency_hz in [0.5, 2.0, 5.0, 8.0, 12.0] {
+        found.extend((100..116).map(|seed| loose(frequency_hz, seed)));
+    }
+    let mean = found.iter().sum::<f64>() / found.len() as f64;
+    let far = found.iter().filter(|degrees| **degrees > 45.0).count();
+    println!("loose contact: {mean:.1} degrees in the mean, {far} of 80 above 45");
+    assert!(mean < 20.0 && far <= 4, "{mean}, {far}");
 }
 
 /// Keys of a scene by which its motor is so many times as fast, and as slow to be so, as its
