@@ -28,7 +28,8 @@ fn wrong(fault: impl std::fmt::Display) -> PyErr {
 /// record(scene, *, seed=None, set=None)
 ///
 /// Runs a scene and returns what its whiskers feel that are heard, the air included: a recording
-/// to train on. The scene's classifier is not used.
+/// to train on. The scene's classifier is not used. Its type knows the rate,
+/// dtype.metadata["tick_hz"], which train goes by.
 #[pyfunction]
 #[pyo3(signature = (scene, *, seed=None, set=None))]
 pub(crate) fn record<'py>(
@@ -51,7 +52,7 @@ pub(crate) fn record<'py>(
         }
         PyResult::Ok(recorder.into_streams())
     });
-    recordings::array(py, &streams?)
+    recordings::at_rate(&recordings::array(py, &streams?)?, scene.tick_hz)
 }
 
 /// Trains a model from recordings that the Python side has prepared.

@@ -103,6 +103,18 @@ pub(crate) fn warn(
     Ok(())
 }
 
+/// The array with its rate beside its type, where slices and copies of it keep it.
+pub(crate) fn at_rate<'py>(array: &Bound<'py, PyAny>, tick_hz: u32) -> PyResult<Bound<'py, PyAny>> {
+    let py = array.py();
+    let metadata = PyDict::new(py);
+    metadata.set_item("tick_hz", tick_hz)?;
+    let keywords = PyDict::new(py);
+    keywords.set_item("metadata", metadata)?;
+    let dtype = py.import("numpy")?.getattr("dtype")?;
+    let dtype = dtype.call((array.getattr("dtype")?,), Some(&keywords))?;
+    array.call_method1("view", (dtype,))
+}
+
 /// Streams with the columns of a recording's file.
 pub(crate) fn array<'py>(py: Python<'py>, streams: &[Stream]) -> PyResult<Bound<'py, PyAny>> {
     let label = Kind::text(streams.iter().map(|stream| stream.label.as_str()));

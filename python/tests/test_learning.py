@@ -177,8 +177,29 @@ def test_each_rise_of_a_column_of_truths_begins_a_touch(heard):
         whisker.classify(model, broken)
 
 
+class Table(dict):
+    """Columns with attributes, as a table of pandas has."""
+
+
+def test_a_recording_knows_its_rate_and_another_is_refused(heard):
+    slow = whisker.record(TEXTURES, set={"tick_hz": 1000, "duration_s": 8.0})
+    model = whisker.train(slow, tables="single")
+    assert bytes(model) == bytes(whisker.train(slow[:], tables="single", rate=1000))
+    columns = {name: slow[name] for name in slow.dtype.names}
+    assert bytes(whisker.train(columns, tables="single")) != bytes(model)
+    table = Table(columns)
+    table.attrs = {"tick_hz": 1000}
+    assert bytes(whisker.train(table, tables="single")) == bytes(model)
+    with pytest.raises(ValueError, match="rate: found 2000, recording: tick_hz has 1000"):
+        whisker.train(slow, tables="single", rate=2000)
+    both = "recording 1: tick_hz: found 2000, recording 2: tick_hz has 1000"
+    with pytest.raises(ValueError, match=both):
+        whisker.train([heard, slow], tables="single")
+
+
 def test_a_model_of_another_rate_is_refused(heard):
-    model = whisker.train(heard, tables="single", rate=1000)
+    columns = {name: heard[name] for name in heard.dtype.names}
+    model = whisker.train(columns, tables="single", rate=1000)
     with pytest.raises(whisker.SceneError, match="1000 samples a second"):
         whisker.Sim(whisker.SCENES["bench"], model=model)
 

@@ -64,8 +64,8 @@ fn of_runs(check: bool) -> Result<(), Fault> {
         let made = read_bytes(&top().join("out/bench-textures").join(made))?;
         document(name, &made, check)?;
     }
-    for (scene, options) in TRAINED {
-        let model = trained(scene, options)?;
+    for (scene, recorded, options) in TRAINED {
+        let model = trained(scene, recorded, options)?;
         document(&format!("scenes/models/{scene}.model"), &model, check)?;
     }
     at_the_bench(check)
@@ -110,17 +110,21 @@ fn asymmetry(check: bool) -> Result<(), Fault> {
 
 /// The scenes whose models are trained on a run with another seed, as their first lines say, but
 /// the main job's; with the options of that training.
-const TRAINED: [(&str, &[&str]); 6] = [
-    ("textures", &["--expect", "same"]),
-    ("whisker", &["--expect", "same"]),
-    ("both", &["--expect", "same"]),
-    ("unknown", &["--expect", "same", "--unknown", "carpet"]),
-    ("tmag5170", &["--expect", "same"]),
-    ("papers", &["--tables", "single"]),
+const TRAINED: [(&str, &[&str], &[&str]); 8] = [
+    ("textures", &[], &["--expect", "same"]),
+    ("active", &LONGER, &["--expect", "same"]),
+    ("full", &LONGER, &["--expect", "same"]),
+    ("whisker", &[], &["--expect", "same"]),
+    ("both", &[], &["--expect", "same"]),
+    ("unknown", &[], &["--expect", "same", "--unknown", "carpet"]),
+    ("tmag5170", &[], &["--expect", "same"]),
+    ("papers", &[], &["--tables", "single"]),
 ];
+/// What a scene of some seconds is recorded with: as long as the main job.
+const LONGER: [&str; 2] = ["--set", "duration_s=40"];
 
 /// The bytes of the model of a scene.
-fn trained(scene: &str, options: &[&str]) -> Result<Vec<u8>, Fault> {
+fn trained(scene: &str, recorded: &[&str], options: &[&str]) -> Result<Vec<u8>, Fault> {
     let folder = target().join("models");
     let (recording, model) = (folder.join("recording.csv"), folder.join("the.model"));
     let simulator = |command: &str| {
@@ -129,7 +133,7 @@ fn trained(scene: &str, options: &[&str]) -> Result<Vec<u8>, Fault> {
         simulator
     };
     let mut record = simulator("record");
-    record.arg(format!("scenes/{scene}.toml"));
+    record.arg(format!("scenes/{scene}.toml")).args(recorded);
     output(record.args(["--seed", "3", "--out"]).arg(&recording))?;
     let mut train = simulator("train");
     train.arg("--data").arg(&recording).arg("--out").arg(&model);

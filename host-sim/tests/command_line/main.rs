@@ -13,6 +13,7 @@ mod misfits;
 mod mutations;
 mod others_recordings;
 mod outputs;
+mod own_motion;
 mod pictures;
 mod poses;
 mod press;

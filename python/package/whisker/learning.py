@@ -8,6 +8,10 @@ import numpy as np
 from whisker import _core
 
 
+#: The rate of recordings that do not say theirs, Hz.
+USUAL_RATE = 2000
+
+
 class Share(NamedTuple):
     """A share with its 95 % interval, and of how many."""
 
@@ -155,14 +159,32 @@ def _prepared(name: str, recording: Any, channels: tuple[str, str]) -> _Prepared
     )
 
 
-def _all(recordings: Any, channels: tuple[str, str]) -> list[_Prepared]:
+def _named(recordings: Any) -> list[tuple[str, Any]]:
     if isinstance(recordings, Mapping) and "label" not in recordings:
-        named = list(recordings.items())
-    elif isinstance(recordings, (list, tuple)):
-        named = [(f"recording {n}", one) for n, one in enumerate(recordings, 1)]
-    else:
-        named = [("recording", recordings)]
-    return [_prepared(str(name), one, channels) for name, one in named]
+        return [(str(name), one) for name, one in recordings.items()]
+    if isinstance(recordings, (list, tuple)):
+        return [(f"recording {n}", one) for n, one in enumerate(recordings, 1)]
+    return [("recording", recordings)]
+
+
+def _own_rate(recording: Any) -> int | None:
+    """The rate that a recording knows: what ``record`` returns by its type, a table by ``attrs``."""
+    metadata = getattr(getattr(recording, "dtype", None), "metadata", None)
+    attributes = metadata or getattr(recording, "attrs", None) or {}
+    return attributes.get("tick_hz")
+
+
+def _rate(named: list[tuple[str, Any]], rate: int | None) -> int:
+    """The rate of all; what contradicts it is refused."""
+    said = "rate"
+    for name, recording in named:
+        own = _own_rate(recording)
+        if own is None:
+            continue
+        if rate is not None and own != rate:
+            raise ValueError(f"{said}: found {rate}, {name}: tick_hz has {own}")
+        said, rate = f"{name}: tick_hz", own
+    return USUAL_RATE if rate is None else rate
 
 
 def train(
@@ -176,7 +198,7 @@ def train(
     gate: float | None = None,
     gap: float | None = None,
     expect: str = "bench",
-    rate: int = 2000,
+    rate: int | None = None,
 ) -> _core.Model:
     """Trains a model; its bytes are what a board runs.
 
@@ -190,13 +212,16 @@ def train(
     ``block`` (samples), ``gate`` (contact from which a sample counts) and ``gap`` (seconds without
     contact that end a touch) and ``expect`` ("same", "bench" or "other": how much may differ
     between training and use) are as the options of ``host-sim train``. ``rate`` is in Hz; the model
-    keeps it, and a scene of another ``tick_hz`` refuses it.
+    keeps it, and a scene of another ``tick_hz`` refuses it. Arrays of ``record`` and their slices
+    know theirs (``dtype.metadata["tick_hz"]``), tables may (``attrs["tick_hz"]``), and another one
+    is refused; where nothing says it, it is 2000.
 
     Warns, by row, of values that stand apart from all others, of trials whose rows do not follow
     each other, and of trials that have samples in common.
     """
+    named = _named(recordings)
     return _core.train(
-        _all(recordings, channels),
+        [_prepared(name, one, channels) for name, one in named],
         channels=channels,
         tables=tables,
         bins=bins,
@@ -205,7 +230,7 @@ def train(
         gate=gate,
         gap=gap,
         expect=expect,
-        rate=rate,
+        rate=_rate(named, rate),
     )
 
 
