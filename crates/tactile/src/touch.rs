@@ -99,8 +99,8 @@ const MEAN_FRACTION: u32 = 8;
 const WEIGHT_FRACTION: u32 = 24;
 /// The mean moves by 2^−n of the difference a sample.
 const MEAN: u32 = 4;
-/// What a code adds to a weight, 2^−24, in the air and at the start; a weight stays
-/// within ±2.
+/// What a code adds to a weight, 2^−24, in the air and at the start; at the end of a block a
+/// weight is within ±2.
 const LEARN: [i32; 2] = [2, 4];
 const WEIGHT_MOST: i32 = 2 << WEIGHT_FRACTION;
 /// The rest moves by 2^−n of the difference a sample.
@@ -364,8 +364,7 @@ impl TouchDetector {
             for (left, from) in now.left.iter().zip(now.from) {
                 let way = left.signum() * step;
                 for (weight, from) in self.weights.iter_mut().zip(from) {
-                    let learnt = weight.wrapping_add(way.wrapping_mul(from));
-                    *weight = learnt.clamp(-WEIGHT_MOST, WEIGHT_MOST);
+                    *weight = weight.wrapping_add(way.wrapping_mul(from));
                 }
             }
             for (rest, code) in self.rest.iter_mut().zip(sample) {

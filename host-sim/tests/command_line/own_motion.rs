@@ -12,14 +12,21 @@ fn refused(scene: &str) -> (usize, usize) {
     let said = place.done(&format!(
         "evaluate --model {scenes}/models/{scene}.model --data fresh.csv"
     ));
-    let rows = said.stdout.lines().skip(1).map_while(|row| row.split_once('|'));
+    let rows = said
+        .stdout
+        .lines()
+        .skip(1)
+        .map_while(|row| row.split_once('|'));
     let counts = |cells: &str| -> Vec<usize> {
         let cells = cells.split_whitespace();
         cells.map(|cell| cell.parse().unwrap()).collect()
     };
     let each = rows.map(|(_, cells)| counts(cells));
     each.fold((0, 0), |(refused, all), row| {
-        (refused + row.last().unwrap(), all + row.iter().sum::<usize>())
+        (
+            refused + row.last().unwrap(),
+            all + row.iter().sum::<usize>(),
+        )
     })
 }
 
