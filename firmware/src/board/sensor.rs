@@ -7,6 +7,10 @@
 //! sides less than nothing; three frames of a TMAG5170 take some 25 us. So a tick computes with the
 //! frame that ended before it, while the next one comes.
 //!
+//! Before the first tick there is time, and nothing else to do: there [`self_test`] reads the sensor
+//! sixteen times by its driver, over the same pins. So what tests read a simulated sensor by reads
+//! the real one too, and a fault that only the DMA has shows itself as one.
+//!
 //! - *slot*: the time from the start of a byte to that of the next. The sensor
 //!   needs a gap between bytes, which no SPI controller makes by itself.
 //! - *byte timer*: requests the tx DMA once a period; the first request comes one
@@ -23,10 +27,13 @@
 
 use core::sync::atomic::{AtomicU8, Ordering, compiler_fence};
 
-use firmware::{BusError, FrameSource};
-use mlx90333::{FRAME_LEN, MASTER_BYTE};
+use firmware::boards::Pacing;
+use firmware::{BusError, FrameSource, SelfTest};
+use mlx90333::timing::{SS_LAG_SLOW_NS, SS_LEAD_SLOW_NS};
+use mlx90333::{Decoder, FRAME_LEN, MASTER_BYTE, Mlx90333};
 use stm32_metapac::spi::vals::{Cpha, Mstr};
 
+use super::blocking_spi::{Device, Wait, Wires, rounds};
 use super::gpio::Pin;
 use super::pin_config::{Mode, PinConfig};
 use super::wiring::SensorPort;
@@ -41,6 +48,27 @@ pub(crate) type Source = Frames;
 /// Sets everything up, once the sensors' clocks run.
 pub(crate) fn start(port: &'static SensorPort, pace: FramePace) -> Source {
     Frames::new(port, pace)
+}
+
+/// Of SPI mode 1, for a driver, in either of the sensor's modes.
+const WIRES: Wires = Wires {
+    phase: Cpha::SECOND_EDGE,
+    faster: 0,
+    lead_rounds: rounds(SS_LEAD_SLOW_NS),
+    lag_rounds: rounds(SS_LAG_SLOW_NS),
+    // The self-test rests for longer.
+    high_rounds: 0,
+    // For a byte of 57 us: 140 us or more on every board, and 10 ms at most.
+    polls: 10_000,
+};
+
+/// Reads the sensor by its driver, before the first tick and after its start-up.
+#[inline(never)]
+pub(crate) fn self_test(frames: &mut Frames, decoder: Decoder, pacing: Pacing) -> SelfTest {
+    let device = Device::start(frames.port, &WIRES);
+    let found = SelfTest::of(&mut Mlx90333::new(device, decoder), &mut Wait, pacing);
+    set_up_spi(frames.port);
+    found
 }
 
 /// The rx DMA's interrupt of a side.
