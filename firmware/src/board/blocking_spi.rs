@@ -34,12 +34,13 @@ pub(crate) const fn rounds(ns: u32) -> u32 {
     (CLOCKS.core_hz / 1_000_000 * ns).div_ceil(2_000)
 }
 
-/// Most significant bit first, bytes; /SS is ours, and no DMA. Also discards a frame that broke
-/// off.
-fn set_up(port: &SensorPort, wires: &Wires) {
+/// Most significant bit first, bytes, which the DMA fetches or not; /SS is ours. Also discards a
+/// frame that broke off in the middle of a byte.
+#[inline(never)]
+pub(crate) fn set_up(port: &SensorPort, wires: &Wires, has_dma: bool) {
     reset_spi(port.spi);
     spi::set_up_bytes(port.spi);
-    port.spi.cr2().modify(|w| w.set_rxdmaen(false));
+    port.spi.cr2().modify(|w| w.set_rxdmaen(has_dma));
     port.spi.cr1().write(|w| {
         w.set_mstr(Mstr::MASTER);
         w.set_ssm(true);
@@ -73,7 +74,7 @@ impl ErrorType for Device {
 impl Device {
     /// Sets the SPI up; its pins are the caller's.
     pub(crate) fn start(port: &'static SensorPort, wires: &'static Wires) -> Self {
-        set_up(port, wires);
+        set_up(port, wires, false);
         Self { port, wires }
     }
 
@@ -144,7 +145,7 @@ impl SpiDevice for Device {
         port.pins.select.high();
         cortex_m::asm::delay(wires.high_rounds);
         if done.is_err() {
-            set_up(port, wires);
+            set_up(port, wires, false);
         }
         done
     }
