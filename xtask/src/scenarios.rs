@@ -361,6 +361,7 @@ const SHORT: &[&str] = &[
     "opened-limits",
     "wild-gains",
     "summed-otherwise",
+    "restarts-otherwise",
     "stop-under-flood",
     "probe-stop-under-flood",
     "reset-after-stop",
