@@ -20,7 +20,7 @@ use host_sim::bus::tmag5170::TmagSlave;
 use host_sim::motor::{Pins, SimPwm};
 use host_sim::received::{Received, Receiver};
 use mlx90333::Decoder;
-use scene::Scene;
+use scene::{Scene, SensorMode, SensorModel};
 
 use crate::chip::{Chip, Fault, Ps, ResetCause, WELL_MV};
 use crate::machine::{Machine, Stop};
@@ -113,6 +113,13 @@ impl Board {
             bears_resets: false,
             fault: None,
         };
+        match (scene.sensor.model, scene.sensor.mode) {
+            (SensorModel::Mlx90333, SensorMode::Fast) => {}
+            (SensorModel::Mlx90333, SensorMode::Slow) => {
+                board.machine.with_chip(Chip::slow_sensors);
+            }
+            (SensorModel::Tmag5170, _) => board.machine.with_chip(Chip::tilt_sensors),
+        }
         for side in 0..scene.head.sides.count() {
             board.program_sensor(side, config::decoder(&scene.sensor), 0);
         }

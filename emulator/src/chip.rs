@@ -226,7 +226,8 @@ impl Chip {
             }
             if let Some(shift) = self.spis[side].shift {
                 let bit = self.spis[side].bit(self.spi_clock(side));
-                self.lines[side].begin(shift.began, bit, sensor)?;
+                let is_polled = !self.spis[side].asks_dma();
+                self.lines[side].begin((shift.began, bit), is_polled, sensor)?;
             }
         }
         Ok(())

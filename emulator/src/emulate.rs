@@ -10,10 +10,10 @@ use host_sim::plot::{self, Film};
 use host_sim::progress::Verbosity;
 use host_sim::run::Run;
 use host_sim::world::World;
-use scene::{Scene, SensorMode, SensorModel};
+use scene::{Scene, SensorMode};
 
 use crate::board::Board;
-use crate::chip::{Chip, Fault, Model};
+use crate::chip::{Fault, Model};
 use crate::deployment::{flashed, image};
 use crate::program::Program;
 
@@ -64,11 +64,6 @@ pub(crate) fn start_without(
     image(scene, None, model.facts)?;
     let (world, pins) = World::wired(scene, pwm_counts(scene, model))?;
     let mut board = Board::new(program, scene, pins)?;
-    match (scene.sensor.model, scene.sensor.mode) {
-        (SensorModel::Mlx90333, SensorMode::Fast) => {}
-        (SensorModel::Mlx90333, SensorMode::Slow) => board.machine.with_chip(Chip::slow_sensors),
-        (SensorModel::Tmag5170, _) => board.machine.with_chip(Chip::tilt_sensors),
-    }
     if let Some(baud) = scene.telemetry.serial_baud {
         board.machine.with_chip(|chip| chip.attach_serial(baud));
     }

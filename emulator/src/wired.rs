@@ -24,6 +24,10 @@ enum Kind {
 #[derive(Debug, Default)]
 struct Mlx {
     slave: Slave,
+    /// As it was when the core began to read it by itself, which a board does before its first tick
+    /// and the simulation never. It answers those frames, so that ticks find faults and noise where
+    /// they were.
+    beside: Option<Slave>,
     /// The last frame as it began, and as it is now.
     begun: Option<Exchange>,
     exchange: Option<Exchange>,
@@ -103,13 +107,19 @@ impl Wired {
 }
 
 impl SensorEnd for Wired {
-    fn latch(&mut self, now: Ps) {
+    fn latch(&mut self, now: Ps, is_polled: bool) {
         self.latched = now;
         match &mut self.kind {
             Kind::Mlx90333(mlx) => {
                 mlx.sent.clear();
-                mlx.exchange = Some(mlx.slave.select());
-                mlx.begun.clone_from(&mlx.exchange);
+                if is_polled {
+                    let slave = mlx.beside.get_or_insert_with(|| mlx.slave.clone());
+                    (mlx.exchange, mlx.begun) = (Some(slave.select()), None);
+                } else {
+                    mlx.beside = None;
+                    mlx.exchange = Some(mlx.slave.select());
+                    mlx.begun.clone_from(&mlx.exchange);
+                }
             }
             Kind::Tmag5170(tmag) => tmag.frame = Some(tmag.below.slave.select()),
         }

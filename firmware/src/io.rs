@@ -70,9 +70,13 @@ fn decode(
     Ok([frame.first(), frame.second()])
 }
 
+/// The same for any decoder, and where time does not matter.
 #[cold]
 #[inline(never)]
-fn decode_otherwise(decoder: Decoder, bytes: [u8; FRAME_LEN]) -> Result<Frame, FrameError> {
+pub(crate) fn decode_otherwise(
+    decoder: Decoder,
+    bytes: [u8; FRAME_LEN],
+) -> Result<Frame, FrameError> {
     decoder.decode(&bytes)
 }
 

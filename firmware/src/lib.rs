@@ -39,6 +39,7 @@ mod motion;
 mod packet;
 mod perception;
 mod record;
+mod self_test;
 mod sensing;
 mod servo;
 mod signals;
@@ -67,6 +68,7 @@ pub use perception::{
     Sample, SampleClassifier, Sensed, shifts,
 };
 pub use record::{NotArmed, RECORD_WORDS, RESET_WINDOW_S, RESETS, Record, StartCause, Startup};
+pub use self_test::{READINGS, SelfTest};
 pub use sensing::{BAD_WEIGHT, Reading, Sensor, SensorHealth, SensorLimits, SwingLimits};
 pub use servo::{FAULTS, HELD, MotorRecord, Retry, Servo, ServoConfig, ServoState, TooManyFaults};
 pub use signals::Signals;

@@ -181,7 +181,7 @@ pub(crate) fn read(file: &[u8]) -> Result<Kept, String> {
         let wrong = |n: usize, text: &str| format!("line {line}: {} is {text:?}", NUMBERS[n]);
         let number = |n: usize, lowest: f32, highest: f32| {
             let text = cell(n);
-            let value = text.parse().ok();
+            let value = text.parse::<f32>().ok();
             let value = value.filter(|value| (lowest..=highest).contains(value));
             value.ok_or_else(|| wrong(n, text))
         };

@@ -204,6 +204,15 @@ const ROWS: &[Row] = &[
         &["sensor.sum_rule=not-b0-b6", "sensor.byte_order=high-first"],
         WHISKS_ON,
     ),
+    row(
+        "restarts-otherwise",
+        &[],
+        &[
+            Numbered("self-test", 16),
+            Numbered("self-test", 0),
+            Numbered("fault", 21),
+        ],
+    ),
     row("rested-longer", &[], &[Faults(true), Most("driven_s", 0.1)]),
     row("rested-longer", &["tick_hz=1000"], WHISKS_ON),
     row(
@@ -352,6 +361,7 @@ const SHORT: &[&str] = &[
     "opened-limits",
     "wild-gains",
     "summed-otherwise",
+    "restarts-otherwise",
     "stop-under-flood",
     "probe-stop-under-flood",
     "reset-after-stop",

@@ -1,7 +1,6 @@
 //! Blocking reads over an embedded-hal `SpiDevice`.
 
-use core::fmt;
-use core::slice;
+use core::{array, fmt, slice};
 
 use embedded_hal::spi::{Operation, SpiDevice};
 
@@ -89,29 +88,15 @@ impl<SPI: SpiDevice> Mlx90333<SPI> {
     /// here.
     pub fn read_raw_paced(&mut self, gap_ns: u32) -> Result<[u8; FRAME_LEN], Error<SPI::Error>> {
         let mut bytes = [MASTER_BYTE; FRAME_LEN];
-        let [b0, b1, b2, b3, b4, b5, b6, b7] = bytes
-            .each_mut()
-            .map(|byte| Operation::TransferInPlace(slice::from_mut(byte)));
-        let gap = || Operation::DelayNs(gap_ns);
-        self.spi
-            .transaction(&mut [
-                b0,
-                gap(),
-                b1,
-                gap(),
-                b2,
-                gap(),
-                b3,
-                gap(),
-                b4,
-                gap(),
-                b5,
-                gap(),
-                b6,
-                gap(),
-                b7,
-            ])
-            .map_err(Error::Bus)?;
+        let mut places = bytes.iter_mut();
+        // A byte, then a gap and a byte seven times.
+        let mut operations: [_; 2 * FRAME_LEN - 1] = array::from_fn(|n| {
+            let place = if n % 2 == 0 { places.next() } else { None };
+            place.map_or(Operation::DelayNs(gap_ns), |byte| {
+                Operation::TransferInPlace(slice::from_mut(byte))
+            })
+        });
+        self.spi.transaction(&mut operations).map_err(Error::Bus)?;
         Ok(bytes)
     }
 

@@ -20,8 +20,9 @@ use super::time::Ps;
 
 /// The sensor's end of the wires.
 pub(crate) trait SensorEnd {
-    /// A frame begins: the sensor takes what it will answer with.
-    fn latch(&mut self, now: Ps);
+    /// A frame begins: the sensor takes what it will answer with. Its bytes are fetched by the core,
+    /// which `is_polled`, or by the DMA.
+    fn latch(&mut self, now: Ps, is_polled: bool);
 
     /// Eight clocks: what is on the line while the master sends `sent`.
     fn exchange(&mut self, sent: u8) -> u8;
@@ -212,11 +213,11 @@ impl SensorLines {
         std::mem::replace(&mut self.is_over, false)
     }
 
-    /// A byte began: the first of a frame makes the sensor latch.
+    /// A byte began, at that time and of bits so long: the first of a frame makes the sensor latch.
     pub(super) fn begin(
         &mut self,
-        began: Ps,
-        bit: Ps,
+        (began, bit): (Ps, Ps),
+        is_polled: bool,
         sensor: &mut impl SensorEnd,
     ) -> Result<(), Fault> {
         if self.seen == Some(began) || !self.selected {
@@ -243,7 +244,7 @@ impl SensorLines {
         }
         if self.fresh {
             self.fresh = false;
-            sensor.latch(began);
+            sensor.latch(began, is_polled);
         }
         Ok(())
     }

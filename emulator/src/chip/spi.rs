@@ -178,9 +178,14 @@ impl Spi {
         self.received.len >= if pairs { 2 } else { 1 }
     }
 
+    /// Whether received bytes are the DMA's to fetch.
+    pub(super) const fn asks_dma(&self) -> bool {
+        self.cr2 & RXDMAEN != 0
+    }
+
     /// Whether a received byte asks the DMA to fetch it.
     pub(super) const fn requests(&self) -> bool {
-        self.is_received() && self.cr2 & RXDMAEN != 0
+        self.is_received() && self.asks_dma()
     }
 
     /// Bytes that an access of so many moves.

@@ -37,11 +37,13 @@ struct Script {
     answers: Vec<u8>,
     heard: Vec<u8>,
     latched: usize,
+    polled: usize,
     released: usize,
 }
 
 impl SensorEnd for Script {
-    fn latch(&mut self, _: Ps) {
+    fn latch(&mut self, _: Ps, is_polled: bool) {
+        self.polled += usize::from(is_polled);
         self.latched += 1;
     }
 

@@ -44,7 +44,7 @@ pub(super) struct Lister {
 }
 
 /// First words of the lines that are events.
-const KINDS: [&str; 14] = [
+const KINDS: [&str; 15] = [
     "armed",
     "back",
     "decision",
@@ -56,6 +56,7 @@ const KINDS: [&str; 14] = [
     "not-armed",
     "off",
     "retry",
+    "self-test",
     "start",
     "touch",
     "zero",
@@ -163,17 +164,18 @@ fn of_log(t_s: f64, line: &str) -> Listed {
     };
     let kind = word();
     let side = match &*kind {
-        "fault" | "frame" | "back" | "retry" | "off" | "touch" | "end" | "decision" | "zero" => {
-            Some(word())
-        }
+        "fault" | "frame" | "back" | "retry" | "off" | "touch" | "end" | "decision" | "zero"
+        | "self-test" => Some(word()),
         _ => None,
     };
     let number = match &*kind {
-        "fault" | "limit" | "not-armed" => word().parse().ok(),
+        "fault" | "limit" | "not-armed" | "self-test" => word().parse().ok(),
         _ => None,
     };
     let is_known = KINDS.contains(&&*kind);
-    let name = number.map(|_| {
+    // That of a self-test counts frames.
+    let fault = number.filter(|_| kind != "self-test");
+    let name = fault.map(|_: u8| {
         let (name, _) = rest.split_once(" (").unwrap_or((rest, ""));
         name.to_owned()
     });
@@ -204,6 +206,11 @@ mod tests {
         assert_eq!(
             (&*listed.kind, listed.side, listed.number),
             ("start", None, None)
+        );
+        let listed = of_log(0.0, "0.000 INFO  self-test left 13 0.4 2.1");
+        assert_eq!(
+            (&*listed.kind, listed.number, listed.name),
+            ("self-test", Some(13), None)
         );
         let listed = of_log(0.0, "0.000 ERROR fault board 52 watchdog (a?)");
         assert_eq!((listed.side, listed.number), (None, Some(52)));

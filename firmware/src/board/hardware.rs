@@ -42,6 +42,20 @@ pub(crate) fn start(
     Some(inner)
 }
 
+/// Has each sensor be read by its driver, once its start-up is over, and says what was found. A
+/// TMAG5170 is read so in every tick.
+#[cfg(feature = "mlx90333")]
+pub(crate) fn test_sensors(inner: &mut Inner, settings: &Settings, pace: &Pace) {
+    let sensing = settings.sensor;
+    let (slot, tick_us) = (pace.slot_counts, pace::period_us());
+    let pacing = pace::clocks().pacing(slot, tick_us, sensing.rest_us);
+    for whisker in inner.whiskers_mut() {
+        let (place, source) = (whisker.place(), whisker.sensor_mut().source_mut());
+        let found = sensor::self_test(source, sensing.decoder, pacing);
+        super::log::self_test(place, &found);
+    }
+}
+
 /// Starts what all motors have in common.
 fn start_motors(motion: &MotionConfig<Number>, sides: u8) -> MotorStart {
     let pwm_counts = pace::clocks().pwm_counts();

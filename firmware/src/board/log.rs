@@ -12,7 +12,10 @@
 #[cfg(feature = "tmag5170")]
 use firmware::TiltFault;
 use firmware::faults::number;
-use firmware::{ConfigError, Event, ModelState, NotArmed, Part, SensorFault, StartCause, Startup};
+use firmware::{
+    ConfigError, Event, ModelState, NotArmed, Part, Place, SelfTest, SensorFault, StartCause,
+    Startup,
+};
 use mlx90333::{Faults, FrameError};
 #[cfg(feature = "tmag5170")]
 use tmag5170::ReplyError;
@@ -157,6 +160,31 @@ pub(crate) fn model(state: ModelState, names: &Names) {
             defmt::warn!("- {=str}", refusal.text());
         }
         _ => {}
+    }
+}
+
+/// What reading a sensor by its driver has found: frames, and the noise of x and y in codes.
+#[inline(never)]
+pub(crate) fn self_test(place: Place, found: &SelfTest) {
+    let [x, y] = found.noise_tenths();
+    defmt::info!(
+        "self-test {=str} {=u8} {=u16}.{=u16} {=u16}.{=u16}",
+        place.side_name(),
+        found.good(),
+        x / 10,
+        x % 10,
+        y / 10,
+        y % 10
+    );
+    for (number, count) in found.faults() {
+        let [name, causes] = texts(number);
+        defmt::warn!(
+            "- {=u8}: fault {=u8}, {=istr} ({=istr}?)",
+            count,
+            number,
+            name,
+            causes
+        );
     }
 }
 

@@ -23,6 +23,7 @@
 )]
 
 pub(crate) mod about;
+pub(crate) mod blocking_spi;
 pub(crate) mod counters;
 pub(crate) mod encoder;
 pub(crate) mod faults;

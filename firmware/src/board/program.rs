@@ -141,6 +141,8 @@ pub(crate) fn start(core: cortex_m::Peripherals, queues: &'static mut Queues) ->
 
     // The sensor's start-up, with /SS high since above.
     cortex_m::asm::delay(pace::clocks().start_up_cycles());
+    #[cfg(feature = "mlx90333")]
+    hardware::test_sensors(inner, settings, &pace);
     let second = settings.head.tick_hz;
     let module = Module {
         inner,

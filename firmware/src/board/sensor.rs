@@ -7,6 +7,10 @@
 //! sides less than nothing; three frames of a TMAG5170 take some 25 us. So a tick computes with the
 //! frame that ended before it, while the next one comes.
 //!
+//! Before the first tick there is time, and nothing else to do: there [`self_test`] reads the sensor
+//! sixteen times by its driver, over the same pins. So what tests read a simulated sensor by reads
+//! the real one too, and a fault that only the DMA has shows itself as one.
+//!
 //! - *slot*: the time from the start of a byte to that of the next. The sensor
 //!   needs a gap between bytes, which no SPI controller makes by itself.
 //! - *byte timer*: requests the tx DMA once a period; the first request comes one
@@ -23,14 +27,17 @@
 
 use core::sync::atomic::{AtomicU8, Ordering, compiler_fence};
 
-use firmware::{BusError, FrameSource};
-use mlx90333::{FRAME_LEN, MASTER_BYTE};
-use stm32_metapac::spi::vals::{Cpha, Mstr};
+use firmware::boards::Pacing;
+use firmware::{BusError, FrameSource, SelfTest};
+use mlx90333::timing::{SS_LAG_SLOW_NS, SS_LEAD_SLOW_NS};
+use mlx90333::{Decoder, FRAME_LEN, MASTER_BYTE, Mlx90333};
+use stm32_metapac::spi::vals::Cpha;
 
+use super::blocking_spi::{Device, Wait, Wires, rounds, set_up};
 use super::gpio::Pin;
 use super::pin_config::{Mode, PinConfig};
 use super::wiring::SensorPort;
-use crate::here::{byte_request, dma::Transfers, reset_spi, spi};
+use crate::here::{byte_request, dma::Transfers, spi};
 
 /// What every tx DMA sends.
 static SENT: AtomicU8 = AtomicU8::new(MASTER_BYTE);
@@ -41,6 +48,27 @@ pub(crate) type Source = Frames;
 /// Sets everything up, once the sensors' clocks run.
 pub(crate) fn start(port: &'static SensorPort, pace: FramePace) -> Source {
     Frames::new(port, pace)
+}
+
+/// Of SPI mode 1. Waits are a driver's, in either of the sensor's modes.
+const WIRES: Wires = Wires {
+    phase: Cpha::SECOND_EDGE,
+    faster: 0,
+    lead_rounds: rounds(SS_LEAD_SLOW_NS),
+    lag_rounds: rounds(SS_LAG_SLOW_NS),
+    // The self-test rests for longer.
+    high_rounds: 0,
+    // For a byte of 57 us: 140 us or more on every board, and 10 ms at most.
+    polls: 10_000,
+};
+
+/// Reads the sensor by its driver, before the first tick and after its start-up.
+#[inline(never)]
+pub(crate) fn self_test(frames: &mut Frames, decoder: Decoder, pacing: Pacing) -> SelfTest {
+    let device = Device::start(frames.port, &WIRES);
+    let found = SelfTest::of(&mut Mlx90333::new(device, decoder), &mut Wait, pacing);
+    set_up(frames.port, &WIRES, true);
+    found
 }
 
 /// The rx DMA's interrupt of a side.
@@ -86,19 +114,19 @@ impl Frames {
         let (received, sent) = (port.received.0.as_ptr() as u32, SENT.as_ptr() as u32);
         let transfers = Transfers::new(&port.dma);
         transfers.set_up(spi::data_register(port.spi), received, sent);
-        set_up_spi(port);
+        set_up(port, &WIRES, true);
 
         // Only now, so that the clock line never carries anything but the clock.
         // A fast edge: a slow one delays the clock that the SPI itself sees and
         // may cost it the last bit (errata sheet of the STM32F4).
         let function = port.function;
         let sck = PinConfig::new(Mode::AlternateOutput(function)).fast();
-        Pin::new(pins.sck, sck);
-        Pin::new(pins.miso, PinConfig::new(Mode::AlternateInput(function)));
-        Pin::new(
-            pins.mosi,
-            PinConfig::new(Mode::AlternateOpenDrain(function)),
-        );
+        let miso = PinConfig::new(Mode::AlternateInput(function));
+        let mosi = PinConfig::new(Mode::AlternateOpenDrain(function));
+        // A loop: of three calls in a row a program for size makes calls through a pointer.
+        for (pin, config) in [(pins.sck, sck), (pins.miso, miso), (pins.mosi, mosi)] {
+            Pin::new(pin, config);
+        }
         Self {
             port,
             transfers,
@@ -143,23 +171,8 @@ impl Frames {
     fn abort(&mut self) {
         self.stop();
         self.transfers.stop();
-        set_up_spi(self.port);
+        set_up(self.port, &WIRES, true);
     }
-}
-
-/// Mode 1, most significant bit first, bytes; /SS is ours. Also discards a frame that
-/// broke off in the middle of a byte.
-fn set_up_spi(port: &SensorPort) {
-    reset_spi(port.spi);
-    spi::set_up_bytes(port.spi);
-    port.spi.cr1().write(|w| {
-        w.set_mstr(Mstr::MASTER);
-        w.set_ssm(true);
-        w.set_ssi(true);
-        w.set_cpha(Cpha::SECOND_EDGE);
-        w.set_br(port.divider);
-        w.set_spe(true);
-    });
 }
 
 impl FrameSource for Frames {

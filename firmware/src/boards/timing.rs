@@ -184,6 +184,25 @@ impl Clocks {
         }
     }
 
+    /// How a driver that waits paces its readings, as near to those of a tick as can be: with the
+    /// gaps of its slot, and with what nine of these leave of it, of which a millisecond is enough.
+    pub const fn pacing(&self, slot_counts: u16, tick_us: u32, rest_us: u16) -> Pacing {
+        let counts = 1_000 * slot_counts as u32;
+        let slot_ns = match counts.checked_div(self.byte_timer_hz / 1_000_000) {
+            Some(slot_ns) => slot_ns,
+            // No clocks that are checked.
+            None => 0,
+        };
+        let left_us = tick_us.saturating_sub(9 * slot_ns / 1_000);
+        let least_us = rest_us as u32;
+        // What is left beyond the least.
+        let more_us = left_us.saturating_sub(least_us);
+        Pacing {
+            gap_ns: slot_ns.saturating_sub(self.byte_ns()),
+            rest_us: least_us + if more_us < 1_000 { more_us } else { 1_000 },
+        }
+    }
+
     /// Prescaler and period of the tick timer; `None` below [`TICK_MIN_HZ`].
     pub const fn tick(&self, tick_hz: u32) -> Option<TickPeriod> {
         TickPeriod::new(tick_hz, self.tick_timer_hz)
@@ -246,6 +265,15 @@ impl Clocks {
     }
 }
 
+/// How a driver that waits paces its readings.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Pacing {
+    /// Between two bytes, ns.
+    pub gap_ns: u32,
+    /// Between two frames, for which /SS is high, µs.
+    pub rest_us: u32,
+}
+
 /// Prescaler and period of a 16-bit timer, whose product is the tick in counts
 /// of its clock.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -302,8 +330,8 @@ const _: () = {
 
 #[cfg(test)]
 mod tests {
-    use super::{RECEIVED_BYTES, REST_US, TICK_MIN_HZ, serial_keeps_up};
-    use crate::boards::ALL;
+    use super::{Clocks, Pacing, RECEIVED_BYTES, REST_US, TICK_MIN_HZ, serial_keeps_up};
+    use crate::boards::{ALL, NUCLEO_F446RE};
 
     #[test]
     fn a_serial_port_keeps_up_while_two_ticks_of_bytes_find_room() {
@@ -335,6 +363,46 @@ mod tests {
                 assert_eq!(clocks.tick(TICK_MIN_HZ - 1), None);
             }
         }
+    }
+
+    #[test]
+    fn a_driver_that_waits_paces_a_sensor_as_a_tick_does() {
+        for board in ALL {
+            for (clocks, rates) in [
+                (board.clocks, 200..=2_000),
+                (board.clocks.halved(), 200..=500),
+            ] {
+                for tick_hz in rates {
+                    for rest_us in [REST_US, 200] {
+                        let Some(slot_ns) = clocks.slot_ns(tick_hz, rest_us) else {
+                            continue;
+                        };
+                        let slot_counts = clocks.slot_counts(tick_hz, rest_us).unwrap();
+                        let pacing = clocks.pacing(slot_counts, 1_000_000 / tick_hz, rest_us);
+                        // To a count.
+                        let gap_ns = slot_ns - clocks.byte_ns();
+                        let count_ns = 1_000_000_000 / clocks.byte_timer_hz;
+                        assert!(
+                            (gap_ns..=gap_ns + count_ns).contains(&pacing.gap_ns),
+                            "{pacing:?}"
+                        );
+                        let left_ns = 1_000_000_000 / tick_hz - clocks.frame_ns(slot_ns);
+                        let rest_us = u32::from(rest_us);
+                        let most_us = (left_ns / 1_000).clamp(rest_us, rest_us + 1_000);
+                        assert!((rest_us..=most_us).contains(&pacing.rest_us), "{pacing:?}");
+                    }
+                }
+            }
+        }
+        let [fast, slow] = [NUCLEO_F446RE.clocks, NUCLEO_F446RE.clocks.halved()];
+        let pacing = |clocks: Clocks, tick_hz| {
+            let slot = clocks.slot_counts(tick_hz, REST_US).unwrap();
+            let Pacing { gap_ns, rest_us } = clocks.pacing(slot, 1_000_000 / tick_hz, REST_US);
+            [gap_ns / 1_000, rest_us]
+        };
+        assert_eq!(pacing(fast, 2_000), [21, 50]);
+        assert_eq!(pacing(fast, 1_000), [50, 294]);
+        assert_eq!(pacing(slow, 500), [50, 1_038]);
     }
 
     #[test]

@@ -1,5 +1,7 @@
 //! The bus against hand-written frames, and through the real driver.
 
+mod self_test;
+
 use embedded_hal::spi::{Operation, SpiDevice};
 use firmware::{BusError, FrameSource, Polled};
 use mlx90333::{Decoder, Error, Faults, FrameError, Mlx90333, Mode, SumRule, Word};

@@ -41,6 +41,7 @@ fn is_named(part: &str, named: Named<'_>, has_fpu: bool) -> Result<bool, Fault> 
     // Whether anything is computed with numbers at all: motion, or contact.
     let computes = whisking.is_some() || has_threshold;
     let is_fixed = config::on_board(scene, "board", has_fpu) == Ok(NumberFormat::Fixed);
+    let tests_itself = scene.sensor.model == SensorModel::Mlx90333;
     Ok(match part {
         "oscillators" | "muscles" => whisking.is_some(),
         "exact integrator" => integrates(Integrator::Exact),
@@ -64,16 +65,13 @@ fn is_named(part: &str, named: Named<'_>, has_fpu: bool) -> Result<bool, Fault> 
         }
         "sequential rule" => matches!(rule, Some(Rule::Sequential { .. })),
         "window rule" => matches!(rule, Some(Rule::Window { .. })),
-        // What a model says of touches is in single precision, and read at the start: by functions
-        // of their own where there is no FPU.
-        "single precision" => {
-            let reads_touches = if has_fpu {
-                knows_touches
-            } else {
-                classifier.is_some()
-            };
-            reads_touches || computes && !is_fixed
-        }
+        // What a model says of touches is in single precision, and read at the start.
+        "single precision" => has_fpu && knows_touches || computes && !is_fixed,
+        // Without an FPU by functions of their own: that reads and compares them, and the root of a
+        // self-test's noise turns whole numbers into it and back.
+        "numbers compared" => !has_fpu && (classifier.is_some() || tests_itself),
+        "numbers turned" => !has_fpu && tests_itself,
+        "self-test" => tests_itself,
         "fixed point" => computes && is_fixed,
         _ => return Err(format!("say in size/parts.rs which scenes have: {part}")),
     })
@@ -140,9 +138,10 @@ mod tests {
         let scene = &Scene::from_str("p.toml", PASSIVE).unwrap();
         let scene = Named { scene, model: None };
         let mut seen = Seen::default();
-        let sound = BTreeSet::from(["firmware::sensing::decode".to_owned()]);
+        let tests = "firmware::self_test::SelfTest::of".to_owned();
+        let sound = BTreeSet::from(["firmware::sensing::decode".to_owned(), tests.clone()]);
         assert_eq!(seen.compare(&sound, scene, true), Ok(Vec::new()));
-        let gate = BTreeSet::from(["whisking::gate::Rcp<R>::step".to_owned()]);
+        let gate = BTreeSet::from(["whisking::gate::Rcp<R>::step".to_owned(), tests]);
         let wrong = seen.compare(&gate, scene, true).unwrap();
         assert_eq!(
             wrong,

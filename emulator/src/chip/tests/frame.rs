@@ -23,6 +23,7 @@ fn eight_bytes_reach_memory_without_the_core() {
         assert!(rig.sensors[1 - on.side].heard.is_empty());
         assert_eq!(on.received(&rig), ANSWERS);
         assert_eq!(latched(&rig), 1, "once a frame");
+        assert_eq!(rig.sensors[on.side].polled, 0);
         assert_eq!(
             rig.read(on.dma) & (rx | tx),
             rx | tx,
@@ -33,6 +34,30 @@ fn eight_bytes_reach_memory_without_the_core() {
         rig.write(on.dma + 8, rx);
         assert!(!on.is_done(&rig));
         assert_eq!(rig.read(on.dma) & (rx | tx), tx);
+    }
+}
+
+#[test]
+fn the_core_can_fetch_eight_bytes_with_gaps_itself() {
+    for on in SIDES {
+        let mut rig = on.rig(on.divider);
+        // Bytes without DMA.
+        rig.write(on.spi + 0x04, 0);
+        rig.write(GPIOB + 0x18, 1 << (16 + on.select));
+        let read = [0; 8].map(|_: u8| {
+            rig.pass(SLOT - BYTE);
+            rig.write(on.spi + 0x0C, 0xFF);
+            rig.pass(BYTE);
+            assert_eq!(rig.read(on.spi + 0x08) & 0x81, 1, "received, and not busy");
+            rig.read(on.spi + 0x0C) as u8
+        });
+        rig.pass(3 * US);
+        on.raise_select(&mut rig);
+        rig.pass(0);
+        assert_eq!(read, ANSWERS);
+        let sensor = &rig.sensors[on.side];
+        let found = (sensor.latched, sensor.polled, sensor.released);
+        assert_eq!(found, (1, 1, 1));
     }
 }
 
