@@ -1,7 +1,7 @@
 //! host-sim's sensors at the ends of the emulated wires.
 
 use host_sim::bus::tmag5170::{BelowMagnet, Frame, TmagSlave};
-use host_sim::bus::{Exchange, Slave};
+use host_sim::bus::{Exchange, Slave, WireFault};
 use mlx90333::FRAME_LEN;
 use scene::{Scene, SensorModel};
 
@@ -29,6 +29,9 @@ struct Mlx {
     exchange: Option<Exchange>,
     /// What the master has sent in it.
     sent: Vec<u8>,
+    /// From one reading to the next, and when the last was taken; 0: one a frame.
+    period: Ps,
+    converted: Ps,
 }
 
 #[derive(Debug)]
@@ -76,6 +79,14 @@ impl Wired {
         }
     }
 
+    /// An MLX90333 has so many new readings a second from now on; none: one in each frame.
+    pub(crate) fn update_at(&mut self, update_hz: Option<u16>) {
+        if let Kind::Mlx90333(mlx) = &mut self.kind {
+            let hz = update_hz.map(Ps::from).filter(|hz| *hz > 0);
+            mlx.period = hz.map_or(0, |hz| 1_000_000_000_000 / hz);
+        }
+    }
+
     /// Its supply has gone.
     pub(crate) fn lose_power(&mut self) {
         if let Kind::Tmag5170(tmag) = &mut self.kind {
@@ -108,6 +119,11 @@ impl SensorEnd for Wired {
         match &mut self.kind {
             Kind::Mlx90333(mlx) => {
                 mlx.sent.clear();
+                if now - mlx.converted < mlx.period {
+                    mlx.slave.inject(WireFault::Frozen, 1);
+                } else {
+                    mlx.converted = now;
+                }
                 mlx.exchange = Some(mlx.slave.select());
                 mlx.begun.clone_from(&mlx.exchange);
             }

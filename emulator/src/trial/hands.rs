@@ -1,9 +1,10 @@
-//! What is done to motors, sensors, the button and the supply.
+//! What is done to motors, sensors, the button, the supply and the clock.
 
 use host_sim::Error;
 use host_sim::bus::WireFault;
 use host_sim::bus::tmag5170::LineFault;
 use host_sim::motor::{EncoderFlaws, Wire};
+use mlx90333::Faults;
 
 use super::file::{Event, Part, Scenario, What};
 use scene::Scene;
@@ -16,6 +17,7 @@ enum Sensor {
     Frozen,
     Gone,
     Garbled,
+    Unpowered,
     NoMagnet,
     NearMagnet,
 }
@@ -28,6 +30,8 @@ impl Sensor {
             Self::Gone => Some(WireFault::Silent),
             // A bit of its first word.
             Self::Garbled => Some(WireFault::Flip(20)),
+            // Its protection holds the line low.
+            Self::Unpowered => Some(WireFault::LineLow),
             Self::NoMagnet => Some(WireFault::NoField),
             Self::NearMagnet => None,
         }
@@ -37,7 +41,7 @@ impl Sensor {
     const fn of_tmag(self) -> LineFault {
         match self {
             Self::Frozen => LineFault::Frozen,
-            Self::Gone => LineFault::Silent,
+            Self::Gone | Self::Unpowered => LineFault::Silent,
             // A bit of the field.
             Self::Garbled => LineFault::FlipReply(12),
             Self::NoMagnet => LineFault::NoField,
@@ -51,11 +55,13 @@ impl Sensor {
 struct Around {
     is_stuck: bool,
     encoder: EncoderFlaws,
+    is_reversed: bool,
     friction: f64,
     volts: Option<f64>,
     torque_nm: f64,
     is_held: bool,
     sensor: Option<Sensor>,
+    select_sticks: bool,
     has_restarted: bool,
     /// Another than the scene's.
     part: Option<Part>,
@@ -66,11 +72,13 @@ impl Around {
     const WELL: Self = Self {
         is_stuck: false,
         encoder: EncoderFlaws::NONE,
+        is_reversed: false,
         friction: 1.0,
         volts: None,
         torque_nm: 0.0,
         is_held: false,
         sensor: None,
+        select_sticks: false,
         part: None,
         has_restarted: false,
     };
@@ -83,6 +91,7 @@ impl Around {
             What::Slip { share } => self.encoder.slip = share,
             What::Scale { factor } => self.encoder.scale *= factor,
             What::Reversed => self.encoder.scale = -self.encoder.scale,
+            What::MotorReversed => self.is_reversed = true,
             What::Friction { factor } => self.friction = factor,
             What::Supply { volts } => self.volts = Some(volts),
             What::Hand { torque_nm } => self.torque_nm = torque_nm,
@@ -90,6 +99,8 @@ impl Around {
             What::SensorFrozen => self.sensor = Some(Sensor::Frozen),
             What::SensorGone => self.sensor = Some(Sensor::Gone),
             What::SensorGarbled => self.sensor = Some(Sensor::Garbled),
+            What::SensorUnpowered => self.sensor = Some(Sensor::Unpowered),
+            What::SelectStuck => self.select_sticks = true,
             What::SensorRestart => self.has_restarted = true,
             What::MagnetGone => self.sensor = Some(Sensor::NoMagnet),
             What::MagnetNear => self.sensor = Some(Sensor::NearMagnet),
@@ -98,47 +109,55 @@ impl Around {
             | What::Probe { .. }
             | What::Configuration { .. }
             | What::Button
-            | What::PowerOff => {}
+            | What::PowerOff
+            | What::ClockLate => {}
         }
     }
 }
 
 /// Does what the events say.
-pub(super) struct Hands<'s> {
+#[derive(Debug)]
+pub(crate) struct Hands {
     /// The scene's own sensor.
     own: Part,
-    events: &'s [Event],
+    events: Vec<Event>,
     /// Of each side.
     around: Vec<Around>,
     is_pressed: bool,
     is_off: bool,
+    is_late: bool,
     /// In this tick power has gone.
     has_cut: bool,
 }
 
-impl<'s> Hands<'s> {
-    pub(super) fn new(scenario: &'s Scenario, scene: &Scene) -> Self {
+impl Hands {
+    pub(super) fn new(scenario: &Scenario, scene: &Scene) -> Self {
         Self {
             own: Part {
                 decoder: config::decoder(&scene.sensor),
                 rest_us: 0,
+                update_hz: None,
+                report: 0,
             },
-            events: &scenario.events,
+            events: scenario.events.clone(),
             around: Vec::new(),
             is_pressed: false,
             is_off: false,
+            is_late: false,
             has_cut: false,
         }
     }
 
     /// What is to be done before the tick that begins at `t_s`.
-    pub(super) fn act(&mut self, t_s: f64, session: &mut Session) -> Result<(), Error> {
+    pub(crate) fn act(&mut self, t_s: f64, session: &mut Session) -> Result<(), Error> {
         let lasting = self.events.iter().filter(|event| event.lasts(t_s));
-        let (mut around, mut is_pressed, mut is_off) = ([Around::WELL; 2], false, false);
+        let mut around = [Around::WELL; 2];
+        let [mut is_pressed, mut is_off, mut is_late] = [false; 3];
         for event in lasting {
             match event.what {
                 What::Button => is_pressed = true,
                 What::PowerOff => is_off = true,
+                What::ClockLate => is_late = true,
                 _ => {}
             }
             if let Some(around) = around.get_mut(event.side) {
@@ -152,6 +171,14 @@ impl<'s> Hands<'s> {
                 let part = around.part.unwrap_or(self.own);
                 let board = session.board_mut();
                 board.program_sensor(side, part.decoder, part.rest_us.into());
+                board.update_sensor(side, part.update_hz);
+                let is_stuck = around.select_sticks;
+                board
+                    .machine
+                    .with_chip(|chip| chip.stick_select(side, is_stuck));
+                if let Some(slave) = session.run.slave_mut(side) {
+                    slave.set_error_word(Faults::new(part.report));
+                }
             }
             self.around = around.to_vec();
         }
@@ -163,7 +190,11 @@ impl<'s> Hands<'s> {
         if was_off != is_off {
             session.board_mut().set_power(!is_off)?;
         }
-        self.has_cut = is_off && !was_off;
+        let was_late = std::mem::replace(&mut self.is_late, is_late);
+        if was_late != is_late {
+            session.board_mut().start_without_clock(is_late)?;
+        }
+        self.has_cut = is_off && !was_off || is_late && !was_late;
         Ok(())
     }
 
@@ -192,6 +223,7 @@ fn surround(session: &mut Session, side: usize, around: &Around, had_restarted: 
         motor.mend(Wire::Encoder);
     }
     motor.set_encoder(around.encoder);
+    motor.set_reversed(around.is_reversed);
     motor.set_friction(around.friction);
     motor.set_supply_v(around.volts);
     motor.set_load_nm(around.torque_nm);
