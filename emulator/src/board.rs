@@ -151,9 +151,11 @@ impl Board {
     pub(crate) fn start_without_clock(&mut self, is_without: bool) -> Result<(), Fault> {
         if is_without {
             self.set_power(false)?;
+            self.set_power(true)?;
         }
-        self.machine.disturb(|chip| chip.stop_clock(is_without))?;
-        self.set_power(true)
+        self.machine
+            .disturb(|chip| chip.stop_clock(is_without))
+            .map(drop)
     }
 
     /// Runs to the end of the next tick, through resets if they are borne.

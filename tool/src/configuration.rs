@@ -12,6 +12,7 @@ use mlx90333::Decoder;
 use scene::Scene;
 use serde_json::Value;
 use whisking::Real;
+use whisking::motor::Duty;
 
 pub(crate) use program::Program;
 pub(crate) use runs_by::RunsBy;
@@ -106,8 +107,12 @@ fn gentle<R: Real>(of: &Running, most: f64) -> Result<ConfigBytes, ConfigError> 
     let board = of.program.board;
     let mut config = decode::<R>(&of.bytes, board)?;
     if let Some(motion) = &mut config.motion {
-        let limit = &mut motion.servo.pd.limit;
-        *limit = (*limit).min((most * FULL_DUTY) as i32);
+        let servo = &mut motion.servo;
+        servo.pd.limit = servo.pd.limit.min((most * FULL_DUTY) as i32);
+        // Of a motor that is driven hard, which is from half of that.
+        let hard = Duty::from_q15((servo.pd.limit >> 10) as i16);
+        let stall = &mut servo.guards.stall;
+        stall.threshold = stall.threshold.min(hard);
     }
     encode(&config, board)
 }
