@@ -210,6 +210,9 @@ impl Seen {
             "{} frames: {} all ones, {} all zeros, {} with another start",
             self.frames, self.silent, self.low, self.bad_start
         );
+        if self.begun() == 0 {
+            return text;
+        }
         let unknown = "not certain";
         for (rule, kept) in &self.kept {
             // Writing to a string does not fail.

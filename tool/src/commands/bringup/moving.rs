@@ -27,6 +27,10 @@ pub(super) fn encoder(bench: &mut Bench, side: u8) -> Result<Part, Error> {
     if !bench.running.has_motor {
         return Ok(Part::not_done(NO_MOTOR));
     }
+    if bench.running.program().facts().is_none() {
+        let why = "not done: no hand turns a simulated whisker";
+        return Ok(Part::not_done(why));
+    }
     if let Some(why) = bench.no_records()? {
         return Ok(Part::not_done(why));
     }

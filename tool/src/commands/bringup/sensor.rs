@@ -29,8 +29,11 @@ pub(super) fn frames(bench: &mut Bench, side: u8) -> Result<Part, Error> {
         part.find(finding);
     }
     let part = part.with(&seen);
+    let is_silent = seen.is_silent_at_times();
     bench.seen[usize::from(side)] = Some(seen);
-    Ok(if part.is_well() {
+    Ok(if part.is_well() && is_silent {
+        part.means("what the sensor answers is as the scene has it, but not each frame is answered")
+    } else if part.is_well() {
         part.means("the sensor answers, as the scene has it")
     } else {
         part.means("the sensor is not as the scene has it, or is not read")
