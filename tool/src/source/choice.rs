@@ -51,7 +51,7 @@ pub(crate) struct SourceChoice {
     #[arg(long, value_name = "SCENE", conflicts_with = "probe")]
     world: Option<PathBuf>,
     /// What befalls the board of --emulated: a file of events, as docs/boards.md lists them
-    #[arg(long, value_name = "FILE", requires = "emulated")]
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["sim", "probe", "port"])]
     scenario: Option<PathBuf>,
     /// The file that keeps the flash which is deployed to from one command to the next, as a
     /// board does: scene and model of --emulated, the model of --sim; made where there is none

@@ -165,6 +165,6 @@ fn nobody_at_the_keyboard_is_no_answer() {
     ran.prints("not done: no hand turns a simulated whisker");
     place.refuses(
         "bringup --sim @bringup.toml --scenario befalls.toml",
-        "--emulated",
+        "cannot be used with",
     );
 }

@@ -8,7 +8,7 @@ use serde::Serialize;
 use super::bench::Bench;
 use super::module::of_fault;
 use super::report::Part;
-use crate::calibrate::{Listening, Push, push};
+use crate::calibrate::{Listening, Push, REST_DEG, push};
 use crate::exchange::Taken;
 use crate::interrupt;
 
@@ -124,6 +124,8 @@ fn refused(taken: Taken) -> Option<String> {
 fn tried(bench: &mut Bench, side: u8) -> Result<Turns, Error> {
     let mut whisker = bench.whisker(side)?;
     stands_still(&mut whisker)?;
+    // Before it is armed: it would begin where the pattern generator is.
+    whisker.hold(Some(REST_DEG))?;
     whisker.arm()?;
     let pushed = push(&mut whisker);
     interrupt::check()?;
