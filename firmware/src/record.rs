@@ -263,7 +263,7 @@ fn sum(words: [u32; RECORD_WORDS - 1]) -> u32 {
 
 #[cfg(test)]
 mod tests {
-    use super::{NotArmed, Record, StartCause, Startup};
+    use super::{NotArmed, Record, StartCause, Started, Startup};
     use crate::faults::number;
 
     /// A start after `found` seconds of running.
@@ -280,6 +280,22 @@ mod tests {
         assert_eq!((start.number, start.fault), (1, 0));
         assert_eq!(start.may_arm(true), Ok(()));
         record
+    }
+
+    #[test]
+    fn how_a_board_started_is_read_as_it_was_answered() {
+        for cause in StartCause::ALL {
+            for [is_internal, browns_out_late] in [[false, true], [true, false]] {
+                let started = Started {
+                    number: u32::MAX,
+                    cause,
+                    fault: number::SUPPLY_LOW,
+                    is_internal,
+                    browns_out_late,
+                };
+                assert_eq!(Started::of(started.values()), started);
+            }
+        }
     }
 
     #[test]

@@ -101,8 +101,6 @@ pub struct SimMotor {
     /// Its supply now, and how many times its Coulomb friction it has.
     supply_v: f64,
     friction: f64,
-    /// Its two wires, or two of its three, are exchanged.
-    is_reversed: bool,
     play: Play,
 }
 
@@ -164,7 +162,6 @@ impl SimMotor {
             jitter: Jitter::default(),
             supply_v: settings.supply_v,
             friction: 1.0,
-            is_reversed: false,
             play: Play::default(),
         })
     }
@@ -180,7 +177,6 @@ impl SimMotor {
         self.jitter = Jitter::default();
         self.supply_v = self.settings.supply_v;
         self.friction = 1.0;
-        self.is_reversed = false;
         self.play = Play::default();
         self.pins()
     }
@@ -265,11 +261,7 @@ impl SimMotor {
     /// Its settings with the supply that it has now.
     const fn fed(&self) -> MotorSettings {
         MotorSettings {
-            supply_v: if self.is_reversed {
-                -self.supply_v
-            } else {
-                self.supply_v
-            },
+            supply_v: self.supply_v,
             ..self.settings
         }
     }
@@ -309,11 +301,6 @@ impl SimMotor {
         if (0.0..=100.0).contains(&supply_v) {
             self.supply_v = supply_v;
         }
-    }
-
-    /// Exchanges its wires, so that it turns the other way, or puts them right again.
-    pub fn set_reversed(&mut self, is_reversed: bool) {
-        self.is_reversed = is_reversed;
     }
 
     /// So many times its Coulomb friction from now on; what is negative or not finite does

@@ -223,7 +223,11 @@ fn surround(session: &mut Session, side: usize, around: &Around, had_restarted: 
         motor.mend(Wire::Encoder);
     }
     motor.set_encoder(around.encoder);
-    motor.set_reversed(around.is_reversed);
+    if around.is_reversed {
+        motor.cut(Wire::Windings);
+    } else {
+        motor.mend(Wire::Windings);
+    }
     motor.set_friction(around.friction);
     motor.set_supply_v(around.volts);
     motor.set_load_nm(around.torque_nm);

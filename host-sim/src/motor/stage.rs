@@ -54,8 +54,7 @@ impl Stage {
         if self == Self::Brushed {
             return 1;
         }
-        let acceleration =
-            s.torque_nm_per_a * s.supply_v.abs() / (s.resistance_ohm * s.inertia_kg_m2());
+        let acceleration = s.torque_nm_per_a * s.supply_v / (s.resistance_ohm * s.inertia_kg_m2());
         // Swings in a standing field have ω² = acceleration.
         let rate = (speed.abs() + acceleration * dt_s).max(acceleration.sqrt());
         // A cast to an integer saturates and makes 0 of NaN.
