@@ -18,6 +18,8 @@ enum Sensor {
     Gone,
     Garbled,
     Unpowered,
+    /// It does not see /SS rise.
+    Selected,
     NoMagnet,
     NearMagnet,
 }
@@ -33,7 +35,7 @@ impl Sensor {
             // Its protection holds the line low.
             Self::Unpowered => Some(WireFault::LineLow),
             Self::NoMagnet => Some(WireFault::NoField),
-            Self::NearMagnet => None,
+            Self::NearMagnet | Self::Selected => None,
         }
     }
 
@@ -41,7 +43,7 @@ impl Sensor {
     const fn of_tmag(self) -> LineFault {
         match self {
             Self::Frozen => LineFault::Frozen,
-            Self::Gone | Self::Unpowered => LineFault::Silent,
+            Self::Gone | Self::Unpowered | Self::Selected => LineFault::Silent,
             // A bit of the field.
             Self::Garbled => LineFault::FlipReply(12),
             Self::NoMagnet => LineFault::NoField,
@@ -50,18 +52,29 @@ impl Sensor {
     }
 }
 
+/// The encoder's cable, and the motor's two wires.
+const WIRES: [Wire; 2] = [Wire::Encoder, Wire::Windings];
+
+/// What is so at the board itself.
+#[derive(Debug, Clone, Copy, Default)]
+struct AtBoard {
+    is_pressed: bool,
+    is_off: bool,
+    /// The clock from outside did not come.
+    is_late: bool,
+}
+
 /// What is so at a motor and its sensor.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Around {
-    is_stuck: bool,
+    /// Which of [`WIRES`] are cut, or exchanged.
+    cut: [bool; 2],
     encoder: EncoderFlaws,
-    is_reversed: bool,
     friction: f64,
     volts: Option<f64>,
     torque_nm: f64,
     is_held: bool,
     sensor: Option<Sensor>,
-    select_sticks: bool,
     has_restarted: bool,
     /// Another than the scene's.
     part: Option<Part>,
@@ -70,15 +83,13 @@ struct Around {
 impl Around {
     /// Nothing is wrong.
     const WELL: Self = Self {
-        is_stuck: false,
+        cut: [false; 2],
         encoder: EncoderFlaws::NONE,
-        is_reversed: false,
         friction: 1.0,
         volts: None,
         torque_nm: 0.0,
         is_held: false,
         sensor: None,
-        select_sticks: false,
         part: None,
         has_restarted: false,
     };
@@ -86,12 +97,12 @@ impl Around {
     /// Adds an event that has begun after those before.
     fn add(&mut self, what: &What) {
         match *what {
-            What::Stuck => self.is_stuck = true,
+            What::Stuck => self.cut[0] = true,
             What::Jitter { counts } => self.encoder.jitter = counts,
             What::Slip { share } => self.encoder.slip = share,
             What::Scale { factor } => self.encoder.scale *= factor,
             What::Reversed => self.encoder.scale = -self.encoder.scale,
-            What::MotorReversed => self.is_reversed = true,
+            What::MotorReversed => self.cut[1] = true,
             What::Friction { factor } => self.friction = factor,
             What::Supply { volts } => self.volts = Some(volts),
             What::Hand { torque_nm } => self.torque_nm = torque_nm,
@@ -100,7 +111,7 @@ impl Around {
             What::SensorGone => self.sensor = Some(Sensor::Gone),
             What::SensorGarbled => self.sensor = Some(Sensor::Garbled),
             What::SensorUnpowered => self.sensor = Some(Sensor::Unpowered),
-            What::SelectStuck => self.select_sticks = true,
+            What::SelectStuck => self.sensor = Some(Sensor::Selected),
             What::SensorRestart => self.has_restarted = true,
             What::MagnetGone => self.sensor = Some(Sensor::NoMagnet),
             What::MagnetNear => self.sensor = Some(Sensor::NearMagnet),
@@ -123,9 +134,7 @@ pub(crate) struct Hands {
     events: Vec<Event>,
     /// Of each side.
     around: Vec<Around>,
-    is_pressed: bool,
-    is_off: bool,
-    is_late: bool,
+    at_board: AtBoard,
     /// In this tick power has gone.
     has_cut: bool,
 }
@@ -141,9 +150,7 @@ impl Hands {
             },
             events: scenario.events.clone(),
             around: Vec::new(),
-            is_pressed: false,
-            is_off: false,
-            is_late: false,
+            at_board: AtBoard::default(),
             has_cut: false,
         }
     }
@@ -151,13 +158,12 @@ impl Hands {
     /// What is to be done before the tick that begins at `t_s`.
     pub(crate) fn act(&mut self, t_s: f64, session: &mut Session) -> Result<(), Error> {
         let lasting = self.events.iter().filter(|event| event.lasts(t_s));
-        let mut around = [Around::WELL; 2];
-        let [mut is_pressed, mut is_off, mut is_late] = [false; 3];
+        let (mut around, mut now) = ([Around::WELL; 2], AtBoard::default());
         for event in lasting {
             match event.what {
-                What::Button => is_pressed = true,
-                What::PowerOff => is_off = true,
-                What::ClockLate => is_late = true,
+                What::Button => now.is_pressed = true,
+                What::PowerOff => now.is_off = true,
+                What::ClockLate => now.is_late = true,
                 _ => {}
             }
             if let Some(around) = around.get_mut(event.side) {
@@ -172,7 +178,7 @@ impl Hands {
                 let board = session.board_mut();
                 board.program_sensor(side, part.decoder, part.rest_us.into());
                 board.update_sensor(side, part.update_hz);
-                let is_stuck = around.select_sticks;
+                let is_stuck = around.sensor == Some(Sensor::Selected);
                 board
                     .machine
                     .with_chip(|chip| chip.stick_select(side, is_stuck));
@@ -182,19 +188,18 @@ impl Hands {
             }
             self.around = around.to_vec();
         }
-        if std::mem::replace(&mut self.is_pressed, is_pressed) != is_pressed {
+        let before = std::mem::replace(&mut self.at_board, now);
+        if before.is_pressed != now.is_pressed {
             let machine = session.machine();
-            machine.with_chip(|chip| chip.set_button(is_pressed));
+            machine.with_chip(|chip| chip.set_button(now.is_pressed));
         }
-        let was_off = std::mem::replace(&mut self.is_off, is_off);
-        if was_off != is_off {
-            session.board_mut().set_power(!is_off)?;
+        if before.is_off != now.is_off {
+            session.board_mut().set_power(!now.is_off)?;
         }
-        let was_late = std::mem::replace(&mut self.is_late, is_late);
-        if was_late != is_late {
-            session.board_mut().start_without_clock(is_late)?;
+        if before.is_late != now.is_late {
+            session.board_mut().start_without_clock(now.is_late)?;
         }
-        self.has_cut = is_off && !was_off || is_late && !was_late;
+        self.has_cut = now.is_off && !before.is_off || now.is_late && !before.is_late;
         Ok(())
     }
 
@@ -217,17 +222,14 @@ fn surround(session: &mut Session, side: usize, around: &Around, had_restarted: 
     let Some(motor) = session.run.motor_mut(side) else {
         return;
     };
-    if around.is_stuck {
-        motor.cut(Wire::Encoder);
-    } else {
-        motor.mend(Wire::Encoder);
+    for (wire, is_cut) in WIRES.into_iter().zip(around.cut) {
+        if is_cut {
+            motor.cut(wire);
+        } else {
+            motor.mend(wire);
+        }
     }
     motor.set_encoder(around.encoder);
-    if around.is_reversed {
-        motor.cut(Wire::Windings);
-    } else {
-        motor.mend(Wire::Windings);
-    }
     motor.set_friction(around.friction);
     motor.set_supply_v(around.volts);
     motor.set_load_nm(around.torque_nm);

@@ -97,11 +97,11 @@ impl<'m> Listening<'m> {
             Packet::Record(_) | Packet::Answer(_) => None,
         });
         self.faults.extend(faults.map(|fault| fault.what));
-        let numbers = packets.iter().filter_map(|packet| match packet {
+        let mut numbers = packets.iter().filter_map(|packet| match packet {
             Packet::Event(event) => number(&event.event),
             Packet::Record(_) | Packet::Answer(_) => None,
         });
-        self.last_fault = numbers.last().or(self.last_fault);
+        self.last_fault = numbers.next_back().or(self.last_fault);
     }
 
     /// Listens for so many seconds of the module's time; `each` is given every sample, and ends

@@ -69,7 +69,7 @@ type OfSide = fn(&mut Bench, u8) -> Result<Part, Error>;
 /// The steps but for the first, in their order.
 const STEPS: [(Name, OfSide); 6] = [
     (Name::Frames, sensor::frames),
-    (Name::Rest, sensor::rest),
+    (Name::Rest, |bench, side| Ok(sensor::rest(bench, side))),
     (Name::Rate, readings::rate),
     (Name::Noise, readings::noise),
     (Name::Encoder, moving::encoder),

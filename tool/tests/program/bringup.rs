@@ -23,12 +23,15 @@ fn program() -> &'static Path {
 
 /// The command line of these steps of a bring-up that waits for nobody, where this befalls the board.
 fn bringup(place: &Place, events: &[&str], steps: &str) -> String {
-    let events: String = events
-        .iter()
-        .map(|event| format!("[[event]]\nat_s = 0.0\n{event}\n"))
-        .collect();
-    // Of those with a time of their own.
-    place.write("befalls.toml", &events.replace("at_s = 0.0\nat_s", "at_s"));
+    let events = events.iter().map(|event| {
+        let at_s = if event.starts_with("at_s") {
+            ""
+        } else {
+            "at_s = 0.0\n"
+        };
+        format!("[[event]]\n{at_s}{event}\n")
+    });
+    place.write("befalls.toml", &events.collect::<Vec<_>>().concat());
     let program = program().display();
     format!(
         "bringup --emulated @bench.toml --program {program} --scenario befalls.toml --frames 60 --yes \

@@ -96,7 +96,7 @@ pub(super) fn motor(bench: &mut Bench, side: u8) -> Result<Part, Error> {
     }
     let gentle = bench.running.gentle(FIFTH)?;
     if gentle != bench.running
-        && let Some(why) = refused(gentle.send(&mut bench.module)?)
+        && let Some(why) = refused(&gentle.send(&mut bench.module)?)
     {
         return Ok(Part::not_done(why));
     }
@@ -109,7 +109,7 @@ pub(super) fn motor(bench: &mut Bench, side: u8) -> Result<Part, Error> {
 }
 
 /// Why a gentler motor cannot be had.
-fn refused(taken: Taken) -> Option<String> {
+fn refused(taken: &Taken) -> Option<String> {
     let why = match taken {
         Taken::Runs => return None,
         Taken::NotBuilt => format!("its image was built without {}", BoardPart::Set),

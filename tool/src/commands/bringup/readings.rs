@@ -39,18 +39,21 @@ fn watched(bench: &mut Bench, side: u8) -> Result<Result<Vec<Sample>, Part>, Err
     })
 }
 
+/// How often there is a new reading.
+#[derive(Serialize)]
+struct Rate {
+    readings: usize,
+    /// Share of those that are not the one before.
+    new: f64,
+    update_hz: f64,
+}
+
 pub(super) fn rate(bench: &mut Bench, side: u8) -> Result<Part, Error> {
     bench.ask("move the whisker to and fro, by hand, until the next step")?;
     let samples = match watched(bench, side)? {
         Ok(samples) => samples,
         Err(part) => return Ok(part),
     };
-    #[derive(Serialize)]
-    struct Rate {
-        readings: usize,
-        new: f64,
-        update_hz: f64,
-    }
     let pairs = samples.windows(2);
     let new = pairs.filter(|pair| pair[0].words != pair[1].words).count();
     let new = new as f64 / (samples.len() - 1) as f64;

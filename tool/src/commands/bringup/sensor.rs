@@ -72,14 +72,14 @@ struct Leaves {
 const RATES: [u32; 4] = [2_000, 1_000, 500, 200];
 
 /// From the frames that were read: whether the rest between them is enough.
-pub(super) fn rest(bench: &mut Bench, side: u8) -> Result<Part, Error> {
+pub(super) fn rest(bench: &mut Bench, side: u8) -> Part {
     let Some(seen) = &bench.seen[usize::from(side)] else {
         let why = "not done: no frames were read, by the step before";
-        return Ok(Part::not_done(why));
+        return Part::not_done(why);
     };
     let Some(facts) = bench.running.program().facts() else {
         let why = "not done: no time passes between the frames of a simulated module";
-        return Ok(Part::not_done(why));
+        return Part::not_done(why);
     };
     let tick_hz = bench.about.tick_hz;
     let clocks = bench.clocks(facts);
@@ -91,7 +91,7 @@ pub(super) fn rest(bench: &mut Bench, side: u8) -> Result<Part, Error> {
     let mut part =
         Part::new("worked out the rest between two frames, and looked at the frames again");
     let Some(now) = leaves(tick_hz) else {
-        return Ok(part.means("this rate of ticks leaves no rest that the scene allows"));
+        return part.means("this rate of ticks leaves no rest that the scene allows");
     };
     part.saw(format!(
         "/SS is high for {} us between two frames at tick_hz = {tick_hz}; {} of {} frames are all \
@@ -110,9 +110,8 @@ pub(super) fn rest(bench: &mut Bench, side: u8) -> Result<Part, Error> {
     if !named.is_empty() {
         part.saw(format!("slower ticks leave more: {named}"));
     }
-    let part = part.with(&(now, &others));
-    Ok(if seen.is_silent_at_times() {
-        let mut part = part;
+    part = part.with(&(now, &others));
+    if seen.is_silent_at_times() {
         part.find(format!(
             "the sensor answers some frames and not others: {} us may be too short a rest. Deploy \
              scenes/bringup.toml, or another scene with tick_hz = 1000, and look again; then set \
@@ -127,7 +126,7 @@ pub(super) fn rest(bench: &mut Bench, side: u8) -> Result<Part, Error> {
             "a rest of {} us is enough for this sensor; a shorter one needs a scene with faster ticks",
             now.rest_us
         ))
-    })
+    }
 }
 
 impl Bench {
