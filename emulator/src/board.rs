@@ -146,6 +146,25 @@ impl Board {
             .with_chip(|chip| chip.program_sensor(side, decoder, rest_us));
     }
 
+    /// The sensor of a side has so many new readings a second; none: one in each frame.
+    pub(crate) fn update_sensor(&mut self, side: usize, update_hz: Option<u16>) {
+        if let Some(sensor) = self.sensors.get_mut(side) {
+            sensor.update_at(update_hz);
+        }
+    }
+
+    /// Power comes without a clock from outside, as on a supply without a PC; or that clock is
+    /// there again.
+    pub(crate) fn start_without_clock(&mut self, is_without: bool) -> Result<(), Fault> {
+        if is_without {
+            self.set_power(false)?;
+            self.set_power(true)?;
+        }
+        self.machine
+            .disturb(|chip| chip.stop_clock(is_without))
+            .map(drop)
+    }
+
     /// Runs to the end of the next tick, through resets if they are borne.
     fn pass_tick(&mut self) -> Result<(), Fault> {
         self.inputs();

@@ -17,6 +17,7 @@ use crate::chip::{Fault, Ps};
 use crate::emulate::{start, start_without};
 use crate::machine::Machine;
 use crate::program::Program;
+use crate::trial::{self, Hands};
 use rtt::LogDecoder;
 
 /// Picoseconds in a second.
@@ -39,6 +40,8 @@ pub struct Session {
     is_by_serial: bool,
     /// That of the last request.
     tag: u16,
+    /// What befalls it.
+    hands: Option<Hands>,
 }
 
 impl Session {
@@ -103,6 +106,7 @@ impl Session {
             tick_hz: scene.tick_hz,
             is_by_serial: false,
             tag: 0,
+            hands: None,
         })
     }
 
@@ -172,6 +176,7 @@ impl Session {
     /// From now on a reset that the program or the watchdog makes is no fault, and the world
     /// moves on where no tick ends; or no more.
     pub fn bear_resets(&mut self, bears: bool) {
+        let bears = bears || self.hands.is_some();
         // Ticks are not equally long.
         let most_wait = self.period() * 3 / 2;
         let board = self.board_mut();
@@ -192,7 +197,30 @@ impl Session {
     /// # Errors
     /// [`Error::Work`] says what has stopped the board.
     pub fn tick(&mut self) -> Result<(), Error> {
+        if let Some(mut hands) = self.hands.take() {
+            let done = hands.act(self.run.t_s(), self);
+            self.hands = Some(hands);
+            done?;
+        }
         Ok(self.pass_tick()?)
+    }
+
+    /// From now on there befalls it what the file of a scenario says (docs/boards.md), resets
+    /// included; comes back once it ticks.
+    ///
+    /// # Errors
+    /// [`Error::Input`] for a file that is wrong, [`Error::Work`] for a board that does not tick.
+    pub fn befall(&mut self, path: &Path, scene: &Scene) -> Result<(), Error> {
+        self.hands = Some(trial::befalling(path, scene)?);
+        self.bear_resets(true);
+        for _ in 0..PATIENCE {
+            self.tick()?;
+            if !self.board_mut().is_late {
+                return Ok(());
+            }
+        }
+        let fault = format!("{}: the board does not start", path.display());
+        Err(Error::Work(fault))
     }
 
     /// The same, for who asks what was not followed.

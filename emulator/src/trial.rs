@@ -20,8 +20,8 @@ use crate::deployment::{flashed, model_of};
 use crate::session::Session;
 use crate::watch::Servos;
 use figures::{Figures, Outcome};
-use file::Scenario;
-use hands::Hands;
+use file::{Scenario, What};
+pub(crate) use hands::Hands;
 use links::Links;
 use said::Lister;
 
@@ -117,6 +117,24 @@ fn run(
         figures.look(&mut session, servos, was_reset, arrived)?;
     }
     Ok(figures.outcome(lister))
+}
+
+/// What befalls a board of `scene` that somebody else talks with, by a file: its times are the
+/// board's, its duration and seed do not count.
+pub(crate) fn befalling(path: &Path, scene: &Scene) -> Result<Hands, Error> {
+    let scenario = Scenario::load(path)?;
+    scenario.fits(path, scene)?;
+    let is_sent = |what: &What| {
+        matches!(
+            what,
+            What::Serial { .. } | What::Probe { .. } | What::Configuration { .. }
+        )
+    };
+    if scenario.events.iter().any(|event| is_sent(&event.what)) {
+        let fault = "found an event that sends something, but whoever talks with the board does";
+        return Err(wrong(path, fault));
+    }
+    Ok(Hands::new(&scenario, scene))
 }
 
 /// A file that is wrong.

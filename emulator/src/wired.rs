@@ -1,7 +1,7 @@
 //! host-sim's sensors at the ends of the emulated wires.
 
 use host_sim::bus::tmag5170::{BelowMagnet, Frame, TmagSlave};
-use host_sim::bus::{Exchange, Slave};
+use host_sim::bus::{Exchange, Slave, WireFault};
 use mlx90333::FRAME_LEN;
 use scene::{Scene, SensorModel};
 
@@ -33,6 +33,9 @@ struct Mlx {
     exchange: Option<Exchange>,
     /// What the master has sent in it.
     sent: Vec<u8>,
+    /// From one reading to the next, and when the last was taken; 0: one a frame.
+    period: Ps,
+    converted: Ps,
 }
 
 #[derive(Debug)]
@@ -80,6 +83,14 @@ impl Wired {
         }
     }
 
+    /// An MLX90333 has so many new readings a second from now on; none: one in each frame.
+    pub(crate) fn update_at(&mut self, update_hz: Option<u16>) {
+        if let Kind::Mlx90333(mlx) = &mut self.kind {
+            let hz = update_hz.map(Ps::from).filter(|hz| *hz > 0);
+            mlx.period = hz.map_or(0, |hz| 1_000_000_000_000 / hz);
+        }
+    }
+
     /// Its supply has gone.
     pub(crate) fn lose_power(&mut self) {
         if let Kind::Tmag5170(tmag) = &mut self.kind {
@@ -115,11 +126,16 @@ impl SensorEnd for Wired {
                 if is_polled {
                     let slave = mlx.beside.get_or_insert_with(|| mlx.slave.clone());
                     (mlx.exchange, mlx.begun) = (Some(slave.select()), None);
-                } else {
-                    mlx.beside = None;
-                    mlx.exchange = Some(mlx.slave.select());
-                    mlx.begun.clone_from(&mlx.exchange);
+                    return;
                 }
+                mlx.beside = None;
+                if now - mlx.converted < mlx.period {
+                    mlx.slave.inject(WireFault::Frozen, 1);
+                } else {
+                    mlx.converted = now;
+                }
+                mlx.exchange = Some(mlx.slave.select());
+                mlx.begun.clone_from(&mlx.exchange);
             }
             Kind::Tmag5170(tmag) => tmag.frame = Some(tmag.below.slave.select()),
         }

@@ -67,7 +67,9 @@ pub use perception::{
     ClassifierConfig, CodeClassifier, ModelLimits, ModelState, NotCodes, Perception, Refusal,
     Sample, SampleClassifier, Sensed, shifts,
 };
-pub use record::{NotArmed, RECORD_WORDS, RESET_WINDOW_S, RESETS, Record, StartCause, Startup};
+pub use record::{
+    NotArmed, RECORD_WORDS, RESET_WINDOW_S, RESETS, Record, StartCause, Started, Startup,
+};
 pub use self_test::{READINGS, SelfTest};
 pub use sensing::{BAD_WEIGHT, Reading, Sensor, SensorHealth, SensorLimits, SwingLimits};
 pub use servo::{FAULTS, HELD, MotorRecord, Retry, Servo, ServoConfig, ServoState, TooManyFaults};

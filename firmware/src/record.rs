@@ -32,6 +32,16 @@ pub enum StartCause {
 }
 
 impl StartCause {
+    /// All of them, in the order of their numbers.
+    const ALL: [Self; 6] = [
+        Self::Watchdog,
+        Self::Software,
+        Self::Power,
+        Self::BrownOut,
+        Self::Pin,
+        Self::Other,
+    ];
+
     /// Its word in the log.
     pub const fn name(self) -> &'static str {
         match self {
@@ -49,6 +59,43 @@ impl StartCause {
     pub fn first<const N: usize>(flags: [(bool, Self); N]) -> Self {
         let set = flags.into_iter().find(|(set, _)| *set);
         set.map_or(Self::Other, |(_, cause)| cause)
+    }
+}
+
+/// How a board has started: what it answers to [`wire::Command::Started`].
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Started {
+    /// Starts since power-up, this one included.
+    pub number: u32,
+    /// Why it started.
+    pub cause: StartCause,
+    /// The number of the last fault since power-up; 0: none.
+    pub fault: u8,
+    /// It runs by the chip's own oscillator, as the clock from outside did not come.
+    pub is_internal: bool,
+    /// The brown-out level lies below what the clock needs.
+    pub browns_out_late: bool,
+}
+
+impl Started {
+    /// As it is answered: starts; cause, fault and two flags, a byte each but for these.
+    pub const fn values(self) -> [i32; 2] {
+        let flags = self.is_internal as u8 | (self.browns_out_late as u8) << 1;
+        let how = [self.cause as u8, self.fault, flags, 0];
+        [self.number.cast_signed(), i32::from_le_bytes(how)]
+    }
+
+    /// From an answer.
+    pub fn of([number, how]: [i32; 2]) -> Self {
+        let [cause, fault, flags, _] = how.to_le_bytes();
+        let cause = StartCause::ALL.get(usize::from(cause)).copied();
+        Self {
+            number: number.cast_unsigned(),
+            cause: cause.unwrap_or(StartCause::Other),
+            fault,
+            is_internal: flags & 1 != 0,
+            browns_out_late: flags & 2 != 0,
+        }
     }
 }
 
@@ -216,7 +263,7 @@ fn sum(words: [u32; RECORD_WORDS - 1]) -> u32 {
 
 #[cfg(test)]
 mod tests {
-    use super::{NotArmed, Record, StartCause, Startup};
+    use super::{NotArmed, Record, StartCause, Started, Startup};
     use crate::faults::number;
 
     /// A start after `found` seconds of running.
@@ -233,6 +280,22 @@ mod tests {
         assert_eq!((start.number, start.fault), (1, 0));
         assert_eq!(start.may_arm(true), Ok(()));
         record
+    }
+
+    #[test]
+    fn how_a_board_started_is_read_as_it_was_answered() {
+        for cause in StartCause::ALL {
+            for [is_internal, browns_out_late] in [[false, true], [true, false]] {
+                let started = Started {
+                    number: u32::MAX,
+                    cause,
+                    fault: number::SUPPLY_LOW,
+                    is_internal,
+                    browns_out_late,
+                };
+                assert_eq!(Started::of(started.values()), started);
+            }
+        }
     }
 
     #[test]

@@ -180,7 +180,8 @@ impl Link {
             | Said::Forget
             | Said::Load(_)
             | Said::Word(..)
-            | Said::Restart => Err(CommandStatus::NotHere),
+            | Said::Restart
+            | Said::Started => Err(CommandStatus::NotHere),
         };
         Answer {
             sequence,

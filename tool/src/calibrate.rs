@@ -12,7 +12,7 @@ mod watched;
 pub(crate) use findings::{Finding, findings, table};
 pub(crate) use identify::{Gains, Motor, identify, suggest};
 pub(crate) use listening::Listening;
-pub(crate) use moves::{Push, lead, push, steps};
+pub(crate) use moves::{Push, REST_DEG, lead, push, steps};
 pub(crate) use picture::{ANGLE, Panel, picture};
 pub(crate) use rest::{HALF_RANGE, MIDDLE, Zero, is_at_end};
 pub(crate) use watched::{Watched, watch};

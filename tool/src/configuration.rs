@@ -12,6 +12,7 @@ use mlx90333::Decoder;
 use scene::Scene;
 use serde_json::Value;
 use whisking::Real;
+use whisking::motor::Duty;
 
 pub(crate) use program::Program;
 pub(crate) use runs_by::RunsBy;
@@ -39,10 +40,18 @@ pub(crate) struct Running {
     pub(crate) links: Links,
     /// How frames of an MLX90333 are read.
     pub(crate) decoder: Decoder,
+    /// Least time between two frames of one, µs, and whether it is in its slow mode.
+    pub(crate) rest_us: u16,
+    pub(crate) has_slow_sensors: bool,
+    /// Whether its whiskers have motors.
+    pub(crate) has_motor: bool,
     /// Whether it decides, by a model that is deployed with it.
     pub(crate) decides: bool,
     contact_min: Option<f64>,
 }
+
+/// The whole duty in a configuration, Q24.
+const FULL_DUTY: f64 = 16_777_216.0;
 
 /// What helps where an image was built without a part.
 pub(crate) const ANY_SCENE: &str = "cargo xtask firmware --any-scene builds one that has it";
@@ -72,6 +81,9 @@ fn read<R: Real>(program: Program, bytes: Vec<u8>) -> Result<Running, ConfigErro
         head: config.head,
         links: config.links,
         decoder: config.sensor.decoder,
+        rest_us: config.sensor.rest_us,
+        has_slow_sensors: config.sensor.kind.is_slow(),
+        has_motor: config.motion.is_some(),
         program,
         bytes,
     })
@@ -89,6 +101,20 @@ fn may_become<R: Real>(old: &Running, new: &Running) -> Result<(), ConfigError> 
     let board = old.program.board;
     let new = decode::<R>(&new.bytes, board)?;
     decode::<R>(&old.bytes, board)?.may_become(&new, false)
+}
+
+fn gentle<R: Real>(of: &Running, most: f64) -> Result<ConfigBytes, ConfigError> {
+    let board = of.program.board;
+    let mut config = decode::<R>(&of.bytes, board)?;
+    if let Some(motion) = &mut config.motion {
+        let servo = &mut motion.servo;
+        servo.pd.limit = servo.pd.limit.min((most * FULL_DUTY) as i32);
+        // Of a motor that is driven hard, which is from half of that.
+        let hard = Duty::from_q15((servo.pd.limit >> 10) as i16);
+        let stall = &mut servo.guards.stall;
+        stall.threshold = stall.threshold.min(hard);
+    }
+    encode(&config, board)
 }
 
 fn tree<R: Real>(of: &Running) -> Value {
@@ -161,6 +187,13 @@ impl Running {
             overrides,
         };
         Self::of_scene(scene, board, target)
+    }
+
+    /// The same with motors that are driven by so much at most.
+    pub(crate) fn gentle(&self, most: f64) -> Result<Self, Error> {
+        let bytes = in_format!(self.program.format, gentle(self, most));
+        let bytes = bytes.map_err(|fault| Error::Work(fault.to_string()))?;
+        Self::of(bytes.to_vec())
     }
 
     pub(crate) fn bytes(&self) -> &[u8] {

@@ -39,7 +39,8 @@ pub(crate) fn fault(EventRecord { sequence, event }: &EventRecord, tick_hz: u32)
     })
 }
 
-fn plain(markdown: &str) -> String {
+/// A text without its marks; of a link the place that it leads to.
+pub(crate) fn plain(markdown: &str) -> String {
     let mut text = String::new();
     let mut rest = markdown;
     while let Some((before, link)) = rest.split_once('[') {

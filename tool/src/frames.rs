@@ -49,6 +49,7 @@ impl Seen {
         let silent = count(&|frame| *frame == [u8::MAX; FRAME_LEN]);
         let low = count(&|frame| *frame == [0; FRAME_LEN]);
         let begins = |frame: &[u8; FRAME_LEN]| frame[0] == START_BYTE;
+        // All ones begin as a frame does.
         let bad_start = count(&|frame| !begins(frame)) - low;
         let is_frame = |frame: &&[u8; FRAME_LEN]| begins(frame) && **frame != [u8::MAX; FRAME_LEN];
         let begun: Vec<_> = frames.iter().filter(is_frame).copied().collect();
@@ -125,28 +126,39 @@ impl Seen {
         }
     }
 
+    /// How many begin as frames do.
+    pub(crate) const fn begun(&self) -> usize {
+        self.frames - self.silent - self.low - self.bad_start
+    }
+
+    /// Whether it answers some frames and others not at all.
+    pub(crate) fn is_silent_at_times(&self) -> bool {
+        self.begun() > 0 && self.share(self.silent) > 1.0 - CLEAN
+    }
+
+    fn share(&self, count: usize) -> f64 {
+        count as f64 / self.frames.max(1) as f64
+    }
+
     /// What is not as the module takes it, and what to do; empty where all is well.
     pub(crate) fn findings(&self, takes: Decoder) -> Vec<String> {
         let mut found = Vec::new();
-        let share = |count: usize| count as f64 / self.frames.max(1) as f64;
-        if self.frames == 0 {
-            found.push("no frame was read: only those of an MLX90333 are looked at".to_owned());
-        }
-        if share(self.silent) > 1.0 - CLEAN {
+        if self.begun() == 0 && self.silent > 0 {
             found.push(format!(
-                "{} frames are all ones, so nothing answers: supply, /SS, SCLK and data line with an \
-                 oscilloscope; if it is every second or third frame, the sensor may need a longer \
-                 rest: try tick_hz = 1000",
+                "{} frames are all ones, so nothing answers. At the sensor, with an oscilloscope: 5 V at \
+                 its supply; /SS, which must fall and rise in each tick (one that never rises looks \
+                 like this too); SCLK; the data line, which the sensor must pull low",
                 self.silent
             ));
         }
-        if share(self.low) > 1.0 - CLEAN {
+        if self.share(self.low) > 1.0 - CLEAN {
             found.push(format!(
-                "{} frames are all zeros: the data line has no pull-up, or something holds it low",
+                "{} frames are all zeros: the sensor has no supply, the data line has no pull-up, or \
+                 something holds it low",
                 self.low
             ));
         }
-        if share(self.bad_start) > 1.0 - CLEAN {
+        if self.share(self.bad_start) > 1.0 - CLEAN {
             found.push(format!(
                 "{} frames do not begin with ff: slow edges, a clock that is too fast, or gaps that \
                  are too short; a lower tick_hz has longer gaps",
@@ -198,6 +210,9 @@ impl Seen {
             "{} frames: {} all ones, {} all zeros, {} with another start",
             self.frames, self.silent, self.low, self.bad_start
         );
+        if self.begun() == 0 {
+            return text;
+        }
         let unknown = "not certain";
         for (rule, kept) in &self.kept {
             // Writing to a string does not fail.
@@ -296,14 +311,16 @@ mod tests {
             assert!(found.iter().any(|found| found.contains(what)), "{found:?}");
         };
         says(&[[0xFF; FRAME_LEN]; 50], "nothing answers");
-        says(&[[0; FRAME_LEN]; 50], "no pull-up");
+        says(&[[0; FRAME_LEN]; 50], "no supply");
         says(&[[0xFE; FRAME_LEN]; 50], "do not begin with ff");
-        says(&[], "no frame was read");
         let mut each_second = swinging(Decoder::new(), 1.0);
         for frame in each_second.iter_mut().step_by(2) {
             *frame = [0xFF; FRAME_LEN];
         }
-        says(&each_second, "longer rest");
+        let seen = Seen::of(&each_second);
+        assert!(seen.is_silent_at_times());
+        assert_eq!(seen.findings(Decoder::new()), Vec::<String>::new());
+        assert!(!Seen::of(&[[0xFF; FRAME_LEN]; 50]).is_silent_at_times());
         let low: Vec<_> = (0..50)
             .map(|n| encode::words([30_000 + n, 32_768, 0x0080], Decoder::new()))
             .collect();

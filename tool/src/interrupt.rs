@@ -1,6 +1,25 @@
 //! Signals that would end the program, where motors are stopped first.
 
+use std::sync::atomic::{AtomicBool, Ordering};
+
 use host_sim::Error;
+
+/// Whether one of them has come since [`heed`].
+static HAS_COME: AtomicBool = AtomicBool::new(false);
+
+/// From now on they are only noted, for [`check`].
+pub(crate) fn heed() -> Result<(), Error> {
+    on_signal(|_| HAS_COME.store(true, Ordering::Relaxed))
+}
+
+/// Fails once one has come.
+pub(crate) fn check() -> Result<(), Error> {
+    if HAS_COME.load(Ordering::Relaxed) {
+        let fault = "interrupted; the motors were stopped";
+        return Err(Error::Work(fault.to_owned()));
+    }
+    Ok(())
+}
 
 /// Has `act` called with each of them, in place of the end of the program.
 #[cfg(unix)]

@@ -71,8 +71,8 @@ enum Command {
     /// Watches a whisker for a minute and writes a report: what is not as its simulation has it,
     /// and what that is a sign of
     Check(commands::check::Arguments),
-    /// Looks at a module that has just got its first power: its sensors' frames as they come, and
-    /// what of the scene does not fit them; motors stay off
+    /// Brings a module up, step by step, with what was seen and what to do: its start, its sensors'
+    /// frames as they come, the encoder by hand; the motor last, if somebody says yes
     Bringup(commands::bringup::Arguments),
     /// Programs a board through its debug probe with a scene
     Flash(commands::flash::Arguments),
@@ -106,7 +106,7 @@ fn main() -> ExitCode {
     let work = || run(&command, Verbosity::of(quiet));
     match command {
         // An interrupt stops the motors there before it ends the program.
-        Command::Monitor(_) | Command::Calibrate(_) | Command::Check(_) => {
+        Command::Monitor(_) | Command::Calibrate(_) | Command::Check(_) | Command::Bringup(_) => {
             report::ended("whisker", work())
         }
         _ => report::program("whisker", work),

@@ -9,6 +9,8 @@ const FULL: f64 = 32767.0;
 pub(crate) struct Sample {
     /// When it was, s.
     pub(crate) t_s: f64,
+    /// x and y of the record, whose two lowest bits are no measurement.
+    pub(crate) words: [u16; 2],
     /// x and y as the sensor has them, codes of 14 bits.
     pub(crate) codes: [u16; 2],
     /// Where it should be, degrees.
@@ -27,6 +29,7 @@ impl Sample {
     pub(crate) fn new(record: &TickRecord, t_s: f64) -> Self {
         Self {
             t_s,
+            words: [record.x, record.y],
             codes: record.codes(),
             setpoint_deg: degrees(record.setpoint).into(),
             measured_deg: degrees(record.measured).into(),

@@ -21,6 +21,7 @@ const SCENES: &[(&str, &[u8])] = &files!(include_bytes, "scenes/", ".toml":
     "biphasic",
     "bench",
     "bench-textures",
+    "bringup",
     "tmag5170",
     "unknown",
     "passive",

@@ -83,6 +83,8 @@ pub enum Command {
     /// Says the last frame of the whisker's sensor as it came, B0 in the highest place of the first
     /// value.
     Frame(WhiskerId),
+    /// Says how it started: how often since power-up, and why, after which fault and by what clock.
+    Started,
 }
 
 /// In the second value of the answer to [`Command::Scene`]: the configuration is not the one of
@@ -139,6 +141,7 @@ impl Command {
             Self::Board => 22,
             Self::Class(..) => 23,
             Self::Frame(_) => 24,
+            Self::Started => 25,
         }
     }
 
@@ -170,6 +173,7 @@ impl Command {
             Self::Board => "board",
             Self::Class(..) => "class",
             Self::Frame(_) => "frame",
+            Self::Started => "started",
         }
     }
 }
@@ -203,7 +207,7 @@ mod tests {
 
     fn commands() -> impl Strategy<Value = Command> {
         let whisker = any::<(u8, u8)>().prop_map(|(side, number)| WhiskerId { side, number });
-        (0..25_u8, whisker, any::<(i32, u8, u16)>()).prop_map(|(which, whisker, values)| {
+        (0..26_u8, whisker, any::<(i32, u8, u16)>()).prop_map(|(which, whisker, values)| {
             let (value, byte, half) = values;
             let word = value.cast_unsigned();
             match which {
@@ -232,6 +236,7 @@ mod tests {
                 19 => Command::Restart,
                 20 => Command::Zero(whisker),
                 24 => Command::Frame(whisker),
+                25 => Command::Started,
                 21 => Command::Scene,
                 22 => Command::Board,
                 _ => Command::Class(byte, whisker.side),

@@ -101,6 +101,8 @@ pub(super) struct SensorLines {
     decoder: Decoder,
     /// In a frame that comes sooner after the last it is silent.
     silence: Ps,
+    /// It does not see /SS rise, and takes all bytes for one frame; whether that is over.
+    stuck: Option<bool>,
     /// What messages call the side.
     side: &'static str,
     selected: bool,
@@ -135,6 +137,7 @@ impl SensorLines {
             needs: Needs::FAST,
             decoder: Decoder::new(),
             silence: 0,
+            stuck: None,
             side,
             selected: false,
             fell: 0,
@@ -159,6 +162,11 @@ impl SensorLines {
     pub(super) fn program(&mut self, decoder: Decoder, rest_us: u32) {
         self.decoder = decoder;
         self.silence = ps(rest_us * 1_000);
+    }
+
+    /// From now on it does not see /SS rise, or does again.
+    pub(super) const fn stick(&mut self, is_stuck: bool) {
+        self.stuck = if is_stuck { Some(false) } else { None };
     }
 
     /// The sensor is a TMAG5170 from now on.
@@ -198,6 +206,9 @@ impl SensorLines {
             }
             self.rose = Some((now, is_good));
             self.is_over = true;
+            if let Some(is_over) = &mut self.stuck {
+                *is_over = true;
+            }
         }
         self.selected = low;
     }
@@ -205,7 +216,8 @@ impl SensorLines {
     /// Whether it is silent in the frame that is under way.
     fn is_silent(&self) -> bool {
         let rested = self.rose.map(|(rose, _)| self.fell.saturating_sub(rose));
-        rested.is_some_and(|rested| rested < self.silence)
+        // What follows a frame that does not end is a line that is let go.
+        self.stuck == Some(true) || rested.is_some_and(|rested| rested < self.silence)
     }
 
     /// Whether /SS has risen since the last call.

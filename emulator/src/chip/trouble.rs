@@ -47,6 +47,13 @@ impl Chip {
         }
     }
 
+    /// A side's sensor does not see /SS rise, or does again.
+    pub(crate) fn stick_select(&mut self, side: usize, is_stuck: bool) {
+        if let Some(lines) = self.lines.get_mut(side) {
+            lines.stick(is_stuck);
+        }
+    }
+
     /// The sensors are TMAG5170s, and need what these need.
     pub(crate) fn tilt_sensors(&mut self) {
         self.lines.iter_mut().for_each(SensorLines::tilt);

@@ -29,6 +29,7 @@ pub(super) enum What {
     Slip { share: f64 },
     Scale { factor: f64 },
     Reversed,
+    MotorReversed,
     Friction { factor: f64 },
     Supply { volts: f64 },
     Hand { torque_nm: f64 },
@@ -36,6 +37,8 @@ pub(super) enum What {
     SensorFrozen,
     SensorGone,
     SensorGarbled,
+    SensorUnpowered,
+    SelectStuck,
     SensorRestart,
     MagnetGone,
     SensorPart { part: Part },
@@ -45,6 +48,7 @@ pub(super) enum What {
     Configuration { change: Change },
     Button,
     PowerOff,
+    ClockLate,
 }
 
 /// A sensor that is another part, or programmed otherwise, than the scene has it.
@@ -53,6 +57,10 @@ pub(super) struct Part {
     pub(super) decoder: Decoder,
     /// It is silent in frames that come sooner after the last, µs.
     pub(super) rest_us: u16,
+    /// So often it has a new reading; none: in each frame.
+    pub(super) update_hz: Option<u16>,
+    /// What it reports in its error word.
+    pub(super) report: u16,
 }
 
 /// What a configuration that is sent has in place of the board's own.
@@ -146,7 +154,9 @@ impl Scenario {
                 _ if what.is_at_motor() && scene.motor.is_none() => {
                     "an event of a motor, but the scene has none"
                 }
-                What::SensorPart { .. } if scene.sensor.model != SensorModel::Mlx90333 => {
+                What::SensorPart { .. } | What::SelectStuck | What::SensorUnpowered
+                    if scene.sensor.model != SensorModel::Mlx90333 =>
+                {
                     "an event of an MLX90333, but the scene has another sensor"
                 }
                 What::SensorRestart | What::MagnetNear
@@ -189,6 +199,7 @@ impl What {
                 | Self::Slip { .. }
                 | Self::Scale { .. }
                 | Self::Reversed
+                | Self::MotorReversed
                 | Self::Friction { .. }
                 | Self::Supply { .. }
                 | Self::Hand { .. }

@@ -1,9 +1,10 @@
-//! What is done to motors, sensors, the button and the supply.
+//! What is done to motors, sensors, the button, the supply and the clock.
 
 use host_sim::Error;
 use host_sim::bus::WireFault;
 use host_sim::bus::tmag5170::LineFault;
 use host_sim::motor::{EncoderFlaws, Wire};
+use mlx90333::Faults;
 
 use super::file::{Event, Part, Scenario, What};
 use scene::Scene;
@@ -16,6 +17,9 @@ enum Sensor {
     Frozen,
     Gone,
     Garbled,
+    Unpowered,
+    /// It does not see /SS rise.
+    Selected,
     NoMagnet,
     NearMagnet,
 }
@@ -28,8 +32,10 @@ impl Sensor {
             Self::Gone => Some(WireFault::Silent),
             // A bit of its first word.
             Self::Garbled => Some(WireFault::Flip(20)),
+            // Its protection holds the line low.
+            Self::Unpowered => Some(WireFault::LineLow),
             Self::NoMagnet => Some(WireFault::NoField),
-            Self::NearMagnet => None,
+            Self::NearMagnet | Self::Selected => None,
         }
     }
 
@@ -37,7 +43,7 @@ impl Sensor {
     const fn of_tmag(self) -> LineFault {
         match self {
             Self::Frozen => LineFault::Frozen,
-            Self::Gone => LineFault::Silent,
+            Self::Gone | Self::Unpowered | Self::Selected => LineFault::Silent,
             // A bit of the field.
             Self::Garbled => LineFault::FlipReply(12),
             Self::NoMagnet => LineFault::NoField,
@@ -46,10 +52,23 @@ impl Sensor {
     }
 }
 
+/// The encoder's cable, and the motor's two wires.
+const WIRES: [Wire; 2] = [Wire::Encoder, Wire::Windings];
+
+/// What is so at the board itself.
+#[derive(Debug, Clone, Copy, Default)]
+struct AtBoard {
+    is_pressed: bool,
+    is_off: bool,
+    /// The clock from outside did not come.
+    is_late: bool,
+}
+
 /// What is so at a motor and its sensor.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Around {
-    is_stuck: bool,
+    /// Which of [`WIRES`] are cut, or exchanged.
+    cut: [bool; 2],
     encoder: EncoderFlaws,
     friction: f64,
     volts: Option<f64>,
@@ -64,7 +83,7 @@ struct Around {
 impl Around {
     /// Nothing is wrong.
     const WELL: Self = Self {
-        is_stuck: false,
+        cut: [false; 2],
         encoder: EncoderFlaws::NONE,
         friction: 1.0,
         volts: None,
@@ -78,11 +97,12 @@ impl Around {
     /// Adds an event that has begun after those before.
     fn add(&mut self, what: &What) {
         match *what {
-            What::Stuck => self.is_stuck = true,
+            What::Stuck => self.cut[0] = true,
             What::Jitter { counts } => self.encoder.jitter = counts,
             What::Slip { share } => self.encoder.slip = share,
             What::Scale { factor } => self.encoder.scale *= factor,
             What::Reversed => self.encoder.scale = -self.encoder.scale,
+            What::MotorReversed => self.cut[1] = true,
             What::Friction { factor } => self.friction = factor,
             What::Supply { volts } => self.volts = Some(volts),
             What::Hand { torque_nm } => self.torque_nm = torque_nm,
@@ -90,6 +110,8 @@ impl Around {
             What::SensorFrozen => self.sensor = Some(Sensor::Frozen),
             What::SensorGone => self.sensor = Some(Sensor::Gone),
             What::SensorGarbled => self.sensor = Some(Sensor::Garbled),
+            What::SensorUnpowered => self.sensor = Some(Sensor::Unpowered),
+            What::SelectStuck => self.sensor = Some(Sensor::Selected),
             What::SensorRestart => self.has_restarted = true,
             What::MagnetGone => self.sensor = Some(Sensor::NoMagnet),
             What::MagnetNear => self.sensor = Some(Sensor::NearMagnet),
@@ -98,47 +120,50 @@ impl Around {
             | What::Probe { .. }
             | What::Configuration { .. }
             | What::Button
-            | What::PowerOff => {}
+            | What::PowerOff
+            | What::ClockLate => {}
         }
     }
 }
 
 /// Does what the events say.
-pub(super) struct Hands<'s> {
+#[derive(Debug)]
+pub(crate) struct Hands {
     /// The scene's own sensor.
     own: Part,
-    events: &'s [Event],
+    events: Vec<Event>,
     /// Of each side.
     around: Vec<Around>,
-    is_pressed: bool,
-    is_off: bool,
+    at_board: AtBoard,
     /// In this tick power has gone.
     has_cut: bool,
 }
 
-impl<'s> Hands<'s> {
-    pub(super) fn new(scenario: &'s Scenario, scene: &Scene) -> Self {
+impl Hands {
+    pub(super) fn new(scenario: &Scenario, scene: &Scene) -> Self {
         Self {
             own: Part {
                 decoder: config::decoder(&scene.sensor),
                 rest_us: 0,
+                update_hz: None,
+                report: 0,
             },
-            events: &scenario.events,
+            events: scenario.events.clone(),
             around: Vec::new(),
-            is_pressed: false,
-            is_off: false,
+            at_board: AtBoard::default(),
             has_cut: false,
         }
     }
 
     /// What is to be done before the tick that begins at `t_s`.
-    pub(super) fn act(&mut self, t_s: f64, session: &mut Session) -> Result<(), Error> {
+    pub(crate) fn act(&mut self, t_s: f64, session: &mut Session) -> Result<(), Error> {
         let lasting = self.events.iter().filter(|event| event.lasts(t_s));
-        let (mut around, mut is_pressed, mut is_off) = ([Around::WELL; 2], false, false);
+        let (mut around, mut now) = ([Around::WELL; 2], AtBoard::default());
         for event in lasting {
             match event.what {
-                What::Button => is_pressed = true,
-                What::PowerOff => is_off = true,
+                What::Button => now.is_pressed = true,
+                What::PowerOff => now.is_off = true,
+                What::ClockLate => now.is_late = true,
                 _ => {}
             }
             if let Some(around) = around.get_mut(event.side) {
@@ -152,18 +177,29 @@ impl<'s> Hands<'s> {
                 let part = around.part.unwrap_or(self.own);
                 let board = session.board_mut();
                 board.program_sensor(side, part.decoder, part.rest_us.into());
+                board.update_sensor(side, part.update_hz);
+                let is_stuck = around.sensor == Some(Sensor::Selected);
+                board
+                    .machine
+                    .with_chip(|chip| chip.stick_select(side, is_stuck));
+                if let Some(slave) = session.run.slave_mut(side) {
+                    slave.set_error_word(Faults::new(part.report));
+                }
             }
             self.around = around.to_vec();
         }
-        if std::mem::replace(&mut self.is_pressed, is_pressed) != is_pressed {
+        let before = std::mem::replace(&mut self.at_board, now);
+        if before.is_pressed != now.is_pressed {
             let machine = session.machine();
-            machine.with_chip(|chip| chip.set_button(is_pressed));
+            machine.with_chip(|chip| chip.set_button(now.is_pressed));
         }
-        let was_off = std::mem::replace(&mut self.is_off, is_off);
-        if was_off != is_off {
-            session.board_mut().set_power(!is_off)?;
+        if before.is_off != now.is_off {
+            session.board_mut().set_power(!now.is_off)?;
         }
-        self.has_cut = is_off && !was_off;
+        if before.is_late != now.is_late {
+            session.board_mut().start_without_clock(now.is_late)?;
+        }
+        self.has_cut = now.is_off && !before.is_off || now.is_late && !before.is_late;
         Ok(())
     }
 
@@ -186,10 +222,12 @@ fn surround(session: &mut Session, side: usize, around: &Around, had_restarted: 
     let Some(motor) = session.run.motor_mut(side) else {
         return;
     };
-    if around.is_stuck {
-        motor.cut(Wire::Encoder);
-    } else {
-        motor.mend(Wire::Encoder);
+    for (wire, is_cut) in WIRES.into_iter().zip(around.cut) {
+        if is_cut {
+            motor.cut(wire);
+        } else {
+            motor.mend(wire);
+        }
     }
     motor.set_encoder(around.encoder);
     motor.set_friction(around.friction);

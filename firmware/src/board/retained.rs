@@ -2,8 +2,12 @@
 
 use core::cell::UnsafeCell;
 use core::mem::MaybeUninit;
+use core::sync::atomic::{AtomicU32, Ordering};
 
-use firmware::{RECORD_WORDS, Record, StartCause, Startup};
+use firmware::{RECORD_WORDS, Record, StartCause, Started, Startup};
+
+use super::pace;
+use crate::here::power;
 
 /// Words that a reset leaves as they are.
 struct Retained(UnsafeCell<MaybeUninit<[u32; RECORD_WORDS]>>);
@@ -38,10 +42,37 @@ impl Retained {
     }
 }
 
+/// The two values of [`Started`], but for its flags.
+static STARTED: [AtomicU32; 2] = [const { AtomicU32::new(0) }; 2];
+
+/// How the board has started.
+pub(crate) fn started() -> Started {
+    let found = Started::of(
+        STARTED
+            .each_ref()
+            .map(|of| of.load(Ordering::Relaxed).cast_signed()),
+    );
+    Started {
+        is_internal: pace::is_internal(),
+        browns_out_late: power::brown_out_is_low(),
+        ..found
+    }
+}
+
 /// Counts this start.
 pub(crate) fn start(cause: StartCause) -> Startup {
     let (record, start) = Record::start(RETAINED.load(), cause);
     RETAINED.store(&record);
+    let started = Started {
+        number: start.number,
+        cause,
+        fault: start.fault,
+        is_internal: false,
+        browns_out_late: false,
+    };
+    for (of, value) in STARTED.iter().zip(started.values()) {
+        of.store(value.cast_unsigned(), Ordering::Relaxed);
+    }
     start
 }
 

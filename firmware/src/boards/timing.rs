@@ -173,6 +173,17 @@ impl Clocks {
         }
     }
 
+    /// For how long /SS is high between two frames, ns, where the rate of ticks leaves that.
+    pub const fn rest_ns(&self, tick_hz: u32, rest_us: u16) -> Option<u32> {
+        match (
+            self.slot_ns(tick_hz, rest_us),
+            1_000_000_000_u32.checked_div(tick_hz),
+        ) {
+            (Some(slot_ns), Some(tick_ns)) => Some(tick_ns - self.frame_ns(slot_ns)),
+            _ => None,
+        }
+    }
+
     /// Counts of the byte timer in the slot for a tick rate, rounded up, where there is one.
     pub const fn slot_counts(&self, tick_hz: u32, rest_us: u16) -> Option<u16> {
         match self.slot_ns(tick_hz, rest_us) {

@@ -1,15 +1,12 @@
 //! One whisker that is listened to and moved. Its motor is off whenever this ends.
 
-use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, Ordering};
-
 use firmware::Packet;
 use host_sim::Error;
 use wire::{Command, Flags, TickRecord, WhiskerId};
 
 use crate::conversation::Conversation;
-use crate::faults::fault;
-use crate::interrupt::on_signal;
+use crate::faults::{fault, number};
+use crate::interrupt;
 use crate::sample::Sample;
 use crate::tally::{Before, Tally, side};
 
@@ -23,8 +20,8 @@ fn sum([x, y]: [u16; 2], [more_x, more_y]: [i32; 2]) -> [u16; 2] {
 
 const PATIENCE_S: f64 = 3.0;
 
-pub(crate) struct Listening {
-    module: Conversation,
+pub(crate) struct Listening<'m> {
+    module: &'m mut Conversation,
     whisker: WhiskerId,
     tick_hz: u32,
     ticks: u64,
@@ -33,15 +30,13 @@ pub(crate) struct Listening {
     pub(crate) tally: Tally,
     /// Faults and limits that it has said, with their time.
     pub(crate) faults: Vec<String>,
-    interrupted: Arc<AtomicBool>,
+    /// The number of the last.
+    pub(crate) last_fault: Option<u8>,
 }
 
-impl Listening {
+impl<'m> Listening<'m> {
     /// To the first whisker of the left side (0) or the right (1).
-    pub(crate) fn new(mut module: Conversation, side: u8) -> Result<Self, Error> {
-        let interrupted = Arc::new(AtomicBool::new(false));
-        let come = interrupted.clone();
-        on_signal(move |_| come.store(true, Ordering::Relaxed))?;
+    pub(crate) fn new(module: &'m mut Conversation, side: u8) -> Result<Self, Error> {
         let about = module.about()?;
         let whisker = WhiskerId { side, number: 0 };
         let zero = module.zero(whisker)?.unwrap_or_default();
@@ -54,12 +49,12 @@ impl Listening {
             ticks: 0,
             tally: Tally::default(),
             faults: Vec::new(),
-            interrupted,
+            last_fault: None,
         })
     }
 
     pub(crate) const fn module(&mut self) -> &mut Conversation {
-        &mut self.module
+        self.module
     }
 
     pub(crate) fn tick_s(&self) -> f64 {
@@ -102,6 +97,11 @@ impl Listening {
             Packet::Record(_) | Packet::Answer(_) => None,
         });
         self.faults.extend(faults.map(|fault| fault.what));
+        let mut numbers = packets.iter().filter_map(|packet| match packet {
+            Packet::Event(event) => number(&event.event),
+            Packet::Record(_) | Packet::Answer(_) => None,
+        });
+        self.last_fault = numbers.next_back().or(self.last_fault);
     }
 
     /// Listens for so many seconds of the module's time; `each` is given every sample, and ends
@@ -145,11 +145,7 @@ impl Listening {
         let from = self.ticks;
         let mut heard_s = self.module.source().now_s();
         loop {
-            if self.interrupted.load(Ordering::Relaxed) {
-                return Err(Error::Work(
-                    "interrupted; the motors were stopped".to_owned(),
-                ));
-            }
+            interrupt::check()?;
             let incoming = self.module.receive()?;
             self.note_faults(&incoming.packets);
             let now_s = self.module.source().now_s();
@@ -207,7 +203,7 @@ impl Listening {
 }
 
 /// Whatever ends this, a motor is not left driven.
-impl Drop for Listening {
+impl Drop for Listening<'_> {
     fn drop(&mut self) {
         // A module that is gone does not answer, and has its own guards.
         let _ = self.module.ask(Command::Stop);

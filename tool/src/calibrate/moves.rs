@@ -34,7 +34,7 @@ pub(crate) enum Push {
 }
 
 /// Goes a little way from rest and back.
-pub(crate) fn push(whisker: &mut Listening) -> Result<Push, Error> {
+pub(crate) fn push(whisker: &mut Listening<'_>) -> Result<Push, Error> {
     whisker.hold(Some(REST_DEG))?;
     let before = whisker.follow(0.3, |_| true)?;
     let Some(from) = before.last().map(|sample| sample.measured_deg) else {
@@ -65,7 +65,7 @@ pub(crate) fn push(whisker: &mut Listening) -> Result<Push, Error> {
 
 /// Leads the whisker slowly from rest to `to_deg` and back; where it met something on its way, if
 /// it did, degrees.
-pub(crate) fn lead(whisker: &mut Listening, to_deg: f64) -> Result<Option<f64>, Error> {
+pub(crate) fn lead(whisker: &mut Listening<'_>, to_deg: f64) -> Result<Option<f64>, Error> {
     let met = led(whisker, [REST_DEG, to_deg])?;
     led(whisker, [met.unwrap_or(to_deg), REST_DEG])?;
     whisker.follow(SETTLES_S, |_| true)?;
@@ -73,7 +73,7 @@ pub(crate) fn lead(whisker: &mut Listening, to_deg: f64) -> Result<Option<f64>, 
 }
 
 /// Leads it from where it is to another angle; where it stands, if it meets something.
-fn led(whisker: &mut Listening, [from, to]: [f64; 2]) -> Result<Option<f64>, Error> {
+fn led(whisker: &mut Listening<'_>, [from, to]: [f64; 2]) -> Result<Option<f64>, Error> {
     let pieces = ((to - from).abs() / (LED_DEG_S * LED_EACH_S))
         .ceil()
         .max(1.0);
@@ -106,7 +106,7 @@ pub(crate) struct Stepped {
     pub(crate) left_deg: Vec<f64>,
 }
 
-pub(crate) fn steps(whisker: &mut Listening, [low, high]: [f64; 2]) -> Result<Stepped, Error> {
+pub(crate) fn steps(whisker: &mut Listening<'_>, [low, high]: [f64; 2]) -> Result<Stepped, Error> {
     let mut stepped = Stepped {
         samples: Vec::new(),
         left_deg: Vec::new(),

@@ -36,7 +36,7 @@ pub(crate) struct Watched {
 /// Watches for so many seconds, rest included; a whisker that `has_motor` is armed for it, and
 /// stopped again.
 pub(crate) fn watch(
-    whisker: &mut Listening,
+    whisker: &mut Listening<'_>,
     seconds: f64,
     has_motor: bool,
 ) -> Result<Watched, Error> {
@@ -82,7 +82,7 @@ pub(crate) fn watch(
     })
 }
 
-fn at_rest(whisker: &mut Listening) -> Result<Vec<Sample>, Error> {
+fn at_rest(whisker: &mut Listening<'_>) -> Result<Vec<Sample>, Error> {
     rest(whisker.module())?;
     whisker.module().ask(Command::Stop)?;
     whisker.go_on()?;

@@ -37,6 +37,9 @@ pub(crate) struct Arguments {
     /// where there is none
     #[arg(long, value_name = "FILE")]
     flash: Option<PathBuf>,
+    /// What befalls it: a file of events, as docs/boards.md lists them
+    #[arg(long, value_name = "FILE")]
+    scenario: Option<PathBuf>,
     /// A name for the terminal, whose own is another each time: a symbolic link, which replaces
     /// another and nothing else
     #[arg(long, value_name = "PATH")]
@@ -150,6 +153,9 @@ pub(crate) fn board(arguments: &Arguments) -> Result<(), Error> {
     }
     // Whoever deploys a scene has the board start again.
     session.bear_resets(true);
+    if let Some(scenario) = &arguments.scenario {
+        session.befall(scenario, scene)?;
+    }
     let mut terminal = Terminal::open()?;
     if let Some(link) = &arguments.link {
         terminal.link(link)?;

@@ -18,6 +18,7 @@ use crate::calibrate::{
     ANGLE, HALF_RANGE, Listening, MIDDLE, Panel, Push, Zero, identify, is_at_end, lead, picture,
     push, steps, suggest,
 };
+use crate::interrupt;
 use crate::resting::rest;
 use crate::sample::Sample;
 use crate::tuning::Tuner;
@@ -61,7 +62,9 @@ pub(crate) fn calibrate(arguments: &Arguments) -> Result<(), Error> {
         file("steps.png")?,
     ];
     let side = arguments.side.number();
-    let mut whisker = Listening::new(arguments.which.source.module()?, side)?;
+    let mut module = arguments.which.source.module()?;
+    interrupt::heed()?;
+    let mut whisker = Listening::new(&mut module, side)?;
     report::warn(format_args!(
         "keep away what the whisker could touch: it goes from {} to {} degrees, slowly, and then \
          to and fro; Ctrl-C stops it",
@@ -91,7 +94,7 @@ pub(crate) fn calibrate(arguments: &Arguments) -> Result<(), Error> {
 }
 
 fn all(
-    whisker: &mut Listening,
+    whisker: &mut Listening<'_>,
     tuner: &Tuner,
     motor: &MotorSection,
     results: &mut Results,
@@ -135,7 +138,7 @@ fn all(
 }
 
 /// Takes another largest duty, and another by which it may change while nothing moves.
-fn limit(whisker: &mut Listening, tuner: &Tuner, duties: [f64; 2]) -> Result<(), Error> {
+fn limit(whisker: &mut Listening<'_>, tuner: &Tuner, duties: [f64; 2]) -> Result<(), Error> {
     let keys = ["motor.duty_limit", "motor.unmoved_duty"];
     let set = keys.into_iter().zip(duties).map(|(key, duty)| {
         let value = duty.to_string();
@@ -146,7 +149,7 @@ fn limit(whisker: &mut Listening, tuner: &Tuner, duties: [f64; 2]) -> Result<(),
 }
 
 /// The sensor at rest in free air, its motor off.
-fn zero(whisker: &mut Listening, results: &mut Results) -> Result<(), Error> {
+fn zero(whisker: &mut Listening<'_>, results: &mut Results) -> Result<(), Error> {
     rest(whisker.module())?;
     whisker.go_on()?;
     whisker.watch(0.2, |_| true)?;
@@ -183,7 +186,7 @@ fn zero(whisker: &mut Listening, results: &mut Results) -> Result<(), Error> {
 }
 
 fn travel(
-    whisker: &mut Listening,
+    whisker: &mut Listening<'_>,
     motor: &MotorSection,
     results: &mut Results,
 ) -> Result<[f64; 2], Error> {
@@ -210,7 +213,7 @@ fn travel(
 /// More of its range than a whisker in free air swings over. Chosen.
 const MOST_SWING: f64 = 0.2;
 
-fn whisk(whisker: &mut Listening, results: &mut Results) -> Result<(), Error> {
+fn whisk(whisker: &mut Listening<'_>, results: &mut Results) -> Result<(), Error> {
     whisker.hold(None)?;
     let samples = whisker.follow(WHISK_S, |_| true)?;
     let mut spans = Vec::new();
@@ -241,7 +244,7 @@ fn whisk(whisker: &mut Listening, results: &mut Results) -> Result<(), Error> {
 }
 
 fn gains(
-    whisker: &mut Listening,
+    whisker: &mut Listening<'_>,
     motor: &MotorSection,
     [low, high]: [f64; 2],
     results: &mut Results,

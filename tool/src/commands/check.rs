@@ -15,6 +15,7 @@ use crate::calibrate::{
     ANGLE, Finding, Listening, Panel, Watched, findings, picture, table, watch,
 };
 use crate::conversation::Conversation;
+use crate::interrupt;
 use crate::source::{Source, SourceChoice, seconds};
 
 /// Which whisker, for how long, and where the report goes.
@@ -49,6 +50,7 @@ pub(crate) fn check(arguments: &Arguments) -> Result<(), Error> {
         arguments.seconds
     ));
     let module = arguments.which.source.open(0)?;
+    interrupt::heed()?;
     let seen = Seen::of(module, arguments)?;
     let simulated = Seen::of(simulation, arguments)?;
     let found = findings(&seen.watched, &simulated.watched);
@@ -91,7 +93,8 @@ struct Seen {
 impl Seen {
     fn of(module: Box<dyn Source>, arguments: &Arguments) -> Result<Self, Error> {
         let has_motor = arguments.which.tuner()?.scene().motor.is_some();
-        let mut whisker = Listening::new(Conversation::new(module), arguments.side.number())?;
+        let mut module = Conversation::new(module);
+        let mut whisker = Listening::new(&mut module, arguments.side.number())?;
         let origin = whisker.module().origin()?;
         let watched = watch(&mut whisker, arguments.seconds, has_motor)?;
         Ok(Self {

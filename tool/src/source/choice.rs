@@ -50,6 +50,9 @@ pub(crate) struct SourceChoice {
     /// without it the module's own
     #[arg(long, value_name = "SCENE", conflicts_with = "probe")]
     world: Option<PathBuf>,
+    /// What befalls the board of --emulated: a file of events, as docs/boards.md lists them
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["sim", "probe", "port"])]
+    scenario: Option<PathBuf>,
     /// The file that keeps the flash which is deployed to from one command to the next, as a
     /// board does: scene and model of --emulated, the model of --sim; made where there is none
     #[arg(long, value_name = "FILE", conflicts_with = "probe")]
@@ -127,7 +130,7 @@ impl SourceChoice {
             }
             None => program::build(self.board(), path)?,
         };
-        let emulated = Emulated::open(loaded, &program, flash)?;
+        let emulated = Emulated::open(loaded, &program, flash, self.scenario.as_deref())?;
         Ok(Box::new(emulated))
     }
 }

@@ -22,11 +22,19 @@ pub(super) struct Emulated {
 }
 
 impl Emulated {
-    pub(super) fn open(loaded: Loaded, program: &Path, flash: Flash) -> Result<Self, Error> {
+    pub(super) fn open(
+        loaded: Loaded,
+        program: &Path,
+        flash: Flash,
+        scenario: Option<&Path>,
+    ) -> Result<Self, Error> {
         let mut flash = flash;
         let mut session = Session::flashed(&loaded.scene, program, flash.contents())?;
         if flash.contents().is_empty() {
             flash.store(&session.flash()?)?;
+        }
+        if let Some(scenario) = scenario {
+            session.befall(scenario, &loaded.scene)?;
         }
         Ok(Self {
             loaded,

@@ -169,17 +169,19 @@ fn a_board_on_a_port_runs_the_scene_that_is_deployed() {
 fn a_sensor_that_sums_otherwise_than_the_scene_has_it_is_found() {
     let place = Place::new();
     let served = Served::new(&place);
-    let bringup = format!("bringup {} --frames 60 --json seen.json", served.port);
+    let bringup = format!(
+        "bringup {} --frames 60 --yes --steps frames --json seen.json",
+        served.port
+    );
     let ran = place.done(&bringup);
-    ran.prints("motors: off until they are armed\n");
-    ran.prints("sensor left: as the scene has it\n");
+    ran.prints("means: the sensor answers, as the scene has it\n");
     let scene = std::fs::read_to_string(scenes("bench.toml")).unwrap();
     let keys = "[sensor]\nsum_rule = \"not-b1-b6\"";
     place.write("other.toml", &scene.replacen("[sensor]", keys, 1));
     place.done(&format!("deploy {} --scene other.toml", served.port));
     let ran = place.fails(&bringup);
     ran.prints(
-        "sensor left: the sum is another than the scene has: set sensor.sum_rule = \"b1-b6\"\n",
+        "frames left: the sum is another than the scene has: set sensor.sum_rule = \"b1-b6\"\n",
     );
     let seen = place.text("seen.json");
     assert!(seen.contains("\"sum_rule\": \"b1-b6\""), "{seen}");

@@ -4,6 +4,9 @@
 use std::collections::BTreeMap;
 use std::f64::consts::{PI, TAU};
 
+use firmware::boards::REST_US;
+
+use crate::firmware::Board;
 use crate::run::{read, top};
 
 fn docs(name: &str) -> String {
@@ -50,6 +53,30 @@ fn the_harness_has_the_pins_of_the_firmware() {
     let encoders = [encoder, &right[5..]].concat();
     let bridges = [bridge, right_bridge].concat();
     assert_eq!(drawn("harness.svg"), [sensors, encoders, bridges].concat());
+}
+
+/// Rows of a table that begin with a number.
+fn rows_of_numbers(table: &str) -> Vec<Vec<u32>> {
+    let rows = table.lines().map(|line| {
+        let cells = line.split('|').filter_map(|cell| cell.trim().parse().ok());
+        cells.collect::<Vec<u32>>()
+    });
+    rows.filter(|row| !row.is_empty()).collect()
+}
+
+#[test]
+fn rests_are_those_of_the_boards() {
+    let page = docs("boards.md");
+    let (_, table) = page.split_once("### The rest of a sensor").unwrap();
+    let (table, _) = table.split_once("\n## ").unwrap();
+    let rests = [2_000, 1_000, 500].map(|tick_hz| {
+        let boards = Board::ALL.map(|board| {
+            let rest = board.facts.clocks.rest_ns(tick_hz, REST_US).unwrap();
+            rest / 1_000
+        });
+        [&[tick_hz], &boards[..]].concat()
+    });
+    assert_eq!(rows_of_numbers(table), rests);
 }
 
 /// The magnet of the mount: radius and length, mm, and remanence, mT.

@@ -82,7 +82,8 @@ keys! {
         byte_order: SensorBytes = word().default("\"low-first\""),
 
         /// Least time for which the sensor is deselected between two frames. At 2 kHz a board
-        /// leaves it 64 us, at 1 kHz 300 us and more; a sister part asks for 300 us in its fast mode.
+        /// leaves it 64 us, at 1 kHz 300 us and more ([what each rate
+        /// leaves](boards.md#the-rest-of-a-sensor)); a sister part asks for 300 us in its fast mode.
         /// A board refuses ticks that leave less.
         rest_us: u16 = integer(50..=4_000).unit("us").default("50"),
 

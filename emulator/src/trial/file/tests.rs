@@ -1,6 +1,13 @@
 //! What a file may say.
 
+use std::path::Path;
+
+use mlx90333::{ByteOrder, Mode, SumRule};
+use scene::Scene;
+
 use super::{Scenario, What};
+
+const BENCH: &str = include_str!("../../../../scenes/bench.toml");
 
 fn refused(text: &str) -> String {
     Scenario::parse(text).unwrap_err()
@@ -27,6 +34,50 @@ fn an_event_is_read_with_its_times_side_and_value() {
     assert_eq!(hand.what, What::Hand { torque_nm: -0.002 });
     assert_eq!((hand.side, hand.until_s), (1, Some(1.5)));
     assert!(!hand.lasts(0.9995) && hand.lasts(1.0) && hand.lasts(1.4995) && !hand.lasts(1.5));
+}
+
+#[test]
+fn a_sensor_can_be_another_part_in_all_that_is_not_certain() {
+    let text = "[[event]]
+        at_s = 0.0
+        kind = 'sensor-part'
+        words = 'xyz'
+        sum_rule = 'not-b0-b6'
+        byte_order = 'high-first'
+        rest_us = 300
+        update_hz = 500
+        report = 128";
+    let scenario = Scenario::parse(text).unwrap();
+    let What::SensorPart { part } = scenario.events[0].what else {
+        panic!("{scenario:?}");
+    };
+    let decoder = part.decoder;
+    assert_eq!(decoder.mode, Mode::Xyz);
+    assert_eq!(decoder.sum_rule, SumRule::ComplementB0B6);
+    assert_eq!(decoder.byte_order, ByteOrder::Big);
+    assert_eq!((part.rest_us, part.update_hz), (300, Some(500)));
+    assert_eq!(part.report, 128);
+}
+
+#[test]
+fn what_befalls_what_a_scene_lacks_is_refused() {
+    let own = Scene::from_str("bench.toml", BENCH).unwrap();
+    let path = Path::new("befalls.toml");
+    let fits = |kind: &str, scene: &Scene| {
+        let event = format!("[[event]]\nat_s = 0.0\nkind = '{kind}'");
+        let fits = Scenario::parse(&event).unwrap().fits(path, scene);
+        fits.map_err(|error| error.to_string())
+    };
+    let other = BENCH.replace("[sensor]", "[sensor]\nmodel = 'tmag5170'");
+    let other = Scene::from_str("bench.toml", &other).unwrap();
+    for kind in ["sensor-part", "sensor-unpowered", "select-stuck"] {
+        assert_eq!(fits(kind, &own), Ok(()), "{kind}");
+        let refused = fits(kind, &other).unwrap_err();
+        assert!(refused.contains("an event of an MLX90333"), "{refused}");
+    }
+    for kind in ["motor-reversed", "clock-late"] {
+        assert_eq!(fits(kind, &own), Ok(()), "{kind}");
+    }
 }
 
 #[test]
@@ -59,6 +110,14 @@ fn what_is_wrong_is_named() {
             "unknown variant `all`",
         ),
         ("kind = 'button'\nfor_s = 0.0", "for_s: found 0"),
+        (
+            "kind = 'sensor-part'\nupdate_hz = 0.5",
+            "update_hz: found 0.5, allowed: 1 to 10000",
+        ),
+        (
+            "kind = 'select-stuck'\nreport = 1",
+            "report: not a key of this kind",
+        ),
         ("kind = 'button'\nside = 'both'", "both"),
     ] {
         let said = event(keys);

@@ -23,6 +23,7 @@ pub(super) enum Kind {
     EncoderSlip,
     EncoderScale,
     EncoderReversed,
+    MotorReversed,
     Friction,
     Supply,
     Hand,
@@ -30,6 +31,8 @@ pub(super) enum Kind {
     SensorFrozen,
     SensorGone,
     SensorGarbled,
+    SensorUnpowered,
+    SelectStuck,
     SensorRestart,
     MagnetGone,
     SensorPart,
@@ -39,6 +42,7 @@ pub(super) enum Kind {
     Configuration,
     Button,
     PowerOff,
+    ClockLate,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, Serialize)]
@@ -68,6 +72,8 @@ pub(super) struct Written {
     sum_rule: Option<String>,
     byte_order: Option<String>,
     rest_us: Option<f64>,
+    update_hz: Option<f64>,
+    report: Option<u16>,
     repeat_hz: Option<f64>,
 }
 
@@ -148,6 +154,7 @@ impl Written {
                 factor: number("factor", self.factor.take(), 0.0..=100.0)?,
             },
             Kind::EncoderReversed => What::Reversed,
+            Kind::MotorReversed => What::MotorReversed,
             Kind::Friction => What::Friction {
                 factor: number("factor", self.factor.take(), 0.0..=1_000.0)?,
             },
@@ -161,6 +168,8 @@ impl Written {
             Kind::SensorFrozen => What::SensorFrozen,
             Kind::SensorGone => What::SensorGone,
             Kind::SensorGarbled => What::SensorGarbled,
+            Kind::SensorUnpowered => What::SensorUnpowered,
+            Kind::SelectStuck => What::SelectStuck,
             Kind::SensorRestart => What::SensorRestart,
             Kind::MagnetGone => What::MagnetGone,
             Kind::SensorPart => What::SensorPart { part: self.part()? },
@@ -176,6 +185,7 @@ impl Written {
             },
             Kind::Button => What::Button,
             Kind::PowerOff => What::PowerOff,
+            Kind::ClockLate => What::ClockLate,
         })
     }
 
@@ -192,9 +202,13 @@ impl Written {
         let sum_rule = choice("sum_rule", self.sum_rule.take(), SensorSum::B1ToB6)?;
         let byte_order = choice("byte_order", self.byte_order.take(), SensorBytes::LowFirst)?;
         let rest_us = self.rest_us.take().unwrap_or_default();
+        let update_hz = self.update_hz.take();
+        let update_hz = update_hz.map(|hz| within("update_hz", hz, 1.0..=10_000.0));
         Ok(Part {
             decoder: config::decoder_of(words, sum_rule, byte_order),
             rest_us: within("rest_us", rest_us, 0.0..=10_000.0)? as u16,
+            update_hz: update_hz.transpose()?.map(|hz| hz as u16),
+            report: self.report.take().unwrap_or_default(),
         })
     }
 
@@ -213,6 +227,8 @@ impl Written {
             ("sum_rule", self.sum_rule.is_some()),
             ("byte_order", self.byte_order.is_some()),
             ("rest_us", self.rest_us.is_some()),
+            ("update_hz", self.update_hz.is_some()),
+            ("report", self.report.is_some()),
             ("repeat_hz", self.repeat_hz.is_some()),
         ];
         let strange = left.iter().find(|(_, is_there)| *is_there);

@@ -12,7 +12,7 @@ use super::{Asked, IdleEnds};
 use crate::board::about::About;
 use crate::board::counters::TICKS;
 use crate::board::perception::Names;
-use crate::board::{log, serial};
+use crate::board::{log, retained, serial};
 
 /// How something was asked for, and is answered.
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -152,6 +152,7 @@ impl Exchange {
         log::requested(request.command);
         let verdict = match request.command {
             Command::Class(class, from) => class_name(names, class, from),
+            Command::Started => Verdict::Done(CommandStatus::Done, retained::started().values()),
             command => self.configs.prepare(command),
         };
         if let Verdict::Done(status, values) = verdict {

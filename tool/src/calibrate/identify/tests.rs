@@ -40,6 +40,7 @@ fn followed(motor: Motor, kp: f64, kd: f64) -> Vec<Sample> {
         }
         samples.push(Sample {
             t_s: n as f64 * TICK_S,
+            words: [0x8000; 2],
             codes: [8192; 2],
             setpoint_deg: setpoint,
             measured_deg: rounded(measured, RECORD_DEG),

@@ -63,8 +63,8 @@ fn calibrated(more: &str, wire: Option<Wire>) -> Result<(Results, Vec<Sample>), 
     if let Some(wire) = wire {
         run.motor_mut(0).unwrap().cut(wire);
     }
-    let module = Conversation::new(Box::new(Wired(run)));
-    let mut whisker = Listening::new(module, 0).unwrap();
+    let mut module = Conversation::new(Box::new(Wired(run)));
+    let mut whisker = Listening::new(&mut module, 0).unwrap();
     let mut results = Results::default();
     let samples = all(&mut whisker, &tuner, motor, &mut results)?;
     // Nothing is driven then.
@@ -153,7 +153,7 @@ fn the_zero_that_the_module_finds_is_the_sensors_all_the_same() {
     let right = WhiskerId { side: 1, number: 0 };
     assert_eq!(module.zero(right).unwrap(), None, "there is none");
 
-    let mut whisker = Listening::new(module, 0).unwrap();
+    let mut whisker = Listening::new(&mut module, 0).unwrap();
     for found in ["while it is found", "afterwards"] {
         let samples = whisker.watch(2.5, |_| true).unwrap();
         for sample in &samples {

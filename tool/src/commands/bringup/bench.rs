@@ -1,0 +1,134 @@
+//! The module, and whoever stands before it.
+
+use std::io::{self, BufRead};
+use std::sync::mpsc::{self, Receiver, TryRecvError};
+use std::thread;
+
+use host_sim::{Error, report};
+use wire::{Command, CommandStatus};
+
+use super::Arguments;
+use crate::calibrate::Listening;
+use crate::configuration::Running;
+use crate::conversation::{AboutModule, Conversation};
+use crate::frames::Seen;
+use crate::interrupt;
+
+pub(super) struct Bench {
+    pub(super) module: Conversation,
+    pub(super) about: AboutModule,
+    /// The configuration that the module runs by.
+    pub(super) running: Running,
+    /// How many frames are read, and ticks watched.
+    pub(super) frames: u32,
+    /// What was seen of the frames of each side, and whether its encoder counts up.
+    pub(super) seen: [Option<Seen>; 2],
+    pub(super) counts_up: [Option<bool>; 2],
+    /// What is typed; none: nobody is asked.
+    typed: Option<Receiver<io::Result<String>>>,
+    may_drive: bool,
+}
+
+impl Bench {
+    pub(super) fn new(arguments: &Arguments) -> Result<Self, Error> {
+        let mut module = arguments.source.module()?;
+        let about = module.about()?;
+        let running = Running::ask(&mut module)?;
+        Ok(Self {
+            about,
+            running,
+            module,
+            frames: arguments.frames,
+            seen: [None, None],
+            counts_up: [None; 2],
+            typed: (!arguments.yes).then(typed),
+            may_drive: arguments.motor,
+        })
+    }
+
+    /// 0 for the left side, 1 for the right.
+    pub(super) fn sides(&self) -> std::ops::Range<u8> {
+        0..self.about.whiskers.min(2) as u8
+    }
+
+    /// Motors are off from here on, where there are any.
+    pub(super) fn stop(&mut self) -> Result<(), Error> {
+        match self.module.answer(Command::Stop)?.status {
+            CommandStatus::Done | CommandStatus::NoWhisker => Ok(()),
+            status => Err(Error::Work(format!("motors: {status}"))),
+        }
+    }
+
+    /// Asks for something, and waits until it is done.
+    pub(super) fn ask(&mut self, what: &str) -> Result<(), Error> {
+        if self.typed.is_none() {
+            report::warn(what);
+            return Ok(());
+        }
+        report::warn(format_args!("{what}; then press Enter"));
+        self.answer().map(drop)
+    }
+
+    /// Whether the motor may be driven, which this says.
+    pub(super) fn may_drive(&mut self, what: &str) -> Result<bool, Error> {
+        if self.may_drive || self.typed.is_none() {
+            report::warn(what);
+            return Ok(self.may_drive);
+        }
+        report::warn(format_args!(
+            "{what}; type yes, or press Enter to leave it out"
+        ));
+        Ok(self.answer()?.trim() == "yes")
+    }
+
+    /// What is typed next. What the module tells meanwhile is fetched.
+    fn answer(&mut self) -> Result<String, Error> {
+        let gone = |why: &str| {
+            Err(Error::Work(format!(
+                "standard input {why} before an answer came: run this in a terminal, or with --yes"
+            )))
+        };
+        loop {
+            interrupt::check()?;
+            match self.typed.as_ref().map(Receiver::try_recv) {
+                Some(Ok(Ok(line))) => return Ok(line),
+                Some(Ok(Err(error))) => return gone(&format!("failed ({error})")),
+                Some(Err(TryRecvError::Disconnected)) => return gone("was closed"),
+                Some(Err(TryRecvError::Empty)) => drop(self.module.source().next()?),
+                None => return Ok(String::new()),
+            }
+        }
+    }
+
+    /// Why records of every tick cannot be had, where they cannot.
+    pub(super) fn no_records(&mut self) -> Result<Option<String>, Error> {
+        let status = self.module.answer(Command::Stream(true))?.status;
+        Ok((status != CommandStatus::Done).then(|| {
+            format!(
+                "not done, as no records of every tick can be had: {status}; by a probe, or with a \
+                 higher telemetry.serial_baud, as scenes/bringup.toml has it"
+            )
+        }))
+    }
+
+    /// The whisker of a side, which is listened to from now on.
+    pub(super) fn whisker(&mut self, side: u8) -> Result<Listening<'_>, Error> {
+        let mut whisker = Listening::new(&mut self.module, side)?;
+        whisker.go_on()?;
+        Ok(whisker)
+    }
+}
+
+/// What is typed, line by line, beside the work.
+fn typed() -> Receiver<io::Result<String>> {
+    let (say, typed) = mpsc::channel();
+    thread::spawn(move || {
+        // Until the end of the input, or of whoever listens.
+        for line in io::stdin().lock().lines() {
+            if say.send(line).is_err() {
+                break;
+            }
+        }
+    });
+    typed
+}

@@ -1,0 +1,141 @@
+//! The sensor's frames, and the rest between two.
+
+use firmware::boards::{BoardFacts, Clocks};
+use host_sim::Error;
+use mlx90333::FRAME_LEN;
+use serde::Serialize;
+use wire::{Command, CommandStatus, WhiskerId};
+
+use super::bench::Bench;
+use super::report::Part;
+use crate::frames::Seen;
+use crate::interrupt;
+
+/// What a TMAG5170 has in place of frames.
+const NO_FRAMES: &str = "not done: its sensor has no frames of its own, as a TMAG5170; whisker log \
+                         names faults 27 to 31, and the steps below look at its readings";
+
+/// Reads frames, whatever the module takes them for, and says how the sensor sends them.
+pub(super) fn frames(bench: &mut Bench, side: u8) -> Result<Part, Error> {
+    let count = bench.frames;
+    bench.ask("move the whisker a little, to and fro, by hand, until the next step")?;
+    let Some(frames) = read(bench, side, count)? else {
+        return Ok(Part::not_done(NO_FRAMES));
+    };
+    let seen = Seen::of(&frames);
+    let mut part = Part::new(format!("read {} frames, with motors off", seen.frames));
+    part.saw(seen.text());
+    for finding in seen.findings(bench.running.decoder) {
+        part.find(finding);
+    }
+    let part = part.with(&seen);
+    let is_silent = seen.is_silent_at_times();
+    bench.seen[usize::from(side)] = Some(seen);
+    Ok(if part.is_well() && is_silent {
+        part.means("what the sensor answers is as the scene has it, but not each frame is answered")
+    } else if part.is_well() {
+        part.means("the sensor answers, as the scene has it")
+    } else {
+        part.means("the sensor is not as the scene has it, or is not read")
+    })
+}
+
+/// The last frame of a sensor, so many times; `None`: it has none.
+fn read(bench: &mut Bench, side: u8, count: u32) -> Result<Option<Vec<[u8; FRAME_LEN]>>, Error> {
+    let whisker = WhiskerId { side, number: 0 };
+    let mut frames = Vec::new();
+    for _ in 0..count {
+        interrupt::check()?;
+        let answer = bench.module.answer(Command::Frame(whisker))?;
+        // What it tells beside answers is of no interest here.
+        bench.module.take_kept();
+        match answer.status {
+            CommandStatus::Done => {
+                let [high, low] = answer.values.map(i32::cast_unsigned);
+                frames.push((u64::from(high) << 32 | u64::from(low)).to_be_bytes());
+            }
+            CommandStatus::NotHere => return Ok(None),
+            status => return Err(Error::Work(format!("frame: {status}"))),
+        }
+    }
+    Ok(Some(frames))
+}
+
+/// The rest that a rate of ticks leaves.
+#[derive(Debug, Clone, Copy, Serialize)]
+struct Leaves {
+    tick_hz: u32,
+    rest_us: u32,
+}
+
+/// Rates that are named beside the one that runs.
+const RATES: [u32; 4] = [2_000, 1_000, 500, 200];
+
+/// From the frames that were read: whether the rest between them is enough.
+pub(super) fn rest(bench: &mut Bench, side: u8) -> Part {
+    let Some(seen) = &bench.seen[usize::from(side)] else {
+        let why = "not done: no frames were read, by the step before";
+        return Part::not_done(why);
+    };
+    let Some(facts) = bench.running.program().facts() else {
+        let why = "not done: no time passes between the frames of a simulated module";
+        return Part::not_done(why);
+    };
+    let tick_hz = bench.about.tick_hz;
+    let clocks = bench.clocks(facts);
+    let leaves = |tick_hz| {
+        let rest_ns = clocks.rest_ns(tick_hz, bench.running.rest_us)?;
+        let rest_us = rest_ns / 1_000;
+        Some(Leaves { tick_hz, rest_us })
+    };
+    let mut part =
+        Part::new("worked out the rest between two frames, and looked at the frames again");
+    let Some(now) = leaves(tick_hz) else {
+        return part.means("this rate of ticks leaves no rest that the scene allows");
+    };
+    part.saw(format!(
+        "/SS is high for {} us between two frames at tick_hz = {tick_hz}; {} of {} frames are all \
+         ones, {} begin as frames do",
+        now.rest_us,
+        seen.silent,
+        seen.frames,
+        seen.begun()
+    ));
+    let others = RATES.into_iter().filter(|hz| *hz < tick_hz);
+    let others: Vec<Leaves> = others.filter_map(leaves).collect();
+    let named = others
+        .iter()
+        .map(|of| format!("{} us at {} Hz", of.rest_us, of.tick_hz));
+    let named = named.collect::<Vec<_>>().join(", ");
+    if !named.is_empty() {
+        part.saw(format!("slower ticks leave more: {named}"));
+    }
+    part = part.with(&(now, &others));
+    if seen.is_silent_at_times() {
+        part.find(format!(
+            "the sensor answers some frames and not others: {} us may be too short a rest. Deploy \
+             scenes/bringup.toml, or another scene with tick_hz = 1000, and look again; then set \
+             sensor.rest_us to what reads clean, so that no board takes a faster tick",
+            now.rest_us
+        ));
+        part.means("the sensor may need a longer rest than this rate of ticks leaves it")
+    } else if seen.begun() == 0 {
+        part.means("nothing, as no frame was answered: the step before comes first")
+    } else {
+        part.means(format!(
+            "a rest of {} us is enough for this sensor; a shorter one needs a scene with faster ticks",
+            now.rest_us
+        ))
+    }
+}
+
+impl Bench {
+    /// The clocks by which the board reads its sensors.
+    fn clocks(&self, facts: &BoardFacts) -> Clocks {
+        if self.running.has_slow_sensors {
+            facts.clocks.halved()
+        } else {
+            facts.clocks
+        }
+    }
+}
