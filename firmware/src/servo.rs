@@ -1,6 +1,7 @@
 //! The servo of one whisker: a motor with an angle input that follows a
 //! setpoint, and what it does about faults.
 
+mod leaps;
 #[cfg(test)]
 mod tests;
 
@@ -14,6 +15,7 @@ use wire::{Flags, q13};
 use crate::config::Part;
 use crate::io::AngleInput;
 use crate::{Event, Place};
+use leaps::Leaps;
 
 /// Constants of a servo.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
@@ -59,10 +61,6 @@ pub const FAULTS: usize = 3;
 /// So many tests of its motion in succession that a motor fails, and it is given up: a whisker
 /// that something holds and an encoder that stands still look alike, and a test is gentle.
 pub const HELD: u8 = 6;
-
-/// So often an encoder that stood has shown more counts in a tick than any motor turns in it, and it
-/// has lost counts: its contact has closed again. A blow may do so once.
-const LEAPS: u8 = 2;
 
 /// What a servo is doing.
 // With a tag of its own, by which the emulator reads each variant.
@@ -135,10 +133,7 @@ pub struct Servo<R, M, A> {
     held: u8,
     /// Ticks until a motor that was given up may be cleared once more.
     until_clear: u32,
-    /// Not a count was seen in the last tick.
-    stood: bool,
-    /// How often its encoder has leapt.
-    leaps: u8,
+    leaps: Leaps,
 }
 
 impl<R: Real, M: MotorDriver, A: AngleInput> Servo<R, M, A> {
@@ -162,8 +157,7 @@ impl<R: Real, M: MotorDriver, A: AngleInput> Servo<R, M, A> {
             windows: [0; FAULTS - 1],
             held: 0,
             until_clear: 0,
-            stood: true,
-            leaps: 0,
+            leaps: Leaps::default(),
         }
     }
 
@@ -341,8 +335,7 @@ impl<R: Real, M: MotorDriver, A: AngleInput> Servo<R, M, A> {
         let counts = self.angle.counts();
         let moved = counts.wrapping_sub(self.counts);
         self.counts = counts;
-        let stood = core::mem::replace(&mut self.stood, moved == 0);
-        if stood && moved.unsigned_abs() >= config.guards.leap {
+        if self.leaps.is_one(moved, config.guards.leap) {
             self.leap(config, place, events);
         }
         self.age(config.retry);
@@ -426,9 +419,7 @@ impl<R: Real, M: MotorDriver, A: AngleInput> Servo<R, M, A> {
         if let ServoState::Off | ServoState::GivenUp = self.state {
             return;
         }
-        self.leaps = self.leaps.saturating_add(1);
-        if self.leaps >= LEAPS {
-            self.leaps = 0;
+        if self.leaps.are_too_many() {
             self.fail(motor::Fault::LostCounts, config, place, events);
         }
     }
