@@ -29,7 +29,7 @@ fn wrong(fault: impl std::fmt::Display) -> PyErr {
 ///
 /// Runs a scene and returns what its whiskers feel that are heard, the air included: a recording
 /// to train on. The scene's classifier is not used. Its type knows the rate,
-/// dtype.metadata["tick_hz"], which train goes by.
+/// `dtype.metadata["tick_hz"]`, which train goes by.
 #[pyfunction]
 #[pyo3(signature = (scene, *, seed=None, set=None))]
 pub(crate) fn record<'py>(

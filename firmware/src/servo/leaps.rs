@@ -22,7 +22,7 @@ impl Leaps {
 
     /// Counts one; whether they are too many, after which it begins again.
     pub(super) const fn are_too_many(&mut self) -> bool {
-        self.seen += 1;
+        self.seen = self.seen.saturating_add(1);
         if self.seen >= MOST {
             self.seen = 0;
         }
