@@ -80,6 +80,8 @@ pub enum ServoState<R> {
         guards: Guards<R>,
         /// By how much the setpoint is still behind, protraction.
         behind: R,
+        /// Another setpoint was commanded since the last tick.
+        has_new_aim: bool,
     },
     /// The motor is off after a fault.
     Resting {
@@ -236,9 +238,13 @@ impl<R: Real, M: MotorDriver, A: AngleInput> Servo<R, M, A> {
     }
 
     /// A setpoint that takes the place of the pattern generator's; `None`: the
-    /// pattern generator's again.
+    /// pattern generator's again. Where the whisker is still on its way to the last, slowly, it
+    /// goes to this one as slowly, from where it is.
     pub const fn set_setpoint(&mut self, setpoint: Option<R>) {
         self.setpoint = Voted::new(setpoint);
+        if let ServoState::Running { has_new_aim, .. } = &mut self.state {
+            *has_new_aim = true;
+        }
     }
 
     /// Finds rest again with the next tick, where it is found; a motor that rests after a
@@ -359,6 +365,7 @@ impl<R: Real, M: MotorDriver, A: AngleInput> Servo<R, M, A> {
                     pd: pd::State::default(),
                     guards: self.guards(&config.guards),
                     behind: setpoint - measured,
+                    has_new_aim: false,
                 };
             }
             ServoState::Running { .. } | ServoState::Homing(_) => {}
@@ -372,7 +379,16 @@ impl<R: Real, M: MotorDriver, A: AngleInput> Servo<R, M, A> {
                 return;
             }
         }
-        let judged = if let ServoState::Running { pd, guards, behind } = &mut self.state {
+        let judged = if let ServoState::Running {
+            pd,
+            guards,
+            behind,
+            has_new_aim,
+        } = &mut self.state
+        {
+            if core::mem::take(has_new_aim) && *behind != R::ZERO {
+                *behind = setpoint - config.pd.measured(at);
+            }
             *behind = if behind.is_within(R::TWO + R::TWO) {
                 toward_zero(*behind, config.approach)
             } else {

@@ -120,3 +120,33 @@ fn a_motor_that_was_given_up_stays_so() {
         assert_eq!(tick(&mut servo), (None, Vec::new()));
     }
 }
+
+/// A setpoint that is commanded while the whisker is brought to the last one is approached from
+/// where the whisker is: what drives it never asks for what lies beyond the two.
+#[test]
+fn a_setpoint_on_the_way_to_another_is_approached_from_where_the_whisker_is() {
+    let slow = ServoConfig {
+        approach: 0.01,
+        ..config()
+    };
+    let place = Place::new(0, 0);
+    for (commanded, other) in [(-0.2, 0.8), (0.8, -0.2), (0.1, 0.8)] {
+        let mut servo = Servo::new(Kept::default(), Still);
+        let follows = |servo: &mut Whisker| {
+            servo.step(&slow, other, true, place, &mut |event| panic!("{event:?}"));
+            let record = servo.record(&slow, other);
+            f32::from(record.setpoint) / 8_192.0
+        };
+        (0..3).for_each(|_| _ = follows(&mut servo));
+        servo.set_setpoint(Some(commanded));
+        let mut last: f32 = 0.0;
+        for tick in 0..200 {
+            let found = follows(&mut servo);
+            let between = commanded.min(0.0) - 1e-3..=commanded.max(0.0) + 1e-3;
+            assert!(between.contains(&found), "{commanded}, {tick}: {found}");
+            assert!((found - last).abs() < 0.02, "{commanded}, {tick}: {found}");
+            last = found;
+        }
+        assert!((last - commanded).abs() < 1e-3, "{last}");
+    }
+}
