@@ -157,14 +157,17 @@ impl Integrity {
     /// Their sums as they are now; both stay where they are.
     pub(crate) fn new(settings: &Settings, inner: &Inner) -> Self {
         let [model, classifier, factors] = perception::constants(inner);
+        let spans = [
+            (Span::of(settings), number::SETTINGS),
+            (classifier, number::MODEL),
+            (model, number::MODEL),
+            (factors, number::MODEL),
+            (Span::of(pace::constants()), number::SETTINGS),
+        ];
+        // Called in a row it would be by a pointer, which no check of the stack can follow.
+        let regions = spans.map(|(span, fault)| Region::new(span, fault));
         Self {
-            regions: [
-                Region::new(Span::of(settings), number::SETTINGS),
-                Region::new(classifier, number::MODEL),
-                Region::new(model, number::MODEL),
-                Region::new(factors, number::MODEL),
-                Region::new(Span::of(pace::constants()), number::SETTINGS),
-            ],
+            regions,
             changes: 0,
         }
     }
