@@ -32,7 +32,7 @@ pub(crate) struct Arguments {
     #[arg(long, value_name = "N", default_value = "1000",
           value_parser = clap::value_parser!(u32).range(10..=100_000))]
     frames: u32,
-    /// Waits for nobody at the keyboard: what a step asks for is there. Drives no motor without
+    /// Waits for no key: what a step asks for is there. Drives no motor without
     /// --motor
     #[arg(long)]
     yes: bool,

@@ -21,7 +21,7 @@ fn program() -> &'static Path {
     })
 }
 
-/// The command line of these steps of a bring-up that waits for nobody, where this befalls the board.
+/// The command line of these steps of a bring-up that asks nothing, where this befalls the board.
 fn bringup(place: &Place, events: &[&str], steps: &str) -> String {
     let events = events.iter().map(|event| {
         let at_s = if event.starts_with("at_s") {
@@ -159,12 +159,12 @@ fn a_clock_that_does_not_come_is_found() {
 }
 
 #[test]
-fn nobody_at_the_keyboard_is_no_answer() {
+fn an_empty_keyboard_is_no_answer() {
     let place = Place::new();
     let ran = place.fails("bringup --sim @bringup.toml --frames 60");
     ran.warns("standard input was closed before an answer came");
     let ran = place.done("bringup --sim @bringup.toml --frames 60 --yes");
-    ran.prints("not done: nobody has said yes");
+    ran.prints("not done: no yes was given");
     ran.prints("not done: no hand turns a simulated whisker");
     place.refuses(
         "bringup --sim @bringup.toml --scenario befalls.toml",

@@ -24,7 +24,7 @@ pub(super) struct Bench {
     /// What was seen of the frames of each side, and whether its encoder counts up.
     pub(super) seen: [Option<Seen>; 2],
     pub(super) counts_up: [Option<bool>; 2],
-    /// What is typed; none: nobody is asked.
+    /// What is typed; none: nothing is asked.
     typed: Option<Receiver<io::Result<String>>>,
     may_drive: bool,
 }

@@ -91,7 +91,7 @@ pub(super) fn motor(bench: &mut Bench, side: u8) -> Result<Part, Error> {
                    whisker to rest, keep fingers and things away, set the supply's current limit low and \
                    switch it on";
     if !bench.may_drive(warning)? {
-        let why = "not done: nobody has said yes (--motor says it for a script)";
+        let why = "not done: no yes was given (--motor says it for a script)";
         return Ok(Part::not_done(why));
     }
     let gentle = bench.running.gentle(FIFTH)?;
