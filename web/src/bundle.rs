@@ -30,6 +30,8 @@ const SCENES: &[(&str, &[u8])] = &files!(include_bytes, "scenes/", ".toml":
 const MODELS: &[(&str, &[u8])] = &files!(include_bytes, "scenes/models/", ".model":
     "whisker",
     "textures",
+    "active",
+    "full",
     "bench-textures",
     "both",
     "papers",

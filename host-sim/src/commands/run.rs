@@ -156,7 +156,10 @@ impl Loaded {
     }
 
     /// The same without its cautions.
-    pub(super) fn checked(path: &Path, set: &[Override]) -> Result<Self, Error> {
+    ///
+    /// # Errors
+    /// As [`Loaded::new`].
+    pub fn checked(path: &Path, set: &[Override]) -> Result<Self, Error> {
         let read = Scene::load_with(path, set)?;
         let folder = path.parent().unwrap_or(Path::new("."));
         Self::of(path, read, |scene| {

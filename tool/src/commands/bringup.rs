@@ -6,6 +6,7 @@ mod module;
 mod moving;
 mod readings;
 mod report;
+mod search;
 mod sensor;
 
 use std::path::PathBuf;
@@ -28,6 +29,10 @@ pub(crate) struct Arguments {
     /// The steps that are done, with commas between them; without it all
     #[arg(long, value_name = "STEP", value_enum, value_delimiter = ',')]
     steps: Vec<Name>,
+    /// In place of the steps: deploys this scene at slower and slower ticks, until each frame of the
+    /// sensors is answered
+    #[arg(long, value_name = "SCENE", conflicts_with = "steps")]
+    find_rest: Option<PathBuf>,
     /// Frames to read of each sensor, and ticks to watch it for
     #[arg(long, value_name = "N", default_value = "1000",
           value_parser = clap::value_parser!(u32).range(10..=100_000))]
@@ -96,6 +101,10 @@ pub(crate) fn bringup(arguments: &Arguments) -> Result<(), Error> {
 fn steps(arguments: &Arguments, bench: &mut Bench, report: &mut Report) -> Result<(), Error> {
     let is_asked = |name| arguments.steps.is_empty() || arguments.steps.contains(&name);
     bench.stop()?;
+    if let Some(scene) = &arguments.find_rest {
+        report.add(search::find(bench, scene)?.named("find-rest"));
+        return Ok(());
+    }
     if is_asked(Name::Module) {
         report.add(module::module(bench)?);
     }

@@ -125,6 +125,21 @@ fn a_sensor_that_rests_for_longer_is_found_and_reads_clean_in_the_scene_for_it()
 }
 
 #[test]
+fn the_shortest_rest_that_is_enough_is_found() {
+    let place = Place::new();
+    let rests = "kind = 'sensor-part'\nrest_us = 100";
+    let ran = place.done(&bringup(&place, &[rests], "--find-rest @bench.toml"));
+    for said in [
+        "64 us at 2000 Hz: 0 of 60 frames were answered\n",
+        "120 us at 1800 Hz: 60 of 60 frames were answered\n",
+        "a rest of 120 us is enough. The module is left with this scene and tick_hz = 1800",
+        "findings: 0\n",
+    ] {
+        ran.prints(said);
+    }
+}
+
+#[test]
 fn a_sensor_that_does_not_answer_is_found() {
     let nothing = &["so nothing answers"][..];
     for (kind, found) in [

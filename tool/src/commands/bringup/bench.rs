@@ -46,6 +46,13 @@ impl Bench {
         })
     }
 
+    /// Asks the module again what it is and runs by, once it has another scene.
+    pub(super) fn ask_again(&mut self) -> Result<(), Error> {
+        self.about = self.module.about()?;
+        self.running = Running::ask(&mut self.module)?;
+        Ok(())
+    }
+
     /// 0 for the left side, 1 for the right.
     pub(super) fn sides(&self) -> std::ops::Range<u8> {
         0..self.about.whiskers.min(2) as u8

@@ -53,6 +53,14 @@ impl Part {
         }
     }
 
+    /// What is no step of the usual ones.
+    pub(super) fn named(self, name: &str) -> Self {
+        Self {
+            step: name.to_owned(),
+            ..self
+        }
+    }
+
     pub(super) fn saw(&mut self, line: impl Into<String>) {
         self.saw.push(line.into());
     }

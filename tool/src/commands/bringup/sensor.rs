@@ -1,6 +1,6 @@
 //! The sensor's frames, and the rest between two.
 
-use firmware::boards::{BoardFacts, Clocks};
+use firmware::boards::BoardFacts;
 use host_sim::Error;
 use mlx90333::FRAME_LEN;
 use serde::Serialize;
@@ -12,7 +12,7 @@ use crate::frames::Seen;
 use crate::interrupt;
 
 /// What a TMAG5170 has in place of frames.
-const NO_FRAMES: &str = "not done: its sensor has no frames of its own, as a TMAG5170; whisker log \
+pub(super) const NO_FRAMES: &str = "not done: its sensor has no frames of its own, as a TMAG5170; whisker log \
                          names faults 27 to 31, and the steps below look at its readings";
 
 /// Reads frames, whatever the module takes them for, and says how the sensor sends them.
@@ -41,7 +41,11 @@ pub(super) fn frames(bench: &mut Bench, side: u8) -> Result<Part, Error> {
 }
 
 /// The last frame of a sensor, so many times; `None`: it has none.
-fn read(bench: &mut Bench, side: u8, count: u32) -> Result<Option<Vec<[u8; FRAME_LEN]>>, Error> {
+pub(super) fn read(
+    bench: &mut Bench,
+    side: u8,
+    count: u32,
+) -> Result<Option<Vec<[u8; FRAME_LEN]>>, Error> {
     let whisker = WhiskerId { side, number: 0 };
     let mut frames = Vec::new();
     for _ in 0..count {
@@ -63,9 +67,9 @@ fn read(bench: &mut Bench, side: u8, count: u32) -> Result<Option<Vec<[u8; FRAME
 
 /// The rest that a rate of ticks leaves.
 #[derive(Debug, Clone, Copy, Serialize)]
-struct Leaves {
-    tick_hz: u32,
-    rest_us: u32,
+pub(super) struct Leaves {
+    pub(super) tick_hz: u32,
+    pub(super) rest_us: u32,
 }
 
 /// Rates that are named beside the one that runs.
@@ -82,12 +86,7 @@ pub(super) fn rest(bench: &mut Bench, side: u8) -> Part {
         return Part::not_done(why);
     };
     let tick_hz = bench.about.tick_hz;
-    let clocks = bench.clocks(facts);
-    let leaves = |tick_hz| {
-        let rest_ns = clocks.rest_ns(tick_hz, bench.running.rest_us)?;
-        let rest_us = rest_ns / 1_000;
-        Some(Leaves { tick_hz, rest_us })
-    };
+    let leaves = |tick_hz| bench.leaves(facts, tick_hz);
     let mut part =
         Part::new("worked out the rest between two frames, and looked at the frames again");
     let Some(now) = leaves(tick_hz) else {
@@ -113,9 +112,9 @@ pub(super) fn rest(bench: &mut Bench, side: u8) -> Part {
     part = part.with(&(now, &others));
     if seen.is_silent_at_times() {
         part.find(format!(
-            "the sensor answers some frames and not others: {} us may be too short a rest. Deploy \
-             scenes/bringup.toml, or another scene with tick_hz = 1000, and look again; then set \
-             sensor.rest_us to what reads clean, so that no board takes a faster tick",
+            "the sensor answers some frames and not others: {} us may be too short a rest. \
+             --find-rest scenes/bringup.toml finds the shortest that is long enough; then set \
+             sensor.rest_us to it, so that no board takes a faster tick",
             now.rest_us
         ));
         part.means("the sensor may need a longer rest than this rate of ticks leaves it")
@@ -130,12 +129,16 @@ pub(super) fn rest(bench: &mut Bench, side: u8) -> Part {
 }
 
 impl Bench {
-    /// The clocks by which the board reads its sensors.
-    fn clocks(&self, facts: &BoardFacts) -> Clocks {
-        if self.running.has_slow_sensors {
+    /// The rest that a rate of ticks leaves the sensors of this board; `None`: one that the scene
+    /// does not allow.
+    pub(super) fn leaves(&self, facts: &BoardFacts, tick_hz: u32) -> Option<Leaves> {
+        let clocks = if self.running.has_slow_sensors {
             facts.clocks.halved()
         } else {
             facts.clocks
-        }
+        };
+        let rest_ns = clocks.rest_ns(tick_hz, self.running.rest_us)?;
+        let rest_us = rest_ns / 1_000;
+        Some(Leaves { tick_hz, rest_us })
     }
 }

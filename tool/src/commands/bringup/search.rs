@@ -1,0 +1,86 @@
+//! The smallest rest between two frames in which a sensor answers each: by a scene at slower and
+//! slower ticks, which are deployed one after the other.
+
+use std::path::Path;
+
+use firmware::boards::BoardFacts;
+use host_sim::Error;
+use host_sim::loaded::Loaded;
+use scene::Override;
+
+use super::bench::Bench;
+use super::report::Part;
+use super::sensor::{Leaves, read};
+use crate::deployment::{Deployment, model_of};
+use crate::frames::Seen;
+
+/// Rates of ticks by the rest that they leave, the shortest first: from 64 us to 1.3 ms on an F446.
+const RATES: [u32; 6] = [2_000, 1_800, 1_600, 1_500, 1_000, 500];
+
+/// Deploys `scene` at one rate after the other, and leaves it at the first at which each frame is
+/// answered.
+pub(super) fn find(bench: &mut Bench, scene: &Path) -> Result<Part, Error> {
+    let Some(facts) = bench.running.program().facts() else {
+        let why = "not done: no time passes between the frames of a simulated module";
+        return Ok(Part::not_done(why));
+    };
+    let mut part = Part::new(format!(
+        "deployed {} at slower and slower ticks, and read frames at each",
+        scene.display()
+    ));
+    for tick_hz in RATES {
+        deploy(bench, scene, tick_hz)?;
+        let Some(found) = tried(bench, facts)? else {
+            return Ok(Part::not_done(super::sensor::NO_FRAMES));
+        };
+        let Tried { leaves, answered } = found;
+        part.saw(format!(
+            "{} us at {tick_hz} Hz: {answered} of {} frames were answered",
+            leaves.rest_us, bench.frames
+        ));
+        if answered == bench.frames as usize {
+            let part = part.with(&leaves);
+            return Ok(part.means(format!(
+                "a rest of {} us is enough. The module is left with this scene and tick_hz = {tick_hz}; \
+                 sensor.rest_us = {} has any board refuse faster ticks",
+                leaves.rest_us, leaves.rest_us
+            )));
+        }
+    }
+    part.find(
+        "no rest is long enough: the steps frames and rest say what to look for, with the scene at \
+         the slowest ticks, as it is now",
+    );
+    Ok(part.means("it is not the rest by which the sensor does not answer"))
+}
+
+/// Gives the module the scene with so many ticks a second.
+fn deploy(bench: &mut Bench, scene: &Path, tick_hz: u32) -> Result<(), Error> {
+    let rate = Override::new("--find-rest".to_owned(), "tick_hz", &tick_hz.to_string());
+    let loaded = Loaded::checked(scene, &[rate])?;
+    let model = model_of(scene, &loaded.scene)?;
+    let what = Deployment::of(scene, loaded, model, bench.running.program())?;
+    what.try_out(&mut bench.module)?;
+    bench.module.source().deploy(&what)?;
+    bench.ask_again()?;
+    bench.stop()
+}
+
+/// What a rate has come to.
+struct Tried {
+    leaves: Leaves,
+    /// Frames that were answered, of the side that answers least.
+    answered: usize,
+}
+
+fn tried(bench: &mut Bench, facts: &BoardFacts) -> Result<Option<Tried>, Error> {
+    let mut answered = usize::MAX;
+    for side in bench.sides() {
+        let Some(frames) = read(bench, side, bench.frames)? else {
+            return Ok(None);
+        };
+        answered = answered.min(Seen::of(&frames).begun());
+    }
+    let leaves = bench.leaves(facts, bench.about.tick_hz);
+    Ok(leaves.map(|leaves| Tried { leaves, answered }))
+}
