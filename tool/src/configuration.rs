@@ -109,7 +109,7 @@ fn gentle<R: Real>(of: &Running, most: f64) -> Result<ConfigBytes, ConfigError> 
     if let Some(motion) = &mut config.motion {
         let servo = &mut motion.servo;
         servo.pd.limit = servo.pd.limit.min((most * FULL_DUTY) as i32);
-        // Of a motor that is driven hard, which is from half of that.
+        // It is driven hard from half of that on, which is Q15 here.
         let hard = Duty::from_q15((servo.pd.limit >> 10) as i16);
         let stall = &mut servo.guards.stall;
         stall.threshold = stall.threshold.min(hard);

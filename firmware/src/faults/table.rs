@@ -68,7 +68,7 @@ macro_rules! fault_table {
                 WhiskerOff, Retry;
             13 LOST_COUNTS: "the encoder has lost counts, or the stop is not where it was",
                 "a loose contact of the encoder; something was taken for the stop",
-                "A and B with an oscilloscope, the plug moved by hand; the coupling of the encoder; that nothing is within reach",
+                "A and B with an oscilloscope, the plug moved by hand; the coupling of the encoder; that nothing is within reach. Without homing it is given up at once: reset the board with the whisker at rest",
                 WhiskerOff, Retry;
 
             16 NO_FRAME: "no frame in time",

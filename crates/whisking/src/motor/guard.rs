@@ -89,8 +89,8 @@ impl GuardSettings {
 }
 
 impl GuardSettings {
-    /// Counts to which no motor comes in the tick after one in which it stood: a(1/f)², with the
-    /// acceleration a that full duty comes to, at f ticks a second.
+    /// Counts to which no motor comes in the tick after one in which it stood: [`FASTER`] a/f²,
+    /// with the acceleration a that full duty comes to, at f ticks a second, and [`FLICKERS`].
     fn leap(&self, tick_hz: f64) -> u32 {
         let Some(model) = &self.model else {
             return u32::MAX;
