@@ -7,7 +7,7 @@ mod main_job;
 
 use crate::firmware::Board;
 use crate::run::{
-    Fault, cargo, document, output, read, read_bytes, target, top, workspace_program,
+    AT_ONCE, Fault, cargo, document, each, output, read, read_bytes, target, top, workspace_program,
 };
 use crate::{cost, descriptions, emulate, studies};
 use main_job::DECISIONS;
@@ -64,10 +64,10 @@ fn of_runs(check: bool) -> Result<(), Fault> {
         let made = read_bytes(&top().join("out/bench-textures").join(made))?;
         document(name, &made, check)?;
     }
-    for (scene, recorded, options) in TRAINED {
+    each(TRAINED.to_vec(), AT_ONCE, |(scene, recorded, options)| {
         let model = trained(scene, recorded, options)?;
-        document(&format!("scenes/models/{scene}.model"), &model, check)?;
-    }
+        document(&format!("scenes/models/{scene}.model"), &model, check)
+    })?;
     at_the_bench(check)
 }
 
@@ -125,7 +125,7 @@ const LONGER: [&str; 2] = ["--set", "duration_s=40"];
 
 /// The bytes of the model of a scene.
 fn trained(scene: &str, recorded: &[&str], options: &[&str]) -> Result<Vec<u8>, Fault> {
-    let folder = target().join("models");
+    let folder = target().join("models").join(scene);
     let (recording, model) = (folder.join("recording.csv"), folder.join("the.model"));
     let simulator = |command: &str| {
         let mut simulator = workspace_program("host-sim");

@@ -12,6 +12,9 @@ use scene::file;
 /// What went wrong, for a person to read.
 pub(crate) type Fault = String;
 
+/// How much is done at once where each keeps a processor busy: as many as CI's machine has.
+pub(crate) const AT_ONCE: usize = 2;
+
 /// The top of the workspace.
 pub(crate) fn top() -> PathBuf {
     let here = Path::new(env!("CARGO_MANIFEST_DIR"));
@@ -149,19 +152,28 @@ pub(crate) fn run(command: &mut Command) -> Result<(), Fault> {
 
 /// Runs `commands`, so many at once, to the last, whichever fail.
 pub(crate) fn run_at_once(commands: Vec<Command>, at_once: usize) -> Result<(), Fault> {
-    let left = Mutex::new(commands.into_iter());
+    each(commands, at_once, |mut command| run(&mut command))
+}
+
+/// Works on `items`, so many at once, to the last, whichever fail.
+pub(crate) fn each<T: Send>(
+    items: Vec<T>,
+    at_once: usize,
+    work: impl Fn(T) -> Result<(), Fault> + Sync,
+) -> Result<(), Fault> {
+    let left = Mutex::new(items.into_iter());
     let faults = Mutex::new(Vec::new());
     let next = || left.lock().ok()?.next();
-    let work = || {
-        while let Some(mut command) = next() {
-            if let (Err(fault), Ok(mut faults)) = (run(&mut command), faults.lock()) {
+    let lane = || {
+        while let Some(item) = next() {
+            if let (Err(fault), Ok(mut faults)) = (work(item), faults.lock()) {
                 faults.push(fault);
             }
         }
     };
     thread::scope(|scope| {
         for _ in 0..at_once {
-            scope.spawn(work);
+            scope.spawn(lane);
         }
     });
     no_faults(&faults.into_inner().unwrap_or_default())

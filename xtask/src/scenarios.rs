@@ -8,7 +8,7 @@ use serde_json::Value;
 
 use crate::emulate::{Emulated, variants};
 use crate::firmware::Board;
-use crate::run::{Fault, no_faults, read, run_at_once, target, top};
+use crate::run::{AT_ONCE, Fault, no_faults, read, run_at_once, target, top};
 
 /// What must be so.
 enum Bound {
@@ -391,7 +391,7 @@ fn rows(rows: Vec<&Row>) -> Result<(), Fault> {
     let on = Emulated::deployed(BOARD)?;
     crate::run::write(&target().join("scenarios/.here"), "")?;
     let commands = rows.iter().map(|row| row.command(&on));
-    run_at_once(commands.collect::<Result<_, _>>()?, 2)?;
+    run_at_once(commands.collect::<Result<_, _>>()?, AT_ONCE)?;
     let mut faults = Vec::new();
     for row in rows {
         let name = row.name();

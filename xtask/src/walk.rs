@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 use std::time::Instant;
 
-use crate::run::{Fault, built, listing, read, read_bytes, remove, top, write};
+use crate::run::{AT_ONCE, Fault, built, each, listing, read, read_bytes, remove, top, write};
 use crate::studies;
 use blocks::{Block, When, blocks, differs, pages};
 
@@ -61,6 +61,7 @@ pub(crate) fn all(choice: &Choice) -> Result<(), Fault> {
 fn with(pages: &[PathBuf], nightly: bool) -> Result<(), Fault> {
     let mut run = 0;
     let mut not_run = Vec::new();
+    let mut walked = Vec::new();
     for (page, blocks) in chosen(pages)? {
         let (now, later): (Vec<Block>, Vec<Block>) =
             blocks.into_iter().partition(|block| match block.when {
@@ -72,22 +73,11 @@ fn with(pages: &[PathBuf], nightly: bool) -> Result<(), Fault> {
             let (when, line) = (block.when.name(), block.line);
             not_run.push(format!("{when:9} {}:{line}", page.display()));
         }
-        if now.is_empty() {
-            continue;
-        }
-        let begun = Instant::now();
-        let folder = folder(&page)?;
-        for block in &now {
-            do_block(&page, block, &folder)?;
-        }
         run += now.len();
-        let seconds = begun.elapsed().as_secs_f64();
-        println!(
-            "== {}: {} blocks, {seconds:.1} s",
-            page.display(),
-            now.len()
-        );
+        walked.push((page, now));
     }
+    walked.retain(|(_, blocks)| !blocks.is_empty());
+    each(walked, AT_ONCE, |(page, blocks)| walk(&page, &blocks))?;
     println!("{run} blocks run; not run:");
     for block in not_run {
         println!("{block}");
@@ -96,6 +86,19 @@ fn with(pages: &[PathBuf], nightly: bool) -> Result<(), Fault> {
         0 => Err("no page has a command to be run".to_owned()),
         _ => Ok(()),
     }
+}
+
+/// Runs the blocks of a page, one after the other.
+fn walk(page: &Path, blocks: &[Block]) -> Result<(), Fault> {
+    let begun = Instant::now();
+    let folder = folder(page)?;
+    for block in blocks {
+        do_block(page, block, &folder)?;
+    }
+    let seconds = begun.elapsed().as_secs_f64();
+    let (page, blocks) = (page.display(), blocks.len());
+    println!("== {page}: {blocks} blocks, {seconds:.1} s");
+    Ok(())
 }
 
 /// The pages with their blocks, by the paths from the top.
@@ -150,7 +153,6 @@ fn as_built(commands: &str) -> String {
 /// Runs a block as its reader does, in a shell that stops at the first failure.
 fn do_block(page: &Path, block: &Block, folder: &Path) -> Result<(), Fault> {
     let place = format!("{}:{}", page.display(), block.line);
-    println!("== {place}\n{}", block.commands.trim_end());
     let commands = as_built(&block.commands);
     let script = format!("exec 2>&1\n{commands}");
     let shell = Command::new("bash")
@@ -162,7 +164,8 @@ fn do_block(page: &Path, block: &Block, folder: &Path) -> Result<(), Fault> {
         .output()
         .map_err(|error| format!("{place}: bash: {error}"))?;
     let said = String::from_utf8_lossy(&shell.stdout);
-    print!("{said}");
+    // In one piece: another page is walked at the same time.
+    print!("== {place}\n{}\n{said}", block.commands.trim_end());
     if !shell.status.success() {
         return Err(format!("{place}: {}", shell.status));
     }
