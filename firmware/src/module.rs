@@ -8,7 +8,7 @@ use crate::config::Part;
 use crate::io::{AngleInput, Clock, WordSource};
 use crate::motion::{Command, Motion, NoActiveWhisker, NotDone};
 use crate::perception::{Perception, SampleClassifier, Sensed};
-use crate::sensing::{Reading, Sensor, Swing, SwingLimits};
+use crate::sensing::{Reading, Sensor, Swing, SwingLimits, Whisked};
 use crate::servo::Servo;
 use crate::{Config, Event, HeadConfig, MotionConfig, Place, Timing, ZeroLimits};
 
@@ -190,6 +190,25 @@ impl<R: Real, H: Hardware> Module<R, H> {
         }
     }
 
+    /// How the `n`-th whisker is whisked, which learns by `rate`; `None`
+    /// while its motor does not follow the pattern generator, and where touches are not found.
+    #[inline]
+    fn whisked(&self, n: usize, rate: u16, config: Option<&MotionConfig<R>>) -> Option<Whisked> {
+        let perception = self.perception.as_ref()?;
+        let whisker = self.whiskers.get(n)?;
+        let servo = whisker.servo()?;
+        if servo.running_at().is_none() || servo.setpoint().is_some() || !perception.listens_to(n) {
+            return None;
+        }
+        let oscillators = &self.motion()?.state.oscillators;
+        let side = usize::from(whisker.place.side);
+        Some(Whisked {
+            phase: config?.whisking.oscillators.phase(oscillators, side),
+            rate,
+            is_in_air: perception.is_air(n),
+        })
+    }
+
     /// Contact π of each side: the largest |H50(x)| of its whiskers (BIOTACT eq. 9). A
     /// whisker with a fault has none, and its filter is reset.
     #[inline]
@@ -324,8 +343,12 @@ impl<R: Real, H: Hardware> Module<R, H> {
         };
         motion.set_armed(is_armed);
         if is_armed {
-            let servos = self.whiskers.iter_mut().filter_map(Whisker::servo_mut);
-            servos.for_each(Servo::arm);
+            for whisker in &mut self.whiskers {
+                whisker.sensor.restart_own_motion();
+                if let Some(servo) = whisker.servo_mut() {
+                    servo.arm();
+                }
+            }
         }
     }
 }
@@ -338,8 +361,16 @@ impl<R: Number, H: Hardware> Module<R, H> {
         let crate::SensingConfig {
             decoder, limits, ..
         } = &config.sensor;
-        for whisker in &mut self.whiskers {
-            let reading = whisker.sensor.read(*decoder, limits, whisker.place, events);
+        let own = limits.self_motion.filter(|_| Part::SelfMotion.is_built());
+        for n in 0..self.whiskers.len() {
+            let whisked = own.and_then(|rate| self.whisked(n, rate, config.motion.as_ref()));
+            let Some(whisker) = self.whiskers.get_mut(n) else {
+                break;
+            };
+            let mut reading = whisker.sensor.read(*decoder, limits, whisker.place, events);
+            if own.is_some() {
+                reading = whisker.sensor.take_own_motion(whisked);
+            }
             let is_inhibited = whisker.servo().is_some_and(Servo::is_inhibited);
             whisker.reading = if is_inhibited || whisker.swing.is_lost() {
                 Reading::FAULT
@@ -402,7 +433,7 @@ impl<R: Number, H: Hardware> Module<R, H> {
                 servo.check_home(&config.servo, whisker.felt);
                 let theta = moved.muscle.theta;
                 servo.step(&config.servo, theta, may_run, whisker.place, events);
-                let x = whisker.sensor.reading().x;
+                let [x, _] = whisker.sensor.with_own_motion();
                 if let Some(limits) = swing
                     && let Some(lost) = whisker.swing.look(limits, x, servo.running_at())
                 {

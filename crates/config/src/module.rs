@@ -10,7 +10,7 @@ use scene::{
     Deciding, MotorSection, OnFault, PlantKind, Rest, Rule, Scene, SensorBytes, SensorMode,
     SensorModel, SensorSection, SensorSum, SensorWords,
 };
-use tactile::{RuleSettings, Threshold};
+use tactile::{RuleSettings, SelfMotion, Threshold};
 use whisking::motor::{GuardSettings, HomingSettings, ModelSettings};
 use whisking::{Real, filter, pd};
 
@@ -156,6 +156,9 @@ fn sensor(scene: &Scene, is_ideal: bool) -> SensorLimits {
     };
     SensorLimits {
         swing: swing(scene).filter(|_| !is_ideal),
+        self_motion: sensor
+            .self_motion_s
+            .map(|tau_s| SelfMotion::rate(tau_s, f64::from(scene.tick_hz))),
         zero: sensor
             .zero_after_s
             .map(|after_s| zero_limits(scene.tick_hz, after_s, sensor.zero_calm, sensor.zero_most)),

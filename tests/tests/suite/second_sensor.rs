@@ -26,6 +26,7 @@ const LIMITS: SensorLimits = SensorLimits {
     jump: u16::MAX,
     burst: 1000,
     zero: None,
+    self_motion: None,
     swing: None,
 };
 
