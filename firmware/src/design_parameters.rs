@@ -91,7 +91,6 @@ pub const fn sensor_limits(tick_hz: u32, plausible: Plausible) -> SensorLimits {
         jump: jump as u16,
         burst: ticks(BURST_S, tick_hz),
         zero: None,
-        self_motion: None,
         swing: None,
     }
 }

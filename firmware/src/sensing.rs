@@ -5,11 +5,10 @@ mod plausible;
 mod swing;
 
 use mlx90333::{Decoder, FRAME_LEN, FrameError, Word};
-use tactile::SelfMotion;
 
 use crate::config::Part;
 use crate::io::WordSource;
-use crate::zero::{Zero, ZeroLimits, lowered};
+use crate::zero::{Zero, ZeroLimits};
 use crate::{Event, Place, SensorFault};
 pub use limits::{BAD_WEIGHT, SensorLimits};
 use plausible::Course;
@@ -64,30 +63,12 @@ pub enum SensorHealth {
     },
 }
 
-/// A filter of self-motion, or none.
-const OWN: usize = Part::SelfMotion.is_built() as usize;
-
-/// How a whisker is whisked in a tick.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) struct Whisked {
-    /// Phase of its side, 2⁻¹⁶ of a whisk.
-    pub phase: u16,
-    /// By how much it learns what that makes the sensor read.
-    pub rate: u16,
-    /// It touches nothing.
-    pub is_in_air: bool,
-}
-
 /// One whisker's sensor and its health.
 #[derive(Debug)]
 pub struct Sensor<F> {
     source: F,
     /// Where it is found.
     zero: Option<Zero>,
-    /// What whisking alone makes it read, where the program has that, and what of it was taken out
-    /// of the last reading, codes.
-    own: [SelfMotion; OWN],
-    taken: [i16; 2],
     last: Reading,
     health: SensorHealth,
     course: Course,
@@ -105,8 +86,6 @@ impl<F: WordSource> Sensor<F> {
         Self {
             source,
             zero: finds_zero.then(Zero::default),
-            own: [const { SelfMotion::new() }; OWN],
-            taken: [0; 2],
             last: Reading::REST,
             health: SensorHealth::Ok { bad: 0 },
             course: Course::UNKNOWN,
@@ -206,44 +185,8 @@ impl<F: WordSource> Sensor<F> {
         };
     }
 
-    /// After [`read`](Self::read): takes out of a fresh reading what whisking alone makes of it;
-    /// nothing where the whisker is not whisked.
-    #[inline]
-    pub(crate) fn take_own_motion(&mut self, whisked: Option<Whisked>) -> Reading {
-        if self.last.fresh && self.last.valid {
-            self.taken = match (whisked, self.own.first_mut()) {
-                (Some(whisked), Some(own)) => {
-                    let codes = [self.last.x, self.last.y].map(Word::signed14);
-                    own.step(codes, whisked.phase, whisked.rate, whisked.is_in_air)
-                }
-                _ => [0; 2],
-            };
-            let [x, y] = self.taken;
-            self.last.x = lowered(self.last.x, x);
-            self.last.y = lowered(self.last.y, y);
-        }
-        self.last
-    }
-
-    /// The motor is armed: self-motion is learnt again, whatever touches.
-    pub(crate) fn restart_own_motion(&mut self) {
-        self.own.iter_mut().for_each(SelfMotion::restart);
-    }
-
-    /// The words of the last reading with their self-motion.
-    #[inline]
-    pub(crate) fn with_own_motion(&self) -> [Word; 2] {
-        let Reading { x, y, .. } = self.last;
-        if Part::SelfMotion.is_built() {
-            let [of_x, of_y] = self.taken;
-            [lowered(x, -of_x), lowered(y, -of_y)]
-        } else {
-            [x, y]
-        }
-    }
-
     /// After [`read`](Self::read) and what was felt by it: follows the zero, where that is found
-    /// by itself, and whether the whisker `is_calm` is asked.
+    /// by itself, and whether the whisker `is_calm` is asked. Gives the codes by which it has moved.
     #[inline]
     pub fn follow_zero(
         &mut self,
@@ -251,19 +194,13 @@ impl<F: WordSource> Sensor<F> {
         limits: ZeroLimits,
         place: Place,
         events: &mut impl FnMut(Event),
-    ) {
-        let words = self.with_own_motion();
-        if self.last.valid
-            && let Some(zero) = &mut self.zero
-        {
-            let before = zero.codes();
-            if let Some(codes) = zero.follow(words, is_calm, limits) {
-                if let Some(own) = self.own.first_mut() {
-                    own.shift([0, 1].map(|axis| codes[axis].saturating_sub(before[axis])));
-                }
-                events(Event::ZeroMoved(place, codes));
-            }
-        }
+    ) -> Option<[i16; 2]> {
+        let Reading { x, y, valid, .. } = self.last;
+        let zero = self.zero.as_mut().filter(|_| valid)?;
+        let before = zero.codes();
+        let codes = zero.follow([x, y], is_calm, limits)?;
+        events(Event::ZeroMoved(place, codes));
+        Some([0, 1].map(|axis| codes[axis].saturating_sub(before[axis])))
     }
 
     /// A good frame of a faulty sensor, after `good` others; whether it ends the fault.

@@ -98,15 +98,11 @@ impl Zero {
     pub(crate) fn out_of(&self, words: [Word; 2]) -> [Word; 2] {
         let [x, y] = self.codes();
         let [of_x, of_y] = words;
-        [lowered(of_x, x), lowered(of_y, y)]
+        [(of_x, x), (of_y, y)].map(|(word, zero)| {
+            let raw = i32::from(word.raw()) - i32::from(zero) * CODE;
+            Word::new(raw.clamp(0, u16::MAX.into()) as u16)
+        })
     }
-}
-
-/// A word lowered by so many codes, limited to the range.
-#[inline]
-pub(crate) fn lowered(word: Word, codes: i16) -> Word {
-    let raw = i32::from(word.raw()) - i32::from(codes) * CODE;
-    Word::new(raw.clamp(0, u16::MAX.into()) as u16)
 }
 
 #[cfg(test)]

@@ -76,6 +76,10 @@ pub fn build<R: Real>(scene: &Scene, target: Target<'_>) -> Result<Config<R>, Mi
             kind: kind(scene),
             rest_us: scene.sensor.rest_us,
             decoder: decoder(&scene.sensor),
+            self_motion: scene
+                .sensor
+                .self_motion_s
+                .map(|tau_s| SelfMotion::rate(tau_s, f64::from(scene.tick_hz))),
             limits: sensor(scene, is_ideal),
         },
         contact,
@@ -156,9 +160,6 @@ fn sensor(scene: &Scene, is_ideal: bool) -> SensorLimits {
     };
     SensorLimits {
         swing: swing(scene).filter(|_| !is_ideal),
-        self_motion: sensor
-            .self_motion_s
-            .map(|tau_s| SelfMotion::rate(tau_s, f64::from(scene.tick_hz))),
         zero: sensor
             .zero_after_s
             .map(|after_s| zero_limits(scene.tick_hz, after_s, sensor.zero_calm, sensor.zero_most)),

@@ -219,6 +219,7 @@ impl TouchDetector {
     }
 
     /// Whether the start is over, and the present touch, if there is one, is not sure.
+    #[inline]
     pub const fn is_air(&self) -> bool {
         self.seen >= self.start && !self.is_sure()
     }

@@ -203,7 +203,7 @@ impl SensingConfig {
         let zero = |zero: &crate::ZeroLimits| require(Field::Zero, zero.ticks > 0 && zero.calm > 0);
         if_there(Part::Zero, self.limits.zero.as_ref(), zero)?;
         let is_rate = |rate: &u16| require(Field::SelfMotion, (1..=1 << 15).contains(rate));
-        if_there(Part::SelfMotion, self.limits.self_motion.as_ref(), is_rate)
+        if_there(Part::SelfMotion, self.self_motion.as_ref(), is_rate)
     }
 }
 

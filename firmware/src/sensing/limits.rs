@@ -26,9 +26,6 @@ pub struct SensorLimits {
     pub burst: u16,
     /// When its zero is found; `None`: it is mid-scale.
     pub zero: Option<ZeroLimits>,
-    /// By how much a tick learns what whisking alone makes it read, which is subtracted, 2⁻¹⁶
-    /// ([`SelfMotion::rate`](tactile::SelfMotion::rate)); `None`: nothing is.
-    pub self_motion: Option<u16>,
     /// What whisking must do to it, where that is known.
     pub swing: Option<SwingLimits>,
 }
@@ -44,7 +41,6 @@ impl SensorLimits {
         jump: u16::MAX,
         burst: u16::MAX,
         zero: None,
-        self_motion: None,
         swing: None,
     };
 }

@@ -14,7 +14,6 @@ const LIMITS: SensorLimits = SensorLimits {
     jump: 0x2000,
     burst: 40,
     zero: None,
-    self_motion: None,
     swing: None,
 };
 

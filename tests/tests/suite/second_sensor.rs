@@ -26,7 +26,6 @@ const LIMITS: SensorLimits = SensorLimits {
     jump: u16::MAX,
     burst: 1000,
     zero: None,
-    self_motion: None,
     swing: None,
 };
 

@@ -118,12 +118,11 @@ keys! {
         swing_codes: Option<u16> = integer(0..=8_191).unit("codes")
             .optional("50 from 1.25 Hz on; below, where noise moves it as far, 0"),
 
-        /// Time constant with which the module learns, in the air, what whisking alone makes the
-        /// sensor read at each phase of a whisk. That is subtracted from readings, so that neither
-        /// suppression of protraction nor touches nor decisions rest on it. Needs `[whisking]` and
-        /// `[classifier]`, by whose touches learning stops. A model that was trained without it
-        /// expects readings without it.
+        /// Time constant with which the module learns, in the air, what whisking alone makes x read
+        /// at each phase of a whisk. The contact signal is computed without that, so that a long
+        /// shaft does not suppress its own protraction; touches and decisions rest on readings as
+        /// they are. Needs `[whisking]`, and `[classifier]`, by whose touches learning stops.
         self_motion_s: Option<f64> = number(0.5..=30.0).unit("s")
-            .optional("nothing is subtracted"),
+            .optional("it counts as contact"),
     }
 }
