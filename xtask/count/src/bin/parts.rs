@@ -4,12 +4,14 @@
 use count::module::Module;
 use count::samples::{Three, drives, number};
 use count::{Format, kernel};
+use tactile::SelfMotion;
 use whisking::gate::{Cia, Gate, Rcp};
 use whisking::{Fix, Integrator, MAX_SIDES, filter, muscle, oscillator, pd};
 
 count::program!(parts);
 
 type Gates<'c, R> = (&'c Rcp<R>, &'c Cia<R>, Gate<R>, Gate<R>, R);
+type Own<'c, R> = (&'c oscillator::Config<R>, oscillator::State<R>, SelfMotion);
 type Oscillators<'c, R> = (
     &'c oscillator::Config<R>,
     oscillator::State<R>,
@@ -53,8 +55,22 @@ fn each<R: Format>() {
         },
         number::<R>(-0.4, 1.2), (&two.pd, pd::State::default(), 0));
     let one = Module::<R>::new(Integrator::Exact, 1, 1);
+    let start = one.start.sides.iter().map(|side| side.oscillator).collect();
+    kernel!([R] R::NAME, "self-motion",
+        (code: u32, (config, state, own): &mut Own<R>) -> i16 {
+            let phase = config.phase(state, 0);
+            predict(own, (code & 0x1fff) as i16, phase)
+        },
+        |call| call.wrapping_mul(0x9E37_79B9) >> 16,
+        (&one.whisking.oscillators, oscillator::State::new(start), SelfMotion::new()));
     oscillators("oscillators of 2 sides", &two);
     oscillators("oscillator of 1 side", &one);
+}
+
+/// Calls the filter from one place, as a tick does.
+#[inline(never)]
+fn predict(own: &mut SelfMotion, code: i16, phase: u16) -> i16 {
+    own.step(code, phase, SelfMotion::rate(2.0, 2000.0), true)
 }
 
 /// A step of the oscillators, with their drives.
