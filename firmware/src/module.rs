@@ -154,6 +154,7 @@ impl<R: Real, H: Hardware> Module<R, H> {
         classifier: Option<H::Classifier>,
     ) {
         let finds_zero = config.sensor.limits.zero.is_some();
+        let rate = config.sensor.self_motion.unwrap_or_default();
         let HeadConfig {
             sides,
             whiskers_per_side,
@@ -168,7 +169,7 @@ impl<R: Real, H: Hardware> Module<R, H> {
                 place,
                 sensor: Sensor::new(source, finds_zero),
                 filter: filter::State::default(),
-                own: [const { SelfMotion::new() }; OWN],
+                own: core::array::from_fn(|_| SelfMotion::new(rate)),
                 predicted: 0,
                 felt: R::ZERO,
                 reading: Reading::REST,

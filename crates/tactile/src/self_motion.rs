@@ -40,22 +40,21 @@ const RATE_MOST: u16 = 1 << 15;
 #[derive(Debug, Clone)]
 pub struct SelfMotion {
     weights: [i32; PHASES],
-    /// Samples of the start that have been.
-    seen: u16,
-}
-
-impl Default for SelfMotion {
-    fn default() -> Self {
-        Self::new()
-    }
+    /// Samples of the start that are left.
+    start: u16,
 }
 
 impl SelfMotion {
-    /// One that has learnt nothing.
-    pub const fn new() -> Self {
+    /// One that has learnt nothing, and will by `rate` μ, 2⁻¹⁶.
+    pub const fn new(rate: u16) -> Self {
+        // As many samples as the time constant of all weights.
+        let start = ((PHASES as u32) << 16).checked_div(rate as u32);
         Self {
             weights: [0; PHASES],
-            seen: 0,
+            start: match start {
+                Some(start) if start < u16::MAX as u32 => start as u16,
+                _ => u16::MAX,
+            },
         }
     }
 
@@ -82,25 +81,17 @@ impl SelfMotion {
         let sum = now * rest + next * share;
         let predicted = (sum + (1 << (FRACTION + SHARE_BITS - 1))) >> (FRACTION + SHARE_BITS);
         if is_in_air {
-            let rate = self.rate_now(rate);
+            let mut rate = i32::from(rate);
+            if self.start > 0 {
+                self.start -= 1;
+                rate = (rate << AT_START).min(RATE_MOST.into());
+            }
             // 15 bits by 15, then 22 by 8.
             let step = ((i32::from(code) - predicted) * rate) >> (16 - FRACTION);
             self.weights[place] = bounded(now + ((step * rest) >> SHARE_BITS));
             self.weights[after] = bounded(next + ((step * share) >> SHARE_BITS));
         }
         predicted as i16
-    }
-
-    /// The rate of a sample, which is faster at the start: that lasts as many samples as the time
-    /// constant of all weights.
-    #[inline]
-    fn rate_now(&mut self, rate: u16) -> i32 {
-        let is_start = u32::from(self.seen) * u32::from(rate) < (PHASES as u32) << 16;
-        if is_start && self.seen < u16::MAX {
-            self.seen += 1;
-            return (u32::from(rate) << AT_START).min(RATE_MOST.into()) as i32;
-        }
-        rate.into()
     }
 
     /// The zero of the sensor has moved by so many codes.
@@ -113,14 +104,8 @@ impl SelfMotion {
 }
 
 /// A weight within its range: bits may have been flipped.
-const fn bounded(weight: i32) -> i32 {
-    if weight < -MOST {
-        -MOST
-    } else if weight >= MOST {
-        MOST - 1
-    } else {
-        weight
-    }
+fn bounded(weight: i32) -> i32 {
+    weight.clamp(-MOST, MOST - 1)
 }
 
 #[cfg(test)]
@@ -133,6 +118,10 @@ mod tests {
 
     const HZ: f64 = 2000.0;
     const TAU_S: f64 = 2.0;
+
+    fn new() -> SelfMotion {
+        SelfMotion::new(SelfMotion::rate(TAU_S, HZ))
+    }
 
     /// Whisks for so long; what is left of the last second, rms.
     fn left(filter: &mut SelfMotion, whisk_hz: f64, seconds: f64, is_in_air: bool) -> f64 {
@@ -156,10 +145,7 @@ mod tests {
         // The reading before anything is learnt.
         let all = (1500_f64.powi(2) / 2.0 + 400_f64.powi(2) / 2.0).sqrt();
         for whisk_hz in [1.0, 2.0, 4.0, 8.0, 14.0] {
-            let mut filter = SelfMotion {
-                seen: u16::MAX,
-                ..SelfMotion::new()
-            };
+            let mut filter = SelfMotion { start: 0, ..new() };
             // Of the second that ends after two time constants, the middle is at 1.75.
             let found = left(&mut filter, whisk_hz, 2.0 * TAU_S, true) / all;
             let expected = (-1.75_f64).exp();
@@ -168,14 +154,14 @@ mod tests {
             let last = left(&mut filter, whisk_hz, 30.0 * TAU_S, true);
             assert!(last < 3.0, "{whisk_hz}: {last}");
             // At the start eight times as fast: after one whisk of 1 Hz.
-            let start = left(&mut SelfMotion::new(), whisk_hz, TAU_S, true) / all;
+            let start = left(&mut new(), whisk_hz, TAU_S, true) / all;
             assert!(start < 0.15, "{whisk_hz}: {start}");
         }
     }
 
     #[test]
     fn what_touches_is_not_learnt_and_a_shift_of_the_zero_is_followed() {
-        let mut filter = SelfMotion::new();
+        let mut filter = new();
         left(&mut filter, 4.0, 20.0, true);
         let phases = [0, 9_000, 40_000, 65_535];
         let predicts = |filter: &SelfMotion| {
@@ -196,7 +182,7 @@ mod tests {
             divided in 1_i16..30,
             rate in 1_u16..=1 << 15,
         ) {
-            let mut filter = SelfMotion::new();
+            let mut filter = SelfMotion::new(rate);
             for (code, (phase, is_in_air)) in samples {
                 let predicted = filter.step(code / divided, phase, rate, is_in_air);
                 // To rounding.

@@ -67,15 +67,14 @@ impl<R: Real> Config<R> {
             (Self::Exact(_), [m, d]) if side == 1 => Some([m[0] - d[0], m[1] - d[1]]),
             (_, sides) => sides.get(side).copied(),
         };
-        let [first, second] = psi.unwrap_or([R::ZERO; 2]).map(R::to_q24);
-        // Within ±3, that is 17 bits.
-        let [across, along] = [first, second].map(|x| x.unsigned_abs() >> 10);
-        let quarter = (along << 14).checked_div(across + along).unwrap_or(0);
-        let turn = match (first < 0, second < 0) {
-            (false, false) => quarter,
-            (true, false) => (1 << 15) - quarter,
-            (true, true) => (1 << 15) + quarter,
-            (false, true) => (1 << 16) - quarter,
+        // Within ±3, that is 17 bits and a sign.
+        let [first, second] = psi.unwrap_or([R::ZERO; 2]).map(|x| x.to_q24() >> 10);
+        let around = (first.wrapping_abs() + second.wrapping_abs()).max(1);
+        let quarter = (second << 14) / around;
+        let turn = if first < 0 {
+            (1 << 15) - quarter
+        } else {
+            quarter
         };
         turn as u16
     }

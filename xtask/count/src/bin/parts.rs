@@ -11,6 +11,9 @@ use whisking::{Fix, Integrator, MAX_SIDES, filter, muscle, oscillator, pd};
 count::program!(parts);
 
 type Gates<'c, R> = (&'c Rcp<R>, &'c Cia<R>, Gate<R>, Gate<R>, R);
+/// Of two seconds at 2 kHz.
+const OWN_RATE: u16 = 1048;
+
 type Own<'c, R> = (&'c oscillator::Config<R>, oscillator::State<R>, SelfMotion);
 type Oscillators<'c, R> = (
     &'c oscillator::Config<R>,
@@ -62,7 +65,7 @@ fn each<R: Format>() {
             predict(own, (code & 0x1fff) as i16, phase)
         },
         |call| call.wrapping_mul(0x9E37_79B9) >> 16,
-        (&one.whisking.oscillators, oscillator::State::new(start), SelfMotion::new()));
+        (&one.whisking.oscillators, oscillator::State::new(start), SelfMotion::new(OWN_RATE)));
     oscillators("oscillators of 2 sides", &two);
     oscillators("oscillator of 1 side", &one);
 }
@@ -70,7 +73,7 @@ fn each<R: Format>() {
 /// Calls the filter from one place, as a tick does.
 #[inline(never)]
 fn predict(own: &mut SelfMotion, code: i16, phase: u16) -> i16 {
-    own.step(code, phase, SelfMotion::rate(2.0, 2000.0), true)
+    own.step(code, phase, OWN_RATE, true)
 }
 
 /// A step of the oscillators, with their drives.
