@@ -69,8 +69,8 @@ impl<R: Real> Config<R> {
         };
         // Within ±3, that is 17 bits and a sign.
         let [first, second] = psi.unwrap_or([R::ZERO; 2]).map(|x| x.to_q24() >> 10);
-        let around = (first.wrapping_abs() + second.wrapping_abs()).max(1);
-        let quarter = (second << 14) / around;
+        let around = first.wrapping_abs() + second.wrapping_abs();
+        let quarter = (second << 14).checked_div(around).unwrap_or(0);
         let turn = if first < 0 {
             (1 << 15) - quarter
         } else {

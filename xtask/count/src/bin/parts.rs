@@ -62,18 +62,12 @@ fn each<R: Format>() {
     kernel!([R] R::NAME, "self-motion",
         (code: u32, (config, state, own): &mut Own<R>) -> i16 {
             let phase = config.phase(state, 0);
-            predict(own, (code & 0x1fff) as i16, phase)
+            own.step((code & 0x1fff) as i16, phase, OWN_RATE, true)
         },
         |call| call.wrapping_mul(0x9E37_79B9) >> 16,
         (&one.whisking.oscillators, oscillator::State::new(start), SelfMotion::new(OWN_RATE)));
     oscillators("oscillators of 2 sides", &two);
     oscillators("oscillator of 1 side", &one);
-}
-
-/// Calls the filter from one place, as a tick does.
-#[inline(never)]
-fn predict(own: &mut SelfMotion, code: i16, phase: u16) -> i16 {
-    own.step(code, phase, OWN_RATE, true)
 }
 
 /// A step of the oscillators, with their drives.
