@@ -126,6 +126,10 @@ pub struct SensingConfig {
     pub rest_us: u16,
     /// How frames of an MLX90333 are read.
     pub decoder: Decoder,
+    /// By how much a tick learns what whisking alone makes them read, 2⁻¹⁶
+    /// ([`SelfMotion::rate`](tactile::SelfMotion::rate)), which is no contact; `None`: it counts as
+    /// contact.
+    pub self_motion: Option<u16>,
     /// What is tolerated of them.
     pub limits: SensorLimits,
 }
@@ -191,6 +195,7 @@ impl<R: Real> Config<R> {
                 kind: SensorKind::FastMlx90333,
                 rest_us: REST_US,
                 decoder: Decoder::new(),
+                self_motion: None,
                 limits: SensorLimits::ANY,
             },
             contact: None,

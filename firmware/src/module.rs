@@ -1,6 +1,7 @@
 //! The tick.
 
 use heapless::Vec;
+use tactile::SelfMotion;
 use whisking::motor::MotorDriver;
 use whisking::{MAX_SIDES, MAX_WHISKERS, Number, Real, filter};
 
@@ -34,11 +35,18 @@ pub struct WhiskerParts<H: Hardware> {
     pub motor: Option<(H::Motor, H::Angle)>,
 }
 
+/// A filter of self-motion, or none.
+const OWN: usize = Part::SelfMotion.is_built() as usize;
+
 /// One whisker, in one tick.
 pub struct Whisker<R, H: Hardware> {
     place: Place,
     sensor: Sensor<H::Source>,
     filter: filter::State<R>,
+    /// What whisking alone makes it read, where the program has that.
+    own: [SelfMotion; OWN],
+    /// Of x in this tick, codes.
+    predicted: i16,
     /// Its contact π.
     felt: R,
     /// What counts of its reading: nothing while its motor [inhibits](Servo::is_inhibited) it.
@@ -146,6 +154,7 @@ impl<R: Real, H: Hardware> Module<R, H> {
         classifier: Option<H::Classifier>,
     ) {
         let finds_zero = config.sensor.limits.zero.is_some();
+        let rate = config.sensor.self_motion.unwrap_or_default();
         let HeadConfig {
             sides,
             whiskers_per_side,
@@ -160,6 +169,8 @@ impl<R: Real, H: Hardware> Module<R, H> {
                 place,
                 sensor: Sensor::new(source, finds_zero),
                 filter: filter::State::default(),
+                own: core::array::from_fn(|_| SelfMotion::new(rate)),
+                predicted: 0,
                 felt: R::ZERO,
                 reading: Reading::REST,
                 swing: Swing::new(),
@@ -184,20 +195,50 @@ impl<R: Real, H: Hardware> Module<R, H> {
     fn follow_zeros(&mut self, limits: ZeroLimits, events: &mut impl FnMut(Event)) {
         for whisker in &mut self.whiskers {
             let is_calm = whisker.reading.valid && whisker.felt.to_q24() < limits.calm;
-            whisker
+            let moved = whisker
                 .sensor
                 .follow_zero(is_calm, limits, whisker.place, events);
+            if let (Some(own), Some([by, _])) = (whisker.own.first_mut(), moved) {
+                own.shift(by);
+            }
         }
     }
 
-    /// Contact π of each side: the largest |H50(x)| of its whiskers (BIOTACT eq. 9). A
-    /// whisker with a fault has none, and its filter is reset.
+    /// Predicts what whisking alone makes each whisker's x read, and learns it by `rate` in the air.
+    /// Nothing while its motor does not follow the pattern generator, nor where touches are not
+    /// found.
+    #[inline]
+    fn predict(&mut self, rate: u16, config: &MotionConfig<R>) {
+        let (Some(perception), Some(motion)) = (&self.perception, &self.motion) else {
+            return;
+        };
+        let oscillators = &config.whisking.oscillators;
+        for (n, whisker) in self.whiskers.iter_mut().enumerate() {
+            let is_whisked = whisker.servo.as_ref().is_some_and(Servo::is_whisking);
+            let reading = whisker.reading;
+            whisker.predicted = 0;
+            if let Some(own) = whisker.own.first_mut()
+                && is_whisked
+                && reading.valid
+                && perception.listens_to(n)
+            {
+                let side = usize::from(whisker.place.side);
+                let phase = oscillators.phase(&motion.state.oscillators, side);
+                let is_in_air = reading.fresh && perception.is_air(n);
+                whisker.predicted = own.step(reading.x.signed14(), phase, rate, is_in_air);
+            }
+        }
+    }
+
+    /// Contact π of each side: the largest |H50(x)| of its whiskers (BIOTACT eq. 9), of x without
+    /// self-motion where that is predicted. A whisker with a fault has none, and its filter is
+    /// reset.
     #[inline]
     fn feel(&mut self, h50: &filter::Config<R>) {
         let mut most = const { [R::ZERO; MAX_SIDES] };
         for whisker in &mut self.whiskers {
             if whisker.reading.valid {
-                let x = normalised::<R>(whisker.reading.x);
+                let x = normalised::<R>(whisker.reading.x, whisker.predicted);
                 whisker.felt = h50.process(&mut whisker.filter, x).abs();
             } else {
                 whisker.filter = filter::State::default();
@@ -350,6 +391,11 @@ impl<R: Number, H: Hardware> Module<R, H> {
         if Part::Contact.is_built()
             && let Some(h50) = &config.contact
         {
+            if Part::SelfMotion.is_built()
+                && let (Some(rate), Some(motion)) = (config.sensor.self_motion, &config.motion)
+            {
+                self.predict(rate, motion);
+            }
             self.feel(h50);
             if Part::Zero.is_built()
                 && let Some(limits) = config.sensor.limits.zero
@@ -413,12 +459,17 @@ impl<R: Number, H: Hardware> Module<R, H> {
     }
 }
 
-/// The normalised reading, (code − 8192)/8191 limited to −1: what
-/// [`mlx90333::Word::normalised`] gives, within one rounding.
+/// The normalised reading, (code − 8192)/8191 limited to ±1: what
+/// [`mlx90333::Word::normalised`] gives, within one rounding, less what was `predicted` of it.
 #[inline]
-fn normalised<R: Real>(word: mlx90333::Word) -> R {
+fn normalised<R: Real>(word: mlx90333::Word, predicted: i16) -> R {
     // Limited as an integer, which costs less.
-    R::from_code(word.signed14().max(-8191))
+    let code = word.signed14();
+    if Part::SelfMotion.is_built() {
+        R::from_code(code.saturating_sub(predicted).clamp(-8191, 8191))
+    } else {
+        R::from_code(code.max(-8191))
+    }
 }
 
 #[cfg(test)]
@@ -429,9 +480,9 @@ mod tests {
     fn every_code_is_normalised_as_the_driver_does() {
         for code in 0..1 << 14 {
             let word = Word::new(code << 2);
-            let found: f32 = super::normalised(word);
+            let found: f32 = super::normalised(word, 0);
             assert!((found - word.normalised()).abs() < 1.3e-7, "{code}");
         }
-        assert_eq!(super::normalised::<f32>(Word::MID), 0.0);
+        assert_eq!(super::normalised::<f32>(Word::MID, 0), 0.0);
     }
 }

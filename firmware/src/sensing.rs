@@ -186,7 +186,7 @@ impl<F: WordSource> Sensor<F> {
     }
 
     /// After [`read`](Self::read) and what was felt by it: follows the zero, where that is found
-    /// by itself, and whether the whisker `is_calm` is asked.
+    /// by itself, and whether the whisker `is_calm` is asked. Gives the codes by which it has moved.
     #[inline]
     pub fn follow_zero(
         &mut self,
@@ -194,14 +194,13 @@ impl<F: WordSource> Sensor<F> {
         limits: ZeroLimits,
         place: Place,
         events: &mut impl FnMut(Event),
-    ) {
+    ) -> Option<[i16; 2]> {
         let Reading { x, y, valid, .. } = self.last;
-        if valid
-            && let Some(zero) = &mut self.zero
-            && let Some(codes) = zero.follow([x, y], is_calm, limits)
-        {
-            events(Event::ZeroMoved(place, codes));
-        }
+        let zero = self.zero.as_mut().filter(|_| valid)?;
+        let before = zero.codes();
+        let codes = zero.follow([x, y], is_calm, limits)?;
+        events(Event::ZeroMoved(place, codes));
+        Some([0, 1].map(|axis| codes[axis].saturating_sub(before[axis])))
     }
 
     /// A good frame of a faulty sensor, after `good` others; whether it ends the fault.

@@ -178,6 +178,12 @@ impl<R: Real, M: MotorDriver, A: AngleInput> Servo<R, M, A> {
         }
     }
 
+    /// Whether it follows the pattern generator.
+    #[inline]
+    pub(crate) fn is_whisking(&self) -> bool {
+        matches!(self.state, ServoState::Running { .. }) && self.setpoint().is_none()
+    }
+
     /// What it is doing.
     pub const fn state(&self) -> &ServoState<R> {
         &self.state

@@ -249,9 +249,10 @@ pub(crate) fn compare_with_slow_sensors(on: &Emulated) -> Result<(), Fault> {
     emulate(on, &slow, COMPARE)
 }
 
-/// Compares [`CIA`] with host-sim where the sensors find their zeros.
+/// Compares [`noisiest`] with host-sim where the sensors find their zeros, and contact is computed
+/// without self-motion.
 pub(crate) fn compare_with_zeros(on: &Emulated) -> Result<(), Fault> {
-    let zeros = variants::with_zeros(&top().join(CIA))?;
+    let zeros = variants::with_zeros(&noisiest()?)?;
     emulate(on, &zeros, COMPARE)
 }
 

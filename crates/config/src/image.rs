@@ -43,6 +43,7 @@ fn parts<R: Real>(config: &Config<R>) -> Vec<Part> {
         (links.has_pins, Part::Pins),
         (config.contact.is_some(), Part::Contact),
         (config.sensor.limits.zero.is_some(), Part::Zero),
+        (config.sensor.self_motion.is_some(), Part::SelfMotion),
         (true, config.sensor.kind.part()),
     ];
     if let Some(motion) = &config.motion {

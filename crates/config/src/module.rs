@@ -10,7 +10,7 @@ use scene::{
     Deciding, MotorSection, OnFault, PlantKind, Rest, Rule, Scene, SensorBytes, SensorMode,
     SensorModel, SensorSection, SensorSum, SensorWords,
 };
-use tactile::{RuleSettings, Threshold};
+use tactile::{RuleSettings, SelfMotion, Threshold};
 use whisking::motor::{GuardSettings, HomingSettings, ModelSettings};
 use whisking::{Real, filter, pd};
 
@@ -76,6 +76,10 @@ pub fn build<R: Real>(scene: &Scene, target: Target<'_>) -> Result<Config<R>, Mi
             kind: kind(scene),
             rest_us: scene.sensor.rest_us,
             decoder: decoder(&scene.sensor),
+            self_motion: scene
+                .sensor
+                .self_motion_s
+                .map(|tau_s| SelfMotion::rate(tau_s, f64::from(scene.tick_hz))),
             limits: sensor(scene, is_ideal),
         },
         contact,

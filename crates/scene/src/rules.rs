@@ -27,6 +27,20 @@ pub(crate) fn apply(values: &Values, text: &mut Text<'_>) {
     mode_is_the_mlx90333s(values, text);
     serial_has_its_parts(values, text);
     silence_can_be_counted(values, text);
+    self_motion_has_its_parts(values, text);
+}
+
+fn self_motion_has_its_parts(values: &Values, text: &mut Text<'_>) {
+    let Some(offset) = values.offset("sensor", "self_motion_s") else {
+        return;
+    };
+    for part in ["whisking", "classifier"] {
+        if values.section(part).is_none() {
+            let found = format!("found without [{part}]");
+            let allowed = format!("allowed: only with [{part}]");
+            text.report(offset, "sensor.self_motion_s".to_owned(), found, allowed);
+        }
+    }
 }
 
 fn silence_can_be_counted(values: &Values, text: &mut Text<'_>) {

@@ -88,6 +88,7 @@ mod roughness;
 mod rule;
 #[cfg(feature = "std")]
 pub mod score;
+mod self_motion;
 mod sequential;
 mod stream;
 mod sums;
@@ -121,6 +122,7 @@ pub use opinion::Whisked;
 pub use quantiser::Quantiser;
 pub use roughness::Roughness;
 pub use rule::DecisionRule;
+pub use self_motion::SelfMotion;
 pub use sequential::{Sequential, SequentialEvidence, SequentialRule, Threshold};
 pub use stream::WrongChannels;
 pub use totals::Totals;

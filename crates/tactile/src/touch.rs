@@ -218,6 +218,12 @@ impl TouchDetector {
         self.touching.number != 0 && self.is_sure
     }
 
+    /// Whether the start is over, and the present touch, if there is one, is not sure.
+    #[inline]
+    pub const fn is_air(&self) -> bool {
+        self.seen >= self.start && !self.is_sure()
+    }
+
     /// Takes the sensor's codes of 14 bits.
     // Apart: a board's program, whose own code is compiled for size, has it compiled for speed.
     #[inline(never)]

@@ -85,6 +85,7 @@ fields! {
     Friction = 41: "motor.unmoved_duty";
     TimeConstant = 42: "motor.time_constant_s";
     Heat = 43: "motor.continuous_duty";
+    SelfMotion = 44: "sensor.self_motion_s";
 }
 
 impl Field {
@@ -200,7 +201,9 @@ impl SensingConfig {
     fn check(&self) -> Checked {
         built(self.kind.part())?;
         let zero = |zero: &crate::ZeroLimits| require(Field::Zero, zero.ticks > 0 && zero.calm > 0);
-        if_there(Part::Zero, self.limits.zero.as_ref(), zero)
+        if_there(Part::Zero, self.limits.zero.as_ref(), zero)?;
+        let is_rate = |rate: &u16| require(Field::SelfMotion, (1..=1 << 15).contains(rate));
+        if_there(Part::SelfMotion, self.self_motion.as_ref(), is_rate)
     }
 }
 

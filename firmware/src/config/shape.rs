@@ -39,6 +39,8 @@ impl<R: Real> Config<R> {
         same(Field::SensorMode, self.sensor.rest_us == new.sensor.rest_us)?;
         let zeros = [&self.sensor, &new.sensor].map(|sensor| sensor.limits.zero.is_some());
         same(Field::Zero, zeros[0] == zeros[1])?;
+        let own = [&self.sensor, &new.sensor].map(|sensor| sensor.self_motion.is_some());
+        same(Field::SelfMotion, own[0] == own[1])?;
         same(Field::Links, self.links == new.links)?;
         same(Field::Contact, self.contact == new.contact)?;
         match (&self.motion, &new.motion) {

@@ -127,6 +127,20 @@ impl<C: SampleClassifier> Perception<C> {
         }
     }
 
+    /// Whether touches of a whisker are found, counted from 0, left side first.
+    #[inline]
+    pub fn listens_to(&self, whisker: usize) -> bool {
+        whisker < self.touches.len()
+            && self.classifier.hears(whisker)
+            && self.classifier.knows_touches()
+    }
+
+    /// Whether a whisker surely touches nothing, counted from 0, left side first.
+    #[inline]
+    pub fn is_air(&self, whisker: usize) -> bool {
+        self.touches.get(whisker).is_some_and(TouchDetector::is_air)
+    }
+
     /// What a whisker touches, counted from 0, left side first; nothing where there is none.
     pub fn touching(&self, whisker: usize) -> Touching {
         let touches = self.touches.get(whisker);

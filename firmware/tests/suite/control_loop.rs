@@ -107,6 +107,7 @@ fn config() -> Config<f32> {
             kind: SensorKind::FastMlx90333,
             rest_us: 50,
             decoder: mlx90333::Decoder::new(),
+            self_motion: None,
             limits: SensorLimits {
                 hold: 1,
                 recover: 2,

@@ -29,6 +29,7 @@ pub(crate) fn feeling<R: Real>(contact: Option<filter::Config<R>>) -> Config<R> 
             kind: SensorKind::FastMlx90333,
             rest_us: 50,
             decoder: mlx90333::Decoder::new(),
+            self_motion: None,
             limits: AT_ONCE,
         },
         contact,

@@ -277,7 +277,7 @@ fn refused(run: &mut Run, bytes: &[u8]) -> ConfigError {
 
 #[test]
 fn what_a_module_is_built_from_is_refused_by_its_name() {
-    let changes: [(&[&str], Field); 15] = [
+    let changes: [(&[&str], Field); 16] = [
         (&["name=other"], Field::Name),
         (&["tick_hz=4000"], Field::TickHz),
         (
@@ -291,6 +291,7 @@ fn what_a_module_is_built_from_is_refused_by_its_name() {
         (&["head.whiskers_per_side=2"], Field::Whiskers),
         (&["sensor.mode=slow", "tick_hz=500"], Field::TickHz),
         (&["sensor.zero_after_s=10"], Field::Zero),
+        (&["sensor.self_motion_s=2"], Field::SelfMotion),
         (&["telemetry.rtt=false"], Field::Links),
         (&["whisking.integrator=euler"], Field::Integrator),
         (&["whisking.noise=0"], Field::Noise),

@@ -62,6 +62,11 @@ struct Found {
 
 impl Found {
     fn contacts(&mut self, scene: &Scene) {
+        self.contacts_of(Biotact::Middle, scene);
+    }
+
+    /// Of the elastic whisker with this shaft, which is the scene's too.
+    fn contacts_of(&mut self, shaft: Biotact, scene: &Scene) {
         let obstacle = scene.plant.obstacle.as_ref().unwrap();
         let head = Head {
             whiskers_per_side: 1,
@@ -79,7 +84,7 @@ impl Found {
         } else {
             let settings = ElasticSettings {
                 noise_codes,
-                ..ElasticSettings::of(Shaft::biotact(Biotact::Middle))
+                ..ElasticSettings::of(Shaft::biotact(shaft))
             };
             let plant = Elastic::new(head, settings, scene.seed).unwrap();
             self.run(scene, plant, Elastic::in_the_air);
@@ -199,6 +204,29 @@ fn touches_are_reported_within_2_ms() {
     }
 }
 
+/// At 8 Hz the middle shaft's inertia reads a fifth of the range in the air, and contact is no less.
+#[test]
+fn a_shaft_does_not_suppress_its_own_protraction() {
+    let suppression = |tau_s, limit_deg| {
+        let mut scene = scene(WHISKER, 8.0, limit_deg, 20.0, 3203);
+        scene.sensor.self_motion_s = tau_s;
+        let mut run = Run::new(&scene, None).unwrap();
+        let z = (0..run.ticks()).map(|_| run.tick().z[0]);
+        // Once it has learnt.
+        z.skip(20_000).sum::<f64>() / 20_000.0
+    };
+    let [own, without] = [None, Some(2.0)].map(|tau_s| suppression(tau_s, 300.0));
+    assert!(own > 0.15 && without < 0.01, "{own} {without}");
+    let contact = suppression(Some(2.0), 100.0);
+    assert!(contact > 0.15, "{contact}");
+    let mut found = Found::default();
+    let mut scene = scene(WHISKER, 8.0, 100.0, 40.0, 3204);
+    scene.sensor.self_motion_s = Some(2.0);
+    found.contacts(&scene);
+    assert!(found.soon() > 0.99 && found.mean() < 0.8, "{found:?}");
+    assert!(found.false_ones <= 2, "{found:?}");
+}
+
 /// With a model that knows touches.
 #[test]
 fn nothing_is_decided_in_the_air() {
@@ -276,6 +304,55 @@ fn measurement() {
                     "| {name}, {hz} Hz | ten minutes of air: {early} in the first 10 s, then {} |",
                     onsets.len() - early
                 );
+            }
+        }
+    }
+}
+
+/// What subtracting self-motion changes: suppression by what is no contact, touches in the air and
+/// onsets of real ones.
+#[test]
+#[ignore = "minutes: prints the measurement"]
+fn measurement_of_self_motion() {
+    const SHAFTS: [(Biotact, &str); 3] = [
+        (Biotact::Front, "biotact-front"),
+        (Biotact::Middle, "biotact-middle"),
+        (Biotact::Rear, "biotact-rear"),
+    ];
+    for (shaft, name) in SHAFTS {
+        let text = WHISKER.replace("biotact-middle", name);
+        for hz in [2.0, 4.0, 8.0] {
+            for tau_s in [None, Some(2.0)] {
+                let scene = |limit_deg, seconds, seed| {
+                    let mut scene = scene(&text, hz, limit_deg, seconds, seed);
+                    scene.sensor.self_motion_s = tau_s;
+                    scene
+                };
+                let (mut suppressed, mut ticks, mut touches) = (0.0, 0, 0);
+                for seed in 430..433 {
+                    let mut run = Run::new(&scene(300.0, 60.0, seed), None).unwrap();
+                    let mut last = 0;
+                    for n in 0..run.ticks() {
+                        let row = run.tick();
+                        if n >= 4 * LEARNT {
+                            suppressed += row.z[0];
+                            ticks += 1;
+                            touches += u32::from(row.touch[0] != 0 && row.touch[0] != last);
+                        }
+                        last = row.touch[0];
+                    }
+                }
+                let mut found = Found::default();
+                for seed in 430..435 {
+                    found.contacts_of(shaft, &scene(100.0, 40.0, seed));
+                }
+                let with = tau_s.map_or("as it is", |_| "without self-motion");
+                println!(
+                    "| {name}, {hz} Hz, {with} | in the air: z {:.3}, {:.1} touches a minute",
+                    suppressed / f64::from(ticks),
+                    f64::from(touches) / f64::from(ticks) * TICK_HZ * 60.0
+                );
+                found.print(&format!("{name}, {hz} Hz, {with}"));
             }
         }
     }

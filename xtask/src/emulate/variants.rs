@@ -53,10 +53,12 @@ pub(super) fn with_slow_sensors(path: &Path) -> Result<PathBuf, Fault> {
     })
 }
 
-/// The scene with sensors that find their zeros, which are not at mid-scale.
+/// The scene with sensors that find their zeros, which are not at mid-scale, and without
+/// self-motion in its contact.
 pub(super) fn with_zeros(path: &Path) -> Result<PathBuf, Fault> {
     variant(path, "zeros", |_, table| {
-        replace(table, "sensor", [("zero_after_s", 0.5.into())]);
+        let keys = [("zero_after_s", 0.5.into()), ("self_motion_s", 1.0.into())];
+        replace(table, "sensor", keys);
         let pairs = [[40.0, -60.0], [-90.0, 30.0]].map(|codes| Value::from(codes.to_vec()));
         set(table, "plant", "zero_codes", pairs.to_vec());
     })

@@ -117,5 +117,12 @@ keys! {
         /// is reported. `whisker calibrate` shows how many there are in the air; 0: not looked at.
         swing_codes: Option<u16> = integer(0..=8_191).unit("codes")
             .optional("50 from 1.25 Hz on; below, where noise moves it as far, 0"),
+
+        /// Time constant with which the module learns, in the air, what whisking alone makes x read
+        /// at each phase of a whisk. The contact signal is computed without that, so that a long
+        /// shaft does not suppress its own protraction; touches and decisions rest on readings as
+        /// they are. Needs `[whisking]`, and `[classifier]`, by whose touches learning stops.
+        self_motion_s: Option<f64> = number(0.5..=30.0).unit("s")
+            .optional("it counts as contact"),
     }
 }

@@ -41,6 +41,7 @@ fn every_key_reaches_its_field() {
             jump_per_s: 1500.0,
             model: SensorModel::Mlx90333,
             zero_after_s: None,
+            self_motion_s: None,
             zero_calm: 0.05,
             zero_most: 160,
             swing_codes: None,

@@ -22,6 +22,20 @@ fn missing_keys_and_tables() {
 }
 
 #[test]
+fn self_motion_needs_whisking_and_touches() {
+    let says = |part| {
+        format!(
+            "s.toml:6: sensor.self_motion_s: found without [{part}]; allowed: only with [{part}]"
+        )
+    };
+    let text = format!("{PASSIVE}sensor.self_motion_s = 2\nplant.kind = 'ideal'\n");
+    assert_eq!(
+        complaint(&text),
+        ["whisking", "classifier"].map(says).join("\n")
+    );
+}
+
+#[test]
 fn gates_and_motor_need_whisking() {
     for section in ["rcp", "cia", "motor"] {
         let keys = if section == "motor" {

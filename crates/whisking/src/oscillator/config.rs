@@ -57,6 +57,28 @@ impl<R: Real> Config<R> {
         }
     }
 
+    /// Phase of a side, 2⁻¹⁶ of a whisk from where protraction is driven most: its place on
+    /// |ψ_1| + |ψ_2| = const., which runs with the angle of ψ to within 4.1 degrees. Of
+    /// [`Exact`] it is half a tick behind. 0 for a side that there is not.
+    #[inline]
+    pub fn phase(&self, state: &State<R>, side: usize) -> u16 {
+        let psi = match (self, state.kept.as_slice()) {
+            (Self::Exact(_), [m, d]) if side == 0 => Some([m[0] + d[0], m[1] + d[1]]),
+            (Self::Exact(_), [m, d]) if side == 1 => Some([m[0] - d[0], m[1] - d[1]]),
+            (_, sides) => sides.get(side).copied(),
+        };
+        // Within ±3, that is 17 bits and a sign.
+        let [first, second] = psi.unwrap_or([R::ZERO; 2]).map(|x| x.to_q24() >> 10);
+        let around = first.wrapping_abs() + second.wrapping_abs();
+        let quarter = (second << 14).checked_div(around).unwrap_or(0);
+        let turn = if first < 0 {
+            (1 << 15) - quarter
+        } else {
+            quarter
+        };
+        turn as u16
+    }
+
     /// ψ of every side.
     pub fn psi(&self, state: &State<R>) -> Vec<Psi<R>, MAX_SIDES> {
         match self {

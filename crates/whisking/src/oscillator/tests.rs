@@ -73,6 +73,28 @@ fn a_start_inside_or_outside_relaxes_with_two_whisk_periods() {
     }
 }
 
+/// Of one side and of two, half a tick of `cycles` behind where the integrator keeps that.
+#[test]
+fn the_phase_runs_with_the_angle_in_every_format() {
+    fn check<R: Real, const S: usize>(mut running: Running<R, S>, cycles: f64) {
+        for _ in 0..(1.2 / cycles) as usize {
+            let psi = running.run(1);
+            for (side, [a, b]) in psi.into_iter().enumerate() {
+                let turns = f64::from(running.0.phase(&running.1, side)) / 65_536.0;
+                let behind = b.atan2(a) / core::f64::consts::TAU - turns;
+                let behind = behind - behind.round();
+                // 4.07 degrees, and a tick.
+                assert!(behind.abs() < 0.0114 + cycles, "{side}: {behind}");
+            }
+        }
+    }
+    let starts = [[1.0, 0.0], [-0.6, 0.8]];
+    check(Running::<f32, 2>::exact(1e-3, starts), 1e-3);
+    check(Running::<Fix, 2>::exact(1e-3, starts), 1e-3);
+    check(Running::<Fix, 1>::exact(4e-3, [[0.0, 1.0]]), 4e-3);
+    check(Running::<f64, 2>::euler(1e-3, starts), 1e-3);
+}
+
 #[test]
 fn protraction_comes_first_and_recovery_follows() {
     let [left, _] = Running::<f64, 2>::exact(1e-3, [[1.0, 0.0]; 2]).run(125);

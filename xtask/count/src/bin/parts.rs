@@ -4,12 +4,17 @@
 use count::module::Module;
 use count::samples::{Three, drives, number};
 use count::{Format, kernel};
+use tactile::SelfMotion;
 use whisking::gate::{Cia, Gate, Rcp};
 use whisking::{Fix, Integrator, MAX_SIDES, filter, muscle, oscillator, pd};
 
 count::program!(parts);
 
 type Gates<'c, R> = (&'c Rcp<R>, &'c Cia<R>, Gate<R>, Gate<R>, R);
+/// Of two seconds at 2 kHz.
+const OWN_RATE: u16 = 1048;
+
+type Own<'c, R> = (&'c oscillator::Config<R>, oscillator::State<R>, SelfMotion);
 type Oscillators<'c, R> = (
     &'c oscillator::Config<R>,
     oscillator::State<R>,
@@ -53,6 +58,14 @@ fn each<R: Format>() {
         },
         number::<R>(-0.4, 1.2), (&two.pd, pd::State::default(), 0));
     let one = Module::<R>::new(Integrator::Exact, 1, 1);
+    let start = one.start.sides.iter().map(|side| side.oscillator).collect();
+    kernel!([R] R::NAME, "self-motion",
+        (code: u32, (config, state, own): &mut Own<R>) -> i16 {
+            let phase = config.phase(state, 0);
+            own.step((code & 0x1fff) as i16, phase, OWN_RATE, true)
+        },
+        |call| call.wrapping_mul(0x9E37_79B9) >> 16,
+        (&one.whisking.oscillators, oscillator::State::new(start), SelfMotion::new(OWN_RATE)));
     oscillators("oscillators of 2 sides", &two);
     oscillators("oscillator of 1 side", &one);
 }
