@@ -2,6 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
+use config::Mismatch;
 use scene::{Override, Places, Rule, Scene, Texture};
 use tactile::ModelBuf;
 
@@ -123,9 +124,21 @@ impl Loaded {
         };
         let key = match classifier.rule {
             Rule::Sequential { .. } => "classifier.threshold",
+            Rule::Costs { .. } => "classifier.cost_error",
             Rule::Window { .. } => "classifier.window",
         };
-        let classifier = Classifier::of(model.clone(), classifier.rule, classifier.whiskers);
+        config::classes(&self.scene, model).map_err(|fault| match fault {
+            Mismatch::Classes {
+                key,
+                found,
+                allowed,
+            } => refused(
+                &format!("classifier.{key}"),
+                format!("found {found}; allowed: {allowed}"),
+            ),
+            fault => Error::Input(fault.to_string()),
+        })?;
+        let classifier = Classifier::of_scene(model.clone(), &self.scene);
         let classifier = classifier.map_err(|fault| match fault {
             Fault::Model(fault) => {
                 let fault = Error::file(model_path, fault).to_string();

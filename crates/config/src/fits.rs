@@ -5,7 +5,7 @@ use scene::{Rule, Scene, SensorMode};
 use tactile::{Deciding, ModelBuf, StreamClassifier};
 
 use crate::module::rule_settings;
-use crate::{Mismatch, NoSuchFormat, suits};
+use crate::{Mismatch, NoSuchFormat, classes, suits};
 
 /// Largest exponent of a model's scale that still lets 14-bit codes fit it.
 const MAX_EXPONENT: i16 = 17;
@@ -95,7 +95,7 @@ fn model_fits(scene: &Scene, model: &ModelBuf, board: &BoardFacts) -> Result<(),
             model.block()
         )));
     }
-    let rule = rule_settings(classifier.rule)?;
+    let rule = rule_settings(classifier, &classes(scene, model)?)?;
     StreamClassifier::new(model.view(), rule, Deciding::First, 1)
         .map_err(|fault| Unfit::Model(fault.to_string()))?;
     suits(scene, model)?;

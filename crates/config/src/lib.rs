@@ -5,6 +5,7 @@
 //! So all of them run by the same numbers.
 
 mod bearable;
+mod classes;
 mod fits;
 mod image;
 mod module;
@@ -14,9 +15,10 @@ mod settling;
 mod stability;
 
 pub use bearable::Unbearable;
+pub use classes::classes;
 pub use fits::Unfit;
 pub use image::{AnyConfig, Image, image};
-pub use module::{GATE, RunsOn, Target, build, decoder, decoder_of};
+pub use module::{GATE, RunsOn, Target, build, decoder, decoder_of, rule_settings};
 pub use numbers::{NoSuchFormat, NumberFormat, in_simulation, on_board};
 pub use protecting::Unprotected;
 pub use settling::Unsettled;
@@ -102,6 +104,16 @@ pub enum Mismatch {
         found: f64,
         /// What is wrong with it.
         fault: tactile::SetupError,
+    },
+    /// What it says of classes does not suit its model.
+    #[error("classifier.{key}: found {found}; allowed: {allowed}")]
+    Classes {
+        /// The key.
+        key: &'static str,
+        /// The scene's.
+        found: String,
+        /// What is allowed.
+        allowed: String,
     },
     /// The module has no room for it.
     #[error("{0}")]
@@ -234,6 +246,7 @@ mod tests {
     const BOARD: Target<'static> = Target {
         runs_on: RunsOn::Board,
         gate: None,
+        classes: None,
         overrides: "",
     };
 

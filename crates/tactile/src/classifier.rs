@@ -4,6 +4,7 @@ use heapless::Vec;
 use serde::{Deserialize, Serialize};
 
 use crate::any_rule::{AnyEvidence, AnyRule, RuleSettings};
+use crate::class_setting::ClassSettings;
 use crate::constants::Constants;
 use crate::decision::Decision;
 use crate::error::SetupError;
@@ -23,7 +24,7 @@ pub enum Deciding {
     /// Each, by its own evidence, as [`crate::NaiveBayes`] does.
     Each,
     /// All together: the evidence of each is added, log-likelihoods of samples that are
-    /// independent given the class (LEP12 eq. 3). Equal priors count once.
+    /// independent given the class (LEP12 eq. 3). Priors count once.
     ///
     /// After each block of a whisker the posterior of the sum is compared with the
     /// threshold. A decision is for none of the classes if the whiskers that had a part in
@@ -195,6 +196,12 @@ impl<W: Words> StreamClassifier<W> {
         Ok(())
     }
 
+    /// Priors and thresholds of classes take effect; all evidence is forgotten.
+    pub fn set_classes(&mut self, classes: &ClassSettings) {
+        self.constants.rule.set_classes(classes);
+        self.restart();
+    }
+
     /// Forgets all evidence.
     pub fn restart(&mut self) {
         const UNSTARTED: StreamState<AnyEvidence> = StreamState::unstarted(AnyEvidence::NONE);
@@ -212,9 +219,11 @@ impl<W: Words> StreamClassifier<W> {
     /// see [`crate::NaiveBayes::posteriors`].
     pub fn posteriors(&self, stream: usize) -> Posteriors {
         let Constants { model, rule } = &self.constants;
-        if self.is_sum() {
-            let sum = AnyEvidence::Sequential(sum(model.classes(), &self.streams));
-            return posteriors(model, rule, &sum);
+        if let AnyRule::Sequential(of_sum) = rule
+            && self.is_sum()
+        {
+            let sum = sum(of_sum, model.classes(), &self.streams);
+            return posteriors(model, rule, &AnyEvidence::Sequential(sum));
         }
         match self.streams.get(stream) {
             Some(stream) => posteriors(model, rule, &stream.evidence),
@@ -245,7 +254,7 @@ impl<W: Words> StreamClassifier<W> {
         if self.streams.get(n)?.is_early(section) {
             return None;
         }
-        let sum = sum(model.classes(), &self.streams);
+        let sum = sum(of_sum, model.classes(), &self.streams);
         let decision = of_sum.decide_by(model.classes(), &sum)?;
 
         let stream = self.streams.get(n)?;
@@ -273,11 +282,15 @@ impl<W: Words> StreamClassifier<W> {
 /// The evidence of all streams together.
 // Not within what is generic: there once, and as small as this crate is built.
 #[inline(never)]
-fn sum(classes: usize, streams: &[StreamState<AnyEvidence>]) -> SequentialEvidence {
+fn sum(
+    rule: &SequentialRule,
+    classes: usize,
+    streams: &[StreamState<AnyEvidence>],
+) -> SequentialEvidence {
     let all = streams
         .iter()
         .filter_map(|stream| stream.evidence.sequential());
-    SequentialRule::sum(classes, all)
+    rule.sum(classes, all)
 }
 
 /// Whether whiskers can decide so by a rule, and whether the program has the code for it.

@@ -1,5 +1,6 @@
 //! The classifier of one whisker: a model, a rule, and the evidence so far.
 
+use crate::class_setting::ClassSettings;
 use crate::constants::Constants;
 use crate::decision::Decision;
 use crate::error::SetupError;
@@ -33,6 +34,12 @@ impl<R: DecisionRule, W: Words> NaiveBayes<R, W> {
             stream: StreamState::new(&constants.model, &constants.rule),
             constants,
         })
+    }
+
+    /// Priors and thresholds of classes take effect; all evidence is forgotten.
+    pub fn set_classes(&mut self, classes: &ClassSettings) {
+        self.constants.rule.set_classes(classes);
+        self.reset();
     }
 
     /// The model.

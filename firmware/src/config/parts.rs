@@ -69,6 +69,7 @@ parts! {
     Deploy "deploy" = 22: "deployment by command";
     Mlx90333 "mlx90333" = 23: "sensor mlx90333";
     Tmag5170 "tmag5170" = 24: "sensor tmag5170";
+    Priors "priors" = 26: "priors or thresholds of classes";
 }
 
 impl Part {

@@ -2,8 +2,8 @@
 //! deployed to: it is checked at the start, and refused if anything is wrong with it.
 
 use tactile::{
-    AnyRule, Constants, Deciding, Decision, JOINT, Model, RuleSettings, StreamClassifier, Whisked,
-    Words,
+    AnyRule, ClassSetting, ClassSettings, Constants, Deciding, Decision, JOINT, Model,
+    RuleSettings, StreamClassifier, Whisked, Words,
 };
 
 use super::{ModelState, Refusal, Sample, SampleClassifier};
@@ -88,17 +88,18 @@ impl<'p> CodeClassifier<&'p [u32]> {
     ) -> Self {
         let (_, deciding) = config;
         let mut classifier = Self::refused(Refusal::Absent, deciding.heard(whiskers));
-        classifier.find(place, limits, config, whiskers);
+        classifier.find(place, limits, config, &[], whiskers);
         classifier
     }
 
     /// Becomes what [`at_start`](Self::at_start) makes, where it lies: for a board, whose stack
-    /// has no room for it.
+    /// has no room for it. Classes have these priors and thresholds.
     pub fn find(
         &mut self,
         place: &'p [u8],
         limits: ModelLimits,
         config: (RuleSettings, Deciding),
+        classes: &[ClassSetting],
         whiskers: usize,
     ) {
         let (rule, deciding) = config;
@@ -112,7 +113,7 @@ impl<'p> CodeClassifier<&'p [u32]> {
             factors,
         });
         if let Ok(codes) = &mut self.found {
-            codes.classifier.restart();
+            codes.classifier.set_classes(&ClassSettings::of(classes));
         }
     }
 
