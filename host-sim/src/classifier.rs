@@ -66,7 +66,10 @@ impl Classifier {
         deciding: Deciding,
         settings: ClassList,
     ) -> Result<Self, Fault> {
-        quantisers(&model)?;
+        // A model of more channels has two for each whisker, which the scene is held against.
+        if model.channels() % 2 == 1 {
+            quantisers(&model)?;
+        }
         let classes = names(&model);
         // Whiskers that a module does not have say nothing.
         let classifier = tactile::StreamClassifier::new(model, rule, deciding, MAX_STREAMS);

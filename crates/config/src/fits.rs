@@ -83,7 +83,7 @@ fn model_fits(scene: &Scene, model: &ModelBuf, board: &BoardFacts) -> Result<(),
             .quantiser(channel)
             .is_some_and(|q| q.takes_raw() && q.exponent <= MAX_EXPONENT.into())
     };
-    if model.channels() != 2 || !takes_codes(0) || !takes_codes(1) {
+    if !(0..model.channels()).all(takes_codes) {
         let reason = "it was not trained on sensor codes of x and y";
         return Err(Unfit::Model(reason.to_owned()));
     }

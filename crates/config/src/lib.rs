@@ -86,6 +86,17 @@ pub enum Mismatch {
         /// The scene's.
         scene: Whisked,
     },
+    /// Its classifier's model has tables of other whiskers than decide.
+    #[error(
+        "classifier.model: found one of {found} channels; allowed with {heard} whiskers that \
+         decide: 2, x and y, or 2 of each of them"
+    )]
+    Whiskers {
+        /// Channels of the model.
+        found: usize,
+        /// Whiskers that are heard.
+        heard: usize,
+    },
     /// It ticks otherwise than its classifier's model was trained.
     #[error(
         "classifier.model: found one that was trained at {trained} samples a second; the scene has \
@@ -153,12 +164,21 @@ pub fn whisks_as(scene: &Scene, trained: Whisked) -> Result<(), Mismatch> {
     Ok(())
 }
 
-/// Whether a scene moves and ticks as its model was trained, as far as that is known.
+/// Whether a scene moves and ticks as its model was trained, as far as that is known, and has
+/// its whiskers.
 ///
 /// # Errors
-/// [`Mismatch::Whisked`]; [`Mismatch::Rate`]: blocks, gaps and roughness would be of other times.
+/// [`Mismatch::Whiskers`]: there are tables of others. /// [`Mismatch::Whisked`]; [`Mismatch::Rate`]: blocks, gaps and roughness would be of other times.
 pub fn suits(scene: &Scene, model: &ModelBuf) -> Result<(), Mismatch> {
     whisks_as(scene, model.whisked())?;
+    let heard = scene.classifier.as_ref();
+    let heard = heard.map_or(1, |of| of.whiskers.heard(scene.whiskers()));
+    if ![2, 2 * heard].contains(&model.channels()) {
+        return Err(Mismatch::Whiskers {
+            found: model.channels(),
+            heard,
+        });
+    }
     let scene = scene.tick_hz;
     match model.rate_hz() {
         Some(trained) if trained != scene => Err(Mismatch::Rate { trained, scene }),

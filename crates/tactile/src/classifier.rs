@@ -122,7 +122,8 @@ impl<W: Words> StreamClassifier<W> {
     }
 
     /// Takes a sample of a stream that counts, as [`crate::NaiveBayes::push`]; a stream that
-    /// is not there takes none.
+    /// is not there takes none. Two codes to a model of more channels are of the stream's own
+    /// tables, its channels 2n and 2n + 1 (BIOTACT eq. 15).
     ///
     /// # Errors
     ///
@@ -138,7 +139,7 @@ impl<W: Words> StreamClassifier<W> {
         let Some(one) = self.streams.get_mut(stream) else {
             return Ok(None);
         };
-        if !one.push(model, codes, rule.interval())? {
+        if !one.push(model, codes, Some(stream), rule.interval())? {
             return Ok(None);
         }
         Ok(if is_sum {
@@ -155,8 +156,9 @@ impl<W: Words> StreamClassifier<W> {
     /// As [`crate::NaiveBayes::push`].
     #[inline]
     pub fn pass_to(&mut self, stream: usize, codes: &[i32]) -> Result<(), WrongChannels> {
-        let stream = self.streams.get_mut(stream);
-        stream.map_or(Ok(()), |stream| stream.pass(&self.constants.model, codes))
+        let model = &self.constants.model;
+        let one = self.streams.get_mut(stream);
+        one.map_or(Ok(()), |one| one.pass(model, codes, Some(stream)))
     }
 
     /// The number of the touch of a stream, or of its last one.

@@ -57,7 +57,7 @@ impl<R: DecisionRule, W: Words> NaiveBayes<R, W> {
     #[inline]
     pub fn push(&mut self, codes: &[i32]) -> Result<Option<Decision>, WrongChannels> {
         let Constants { model, rule } = &self.constants;
-        if self.stream.push(model, codes, rule.interval())? {
+        if self.stream.push(model, codes, None, rule.interval())? {
             return Ok(self.stream.end_of_block(model, rule));
         }
         Ok(None)
@@ -71,7 +71,7 @@ impl<R: DecisionRule, W: Words> NaiveBayes<R, W> {
     /// As [`Self::push`].
     #[inline]
     pub fn pass(&mut self, codes: &[i32]) -> Result<(), WrongChannels> {
-        self.stream.pass(&self.constants.model, codes)
+        self.stream.pass(&self.constants.model, codes, None)
     }
 
     /// A touch begins, whose `number` its decisions bear. Where the model has a
