@@ -84,7 +84,7 @@ impl Pair {
         let least = config::contact_min(&loaded.scene, touch.map(|touch| touch.gate));
         let listens = matches!(least, Ok(Some(_)));
         let feels = matches!(config::contact::<f32>(&loaded.scene, listens), Ok(Some(_)));
-        let format = image(&loaded.scene, None, model.facts)?.config;
+        let format = image(&loaded.scene, loaded.model(), model.facts)?.config;
         if let Some(whisking) = &mut loaded.scene.whisking {
             whisking.numbers = match format {
                 AnyConfig::Single(_) => Numbers::Single,

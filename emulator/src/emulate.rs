@@ -10,7 +10,7 @@ use host_sim::plot::{self, Film};
 use host_sim::progress::Verbosity;
 use host_sim::run::Run;
 use host_sim::world::World;
-use scene::{Scene, SensorMode};
+use scene::{Rule, Scene, SensorMode};
 
 use crate::board::Board;
 use crate::chip::{Fault, Model};
@@ -60,14 +60,26 @@ pub(crate) fn start_without(
     program: &Program,
 ) -> Result<Run<Board>, Error> {
     let model = program.model()?;
-    // What hangs on the board.
-    image(scene, None, model.facts)?;
+    // What hangs on the board, by whichever model it decides.
+    image(&without_class_settings(scene), None, model.facts)?;
     let (world, pins) = World::wired(scene, pwm_counts(scene, model))?;
     let mut board = Board::new(program, scene, pins)?;
     if let Some(baud) = scene.telemetry.serial_baud {
         board.machine.with_chip(|chip| chip.attach_serial(baud));
     }
     Ok(Run::of(scene, Box::new(board), classes, world))
+}
+
+/// The scene without what is said of the classes of its model.
+fn without_class_settings(scene: &Scene) -> Scene {
+    let mut scene = scene.clone();
+    if let Some(classifier) = &mut scene.classifier {
+        (classifier.prior, classifier.thresholds) = (None, None);
+        if let Rule::Costs { .. } = classifier.rule {
+            classifier.rule = Rule::Sequential { threshold: 0.99 };
+        }
+    }
+    scene
 }
 
 /// Runs the scene in `path` on the board that `program` was built for; writes

@@ -33,11 +33,10 @@ pub(crate) fn tune(path: &Path, program: &Path) -> Result<Vec<String>, Error> {
     talk.patience = PATIENCE;
     let part = talk.pair.target.ticks_of(PART_S);
     let facts = program.model()?.facts;
-    let gate = loaded
-        .classifier()?
-        .as_ref()
-        .and_then(Classifier::touch_rule);
+    let classifier = loaded.classifier()?;
+    let gate = classifier.as_ref().and_then(Classifier::touch_rule);
     let gate = gate.map(|touch| touch.gate);
+    let known = (gate, classifier.as_ref().map(Classifier::settings));
     let model = model_of(&loaded.scene, path)?;
     let bytes_of = |scene: &Scene| -> Result<Vec<u8>, Error> {
         Ok(image(scene, model.as_ref(), facts)?.bytes.to_vec())
@@ -52,8 +51,8 @@ pub(crate) fn tune(path: &Path, program: &Path) -> Result<Vec<String>, Error> {
     let other = other(&loaded.scene);
     let on_board = bytes_of(&other)?;
     let on_pc = match image(&other, model.as_ref(), facts)?.config {
-        AnyConfig::Single(_) => simulated(&config_of::<f32>(&other, gate, false, "")?)?,
-        AnyConfig::Fixed(_) => simulated(&config_of::<whisking::Fix>(&other, gate, false, "")?)?,
+        AnyConfig::Single(_) => simulated(&config_of::<f32>(&other, known, false, "")?)?,
+        AnyConfig::Fixed(_) => simulated(&config_of::<whisking::Fix>(&other, known, false, "")?)?,
     };
     let before = talk.ticks;
     stage(&mut talk, &on_board)?;

@@ -20,7 +20,7 @@ mod shape;
 
 use mlx90333::Decoder;
 use serde::{Deserialize, Serialize};
-use tactile::Whisked;
+use tactile::{ClassList, Whisked};
 use whisking::motor::Driver;
 use whisking::{Real, Start, filter};
 
@@ -65,6 +65,9 @@ pub struct Config<R: Real> {
     pub motion: Option<MotionConfig<R>>,
     /// What it makes of touches; `None`: nothing.
     pub classifier: Option<ClassifierConfig<R>>,
+    /// Priors and thresholds of the classes of its model, in that one's order; empty: they are
+    /// equally likely, and the rule's threshold holds for all.
+    pub classes: ClassList,
     /// By what it can be talked to.
     pub links: Links,
 }
@@ -201,6 +204,7 @@ impl<R: Real> Config<R> {
             contact: None,
             motion: None,
             classifier: None,
+            classes: ClassList::new(),
             links: Links {
                 has_rtt: false,
                 serial_baud: None,

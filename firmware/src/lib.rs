@@ -65,7 +65,7 @@ pub use motion::{Command, Motion, NoActiveWhisker, NotDone};
 pub use packet::{EventRecord, Packet};
 pub use perception::{
     ClassifierConfig, CodeClassifier, ModelLimits, ModelState, NotCodes, Perception, Refusal,
-    Sample, SampleClassifier, Sensed, shifts,
+    Sample, SampleClassifier, Sensed,
 };
 pub use record::{
     NotArmed, RECORD_WORDS, RESET_WINDOW_S, RESETS, Record, StartCause, Started, Startup,

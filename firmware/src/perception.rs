@@ -5,5 +5,5 @@ mod codes;
 mod refusal;
 
 pub use classifying::{ClassifierConfig, Perception, Sample, SampleClassifier, Sensed};
-pub use codes::{CodeClassifier, ModelLimits, NotCodes, shifts};
+pub use codes::{CodeClassifier, ModelLimits, NotCodes};
 pub use refusal::{ModelState, Refusal};

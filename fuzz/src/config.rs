@@ -9,7 +9,7 @@ use firmware::{
 use host_sim::bench::NoClock;
 use host_sim::motor::IdealMotor;
 use mlx90333::{FRAME_LEN, Faults, SumRule, Word};
-use tactile::ModelBuf;
+use tactile::{ClassSettings, ModelBuf};
 use whisking::{Fix, Number};
 
 /// Ticks of a module by a configuration that is taken.
@@ -112,10 +112,11 @@ fn module<R: Number>(config: &Config<R>, data: &[u8]) -> Module<R, Hostile> {
             motor: (config.motion.is_some()).then(|| (IdealMotor::new(1.0), bytes(7 * n))),
         }
     });
+    let classes = &ClassSettings::of(&config.classes);
     let decides = config.classifier.as_ref().map(|config| {
         let heard = config.deciding.heard(whiskers);
         let refused = || CodeClassifier::refused(Refusal::Absent, heard);
-        classifier(config, whiskers).unwrap_or_else(refused)
+        classifier(config, classes, whiskers).unwrap_or_else(refused)
     });
     Module::new(config, parts, decides, (NoClock, 0))
 }
@@ -123,6 +124,7 @@ fn module<R: Number>(config: &Config<R>, data: &[u8]) -> Module<R, Hostile> {
 /// By a model, where the rule fits it.
 fn classifier<R: Number>(
     config: &ClassifierConfig<R>,
+    classes: &ClassSettings,
     whiskers: usize,
 ) -> Option<CodeClassifier<Box<[u32]>>> {
     static MODEL: LazyLock<Option<ModelBuf>> = LazyLock::new(|| {
@@ -130,7 +132,9 @@ fn classifier<R: Number>(
     });
     let model = MODEL.clone()?;
     let classifier = tactile::StreamClassifier::new(model, config.rule?, config.deciding, whiskers);
-    CodeClassifier::new(classifier.ok()?).ok()
+    let mut classifier = classifier.ok()?;
+    classifier.set_classes(classes);
+    CodeClassifier::new(classifier).ok()
 }
 
 /// Frames or counts from bytes that come again and again.
@@ -190,6 +194,7 @@ mod tests {
         let target = Target {
             runs_on: RunsOn::Board,
             gate: None,
+            classes: None,
             overrides: "",
         };
         let config = build::<R>(&scene, target).unwrap();

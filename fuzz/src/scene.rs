@@ -42,6 +42,7 @@ fn build<R: Real>(scene: &Scene, runs_on: RunsOn) {
     let target = Target {
         runs_on,
         gate: None,
+        classes: None,
         overrides: "",
     };
     if let Ok(config) = config::build::<R>(scene, target) {

@@ -10,6 +10,7 @@ use firmware::{
     Place, Refusal, ServoState, Whisker, WhiskerParts,
 };
 use scene::{Deciding, Scene, SensorSection};
+use tactile::ClassList;
 use whisking::{Fix, Number, Real};
 use wire::TaggedCommand;
 
@@ -332,25 +333,27 @@ fn broken(mismatch: Mismatch) -> Error {
         | Mismatch::Unbearable(_)
         | Mismatch::Unsettled(_)
         | Mismatch::Gate { .. }
-        | Mismatch::Threshold { .. } => Error::Input(mismatch.to_string()),
+        | Mismatch::Threshold { .. }
+        | Mismatch::Classes { .. } => Error::Input(mismatch.to_string()),
         mismatch => Error::Work(mismatch.to_string()),
     }
 }
 
 /// The configuration of the simulated module of `scene`, which decides by a model with this
-/// contact, if any, or records for one.
+/// contact and these classes, if any, or records for one.
 ///
 /// # Errors
 /// What is wrong with the scene for it.
 pub fn config_of<R: Number>(
     scene: &Scene,
-    gate: Option<f32>,
+    (gate, classes): (Option<f32>, Option<&ClassList>),
     records: bool,
     overrides: &str,
 ) -> Result<Config<R>, Error> {
     let target = Target {
         runs_on: RunsOn::Simulation { records },
         gate,
+        classes,
         overrides,
     };
     config::build(scene, target).map_err(broken)
@@ -372,7 +375,8 @@ where
         (None, None) => ModelState::NotHere,
     };
     let classes = tap.classes().to_vec();
-    let config = config_of::<R>(scene, gate, tap.is_recording(), "")?;
+    let known = (gate, tap.settings());
+    let config = config_of::<R>(scene, known, tap.is_recording(), "")?;
     config
         .check()
         .map_err(|fault| Error::Work(fault.to_string()))?;

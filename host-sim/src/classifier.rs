@@ -2,11 +2,12 @@
 
 use std::fmt::Display;
 
+use config::rule_settings;
 use firmware::{CodeClassifier, ModelLimits, ModelState, Refusal, Sample, SampleClassifier};
 use scene::{Deciding, Rule, Scene};
 use tactile::{
-    AnyRule, Decision, MAX_STREAMS, Model, ModelBuf, NaiveBayes, Posteriors, Quantiser,
-    RuleSettings, Threshold, TouchRule,
+    AnyRule, ClassList, ClassSettings, Decision, MAX_STREAMS, Model, ModelBuf, NaiveBayes,
+    Posteriors, Quantiser, RuleSettings, Threshold, TouchRule,
 };
 use zerocopy::IntoBytes;
 
@@ -23,6 +24,7 @@ pub struct Classifier {
     codes: Box<CodeClassifier<Words>>,
     deciding: Deciding,
     classes: Vec<String>,
+    settings: ClassList,
 }
 
 impl Classifier {
@@ -41,22 +43,55 @@ impl Classifier {
     /// # Errors
     /// As [`Classifier::new`], and [`Fault::Rule`] for windows together.
     pub fn of(model: ModelBuf, rule: Rule, deciding: Deciding) -> Result<Self, Fault> {
-        quantisers(&model)?;
+        Self::weighed(model, settings(rule)?, deciding, ClassList::new())
+    }
+
+    /// The classifier of a scene that has one, by this model, with the scene's priors and
+    /// thresholds of classes.
+    ///
+    /// # Errors
+    /// As [`Classifier::of`], and [`Fault::Rule`] for classes that the model does not have.
+    pub fn of_scene(model: ModelBuf, scene: &Scene) -> Result<Self, Fault> {
+        let Some(classifier) = &scene.classifier else {
+            return Err(Fault::Rule("the scene has no classifier".to_owned()));
+        };
+        let classes = config::classes(scene, &model).map_err(of_rule)?;
+        let rule = rule_settings(classifier, &classes).map_err(of_rule)?;
+        Self::weighed(model, rule, classifier.whiskers, classes)
+    }
+
+    fn weighed(
+        model: ModelBuf,
+        rule: RuleSettings,
+        deciding: Deciding,
+        settings: ClassList,
+    ) -> Result<Self, Fault> {
+        // A model of more channels has two for each whisker, which the scene is held against.
+        if model.channels() % 2 == 1 {
+            quantisers(&model)?;
+        }
         let classes = names(&model);
         // Whiskers that a module does not have say nothing.
-        let classifier =
-            tactile::StreamClassifier::new(model, settings(rule)?, deciding, MAX_STREAMS);
-        let codes = CodeClassifier::new(classifier.map_err(of_rule)?).map_err(of_model)?;
+        let classifier = tactile::StreamClassifier::new(model, rule, deciding, MAX_STREAMS);
+        let mut classifier = classifier.map_err(of_rule)?;
+        classifier.set_classes(&ClassSettings::of(&settings));
+        let codes = CodeClassifier::new(classifier).map_err(of_model)?;
         Ok(Self {
             codes: Box::new(codes),
             deciding,
             classes,
+            settings,
         })
     }
 
     /// Which whiskers decide, and by what.
     pub const fn deciding(&self) -> Deciding {
         self.deciding
+    }
+
+    /// The priors and thresholds of its classes, if a scene has any.
+    pub const fn settings(&self) -> &ClassList {
+        &self.settings
     }
 
     /// The names of its classes.
@@ -146,6 +181,11 @@ impl Tap {
         self.classifier.as_ref().map_or(&[], Classifier::classes)
     }
 
+    /// The priors and thresholds of its classes.
+    pub(crate) fn settings(&self) -> Option<&ClassList> {
+        self.classifier.as_ref().map(Classifier::settings)
+    }
+
     /// Whether there is none.
     pub(crate) const fn is_recording(&self) -> bool {
         self.classifier.is_none()
@@ -221,7 +261,6 @@ pub fn deployed(
     let Some(classifier) = &scene.classifier else {
         return Ok(Err(Refusal::Absent));
     };
-    let rule = settings(classifier.rule).map_err(|fault| Error::Input(fault.to_string()))?;
     let limits = ModelLimits {
         classes,
         contact_min: classifier.contact_min.map(|least| least as f32),
@@ -234,6 +273,12 @@ pub fn deployed(
         .iter()
         .map(|word| u32::from_le_bytes(*word))
         .collect();
+    // Thresholds by costs keep no model from being taken.
+    let rule = match classifier.rule {
+        Rule::Costs { .. } => settings(Rule::Sequential { threshold: 0.5 }),
+        rule => settings(rule),
+    };
+    let rule = rule.map_err(|fault| Error::Input(fault.to_string()))?;
     let rule = (rule, classifier.whiskers);
     let found = CodeClassifier::at_start(words.as_bytes(), limits, rule, scene.whiskers());
     Ok(match (found.state(), found.model()) {
@@ -252,6 +297,8 @@ pub(crate) fn settings(rule: Rule) -> Result<RuleSettings, Fault> {
             RuleSettings::Sequential(Threshold::new(threshold).map_err(of_rule)?)
         }
         Rule::Window { samples } => RuleSettings::Window(samples),
+        // Their thresholds are of a scene's model.
+        Rule::Costs { .. } => return Err(Fault::Rule("costs are a scene's".to_owned())),
     })
 }
 

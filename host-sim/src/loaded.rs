@@ -2,6 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
+use config::Mismatch;
 use scene::{Override, Places, Rule, Scene, Texture};
 use tactile::ModelBuf;
 
@@ -90,9 +91,14 @@ impl Loaded {
         }))
     }
 
-    /// The bytes of the model that it decides by, if it has one.
+    /// The model that it decides by, if it has one.
+    pub fn model(&self) -> Option<&ModelBuf> {
+        self.model.as_ref().map(|(_, model)| model)
+    }
+
+    /// Its bytes.
     pub fn model_bytes(&self) -> Option<&[u8]> {
-        self.model.as_ref().map(|(_, model)| model.as_bytes())
+        self.model().map(ModelBuf::as_bytes)
     }
 
     /// The bytes of the model that is deployed to it, not linked; none where there is none.
@@ -123,9 +129,21 @@ impl Loaded {
         };
         let key = match classifier.rule {
             Rule::Sequential { .. } => "classifier.threshold",
+            Rule::Costs { .. } => "classifier.cost_error",
             Rule::Window { .. } => "classifier.window",
         };
-        let classifier = Classifier::of(model.clone(), classifier.rule, classifier.whiskers);
+        config::classes(&self.scene, model).map_err(|fault| match fault {
+            Mismatch::Classes {
+                key,
+                found,
+                allowed,
+            } => refused(
+                &format!("classifier.{key}"),
+                format!("found {found}; allowed: {allowed}"),
+            ),
+            fault => Error::Input(fault.to_string()),
+        })?;
+        let classifier = Classifier::of_scene(model.clone(), &self.scene);
         let classifier = classifier.map_err(|fault| match fault {
             Fault::Model(fault) => {
                 let fault = Error::file(model_path, fault).to_string();

@@ -10,6 +10,8 @@ pub mod touches;
 use std::collections::HashSet;
 use std::io::{self, Read, Write};
 
+use tactile::MAX_STREAMS;
+
 use crate::Error;
 pub use crate::classifier::GATE;
 use crate::columns::{self, Column, columns};
@@ -64,6 +66,9 @@ pub const COLUMNS: [Column; 7] = columns! {
         0, each presentation another";
 };
 
+/// What stands in the name of a trial before the number of a whisker beside the first.
+const WHISKER: &str = " whisker ";
+
 /// Most labels of a recording: a model takes 32 of them, and of each pair decisions are counted.
 const MOST_LABELS: usize = 1000;
 
@@ -71,6 +76,15 @@ const MOST_LABELS: usize = 1000;
 pub const CHANNELS: [&str; 2] = ["x", "y"];
 
 impl Stream {
+    /// The whisker that felt it, from 1, by the end of its trial's name, as [`Recorder`] writes it.
+    pub fn whisker(&self) -> usize {
+        let number = self.trial.rsplit_once(WHISKER).map(|(_, number)| number);
+        let number = number.and_then(|number| number.parse().ok());
+        number
+            .filter(|n| (1..=MAX_STREAMS).contains(n))
+            .unwrap_or(1)
+    }
+
     /// Whether each sample counts where contact must be at least `gate`.
     pub fn counts(&self, gate: f64) -> impl Iterator<Item = bool> {
         let contact = |n| self.contact.as_ref().map(|contact| contact.get(n).copied());
@@ -128,7 +142,7 @@ impl Recorder {
             // Each presentation to each whisker is a trial.
             let trial = match n {
                 0 => trial.to_string(),
-                _ => format!("{trial} whisker {}", n + 1),
+                _ => format!("{trial}{WHISKER}{}", n + 1),
             };
             append(streams, label, &trial, cells);
             if let Some(stream) = streams.last_mut() {

@@ -34,6 +34,10 @@ pub struct How {
     /// to 10 [default: 0.1]
     #[cfg_attr(feature = "cli", arg(long, value_name = "S"))]
     pub gap: Option<f64>,
+    /// Tables of their own for each whisker of the recording, of single tables: the model is for
+    /// as many whiskers that decide
+    #[cfg_attr(feature = "cli", arg(long))]
+    pub each_whisker: bool,
     /// How much may differ between training and use, of joint tables
     #[cfg_attr(feature = "cli", arg(long, value_enum, default_value_t = Expected::Bench))]
     pub expect: Expected,
@@ -96,6 +100,7 @@ impl How {
             block: None,
             gate: None,
             gap: None,
+            each_whisker: false,
             expect: Expected::Bench,
             whisked: Whisked {
                 frequency_mhz: None,
@@ -139,6 +144,10 @@ impl How {
         }
         if !(gap > 0.0 && gap <= 10.0) {
             return Err(format!("gap: found {gap}, allowed: above 0, up to 10 s"));
+        }
+        if self.each_whisker && self.tables == Tables::Joint {
+            let fault = "each-whisker: joint tables are one set; allowed: with single tables";
+            return Err(fault.to_owned());
         }
         if self.gap.is_some() && self.tables == Tables::Single {
             let fault = "gap: single tables know no touches; allowed: with joint tables";
@@ -186,8 +195,11 @@ impl How {
                     smooth: self.smooth.unwrap_or(default.smooth),
                     block: self.block.unwrap_or(default.block),
                 };
-                let streams = recordings.iter().flat_map(|(_, streams)| streams);
-                let model = single(Trainer::new(2, options)?, streams, self.least())?;
+                let streams = || recordings.iter().flat_map(|(_, streams)| streams);
+                let whiskers = streams().map(Stream::whisker).max();
+                let whiskers = whiskers.filter(|_| self.each_whisker).unwrap_or(1);
+                let trainer = Trainer::new(2 * whiskers, options)?;
+                let model = single(trainer, streams(), self.least(), whiskers > 1)?;
                 Ok(TrainedModel {
                     model: model.at_rate(tick_hz)?,
                     joint: None,
@@ -201,7 +213,8 @@ impl How {
 const GAP_S: f64 = 0.1;
 
 /// The papers' model of `streams`, of the samples whose contact is at least `gate`; classes
-/// in the order in which they first appear.
+/// in the order in which they first appear. Each whisker has tables of its own (BIOTACT eq. 15),
+/// or all have one set.
 ///
 /// # Errors
 /// What the trainer refuses.
@@ -209,11 +222,13 @@ pub fn single<'s>(
     mut trainer: Trainer,
     streams: impl IntoIterator<Item = &'s Stream>,
     gate: f64,
+    each_whisker: bool,
 ) -> Result<ModelBuf, TrainError> {
     for stream in streams {
+        let whisker = if each_whisker { stream.whisker() } else { 1 };
         let samples = stream.samples.iter().zip(stream.counts(gate));
         for (sample, _) in samples.filter(|(_, counts)| *counts) {
-            trainer.add(&stream.label, sample)?;
+            trainer.add_from(&stream.label, 2 * (whisker - 1), sample)?;
         }
     }
     trainer.train()

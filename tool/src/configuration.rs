@@ -11,6 +11,7 @@ use host_sim::Error;
 use mlx90333::Decoder;
 use scene::Scene;
 use serde_json::Value;
+use tactile::ClassList;
 use whisking::Real;
 use whisking::motor::Duty;
 
@@ -48,6 +49,8 @@ pub(crate) struct Running {
     /// Whether it decides, by a model that is deployed with it.
     pub(crate) decides: bool,
     contact_min: Option<f64>,
+    /// The priors and thresholds of its model's classes.
+    pub(crate) classes: ClassList,
 }
 
 /// The whole duty in a configuration, Q24.
@@ -78,6 +81,7 @@ fn read<R: Real>(program: Program, bytes: Vec<u8>) -> Result<Running, ConfigErro
         crc: Header::of(&bytes)?.crc,
         decides: classifier.is_some_and(|of| of.rule.is_some()),
         contact_min: classifier.and_then(|of| of.contact_min.map(Real::to_f64)),
+        classes: config.classes,
         head: config.head,
         links: config.links,
         decoder: config.sensor.decoder,
@@ -184,6 +188,7 @@ impl Running {
                 .contact_min
                 .filter(|_| is_models)
                 .map(|gate| gate as f32),
+            classes: Some(&self.classes),
             overrides,
         };
         Self::of_scene(scene, board, target)

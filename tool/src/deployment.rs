@@ -5,6 +5,7 @@ use std::path::Path;
 use config::{RunsOn, Target};
 use firmware::boards::{BoardFacts, NUCLEO_F446RE};
 use firmware::{CodeClassifier, ConfigBytes, ConfigError, ModelLimits, ModelState, decode, encode};
+use host_sim::classifier::Classifier;
 use host_sim::loaded::Loaded;
 use host_sim::{Error, files};
 use scene::Scene;
@@ -53,6 +54,9 @@ fn with_model<R: Real>(
     let code = running.program().board;
     let of_config = |fault: ConfigError| fault.to_string();
     let mut config = decode::<R>(running.bytes(), code).map_err(of_config)?;
+    if !config.classes.is_empty() {
+        return Err("it has priors or thresholds of another model's classes".to_owned());
+    }
     let (whiskers, whisked) = (config.head.whiskers(), config.whisked());
     let tick_hz = config.head.tick_hz;
     let classifier = config.classifier.as_mut();
@@ -98,10 +102,12 @@ impl Deployment {
                 has_room(model, &NUCLEO_F446RE, "simulated board")?;
             }
             let records = model.is_none();
-            let gate = loaded.classifier()?.and_then(|of| of.touch_rule());
+            let classifier = loaded.classifier()?;
+            let gate = classifier.as_ref().and_then(Classifier::touch_rule);
             let target = Target {
                 runs_on: RunsOn::Simulation { records },
                 gate: gate.map(|touch| touch.gate),
+                classes: classifier.as_ref().map(Classifier::settings),
                 overrides: "",
             };
             Running::of_scene(scene, program.board, target)?

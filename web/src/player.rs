@@ -171,7 +171,7 @@ impl Player {
     pub fn threshold(&self) -> Option<f64> {
         match self.scene.classifier.as_ref()?.rule {
             Rule::Sequential { threshold } => Some(threshold),
-            Rule::Window { .. } => None,
+            Rule::Costs { .. } | Rule::Window { .. } => None,
         }
     }
 

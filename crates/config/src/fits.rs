@@ -5,7 +5,7 @@ use scene::{Rule, Scene, SensorMode};
 use tactile::{Deciding, ModelBuf, StreamClassifier};
 
 use crate::module::rule_settings;
-use crate::{Mismatch, NoSuchFormat, suits};
+use crate::{Mismatch, NoSuchFormat, classes, suits};
 
 /// Largest exponent of a model's scale that still lets 14-bit codes fit it.
 const MAX_EXPONENT: i16 = 17;
@@ -83,7 +83,7 @@ fn model_fits(scene: &Scene, model: &ModelBuf, board: &BoardFacts) -> Result<(),
             .quantiser(channel)
             .is_some_and(|q| q.takes_raw() && q.exponent <= MAX_EXPONENT.into())
     };
-    if model.channels() != 2 || !takes_codes(0) || !takes_codes(1) {
+    if !(0..model.channels()).all(takes_codes) {
         let reason = "it was not trained on sensor codes of x and y";
         return Err(Unfit::Model(reason.to_owned()));
     }
@@ -95,7 +95,7 @@ fn model_fits(scene: &Scene, model: &ModelBuf, board: &BoardFacts) -> Result<(),
             model.block()
         )));
     }
-    let rule = rule_settings(classifier.rule)?;
+    let rule = rule_settings(classifier, &classes(scene, model)?)?;
     StreamClassifier::new(model.view(), rule, Deciding::First, 1)
         .map_err(|fault| Unfit::Model(fault.to_string()))?;
     suits(scene, model)?;

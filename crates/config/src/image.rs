@@ -7,7 +7,7 @@ use tactile::{Deciding, ModelBuf, RuleSettings};
 use whisking::{Fix, FormatCode, Real, oscillator};
 
 use crate::fits::{Unfit, fits};
-use crate::{NumberFormat, RunsOn, Target, build, on_board};
+use crate::{NumberFormat, RunsOn, Target, build, classes, on_board};
 
 /// A configuration in whichever number format.
 #[derive(Debug, Clone, PartialEq)]
@@ -69,6 +69,7 @@ fn parts<R: Real>(config: &Config<R>) -> Vec<Part> {
             (is_window, Part::Window),
             (!is_window, Part::Sequential),
             (classifier.deciding != Deciding::First, Part::Several),
+            (!config.classes.is_empty(), Part::Priors),
         ]);
     }
     let needed = parts.into_iter().filter(|(is_needed, _)| *is_needed);
@@ -115,9 +116,11 @@ pub fn image(
     overrides: &str,
 ) -> Result<Image, Unfit> {
     fits(scene, model, board)?;
+    let classes = model.map(|model| classes(scene, model)).transpose()?;
     let target = Target {
         runs_on: RunsOn::Board,
         gate: model.and_then(|model| model.touch_rule().map(|touch| touch.gate)),
+        classes: classes.as_ref(),
         overrides,
     };
     let format = on_board(scene, board.name, board.has_fpu)?;

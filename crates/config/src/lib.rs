@@ -5,6 +5,7 @@
 //! So all of them run by the same numbers.
 
 mod bearable;
+mod classes;
 mod fits;
 mod image;
 mod module;
@@ -14,9 +15,10 @@ mod settling;
 mod stability;
 
 pub use bearable::Unbearable;
+pub use classes::classes;
 pub use fits::Unfit;
 pub use image::{AnyConfig, Image, image};
-pub use module::{GATE, RunsOn, Target, build, decoder, decoder_of};
+pub use module::{GATE, RunsOn, Target, build, decoder, decoder_of, rule_settings};
 pub use numbers::{NoSuchFormat, NumberFormat, in_simulation, on_board};
 pub use protecting::Unprotected;
 pub use settling::Unsettled;
@@ -84,6 +86,17 @@ pub enum Mismatch {
         /// The scene's.
         scene: Whisked,
     },
+    /// Its classifier's model has tables of other whiskers than decide.
+    #[error(
+        "classifier.model: found one of {found} channels; allowed with {heard} whiskers that \
+         decide: 2, x and y, or 2 of each of them"
+    )]
+    Whiskers {
+        /// Channels of the model.
+        found: usize,
+        /// Whiskers that are heard.
+        heard: usize,
+    },
     /// It ticks otherwise than its classifier's model was trained.
     #[error(
         "classifier.model: found one that was trained at {trained} samples a second; the scene has \
@@ -102,6 +115,16 @@ pub enum Mismatch {
         found: f64,
         /// What is wrong with it.
         fault: tactile::SetupError,
+    },
+    /// What it says of classes does not suit its model.
+    #[error("classifier.{key}: found {found}; allowed: {allowed}")]
+    Classes {
+        /// The key.
+        key: &'static str,
+        /// The scene's.
+        found: String,
+        /// What is allowed.
+        allowed: String,
     },
     /// The module has no room for it.
     #[error("{0}")]
@@ -141,12 +164,21 @@ pub fn whisks_as(scene: &Scene, trained: Whisked) -> Result<(), Mismatch> {
     Ok(())
 }
 
-/// Whether a scene moves and ticks as its model was trained, as far as that is known.
+/// Whether a scene moves and ticks as its model was trained, as far as that is known, and has
+/// its whiskers.
 ///
 /// # Errors
-/// [`Mismatch::Whisked`]; [`Mismatch::Rate`]: blocks, gaps and roughness would be of other times.
+/// [`Mismatch::Whiskers`]: there are tables of others. /// [`Mismatch::Whisked`]; [`Mismatch::Rate`]: blocks, gaps and roughness would be of other times.
 pub fn suits(scene: &Scene, model: &ModelBuf) -> Result<(), Mismatch> {
     whisks_as(scene, model.whisked())?;
+    let heard = scene.classifier.as_ref();
+    let heard = heard.map_or(1, |of| of.whiskers.heard(scene.whiskers()));
+    if ![2, 2 * heard].contains(&model.channels()) {
+        return Err(Mismatch::Whiskers {
+            found: model.channels(),
+            heard,
+        });
+    }
     let scene = scene.tick_hz;
     match model.rate_hz() {
         Some(trained) if trained != scene => Err(Mismatch::Rate { trained, scene }),
@@ -234,6 +266,7 @@ mod tests {
     const BOARD: Target<'static> = Target {
         runs_on: RunsOn::Board,
         gate: None,
+        classes: None,
         overrides: "",
     };
 

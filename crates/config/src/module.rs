@@ -7,13 +7,14 @@ use firmware::{
 };
 use mlx90333::{ByteOrder, Decoder, Mode, SumRule};
 use scene::{
-    Deciding, MotorSection, OnFault, PlantKind, Rest, Rule, Scene, SensorBytes, SensorMode,
-    SensorModel, SensorSection, SensorSum, SensorWords,
+    ClassifierSection, Deciding, MotorSection, OnFault, PlantKind, Rest, Rule, Scene, SensorBytes,
+    SensorMode, SensorModel, SensorSection, SensorSum, SensorWords,
 };
-use tactile::{RuleSettings, SelfMotion, Threshold};
+use tactile::{ClassList, ClassSetting, RuleSettings, SelfMotion, Threshold};
 use whisking::motor::{GuardSettings, HomingSettings, ModelSettings};
 use whisking::{Real, filter, pd};
 
+use crate::classes::{largest, names_classes};
 use crate::{Mismatch, check, contact, contact_min, settings};
 use crate::{bearable, protecting, settling};
 
@@ -40,6 +41,8 @@ pub struct Target<'t> {
     pub runs_on: RunsOn,
     /// The contact from which its model was trained, if that has one.
     pub gate: Option<f32>,
+    /// What the scene says of its model's [`classes`](crate::classes), if it has one.
+    pub classes: Option<&'t ClassList>,
     /// The keys that differ from the scene's file, `KEY=VALUE` with spaces between.
     pub overrides: &'t str,
 }
@@ -67,7 +70,9 @@ pub fn build<R: Real>(scene: &Scene, target: Target<'_>) -> Result<Config<R>, Mi
     };
     let classifier = scene.classifier.as_ref();
     let rule = classifier.filter(|_| !records);
-    let rule = rule.map(|classifier| rule_settings(classifier.rule));
+    let classes = target.classes.filter(|_| !records);
+    let classes = classes.cloned().unwrap_or_default();
+    let rule = rule.map(|classifier| rule_settings(classifier, &classes));
     // A simulation shows touches whether anything is decided or not.
     let listens = is_simulated || classifier.is_some();
     Ok(Config {
@@ -93,6 +98,7 @@ pub fn build<R: Real>(scene: &Scene, target: Target<'_>) -> Result<Config<R>, Mi
                 })
             })
             .transpose()?,
+        classes,
         links: Links {
             has_rtt: scene.telemetry.rtt,
             serial_baud: scene.telemetry.serial_baud,
@@ -192,8 +198,20 @@ fn degrees_per_count(motor: &MotorSection) -> f64 {
 ///
 /// # Errors
 /// [`Mismatch::Threshold`] for one that is too near to 1.
-pub(crate) fn rule_settings(rule: Rule) -> Result<RuleSettings, Mismatch> {
-    Ok(match rule {
+/// [`Mismatch::Classes`] where it names classes of a model that is not there.
+pub fn rule_settings(
+    classifier: &ClassifierSection,
+    classes: &[ClassSetting],
+) -> Result<RuleSettings, Mismatch> {
+    if names_classes(classifier) && classes.is_empty() {
+        return Err(Mismatch::Classes {
+            key: "model",
+            found: "none".to_owned(),
+            allowed: "one, whose classes prior, thresholds or costs are of".to_owned(),
+        });
+    }
+    Ok(match classifier.rule {
+        Rule::Costs { .. } => RuleSettings::Sequential(largest(classes)),
         Rule::Sequential { threshold } => {
             let made = Threshold::new(threshold).map_err(|fault| Mismatch::Threshold {
                 found: threshold,

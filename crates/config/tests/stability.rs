@@ -37,6 +37,7 @@ fn built(scene: &Scene) -> Result<Config<f64>, Mismatch> {
     let target = Target {
         runs_on: RunsOn::Board,
         gate: None,
+        classes: None,
         overrides: "",
     };
     build(scene, target)

@@ -46,6 +46,8 @@ pub(crate) enum Condition {
     Is(&'static str, &'static str),
     /// The key is given.
     Given(&'static str),
+    /// The key has this word as its value, and another key is not given.
+    IsWithout(&'static str, &'static str, &'static str),
 }
 
 impl fmt::Display for Condition {
@@ -53,6 +55,7 @@ impl fmt::Display for Condition {
         match self {
             Self::Is(key, word) => write!(f, "{key} = {word:?}"),
             Self::Given(key) => write!(f, "{key} is given"),
+            Self::IsWithout(key, word, other) => write!(f, "{key} = {word:?} without {other}"),
         }
     }
 }
@@ -204,6 +207,11 @@ pub(crate) const fn per_side(ends: RangeInclusive<f64>) -> Key<Vec<f64>> {
 /// A list of real numbers, one for each of the scene's own surfaces.
 pub(crate) const fn per_own(ends: RangeInclusive<f64>) -> Key<Vec<f64>> {
     Key::of(Kind::PerOwn(Range::closed(&ends)))
+}
+
+/// A table of real numbers, one for each of the model's classes that it names.
+pub(crate) const fn per_class(range: Range) -> Key<Vec<(String, f64)>> {
+    Key::of(Kind::PerClass(range))
 }
 
 /// A list of pairs of real numbers, one pair a side.

@@ -26,6 +26,8 @@ pub(crate) enum Kind {
     PairPerSide(Range),
     /// A list of real numbers, one for each of the scene's own surfaces.
     PerOwn(Range),
+    /// A table of real numbers, one for each of the model's classes that it names.
+    PerClass(Range),
     /// A list of distinct words among these, at least one.
     Words(&'static [&'static str]),
 }
@@ -114,6 +116,10 @@ impl fmt::Display for Kind {
             Self::PerOwn(range) => write!(
                 f,
                 "a list of numbers {range}, one for each of \"own-1\" to \"own-4\" in `textures`"
+            ),
+            Self::PerClass(range) => write!(
+                f,
+                "a table of numbers {range}, each under the name of a class of the model"
             ),
             Self::Words(words) => write!(
                 f,

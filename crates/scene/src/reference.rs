@@ -94,5 +94,8 @@ fn in_code(condition: Condition) -> String {
     match condition {
         Condition::Is(..) => format!("`{condition}`"),
         Condition::Given(key) => format!("`{key}` is given"),
+        Condition::IsWithout(key, word, other) => {
+            format!("`{key} = \"{word}\"` without `{other}`")
+        }
     }
 }

@@ -24,6 +24,7 @@ pub(crate) fn apply(values: &Values, text: &mut Text<'_>) {
     tilts_stay_in_range(values, text);
     poses_change_in_the_air(values, text);
     several_can_decide(values, text);
+    costs_or_thresholds(values, text);
     mode_is_the_mlx90333s(values, text);
     serial_has_its_parts(values, text);
     silence_can_be_counted(values, text);
@@ -256,6 +257,20 @@ fn several_can_decide(values: &Values, text: &mut Text<'_>) {
     let found = format!("found \"{deciding}\"");
     let path = "classifier.whiskers".to_owned();
     text.report(offset, path, found, allowed.to_owned());
+}
+
+/// What costs come to is not to be said beside them.
+fn costs_or_thresholds(values: &Values, text: &mut Text<'_>) {
+    if values.offset("classifier", "cost_error").is_none() {
+        return;
+    }
+    for key in ["threshold", "thresholds"] {
+        if let Some(offset) = values.offset("classifier", key) {
+            let found = "found with cost_error".to_owned();
+            let allowed = "allowed: either thresholds, or costs, which come to thresholds";
+            text.report(offset, path("classifier", key), found, allowed.to_owned());
+        }
+    }
 }
 
 /// The serial port shares the records and the requests of the link, and the pins show what a

@@ -89,7 +89,9 @@ mod tests {
                     Need::Always | Need::Default(_) => &[],
                 };
                 for condition in any.iter().chain(key.only) {
-                    let (Condition::Is(other, _) | Condition::Given(other)) = condition;
+                    let (Condition::Is(other, _)
+                    | Condition::Given(other)
+                    | Condition::IsWithout(other, ..)) = condition;
                     assert!(one.key(other).is_some(), "{} turns on {other}", key.name);
                 }
             }

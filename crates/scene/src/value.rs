@@ -24,6 +24,8 @@ pub(crate) enum Value {
     Numbers(Vec<f64>),
     /// Of [`Kind::PairPerSide`].
     Pairs(Vec<[f64; 2]>),
+    /// Of [`Kind::PerClass`].
+    PerClass(Vec<(String, f64)>),
     /// Of [`Kind::Words`].
     Texts(Vec<String>),
 }
@@ -83,6 +85,7 @@ pub(crate) fn check(kind: &Kind, value: &Spanned<DeValue<'_>>) -> Result<Value, 
             let entries = entries(value)?;
             each(entries, |entry| pair(*range, entry)).map(Value::Pairs)
         }
+        Kind::PerClass(range) => per_class(*range, value).map(Value::PerClass),
         Kind::Words(words) => distinct_words(words, value).map(Value::Texts),
     }
 }
@@ -140,6 +143,25 @@ fn pair(range: Range, value: &Spanned<DeValue<'_>>) -> Result<[f64; 2], Fault> {
         return Err(Fault::at(value));
     };
     Ok([number(range, first)?, number(range, second)?])
+}
+
+fn per_class(range: Range, value: &Spanned<DeValue<'_>>) -> Result<Vec<(String, f64)>, Vec<Fault>> {
+    let table = value.get_ref().as_table();
+    let table = table.filter(|table| !table.is_empty());
+    let table = table.ok_or_else(|| vec![Fault::at(value)])?;
+    let numbers = table.iter().map(|(class, entry)| {
+        let class = class.get_ref();
+        let number = number(range, entry);
+        let number = number.map_err(|fault| fault.with_note(format!("of class {class:?}")))?;
+        Ok((class.to_string(), number))
+    });
+    let (good, bad): (Vec<_>, Vec<_>) = numbers.partition(Result::is_ok);
+    let faults: Vec<Fault> = bad.into_iter().filter_map(Result::err).collect();
+    if faults.is_empty() {
+        Ok(good.into_iter().filter_map(Result::ok).collect())
+    } else {
+        Err(faults)
+    }
 }
 
 fn word(

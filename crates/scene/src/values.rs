@@ -98,6 +98,11 @@ impl Values {
     pub(crate) fn holds(&self, section: &'static str, condition: Condition) -> Option<bool> {
         match condition {
             Condition::Given(key) => Some(self.offset(section, key).is_some()),
+            Condition::IsWithout(key, word, other) => {
+                let is_given = self.offset(section, other).is_some();
+                self.holds(section, Condition::Is(key, word))
+                    .map(|is_word| is_word && !is_given)
+            }
             Condition::Is(key, word) => match self.value(section, key)? {
                 Value::Text(text) => Some(text == word),
                 _ => None,
@@ -162,6 +167,7 @@ read! {
     String: Text(text) => Some(text.clone());
     Vec<f64>: Numbers(list) => Some(list.clone());
     Vec<[f64; 2]>: Pairs(list) => Some(list.clone());
+    Vec<(String, f64)>: PerClass(list) => Some(list.clone());
 }
 
 impl<T: Choice> Read for T {

@@ -3,6 +3,7 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::class_setting::ClassSettings;
 use crate::decision::Decision;
 use crate::error::SetupError;
 use crate::evidence::EvidenceScale;
@@ -80,6 +81,20 @@ impl DecisionRule for AnyRule {
             }
             RuleSettings::Sequential(_) => Err(SetupError::NotBuilt("sequential rule")),
             RuleSettings::Window(_) => Err(SetupError::NotBuilt("window rule")),
+        }
+    }
+
+    fn set_classes(&mut self, classes: &ClassSettings) {
+        match self {
+            Self::Sequential(rule) => rule.set_classes(classes),
+            Self::Window(rule) => rule.set_classes(classes),
+        }
+    }
+
+    fn classes(&self) -> &ClassSettings {
+        match self {
+            Self::Sequential(rule) => rule.classes(),
+            Self::Window(rule) => rule.classes(),
         }
     }
 

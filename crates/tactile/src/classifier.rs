@@ -4,6 +4,7 @@ use heapless::Vec;
 use serde::{Deserialize, Serialize};
 
 use crate::any_rule::{AnyEvidence, AnyRule, RuleSettings};
+use crate::class_setting::ClassSettings;
 use crate::constants::Constants;
 use crate::decision::Decision;
 use crate::error::SetupError;
@@ -23,7 +24,7 @@ pub enum Deciding {
     /// Each, by its own evidence, as [`crate::NaiveBayes`] does.
     Each,
     /// All together: the evidence of each is added, log-likelihoods of samples that are
-    /// independent given the class (LEP12 eq. 3). Equal priors count once.
+    /// independent given the class (LEP12 eq. 3). Priors count once.
     ///
     /// After each block of a whisker the posterior of the sum is compared with the
     /// threshold. A decision is for none of the classes if the whiskers that had a part in
@@ -121,7 +122,8 @@ impl<W: Words> StreamClassifier<W> {
     }
 
     /// Takes a sample of a stream that counts, as [`crate::NaiveBayes::push`]; a stream that
-    /// is not there takes none.
+    /// is not there takes none. Two codes to a model of more channels are of the stream's own
+    /// tables, its channels 2n and 2n + 1 (BIOTACT eq. 15).
     ///
     /// # Errors
     ///
@@ -137,7 +139,7 @@ impl<W: Words> StreamClassifier<W> {
         let Some(one) = self.streams.get_mut(stream) else {
             return Ok(None);
         };
-        if !one.push(model, codes, rule.interval())? {
+        if !one.push(model, codes, Some(stream), rule.interval())? {
             return Ok(None);
         }
         Ok(if is_sum {
@@ -154,8 +156,9 @@ impl<W: Words> StreamClassifier<W> {
     /// As [`crate::NaiveBayes::push`].
     #[inline]
     pub fn pass_to(&mut self, stream: usize, codes: &[i32]) -> Result<(), WrongChannels> {
-        let stream = self.streams.get_mut(stream);
-        stream.map_or(Ok(()), |stream| stream.pass(&self.constants.model, codes))
+        let model = &self.constants.model;
+        let one = self.streams.get_mut(stream);
+        one.map_or(Ok(()), |one| one.pass(model, codes, Some(stream)))
     }
 
     /// The number of the touch of a stream, or of its last one.
@@ -195,6 +198,12 @@ impl<W: Words> StreamClassifier<W> {
         Ok(())
     }
 
+    /// Priors and thresholds of classes take effect; all evidence is forgotten.
+    pub fn set_classes(&mut self, classes: &ClassSettings) {
+        self.constants.rule.set_classes(classes);
+        self.restart();
+    }
+
     /// Forgets all evidence.
     pub fn restart(&mut self) {
         const UNSTARTED: StreamState<AnyEvidence> = StreamState::unstarted(AnyEvidence::NONE);
@@ -212,9 +221,11 @@ impl<W: Words> StreamClassifier<W> {
     /// see [`crate::NaiveBayes::posteriors`].
     pub fn posteriors(&self, stream: usize) -> Posteriors {
         let Constants { model, rule } = &self.constants;
-        if self.is_sum() {
-            let sum = AnyEvidence::Sequential(sum(model.classes(), &self.streams));
-            return posteriors(model, rule, &sum);
+        if let AnyRule::Sequential(of_sum) = rule
+            && self.is_sum()
+        {
+            let sum = sum(of_sum, model.classes(), &self.streams);
+            return posteriors(model, rule, &AnyEvidence::Sequential(sum));
         }
         match self.streams.get(stream) {
             Some(stream) => posteriors(model, rule, &stream.evidence),
@@ -245,7 +256,7 @@ impl<W: Words> StreamClassifier<W> {
         if self.streams.get(n)?.is_early(section) {
             return None;
         }
-        let sum = sum(model.classes(), &self.streams);
+        let sum = sum(of_sum, model.classes(), &self.streams);
         let decision = of_sum.decide_by(model.classes(), &sum)?;
 
         let stream = self.streams.get(n)?;
@@ -273,11 +284,15 @@ impl<W: Words> StreamClassifier<W> {
 /// The evidence of all streams together.
 // Not within what is generic: there once, and as small as this crate is built.
 #[inline(never)]
-fn sum(classes: usize, streams: &[StreamState<AnyEvidence>]) -> SequentialEvidence {
+fn sum(
+    rule: &SequentialRule,
+    classes: usize,
+    streams: &[StreamState<AnyEvidence>],
+) -> SequentialEvidence {
     let all = streams
         .iter()
         .filter_map(|stream| stream.evidence.sequential());
-    SequentialRule::sum(classes, all)
+    rule.sum(classes, all)
 }
 
 /// Whether whiskers can decide so by a rule, and whether the program has the code for it.

@@ -32,13 +32,15 @@ impl<R: DecisionRule, W: Words> Constants<R, W> {
         Ok(Self { model, rule })
     }
 
-    /// Another rule for the model.
+    /// Another rule for the model, with the same priors and thresholds of classes.
     ///
     /// # Errors
     ///
     /// As [`Constants::new`]; nothing has changed.
     pub(crate) fn set_rule(&mut self, settings: R::Settings) -> Result<(), SetupError> {
-        self.rule = rule_for(&self.model, settings)?;
+        let mut rule: R = rule_for(&self.model, settings)?;
+        rule.set_classes(self.rule.classes());
+        self.rule = rule;
         Ok(())
     }
 }

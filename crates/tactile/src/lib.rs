@@ -51,8 +51,9 @@
 //!
 //! # Features
 //!
-//! - `sequential`, `window`, `several`, `joint`, `opinion` (all by default): the two rules, more
-//!   whiskers than the first, models with roughness, floors and touches, and with a second opinion.
+//! - `sequential`, `window`, `several`, `joint`, `opinion`, `priors` (all by default): the two
+//!   rules, more whiskers than the first, models with roughness, floors and touches, and with a
+//!   second opinion, classes with priors and thresholds of their own.
 //!   A [`StreamClassifier`] refuses what the program was built without, and links no code for it.
 //! - `pair`, `array`: on a board, two whiskers instead of one, or as many as in a simulation
 //!   ([`MAX_STREAMS`]).
@@ -68,6 +69,7 @@ compile_error!("models are little-endian and read in place: big-endian targets a
 
 mod any_rule;
 mod binner;
+mod class_setting;
 mod classifier;
 mod constants;
 mod decision;
@@ -76,6 +78,8 @@ mod error;
 mod evidence;
 mod exp2;
 mod format;
+#[cfg(feature = "std")]
+mod information;
 mod layout;
 mod model;
 #[cfg(feature = "std")]
@@ -103,6 +107,7 @@ mod words;
 
 pub use any_rule::{AnyEvidence, AnyRule, RuleSettings};
 pub use binner::Binner;
+pub use class_setting::{ClassList, ClassSetting, ClassSettings, MOST_THRESHOLD};
 pub use classifier::{Deciding, StreamClassifier};
 pub use constants::Constants;
 pub use decision::{Decision, Posterior, Reason};
@@ -113,6 +118,8 @@ pub use format::{
     MAX_CHANNELS, MAX_CLASSES, MAX_NAME_BYTES, MAX_SAMPLE_AXES, MAX_SAMPLES_TIMES_CHANNELS,
     MAX_STREAMS, MAX_TABLES, ROUGH_CHANNELS, VERSION, checksum,
 };
+#[cfg(feature = "std")]
+pub use information::information;
 pub use layout::TouchRule;
 pub use model::{Aligned, Floors, Model};
 #[cfg(feature = "std")]
@@ -128,4 +135,4 @@ pub use stream::WrongChannels;
 pub use totals::Totals;
 pub use touch::{TouchDetector, Touching};
 pub use window::{Window, WindowRule};
-pub use words::{JOINT, OPINION, Words};
+pub use words::{JOINT, OPINION, PRIORS, Words};

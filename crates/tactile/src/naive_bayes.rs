@@ -1,5 +1,6 @@
 //! The classifier of one whisker: a model, a rule, and the evidence so far.
 
+use crate::class_setting::ClassSettings;
 use crate::constants::Constants;
 use crate::decision::Decision;
 use crate::error::SetupError;
@@ -35,6 +36,12 @@ impl<R: DecisionRule, W: Words> NaiveBayes<R, W> {
         })
     }
 
+    /// Priors and thresholds of classes take effect; all evidence is forgotten.
+    pub fn set_classes(&mut self, classes: &ClassSettings) {
+        self.constants.rule.set_classes(classes);
+        self.reset();
+    }
+
     /// The model.
     pub const fn model(&self) -> &Model<W> {
         &self.constants.model
@@ -50,7 +57,7 @@ impl<R: DecisionRule, W: Words> NaiveBayes<R, W> {
     #[inline]
     pub fn push(&mut self, codes: &[i32]) -> Result<Option<Decision>, WrongChannels> {
         let Constants { model, rule } = &self.constants;
-        if self.stream.push(model, codes, rule.interval())? {
+        if self.stream.push(model, codes, None, rule.interval())? {
             return Ok(self.stream.end_of_block(model, rule));
         }
         Ok(None)
@@ -64,7 +71,7 @@ impl<R: DecisionRule, W: Words> NaiveBayes<R, W> {
     /// As [`Self::push`].
     #[inline]
     pub fn pass(&mut self, codes: &[i32]) -> Result<(), WrongChannels> {
-        self.stream.pass(&self.constants.model, codes)
+        self.stream.pass(&self.constants.model, codes, None)
     }
 
     /// A touch begins, whose `number` its decisions bear. Where the model has a

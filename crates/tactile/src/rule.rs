@@ -1,5 +1,6 @@
 //! What a rule is: when to decide, from the sums of blocks.
 
+use crate::class_setting::ClassSettings;
 use crate::decision::Decision;
 use crate::error::SetupError;
 use crate::evidence::EvidenceScale;
@@ -22,10 +23,19 @@ pub trait DecisionRule: Sized {
     /// The settings do not fit the model.
     fn new<W: Words>(model: &Model<W>, settings: Self::Settings) -> Result<Self, SetupError>;
 
+    /// Takes priors and thresholds of classes; evidence has to start again from these priors.
+    /// Rules that know of none leave them.
+    fn set_classes(&mut self, _classes: &ClassSettings) {}
+
+    /// Those that it has.
+    fn classes(&self) -> &ClassSettings {
+        &const { ClassSettings::NONE }
+    }
+
     /// Samples in a block; not zero.
     fn interval(&self) -> u32;
 
-    /// Evidence of equal priors.
+    /// Evidence of the priors, which are equal unless classes have others.
     fn start(&self) -> Self::Evidence;
 
     /// Takes in the sums of a full block and leaves zeros; a decision starts again
@@ -38,7 +48,7 @@ pub trait DecisionRule: Sized {
     }
 
     /// A touch begins: no class is left further behind the leader than `limit`, in
-    /// units of [`Self::scale`]. Rules of the papers know no touches.
+    /// units of [`Self::scale`], and its prior. Rules of the papers know no touches.
     fn limit(&self, _evidence: &mut Self::Evidence, _limit: u32) {}
 
     /// The end of a whisk or of a recording, with `samples` in the open block.

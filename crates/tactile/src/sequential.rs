@@ -10,15 +10,16 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::class_setting::{ClassSettings, MOST_THRESHOLD};
 use crate::decision::{Decision, Posterior, Reason};
 use crate::error::SetupError;
 use crate::evidence::{EvidenceScale, MAX_DEFICIT, MAX_ODDS, leader};
-use crate::exp2::ONE;
-use crate::format::MAX_CLASSES;
+use crate::exp2::{INDEX_BITS, ONE, exp2_neg};
+use crate::format::{ENTRIES_PER_BIT, MAX_CLASSES};
 use crate::model::Model;
 use crate::naive_bayes::NaiveBayes;
 use crate::rule::DecisionRule;
-use crate::words::Words;
+use crate::words::{PRIORS, Words};
 
 /// Largest threshold: beyond it the largest deficit could not reach it.
 const MAX_THRESHOLD: f64 = 1.0 - 1e-12;
@@ -61,6 +62,18 @@ impl Threshold {
             bound + ((bound as f64) < scaled) as u32
         };
         Ok(Self { bound, gain })
+    }
+
+    /// That of a class whose [`ClassSetting::threshold`](crate::ClassSetting) this is.
+    pub fn of_units(units: u16) -> Self {
+        // One bit less than there are, so that the bound is at most 2²⁵ where there is a gain.
+        let units = units.min(MOST_THRESHOLD);
+        let gain = (units / ENTRIES_PER_BIT as u16).saturating_sub(1) as u8;
+        let bits = u64::from(units) << (32 + INDEX_BITS - ENTRIES_PER_BIT.ilog2());
+        Self {
+            bound: exp2_neg(bits, gain.into()),
+            gain,
+        }
     }
 
     /// It as two words.
@@ -111,8 +124,10 @@ pub struct SequentialRule {
     block: u32,
     scale: EvidenceScale,
     threshold: Threshold,
-    /// The least deficit of a rival that does not keep a decision off alone.
+    /// The least deficit of a rival that does not keep a decision off alone, whichever class
+    /// leads.
     far: u32,
+    classes: ClassSettings,
 }
 
 /// By how much each class lies behind the leader, and since how many blocks.
@@ -156,16 +171,22 @@ impl SequentialRule {
         near
     }
 
-    /// The evidence of several streams together: log-likelihoods add up.
+    /// The evidence of several streams together: log-likelihoods add up, and priors count once.
     pub(crate) fn sum<'e>(
+        &self,
         classes: usize,
         all: impl Iterator<Item = &'e SequentialEvidence>,
     ) -> SequentialEvidence {
-        let (mut sums, mut blocks) = ([0_u64; MAX_CLASSES], 0_u32);
-        for evidence in all {
+        // Where priors are taken off, in the middle of what a sum can be: only differences count.
+        let start = if PRIORS { 1_u64 << 40 } else { 0 };
+        let (mut sums, mut blocks) = ([start; MAX_CLASSES], 0_u32);
+        for (n, evidence) in all.enumerate() {
             blocks = blocks.saturating_add(evidence.blocks);
-            for (sum, deficit) in sums.iter_mut().zip(evidence.deficits) {
+            for (class, (sum, deficit)) in sums.iter_mut().zip(evidence.deficits).enumerate() {
                 *sum += u64::from(deficit);
+                if PRIORS && n > 0 {
+                    *sum -= u64::from(self.behind(class));
+                }
             }
         }
         // Beyond the model's classes all are zero, and are not looked at.
@@ -193,14 +214,28 @@ impl SequentialRule {
         self.decide(classes, evidence)
     }
 
-    /// Decides, if the posterior exceeds the threshold.
+    /// Decides, if the posterior exceeds the threshold of its class.
     fn decide(&self, classes: usize, evidence: &SequentialEvidence) -> Option<Decision> {
         let deficits = evidence.deficits.get(..classes).unwrap_or_default();
-        let Threshold { bound, gain } = self.threshold;
+        let leader = leader(deficits);
+        let Threshold { bound, gain } = self.threshold_of(leader);
         let against = self.scale.odds_below(deficits, gain, bound)?;
         let posterior = Posterior::from_odds_against(against, gain);
         let samples = evidence.blocks.saturating_mul(self.block);
-        Some(Decision::new(leader(deficits), samples, posterior))
+        Some(Decision::new(leader, samples, posterior))
+    }
+
+    fn threshold_of(&self, class: usize) -> Threshold {
+        match self.classes.get(class).threshold {
+            own if PRIORS && own > 0 => Threshold::of_units(own),
+            _ => self.threshold,
+        }
+    }
+
+    /// How far a class lies behind by its prior.
+    #[inline]
+    fn behind(&self, class: usize) -> u32 {
+        self.classes.behind(class, self.block).min(MAX_DEFICIT)
     }
 }
 
@@ -216,7 +251,20 @@ impl DecisionRule for SequentialRule {
             scale,
             threshold,
             far: scale.first_below(threshold.gain, threshold.bound),
+            classes: ClassSettings::NONE,
         })
+    }
+
+    fn set_classes(&mut self, classes: &ClassSettings) {
+        self.classes = *classes;
+        if let Some(least) = classes.least_threshold() {
+            let Threshold { bound, gain } = Threshold::of_units(least);
+            self.far = self.far.min(self.scale.first_below(gain, bound));
+        }
+    }
+
+    fn classes(&self) -> &ClassSettings {
+        &self.classes
     }
 
     fn interval(&self) -> u32 {
@@ -224,8 +272,14 @@ impl DecisionRule for SequentialRule {
     }
 
     fn start(&self) -> SequentialEvidence {
+        let mut deficits = [0; MAX_CLASSES];
+        if PRIORS {
+            for (class, deficit) in deficits.iter_mut().enumerate() {
+                *deficit = self.behind(class);
+            }
+        }
         SequentialEvidence {
-            deficits: [0; MAX_CLASSES],
+            deficits,
             blocks: 0,
         }
     }
@@ -244,8 +298,8 @@ impl DecisionRule for SequentialRule {
         }
         let decision = self.decide(sums.len(), evidence)?;
         // Those beyond the model's classes are always zero.
-        for (deficit, _) in evidence.deficits.iter_mut().zip(sums) {
-            *deficit = 0;
+        for (class, (deficit, _)) in evidence.deficits.iter_mut().zip(sums).enumerate() {
+            *deficit = self.behind(class);
         }
         evidence.blocks = 0;
         Some(decision)
@@ -258,8 +312,10 @@ impl DecisionRule for SequentialRule {
     }
 
     fn limit(&self, evidence: &mut SequentialEvidence, limit: u32) {
-        for deficit in &mut evidence.deficits {
-            *deficit = (*deficit).min(limit);
+        // A surface that may have changed is by its prior another: so a class lies no further
+        // behind than that and the limit.
+        for (class, deficit) in evidence.deficits.iter_mut().enumerate() {
+            *deficit = (*deficit).min(limit.saturating_add(self.behind(class)));
         }
     }
 
@@ -336,6 +392,27 @@ mod tests {
         );
     }
 
+    #[test]
+    fn thresholds_of_units_are_those_of_their_odds() {
+        use crate::class_setting::ClassSetting;
+        for theta in [0.500_001, 0.6, 0.667, 0.75, 0.99, 0.999_999, 1.0 - 1e-12] {
+            let units = ClassSetting::new(1.0, Some(theta)).threshold;
+            let threshold = Threshold::of_units(units);
+            // None of new's, but for its rounding.
+            assert_eq!(
+                Threshold::from_words(threshold.words()),
+                Some(threshold),
+                "{theta}"
+            );
+            let error = threshold.odds() / ((1.0 - theta) / theta) - 1.0;
+            assert!((-6.9e-4..5e-6).contains(&error), "{theta}: {error}");
+        }
+        let most = Threshold::of_units(MOST_THRESHOLD);
+        assert_eq!(most.odds(), 2.0_f64.powi(-40));
+        assert_eq!(most, Threshold::of_units(u16::MAX));
+        assert_eq!(ClassSetting::new(0.25, None).prior, 2048);
+    }
+
     /// Whatever bits a deficit has, deficits are within their bound after a block, and all
     /// is as before once a decision has fallen.
     #[test]
@@ -349,6 +426,7 @@ mod tests {
             scale,
             threshold,
             far: scale.first_below(threshold.gain, threshold.bound),
+            classes: ClassSettings::NONE,
         };
         // Two bit a block for the second of three.
         let block = [200_000, 200_000 + 2 * 1_024 * 20, 150_000];

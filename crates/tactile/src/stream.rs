@@ -5,7 +5,7 @@
 use core::fmt;
 
 use crate::decision::{Decision, Reason};
-use crate::format::MAX_CLASSES;
+use crate::format::{MAX_CLASSES, MAX_STREAMS};
 use crate::model::Model;
 use crate::opinion::{Judge, Section};
 use crate::rule::DecisionRule;
@@ -41,14 +41,22 @@ pub(crate) struct StreamState<E> {
     judges: [Judge; OPINION as usize],
 }
 
+/// The first channel of a sample: that of its own tables, where the stream of this number has
+/// any.
 #[inline]
-fn check<W: Words>(model: &Model<W>, codes: &[i32]) -> Result<(), WrongChannels> {
+fn first_channel<W: Words>(
+    model: &Model<W>,
+    codes: &[i32],
+    stream: Option<usize>,
+) -> Result<usize, WrongChannels> {
     let expected = model.channels();
     let found = codes.len();
     if found == expected {
-        Ok(())
-    } else {
-        Err(WrongChannels { expected, found })
+        return Ok(0);
+    }
+    match stream {
+        Some(stream) if MAX_STREAMS > 1 && found == 2 && stream < expected / 2 => Ok(2 * stream),
+        _ => Err(WrongChannels { expected, found }),
     }
 }
 
@@ -120,17 +128,19 @@ impl<E> StreamState<E> {
         }
     }
 
-    /// Takes a sample that counts; whether it was the last of its block of `interval`.
+    /// Takes a sample that counts, of the stream of this number where streams can have tables of
+    /// their own; whether it was the last of its block of `interval`.
     #[inline]
     pub(crate) fn push<W: Words>(
         &mut self,
         model: &Model<W>,
         codes: &[i32],
+        stream: Option<usize>,
         interval: u32,
     ) -> Result<bool, WrongChannels> {
-        check(model, codes)?;
+        let first = first_channel(model, codes, stream)?;
         self.feel(model, codes, true);
-        Ok(self.sums.push(model, codes, interval))
+        Ok(self.sums.push(model, (codes, first), interval))
     }
 
     /// Takes a sample that does not count.
@@ -139,8 +149,9 @@ impl<E> StreamState<E> {
         &mut self,
         model: &Model<W>,
         codes: &[i32],
+        stream: Option<usize>,
     ) -> Result<(), WrongChannels> {
-        check(model, codes)?;
+        first_channel(model, codes, stream)?;
         self.feel(model, codes, false);
         if model.has_roughness() {
             self.sums.roughness.push(codes, false);

@@ -41,13 +41,13 @@ impl Sums {
         self.roughness.clear();
     }
 
-    /// Takes a sample, and its roughness where the model has it; whether it was the last of
+    /// Takes a sample, whose codes are of the channels from the `first` on, and its roughness where the model has it; whether it was the last of
     /// its block of `interval`.
     #[inline]
     pub(crate) fn push<W: Words>(
         &mut self,
         model: &Model<W>,
-        codes: &[i32],
+        (codes, first): (&[i32], usize),
         interval: u32,
     ) -> bool {
         if model.has_roughness() {
@@ -55,8 +55,8 @@ impl Sums {
         }
         let model = model.parts();
         for table in model.sample_tables() {
-            // No row of a checked model is missing.
-            let _ = add(model, table, codes, &mut self.classes);
+            // No row of a checked model is missing; of another whisker's table there is no code.
+            let _ = add(model, table, (codes, first), &mut self.classes);
         }
         if self.left > 1 {
             self.left -= 1;
@@ -103,10 +103,10 @@ impl Sums {
 fn add(
     model: Parts<'_>,
     table: &TableRecord,
-    codes: &[i32],
+    (codes, first): (&[i32], usize),
     sums: &mut [u32; MAX_CLASSES],
 ) -> Option<()> {
-    let cell = table.cell(|channel| codes.get(channel).copied())?;
+    let cell = table.cell(|channel| codes.get(channel.wrapping_sub(first)).copied())?;
     let row = model.row(table, cell)?;
     let (pairs, _) = sums.as_chunks_mut::<2>();
     if let [first, second] = row {

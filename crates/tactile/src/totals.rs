@@ -1,8 +1,10 @@
 //! Evidence of rules that decide by the largest sum over many blocks.
 
+use crate::class_setting::ClassSettings;
 use crate::decision::{Decision, Posterior};
 use crate::evidence::{EvidenceScale, MAX_DEFICIT, MAX_ODDS, leader};
 use crate::format::MAX_CLASSES;
+use crate::words::PRIORS;
 
 /// Sums over many blocks, exact: u64 a class. Never wraps, and saturates only
 /// after 2⁶⁴ / (20480 · C) samples, about a million years at 2 kHz.
@@ -26,6 +28,18 @@ impl Totals {
             sums: [0; MAX_CLASSES],
             samples: 0,
         }
+    }
+
+    /// Of no block, where classes have these priors, in blocks of so many samples.
+    pub(crate) fn of_priors(classes: &ClassSettings, block: u32) -> Self {
+        let mut totals = Self::new();
+        if PRIORS {
+            let most = u32::from(u16::MAX) * block;
+            for (class, sum) in totals.sums.iter_mut().enumerate() {
+                *sum = u64::from(most - classes.behind(class, block));
+            }
+        }
+        totals
     }
 
     /// Adds the sums of each class over so many samples.

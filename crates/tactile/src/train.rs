@@ -56,7 +56,7 @@ pub struct Trainer {
     names: Vec<String>,
     /// Class of each sample.
     classes: Vec<u8>,
-    /// Values, the channels of a sample together.
+    /// Values, the channels of a sample together; not a number: there is none.
     values: Vec<f64>,
 }
 
@@ -93,12 +93,34 @@ impl Trainer {
                 found: sample.len(),
             });
         }
+        self.add_from(label, 0, sample)
+    }
+
+    /// Adds a sample of a class that has values of some channels only, from the `first` on: of
+    /// one whisker.
+    ///
+    /// # Errors
+    ///
+    /// As [`Self::add`].
+    pub fn add_from(
+        &mut self,
+        label: &str,
+        first: usize,
+        sample: &[f64],
+    ) -> Result<(), TrainError> {
+        let after = self.channels.checked_sub(first + sample.len());
+        let after = after.ok_or(TrainError::Channels {
+            expected: self.channels,
+            found: first + sample.len(),
+        })?;
         if let Some(channel) = sample.iter().position(|x| !x.is_finite()) {
             return Err(TrainError::NotFinite { channel });
         }
         let class = self.class_of(label)?;
         self.classes.push(class);
+        self.values.extend(std::iter::repeat_n(f64::NAN, first));
         self.values.extend_from_slice(sample);
+        self.values.extend(std::iter::repeat_n(f64::NAN, after));
         Ok(())
     }
 
@@ -156,10 +178,19 @@ impl Trainer {
         // Of each channel and class.
         let mut counts = vec![vec![0.0; bins]; self.channels * classes];
         for (class, sample) in self.samples() {
-            for (channel, &x) in sample.iter().enumerate() {
+            for (channel, &x) in sample.iter().enumerate().filter(|(_, x)| x.is_finite()) {
                 let bin = binners[channel].bin(quantisers[channel].code_from_f64(x), bins - 1);
                 counts[channel * classes + class][bin] += 1.0;
             }
+        }
+        if let Some(empty) = counts
+            .iter()
+            .position(|bins| bins.iter().all(|&n| n == 0.0))
+        {
+            return Err(TrainError::Unfelt {
+                channel: empty / classes,
+                class: empty % classes,
+            });
         }
         let kernel = gaussian(self.options.smooth);
         let tables: Vec<(Axis, Vec<u16>)> = counts
@@ -202,7 +233,10 @@ impl Trainer {
     /// rounding of a code and that of the binner's slope are about equal
     /// (both below 1e-3 of a bin for 100 bins).
     fn quantiser(&self, channel: usize) -> Option<Quantiser> {
-        let values = || self.values.iter().skip(channel).step_by(self.channels);
+        let values = || {
+            let values = self.values.iter().skip(channel).step_by(self.channels);
+            values.filter(|x| x.is_finite())
+        };
         let low = values().copied().fold(f64::INFINITY, f64::min);
         let high = values().copied().fold(f64::NEG_INFINITY, f64::max);
         let bins = self.options.bins;
@@ -283,7 +317,7 @@ fn smoothed(histogram: &[f64], kernel: &[f64]) -> Vec<f64> {
             }
         }
     }
-    // Every class has a sample and the kernel has its centre: not zero.
+    // Every class has a sample of each channel and the kernel has its centre: not zero.
     let sum: f64 = out.iter().sum();
     out.iter().map(|x| x / sum).collect()
 }

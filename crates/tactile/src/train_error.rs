@@ -10,6 +10,14 @@ use crate::name::NameError;
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum TrainError {
+    /// A class has no sample of a channel.
+    #[error("class {class} has no sample of channel {channel}; both are counted from 0")]
+    Unfelt {
+        /// The channel, from zero.
+        channel: usize,
+        /// The class, from zero.
+        class: usize,
+    },
     /// A sample that is infinite or not a number.
     #[error("channel {channel}: a sample is not a finite number")]
     NotFinite {

@@ -1,6 +1,8 @@
 //! Maximum likelihood over fixed windows (LEP10): the class of the largest
-//! summed log-likelihood over each run of N samples.
+//! summed log-likelihood over each run of N samples; with priors of classes the largest
+//! posterior (LEP12 eq. 4).
 
+use crate::class_setting::ClassSettings;
 use crate::decision::Decision;
 use crate::error::SetupError;
 use crate::evidence::EvidenceScale;
@@ -21,6 +23,7 @@ pub struct WindowRule {
     block: u32,
     window: u32,
     scale: EvidenceScale,
+    classes: ClassSettings,
 }
 
 impl DecisionRule for WindowRule {
@@ -40,7 +43,17 @@ impl DecisionRule for WindowRule {
             block,
             window,
             scale: EvidenceScale::per_samples(block),
+            classes: ClassSettings::NONE,
         })
+    }
+
+    /// Priors count; a window has no threshold.
+    fn set_classes(&mut self, classes: &ClassSettings) {
+        self.classes = *classes;
+    }
+
+    fn classes(&self) -> &ClassSettings {
+        &self.classes
     }
 
     fn interval(&self) -> u32 {
@@ -48,7 +61,7 @@ impl DecisionRule for WindowRule {
     }
 
     fn start(&self) -> Totals {
-        Totals::default()
+        Totals::of_priors(&self.classes, self.block)
     }
 
     // Once a block: apart from the samples, and as small as this crate is built.
@@ -60,7 +73,7 @@ impl DecisionRule for WindowRule {
             return None;
         }
         let decision = totals.decide(sums.len(), self.scale);
-        *totals = Totals::default();
+        *totals = self.start();
         Some(decision)
     }
 

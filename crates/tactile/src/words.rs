@@ -7,6 +7,9 @@ pub const JOINT: bool = cfg!(feature = "joint");
 /// Whether models may have a second opinion; likewise, the feature `opinion`.
 pub const OPINION: bool = cfg!(feature = "opinion");
 
+/// Whether classes may have priors and thresholds of their own; likewise, the feature `priors`.
+pub const PRIORS: bool = cfg!(feature = "priors");
+
 /// The words of a model's file.
 pub trait Words: AsRef<[u32]> {}
 

@@ -44,7 +44,9 @@ pub(crate) fn find(inner: &mut Inner, settings: &Settings, deployed: Option<Depl
         tick_hz: settings.head.tick_hz,
     };
     let rule = (rule, config.deciding);
-    classifier.find(slots::model(slot), limits, rule, settings.head.whiskers());
+    let whiskers = settings.head.whiskers();
+    let model = slots::model(slot);
+    classifier.find(model, limits, rule, &settings.classes, whiskers);
     let crc = classifier.model().map(Model::crc);
     if crc.is_some_and(|crc| crc != deployed.model) {
         classifier.refuse(Refusal::Other);

@@ -202,6 +202,7 @@ pub fn decode_into<R: Real>(
         None
     };
     config.classifier = parts.optional(Part::Classifier)?;
+    config.classes = parts.optional(Part::Priors)?.unwrap_or_default();
     config.check()?;
     // What is simulated cannot be harmed.
     if board == BoardCode::Simulation {
@@ -270,6 +271,7 @@ pub fn encode<R: Real>(config: &Config<R>, board: BoardCode) -> Result<ConfigByt
     writer.optional(config.contact.as_ref())?;
     writer.optional(config.motion.as_ref())?;
     writer.optional(config.classifier.as_ref())?;
+    writer.optional((!config.classes.is_empty()).then_some(&config.classes))?;
     let length = writer.length;
     bytes.truncate(HEADER_BYTES + length);
     let mut header = Header {

@@ -6,7 +6,7 @@
 
 use core::fmt;
 
-use tactile::{Deciding, RuleSettings};
+use tactile::{ClassSetting, Deciding, MOST_THRESHOLD, RuleSettings};
 use whisking::motor::{Driver, GuardConfig, HomingConfig, ModelConfig};
 use whisking::{
     Bound, Bounded, MAX_WHISKERS, Real, Start, filter, gate, muscle, noise, oscillator, pd,
@@ -86,6 +86,7 @@ fields! {
     TimeConstant = 42: "motor.time_constant_s";
     Heat = 43: "motor.continuous_duty";
     SelfMotion = 44: "sensor.self_motion_s";
+    Classes = 45: "priors or thresholds of classes";
 }
 
 impl Field {
@@ -165,7 +166,8 @@ impl<R: Real> Config<R> {
             built(Part::Motion)?;
             motion.check(&self.head)?;
         }
-        if_there(Part::Classifier, self.classifier.as_ref(), classifier)
+        if_there(Part::Classifier, self.classifier.as_ref(), classifier)?;
+        classes(&self.classes)
     }
 }
 
@@ -243,6 +245,16 @@ fn classifier<R: Real>(classifier: &ClassifierConfig<R>) -> Checked {
         built(Part::Several)?;
     }
     within(Field::ContactMin, classifier.contact_min.as_slice(), SHARE)
+}
+
+/// The likeliest class lies behind none, and no threshold is one that evidence cannot reach.
+fn classes(classes: &[ClassSetting]) -> Checked {
+    let is_in_range = |class: &ClassSetting| class.threshold <= MOST_THRESHOLD;
+    let has_likeliest = classes.is_empty() || classes.iter().any(|class| class.prior == 0);
+    require(
+        Field::Classes,
+        !Part::Priors.is_built() || has_likeliest && classes.iter().all(is_in_range),
+    )
 }
 
 impl<R: Real> MotionConfig<R> {

@@ -70,6 +70,7 @@ parts! {
     Mlx90333 "mlx90333" = 23: "sensor mlx90333";
     Tmag5170 "tmag5170" = 24: "sensor tmag5170";
     SelfMotion "self-motion" = 25: "self-motion of the sensor";
+    Priors "priors" = 26: "priors or thresholds of classes";
 }
 
 impl Part {

@@ -2,8 +2,8 @@
 //! deployed to: it is checked at the start, and refused if anything is wrong with it.
 
 use tactile::{
-    AnyRule, Constants, Deciding, Decision, JOINT, Model, RuleSettings, StreamClassifier, Whisked,
-    Words,
+    AnyRule, ClassSetting, ClassSettings, Constants, Deciding, Decision, JOINT, MAX_STREAMS, Model,
+    RuleSettings, StreamClassifier, Whisked, Words,
 };
 
 use super::{ModelState, Refusal, Sample, SampleClassifier};
@@ -11,25 +11,30 @@ use super::{ModelState, Refusal, Sample, SampleClassifier};
 /// The model was not trained on the integer codes of a sensor's two channels,
 /// so that it cannot classify them.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
-#[error("the model was not trained on 14-bit sensor codes of two channels")]
+#[error("the model was not trained on 14-bit sensor codes of two channels a whisker")]
 pub struct NotCodes;
 
-/// By how many bits a sensor's codes are shifted to become the model's, for
-/// each channel.
-///
-/// # Errors
-/// [`NotCodes`] if the model was trained on something else.
-pub fn shifts<W: Words>(model: &Model<W>) -> Result<[u32; 2], NotCodes> {
-    let shift = |channel| -> Option<u32> {
-        let quantiser = model.quantiser(channel)?;
-        // 14 bits and 17 of shift stay below 2^31.
-        let fits = quantiser.takes_raw() && quantiser.exponent <= 17;
-        fits.then_some(quantiser.exponent.unsigned_abs())
-    };
-    match (shift(0), shift(1), model.channels()) {
-        (Some(x), Some(y), 2) => Ok([x, y]),
-        _ => Err(NotCodes),
+/// The model's codes a code of the sensor of each whisker: powers of two.
+type Factors = [[i32; 2]; MAX_STREAMS];
+
+/// The factors of a model of two channels for all whiskers, or of two for each.
+fn factors<W: Words>(model: &Model<W>) -> Result<Factors, NotCodes> {
+    let channels = model.channels();
+    let is_shared = channels == 2;
+    if !is_shared && (MAX_STREAMS == 1 || channels % 2 == 1) {
+        return Err(NotCodes);
     }
+    let mut factors = [[0; 2]; MAX_STREAMS];
+    for (whisker, factors) in factors.iter_mut().enumerate() {
+        let first = if is_shared { 0 } else { 2 * whisker };
+        for (channel, factor) in (first..channels).zip(factors) {
+            let quantiser = model.quantiser(channel);
+            // 14 bits and 17 of shift stay below 2^31.
+            let fits = quantiser.filter(|q| q.takes_raw() && q.exponent <= 17);
+            *factor = 1 << fits.ok_or(NotCodes)?.exponent.unsigned_abs();
+        }
+    }
+    Ok(factors)
 }
 
 /// What a deployed model has to fit besides the rule of its scene.
@@ -58,17 +63,14 @@ pub struct CodeClassifier<W = &'static [u32]> {
 #[derive(Debug, Clone)]
 struct Codes<W> {
     classifier: StreamClassifier<W>,
-    /// The model's codes a code of the sensor: powers of two.
-    factors: [i32; 2],
+    factors: Factors,
 }
 
 impl<W: Words> Codes<W> {
     fn new(classifier: StreamClassifier<W>) -> Result<Self, NotCodes> {
-        // At most 17 bits.
-        let factors = shifts(classifier.model())?.map(|shift| 1 << shift);
         Ok(Self {
+            factors: factors(classifier.model())?,
             classifier,
-            factors,
         })
     }
 }
@@ -88,31 +90,38 @@ impl<'p> CodeClassifier<&'p [u32]> {
     ) -> Self {
         let (_, deciding) = config;
         let mut classifier = Self::refused(Refusal::Absent, deciding.heard(whiskers));
-        classifier.find(place, limits, config, whiskers);
+        classifier.find(place, limits, config, &[], whiskers);
         classifier
     }
 
     /// Becomes what [`at_start`](Self::at_start) makes, where it lies: for a board, whose stack
-    /// has no room for it.
+    /// has no room for it. Classes have these priors and thresholds.
     pub fn find(
         &mut self,
         place: &'p [u8],
         limits: ModelLimits,
         config: (RuleSettings, Deciding),
+        classes: &[ClassSetting],
         whiskers: usize,
     ) {
         let (rule, deciding) = config;
         self.heard = deciding.heard(whiskers);
         let found = find(place, limits).and_then(|model| {
+            let of_each = 2 * self.heard;
+            if ![2, of_each].contains(&model.channels()) {
+                return Err(Refusal::Channels);
+            }
             let classifier = StreamClassifier::unstarted(model, rule, deciding, whiskers);
-            Ok((classifier.map_err(Refusal::of_setup)?, factors(&model)?))
+            let classifier = classifier.map_err(Refusal::of_setup)?;
+            let factors = factors(&model).map_err(|NotCodes| Refusal::Channels)?;
+            Ok((classifier, factors))
         });
         self.found = found.map(|(classifier, factors)| Codes {
             classifier,
             factors,
         });
         if let Ok(codes) = &mut self.found {
-            codes.classifier.restart();
+            codes.classifier.set_classes(&ClassSettings::of(classes));
         }
     }
 
@@ -120,13 +129,6 @@ impl<'p> CodeClassifier<&'p [u32]> {
     pub fn refuse(&mut self, why: Refusal) {
         self.found = Err(why);
     }
-}
-
-/// The factors of a model's codes.
-fn factors<W: Words>(model: &Model<W>) -> Result<[i32; 2], Refusal> {
-    // At most 17 bits.
-    let shifts = shifts(model).map_err(|NotCodes| Refusal::Channels)?;
-    Ok(shifts.map(|shift| 1 << shift))
 }
 
 /// The model at the beginning of `place`.
@@ -198,7 +200,7 @@ impl<W: Words> CodeClassifier<W> {
     }
 
     /// What no sample changes, likewise: its model and rule, and the factors of its codes.
-    pub fn constants(&self) -> Option<(&Constants<AnyRule, W>, &[i32; 2])> {
+    pub fn constants(&self) -> Option<(&Constants<AnyRule, W>, &Factors)> {
         let codes = self.found.as_ref().ok()?;
         Some((codes.classifier.constants(), &codes.factors))
     }
@@ -218,14 +220,15 @@ impl<W: Words> SampleClassifier for CodeClassifier<W> {
             factors,
         } = self.found.as_mut().ok()?;
         let [x, y] = sample.codes;
+        let [of_x, of_y] = *factors.get(whisker)?;
         if sample.touch != 0 && sample.touch != classifier.touch_of(whisker) {
             classifier.begin_touch(whisker, sample.touch);
         }
         let codes = [
-            i32::from(x).wrapping_mul(factors[0]),
-            i32::from(y).wrapping_mul(factors[1]),
+            i32::from(x).wrapping_mul(of_x),
+            i32::from(y).wrapping_mul(of_y),
         ];
-        // Two channels, as was made sure at the start.
+        // Two channels a whisker, as was made sure at the start.
         if sample.counts && (sample.touch != 0 || !knows_touches) {
             return classifier.push_to(whisker, &codes).ok().flatten();
         }

@@ -5,7 +5,7 @@ use firmware::{
     refusal_code, refusal_of,
 };
 use proptest::prelude::*;
-use tactile::{Deciding, RuleSettings, Threshold};
+use tactile::{ClassSetting, Deciding, RuleSettings, Threshold};
 use whisking::motor::{
     Duty, GuardConfig, GuardSettings, HomingSettings, ModelConfig, ModelSettings,
 };
@@ -63,6 +63,9 @@ fn config<R: Number>() -> Config<R> {
         deciding: Deciding::Each,
         contact_min: Some(R::from_f64(0.05)),
     });
+    let classes = [(0.25, Some(0.999)), (1.0, None), (0.5, Some(0.6))];
+    let classes = classes.map(|(share, threshold)| ClassSetting::new(share, threshold));
+    config.classes = classes.into_iter().collect();
     config
 }
 
@@ -119,7 +122,7 @@ fn another_version_board_or_format_is_refused_by_name() {
 #[test]
 fn values_out_of_range_are_refused_by_the_name_of_their_field() {
     type Change = fn(&mut Config<f32>);
-    let changes: [(Change, Field); 12] = [
+    let changes: [(Change, Field); 14] = [
         (|c| c.head.tick_hz = 0, Field::TickHz),
         (|c| c.head.sides = 3, Field::Sides),
         (|c| c.head.whiskers_per_side = 0, Field::Whiskers),
@@ -156,6 +159,8 @@ fn values_out_of_range_are_refused_by_the_name_of_their_field() {
             |c| c.classifier.as_mut().unwrap().rule = Some(RuleSettings::Window(0)),
             Field::Window,
         ),
+        (|c| c.classes[1].prior = 1, Field::Classes),
+        (|c| c.classes[0].threshold = u16::MAX, Field::Classes),
     ];
     for (change, field) in changes {
         let mut config = config();

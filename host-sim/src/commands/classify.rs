@@ -34,6 +34,7 @@ pub fn classify(
     let option = match rule {
         Rule::Sequential { threshold } => format!("--threshold {threshold}"),
         Rule::Window { samples } => format!("--window {samples}"),
+        Rule::Costs { .. } => "costs".to_owned(),
     };
     let recording = files::whole_recording(data, channels)?;
     let trained = (path.display().to_string(), model.rate_hz());

@@ -100,10 +100,7 @@ fn decide(
     out: &Path,
     verbosity: Verbosity,
 ) -> Result<(Played, Film), Error> {
-    let Some(classifier) = &scene.classifier else {
-        return Err(Error::Work("the scene has no classifier".to_owned()));
-    };
-    let classifier = Classifier::of(model, classifier.rule, classifier.whiskers);
+    let classifier = Classifier::of_scene(model, scene);
     let classifier = classifier.map_err(|fault| Error::Work(fault.to_string()))?;
     let run = Run::new(scene, Some(classifier))?;
     let mut film = Film::default();

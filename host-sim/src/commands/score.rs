@@ -4,7 +4,8 @@ use std::ops::Range;
 
 use clap::Args;
 use rayon::prelude::*;
-use scene::{Deciding, Rule, Scene};
+use scene::{Rule, Scene};
+use tactile::ModelBuf;
 
 use crate::classifier::{Classifier, Fault};
 use crate::commands::ahead;
@@ -77,12 +78,6 @@ pub fn score(arguments: &Arguments, verbosity: Verbosity) -> Result<String, Erro
             SeedRange(seeds)
         )));
     }
-    let rule = match (&scene.classifier, arguments.threshold) {
-        (_, Some(threshold)) => Rule::Sequential { threshold },
-        (Some(classifier), None) => classifier.rule,
-        (None, None) => Rule::Sequential { threshold: 0.99 },
-    };
-
     if let Some(threshold) = arguments.threshold {
         let wrong = |error| Error::Input(format!("--threshold: {error}"));
         tactile::Threshold::new(threshold).map_err(wrong)?;
@@ -91,13 +86,11 @@ pub fn score(arguments: &Arguments, verbosity: Verbosity) -> Result<String, Erro
     // One more is trained on.
     ahead::tell(&scene, seeds.end - seeds.start + 1, None, verbosity);
     let trained = train(&scene, train_seed, &how, arguments, verbosity)?;
-    let deciding = scene.classifier.as_ref().map(|c| c.whiskers);
-    let deciding = deciding.unwrap_or(Deciding::First);
-    let classifier =
-        Classifier::of(trained.model, rule, deciding).map_err(|fault| match fault {
-            Fault::Model(fault) => Error::Work(fault),
-            Fault::Rule(fault) => Error::file(path, fault),
-        })?;
+    let classifier = decides(&scene, arguments.threshold, trained.model);
+    let classifier = classifier.map_err(|fault| match fault {
+        Fault::Model(fault) => Error::Work(fault),
+        Fault::Rule(fault) => Error::file(path, fault),
+    })?;
     let runs = runs(&scene, seeds, &classifier, verbosity)?;
     let presentations: Vec<Shown> = runs
         .iter()
@@ -164,6 +157,20 @@ pub(super) fn seeds(text: &str) -> Result<Range<u64>, String> {
     } else {
         Err("allowed: A below B, up to a million seeds".to_owned())
     }
+}
+
+/// What decides in a scene, at its own threshold or at another.
+fn decides(scene: &Scene, threshold: Option<f64>, model: ModelBuf) -> Result<Classifier, Fault> {
+    let mut scene = scene.clone();
+    let Some(classifier) = &mut scene.classifier else {
+        let threshold = threshold.unwrap_or(0.99);
+        return Classifier::new(model, Rule::Sequential { threshold });
+    };
+    if let Some(threshold) = threshold {
+        classifier.rule = Rule::Sequential { threshold };
+        classifier.thresholds = None;
+    }
+    Classifier::of_scene(model, &scene)
 }
 
 #[cfg(test)]

@@ -78,6 +78,38 @@ fn classifiers_that_cannot_be() {
         &["s.toml:28: classifier.threshold", "1 - 1e-12"],
     );
 
+    // Classes are those of the model, smooth and carpet.
+    let with = |keys: &str| scene.replace("threshold = 0.9", &format!("threshold = 0.9\n{keys}"));
+    for (keys, naming) in [
+        (
+            "prior = { p600 = 0.5 }",
+            [
+                "s.toml:29: classifier.prior: found \"p600\"",
+                "smooth, carpet",
+            ],
+        ),
+        (
+            "prior = { smooth = 0.5, carpet = 0.6 }",
+            [
+                "s.toml:29: classifier.prior: found a sum of 1.1",
+                "1, as every",
+            ],
+        ),
+        (
+            "thresholds = { p600 = 0.9 }",
+            ["s.toml:29: classifier.thresholds", "smooth, carpet"],
+        ),
+        (
+            "cost_error = 5\ncost_delay_per_s = 1",
+            [
+                "s.toml:28: classifier.threshold: found with cost_error",
+                "either",
+            ],
+        ),
+    ] {
+        refuses(with(keys), &naming);
+    }
+
     let window = |samples: &str| {
         scene
             .replace("sequential", "window")

@@ -42,7 +42,7 @@ fn run(scene: &Scene) -> Run {
 
 /// The configuration of a scene for a board.
 fn bytes_for<R: Number>(scene: &Scene, board: BoardCode) -> ConfigBytes {
-    let config = config_of::<R>(scene, None, false, "").unwrap();
+    let config = config_of::<R>(scene, (None, None), false, "").unwrap();
     encode(&config, board).unwrap()
 }
 
@@ -340,7 +340,7 @@ fn what_is_no_configuration_for_it_changes_nothing() {
     let board = bytes_for::<f32>(&scene, BoardCode::NucleoF446re);
     assert_eq!(refused(&mut module, &board), ConfigError::Board(1));
     for kp in [f32::NAN, f32::INFINITY, -0.1, 2e3, f32::MAX] {
-        let mut config = config_of::<f32>(&scene, None, false, "").unwrap();
+        let mut config = config_of::<f32>(&scene, (None, None), false, "").unwrap();
         config.motion.as_mut().unwrap().servo.pd.kp = kp;
         let bytes = encode(&config, BoardCode::Simulation).unwrap();
         let found = refused(&mut module, &bytes);

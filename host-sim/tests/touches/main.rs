@@ -254,6 +254,8 @@ fn nothing_is_decided_in_the_air() {
         scene.classifier = Some(ClassifierSection {
             rule,
             model: Some(String::new()),
+            thresholds: None,
+            prior: None,
             contact_min: None,
             whiskers: Deciding::First,
         });

@@ -153,6 +153,7 @@ fn refusal(keys: &str) -> Option<String> {
     let target = Target {
         runs_on: RunsOn::Board,
         gate: None,
+        classes: None,
         overrides: "",
     };
     let built = config::build::<f32>(&scene, target);

@@ -61,6 +61,7 @@ fn is_taken(scene: &Scene) -> bool {
         let target = Target {
             runs_on: RunsOn::Board,
             gate: None,
+            classes: None,
             overrides: "",
         };
         let Ok(config) = config::build::<R>(scene, target) else {

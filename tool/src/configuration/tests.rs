@@ -4,6 +4,7 @@ use config::{RunsOn, Target};
 use firmware::BoardCode;
 use firmware::boards::ALL;
 use host_sim::bench::config_of;
+use host_sim::classifier::Classifier;
 use host_sim::loaded::Loaded;
 use scene::{Override, Scene};
 use whisking::FormatCode;
@@ -37,12 +38,15 @@ fn a_configuration_is_made_again_from_its_scene() {
             assert_eq!(running.program().board, board.code);
             count += 1;
         }
-        let gate = loaded.classifier().unwrap().and_then(|of| of.touch_rule());
+        let classifier = loaded.classifier().unwrap();
+        let gate = classifier.as_ref().and_then(Classifier::touch_rule);
         let gate = gate.map(|touch| touch.gate);
+        let classes = classifier.as_ref().map(Classifier::settings);
         let records = model.is_none();
         let target = Target {
             runs_on: RunsOn::Simulation { records },
             gate,
+            classes,
             overrides: "",
         };
         let running = Running::of_scene(scene, BoardCode::Simulation, target).unwrap();
@@ -50,7 +54,7 @@ fn a_configuration_is_made_again_from_its_scene() {
         assert_eq!(again, running, "{}", file.display());
         if running.program().format == FormatCode::Single {
             // As host-sim has it.
-            let made = config_of::<f32>(scene, gate, records, "").unwrap();
+            let made = config_of::<f32>(scene, (gate, classes), records, "").unwrap();
             let made = firmware::encode(&made, BoardCode::Simulation).unwrap();
             assert_eq!(running.bytes(), &*made, "{}", file.display());
         }
@@ -67,6 +71,7 @@ fn what_differs_is_named() {
         let target = Target {
             runs_on: RunsOn::Board,
             gate: None,
+            classes: None,
             overrides: "",
         };
         Running::of_scene(&scene, BoardCode::NucleoF446re, target).unwrap()

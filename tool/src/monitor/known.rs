@@ -5,7 +5,7 @@ use std::path::Path;
 use host_sim::classifier::Classifier;
 use host_sim::loaded::Loaded;
 use host_sim::{Error, files};
-use scene::{Deciding, Rule};
+use scene::Rule;
 
 /// How sure a classifier must be where no scene says it.
 const THRESHOLD: f64 = 0.99;
@@ -23,18 +23,20 @@ impl Known {
     /// That of a scene, with another model or its own; none without either.
     pub(crate) fn of(scene: Option<&Path>, model: Option<&Path>) -> Result<Option<Self>, Error> {
         let loaded = scene.map(Loaded::new).transpose()?;
-        let said = loaded.as_ref().and_then(|of| of.scene.classifier.as_ref());
+        let said = loaded.as_ref().map(|of| &of.scene);
+        let said = said.filter(|scene| scene.classifier.is_some());
         let classifier = match (model, &loaded) {
             (Some(path), _) => {
                 let (_, model) = files::load_model(path)?;
-                let rule = said.map_or(
-                    Rule::Sequential {
-                        threshold: THRESHOLD,
-                    },
-                    |said| said.rule,
-                );
-                let deciding = said.map_or(Deciding::First, |said| said.whiskers);
-                let classifier = Classifier::of(model, rule, deciding);
+                let classifier = match said {
+                    Some(scene) => Classifier::of_scene(model, scene),
+                    None => Classifier::new(
+                        model,
+                        Rule::Sequential {
+                            threshold: THRESHOLD,
+                        },
+                    ),
+                };
                 Some(classifier.map_err(|fault| Error::file(path, fault))?)
             }
             (None, Some(loaded)) => loaded.classifier()?,

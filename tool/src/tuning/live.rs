@@ -85,7 +85,7 @@ fn noise(scene: &mut Scene) -> Option<&mut f64> {
 fn threshold(scene: &mut Scene) -> Option<&mut f64> {
     match &mut scene.classifier.as_mut()?.rule {
         Rule::Sequential { threshold } => Some(threshold),
-        Rule::Window { .. } => None,
+        Rule::Costs { .. } | Rule::Window { .. } => None,
     }
 }
 

@@ -3,9 +3,10 @@
 use tactile::Deciding;
 
 use crate::choice::choice;
-use crate::key::Condition::{self, Is};
-use crate::key::{Key, between, integer, number, path, word};
+use crate::key::Condition::{self, Given, Is, IsWithout};
+use crate::key::{Key, between, integer, number, path, per_class, positive, word};
 use crate::keys::keys;
+use crate::kind::Range;
 use crate::values::{Part, Read};
 
 choice! {
@@ -26,6 +27,13 @@ pub enum Rule {
         /// Posterior probability, strictly between 0 and 1.
         threshold: f64,
     },
+    /// The same, at the thresholds that cost least on average.
+    Costs {
+        /// The cost of a wrong decision.
+        error: f64,
+        /// The cost of a second of contact before a decision, in the same unit.
+        delay_per_s: f64,
+    },
     /// Maximum likelihood over fixed windows (LEP10, Lepora et al. 2010).
     Window {
         /// Samples in a window, at least 1.
@@ -36,8 +44,14 @@ pub enum Rule {
 impl Read for Rule {
     fn read(from: Part<'_>, key: &'static str) -> Option<Self> {
         Some(match from.get(key)? {
-            RuleName::Sequential => Self::Sequential {
-                threshold: from.get("threshold")?,
+            RuleName::Sequential => match from.get("cost_error") {
+                Some(error) => Self::Costs {
+                    error,
+                    delay_per_s: from.get("cost_delay_per_s")?,
+                },
+                None => Self::Sequential {
+                    threshold: from.get("threshold")?,
+                },
             },
             RuleName::Window => Self::Window {
                 samples: from.get("window")?,
@@ -49,6 +63,12 @@ impl Read for Rule {
 choice! { for Deciding { First = "first", Each = "each", Together = "together" } }
 
 const SEQUENTIAL: &[Condition] = &[Is("rule", RuleName::Sequential.name())];
+const THRESHOLD: &[Condition] = &[IsWithout("rule", RuleName::Sequential.name(), "cost_error")];
+/// What is left for others must be worth a number, and nothing that is certain need be felt.
+const SHARE: Range = Range {
+    with_low: true,
+    ..Range::open(1e-6, 1.0)
+};
 const WINDOW: &[Condition] = &[Is("rule", RuleName::Window.name())];
 
 /// One of the rules' words, with the key that the rule asks for.
@@ -69,7 +89,29 @@ keys! {
         ),
 
         /// Posterior probability at which a class is decided on.
-        (threshold): f64 = between(0.0, 1.0).required_if(SEQUENTIAL, "not used"),
+        (threshold): f64 = between(0.0, 1.0).required_if(THRESHOLD, "not used"),
+
+        /// Thresholds of classes in place of it, such as `{ p600 = 0.999 }`.
+        thresholds: Option<Vec<(String, f64)>> = per_class(Range::open(0.5, 1.0))
+            .only_if(SEQUENTIAL)
+            .optional("`threshold` holds for every class"),
+
+        /// How frequent classes are where the module works, such as `{ smooth = 0.9 }`: the priors
+        /// P(T_k) of LEP12 eq. 4. Classes that are not named share what is left evenly.
+        prior: Option<Vec<(String, f64)>> = per_class(SHARE)
+            .optional("all classes are equally frequent"),
+
+        /// Cost of a wrong decision, in any unit. With `cost_delay_per_s` it gives each class the
+        /// threshold that costs least on average ([start.md](start.md#say-what-is-frequent-and-what-errors-cost)), in place of
+        /// `threshold` and `thresholds`.
+        (cost_error): f64 = positive(1e9)
+            .only_if(SEQUENTIAL)
+            .required_if(&[Given("cost_delay_per_s")], "thresholds are given"),
+
+        /// Cost of a second of contact without a decision, in the unit of `cost_error`.
+        (cost_delay_per_s): f64 = positive(1e9)
+            .only_if(SEQUENTIAL)
+            .required_if(&[Given("cost_error")], "thresholds are given"),
 
         /// Length of the window.
         (window): u32 = integer(1..=1_000_000).unit("samples").required_if(WINDOW, "not used"),

@@ -104,6 +104,8 @@ fn every_key_reaches_its_field() {
         classifier: Some(ClassifierSection {
             rule: Rule::Sequential { threshold: 0.99 },
             model: Some("models/example.model".to_owned()),
+            thresholds: None,
+            prior: None,
             contact_min: None,
             whiskers: Deciding::First,
         }),

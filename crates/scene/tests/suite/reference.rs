@@ -21,7 +21,7 @@ fn rows_tell_type_range_unit_and_default() {
         "| `sides` | \"both\" or \"left\" |  | `\"both\"` | ",
         "| `kd` | a number from 0 to 1 | duty per degree/s | `0.0004` | ",
         "| `threshold` | a number above 0 and below 1 |  | \
-         an error if `rule = \"sequential\"`; else not used | ",
+         an error if `rule = \"sequential\"` without `cost_error`; else not used | ",
         "| `contact_min` | a number from 0 to 1 |  | \
          the gate of the model; without one every sample is classified | ",
     ] {

@@ -2,10 +2,11 @@
 //! together by the sum of their evidence.
 
 use proptest::prelude::*;
+use tactile::train::{Options, TrainError, Trainer};
 use tactile::{
-    Axis, Deciding, Decision, Floors, MAX_STREAMS, ModelBuf, ModelParts, Posteriors, Quantiser,
-    RuleSettings, Sequential, SetupError, StreamClassifier, TableParts, TableSource, Threshold,
-    TouchRule,
+    AnyRule, Axis, Deciding, Decision, Floors, MAX_STREAMS, ModelBuf, ModelParts, NaiveBayes,
+    Posteriors, Quantiser, RuleSettings, Sequential, SetupError, StreamClassifier, TableParts,
+    TableSource, Threshold, TouchRule,
 };
 
 use crate::common::{entry, model};
@@ -394,4 +395,73 @@ fn settings_are_stored_and_checked() {
     }
     let wrong = serde_json::from_str::<Threshold>("[0,0]");
     assert!(wrong.unwrap_err().to_string().contains("threshold"));
+}
+
+/// Two whiskers with tables of their own, whose shafts feel the same surfaces otherwise: 0 feels
+/// class 0 at 100 and class 1 at 900, 1 the other way round.
+fn own_tables() -> ModelBuf {
+    let options = Options {
+        bins: 10,
+        smooth: 0.5,
+        block: 4,
+    };
+    let mut trainer = Trainer::new(4, options).unwrap();
+    for n in 0..50 {
+        for (class, name) in ["a", "b"].into_iter().enumerate() {
+            for whisker in 0..2 {
+                let x = if class == whisker { 100.0 } else { 900.0 };
+                // Three samples of ten are as of the other class.
+                let x = if n % 10 < 3 { 1000.0 - x } else { x };
+                trainer.add_from(name, 2 * whisker, &[x, 500.0]).unwrap();
+            }
+        }
+    }
+    trainer.train().unwrap()
+}
+
+#[test]
+fn whiskers_decide_by_tables_of_their_own() {
+    let model = own_tables();
+    let rule = RuleSettings::Sequential(Threshold::new(0.9).unwrap());
+    let deciding = |deciding| StreamClassifier::new(model.view(), rule, deciding, 2).unwrap();
+    let mut each = deciding(Deciding::Each);
+    for (stream, code, class) in [(0, 100, 0), (1, 100, 1), (1, 900, 0), (0, 900, 1)] {
+        let decision = (0..40).find_map(|_| each.push_to(stream, &[code, 500]).unwrap());
+        assert_eq!(decision.unwrap().class(), Some(class), "{stream} {code}");
+    }
+    // Evidence of both adds up (BIOTACT eq. 15): half the samples of one, to the block.
+    let samples = |whiskers: usize, deciding| {
+        let mut c = StreamClassifier::new(model.view(), rule, deciding, 2).unwrap();
+        let decision = (0..80).find_map(|n| {
+            let stream = n % whiskers;
+            c.push_to(stream, &[[100, 900][stream], 500]).unwrap()
+        });
+        decision.unwrap().samples()
+    };
+    assert_eq!(samples(2, Deciding::Together), samples(1, Deciding::First));
+    // There is no third whisker in the model, and no whisker has one channel.
+    assert!(each.push_to(0, &[100]).is_err());
+    let mut three = StreamClassifier::new(model.view(), rule, Deciding::Each, 3).unwrap();
+    assert!(three.push_to(2, &[100, 500]).is_err());
+    // By the same samples of all whiskers in one row, as the papers train.
+    let mut alone = NaiveBayes::<AnyRule, _>::new(model.view(), rule).unwrap();
+    assert!(alone.push(&[100, 500]).is_err());
+    assert_eq!(alone.push(&[100, 500, 900, 500]), Ok(None));
+}
+
+#[test]
+fn a_class_that_a_whisker_never_felt_cannot_be_trained() {
+    let mut trainer = Trainer::new(4, Options::default()).unwrap();
+    trainer.add("a", &[1.0, 2.0, 3.0, 4.0]).unwrap();
+    trainer.add_from("b", 0, &[5.0, 6.0]).unwrap();
+    let error = trainer.train().unwrap_err();
+    assert_eq!(
+        error,
+        TrainError::Unfelt {
+            channel: 2,
+            class: 1
+        }
+    );
+    let outside = trainer.add_from("b", 4, &[5.0, 6.0]);
+    assert!(matches!(outside, Err(TrainError::Channels { .. })));
 }

@@ -6,6 +6,7 @@ mod common;
 mod joint;
 mod model_file;
 mod opinion;
+mod priors;
 mod rules;
 mod score;
 mod touch_detector;

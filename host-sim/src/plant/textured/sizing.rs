@@ -54,7 +54,7 @@ fn textures_are_distinguished_but_not_for_certain() {
     let training = TEXTURES.map(|texture| record(texture, 20, 1 + texture as u64));
     let trainer = Trainer::new(2, Options::default()).unwrap();
     let rule = Rule::Sequential { threshold: 0.99 };
-    let model = training::single(trainer, &training, GATE).unwrap();
+    let model = training::single(trainer, &training, GATE, false).unwrap();
     let mut replay = Replay::new(model, rule).unwrap();
     let mut decided = Vec::new();
     for texture in TEXTURES {
