@@ -98,6 +98,9 @@ fn a_class_keeps_its_spot_as_in_the_paper_and_none_where_things_are_drawn_again(
     assert_eq!([2, 3].map(|angle| spots.place(angle, 4)), [2, 3]);
 }
 
+/// The least and the most of x and y.
+type Fill = ([f32; 2], [f32; 2]);
+
 /// What each rig's file says of its full scale: signals fill the range, and few are clipped but
 /// on the head, whose front whiskers clip where eq. 11 does.
 #[test]
@@ -107,9 +110,8 @@ fn signals_fill_the_range_of_every_sensor() {
     let fast = table::jobs(extent) / 2 - 4;
     let sweeps = pad::jobs(extent) / pad::PAPERS;
     let floors = [0, 1, 2, 3].map(|of| floor::number(extent, of, RobotMotion::Clockwise, 0));
-    // The data set's record, its jobs, channels, largest code, and the least and the most that the
-    // 99.9 % quantiles of x and y fill.
-    type Fill = ([f32; 2], [f32; 2]);
+    // The data set's record, its jobs, channels and largest code, and between what shares of the
+    // range the 99.9 % quantiles of x and y are.
     let all: [(Record, Vec<usize>, usize, f32, Fill); 4] = [
         (
             floor::record,
