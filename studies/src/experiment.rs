@@ -6,14 +6,19 @@
 //! - **data set**: recordings of one rig under all its conditions.
 //! - **job**: what one recording comes of: a trial, a visit, a contact, a sweep.
 //! - **claim**: something that must come out of the mechanism, beyond noise.
-//! - **placebo**: the same with one texture at one place under all labels.
+//! - **arm**: an experiment by the papers' protocol, or with what they keep drawn again; as it is,
+//!   or as a placebo.
+//! - **placebo**: the same with one texture under all labels.
 //!
 //! A run records the data sets that the chosen experiments need, a job at a
 //! time on all cores, and then evaluates them. Recordings depend on the seed,
 //! the data set and the job alone, so neither the number of cores nor what else is
 //! recorded changes a byte.
 
+mod arm;
+mod asked;
 mod biotact;
+mod changes;
 mod data;
 mod floors;
 mod lep10;
@@ -21,8 +26,8 @@ mod lep12;
 mod matrix;
 mod pose;
 mod product;
-mod protocol;
 mod psik;
+mod ranges;
 mod record;
 mod recording;
 mod request;
@@ -32,7 +37,7 @@ mod spectrogram;
 mod verdicts;
 mod whole;
 
-pub(crate) use protocol::Protocol;
+pub(crate) use asked::Asked;
 pub(crate) use runs::run;
 
 #[cfg(test)]

@@ -26,7 +26,7 @@ use host_sim::report::{program, say};
 
 use accuracy::LongRun;
 use decisions::Folders;
-use experiment::Protocol;
+use experiment::Asked;
 use page::Files;
 
 /// The laboratory: the papers' experiments on simulated rigs, the accuracy report, and
@@ -48,7 +48,7 @@ struct Arguments {
 enum Command {
     /// Runs the experiments of the papers on simulated rigs and writes
     /// DIR/experiments.md with tables and figures beside the papers'
-    Experiment(Protocol),
+    Experiment(Asked),
     /// Measures the accuracy of every integrator and number format and writes
     /// DIR/accuracy.md with its pictures
     Report {
@@ -98,18 +98,23 @@ enum Command {
 
 /// Runs experiments. Writes the page, its pictures and, where asked for, their data. Returns what
 /// was done.
-fn experiments(protocol: &Protocol, verbosity: Verbosity) -> Result<String> {
+fn experiments(asked: &Asked, verbosity: Verbosity) -> Result<String> {
     let write = |folder: &Path, files: &Files| {
         let mut all = files.iter();
         all.try_for_each(|(name, text)| Ok(write_whole(&folder.join(name), text.as_bytes())?))
     };
-    let files = experiment::run(protocol, verbosity, &mut |data| match &protocol.data {
+    let mut keep = |data: &Files| match &asked.data {
         Some(folder) => write(folder, data),
         None => Ok(()),
+    };
+    let mut page = String::new();
+    experiment::run(asked, verbosity, &mut keep, &mut |files| {
+        page = files
+            .last()
+            .map_or_else(String::new, |(name, _)| name.clone());
+        write(&asked.out, files)
     })?;
-    write(&protocol.out, &files)?;
-    let page = files.last().map_or("", |(name, _)| name);
-    Ok(protocol.out.join(page).display().to_string())
+    Ok(asked.out.join(page).display().to_string())
 }
 
 /// Writes generated files into the folder `out`, or with `check` says whether those that are there
@@ -140,7 +145,7 @@ fn keep(out: &Path, files: &Files, check: bool, what: &str, command: &str) -> Re
 fn work(arguments: Arguments) -> Result<()> {
     let verbosity = Verbosity::of(arguments.quiet);
     say(match arguments.command {
-        Command::Experiment(protocol) => experiments(&protocol, verbosity)?,
+        Command::Experiment(asked) => experiments(&asked, verbosity)?,
         Command::Report {
             out,
             quick,

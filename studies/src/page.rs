@@ -9,7 +9,7 @@ use std::fmt::{Display, Write};
 use tactile::score::Confusion;
 
 use crate::chart::{Panel, draw};
-pub(crate) use figure::{figure, joined};
+pub(crate) use figure::{figure, joined, joined_beside};
 
 pub(crate) type Files = Vec<(String, String)>;
 
@@ -19,6 +19,8 @@ pub(crate) struct Recognition {
     /// A hit rate in percent, or κ.
     pub(crate) rate: f64,
     pub(crate) chance: f64,
+    /// Chance where textures alone cannot be told; none where no texture is asked for.
+    pub(crate) of_textures: Option<f64>,
 }
 
 /// Something that must come out of one seed.
@@ -36,9 +38,18 @@ pub(crate) struct Claim {
 }
 
 impl Claim {
-    /// Says on which rate it rests, where chance has that.
+    /// Says on which rate of textures it rests, where chance has that.
     pub(crate) fn rests_on(&mut self, rate: f64, chance: f64) {
-        self.recognition = Some(Recognition { rate, chance });
+        self.rests_on_both(rate, chance, Some(chance));
+    }
+
+    /// The same of textures and something else, of whose chance `of_textures` is the textures'.
+    pub(crate) fn rests_on_both(&mut self, rate: f64, chance: f64, of_textures: Option<f64>) {
+        self.recognition = Some(Recognition {
+            rate,
+            chance,
+            of_textures,
+        });
     }
 }
 
@@ -60,8 +71,41 @@ pub(crate) struct Shown {
     pub(crate) panels: Vec<Panel>,
 }
 
+/// Begins a paragraph that stands on one page alone of those that are put beside each other.
+const ALONE: char = '\u{1}';
+
+/// The texts of some pages and of `others`, which lack what stands [alone](Page::is_alone) on
+/// those, as one: figures of both beside each other. None where words differ.
+pub(crate) fn beside_others(pages: &[&str], others: &[&str]) -> Option<String> {
+    let paragraphs = |text: &&'_ str| text.split("\n\n").map(str::to_owned).collect();
+    let all: Vec<Vec<String>> = pages.iter().chain(others).map(paragraphs).collect();
+    let (pages, others) = all.split_at(pages.len());
+    let mut paragraphs = Vec::new();
+    let mut shared = 0;
+    for n in 0..pages.first()?.len() {
+        let of = |all: &[Vec<String>], n: usize| -> Option<Vec<String>> {
+            all.iter().map(|one| one.get(n).cloned()).collect()
+        };
+        let ours = of(pages, n)?;
+        let ours: Vec<&str> = ours.iter().map(String::as_str).collect();
+        let text = if ours.first()?.starts_with(ALONE) {
+            joined(&ours)?.replace(ALONE, "")
+        } else {
+            let theirs = of(others, shared)?;
+            let theirs: Vec<&str> = theirs.iter().map(String::as_str).collect();
+            shared += 1;
+            let groups = [&ours[..], &theirs[..]];
+            joined_beside(&groups[..if theirs.is_empty() { 1 } else { 2 }])?
+        };
+        paragraphs.push(text);
+    }
+    Some(paragraphs.join("\n\n"))
+}
+
 #[derive(Debug, Default)]
 pub(crate) struct Page {
+    /// Whether what is said now stands on this page alone of those beside it.
+    pub(crate) is_alone: bool,
     /// Where pictures are, beside the page.
     pub(crate) folder: &'static str,
     pub(crate) text: String,
@@ -80,7 +124,14 @@ impl Page {
         }
     }
 
+    fn begin(&mut self) {
+        if self.is_alone {
+            self.text.push(ALONE);
+        }
+    }
+
     pub(crate) fn say(&mut self, paragraph: impl Display) {
+        self.begin();
         // Writing to a string does not fail.
         let _ = write!(self.text, "{paragraph}\n\n");
     }
@@ -91,6 +142,7 @@ impl Page {
 
     /// A table; `header` cells are divided by `|`.
     pub(crate) fn table(&mut self, header: &str, rows: impl IntoIterator<Item = Vec<String>>) {
+        self.begin();
         let columns = header.split('|').count();
         let _ = writeln!(self.text, "| {} |", header.trim());
         let _ = writeln!(self.text, "|{}", "---|".repeat(columns));
@@ -136,7 +188,7 @@ impl Page {
         &mut self.claims[last]
     }
 
-    /// Adds a classifier's score: its hit rate in percent, and that of chance.
+    /// Adds a classifier's score of textures: its hit rate in percent, and that of chance.
     pub(crate) fn score(
         &mut self,
         classifier: &'static str,
@@ -144,10 +196,25 @@ impl Page {
         hit: f64,
         chance: f64,
     ) {
+        self.score_both(classifier, task, hit, (chance, Some(chance)));
+    }
+
+    /// The same of textures and something else, with the chance where textures alone cannot be told.
+    pub(crate) fn score_both(
+        &mut self,
+        classifier: &'static str,
+        task: impl Display,
+        hit: f64,
+        (chance, of_textures): (f64, Option<f64>),
+    ) {
         self.scores.push(Score {
             classifier,
             task: task.to_string(),
-            recognition: Recognition { rate: hit, chance },
+            recognition: Recognition {
+                rate: hit,
+                chance,
+                of_textures,
+            },
             decided: None,
         });
     }

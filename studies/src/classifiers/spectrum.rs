@@ -81,6 +81,15 @@ impl Spectrum {
         block: impl Iterator<Item = f64>,
         measure: Measure,
     ) -> Result<Vec<f64>> {
+        let measured = |x: &Complex<f64>| match measure {
+            Measure::Magnitude => x.norm(),
+            Measure::Power => x.norm_sqr(),
+        };
+        Ok(self.complex(block)?.iter().map(measured).collect())
+    }
+
+    /// X(k) itself.
+    pub(crate) fn complex(&self, block: impl Iterator<Item = f64>) -> Result<Vec<Complex<f64>>> {
         let mut input: Vec<f64> = block.collect();
         if input.len() > self.bins.points {
             bail!("a block longer than its transform");
@@ -88,17 +97,8 @@ impl Spectrum {
         input.resize(self.bins.points, 0.0);
         let mut output = self.plan.make_output_vec();
         self.plan.process(&mut input, &mut output)?;
-        let measured = |x: &Complex<f64>| match measure {
-            Measure::Magnitude => x.norm(),
-            Measure::Power => x.norm_sqr(),
-        };
         let Bins { first, count, .. } = self.bins;
-        Ok(output
-            .iter()
-            .skip(first)
-            .take(count)
-            .map(measured)
-            .collect())
+        Ok(output.into_iter().skip(first).take(count).collect())
     }
 }
 

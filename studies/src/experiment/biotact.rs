@@ -13,14 +13,15 @@ mod whisks;
 use anyhow::Result;
 use rayon::prelude::*;
 
-use super::recording::Recordings;
-use super::request::Request;
+use super::ranges;
+use super::recording::{Dataset, Recordings};
+use super::request::{Depth, Request};
 use crate::chart::{Mark, Series, linear, panel, percent};
 use crate::page::{Page, figure, row};
 use crate::paper::biotact::{
     DISTANCES_MM, FIG10_RCP7_SEVEN, FIG11_TEXTURE, MOST_TRAINING, SAID, STRATEGIES, TEXTURES,
 };
-use crate::rigs::{Chance, seed_of};
+use crate::rigs::{CHANNELS, Chance, seed_of};
 use whisks::{Method, Task, Visits};
 
 /// Random choices of training whisks that a hit rate is the mean of.
@@ -89,17 +90,21 @@ pub(super) fn evaluate(page: &mut Page, request: &Request, recordings: &Recordin
         "Six whiskers of 80, 112 and 158 mm (`studies/rigs/head.toml`), moved by the module's pattern \
          generator in closed loop with what they feel, each by a motor under the module's \
          position control, before {} textures at {} distances, {} \
-         whisks each. The arm's error and the spot of the surface are drawn again for each whisk. \
-         Friction leaves motors a dead band of {:.2} degrees. A hit rate is the mean over {DRAWS} random choices of training whisks; all \
-         other whisks validate. The paper's curves are drawn without numbers; its text says: {}.",
+         whisks each. Friction leaves motors a dead band of {:.2} degrees. A hit rate is the mean over {DRAWS} random choices of training whisks; all \
+         other whisks validate. The generator steps by its exact integrator, where the paper has \
+         forward Euler: free whisking peaks at 121.9 degrees in place of 122.9. The paper's curves are drawn without numbers; its text says: {}.",
         TEXTURES.len(),
         DISTANCES_MM.len(),
         request.extent.whisks(),
         request.rigs.head.motor.dead_band_deg(),
         SAID.join("; ")
     ));
-    patterns::section(page)?;
-    array::section(page, request)?;
+    if request.depth == Depth::Whole {
+        page.is_alone = true;
+        patterns::section(page)?;
+        array::section(page, request)?;
+        page.is_alone = false;
+    }
     for (method, figure) in Method::ALL.into_iter().zip(["10", "11"]) {
         let mut panels = Vec::new();
         for task in Task::ALL {
@@ -126,13 +131,20 @@ pub(super) fn evaluate(page: &mut Page, request: &Request, recordings: &Recordin
         for task in Task::ALL {
             let name = method.score_name();
             let what = format!("{}, RCP7, {most} whisks", task.text());
-            page.score(name, what, hits.at(method, task, 1, most), task.chance());
+            let hit = hits.at(method, task, 1, most);
+            page.score_both(name, what, hit, (task.chance(), task.chance_of_textures()));
         }
     }
     claims(page, &hits, most);
     own::of_one_whisker(page, &visits, request.rigs.head.tick_hz, most)?;
-    movement::section(page, request, recordings);
-    histories::section(page, request, recordings)?;
+    let of = (request, recordings);
+    ranges::say(page, of, (Dataset::Head, CHANNELS), 8191.0);
+    if request.depth == Depth::Whole {
+        page.is_alone = true;
+        movement::section(page, request, recordings);
+        histories::section(page, request, recordings)?;
+        page.is_alone = false;
+    }
     Ok(())
 }
 
@@ -170,7 +182,7 @@ fn claims(page: &mut Page, hits: &Hits, most: usize) {
                 ),
                 ((rcp7 - rcp9).min(rcp9 - plain), "points"),
             )
-            .rests_on(rcp7, Task::Both.chance());
+            .rests_on_both(rcp7, Task::Both.chance(), Task::Both.chance_of_textures());
         }
     }
     let bayes = |task, strategy, count| hits.at(Method::Bayes, task, strategy, count);
@@ -184,7 +196,7 @@ fn claims(page: &mut Page, hits: &Hits, most: usize) {
         format_args!("{} %", one(seven)),
         (seven - NEARLY_ALL, "points"),
     )
-    .rests_on(seven, Task::Both.chance());
+    .rests_on_both(seven, Task::Both.chance(), Task::Both.chance_of_textures());
     let [joint, texture, distance] = Task::ALL.map(|task| bayes(task, 0, most));
     let product = texture * distance / 100.0;
     page.claim(
@@ -202,7 +214,7 @@ fn claims(page: &mut Page, hits: &Hits, most: usize) {
         ),
         (NEARLY - (joint - product).abs(), "points"),
     )
-    .rests_on(joint, Task::Both.chance());
+    .rests_on_both(joint, Task::Both.chance(), Task::Both.chance_of_textures());
     let template = hits.at(Method::Template, Task::Texture, 0, most);
     page.claim(
         "BIOTACT: on texture alone naive Bayes beats the template (unmodulated)",
@@ -226,5 +238,5 @@ fn claims(page: &mut Page, hits: &Hits, most: usize) {
         ),
         (plain - rcp7.max(rcp9), "points"),
     )
-    .rests_on(plain, Task::Distance.chance());
+    .rests_on_both(plain, Task::Distance.chance(), None);
 }

@@ -5,7 +5,8 @@ use std::fmt::Display;
 
 use host_sim::origin::Origin;
 
-use super::protocol::Protocol;
+use super::arm::Arm;
+use super::asked::{Asked, Part};
 use super::record::corridor::FELT;
 use super::record::pads::INPUTS;
 use super::recording::{Dataset, Job, Recording, Recordings};
@@ -14,13 +15,13 @@ use crate::page::Files;
 use crate::rigs::CHANNELS;
 
 /// What stands above a table.
-fn origin(protocol: &Protocol, seeds: impl Display) -> Origin {
+fn origin(asked: &Asked, seeds: impl Display) -> Origin {
     let said = Origin::default()
         .with("version", env!("CARGO_PKG_VERSION"))
         .with("seed", seeds);
-    let folder = protocol.rigs.iter();
+    let folder = asked.rigs.iter();
     let said = folder.fold(said, |said, folder| said.with("rigs", folder.display()));
-    let settings = protocol.set.iter();
+    let settings = asked.set.iter();
     settings.fold(said, |said, setting| said.with("set", setting))
 }
 
@@ -41,24 +42,33 @@ fn table(
     String::from_utf8(text).map_err(anyhow::Error::new)
 }
 
-/// The data of every figure, all seeds in one file.
-pub(super) fn figures(protocol: &Protocol, bodies: &Bodies) -> Result<Files> {
-    let seeds = protocol.all_seeds();
+/// The data of every figure of a part, all seeds and both protocols in one file.
+pub(super) fn figures(asked: &Asked, part: &Part, bodies: &Bodies) -> Result<Files> {
+    let seeds = part.seeds.clone();
     let last = seeds.end.saturating_sub(1);
-    let origin = origin(protocol, format_args!("{} to {last}", seeds.start));
-    let header = ["seed", "panel", "curve", "x", "y"].map(str::to_owned);
+    let origin = origin(asked, format_args!("{} to {last}", seeds.start));
+    let header = ["seed", "protocol", "panel", "curve", "x", "y"].map(str::to_owned);
     let mut files = Files::new();
-    let shown = bodies.pages.first().map_or(&[][..], |page| &page.shown);
-    for (n, first) in shown.iter().enumerate() {
+    let shown = bodies.of(Arm::MAIN).first();
+    for first in shown.map_or(&[][..], |page| &page.shown) {
         let mut rows = Vec::new();
-        for (seed, page) in seeds.clone().zip(&bodies.pages) {
-            for panel in page.shown.get(n).map_or(&[][..], |shown| &shown.panels) {
-                for series in &panel.series {
-                    let of = |(x, y): &(f64, f64)| {
-                        let named = [seed.to_string(), panel.title.clone(), series.name.clone()];
-                        named.into_iter().chain([x.to_string(), y.to_string()])
-                    };
-                    rows.extend(series.points.iter().map(|point| of(point).collect()));
+        for arm in [Arm::MAIN, Arm::AGAIN] {
+            for (seed, page) in seeds.clone().zip(bodies.of(arm)) {
+                let shown = page.shown.iter().find(|shown| shown.name == first.name);
+                for panel in shown.map_or(&[][..], |shown| &shown.panels) {
+                    for series in &panel.series {
+                        let of = |(x, y): &(f64, f64)| {
+                            [
+                                seed.to_string(),
+                                arm.protocol.text().to_owned(),
+                                panel.title.clone(),
+                                series.name.clone(),
+                                x.to_string(),
+                                y.to_string(),
+                            ]
+                        };
+                        rows.extend(series.points.iter().map(|point| of(point).to_vec()));
+                    }
                 }
             }
         }
@@ -91,8 +101,8 @@ fn columns(dataset: Dataset, count: usize) -> Vec<String> {
 }
 
 /// Every recording of a seed, each in a file of its own.
-pub(super) fn recordings(protocol: &Protocol, seed: u64, all: &Recordings) -> Result<Files> {
-    let origin = origin(protocol, seed);
+pub(super) fn recordings(asked: &Asked, seed: u64, all: &Recordings) -> Result<Files> {
+    let origin = origin(asked, seed);
     let one = |(job, recording): (&Job, &Recording)| {
         let header = columns(job.dataset, recording.channels);
         let samples = recording.values.chunks(recording.channels.max(1));

@@ -2,7 +2,8 @@
 //! (turning on the spot) against natural motion (autonomous).
 
 use super::floors::{Floors, Half, Stream, Tally, train};
-use super::recording::Recordings;
+use super::ranges;
+use super::recording::{Dataset, Recordings};
 use super::request::Request;
 use crate::chart::{Series, over_windows};
 use crate::classifiers::recogniser::{Bayes, Picked};
@@ -40,7 +41,7 @@ pub(super) fn evaluate(page: &mut Page, request: &Request, recordings: &Recordin
         "A passive whisker dragged over four floors by a small robot (`studies/rigs/floor.toml`). \
          Likelihoods in bins of 10 mV, smoothed over 100 mV, from the first half of each trial \
          (four of each rotation, eight of natural motion); the second half is cut into windows. In the tables a row is the true floor, a column \
-         what was decided, and a cell holds the paper's percentage and **ours**.",
+         what was decided, and a cell holds the paper's percentage and **ours**, as in the paper and drawn again.",
     );
 
     let window = floors.samples(WINDOW_S) as u32;
@@ -94,6 +95,8 @@ pub(super) fn evaluate(page: &mut Page, request: &Request, recordings: &Recordin
         page.score(name, "four floors", mean, CHANCE);
     }
     claims(page, &means, &hits, knee);
+    let of = (request, recordings);
+    ranges::say(page, of, (Dataset::Floor, 2), 8191.0);
     Ok(())
 }
 

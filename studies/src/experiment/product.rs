@@ -73,6 +73,7 @@ fn cells(
         recognition: Recognition {
             rate: right,
             chance: 100.0 / task.classes as f64,
+            of_textures: Some(100.0 / task.classes as f64),
         },
         decided: Some(decided),
     });

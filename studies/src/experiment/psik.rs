@@ -10,14 +10,15 @@ use anyhow::{Context, Result};
 use rayon::prelude::*;
 use tactile::score::Confusion;
 
+use super::ranges;
 use super::record::pad::PAPERS;
 use super::recording::{Dataset, Recordings, of_set};
-use super::request::Request;
+use super::request::{Depth, Request};
 use crate::chart::{Mark, Series, linear, panel, percent};
 use crate::page::{Page, confusion, figure, row};
 use crate::paper::psik::{ARCS, FIG6_THREE_ARCS, TABLE_2, VIBRISSAE};
 use crate::rigs::seed_of;
-use sweeps::{NAMES, Sweeps, hit, mean_hit};
+use sweeps::{NAMES, Sweeps, hit, hit_of_p40, mean_hit};
 
 /// Chance of naming a sandpaper, percent.
 const CHANCE: f64 = 100.0 / PAPERS as f64;
@@ -41,7 +42,8 @@ pub(super) fn evaluate(page: &mut Page, request: &Request, recordings: &Recordin
         "A pad of {VIBRISSAE} vibrissae in eight arcs swept over eight sandpapers \
          (`studies/rigs/pad.toml`); the IMP of each, summed over the sweep, goes to a network of 33–33–8 \
          units, whose penalty on weights is chosen by a fifth of the training sweeps that is held \
-         out. {training} sweeps of each paper to train on and {testing} to test with. The \
+         out. {training} sweeps of each paper to train on and {testing} to test with, where the \
+         paper has 300 and 100; training is by L-BFGS, where it is by iRPROP there. The \
          paper's grits vary from P180 to P50, and it does not say which lie between; here {} from \
          coarse to fine, of which P40 is ours.",
         NAMES.join(", ")
@@ -62,16 +64,23 @@ pub(super) fn evaluate(page: &mut Page, request: &Request, recordings: &Recordin
     let mean = mean_hit(&TABLE_2);
     page.say(format_args!(
         "**Table 2**: all vibrissae; a row is the true paper, a column what was decided. Mean \
-         {mean:.1} % in the paper, **{} %** here.",
-        figure(hit(all), 1)
+         {mean:.1} % in the paper, **{} %** here of its own grades, P50 to P180, and **{} %** of P40. \
+         Rates below are of its own grades, among all eight.",
+        figure(hit(all), 1),
+        figure(hit_of_p40(all), 1)
     ));
     let paper = |truth: usize, named: usize| TABLE_2[truth][named];
     confusion(page, &NAMES, &paper, all);
     figures(page, &more, &single, &borders)?;
     claims(page, &more);
+    // Codes of 8 bits, as wide as those of 14.
+    let most = 127.0 * 64.0;
+    ranges::say(page, (request, recordings), (Dataset::Vibrissa, 2), most);
     let name = "IMP and network 33–33–8";
     page.score(name, "eight sandpapers", hit(all), CHANCE);
-    corridor::section(page, request, recordings)?;
+    if request.depth >= Depth::Textures {
+        corridor::section(page, request, recordings)?;
+    }
     own::of_one_vibrissa(page, request, recordings)
 }
 

@@ -10,7 +10,7 @@ pub(crate) mod table;
 mod whiskers;
 
 use super::recording::{Dataset, Job, Recording, Recordings};
-use super::request::{Extent, Request};
+use super::request::{Depth, Extent, Request};
 use crate::cores::each;
 use crate::rigs::seed_of;
 use anyhow::{Context, Result};
@@ -33,6 +33,7 @@ pub(crate) fn jobs(request: &Request) -> Vec<Job> {
     let mut datasets: Vec<Dataset> = names.flat_map(|name| name.datasets()).copied().collect();
     datasets.sort_unstable();
     datasets.dedup();
+    datasets.retain(|dataset| *dataset != Dataset::Corridor || request.depth >= Depth::Textures);
     let of = |dataset| all(dataset, request.extent);
     datasets.into_iter().flat_map(of).collect()
 }

@@ -1,8 +1,9 @@
 //! What was asked for: which experiments, how much of them, from which seed
 //! and on which rigs.
 
+use super::arm::{Arm, Placebo, Protocol};
 use super::recording::Dataset;
-use crate::rigs::Rigs;
+use crate::rigs::{Chance, Rigs, seed_of};
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum Name {
@@ -109,14 +110,65 @@ pub(crate) struct Request {
     /// All chance comes from it.
     pub(crate) seed: u64,
     pub(crate) rigs: Rigs,
-    /// Whether all classes are one: same textures at the same place, under different labels.
-    pub(crate) is_placebo: bool,
+    pub(crate) arm: Arm,
+    pub(crate) depth: Depth,
+}
+
+/// What of an experiment is done, each with what is before it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) enum Depth {
+    /// Textures, without the corridors of PSIK, which take the most time.
+    Least,
+    /// All in which textures are told apart, but for PSIK's maze.
+    Textures,
+    /// What has no textures in it, too.
+    Whole,
 }
 
 impl Request {
-    /// The class that is recorded for `class`: itself, or that of all in a placebo.
-    pub(crate) const fn felt(&self, class: usize, of_placebo: usize) -> usize {
-        if self.is_placebo { of_placebo } else { class }
+    /// The texture that is felt for `texture`: itself, or that of all in a placebo.
+    pub(crate) fn texture(&self, texture: usize, of_placebo: usize) -> usize {
+        if self.arm.placebo.is_some() {
+            of_placebo
+        } else {
+            texture
+        }
+    }
+
+    /// The distance, angle or speed that is felt for `place`: itself, or that of all where labels
+    /// alone differ.
+    pub(crate) fn place(&self, place: usize, of_placebo: usize) -> usize {
+        if self.arm.placebo == Some(Placebo::Labels) {
+            of_placebo
+        } else {
+            place
+        }
+    }
+
+    /// The seed of what is set up once: as in the papers for a label of texture, and for a `trial`
+    /// of it where it has several; else for each recording, whose seed is given.
+    pub(crate) fn set_up(
+        &self,
+        dataset: Dataset,
+        (label, trial): (usize, usize),
+        recording: u64,
+    ) -> u64 {
+        /// Apart from the seeds of jobs.
+        const KEPT: u64 = 1 << 32;
+        if self.arm.protocol == Protocol::DrawnAgain {
+            return seed_of(recording, &[KEPT]);
+        }
+        let label = self.place(label, 0) as u64;
+        seed_of(
+            self.seed,
+            &[dataset.drawn_as() as u64, KEPT, label, trial as u64],
+        )
+    }
+
+    /// The spot of a surface that is met, m along and across it, within a metre either way.
+    pub(crate) fn spot_m(&self, dataset: Dataset, label: usize, recording: u64) -> [f64; 2] {
+        let mut chance = Chance::new(self.set_up(dataset, (label, 0), recording));
+        [0, 1].map(|_| chance.between(-1.0, 1.0))
     }
 
     /// A quick run on the rigs that are built in.
@@ -127,7 +179,8 @@ impl Request {
             extent: Extent::Quick,
             seed,
             rigs: Rigs::load(None, &[]).unwrap(),
-            is_placebo: false,
+            arm: Arm::MAIN,
+            depth: Depth::Whole,
         }
     }
 }

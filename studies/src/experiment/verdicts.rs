@@ -1,23 +1,25 @@
-//! What becomes of claims over several seeds and beside a placebo.
+//! What becomes of claims over several seeds, by both protocols and beside placebos.
 
+use super::arm::{Arm, Protocol};
 use crate::moments::{SURE, Summary, VERY_SURE};
 use crate::page::{Claim, Page, Recognition, joined};
 use anyhow::{Context, Result, bail};
 
-/// Pages of the seeds: as it is, and of placebos.
+/// Pages of the seeds, by arms.
 #[derive(Debug, Default)]
-pub(super) struct Bodies {
-    pub(super) pages: Vec<Page>,
-    pub(super) placebos: Vec<Page>,
-}
+pub(super) struct Bodies(Vec<(Arm, Vec<Page>)>);
 
 impl Bodies {
-    pub(super) const fn of(&mut self, is_placebo: bool) -> &mut Vec<Page> {
-        if is_placebo {
-            &mut self.placebos
-        } else {
-            &mut self.pages
+    pub(super) fn add(&mut self, arm: Arm, page: Page) {
+        match self.0.iter_mut().find(|(of, _)| *of == arm) {
+            Some((_, pages)) => pages.push(page),
+            None => self.0.push((arm, vec![page])),
         }
+    }
+
+    pub(super) fn of(&self, arm: Arm) -> &[Page] {
+        let found = self.0.iter().find(|(of, _)| *of == arm);
+        found.map_or(&[], |(_, pages)| pages)
     }
 }
 
@@ -28,7 +30,7 @@ pub(super) enum Verdict {
     NotMet,
     /// The seeds do not say whether it does.
     WithinNoise,
-    /// Its placebo is recognised too, so that it says nothing.
+    /// Labels alone are recognised too, so that it says nothing.
     DoesNotCount,
 }
 
@@ -43,54 +45,77 @@ impl Verdict {
     }
 }
 
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Placebo {
-    rate: Summary,
+/// How well something is recognised over the seeds, and how well by chance.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Recognised {
+    rates: Vec<f64>,
     chance: f64,
 }
 
-impl Placebo {
-    fn of(found: &[Recognition]) -> Option<Self> {
-        let chance = found.first()?.chance;
-        let rates: Vec<f64> = found.iter().map(|found| found.rate).collect();
-        let rate = Summary::of(&rates);
-        Some(Self { rate, chance })
+impl Recognised {
+    /// Of the claims or scores of some seeds; none if there are none.
+    pub(super) fn of(
+        found: impl Iterator<Item = Recognition>,
+        chance: impl Fn(&Recognition) -> Option<f64>,
+    ) -> Option<Self> {
+        let found: Vec<Recognition> = found.filter(|found| found.rate.is_finite()).collect();
+        Some(Self {
+            chance: chance(found.first()?)?,
+            rates: found.iter().map(|found| found.rate).collect(),
+        })
+    }
+
+    fn rate(&self) -> Summary {
+        Summary::of(&self.rates)
     }
 
     /// Whether it is recognised no better and no worse than by chance. Very sure, as a page has
     /// dozens of placebos: of a hundred that are at chance one is taken for none.
-    fn is_at_chance(&self) -> bool {
-        let off = (self.rate.mean - self.chance).abs();
+    pub(super) fn is_at_chance(&self) -> bool {
+        let rate = self.rate();
         // Rates that are all chance's to the last bit but for rounding have no error.
-        off <= self.rate.half_interval(&VERY_SURE) + 1e-9
+        (rate.mean - self.chance).abs() <= rate.half_interval(&VERY_SURE) + 1e-9
     }
 
-    pub(super) fn text(&self) -> String {
+    /// Whether it is recognised, and no worse than `other` on the same seeds.
+    pub(super) fn is_as_good_as(&self, other: &Self) -> bool {
+        let pairs = other.rates.iter().zip(&self.rates);
+        let short: Vec<f64> = pairs.map(|(other, this)| other - this).collect();
+        let short = Summary::of(&short);
+        !self.is_at_chance() && short.mean <= short.half_interval(&SURE) + 1e-9
+    }
+
+    /// The rate and in brackets chance, bold where that is asked for.
+    pub(super) fn text(&self, is_bold: bool) -> String {
         // κ has another scale than percent.
         let digits = if self.chance > 1.0 { 1 } else { 2 };
-        let Self { rate, chance } = self;
-        let text = format!("{} ({chance:.digits$})", rate.text(digits, false));
-        if self.is_at_chance() {
-            text
-        } else {
-            format!("**{text}**")
-        }
+        let text = format!(
+            "{} ({:.digits$})",
+            self.rate().text(digits, false),
+            self.chance
+        );
+        if is_bold { format!("**{text}**") } else { text }
     }
 }
 
+/// A claim by one protocol.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Judged {
-    pub(super) what: String,
-    pub(super) paper: String,
     pub(super) ours: String,
     pub(super) margin: Summary,
-    pub(super) unit: &'static str,
-    pub(super) placebo: Option<Placebo>,
+    unit: &'static str,
+    rate: Option<Recognised>,
+    /// The placebo of labels.
+    pub(super) labels: Option<Recognised>,
 }
 
 impl Judged {
     pub(super) fn verdict(&self) -> Verdict {
-        if self.placebo.is_some_and(|placebo| !placebo.is_at_chance()) {
+        if self
+            .labels
+            .as_ref()
+            .is_some_and(|labels| !labels.is_at_chance())
+        {
             return Verdict::DoesNotCount;
         }
         let half = self.margin.half_interval(&SURE);
@@ -105,90 +130,170 @@ impl Judged {
 
     /// The margin; without its error where no chance is in it.
     pub(super) fn margin_text(&self) -> String {
-        let is_certain = self.placebo.is_none() && self.margin.error <= 0.0;
+        let is_certain = self.rate.is_none() && self.margin.error <= 0.0;
         let count = if is_certain { 1 } else { self.margin.count };
-        Summary {
+        let margin = Summary {
             count,
             ..self.margin
-        }
-        .text(self.digits(), true)
-    }
-
-    /// Digits behind the point of the margin.
-    fn digits(&self) -> usize {
-        if self.unit.contains('θ') {
-            4
-        } else if self.unit.contains('κ') {
-            2
-        } else {
-            1
-        }
+        };
+        format!("{} {}", margin.text(digits(self.unit), true), self.unit)
     }
 }
 
-fn of_all(pages: &[Page], n: usize) -> impl Iterator<Item = &Claim> {
-    pages.iter().filter_map(move |page| page.claims.get(n))
+/// Digits behind the point of a margin in this unit.
+pub(super) fn digits(unit: &str) -> usize {
+    if unit.contains('θ') {
+        4
+    } else if unit.contains('κ') {
+        2
+    } else {
+        1
+    }
 }
 
-pub(super) fn judged(pages: &[Page], placebos: &[Page]) -> Result<Vec<Judged>> {
-    let claims = pages.first().map_or(&[][..], |page| &page.claims);
-    let one = |(n, claim): (usize, &Claim)| {
-        let ours: Vec<&str> = of_all(pages, n).map(|claim| &*claim.ours).collect();
-        let same = of_all(pages, n).filter(|other| other.what == claim.what);
-        let margins: Vec<f64> = same.map(|claim| claim.margin).collect();
-        if margins.len() != pages.len() {
-            bail!("seeds differ in {:?}", claim.what);
+/// A claim by both protocols.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Both {
+    pub(super) what: String,
+    pub(super) paper: String,
+    pub(super) kept: Judged,
+    /// None where nothing can be drawn again.
+    pub(super) again: Option<Judged>,
+    /// The placebo of spots.
+    pub(super) spots: Option<Recognised>,
+}
+
+impl Both {
+    pub(super) fn by(&self, protocol: Protocol) -> Option<&Judged> {
+        match protocol {
+            Protocol::AsInPaper => Some(&self.kept),
+            Protocol::DrawnAgain => self.again.as_ref(),
         }
-        let found: Vec<Recognition> = of_all(placebos, n)
-            .filter_map(|claim| claim.recognition)
-            .collect();
-        Ok(Judged {
+    }
+
+    /// Whether spots of one texture are told apart as well as textures are.
+    pub(super) fn may_be_the_spot(&self) -> bool {
+        let both = self.spots.as_ref().zip(self.kept.rate.as_ref());
+        both.is_some_and(|(spots, textures)| spots.is_as_good_as(textures))
+    }
+}
+
+pub(super) fn claims_of<'p>(pages: &'p [Page], what: &'p str) -> impl Iterator<Item = &'p Claim> {
+    let of = move |page: &'p Page| page.claims.iter().find(|claim| claim.what == what);
+    pages.iter().filter_map(of)
+}
+
+/// The margin of a claim over the seeds.
+pub(super) fn margins(pages: &[Page], what: &str) -> Summary {
+    let margins: Vec<f64> = claims_of(pages, what).map(|claim| claim.margin).collect();
+    Summary::of(&margins)
+}
+
+fn judged(pages: &[Page], labels: &[Page], claim: &Claim) -> Result<Judged> {
+    let found = || claims_of(pages, &claim.what);
+    if found().count() != pages.len() {
+        bail!("seeds differ in {:?}", claim.what);
+    }
+    let ours: Vec<&str> = found().map(|claim| &*claim.ours).collect();
+    let recognised = |pages| {
+        let found = claims_of(pages, &claim.what).filter_map(|claim| claim.recognition);
+        Recognised::of(found, |found| Some(found.chance))
+    };
+    Ok(Judged {
+        ours: joined(&ours).with_context(|| format!("seeds differ in words: {ours:?}"))?,
+        margin: margins(pages, &claim.what),
+        unit: claim.unit,
+        rate: recognised(pages),
+        labels: recognised(labels),
+    })
+}
+
+pub(super) fn all_judged(bodies: &Bodies) -> Result<Vec<Both>> {
+    let main = bodies.of(Arm::MAIN);
+    let one = |claim: &Claim| {
+        let again = bodies.of(Arm::AGAIN);
+        let is_there = claims_of(again, &claim.what).next().is_some();
+        let judged_again = || judged(again, bodies.of(Arm::AGAIN_LABELS), claim);
+        let spots = claims_of(bodies.of(Arm::SPOTS), &claim.what);
+        Ok(Both {
             what: claim.what.clone(),
             paper: claim.paper.clone(),
-            ours: joined(&ours).with_context(|| format!("seeds differ in words: {ours:?}"))?,
-            margin: Summary::of(&margins),
-            unit: claim.unit,
-            placebo: Placebo::of(&found),
+            kept: judged(main, bodies.of(Arm::LABELS), claim)?,
+            again: is_there.then(judged_again).transpose()?,
+            spots: Recognised::of(spots.filter_map(|claim| claim.recognition), |found| {
+                found.of_textures
+            }),
         })
     };
-    claims.iter().enumerate().map(one).collect()
+    let claims = main.first().map_or(&[][..], |page| &page.claims);
+    claims.iter().map(one).collect()
 }
 
 #[cfg(test)]
 mod tests {
-    use super::{Verdict, judged};
+    use super::{Arm, Bodies, Both, Verdict, all_judged};
     use crate::page::{Page, figure};
 
-    fn pages(margins: &[f64], rates: &[f64]) -> Vec<Page> {
-        let page = |(margin, rate): (&f64, &f64)| {
-            let mut page = Page::default();
-            let ours = format!("{} points", figure(*margin, 1));
-            let claim = page.claim("a beats b", "so", ours, (*margin, "points"));
-            claim.rests_on(*rate, 25.0);
-            page
-        };
-        margins.iter().zip(rates).map(page).collect()
+    fn bodies(arms: &[(Arm, [f64; 5], [f64; 5])]) -> Bodies {
+        let mut bodies = Bodies::default();
+        for (arm, margins, rates) in arms {
+            for (margin, rate) in margins.iter().zip(rates) {
+                let mut page = Page::default();
+                let ours = format!("{} points", figure(*margin, 1));
+                let claim = page.claim("a beats b", "so", ours, (*margin, "points"));
+                claim.rests_on(*rate, 25.0);
+                bodies.add(*arm, page);
+            }
+        }
+        bodies
     }
 
+    fn both(arms: &[(Arm, [f64; 5], [f64; 5])]) -> Both {
+        all_judged(&bodies(arms)).unwrap().remove(0)
+    }
+
+    const CHANCE: [f64; 5] = [24.0, 26.0, 25.0, 27.0, 23.5];
+
     #[test]
-    fn a_claim_is_met_beyond_its_noise_and_counts_if_its_placebo_is_at_chance() {
-        let chance = pages(&[0.0; 5], &[24.0, 26.0, 25.0, 27.0, 23.5]);
-        let leak = pages(&[0.0; 5], &[29.0, 30.0, 31.0, 30.0, 29.0]);
-        let verdict = |margins: [f64; 5], placebos| {
-            let found = judged(&pages(&margins, &[90.0; 5]), placebos).unwrap();
-            found[0].verdict()
+    fn a_claim_is_met_beyond_its_noise_and_counts_if_labels_alone_are_at_chance() {
+        let verdict = |margins: [f64; 5], labels: [f64; 5]| {
+            let arms = [
+                (Arm::MAIN, margins, [90.0; 5]),
+                (Arm::LABELS, [0.0; 5], labels),
+            ];
+            both(&arms).kept.verdict()
         };
         // Errors of the means: 0.32; the interval is 2.776 times as wide.
         let margins = [1.0, 2.0, 2.0, 3.0, 2.0];
-        assert_eq!(verdict(margins, &chance), Verdict::Met);
+        assert_eq!(verdict(margins, CHANCE), Verdict::Met);
         assert_eq!(
-            verdict(margins.map(|m| m - 1.5), &chance),
+            verdict(margins.map(|m| m - 1.5), CHANCE),
             Verdict::WithinNoise
         );
-        assert_eq!(verdict(margins.map(|m| m - 4.0), &chance), Verdict::NotMet);
-        assert_eq!(verdict(margins, &leak), Verdict::DoesNotCount);
+        assert_eq!(verdict(margins.map(|m| m - 4.0), CHANCE), Verdict::NotMet);
+        let leak = [29.0, 30.0, 31.0, 30.0, 29.0];
+        assert_eq!(verdict(margins, leak), Verdict::DoesNotCount);
         // Whoever is worse than chance knows the classes too.
-        let worse = pages(&[0.0; 5], &[20.0, 21.0, 20.0, 21.0, 20.0]);
-        assert_eq!(verdict(margins, &worse), Verdict::DoesNotCount);
+        let worse = [20.0, 21.0, 20.0, 21.0, 20.0];
+        assert_eq!(verdict(margins, worse), Verdict::DoesNotCount);
+    }
+
+    #[test]
+    fn what_may_be_the_spot_is_told_as_well_by_spots_on_the_same_seeds() {
+        let rates = [80.0, 84.0, 82.0, 83.0, 81.0];
+        let of = |spots: [f64; 5]| {
+            let arms = [(Arm::MAIN, [1.0; 5], rates), (Arm::SPOTS, [0.0; 5], spots)];
+            both(&arms).may_be_the_spot()
+        };
+        assert!(of(rates.map(|rate| rate + 1.0)));
+        assert!(of([79.0, 85.0, 82.0, 84.0, 79.0]));
+        // Worse by two points, each seed beside its own.
+        assert!(!of([78.0, 82.0, 80.5, 81.0, 79.0]));
+        assert!(!of(CHANCE));
+    }
+
+    #[test]
+    fn a_claim_without_anything_to_draw_again_stands_alone() {
+        assert!(both(&[(Arm::MAIN, [1.0; 5], [90.0; 5])]).again.is_none());
     }
 }

@@ -47,34 +47,50 @@ fn parts(text: &str) -> Option<(Parts<'_>, &str)> {
     Some((parts, rest))
 }
 
+fn all_parts<'t>(texts: &[&'t str]) -> Option<Vec<(Parts<'t>, &'t str)>> {
+    texts.iter().map(|text| parts(text)).collect()
+}
+
 /// One text of several that differ in their figures alone: means, with their standard errors
 /// if there are two texts or more, of those figures that are numbers. None where anything else differs.
 pub(crate) fn joined(texts: &[&str]) -> Option<String> {
-    let all: Option<Vec<_>> = texts.iter().map(|text| parts(text)).collect();
+    joined_beside(&[texts])
+}
+
+/// The same of groups of texts: the means of each group, divided by `/`, or one where all are
+/// the same.
+pub(crate) fn joined_beside(groups: &[&[&str]]) -> Option<String> {
+    let all: Option<Vec<_>> = groups.iter().map(|texts| all_parts(texts)).collect();
     let all = all?;
-    let (first, end) = all.first()?;
+    let (first, end) = all.first()?.first()?;
+    let is_same = |(parts, last): &(Parts<'_>, &str)| parts.len() == first.len() && last == end;
+    if !all.iter().flatten().all(is_same) {
+        return None;
+    }
     let mut text = String::new();
     for (n, (before, is_signed, digits, _)) in first.iter().enumerate() {
-        let mut values = Vec::with_capacity(all.len());
-        for (parts, _) in &all {
-            let (other, _, _, value) = parts.get(n)?;
-            if other != before {
-                return None;
-            }
-            values.push(*value);
-        }
         text.push_str(before);
-        // What is missing in a text has no part in the mean.
-        values.retain(|value| value.is_finite());
-        if values.is_empty() {
-            text.push('–');
-        } else {
-            text.push_str(&Summary::of(&values).text(*digits, *is_signed));
+        let mut means: Vec<String> = Vec::with_capacity(all.len());
+        for group in &all {
+            let mut values = Vec::with_capacity(group.len());
+            for (parts, _) in group {
+                let (other, _, _, value) = parts.get(n)?;
+                if other != before {
+                    return None;
+                }
+                values.push(*value);
+            }
+            // What is missing in a text has no part in the mean.
+            values.retain(|value| value.is_finite());
+            let mean = Summary::of(&values).text(*digits, *is_signed);
+            means.push(if values.is_empty() {
+                "–".to_owned()
+            } else {
+                mean
+            });
         }
-    }
-    let is_same = |(parts, last): &(Parts<'_>, &str)| parts.len() == first.len() && last == end;
-    if !all.iter().all(is_same) {
-        return None;
+        means.dedup();
+        text.push_str(&means.join(" / "));
     }
     text.push_str(end);
     Some(text)
@@ -82,7 +98,7 @@ pub(crate) fn joined(texts: &[&str]) -> Option<String> {
 
 #[cfg(test)]
 mod tests {
-    use super::{figure, joined};
+    use super::{figure, joined, joined_beside};
 
     #[test]
     fn figures_of_several_texts_become_means_with_their_errors() {
@@ -95,6 +111,10 @@ mod tests {
         assert_eq!(joined(&texts[..1]).unwrap(), "x 80.0 %, -2 points");
         let none = figure(f64::NAN, 1).to_string();
         assert_eq!(joined(&[&none, &none]).unwrap(), "–");
+        let beside = [&texts[..], &texts[..1]];
+        let found = joined_beside(&beside).unwrap();
+        assert_eq!(found, "x 82.0 ± 1.2 / 80.0 %, +1 ± 2 / -2 points");
+        assert_eq!(joined_beside(&[&texts, &texts]), joined(&texts));
         let one = figure(2.0, 1).to_string();
         assert_eq!(joined(&[&none, &one]).unwrap(), "2.0");
     }

@@ -25,8 +25,8 @@ keys! {
     start_spread_m: f64 => 0.0..=rig.width_m / 2.0,
     start_spread_deg: f64 => 0.0..=45.0,
     smooth_s: f64 => 1e-3..=100.0,
-    spot_spread_m: f64 => 0.0..=1.0,
     full_scale_rad: f64 => 1e-4..=3.0,
+    follicle: f64 => 0.01..=100.0,
     layout: Layout,
 }
 

@@ -28,6 +28,7 @@ keys! {
     mount_bearing_deg: f64 => -180.0..=180.0,
     azimuth_deg: f64 => -90.0..=90.0,
     elevation_deg: f64 => -80.0..=-1.0,
+    roll_deg: f64 => -90.0..=90.0,
     press_m: f64 => 0.0..=0.1,
     press_sd_m: f64 => 0.0..=0.1,
     placements: usize => 1.0..=16.0,
@@ -40,6 +41,10 @@ keys! {
     leg_least_s: f64 => 0.01..=1e3,
     leg_most_s: f64 => rig.leg_least_s..=1e3,
     full_scale_rad: [f64; 2] => 1e-4..=3.0,
+    follicle: f64 => 0.01..=100.0,
+    dead_hz: f64 => 0.0..=100.0,
+    dead_s: f64 => 1e-3..=100.0,
+    missed_hz: f64 => 0.0..=1000.0,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -78,16 +83,17 @@ impl Floor {
         (self.trial_s * self.tick_hz).round() as usize
     }
 
-    /// A robot somewhere on a large floor with a whisker of `length_m`; `height_m` is the
-    /// root mean square of the floor's heights.
+    /// A robot with a whisker of `length_m`; `height_m` is the root mean square of the floor's
+    /// heights. Where on a large floor it is set down, and how deep it presses, come of the seed
+    /// `set_up`; how it goes, of `seed`.
     pub(crate) fn drive(
         &self,
         motion: RobotMotion,
         length_m: f64,
         height_m: f64,
-        seed: u64,
+        (set_up, seed): (u64, u64),
     ) -> Drive<'_> {
-        let mut chance = Chance::new(seed);
+        let mut chance = Chance::new(set_up);
         let reach = length_m * libm::sin(-self.elevation_deg.to_radians());
         let press = self.press_m + self.press_sd_m * chance.normal();
         let mut drive = Drive {
@@ -101,7 +107,7 @@ impl Floor {
             now: [0.0; 2],
             wanted: [0.0; 2],
             left_s: 0.0,
-            chance,
+            chance: Chance::new(seed),
         };
         drive.choose();
         drive.now = drive.wanted;
@@ -155,7 +161,9 @@ impl Drive<'_> {
         let mount = turn(rim.map(|part| part * rig.mount_radius_m), self.heading);
         let base_m = add([self.place[0], self.place[1], height], 1.0, mount);
         let shaft = turn(direction(rig.azimuth_deg, rig.elevation_deg), self.heading);
-        let x = turn(direction(rig.azimuth_deg + 90.0, 0.0), self.heading);
+        let level = turn(direction(rig.azimuth_deg + 90.0, 0.0), self.heading);
+        let (aside, upright) = libm::sincos(rig.roll_deg.to_radians());
+        let x = add(level.map(|part| upright * part), aside, cross(shaft, level));
         let y = cross(shaft, x);
         Pose { base_m, x, y }
     }
@@ -183,7 +191,7 @@ mod tests {
             (RobotMotion::Anticlockwise, 1.0),
             (RobotMotion::Clockwise, -1.0),
         ] {
-            let mut drive = rig.drive(motion, length, 1e-3, 4);
+            let mut drive = rig.drive(motion, length, 1e-3, (4, 4));
             let centre = [drive.place[0], drive.place[1], 0.0];
             let mut tips = Vec::new();
             for _ in 0..2000 {
@@ -211,7 +219,7 @@ mod tests {
     #[test]
     fn autonomous_motion_turns_both_ways_and_runs_forward() {
         let rig = calm();
-        let mut drive = rig.drive(RobotMotion::Autonomous, 0.2, 1e-3, 9);
+        let mut drive = rig.drive(RobotMotion::Autonomous, 0.2, 1e-3, (9, 9));
         let mut seen = [0_u32; 3];
         for _ in 0..rig.ticks() * 4 {
             drive.step();

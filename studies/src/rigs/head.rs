@@ -32,6 +32,7 @@ keys! {
     placement_sd_m: f64 => 0.0..=0.1,
     spot_spread_m: f64 => 0.0..=0.1,
     pitch_deg: f64 => -60.0..=60.0,
+    follicle: f64 => 0.01..=100.0,
     smooth_bins: f64 => 0.0..=50.0,
     full_scale_rad: f64 => 1e-4..=3.0,
     motor: PositionControl,
@@ -43,6 +44,8 @@ pub(crate) struct Visit<'a> {
     /// From the front of the head to the surface, m.
     pub(crate) distance_m: f64,
     pub(crate) surface: &'a Surface,
+    /// The spot of it that is met, m along and up it.
+    pub(crate) spot_m: [f64; 2],
     /// RCP, if whisking is modulated.
     pub(crate) rcp: Option<GateSettings>,
     pub(crate) whisks: usize,
@@ -84,15 +87,12 @@ impl WhiskingHead {
         let (sine, cosine) = libm::sincos(self.pitch_deg.to_radians());
         let distance_m = visit.distance_m + self.placement_sd_m * chance.normal();
         let spread = self.spot_spread_m;
+        let spot = visit.spot_m.map(|m| m + chance.between(-spread, spread));
         let along = [0.0, 1.0, 0.0];
         let up = [sine, 0.0, cosine];
-        let aside = add(
-            [distance_m, 0.0, 0.0],
-            chance.between(-spread, spread),
-            along,
-        );
+        let aside = add([distance_m, 0.0, 0.0], spot[0], along);
         Plate {
-            point_m: add(aside, chance.between(-spread, spread), up),
+            point_m: add(aside, spot[1], up),
             normal: [-cosine, 0.0, sine],
             along,
             surface: *visit.surface,
@@ -108,6 +108,8 @@ impl WhiskingHead {
         let settings = Settings {
             tick_hz: self.tick_hz,
             frequency_hz: self.whisk_hz,
+            // The module's; the paper has forward Euler, by which free whisking peaks at 122.9 degrees
+            // in place of 121.9.
             integrator: Integrator::Exact,
             coupling: true,
             noise: self.noise,
@@ -209,6 +211,7 @@ mod tests {
         Visit {
             distance_m: 0.01,
             surface,
+            spot_m: [0.0; 2],
             rcp: None,
             whisks,
             seed: 1,

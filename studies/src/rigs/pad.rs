@@ -96,6 +96,7 @@ keys! {
     sweep_s: f64 => 0.01..=100.0,
     bits: usize => 2.0..=14.0,
     full_scale_rad: f64 => 1e-4..=3.0,
+    follicle: f64 => 0.01..=100.0,
     layout: Layout,
 }
 
@@ -168,6 +169,10 @@ mod tests {
                 tip[0] - rig.distance_m
             };
             assert!(beyond(0) < 0.0 && beyond(rig.ticks()) < 0.0);
+            // No base comes nearer to the sheet than its own radius.
+            let base = |tick| panned(&vibrissa.pose, rig.pan(tick)).base_m[0];
+            let nearest = (0..=rig.ticks()).map(base).fold(f64::MIN, f64::max);
+            assert!(nearest < rig.distance_m - 0.002, "{vibrissa:?}: {nearest}");
             let most = (0..rig.ticks()).map(beyond).fold(f64::MIN, f64::max);
             assert!(most > 0.002, "{vibrissa:?}: {most}");
         }

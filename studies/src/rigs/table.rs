@@ -21,11 +21,12 @@ keys! {
     retract_m_s: f64 => 0.001..=10.0,
     acceleration_m_s2: f64 => 0.1..=1000.0,
     half_window: usize => 1.0..=1e6,
-    spot_spread_m: f64 => 0.0..=0.1,
     roll_deg: f64 => -60.0..=60.0,
     high_pass_hz: f64 => 0.0..=200.0,
+    low_pass_hz: f64 => 0.0..=2000.0,
     notch_quality: f64 => 0.0..=1000.0,
     full_scale_rad: f64 => 1e-4..=3.0,
+    follicle: f64 => 0.01..=100.0,
 }
 
 /// The carriage: where the object is along its way, and how fast.

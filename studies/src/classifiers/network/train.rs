@@ -3,7 +3,8 @@
 //! Back-propagation of the mean squared error of the outputs, minimised over the whole training
 //! set at once (batch training) by L-BFGS with the line search of Moré and Thuente. LEP12 section
 //! 5.2 minimises the same error by scaled conjugate gradients, PSIK section 3.2.1 by iRPROP; all
-//! three are batch methods that find a minimum near their random start.
+//! three are batch methods that find a minimum near their random start. That is a deviation from
+//! the papers, which the page names.
 //!
 //! A start can end in a poor minimum. So LEP12 used a network only if it named every class better
 //! than chance and averaged ten; training likewise starts again, and averaging is left to the

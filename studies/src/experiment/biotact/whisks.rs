@@ -66,6 +66,14 @@ impl Task {
         100.0 / classes as f64
     }
 
+    /// The hit rate of chance where distances are told without error and textures are not.
+    pub(super) const fn chance_of_textures(self) -> Option<f64> {
+        match self {
+            Self::Both | Self::Texture => Some(100.0 / TEXTURES.len() as f64),
+            Self::Distance => None,
+        }
+    }
+
     const fn class(self, texture: usize, distance: usize) -> usize {
         match self {
             Self::Both => texture * DISTANCES_MM.len() + distance,

@@ -28,8 +28,9 @@ struct Decisions {
 }
 
 impl Decisions {
+    /// Percent; no number where nothing is decided.
     fn error(&self) -> f64 {
-        100.0 * self.wrong / self.count.max(1.0)
+        100.0 * self.wrong / self.count
     }
 
     fn time(&self) -> f64 {

@@ -3,7 +3,7 @@
 //!
 //! Both take x and y, as the other classifiers do, up to 120 Hz: above that
 //! "the power is close to zero". The template takes every bin above zero
-//! frequency: the paper's spectra show no offset. The network's
+//! frequency: the paper's spectra show no offset; that it ends at 120 Hz is ours. The network's
 //! 120 inputs are 2 to 120 Hz in steps of 2 Hz of each of them (a transform of
 //! half a second, the 400 ms and zeros; the paper does not say how 120 inputs
 //! come of 400 ms).

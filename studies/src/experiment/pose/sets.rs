@@ -1,5 +1,9 @@
 //! The contacts, to train on and to test with.
 
+use anyhow::Result;
+use realfft::RealFftPlanner;
+use realfft::num_complex::Complex;
+
 use crate::experiment::record::table::{Contact, contacts};
 use crate::experiment::recording::{Dataset, Recordings, of_set};
 use crate::experiment::request::Request;
@@ -20,7 +24,7 @@ pub(super) struct Sets {
 }
 
 impl Sets {
-    pub(super) fn new(request: &Request, recordings: &Recordings) -> Self {
+    pub(super) fn new(request: &Request, recordings: &Recordings) -> Result<Self> {
         let all = of_set(recordings, Dataset::Table);
         let contacts = contacts(request.extent);
         let poses = contacts.len() / 2;
@@ -45,6 +49,7 @@ impl Sets {
                 sets.pairs[usize::from(time != first)].push((*contact, pairs));
                 let x: Vec<f64> = samples.iter().step_by(2).copied().collect();
                 let x = without_below(&x, table.high_pass_hz, table.tick_hz);
+                let x = low_passed(x, table.low_pass_hz, table.tick_hz)?;
                 if time == first {
                     sets.training.push((*contact, x));
                 } else {
@@ -52,8 +57,31 @@ impl Sets {
                 }
             }
         }
-        sets
+        Ok(sets)
     }
+}
+
+/// A signal without what is above `hz`, where that is above zero: bins of its transform beyond are
+/// set to zero, so that nothing is delayed.
+fn low_passed(x: Vec<f64>, hz: f64, rate_hz: f64) -> Result<Vec<f64>> {
+    if hz <= 0.0 {
+        return Ok(x);
+    }
+    let mut planner = RealFftPlanner::new();
+    let (there, back) = (
+        planner.plan_fft_forward(x.len()),
+        planner.plan_fft_inverse(x.len()),
+    );
+    let (mut input, mut bins) = (x, there.make_output_vec());
+    there.process(&mut input, &mut bins)?;
+    let count = input.len() as f64;
+    for (k, bin) in bins.iter_mut().enumerate() {
+        if k as f64 * rate_hz / count > hz {
+            *bin = Complex::default();
+        }
+    }
+    back.process(&mut bins, &mut input)?;
+    Ok(input.into_iter().map(|x| x / count).collect())
 }
 
 /// A signal without its harmonics below `hz`, as POSE sets X to zero below 6 Hz (eq. 5).
@@ -82,7 +110,7 @@ fn without_below(x: &[f64], hz: f64, rate_hz: f64) -> Vec<f64> {
 
 #[cfg(test)]
 mod tests {
-    use super::without_below;
+    use super::{low_passed, without_below};
 
     #[test]
     fn what_is_below_goes_and_the_rest_stays() {
@@ -93,6 +121,10 @@ mod tests {
         let left = without_below(&both, 6.0, 1e3);
         let error = (0..1000).map(|n| (left[n as usize] - fast(n)).abs());
         assert!(error.fold(0.0, f64::max) < 1e-9);
+        let left = low_passed(both.clone(), 5.5, 1e3).unwrap();
+        let error = (0..1000).map(|n| (left[n as usize] - 3.0 - slow(n)).abs());
+        assert!(error.fold(0.0, f64::max) < 1e-9);
+        assert_eq!(low_passed(both.clone(), 0.0, 1e3).unwrap(), both);
         assert_eq!(without_below(&both, 0.0, 1e3), both);
     }
 }

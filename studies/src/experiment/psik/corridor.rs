@@ -10,7 +10,7 @@ use crate::classifiers::network::Row;
 use crate::experiment::record::corridor::{COLUMNS, place};
 use crate::experiment::record::pads::INPUTS;
 use crate::experiment::recording::{Dataset, Recording, Recordings, of_set};
-use crate::experiment::request::Request;
+use crate::experiment::request::{Depth, Request};
 use crate::page::{Page, confusion, figure};
 use crate::paper::psik::{CORRIDORS, TABLE_3};
 use crate::rigs::seed_of;
@@ -102,5 +102,10 @@ pub(super) fn section(page: &mut Page, request: &Request, recordings: &Recording
         hit,
         CHANCE,
     );
-    maze::section(page, request, &network)
+    if request.depth == Depth::Whole {
+        page.is_alone = true;
+        maze::section(page, request, &network)?;
+        page.is_alone = false;
+    }
+    Ok(())
 }

@@ -303,7 +303,6 @@ pub(super) fn section(page: &mut Page, request: &Request, network: &Network) -> 
         "so",
         format_args!("{} %", figure(share, 1)),
         (share - ENOUGH, "points"),
-    )
-    .rests_on(share, CHANCE);
+    );
     Ok(())
 }

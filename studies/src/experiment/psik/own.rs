@@ -5,7 +5,7 @@ use crate::experiment::product::{Task, section, stream};
 use crate::experiment::record::corridor::{COLUMNS, FELT, place as in_corridor};
 use crate::experiment::record::pad::{PAPERS, place as on_paper};
 use crate::experiment::recording::{Dataset, Recordings, of_set};
-use crate::experiment::request::Request;
+use crate::experiment::request::{Depth, Request};
 use crate::page::Page;
 use crate::paper::psik::{CORRIDORS, RATE_HZ};
 use anyhow::Result;
@@ -45,6 +45,9 @@ pub(super) fn of_one_vibrissa(
         asked,
     );
 
+    if request.depth == Depth::Least {
+        return section(page, vec![papers]);
+    }
     let (training, tested, _) = request.extent.runs();
     let (mut taught, mut asked) = (Vec::new(), Vec::new());
     for (job, run) in of_set(recordings, Dataset::Corridor).iter().enumerate() {

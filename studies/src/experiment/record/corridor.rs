@@ -3,7 +3,7 @@
 
 use super::pads::{INPUTS, Pads, WINDOW};
 use super::whiskers;
-use crate::experiment::recording::Recording;
+use crate::experiment::recording::{Dataset, Recording};
 use crate::experiment::request::{Extent, Request};
 use crate::paper::psik::{CORRIDORS, RATE_HZ};
 use crate::rigs::{Chance, Robot, seed_of};
@@ -46,17 +46,16 @@ pub(crate) fn walls(case: usize) -> [usize; 2] {
 }
 
 pub(crate) fn relief(request: &Request, number: usize) -> physics::Surface {
-    whiskers::wall(&request.rigs.surfaces, request.felt(number, PLACEBO))
+    whiskers::wall(&request.rigs.surfaces, request.texture(number, PLACEBO))
 }
 
 /// The wall of a side, and where its relief begins.
 fn plate(request: &Request, side: usize, number: usize, seed: u64) -> Plate {
     let rig = &request.rigs.corridor;
     let left = if side == 0 { 1.0 } else { -1.0 };
-    let spread = rig.spot_spread_m;
-    let spot = Chance::new(seed_of(seed, &[0])).between(-spread, spread);
+    let [along, up] = request.spot_m(Dataset::Corridor, number, seed);
     Plate {
-        point_m: [spot, left * rig.width_m / 2.0, 0.0],
+        point_m: [along, left * rig.width_m / 2.0, up],
         normal: [0.0, -left, 0.0],
         along: [1.0, 0.0, 0.0],
         surface: relief(request, number),

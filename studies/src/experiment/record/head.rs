@@ -3,7 +3,7 @@
 //! they are looked at but not classified.
 
 use super::whiskers;
-use crate::experiment::recording::Recording;
+use crate::experiment::recording::{Dataset, Recording};
 use crate::experiment::request::Request;
 use crate::paper::biotact::{
     DISTANCES_MM, OBSTACLES_DEG, STRATEGIES, STRONG, TAU_Z_PERIODS, TEXTURES, WHISKERS,
@@ -50,17 +50,19 @@ pub(crate) fn record(request: &Request, job: usize, seed: u64) -> Result<Recordi
     } else {
         let (group, distance) = (job / DISTANCES_MM.len(), job % DISTANCES_MM.len());
         let (strategy, texture) = (group / TEXTURES.len(), group % TEXTURES.len());
-        let distance = request.felt(distance, PLACEBO.1);
-        let distance_m = DISTANCES_MM[distance] / 1000.0;
-        (strategy, request.felt(texture, PLACEBO.0), distance_m)
+        let distance_m = DISTANCES_MM[request.place(distance, PLACEBO.1)] / 1000.0;
+        (strategy, texture, distance_m)
     };
     let (gain, periods) = match STRATEGIES.get(strategy) {
         Some((_, gain)) => (*gain, TAU_Z_PERIODS),
         None => STRONG,
     };
-    let surface = whiskers::abrasive(&request.rigs.surfaces, texture);
+    let felt = request.texture(texture, PLACEBO.0);
+    let surface = whiskers::abrasive(&request.rigs.surfaces, felt);
     let visit = Visit {
         distance_m,
+        // The arm goes along its axis: one spot of a texture for all distances and strategies.
+        spot_m: request.spot_m(Dataset::Head, texture, seed),
         surface: &surface,
         rcp: (gain > 0.0).then_some(GateSettings {
             gain,
@@ -70,7 +72,7 @@ pub(crate) fn record(request: &Request, job: usize, seed: u64) -> Result<Recordi
         seed,
     };
     let felt = rig.visit(
-        &whiskers::head(),
+        &whiskers::head(rig.follicle),
         &whiskers::sensor([rig.full_scale_rad; 2]),
         &visit,
     )?;

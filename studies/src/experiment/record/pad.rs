@@ -3,7 +3,7 @@
 
 use super::whiskers;
 use crate::classifiers::imp::Imp;
-use crate::experiment::recording::Recording;
+use crate::experiment::recording::{Dataset, Recording};
 use crate::experiment::request::{Extent, Request};
 use crate::paper::psik::{ARCS, RATE_HZ, VIBRISSAE};
 use crate::rigs::{Chance, panned, seed_of};
@@ -51,12 +51,13 @@ fn sheet(request: &Request, job: usize, seed: u64) -> Plate {
     let (paper, _) = place(request.extent, job);
     let mut chance = Chance::new(seed_of(seed, &[0]));
     let sweep = rig.sweep(&mut chance);
-    let [along, up] = sweep.origin_m;
+    let spot = request.spot_m(Dataset::Pad, paper, seed);
+    let [along, up] = [0, 1].map(|k| spot[k] + sweep.origin_m[k]);
     Plate {
         point_m: [sweep.distance_m, along, up],
         normal: [-1.0, 0.0, 0.0],
         along: [0.0, 1.0, 0.0],
-        surface: whiskers::sandpaper(&request.rigs.surfaces, request.felt(paper, PLACEBO)),
+        surface: whiskers::sandpaper(&request.rigs.surfaces, request.texture(paper, PLACEBO)),
     }
 }
 
@@ -64,7 +65,7 @@ fn sheet(request: &Request, job: usize, seed: u64) -> Plate {
 pub(crate) fn record_one(request: &Request, job: usize, seed: u64) -> Result<Recording> {
     let rig = &request.rigs.pad;
     let plate = sheet(request, job, seed);
-    let mut whiskers = whiskers::pad(&rig.layout, rig.full_scale_rad, seed)?;
+    let mut whiskers = whiskers::pad(&rig.layout, (rig.full_scale_rad, rig.follicle), seed)?;
     let mut values = Vec::with_capacity(2 * rig.ticks());
     if let Some((vibrissa, whisker)) = whiskers.get_mut(ONE) {
         for tick in 0..rig.ticks() {
@@ -80,7 +81,7 @@ pub(crate) fn record_one(request: &Request, job: usize, seed: u64) -> Result<Rec
 pub(crate) fn record(request: &Request, job: usize, seed: u64) -> Result<Recording> {
     let rig = &request.rigs.pad;
     let plate = sheet(request, job, seed);
-    let mut whiskers = whiskers::pad(&rig.layout, rig.full_scale_rad, seed)?;
+    let mut whiskers = whiskers::pad(&rig.layout, (rig.full_scale_rad, rig.follicle), seed)?;
     let (mut imp, mut sums) = (Imp::new(WINDOW), [0_u32; VIBRISSAE]);
     let mut add = |window: [u32; VIBRISSAE]| {
         for (sum, imp) in sums.iter_mut().zip(window) {

@@ -44,7 +44,7 @@ impl Pads {
     pub(crate) fn new(rig: &Corridor, seeds: [u64; 2]) -> Result<Self> {
         let side = |seed| {
             anyhow::Ok(Side {
-                whiskers: whiskers::pad(&rig.layout, rig.full_scale_rad, seed)?,
+                whiskers: whiskers::pad(&rig.layout, (rig.full_scale_rad, rig.follicle), seed)?,
                 imp: Imp::new(WINDOW),
                 bent: [0.0; VIBRISSAE],
                 power: [0.0; VIBRISSAE],

@@ -1,7 +1,7 @@
 //! Contacts on the XY table: angles × speeds × textures, twice.
 
 use super::whiskers;
-use crate::experiment::recording::Recording;
+use crate::experiment::recording::{Dataset, Recording};
 use crate::experiment::request::{Extent, Request};
 use crate::paper::pose::{ANGLES_DEG, SPEEDS_MM_S, TEXTURES};
 use crate::rigs::{Carriage, Chance, Table, facing, seed_of};
@@ -58,12 +58,13 @@ pub(crate) fn record(request: &Request, job: usize, seed: u64) -> Result<Recordi
     let all = contacts(request.extent);
     let contact = all.get(job).context("no such contact")?;
     let rig = &request.rigs.table;
-    let speed = request.felt(contact.speed, PLACEBO.speed);
+    let speed = request.place(contact.speed, PLACEBO.speed);
     let speed_m_s = speeds().get(speed).copied().unwrap_or(0.0) / 1000.0;
-    let angle_deg = ANGLES_DEG[request.felt(contact.angle, PLACEBO.angle)];
-    let texture = request.felt(contact.texture, PLACEBO.texture);
+    let angle_deg = ANGLES_DEG[request.place(contact.angle, PLACEBO.angle)];
+    let texture = request.texture(contact.texture, PLACEBO.texture);
     let surface = whiskers::table_texture(&request.rigs.surfaces, texture);
-    let (codes, way) = approach(rig, angle_deg, speed_m_s, surface, seed)?;
+    let spot_m = request.spot_m(Dataset::Table, contact.texture, seed);
+    let (codes, way) = approach(rig, (angle_deg, speed_m_s), (surface, spot_m), seed)?;
 
     let x = |n: usize| codes.get(2 * n).copied().unwrap_or(0);
     let count = codes.len() / 2;
@@ -82,13 +83,12 @@ pub(crate) fn record(request: &Request, job: usize, seed: u64) -> Result<Recordi
     Ok(Recording::new(2, values))
 }
 
-/// One approach and withdrawal: codes of x and y, and which way the object
-/// went (1 or −1).
+/// One approach and withdrawal at an angle, degrees, and a speed, m/s, to a spot of a surface:
+/// codes of x and y, and which way the object went (1 or −1). Either way meets the same spot.
 fn approach(
     rig: &Table,
-    angle_deg: f64,
-    speed_m_s: f64,
-    surface: Surface,
+    (angle_deg, speed_m_s): (f64, f64),
+    (surface, spot_m): (Surface, [f64; 2]),
     seed: u64,
 ) -> Result<(Vec<i16>, f64)> {
     let dt_s = 1.0 / rig.tick_hz;
@@ -96,15 +96,13 @@ fn approach(
     let way = if chance.unit() < 0.5 { -1.0 } else { 1.0 };
     let gap = rig.gap_m + rig.gap_sd_m * chance.normal();
     let latency = rig.latency_s + rig.latency_spread_s * chance.between(-1.0, 1.0);
-    let shaft = Shaft::xy_table();
+    let shaft = whiskers::held(Shaft::xy_table(), rig.follicle);
     let sensor = whiskers::sensor([rig.full_scale_rad; 2]);
     let mut whisker = TouchingWhisker::new(&shaft, &sensor, seed_of(seed, &[1]))?;
     let (normal, along) = facing(angle_deg, rig.roll_deg, way);
-    let spread = rig.spot_spread_m;
-    let spot = [0, 1].map(|_| chance.between(-spread, spread));
     let across = cross(normal, along);
-    let origin = add([0.0, 0.0, shaft.length_m], spot[0], along);
-    let origin = add(origin, spot[1], across);
+    let origin = add([0.0, 0.0, shaft.length_m], spot_m[0], along);
+    let origin = add(origin, spot_m[1], across);
     let mut plate = Plate {
         point_m: origin,
         normal,

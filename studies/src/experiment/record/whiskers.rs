@@ -16,9 +16,15 @@ pub(crate) fn sensor(full_scale_rad: [f64; 2]) -> SensorSettings {
     }
 }
 
+/// A shaft whose follicle is so many times as stiff.
+pub(crate) fn held(mut shaft: Shaft, follicle: f64) -> Shaft {
+    shaft.follicle.rotation_n_m_rad *= follicle;
+    shaft
+}
+
 /// The whiskers of a side of the head, the front one first.
-pub(crate) fn head() -> [Shaft; 3] {
-    Biotact::ALL.map(Shaft::biotact)
+pub(crate) fn head(follicle: f64) -> [Shaft; 3] {
+    Biotact::ALL.map(|length| held(Shaft::biotact(length), follicle))
 }
 
 /// A floor by its place in LEP10's tables.
@@ -71,34 +77,29 @@ pub(crate) fn sandpaper(surfaces: &Surfaces, number: usize) -> Surface {
 
 type Arcs = Arc<Vec<(Shaft, Modes)>>;
 
-/// Those of each diameter of the tips that was asked for, by its bits: solving
-/// modes takes milliseconds, and there are a hundred thousand vibrissae to make.
-static ARC_SHAFTS: Mutex<BTreeMap<u64, Arcs>> = Mutex::new(BTreeMap::new());
+/// Those of each diameter of the tips and share of the follicle's stiffness that was asked for, by
+/// their bits: solving modes takes milliseconds, and there are a hundred thousand vibrissae to make.
+static ARC_SHAFTS: Mutex<BTreeMap<[u64; 2], Arcs>> = Mutex::new(BTreeMap::new());
 
 const MODES: usize = 3;
 
-fn arcs(tip_diameter_m: f64) -> Arcs {
+fn arcs(tip_diameter_m: f64, follicle: f64) -> Arcs {
     let of = |arc| {
-        let mut shaft = Shaft::psikharpax(arc);
+        let mut shaft = held(Shaft::psikharpax(arc), follicle);
         shaft.tip_diameter_m = tip_diameter_m.min(shaft.hub_diameter_m);
         shaft.modes(MODES).map(|modes| (shaft, modes))
     };
     // What another thread had to leave behind is whole: maps are only added to.
     let mut known = ARC_SHAFTS.lock().unwrap_or_else(PoisonError::into_inner);
     let new = || Arc::new((1..=ARCS.len()).filter_map(|arc| of(arc).ok()).collect());
-    let found = known.entry(tip_diameter_m.to_bits()).or_insert_with(new);
+    let asked = [tip_diameter_m, follicle].map(f64::to_bits);
+    let found = known.entry(asked).or_insert_with(new);
     Arc::clone(found)
 }
 
-/// A vibrissa of an arc, from 0, with the diameter of its tip. The sensor of the
-/// longest has the gain that is given; the same push aside turns shorter ones the
-/// more, and their sensors have the less.
-fn vibrissa(
-    (arc, tip_diameter_m): (usize, f64),
-    full_scale_rad: f64,
-    seed: u64,
-) -> Result<TouchingWhisker> {
-    let shafts = arcs(tip_diameter_m);
+/// A vibrissa of an arc, from 0, of all `shafts`. The sensor of the longest has the gain that is
+/// given; the same push aside turns shorter ones the more, and their sensors have the less.
+fn vibrissa(shafts: &Arcs, arc: usize, full_scale_rad: f64, seed: u64) -> Result<TouchingWhisker> {
     let (shaft, modes) = shafts.get(arc).context("no such arc")?;
     let longest = shafts
         .first()
@@ -114,13 +115,14 @@ fn vibrissa(
 /// The vibrissae of a pad, arc by arc, each with a seed of its own.
 pub(crate) fn pad(
     layout: &Layout,
-    full_scale_rad: f64,
+    (full_scale_rad, follicle): (f64, f64),
     seed: u64,
 ) -> Result<Vec<(Vibrissa, TouchingWhisker)>> {
+    let shafts = arcs(layout.tip_diameter_m, follicle);
     let vibrissae = layout.vibrissae().into_iter().enumerate();
     let make = |(n, of): (usize, Vibrissa)| {
         let seed = seed_of(seed, &[1, n as u64]);
-        let whisker = vibrissa((of.arc, layout.tip_diameter_m), full_scale_rad, seed)?;
+        let whisker = vibrissa(&shafts, of.arc, full_scale_rad, seed)?;
         Ok((of, whisker))
     };
     vibrissae.map(make).collect()
