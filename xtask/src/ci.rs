@@ -154,7 +154,7 @@ fn other_boards() -> Result<(), Fault> {
     let talks = ["serial", "stopping --stops 10"];
     emulate::emulate(&board, Path::new(emulate::FULL), &talks)?;
     emulate::compare_with_slow_sensors(&board)?;
-    emulate::compare_with_zeros(&board)?;
+    emulate::compare_with_options(&board)?;
     let in_short = ["compare --probe pulled", "sensor-loss"];
     let [small, smallest] = [Emulated::deployed(small)?, Emulated::deployed(smallest)?];
     emulate::emulate(&small, Path::new(emulate::FULL), &in_short)?;

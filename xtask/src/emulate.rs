@@ -249,11 +249,10 @@ pub(crate) fn compare_with_slow_sensors(on: &Emulated) -> Result<(), Fault> {
     emulate(on, &slow, COMPARE)
 }
 
-/// Compares [`noisiest`] with host-sim where the sensors find their zeros, and contact is computed
-/// without self-motion.
-pub(crate) fn compare_with_zeros(on: &Emulated) -> Result<(), Fault> {
-    let zeros = variants::with_zeros(&noisiest()?)?;
-    emulate(on, &zeros, COMPARE)
+/// Compares [`noisiest`] with host-sim where it asks for more than any scene of `scenes/`.
+pub(crate) fn compare_with_options(on: &Emulated) -> Result<(), Fault> {
+    let options = variants::with_options(&noisiest()?)?;
+    emulate(on, &options, COMPARE)
 }
 
 /// [`FULL`] on both sides: the noisiest scene. Writes it and returns its path.
