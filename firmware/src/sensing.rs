@@ -197,10 +197,10 @@ impl<F: WordSource> Sensor<F> {
     ) -> Option<[i16; 2]> {
         let Reading { x, y, valid, .. } = self.last;
         let zero = self.zero.as_mut().filter(|_| valid)?;
-        let before = zero.codes();
-        let codes = zero.follow([x, y], is_calm, limits)?;
-        events(Event::ZeroMoved(place, codes));
-        Some([0, 1].map(|axis| codes[axis].saturating_sub(before[axis])))
+        let [x_before, y_before] = zero.codes();
+        let [x, y] = zero.follow([x, y], is_calm, limits)?;
+        events(Event::ZeroMoved(place, [x, y]));
+        Some([x.saturating_sub(x_before), y.saturating_sub(y_before)])
     }
 
     /// A good frame of a faulty sensor, after `good` others; whether it ends the fault.
