@@ -168,7 +168,8 @@ pub fn whisks_as(scene: &Scene, trained: Whisked) -> Result<(), Mismatch> {
 /// its whiskers.
 ///
 /// # Errors
-/// [`Mismatch::Whiskers`]: there are tables of others. /// [`Mismatch::Whisked`]; [`Mismatch::Rate`]: blocks, gaps and roughness would be of other times.
+/// [`Mismatch::Whiskers`]: there are tables of others; [`Mismatch::Whisked`]; [`Mismatch::Rate`]:
+/// blocks, gaps and roughness would be of other times.
 pub fn suits(scene: &Scene, model: &ModelBuf) -> Result<(), Mismatch> {
     whisks_as(scene, model.whisked())?;
     let heard = scene.classifier.as_ref();

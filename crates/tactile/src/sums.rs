@@ -41,8 +41,8 @@ impl Sums {
         self.roughness.clear();
     }
 
-    /// Takes a sample, whose codes are of the channels from the `first` on, and its roughness where the model has it; whether it was the last of
-    /// its block of `interval`.
+    /// Takes a sample, whose codes are of the channels from the `first` on, and its roughness where
+    /// the model has it; whether it was the last of its block of `interval`.
     #[inline]
     pub(crate) fn push<W: Words>(
         &mut self,

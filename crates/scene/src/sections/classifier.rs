@@ -102,7 +102,8 @@ keys! {
             .optional("all classes are equally frequent"),
 
         /// Cost of a wrong decision, in any unit. With `cost_delay_per_s` it gives each class the
-        /// threshold that costs least on average ([start.md](start.md#say-what-is-frequent-and-what-errors-cost)), in place of
+        /// threshold that costs least on average
+        /// ([start.md](start.md#say-what-is-frequent-and-what-errors-cost)), in place of
         /// `threshold` and `thresholds`.
         (cost_error): f64 = positive(1e9)
             .only_if(SEQUENTIAL)

@@ -164,7 +164,8 @@ fn normals_are_decided_on_as_wald_says() {
 }
 
 /// The errors that a known prior saves in windows of n samples of two normals, δ apart: of
-/// Φ(−δ√n/2) there remain Σ π_k Φ(−δ√n/2 − ln(π_k/π_j)/(δ√n)) (Duda, Hart and Stork, Pattern Classification, 2001).
+/// Φ(−δ√n/2) there remain Σ π_k Φ(−δ√n/2 − ln(π_k/π_j)/(δ√n)) (Duda, Hart and Stork, Pattern
+/// Classification, 2001).
 #[test]
 fn a_known_prior_saves_as_many_errors_as_the_closed_form_says() {
     let standard = Normal::new(0.0, 1.0).unwrap();
