@@ -12,6 +12,7 @@
 //! once. After that a tick cannot fail. Every image has the same layout; what an image was built
 //! without is refused by its name ([`Part`]).
 
+mod bus;
 mod bytes;
 mod check;
 mod parts;
@@ -29,6 +30,7 @@ use crate::perception::ClassifierConfig;
 use crate::sensing::SensorLimits;
 use crate::servo::ServoConfig;
 
+pub use bus::BusConfig;
 pub use bytes::{
     BoardCode, CONFIG_BYTES, ConfigBytes, HEADER_BYTES, Header, VERSION, decode, decode_into,
     encode,
@@ -85,6 +87,8 @@ pub struct HeadConfig {
     pub sides: u8,
     /// Whiskers on each side, 1 to 12.
     pub whiskers_per_side: u8,
+    /// The bus of a head of several boards; `None`: one board has all its whiskers.
+    pub bus: Option<BusConfig>,
 }
 
 impl HeadConfig {
@@ -193,6 +197,7 @@ impl<R: Real> Config<R> {
                 tick_hz: 2000,
                 sides: 1,
                 whiskers_per_side: 1,
+                bus: None,
             },
             sensor: SensingConfig {
                 kind: SensorKind::FastMlx90333,

@@ -36,6 +36,8 @@ mod io;
 pub mod lines;
 mod module;
 mod motion;
+#[cfg(feature = "bus")]
+mod node;
 mod packet;
 mod perception;
 mod record;
@@ -52,9 +54,9 @@ mod zero;
 
 pub use button::{Button, ButtonLimits};
 pub use config::{
-    BoardCode, CONFIG_BYTES, Config, ConfigBytes, ConfigError, Field, HEADER_BYTES, HeadConfig,
-    Header, Links, MotionConfig, NAME_BYTES, OVERRIDES_BYTES, Part, SensingConfig, SensorKind,
-    VERSION, allowed, decode, decode_into, encode,
+    BoardCode, BusConfig, CONFIG_BYTES, Config, ConfigBytes, ConfigError, Field, HEADER_BYTES,
+    HeadConfig, Header, Links, MotionConfig, NAME_BYTES, OVERRIDES_BYTES, Part, SensingConfig,
+    SensorKind, VERSION, allowed, decode, decode_into, encode,
 };
 #[cfg(feature = "tmag5170")]
 pub use event::TiltFault;
@@ -62,6 +64,8 @@ pub use event::{Event, Health, Place, SensorFault};
 pub use io::{AngleInput, BusError, Clock, FrameSource, Polled, WordSource};
 pub use module::{Hardware, Module, Whisker, WhiskerParts};
 pub use motion::{Command, Motion, NoActiveWhisker, NotDone};
+#[cfg(feature = "bus")]
+pub use node::{Node, NodeEvent, Times};
 pub use packet::{EventRecord, Packet};
 pub use perception::{
     ClassifierConfig, CodeClassifier, ModelLimits, ModelState, NotCodes, Perception, Refusal,

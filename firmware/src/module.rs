@@ -107,6 +107,8 @@ impl<R: Real, H: Hardware> Whisker<R, H> {
 pub struct Module<R: Real, H: Hardware> {
     whiskers: Vec<Whisker<R, H>, MAX_WHISKERS>,
     contact: [R; MAX_SIDES],
+    /// What the other boards of its head feel.
+    elsewhere: [R; MAX_SIDES],
     motion: Option<Motion<R>>,
     perception: Option<Perception<H::Classifier>>,
     clock: H::Clock,
@@ -126,8 +128,19 @@ impl<R: Real, H: Hardware> Module<R, H> {
         classifier: Option<H::Classifier>,
         clock: (H::Clock, u32),
     ) -> Self {
+        Self::of_node(config, 0, parts, classifier, clock)
+    }
+
+    /// That of a board of a head, whose whiskers are those [of its node](HeadConfig::of_node).
+    pub fn of_node(
+        config: &Config<R>,
+        number: u8,
+        parts: impl IntoIterator<Item = WhiskerParts<H>>,
+        classifier: Option<H::Classifier>,
+        clock: (H::Clock, u32),
+    ) -> Self {
         let mut module = Self::empty(clock);
-        module.build(config, parts, classifier);
+        module.build(config, number, parts, classifier);
         module
     }
 
@@ -136,6 +149,7 @@ impl<R: Real, H: Hardware> Module<R, H> {
         Self {
             whiskers: Vec::new(),
             contact: [R::ZERO; MAX_SIDES],
+            elsewhere: [R::ZERO; MAX_SIDES],
             motion: None,
             perception: None,
             clock,
@@ -144,12 +158,13 @@ impl<R: Real, H: Hardware> Module<R, H> {
         }
     }
 
-    /// Makes an [empty](Self::empty) module what [`new`](Self::new) makes, where it lies: for a
-    /// board, whose stack has no room for it.
+    /// Makes an [empty](Self::empty) module what [`of_node`](Self::of_node) makes, where it lies:
+    /// for a board, whose stack has no room for it.
     #[inline]
     pub fn build(
         &mut self,
         config: &Config<R>,
+        number: u8,
         parts: impl IntoIterator<Item = WhiskerParts<H>>,
         classifier: Option<H::Classifier>,
     ) {
@@ -163,6 +178,8 @@ impl<R: Real, H: Hardware> Module<R, H> {
         } = config.head;
         let places = (0..sides)
             .flat_map(|side| (0..whiskers_per_side).map(move |number| Place::new(side, number)));
+        let own = config.head.of_node(number);
+        let places = places.skip(own.start).take(own.len());
         for (place, WhiskerParts { source, motor }) in places.zip(parts) {
             // As many as a checked configuration has, there is room for.
             let _ = self.whiskers.push(Whisker {
@@ -181,7 +198,8 @@ impl<R: Real, H: Hardware> Module<R, H> {
         }
         let count = self.whiskers.len();
         if Part::Motion.is_built() {
-            self.motion = config.motion.as_ref().map(Motion::new);
+            let of_own = |motion| Motion::new(motion, own.clone());
+            self.motion = config.motion.as_ref().map(of_own);
         }
         if Part::Classifier.is_built() {
             let perceives = |classifier| Perception::new(classifier, count, tick_hz);
@@ -251,9 +269,26 @@ impl<R: Real, H: Hardware> Module<R, H> {
         self.contact = most;
     }
 
-    /// Contact π of each side in the last tick; zero of a side that is not there.
+    /// Contact π of its whiskers of each side in the last tick; zero of a side that is not there.
     pub const fn contact(&self) -> [R; MAX_SIDES] {
         self.contact
+    }
+
+    /// Contact by which it is modulated: that of its whiskers, or of those of other boards.
+    #[inline]
+    fn contact_of_head(&self) -> [R; MAX_SIDES] {
+        let mut most = self.contact;
+        if Part::Bus.is_built() {
+            for (most, elsewhere) in most.iter_mut().zip(self.elsewhere) {
+                *most = elsewhere.max(*most);
+            }
+        }
+        most
+    }
+
+    /// What the other boards of its head feel, from the next tick on.
+    pub const fn feel_elsewhere(&mut self, contact: [R; MAX_SIDES]) {
+        self.elsewhere = contact;
     }
 
     /// The whiskers, left side first.
@@ -283,7 +318,7 @@ impl<R: Real, H: Hardware> Module<R, H> {
     }
 
     #[inline]
-    const fn motion_mut(&mut self) -> Option<&mut Motion<R>> {
+    pub(crate) const fn motion_mut(&mut self) -> Option<&mut Motion<R>> {
         if Part::Motion.is_built() {
             self.motion.as_mut()
         } else {
@@ -433,10 +468,11 @@ impl<R: Number, H: Hardware> Module<R, H> {
         swing: Option<SwingLimits>,
         events: &mut impl FnMut(Event),
     ) {
+        let contact = self.contact_of_head();
         let Some(motion) = &mut self.motion else {
             return;
         };
-        config.whisking.step(&mut motion.state, &self.contact);
+        config.whisking.step(&mut motion.state, &contact);
         let has_fault = |whisker: &Whisker<R, H>| {
             !whisker.sensor.reading().valid || whisker.servo.as_ref().is_some_and(Servo::rests)
         };

@@ -1,5 +1,7 @@
 //! How the whiskers of a module move, and what can be asked of that.
 
+use core::ops::Range;
+
 use whisking::{Real, State};
 use wire::CommandStatus;
 
@@ -56,10 +58,10 @@ pub struct Motion<R: Real> {
 }
 
 impl<R: Real> Motion<R> {
-    /// At its start, its motors not armed.
-    pub(crate) fn new(config: &MotionConfig<R>) -> Self {
+    /// At its start, its motors not armed: of these whiskers of the head.
+    pub(crate) fn new(config: &MotionConfig<R>, own: Range<usize>) -> Self {
         Self {
-            state: State::new(&config.start, config.seed),
+            state: State::of_some(&config.start, own, config.seed),
             is_armed: false,
         }
     }

@@ -1,5 +1,7 @@
 //! A module of any scene behind one interface: the firmware's [`Module`] on mock hardware.
 
+mod can;
+mod head;
 mod line;
 mod mock;
 mod sensor;
@@ -20,6 +22,9 @@ use crate::bus::tmag5170::TmagSlave;
 use crate::classifier::{Classifier, Tap};
 use crate::drive;
 use crate::motor::Pins;
+pub use can::Load;
+use head::Head;
+pub use head::{Bus, Happened};
 use line::Line;
 use mock::Mock;
 pub use mock::NoClock;
@@ -110,6 +115,11 @@ pub trait HostModule: Bench + Send {
 
     /// What it has sent since the last call.
     fn take_packets(&mut self) -> Vec<Packet>;
+
+    /// The bus of a head of several boards; none where one board has all whiskers.
+    fn bus(&mut self) -> Option<&mut Bus> {
+        None
+    }
 }
 
 /// A module in one number format.
@@ -119,6 +129,8 @@ struct Hosted<R: Number> {
     /// As the scene has it.
     built_with: Config<R>,
     sensor: SensorSection,
+    /// Which board of its head it is.
+    number: u8,
     line: Line,
 }
 
@@ -126,6 +138,20 @@ impl<R: Number> Hosted<R> {
     fn sensor_mut(&mut self, n: usize) -> Option<&mut AnySensor> {
         let whisker = self.module.whiskers_mut().get_mut(n)?;
         Some(whisker.sensor_mut().source_mut())
+    }
+
+    /// Where each whisker is to be, degrees; nothing where they are passive.
+    fn look_at_setpoints(&self, theta_deg: &mut [f64]) {
+        let Some(motion) = self.module.motion() else {
+            return;
+        };
+        let servos = self.module.whiskers().iter().map(Whisker::servo);
+        let setpoints = motion.state().theta().zip(servos);
+        let pd = self.config.motion.as_ref().map(|motion| &motion.servo.pd);
+        for (place, (theta, servo)) in theta_deg.iter_mut().zip(setpoints) {
+            let commanded = pd.and_then(|pd| Some(pd.clamp(servo?.setpoint()?)));
+            *place = whisking::degrees(commanded.unwrap_or(theta).to_f64());
+        }
     }
 
     /// The place of whisker `n`.
@@ -158,17 +184,11 @@ impl<R: Number> Bench for Hosted<R> {
         for (place, pi) in snapshot.contact.iter_mut().take(sides).zip(contact) {
             *place = pi.to_f64();
         }
+        self.look_at_setpoints(&mut snapshot.theta_deg);
         let Some(motion) = self.module.motion() else {
             return;
         };
         let state = motion.state();
-        let servos = self.module.whiskers().iter().map(Whisker::servo);
-        let setpoints = state.theta().zip(servos);
-        let pd = self.config.motion.as_ref().map(|motion| &motion.servo.pd);
-        for (place, (theta, servo)) in snapshot.theta_deg.iter_mut().zip(setpoints) {
-            let commanded = pd.and_then(|pd| Some(pd.clamp(servo?.setpoint()?)));
-            *place = whisking::degrees(commanded.unwrap_or(theta).to_f64());
-        }
         for (place, side) in snapshot.z.iter_mut().zip(&state.sides) {
             *place = side.z.value.to_f64();
         }
@@ -208,19 +228,7 @@ where
     Self: Send,
 {
     fn restart(&mut self, seed: u64, pins: Vec<Pins>) -> Result<(), Error> {
-        self.config.clone_from(&self.built_with);
-        if let Some(motion) = &mut self.config.motion {
-            motion.seed = seed;
-        }
-        let perception = self.module.take_perception();
-        let mut perception = perception.map(Perception::restarted);
-        if let (Some(perception), Some(classifier)) = (&mut perception, &self.config.classifier) {
-            perception.retune(classifier.rule.as_ref());
-        }
-        self.module = module(&self.config, &self.sensor, (seed, pins), None)?;
-        self.module.set_perception(perception);
-        self.line.restart();
-        Ok(())
+        self.begin_again(seed, pins)
     }
 
     fn command(&mut self, n: usize, command: Command<f64>) -> Result<(), NotDone> {
@@ -260,14 +268,16 @@ where
 /// A module at rest, its motors on `pins`, its sensors' noise from the seed beside those.
 fn module<R: Number>(
     config: &Config<R>,
+    number: u8,
     sensor: &SensorSection,
     (seed, pins): (u64, Vec<Pins>),
     classifier: Option<Tap>,
 ) -> Result<Module<R, Mock>, Error> {
-    let count = config.head.whiskers();
+    let own = config.head.of_node(number);
     let misfit = |what: &str| Error::Work(format!("the module's {what} do not fit the scene"));
-    let sensors: Option<Vec<AnySensor>> = (0..count as u64)
-        .map(|n| AnySensor::new(sensor, seed.wrapping_add(n)))
+    let sensors: Option<Vec<AnySensor>> = own
+        .clone()
+        .map(|n| AnySensor::new(sensor, seed.wrapping_add(n as u64)))
         .collect();
     let mut sensors = sensors.ok_or_else(|| misfit("sensors"))?.into_iter();
     let stall = config
@@ -279,7 +289,7 @@ fn module<R: Number>(
             .map(|pins| drive::on(pins, stall))
             .collect()
     });
-    if stall.is_some() && motors.len() != count {
+    if stall.is_some() && motors.len() != own.len() {
         return Err(misfit("motors"));
     }
     let mut motors = motors.into_iter();
@@ -287,7 +297,7 @@ fn module<R: Number>(
         let (source, motor) = (sensors.next()?, motors.next());
         Some(WhiskerParts { source, motor })
     });
-    let mut module = Module::new(config, parts, classifier, (NoClock, 0));
+    let mut module = Module::of_node(config, number, parts, classifier, (NoClock, 0));
     let arms = config
         .motion
         .as_ref()
@@ -367,24 +377,66 @@ fn hosted<R: Number>(
 where
     Hosted<R>: Send + 'static,
 {
-    let tap = Tap::new(classifier, heard(scene));
-    let gate = tap.touch_rule().map(|touch| touch.gate);
-    let model = match (tap.model(), &scene.classifier) {
-        (Some(model), _) => model,
-        (None, Some(_)) => ModelState::Refused(Refusal::Absent),
-        (None, None) => ModelState::NotHere,
-    };
-    let classes = tap.classes().to_vec();
-    let known = (gate, tap.settings());
-    let config = config_of::<R>(scene, known, tap.is_recording(), "")?;
-    config
-        .check()
-        .map_err(|fault| Error::Work(fault.to_string()))?;
-    Ok(Box::new(Hosted {
-        module: module(&config, &scene.sensor, (scene.seed, pins), Some(tap))?,
-        line: Line::new(&config, model, classes),
-        built_with: config.clone(),
-        config,
-        sensor: scene.sensor,
-    }))
+    match scene.head.nodes {
+        None => Ok(Box::new(Hosted::<R>::new(scene, 0, pins, classifier)?)),
+        Some(nodes) => Ok(Box::new(Head::<R>::new(scene, nodes, pins, classifier)?)),
+    }
+}
+
+impl<R: Number> Hosted<R> {
+    /// Board `number` of a scene, whose motors are on `pins`.
+    fn new(
+        scene: &Scene,
+        number: u8,
+        pins: Vec<Pins>,
+        classifier: Option<Classifier>,
+    ) -> Result<Self, Error> {
+        let tap = Tap::new(classifier, heard_by(scene, number));
+        let gate = tap.touch_rule().map(|touch| touch.gate);
+        let model = match (tap.model(), &scene.classifier) {
+            (Some(model), _) => model,
+            (None, Some(_)) => ModelState::Refused(Refusal::Absent),
+            (None, None) => ModelState::NotHere,
+        };
+        let classes = tap.classes().to_vec();
+        let known = (gate, tap.settings());
+        let config = config_of::<R>(scene, known, tap.is_recording(), "")?;
+        config
+            .check()
+            .map_err(|fault| Error::Work(fault.to_string()))?;
+        let parts = (scene.seed, pins);
+        Ok(Self {
+            module: module(&config, number, &scene.sensor, parts, Some(tap))?,
+            line: Line::new(&config, model, classes),
+            built_with: config.clone(),
+            config,
+            sensor: scene.sensor,
+            number,
+        })
+    }
+
+    /// See [`HostModule::restart`].
+    fn begin_again(&mut self, seed: u64, pins: Vec<Pins>) -> Result<(), Error> {
+        self.config.clone_from(&self.built_with);
+        if let Some(motion) = &mut self.config.motion {
+            motion.seed = seed;
+        }
+        let perception = self.module.take_perception();
+        let mut perception = perception.map(Perception::restarted);
+        if let (Some(perception), Some(classifier)) = (&mut perception, &self.config.classifier) {
+            perception.retune(classifier.rule.as_ref());
+        }
+        self.module = module(&self.config, self.number, &self.sensor, (seed, pins), None)?;
+        self.module.set_perception(perception);
+        self.line.restart();
+        Ok(())
+    }
+}
+
+/// How many whiskers of a board of a head are heard by its classifier.
+fn heard_by(scene: &Scene, number: u8) -> usize {
+    let each = scene.whiskers() / usize::from(scene.head.nodes.unwrap_or(1)).max(1);
+    heard(scene)
+        .saturating_sub(usize::from(number) * each)
+        .min(each)
 }

@@ -51,7 +51,7 @@ pub use settings::{BadMotorSetting, MotorSettings, PWM_COUNTS};
 use stage::Stage;
 
 /// What connects a brushed motor with its driver and its angle input.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub struct Brushed {
     /// Size of the duty.
     pub pwm: SimPwm,
@@ -62,7 +62,7 @@ pub struct Brushed {
 }
 
 /// What connects a brushless motor with its driver and its angle input.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub struct Brushless {
     /// Inputs of phases 1 to 3.
     pub pwms: (SimPwm, SimPwm, SimPwm),
@@ -75,7 +75,7 @@ pub struct Brushless {
 }
 
 /// The ends of a motor's wires that a board has.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub enum Pins {
     /// No wires: the motor is always at its setpoint, and only counts.
     Ideal(IdealMotor),

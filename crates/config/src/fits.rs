@@ -33,6 +33,13 @@ pub(crate) fn fits(
     model: Option<&ModelBuf>,
     board: &BoardFacts,
 ) -> Result<(), Unfit> {
+    if let Some(nodes) = scene.head.nodes {
+        return Err(Unfit::Board(format!(
+            "head.nodes: found {nodes}; allowed on the {}: no such key, because its program has no \
+             bus yet",
+            board.name
+        )));
+    }
     let needs = needs(scene);
     if let Err(misfit) = board.fits(&needs) {
         let (key, found) = found(misfit, scene);

@@ -2,8 +2,8 @@
 
 use firmware::design_parameters::{Plausible, retry, sensor_limits, swing_limits, zero_limits};
 use firmware::{
-    ClassifierConfig, Config, ConfigError, Field, HeadConfig, Links, MotionConfig, SensingConfig,
-    SensorKind, SensorLimits, ServoConfig, SwingLimits,
+    BusConfig, ClassifierConfig, Config, ConfigError, Field, HeadConfig, Links, MotionConfig,
+    SensingConfig, SensorKind, SensorLimits, ServoConfig, SwingLimits,
 };
 use mlx90333::{ByteOrder, Decoder, Mode, SumRule};
 use scene::{
@@ -107,6 +107,9 @@ pub fn build<R: Real>(scene: &Scene, target: Target<'_>) -> Result<Config<R>, Mi
     })
 }
 
+/// Bits a second of a bus, thousands, unless the scene says otherwise.
+const KBIT_S: u16 = 1000;
+
 fn head(scene: &Scene, overrides: &str) -> Result<HeadConfig, Mismatch> {
     let too_long = |field| move |_| Mismatch::Config(ConfigError::Room(field));
     Ok(HeadConfig {
@@ -115,6 +118,10 @@ fn head(scene: &Scene, overrides: &str) -> Result<HeadConfig, Mismatch> {
         tick_hz: scene.tick_hz,
         sides: scene.head.sides.count() as u8,
         whiskers_per_side: scene.head.whiskers_per_side as u8,
+        bus: scene.head.nodes.map(|nodes| BusConfig {
+            nodes,
+            kbit_s: scene.head.bus_kbit_s.unwrap_or(KBIT_S),
+        }),
     })
 }
 

@@ -29,6 +29,25 @@ pub(crate) fn apply(values: &Values, text: &mut Text<'_>) {
     serial_has_its_parts(values, text);
     silence_can_be_counted(values, text);
     self_motion_has_its_parts(values, text);
+    boards_share_alike(values, text);
+}
+
+/// Each board of a head carries as many whiskers as any other.
+fn boards_share_alike(values: &Values, text: &mut Text<'_>) {
+    let (Some(nodes), Some(each), Some(sides)) = (
+        values.get::<u8>("head", "nodes"),
+        values.get::<usize>("head", "whiskers_per_side"),
+        values.get::<Sides>("head", "sides"),
+    ) else {
+        return;
+    };
+    let whiskers = each * sides.count();
+    if !whiskers.is_multiple_of(nodes.into()) {
+        let offset = values.offset("head", "nodes").unwrap_or(0);
+        let found = format!("found {nodes} boards for {whiskers} whiskers");
+        let allowed = "allowed: a number that divides that of the whiskers".to_owned();
+        text.report(offset, path("head", "nodes"), found, allowed);
+    }
 }
 
 fn self_motion_has_its_parts(values: &Values, text: &mut Text<'_>) {

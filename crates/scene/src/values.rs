@@ -159,6 +159,7 @@ macro_rules! read {
 
 read! {
     bool: Bool(bool) => Some(*bool);
+    u8: Integer(n) => Self::try_from(*n).ok();
     u16: Integer(n) => Self::try_from(*n).ok();
     u32: Integer(n) => Self::try_from(*n).ok();
     u64: Integer(n) => Some(*n);

@@ -3,6 +3,8 @@
 #[cfg(test)]
 mod tests;
 
+use core::ops::Range;
+
 use heapless::Vec;
 use serde::{Deserialize, Serialize};
 
@@ -124,12 +126,18 @@ impl<R: Real> WhiskerState<R> {
 impl<R: Real> State<R> {
     /// A module at its start. `seed` determines the noise.
     pub fn new(start: &Start<R>, seed: u64) -> Self {
+        Self::of_some(start, 0..start.whiskers.len(), seed)
+    }
+
+    /// The same with only some of the whiskers; none where there are not so many.
+    pub fn of_some(start: &Start<R>, whiskers: Range<usize>, seed: u64) -> Self {
+        let whiskers = start.whiskers.get(whiskers).unwrap_or_default();
         let kept: Vec<Psi<R>, MAX_SIDES> = listed(start.sides.iter().map(|side| side.oscillator));
         Self {
             noise: noise::State::new(kept.len(), seed),
             oscillators: oscillator::State::new(kept),
             sides: listed(start.sides.iter().map(Side::from)),
-            whiskers: listed(start.whiskers.iter().map(WhiskerState::from)),
+            whiskers: listed(whiskers.iter().map(WhiskerState::from)),
         }
     }
 

@@ -38,7 +38,7 @@ pub(crate) fn start(
     });
     let period = clocks.tick_counts(pace.tick);
     let inner = INNER.try_init_with(|| Inner::empty((counter, period)))?;
-    inner.build(settings, parts, perception::start(settings));
+    inner.build(settings, 0, parts, perception::start(settings));
     Some(inner)
 }
 

@@ -13,7 +13,7 @@ use super::{Config, ConfigError, MotionConfig, Part};
 use crate::servo::ServoConfig;
 
 /// The version of the layout.
-pub const VERSION: u16 = 6;
+pub const VERSION: u16 = 7;
 
 /// Most bytes of a configuration with its header, of two whiskers; a simulation's may be longer.
 pub const CONFIG_BYTES: usize = if cfg!(target_os = "none") { 1536 } else { 4096 };
@@ -193,6 +193,7 @@ pub fn decode_into<R: Real>(
     head.tick_hz = parts.take(Part::Head)?;
     head.sides = parts.take(Part::Head)?;
     head.whiskers_per_side = parts.take(Part::Head)?;
+    head.bus = parts.optional(Part::Bus)?;
     config.sensor = parts.take(Part::Sensor)?;
     config.links = parts.take(Part::Links)?;
     config.contact = parts.optional(Part::Contact)?;

@@ -87,6 +87,7 @@ fields! {
     Heat = 43: "motor.continuous_duty";
     SelfMotion = 44: "sensor.self_motion_s";
     Classes = 45: "priors or thresholds of classes";
+    Bus = 46: "head.nodes, head.bus_kbit_s";
 }
 
 impl Field {
@@ -195,7 +196,11 @@ impl HeadConfig {
         if self.whiskers() > MAX_WHISKERS {
             return Err(ConfigError::Room(Field::Whiskers));
         }
-        Ok(())
+        if_there(Part::Bus, self.bus.as_ref(), |bus| {
+            let is_shared = (2..=can::MAX_NODES).contains(&bus.nodes.into())
+                && self.whiskers().is_multiple_of(bus.nodes.into());
+            require(Field::Bus, is_shared && (125..=1000).contains(&bus.kbit_s))
+        })
     }
 }
 

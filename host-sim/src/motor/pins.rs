@@ -146,7 +146,7 @@ impl Wires {
 }
 
 /// The module's end of one of several like wires.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub(super) struct End {
     wires: Arc<Wires>,
     i: usize,
@@ -160,21 +160,21 @@ impl End {
 }
 
 /// A PWM output of the module.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub struct SimPwm(pub(super) End);
 
 /// A digital output of the module: a direction or an enable.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub struct SimPin(pub(super) End);
 
 /// A digital input of the module: Hall sensor k, high while the rotor's magnet
 /// is within 90° of axis k.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub struct SimHall(pub(super) End);
 
 /// The encoder's counter: 0 at rest, up with protraction, to the nearest count;
 /// wraps around.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub struct SimEncoder(pub(super) Arc<Wires>);
 
 impl SimPin {

@@ -1,7 +1,7 @@
 //! `[head]`: the array of whiskers.
 
 use crate::choice::choice;
-use crate::key::{integer, word};
+use crate::key::{Condition, integer, word};
 use crate::keys::keys;
 
 choice! {
@@ -24,6 +24,8 @@ impl Sides {
     }
 }
 
+const BUS: &[Condition] = &[Condition::Given("nodes")];
+
 keys! {
     /// The array of whiskers.
     pub struct HeadSection {
@@ -32,5 +34,15 @@ keys! {
 
         /// Which sides are built; with `left`, lists that have one entry a side have one entry.
         sides: Sides = word().default("\"both\""),
+
+        /// Boards that share the whiskers, joined by a CAN bus: each carries as many as any
+        /// other, node 0 the first of the left side.
+        nodes: Option<u8> = integer(2..=24).unit("boards").optional("one board has all whiskers"),
+
+        /// Bits a second of the bus, thousands.
+        bus_kbit_s: Option<u16> = integer(125..=1000)
+            .unit("kbit/s")
+            .only_if(BUS)
+            .optional("1000 with `nodes`"),
     }
 }

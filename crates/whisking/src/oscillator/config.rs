@@ -79,6 +79,29 @@ impl<R: Real> Config<R> {
         turn as u16
     }
 
+    /// What a small difference of ψ of a side has become after `ticks`: it has turned with ψ. What
+    /// pulls it to the circle and to the other side is left out: within `ticks` f_W T / 2 of it.
+    pub fn aged(&self, difference: Psi<R>, ticks: u16) -> Psi<R> {
+        let turned = |[x, y]: Psi<R>| match self {
+            Self::Euler(euler) => [x - y.times_fine(euler.turn), y + x.times_fine(euler.turn)],
+            Self::Exact(exact) => exact.turned([x, y]),
+        };
+        (0..ticks).fold(difference, |psi, _| turned(psi))
+    }
+
+    /// Adds `difference` to ψ of a side; nothing to one that there is not.
+    pub fn shift(&self, state: &mut State<R>, side: usize, difference: Psi<R>) {
+        match self {
+            Self::Euler(_) => {
+                if let Some([x, y]) = state.kept.get_mut(side) {
+                    *x = *x + difference[0];
+                    *y = *y + difference[1];
+                }
+            }
+            Self::Exact(exact) => exact.shift(state, side, difference),
+        }
+    }
+
     /// ψ of every side.
     pub fn psi(&self, state: &State<R>) -> Vec<Psi<R>, MAX_SIDES> {
         match self {

@@ -298,6 +298,29 @@ impl<R: Real> Exact<R> {
         }
     }
 
+    /// ψ a tick later, by what turns it alone.
+    pub(super) fn turned(&self, psi: Psi<R>) -> Psi<R> {
+        let [turn, _] = &self.tick;
+        sum(psi, turn.increment(psi))
+    }
+
+    /// See [`Config::shift`](super::Config::shift).
+    pub(super) fn shift(&self, state: &mut State<R>, side: usize, difference: Psi<R>) {
+        // χ is linear in ψ.
+        let kept = |mode: Psi<R>, back: &Turn<R>| sum(mode, back.increment(mode));
+        let [first, second] = &self.back;
+        match (state.kept.as_mut_slice(), side) {
+            ([psi], 0) => *psi = sum(*psi, kept(difference, first)),
+            ([m, d], 0 | 1) => {
+                let half = difference.map(R::halved);
+                *m = sum(*m, kept(half, first));
+                let half = if side == 0 { half } else { half.map(|x| -x) };
+                *d = sum(*d, kept(half, second));
+            }
+            _ => {}
+        }
+    }
+
     /// See [`Config::psi`](super::Config::psi).
     pub fn psi(&self, state: &State<R>) -> Vec<Psi<R>, MAX_SIDES> {
         // Rounding may lead slightly beyond a limit.

@@ -165,3 +165,36 @@ fn one_side_alone_is_the_same_oscillator() {
         }
     }
 }
+
+/// ψ of one side is what it was and the difference, that of the other what it was, however the
+/// integrator keeps them; and what becomes of the difference is what two runs show that began so
+/// far from one another.
+#[test]
+fn a_side_is_shifted_by_a_difference_which_turns_with_it() {
+    let cycles = 8.0 / 2000.0;
+    let start = [[1.0, 0.0], [0.6, 0.5]];
+    let difference = [3e-4, -2e-4];
+    for new in [Running::<f64, 2>::exact, Running::<f64, 2>::euler] {
+        for side in 0..2 {
+            let mut plain = new(cycles, start);
+            let mut shifted = new(cycles, start);
+            let before = plain.run(40);
+            let _ = shifted.run(40);
+            shifted.0.shift(&mut shifted.1, side, difference);
+            let after = shifted.run(0);
+            for (n, (a, b)) in after.iter().zip(before).enumerate() {
+                let expected = if n == side { difference } else { [0.0; 2] };
+                for k in 0..2 {
+                    assert!((a[k] - b[k] - expected[k]).abs() < 1e-15, "{n} {k}");
+                }
+            }
+            let (plain, aged) = (plain.run(8), shifted.0.aged(difference, 8));
+            let shifted = shifted.run(8);
+            for k in 0..2 {
+                let found = shifted[side][k] - plain[side][k];
+                assert!((found - aged[k]).abs() < 8.0 * cycles * radius(difference));
+                assert!((aged[k] - difference[k]).abs() > 1e-5, "it has turned");
+            }
+        }
+    }
+}

@@ -1,0 +1,300 @@
+//! Messages between nodes, as frames.
+//!
+//! The identifier is the kind in its upper six bits and the node in its lower five: of two
+//! messages the more urgent goes first, then the lower node's. Integers are little-endian.
+//!
+//! | kind | message | bytes |
+//! |---|---|---|
+//! | 1 | stop | stamp |
+//! | 2 | time | number, time of the one before (µs, six bytes) |
+//! | 3, 4 | ψ of the left, of the right | stamp, ψ₁, ψ₂ (three bytes each, Q22) |
+//! | 5 | arm | stamp |
+//! | 6 | contact | stamp, flags, left, right (two bytes each, Q15) |
+//! | 7 | decision | stamp, class, posterior (Q15, two bytes), samples (four bytes) |
+//! | 8 | evidence | stamp, leader and part, three deficits (two bytes each) |
+
+use crate::{Frame, MAX_NODES};
+
+/// 1 in Q22.
+pub const Q22_ONE: i32 = 1 << 22;
+
+/// Classes that a message of evidence says something of, beside the leader.
+pub const OTHERS: usize = 3;
+
+/// What a node feels, and how it is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Contact {
+    /// Contact π of its whiskers of each side, the largest, Q15, up to almost 2; left first.
+    pub pi: [u16; 2],
+    /// Whether it shares the clock and the oscillators of the head.
+    pub is_joined: bool,
+    /// Whether its motors are armed.
+    pub is_armed: bool,
+}
+
+/// What a node's whiskers have felt of what they touch, all since the last decision.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Evidence {
+    /// The class that is likeliest by it.
+    pub leader: u8,
+    /// Which classes the deficits are of: from the `part` · 3-th on, the leader left out.
+    pub part: u8,
+    /// By how much each lies behind the leader, 2⁻¹⁰ bits.
+    pub deficits: [u16; OTHERS],
+}
+
+/// What a node says to all others.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Message {
+    /// All motors go off, until an [`Arm`](Self::Arm) that is made later.
+    Stop,
+    /// The time of the node whose clock is the head's.
+    Time {
+        /// Counts the messages of time.
+        number: u8,
+        /// When the message before this ended, µs; 48 bits.
+        last_us: u64,
+    },
+    /// ψ of a side, by the node that leads it.
+    Psi {
+        /// 0: the left.
+        side: u8,
+        /// ψ, Q22.
+        psi: [i32; 2],
+    },
+    /// All motors are armed.
+    Arm,
+    /// What it feels.
+    Contact(Contact),
+    /// The whiskers of the head together have decided.
+    Decision {
+        /// The number of the class; none: it is unknown.
+        class: Option<u8>,
+        /// Its posterior, Q15.
+        posterior: u16,
+        /// Samples of all whiskers.
+        samples: u32,
+    },
+    /// What its whiskers know of what they touch.
+    Evidence(Evidence),
+}
+
+/// A frame that is no message: of another kind or length, or out of range.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct NotAMessage;
+
+const STOP: u16 = 1;
+const TIME: u16 = 2;
+const PSI: u16 = 3;
+const ARM: u16 = 5;
+const CONTACT: u16 = 6;
+const DECISION: u16 = 7;
+const EVIDENCE: u16 = 8;
+
+const JOINED: u8 = 1;
+const ARMED: u8 = 2;
+const UNKNOWN: u8 = 0xff;
+
+/// |ψ| ≤ 1.5, and as much again for noise.
+const MOST_PSI: i32 = 2 * Q22_ONE - 1;
+
+fn q22([a, b, c]: [u8; 3]) -> i32 {
+    i32::from_le_bytes([0, a, b, c]) >> 8
+}
+
+impl Message {
+    /// As a frame of node `from`, made after a tick with this `stamp`.
+    pub fn frame(&self, from: u8, stamp: u8) -> Frame {
+        let frame = |kind: u16, bytes: &[u8]| Frame::new(kind << 5 | u16::from(from & 31), bytes);
+        match *self {
+            Self::Stop => frame(STOP, &[stamp]),
+            Self::Time { number, last_us } => {
+                let [a, b, c, d, e, f, ..] = last_us.to_le_bytes();
+                frame(TIME, &[number, a, b, c, d, e, f])
+            }
+            Self::Psi { side, psi } => {
+                let psi = psi.map(|x| x.clamp(-MOST_PSI, MOST_PSI).to_le_bytes());
+                let [[a, b, c, _], [d, e, f, _]] = psi;
+                frame(PSI + u16::from(side & 1), &[stamp, a, b, c, d, e, f])
+            }
+            Self::Arm => frame(ARM, &[stamp]),
+            Self::Contact(Contact {
+                pi,
+                is_joined,
+                is_armed,
+            }) => {
+                let flags = u8::from(is_joined) * JOINED + u8::from(is_armed) * ARMED;
+                let [[a, b], [c, d]] = pi.map(u16::to_le_bytes);
+                frame(CONTACT, &[stamp, flags, a, b, c, d])
+            }
+            Self::Decision {
+                class,
+                posterior,
+                samples,
+            } => {
+                let [a, b] = posterior.to_le_bytes();
+                let [c, d, e, f] = samples.to_le_bytes();
+                let class = class.unwrap_or(UNKNOWN);
+                frame(DECISION, &[stamp, class, a, b, c, d, e, f])
+            }
+            Self::Evidence(Evidence {
+                leader,
+                part,
+                deficits,
+            }) => {
+                let [[a, b], [c, d], [e, f]] = deficits.map(u16::to_le_bytes);
+                let first = leader & 15 | part << 4;
+                frame(EVIDENCE, &[stamp, first, a, b, c, d, e, f])
+            }
+        }
+    }
+
+    /// The message of a frame, with who says it and its stamp (0 of a message of time).
+    ///
+    /// # Errors
+    /// [`NotAMessage`], whatever the bytes.
+    pub fn of(frame: &Frame) -> Result<(u8, u8, Self), NotAMessage> {
+        let from = (frame.id() & 31) as u8;
+        if usize::from(from) >= MAX_NODES {
+            return Err(NotAMessage);
+        }
+        let kind = frame.id() >> 5;
+        let (stamp, message) = match (kind, frame.bytes()) {
+            (STOP, &[stamp]) => (stamp, Self::Stop),
+            (TIME, &[number, a, b, c, d, e, f]) => {
+                let last_us = u64::from_le_bytes([a, b, c, d, e, f, 0, 0]);
+                (0, Self::Time { number, last_us })
+            }
+            (PSI | 4, &[stamp, a, b, c, d, e, f]) => {
+                let psi = [q22([a, b, c]), q22([d, e, f])];
+                let side = (kind - PSI) as u8;
+                (stamp, Self::Psi { side, psi })
+            }
+            (ARM, &[stamp]) => (stamp, Self::Arm),
+            (CONTACT, &[stamp, flags, a, b, c, d]) if flags <= JOINED | ARMED => {
+                let contact = Contact {
+                    pi: [[a, b], [c, d]].map(u16::from_le_bytes),
+                    is_joined: flags & JOINED > 0,
+                    is_armed: flags & ARMED > 0,
+                };
+                (stamp, Self::Contact(contact))
+            }
+            (DECISION, &[stamp, class, a, b, c, d, e, f]) => {
+                let decision = Self::Decision {
+                    class: (class != UNKNOWN).then_some(class),
+                    posterior: u16::from_le_bytes([a, b]),
+                    samples: u32::from_le_bytes([c, d, e, f]),
+                };
+                (stamp, decision)
+            }
+            (EVIDENCE, &[stamp, first, a, b, c, d, e, f]) => {
+                let evidence = Evidence {
+                    leader: first & 15,
+                    part: first >> 4,
+                    deficits: [[a, b], [c, d], [e, f]].map(u16::from_le_bytes),
+                };
+                (stamp, Self::Evidence(evidence))
+            }
+            _ => return Err(NotAMessage),
+        };
+        Ok((from, stamp, message))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Contact, Evidence, MOST_PSI, Message, NotAMessage};
+    use crate::{Frame, MAX_NODES};
+    use proptest::prelude::*;
+
+    fn any_message() -> impl Strategy<Value = Message> {
+        let psi = -MOST_PSI..=MOST_PSI;
+        prop_oneof![
+            Just(Message::Stop),
+            Just(Message::Arm),
+            (any::<u8>(), 0_u64..1 << 48)
+                .prop_map(|(number, last_us)| Message::Time { number, last_us }),
+            (0_u8..2, psi.clone(), psi).prop_map(|(side, a, b)| Message::Psi { side, psi: [a, b] }),
+            (any::<[u16; 2]>(), any::<bool>(), any::<bool>()).prop_map(
+                |(pi, is_joined, is_armed)| Message::Contact(Contact {
+                    pi,
+                    is_joined,
+                    is_armed
+                })
+            ),
+            (proptest::option::of(0_u8..8), any::<u16>(), any::<u32>()).prop_map(
+                |(class, posterior, samples)| Message::Decision {
+                    class,
+                    posterior,
+                    samples
+                }
+            ),
+            (0_u8..16, 0_u8..16, any::<[u16; 3]>()).prop_map(|(leader, part, deficits)| {
+                Message::Evidence(Evidence {
+                    leader,
+                    part,
+                    deficits,
+                })
+            }),
+        ]
+    }
+
+    proptest! {
+        #[test]
+        fn a_frame_is_its_message(
+            message in any_message(),
+            from in 0_u8..MAX_NODES as u8,
+            stamp in any::<u8>(),
+        ) {
+            let (who, when, what) = Message::of(&message.frame(from, stamp)).unwrap();
+            prop_assert_eq!((who, what), (from, message));
+            let has_stamp = !matches!(message, Message::Time { .. });
+            prop_assert_eq!(when, if has_stamp { stamp } else { 0 });
+        }
+
+        /// What is read from any bytes makes the same bytes again.
+        #[test]
+        fn any_bytes_are_a_message_or_none(
+            id in 0_u16..0x800,
+            data in proptest::collection::vec(any::<u8>(), 0..=8),
+        ) {
+            let frame = Frame::new(id, &data);
+            match Message::of(&frame) {
+                Err(NotAMessage) => {}
+                Ok((from, stamp, message @ Message::Psi { psi, .. })) => {
+                    // The one value that no node sends.
+                    let is_sent = psi.iter().all(|x| x.abs() <= MOST_PSI);
+                    prop_assert!(!is_sent || message.frame(from, stamp) == frame);
+                }
+                Ok((from, stamp, message)) => prop_assert_eq!(message.frame(from, stamp), frame),
+            }
+        }
+    }
+
+    /// A stop goes before all else, whoever says it; and of ψ the left before the right.
+    #[test]
+    fn the_more_urgent_has_the_lower_identifier() {
+        let last = MAX_NODES as u8 - 1;
+        let ids = [
+            Message::Stop.frame(last, 0),
+            Message::Time {
+                number: 0,
+                last_us: 0,
+            }
+            .frame(0, 0),
+            Message::Psi {
+                side: 0,
+                psi: [0; 2],
+            }
+            .frame(0, 0),
+            Message::Psi {
+                side: 1,
+                psi: [0; 2],
+            }
+            .frame(0, 0),
+            Message::Arm.frame(0, 0),
+            Message::Contact(Contact::default()).frame(0, 0),
+        ];
+        assert!(ids.is_sorted_by(|a, b| a.id() < b.id()));
+    }
+}

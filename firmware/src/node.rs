@@ -1,0 +1,365 @@
+//! A board of a head: what it hears of the others, and what it says.
+//!
+//! Every node computes the oscillators of both sides. That of a side is led by the side's lowest
+//! node that lives: it says ψ every 2 ms, and the others correct theirs by the difference to what
+//! they had at the same tick, turned by its age. So where all compute the same nothing changes,
+//! and a node that leads no more leaves oscillators that go on without a step. What whiskers feel
+//! is said every 10 ms, and at once where it rises.
+//!
+//! A message takes effect a fixed number of ticks after its stamp, 4 ms; one that comes later
+//! counts as lost. So a head does the same in every simulation and on every chip, however long the
+//! bus takes. Nothing here waits for it, and a message is believed only in range and in time.
+
+mod clock;
+mod members;
+mod replica;
+mod times;
+
+use can::{Contact, Frame, Message};
+use heapless::Vec;
+use whisking::{MAX_SIDES, Number, Real};
+
+use crate::{Config, Hardware, HeadConfig, Module, MotionConfig};
+use clock::Clock;
+use members::Members;
+use replica::Replica;
+pub use times::Times;
+
+/// Most messages that have come and have not taken effect yet.
+const MOST_DUE: usize = 64;
+
+/// So many times a stop is said.
+const STOPS: u8 = 3;
+
+/// By how much contact π rises before that is said at once, Q15: 1/64.
+const RISE: u16 = 1 << 9;
+
+/// What becomes of a node.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum NodeEvent {
+    /// It shares clock and oscillators of its head.
+    Joined,
+    /// It does so no longer: its clock is another than that of a lower node.
+    Left,
+    /// Another is not heard any more.
+    Lost(u8),
+    /// Another is heard, for the first time or again.
+    Heard(u8),
+    /// Another has the same number: its motors stay off, and it is silent.
+    Twin,
+}
+
+/// A message that has come in time.
+#[derive(Debug, Clone, Copy)]
+struct Due {
+    /// The tick before which it takes effect.
+    at: u32,
+    from: u8,
+    message: Message,
+}
+
+/// A board of a head.
+#[derive(Debug)]
+pub struct Node {
+    number: u8,
+    times: Times,
+    clock: Clock,
+    /// The number of the next tick, by the clock of the head.
+    tick: u32,
+    /// Ticks since the start for which it has joined none.
+    alone: u16,
+    is_joined: bool,
+    is_stopped: bool,
+    is_twin: bool,
+    /// Stops that are still to be said.
+    stops: u8,
+    /// An arm to be said after the next tick.
+    arms: bool,
+    members: Members,
+    replica: Replica,
+    due: Vec<Due, MOST_DUE>,
+    /// What was said of contact last, and how long ago.
+    said: Contact,
+    since_said: u16,
+    /// Messages that came too late, were no messages or out of range, or found no room.
+    lost: u32,
+}
+
+impl Node {
+    /// Before its first tick. A head without a bus has no nodes.
+    pub fn new(head: &HeadConfig, number: u8) -> Self {
+        let times = Times::at(head.tick_hz);
+        Self {
+            number,
+            times,
+            clock: Clock::new(),
+            tick: 0,
+            alone: 0,
+            is_joined: false,
+            is_stopped: false,
+            is_twin: false,
+            stops: 0,
+            arms: false,
+            members: Members::new(head, number, times),
+            replica: Replica::new(times),
+            due: Vec::new(),
+            said: Contact::default(),
+            since_said: 0,
+            lost: 0,
+        }
+    }
+
+    /// Whether it shares clock and oscillators of its head.
+    pub const fn is_joined(&self) -> bool {
+        self.is_joined
+    }
+
+    /// Whether motors may run: no stop came after the last arm, and its number is its own.
+    pub const fn may_run(&self) -> bool {
+        !self.is_stopped && !self.is_twin
+    }
+
+    /// Messages that it could not use.
+    pub const fn lost(&self) -> u32 {
+        self.lost
+    }
+
+    /// Whether it leads the oscillator of a side.
+    pub fn leads(&self, side: usize) -> bool {
+        self.is_joined && self.members.leader(side, true) == Some(self.number)
+    }
+
+    /// Stops all motors of the head, its own before the next tick.
+    pub const fn stop(&mut self) {
+        self.is_stopped = true;
+        self.arms = false;
+        self.stops = STOPS;
+    }
+
+    /// Arms all motors of the head.
+    pub const fn arm(&mut self) {
+        self.arms = true;
+    }
+
+    /// A frame has come; `at_us`: when it ended, by the node's own clock.
+    pub fn hear(&mut self, frame: &Frame, at_us: u64, events: &mut impl FnMut(NodeEvent)) {
+        let Ok((from, stamp, message)) = Message::of(frame) else {
+            self.lost = self.lost.saturating_add(1);
+            return;
+        };
+        if from == self.number {
+            if !self.is_twin {
+                self.is_twin = true;
+                events(NodeEvent::Twin);
+            }
+            return;
+        }
+        match message {
+            Message::Stop => {
+                self.is_stopped = true;
+                self.arms = false;
+                self.due.retain(|due| due.message != Message::Arm);
+                return;
+            }
+            Message::Time { number, last_us } => {
+                if self.members.leader_of_time(false) == Some(from) {
+                    self.clock.hear(from, number, last_us, at_us);
+                }
+                return;
+            }
+            Message::Contact(contact) => {
+                if self.members.heard(from, contact.is_joined) {
+                    events(NodeEvent::Heard(from));
+                }
+            }
+            _ => {}
+        }
+        // One, where this node has done the same tick as the one that says it.
+        let late = (self.tick as u8).wrapping_sub(stamp);
+        let is_in_time = u16::from(late) <= self.times.delay;
+        self.members.fits(from, is_in_time);
+        let left = self.times.delay.saturating_sub(late.into());
+        let at = self.tick.wrapping_add(left.into());
+        let due = Due { at, from, message };
+        if !is_in_time || self.due.push(due).is_err() {
+            self.lost = self.lost.saturating_add(1);
+        }
+    }
+
+    /// A frame of this node has come through; `at_us`: when it ended, by the node's own clock.
+    pub fn said(&mut self, frame: &Frame, at_us: u64) {
+        if let Ok((_, _, Message::Time { .. })) = Message::of(frame) {
+            self.clock.said(at_us);
+        }
+    }
+
+    /// Before a tick, which begins at `now_us` by its own clock.
+    pub fn before<R: Number, H: Hardware>(
+        &mut self,
+        now_us: u64,
+        (module, config): (&mut Module<R, H>, &Config<R>),
+        events: &mut impl FnMut(NodeEvent),
+    ) {
+        self.keep_time(now_us, config.head.tick_hz, events);
+        let now = self.tick;
+        let mut is_armed = false;
+        let due = core::mem::take(&mut self.due);
+        for one in due {
+            if one.at != now {
+                // There was room for it.
+                let _ = self.due.push(one);
+                continue;
+            }
+            match one.message {
+                Message::Contact(contact) => self.members.feels(one.from, contact.pi),
+                Message::Psi { side, psi } => {
+                    let leader = self.members.leader(side.into(), self.is_joined);
+                    if leader == Some(one.from)
+                        && let (Some(motion), Some(config)) = (module.motion_mut(), &config.motion)
+                    {
+                        let of = (&config.whisking.oscillators, &mut motion.state.oscillators);
+                        self.replica
+                            .correct(of, (side.into(), psi), now, self.is_joined);
+                    }
+                }
+                Message::Arm => is_armed = self.is_joined,
+                _ => {}
+            }
+        }
+        self.members.pass(events);
+        self.join(config.motion.as_ref(), events);
+        module.feel_elsewhere(self.members.contact());
+        if is_armed && !self.is_twin {
+            self.is_stopped = false;
+            module.arm(true);
+        }
+        if !self.may_run() {
+            module.arm(false);
+        }
+    }
+
+    /// Sets the number of the tick by the clock of the head.
+    fn keep_time(&mut self, now_us: u64, tick_hz: u32, events: &mut impl FnMut(NodeEvent)) {
+        let Some(tick) = self.clock.tick(now_us, tick_hz) else {
+            return;
+        };
+        let off = tick.wrapping_sub(self.tick).cast_signed();
+        if !self.is_joined {
+            self.tick = tick;
+        } else if !(-1..=1).contains(&off) {
+            self.leave(events);
+        }
+    }
+
+    fn leave(&mut self, events: &mut impl FnMut(NodeEvent)) {
+        self.is_joined = false;
+        self.alone = 0;
+        self.clock = Clock::new();
+        self.replica.forget();
+        self.due.clear();
+        events(NodeEvent::Left);
+    }
+
+    /// Joins the head as soon as it shares its clock and oscillators, or begins one if it is the
+    /// lowest that lives.
+    fn join<R: Real>(
+        &mut self,
+        motion: Option<&MotionConfig<R>>,
+        events: &mut impl FnMut(NodeEvent),
+    ) {
+        if self.is_joined {
+            if self.members.is_strange() {
+                self.leave(events);
+            }
+            return;
+        }
+        self.alone = self.alone.saturating_add(1);
+        let is_found = match self.members.leader_of_time(false) {
+            Some(_) => {
+                let is_led = |side| self.members.leader(side, false).is_some();
+                let lacks = |side| is_led(side) && !self.replica.is_led(side);
+                self.clock.is_set() && (motion.is_none() || !(0..MAX_SIDES).any(lacks))
+            }
+            None => self.alone >= self.times.drop && self.members.is_lowest(),
+        };
+        if is_found {
+            self.is_joined = true;
+            events(NodeEvent::Joined);
+        }
+    }
+
+    /// After a tick: what it says to the others.
+    pub fn after<R: Number, H: Hardware>(
+        &mut self,
+        (module, config): (&Module<R, H>, &Config<R>),
+        say: &mut impl FnMut(Frame),
+    ) {
+        let tick = self.tick;
+        self.tick = tick.wrapping_add(1);
+        if self.is_twin {
+            return;
+        }
+        let stamp = tick as u8;
+        let number = self.number;
+        let mut say = |message: Message| say(message.frame(number, stamp));
+        let Times { psi, contact, .. } = self.times;
+        let is_turn = tick % u32::from(contact) == u32::from(number) % u32::from(contact);
+        if self.stops > 0 && (self.stops == STOPS || is_turn) {
+            self.stops -= 1;
+            say(Message::Stop);
+        }
+        if core::mem::take(&mut self.arms) {
+            say(Message::Arm);
+            let at = tick.wrapping_add(self.times.delay.into());
+            let due = Due {
+                at,
+                from: number,
+                message: Message::Arm,
+            };
+            // Where there is no room it is the others alone that are armed, and this one stays off.
+            let _ = self.due.push(due);
+        }
+        if is_turn && self.is_joined && self.members.leader_of_time(true) == Some(number) {
+            let (number, last_us) = self.clock.next();
+            say(Message::Time { number, last_us });
+        }
+        if tick.is_multiple_of(psi.into())
+            && let (Some(motion), Some(config)) = (module.motion(), &config.motion)
+        {
+            let all = config.whisking.oscillators.psi(&motion.state().oscillators);
+            self.replica.keep(tick, &all);
+            for side in 0..MAX_SIDES {
+                if let Some(psi) = self.replica.at(tick, side).filter(|_| self.leads(side)) {
+                    say(Message::Psi {
+                        side: side as u8,
+                        psi,
+                    });
+                }
+            }
+        }
+        self.say_contact(is_turn, module, &mut say);
+    }
+
+    fn say_contact<R: Number, H: Hardware>(
+        &mut self,
+        is_turn: bool,
+        module: &Module<R, H>,
+        say: &mut impl FnMut(Message),
+    ) {
+        self.since_said = self.since_said.saturating_add(1);
+        let pi = module
+            .contact()
+            .map(|pi| (pi.to_q24() >> 9).clamp(0, u16::MAX.into()) as u16);
+        let mut rises = pi.iter().zip(self.said.pi);
+        let has_risen = rises.any(|(now, said)| *now >= said.saturating_add(RISE));
+        if is_turn || has_risen && self.since_said >= self.times.rise {
+            self.since_said = 0;
+            self.said = Contact {
+                pi,
+                is_joined: self.is_joined,
+                is_armed: module.is_armed(),
+            };
+            say(Message::Contact(self.said));
+        }
+    }
+}

@@ -1,0 +1,121 @@
+//! The clock that all nodes of a head share: that of its lowest node that lives.
+//!
+//! A message of time ends at the same moment for all who hear it. Its sender notes when by its
+//! clock, and says so in the next one; who has noted the same by its own knows how far it is off.
+
+/// When a message of time ended, by the node's own clock.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+struct Ended {
+    from: u8,
+    number: u8,
+    at_us: u64,
+}
+
+/// What a node knows of the clock of its head.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) struct Clock {
+    last: Option<Ended>,
+    /// What is added to the node's own clock, µs.
+    offset_us: i64,
+    is_set: bool,
+    /// The number of the next message of time of its own, and when the last ended, by the head's.
+    next: u8,
+    said_us: u64,
+}
+
+impl Clock {
+    pub(super) const fn new() -> Self {
+        Self {
+            last: None,
+            offset_us: 0,
+            is_set: false,
+            next: 0,
+            said_us: 0,
+        }
+    }
+
+    /// Whether it knows the clock of the head.
+    pub(super) const fn is_set(&self) -> bool {
+        self.is_set
+    }
+
+    /// A message of time has come.
+    pub(super) fn hear(&mut self, from: u8, number: u8, last_us: u64, at_us: u64) {
+        if let Some(last) = self.last
+            && last.from == from
+            && last.number == number.wrapping_sub(1)
+        {
+            self.offset_us = last_us.wrapping_sub(last.at_us).cast_signed();
+            self.is_set = true;
+        }
+        self.last = Some(Ended {
+            from,
+            number,
+            at_us,
+        });
+    }
+
+    /// A message of time of this node has ended.
+    pub(super) const fn said(&mut self, at_us: u64) {
+        self.said_us = at_us.wrapping_add_signed(self.offset_us);
+    }
+
+    /// Number and time of the next one of this node.
+    pub(super) const fn next(&mut self) -> (u8, u64) {
+        let number = self.next;
+        self.next = number.wrapping_add(1);
+        (number, self.said_us)
+    }
+
+    /// Which tick begins now, by the clock of the head; none: it is not known.
+    pub(super) fn tick(&self, now_us: u64, tick_hz: u32) -> Option<u32> {
+        let us = u128::from(now_us.wrapping_add_signed(self.offset_us));
+        let tick = (us * u128::from(tick_hz) + 500_000) / 1_000_000;
+        self.is_set.then_some(tick as u32)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Clock;
+    use proptest::prelude::*;
+
+    proptest! {
+        /// However far two clocks are apart, the second node's ticks have the first's numbers after
+        /// two messages, however long those take.
+        #[test]
+        fn two_messages_set_a_clock(
+            own_us in 0_u64..1 << 40,
+            head_us in 0_u64..1 << 40,
+            took_us in 50_u64..5_000,
+        ) {
+            let (mut first, mut second) = (Clock::new(), Clock::new());
+            let mut later = 0;
+            for _ in 0..2 {
+                let (number, last_us) = first.next();
+                later += took_us;
+                first.said(head_us + later);
+                second.hear(0, number, last_us, own_us + later);
+            }
+            prop_assert!(second.is_set());
+            let tick = |us: u64| ((us as f64) * 2e-3).round() as u32;
+            for after in [0, 250_001, 499_999, 1_000_000] {
+                let found = second.tick(own_us + after, 2000).unwrap();
+                prop_assert!(found.abs_diff(tick(head_us + after)) <= 1);
+            }
+        }
+    }
+
+    /// A message that was lost, or another node's in between, sets nothing.
+    #[test]
+    fn only_two_in_a_row_of_one_node_count() {
+        let mut clock = Clock::new();
+        clock.hear(0, 1, 500, 100);
+        clock.hear(0, 3, 900, 300);
+        assert_eq!(clock.tick(400, 2000), None);
+        clock.hear(1, 4, 900, 400);
+        assert_eq!(clock.tick(400, 2000), None);
+        clock.hear(1, 5, 10_400, 500);
+        assert_eq!(clock.tick(500, 2000), Some(21));
+    }
+}

@@ -1,0 +1,170 @@
+//! A CAN bus in simulation: arbitration, the time that frames take, and what can go wrong.
+
+use can::Frame;
+use physics::Noise;
+
+/// Frames that a node has to send at most; more are dropped, the last first.
+const MOST_QUEUED: usize = 32;
+
+/// Bits of an error frame with the space behind it, at most (CAN 2.0, 3.1.3).
+const ERROR_BITS: u32 = 23;
+
+/// A frame that has come through.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Sent {
+    /// When it ended, µs since the start.
+    pub(super) at_us: u64,
+    /// Who sent it.
+    pub(super) from: usize,
+    pub(super) frame: Frame,
+}
+
+/// What a bus has carried.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Load {
+    /// Frames that came through.
+    pub frames: u64,
+    /// For how long it was busy, s.
+    pub busy_s: f64,
+    /// The longest that a frame took from its queueing to its end, s.
+    pub worst_s: f64,
+    /// Frames for which there was no room.
+    pub dropped: u64,
+}
+
+/// A bus.
+#[derive(Debug)]
+pub(super) struct Can {
+    bit_us: f64,
+    /// Of each node, with the time of its queueing, µs.
+    queues: Vec<Vec<(f64, Frame)>>,
+    free_us: f64,
+    /// Share of frames that an error destroys, which are sent again.
+    corrupted: f64,
+    random: Noise,
+    load: Load,
+}
+
+impl Can {
+    pub(super) fn new(nodes: usize, kbit_s: u16) -> Self {
+        Self {
+            bit_us: 1e3 / f64::from(kbit_s),
+            queues: vec![Vec::new(); nodes],
+            free_us: 0.0,
+            corrupted: 0.0,
+            random: Noise::new(0),
+            load: Load::default(),
+        }
+    }
+
+    pub(super) const fn load(&self) -> Load {
+        self.load
+    }
+
+    pub(super) fn corrupt(&mut self, share: f64, seed: u64) {
+        self.corrupted = share;
+        self.random = Noise::new(seed);
+    }
+
+    /// Gives a node a frame to send, at `now_us`.
+    pub(super) fn queue(&mut self, from: usize, frame: Frame, now_us: f64) {
+        let Some(queue) = self.queues.get_mut(from) else {
+            return;
+        };
+        if queue.len() == MOST_QUEUED {
+            self.load.dropped += 1;
+        } else {
+            queue.push((now_us, frame));
+        }
+    }
+
+    /// Drops what a node has to send.
+    pub(super) fn clear(&mut self, node: usize) {
+        if let Some(queue) = self.queues.get_mut(node) {
+            queue.clear();
+        }
+    }
+
+    /// The next frame that ends by `until_us`: of those that are there when the bus is free, the
+    /// one with the lowest identifier.
+    pub(super) fn next(&mut self, until_us: f64) -> Option<Sent> {
+        loop {
+            let all = self.queues.iter().flatten();
+            let first_us = all.map(|(at_us, _)| *at_us).min_by(f64::total_cmp)?;
+            let begin_us = self.free_us.max(first_us);
+            let mut found: Option<(usize, usize, u16)> = None;
+            for (from, queue) in self.queues.iter().enumerate() {
+                for (place, (at_us, frame)) in queue.iter().enumerate() {
+                    let wins = found.is_none_or(|(_, _, id)| frame.id() < id);
+                    if *at_us <= begin_us && wins {
+                        found = Some((from, place, frame.id()));
+                    }
+                }
+            }
+            let (from, place, _) = found?;
+            let queue = self.queues.get_mut(from)?;
+            let (queued_us, frame) = *queue.get(place)?;
+            let bits = frame.bits();
+            let end_us = begin_us + f64::from(bits) * self.bit_us;
+            if end_us > until_us {
+                return None;
+            }
+            if self.corrupted > 0.0 && self.random.uniform() < self.corrupted {
+                let lost = f64::from(bits / 2 + ERROR_BITS) * self.bit_us;
+                self.free_us = begin_us + lost;
+                self.load.busy_s += lost * 1e-6;
+                continue;
+            }
+            queue.remove(place);
+            self.free_us = end_us;
+            self.load.frames += 1;
+            self.load.busy_s += f64::from(bits) * self.bit_us * 1e-6;
+            self.load.worst_s = self.load.worst_s.max((end_us - queued_us) * 1e-6);
+            return Some(Sent {
+                at_us: end_us as u64,
+                from,
+                frame,
+            });
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Can;
+    use can::Frame;
+
+    /// The lower identifier goes first although it came last, but not before a frame that is
+    /// under way; and each takes as many bits as it has.
+    #[test]
+    fn the_lowest_identifier_goes_first_once_the_bus_is_free() {
+        let mut can = Can::new(3, 500);
+        let [a, b, c] = [0x300, 0x200, 0x100].map(|id| Frame::new(id, &[1, 2, 3]));
+        can.queue(0, a, 0.0);
+        can.queue(1, b, 10.0);
+        can.queue(2, c, 20.0);
+        let sent: Vec<_> = std::iter::from_fn(|| can.next(1e6)).collect();
+        assert_eq!(
+            sent.iter().map(|sent| sent.from).collect::<Vec<_>>(),
+            [0, 2, 1]
+        );
+        let bits: u32 = [a, c, b].iter().map(Frame::bits).sum();
+        assert_eq!(sent[2].at_us, u64::from(2 * bits));
+        assert_eq!(can.load().frames, 3);
+        assert!((can.load().busy_s - f64::from(2 * bits) * 1e-6).abs() < 1e-12);
+        assert_eq!(can.next(1e6), None);
+    }
+
+    #[test]
+    fn what_is_destroyed_is_sent_again() {
+        let mut can = Can::new(1, 1000);
+        can.corrupt(0.5, 3);
+        for n in 0..20 {
+            can.queue(0, Frame::new(n, &[]), 0.0);
+        }
+        let sent = std::iter::from_fn(|| can.next(1e6)).count();
+        assert_eq!(sent, 20);
+        let least: u32 = (0..20).map(|n| Frame::new(n, &[]).bits()).sum();
+        assert!(can.load().busy_s > 1.2e-6 * f64::from(least));
+    }
+}

@@ -1,0 +1,414 @@
+//! A head: several boards, each with its own whiskers, joined by a simulated CAN bus.
+
+use std::ops::Range;
+
+use firmware::{
+    Command, Event, Module, NoActiveWhisker, Node, NodeEvent, NotDone, Packet, Whisker,
+};
+use physics::Noise;
+use scene::Scene;
+use whisking::{Number, Real};
+use wire::TaggedCommand;
+
+use super::can::{Can, Load};
+use super::{Bench, HostModule, Hosted, Snapshot};
+use crate::Error;
+use crate::bus::Slave;
+use crate::bus::tmag5170::TmagSlave;
+use crate::classifier::{Classifier, Tap};
+use crate::motor::Pins;
+
+/// When in a tick a board has computed what it says, µs: the last of the papers' 500 µs that a
+/// tick may take is left for the bus.
+const READY_SHARE: f64 = 0.6;
+
+/// What became of a node.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Happened {
+    /// When, s.
+    pub t_s: f64,
+    /// Of which.
+    pub node: u8,
+    /// What.
+    pub what: NodeEvent,
+}
+
+/// What is to be done to a node before the next tick.
+#[derive(Debug, Clone, Copy, Default)]
+struct Asked {
+    reset: bool,
+    arm: bool,
+    stop: bool,
+}
+
+/// The bus of a simulated head: to look at it, and to disturb it.
+#[derive(Debug)]
+pub struct Bus {
+    can: Can,
+    happened: Vec<Happened>,
+    asked: Vec<Asked>,
+    /// Nodes that neither hear nor are heard.
+    cut: Vec<bool>,
+    joined: Vec<bool>,
+    armed: Vec<bool>,
+    /// Share of frames that a node misses.
+    missed: f64,
+    random: Noise,
+}
+
+impl Bus {
+    fn new(nodes: usize, kbit_s: u16) -> Self {
+        Self {
+            can: Can::new(nodes, kbit_s),
+            happened: Vec::new(),
+            asked: vec![Asked::default(); nodes],
+            cut: vec![false; nodes],
+            joined: vec![false; nodes],
+            armed: vec![false; nodes],
+            missed: 0.0,
+            random: Noise::new(0),
+        }
+    }
+
+    /// What it has carried.
+    pub const fn load(&self) -> Load {
+        self.can.load()
+    }
+
+    /// What became of its nodes so far.
+    pub fn happened(&self) -> &[Happened] {
+        &self.happened
+    }
+
+    /// Whether a node shares clock and oscillators of the head.
+    pub fn is_joined(&self, node: usize) -> bool {
+        self.joined.get(node) == Some(&true)
+    }
+
+    /// Whether the motors of a node are armed.
+    pub fn is_armed(&self, node: usize) -> bool {
+        self.armed.get(node) == Some(&true)
+    }
+
+    /// Takes a node off the bus, or puts it on again.
+    pub fn cut(&mut self, node: usize, is_cut: bool) {
+        if let Some(cut) = self.cut.get_mut(node) {
+            *cut = is_cut;
+        }
+    }
+
+    /// Resets a node before the next tick: it begins again, its motors not armed.
+    pub fn reset(&mut self, node: usize) {
+        if let Some(asked) = self.asked.get_mut(node) {
+            asked.reset = true;
+        }
+    }
+
+    /// Has a node arm the motors of the head, or stop them.
+    pub fn arm(&mut self, node: usize, is_armed: bool) {
+        if let Some(asked) = self.asked.get_mut(node) {
+            (asked.arm, asked.stop) = (is_armed, !is_armed);
+        }
+    }
+
+    /// From now on each node misses this share of the frames, and an error on the bus destroys
+    /// another, which are sent again.
+    pub fn disturb(&mut self, missed: f64, corrupted: f64, seed: u64) {
+        self.missed = missed;
+        self.random = Noise::new(seed);
+        self.can.corrupt(corrupted, seed.wrapping_add(1));
+    }
+}
+
+/// One board of a head.
+struct Board<R: Number> {
+    hosted: Hosted<R>,
+    node: Node,
+    own: Range<usize>,
+    pins: Vec<Pins>,
+    /// Ticks since its start: its own clock.
+    ticks: u64,
+}
+
+/// A head of boards.
+pub(super) struct Head<R: Number> {
+    boards: Vec<Board<R>>,
+    bus: Bus,
+    tick_hz: f64,
+    done: u64,
+    each: usize,
+}
+
+fn pins_of(own: &Range<usize>, pins: &[Pins]) -> Vec<Pins> {
+    // None, where whiskers are passive.
+    pins.get(own.clone()).unwrap_or_default().to_vec()
+}
+
+impl<R: Number> Head<R> {
+    pub(super) fn new(
+        scene: &Scene,
+        nodes: u8,
+        pins: Vec<Pins>,
+        classifier: Option<Classifier>,
+    ) -> Result<Self, Error> {
+        let mut boards = Vec::new();
+        let mut kbit_s = 0;
+        for number in 0..nodes {
+            let each = scene.whiskers() / usize::from(nodes);
+            let own = usize::from(number) * each..(usize::from(number) + 1) * each;
+            let own_pins = pins_of(&own, &pins);
+            let hosted = Hosted::new(scene, number, own_pins.clone(), classifier.clone())?;
+            kbit_s = hosted.config.head.bus.map_or(0, |bus| bus.kbit_s);
+            boards.push(Board {
+                node: Node::new(&hosted.config.head, number),
+                hosted,
+                own,
+                pins: own_pins,
+                ticks: 0,
+            });
+        }
+        Ok(Self {
+            bus: Bus::new(boards.len(), kbit_s),
+            boards,
+            tick_hz: f64::from(scene.tick_hz),
+            done: 0,
+            each: scene.head.whiskers_per_side,
+        })
+    }
+
+    /// The board of whisker `n`, and which of its whiskers it is.
+    fn find(&mut self, n: usize) -> Option<(&mut Hosted<R>, usize)> {
+        let board = self
+            .boards
+            .iter_mut()
+            .find(|board| board.own.contains(&n))?;
+        Some((&mut board.hosted, n - board.own.start))
+    }
+
+    fn of_whisker(&self, n: usize) -> Option<(&Hosted<R>, usize)> {
+        let board = self.boards.iter().find(|board| board.own.contains(&n))?;
+        Some((&board.hosted, n - board.own.start))
+    }
+
+    /// What was asked for, before a tick.
+    fn do_asked(&mut self) {
+        for (n, board) in self.boards.iter_mut().enumerate() {
+            let asked = std::mem::take(&mut self.bus.asked[n]);
+            if asked.reset {
+                let seed = board
+                    .hosted
+                    .config
+                    .motion
+                    .as_ref()
+                    .map_or(0, |motion| motion.seed);
+                // As it could be made once, it can be again.
+                let _ = board.hosted.begin_again(seed, board.pins.clone());
+                board.hosted.module.arm(false);
+                board.node = Node::new(&board.hosted.config.head, n as u8);
+                board.ticks = 0;
+                self.bus.can.clear(n);
+            }
+            if asked.arm {
+                board.node.arm();
+            }
+            if asked.stop {
+                board.node.stop();
+            }
+        }
+    }
+
+    /// Carries what was said until the next tick to who hears it.
+    fn carry(&mut self) {
+        let tick_us = 1e6 / self.tick_hz;
+        let end_us = (self.done + 1) as f64 * tick_us;
+        while let Some(sent) = self.bus.can.next(end_us) {
+            let since_us = end_us - sent.at_us as f64;
+            if self.bus.cut[sent.from] {
+                continue;
+            }
+            for (n, board) in self.boards.iter_mut().enumerate() {
+                let own_us = (board.ticks as f64).mul_add(tick_us, -since_us).max(0.0) as u64;
+                if n == sent.from {
+                    board.node.said(&sent.frame, own_us);
+                    continue;
+                }
+                let is_missed =
+                    self.bus.missed > 0.0 && self.bus.random.uniform() < self.bus.missed;
+                if self.bus.cut[n] || is_missed {
+                    continue;
+                }
+                let t_s = sent.at_us as f64 * 1e-6;
+                let happened = &mut self.bus.happened;
+                board.node.hear(&sent.frame, own_us, &mut |what| {
+                    happened.push(Happened {
+                        t_s,
+                        node: n as u8,
+                        what,
+                    });
+                });
+            }
+        }
+    }
+}
+
+impl<R: Number> Bench for Head<R> {
+    fn tick(&mut self, events: &mut Vec<Event>) {
+        self.do_asked();
+        let tick_us = 1e6 / self.tick_hz;
+        let t_s = self.done as f64 / self.tick_hz;
+        let ready_us = (self.done as f64 + READY_SHARE) * tick_us;
+        for (n, board) in self.boards.iter_mut().enumerate() {
+            let Board {
+                hosted,
+                node,
+                ticks,
+                ..
+            } = board;
+            let bus = &mut self.bus;
+            let now_us = *ticks as f64 * tick_us;
+            node.before(
+                now_us as u64,
+                (&mut hosted.module, &hosted.config),
+                &mut |what| {
+                    bus.happened.push(Happened {
+                        t_s,
+                        node: n as u8,
+                        what,
+                    });
+                },
+            );
+            hosted.tick(events);
+            node.after((&hosted.module, &hosted.config), &mut |frame| {
+                bus.can.queue(n, frame, ready_us);
+            });
+            *ticks += 1;
+            bus.joined[n] = node.is_joined();
+            bus.armed[n] = hosted.module.is_armed();
+        }
+        self.carry();
+        self.done += 1;
+    }
+
+    fn look(&mut self, snapshot: &mut Snapshot) {
+        snapshot
+            .contact
+            .iter_mut()
+            .filter(|pi| !pi.is_nan())
+            .for_each(|pi| *pi = 0.0);
+        for (side, z) in snapshot.z.iter_mut().enumerate() {
+            let first = self
+                .boards
+                .iter()
+                .find(|board| board.own.contains(&(side * self.each)));
+            let Some(Board { hosted, own, .. }) = first else {
+                continue;
+            };
+            let local = side * self.each - own.start;
+            if let Some(perception) = hosted.module.perception() {
+                snapshot.touch[side] = perception.touching(local).number;
+            }
+            let state = hosted.module.motion().map(|motion| motion.state());
+            if let Some(of_side) = state.and_then(|state| state.sides.get(side)) {
+                *z = of_side.z.value.to_f64();
+            }
+            if let Some(whisker) = state.and_then(|state| state.whiskers.get(local)) {
+                snapshot.g[side] = whisker.gain();
+            }
+        }
+        for Board { hosted, own, .. } in &self.boards {
+            if let Some(places) = snapshot.theta_deg.get_mut(own.clone()) {
+                hosted.look_at_setpoints(places);
+            }
+            for (most, pi) in snapshot.contact.iter_mut().zip(hosted.module.contact()) {
+                *most = if most.is_nan() {
+                    *most
+                } else {
+                    most.max(pi.to_f64())
+                };
+            }
+        }
+    }
+
+    fn slave_mut(&mut self, n: usize) -> Option<&mut Slave> {
+        let (hosted, n) = self.find(n)?;
+        hosted.slave_mut(n)
+    }
+
+    fn tmag_mut(&mut self, n: usize) -> Option<&mut TmagSlave> {
+        let (hosted, n) = self.find(n)?;
+        hosted.tmag_mut(n)
+    }
+
+    fn bend(&mut self, n: usize, deflection: [f64; 2]) {
+        if let Some((hosted, n)) = self.find(n) {
+            hosted.bend(n, deflection);
+        }
+    }
+
+    fn felt_by(&self, n: usize) -> Option<f64> {
+        let (hosted, n) = self.of_whisker(n)?;
+        hosted.felt_by(n)
+    }
+
+    fn is_homing(&self, n: usize) -> bool {
+        self.of_whisker(n)
+            .is_some_and(|(hosted, n)| hosted.is_homing(n))
+    }
+}
+
+impl<R: Number> HostModule for Head<R>
+where
+    Hosted<R>: Send,
+{
+    fn restart(&mut self, seed: u64, pins: Vec<Pins>) -> Result<(), Error> {
+        let kbit_s = self
+            .boards
+            .first()
+            .and_then(|board| board.hosted.config.head.bus);
+        self.bus = Bus::new(self.boards.len(), kbit_s.map_or(0, |bus| bus.kbit_s));
+        self.done = 0;
+        for (number, board) in (0..).zip(&mut self.boards) {
+            board.pins = pins_of(&board.own, &pins);
+            board.hosted.restart(seed, board.pins.clone())?;
+            board.node = Node::new(&board.hosted.config.head, number);
+            board.ticks = 0;
+        }
+        Ok(())
+    }
+
+    fn command(&mut self, n: usize, command: Command<f64>) -> Result<(), NotDone> {
+        let (hosted, n) = self.find(n).ok_or(NoActiveWhisker)?;
+        hosted.command(n, command)
+    }
+
+    fn arm(&mut self, is_armed: bool) {
+        self.bus.arm(0, is_armed);
+    }
+
+    fn tap(&mut self) -> Option<&mut Tap> {
+        self.boards.first_mut()?.hosted.tap()
+    }
+
+    fn felt(&self) -> Vec<f64> {
+        let modules = self.boards.iter().map(|board| &board.hosted.module);
+        let felt = modules.flat_map(Module::whiskers).map(Whisker::felt);
+        felt.map(Real::to_f64).collect()
+    }
+
+    fn request(&mut self, request: TaggedCommand) {
+        if let Some(first) = self.boards.first_mut() {
+            first.hosted.request(request);
+        }
+    }
+
+    fn take_packets(&mut self) -> Vec<Packet> {
+        let first = self.boards.first_mut();
+        first
+            .map(|board| board.hosted.take_packets())
+            .unwrap_or_default()
+    }
+
+    fn bus(&mut self) -> Option<&mut Bus> {
+        Some(&mut self.bus)
+    }
+}

@@ -1,0 +1,286 @@
+//! A head of boards on a bus, beside the one board that has all its whiskers.
+
+use std::path::Path;
+
+use firmware::NodeEvent;
+use host_sim::bench::{Bus, Happened};
+use host_sim::run::Run;
+use scene::{Override, Scene};
+
+const ROOT: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../scenes");
+
+fn scene(name: &str, overrides: &[&str]) -> Scene {
+    let overrides = overrides.iter().map(|one| one.parse().unwrap());
+    let overrides: Vec<Override> = overrides.collect();
+    Scene::load_with(Path::new(ROOT).join(name), &overrides)
+        .unwrap()
+        .0
+}
+
+/// A head of two boards.
+const TWO: &str = "head.nodes=2";
+
+/// The largest θ′ of each side over the scene, and all θ′ of the left.
+fn largest(scene: &Scene) -> ([f64; 2], Vec<[f64; 2]>) {
+    let mut run = Run::new(scene, None).unwrap();
+    let mut most = [f64::MIN; 2];
+    let mut all = Vec::new();
+    for tick in 0..run.ticks() {
+        let row = run.tick();
+        all.push(row.theta_deg);
+        if tick > run.ticks() / 3 {
+            for (most, theta) in most.iter_mut().zip(row.theta_deg) {
+                *most = most.max(theta);
+            }
+        }
+    }
+    (most, all)
+}
+
+/// BIOTACT Fig. 9: by contact of the left the right finds its obstacle at 125 degrees. EQUATIONS
+/// has 130.4 for one module with forward Euler.
+#[test]
+fn the_right_finds_its_obstacle_by_contact_of_another_board() {
+    let one = scene("cia.toml", &[]);
+    let two = scene("cia.toml", &[TWO]);
+    let (alone, _) = largest(&one);
+    let (joined, _) = largest(&two);
+    assert!((alone[1] - 130.4).abs() < 0.1);
+    assert!((joined[1] - 130.4).abs() < 0.5);
+    let without = scene("rcp.toml", &[TWO]);
+    let (never, _) = largest(&without);
+    assert!(never[1] < 125.0);
+}
+
+/// Without noise and contact a head whisks to the last bit as one board does.
+#[test]
+fn a_head_in_the_air_whisks_as_one_board() {
+    for integrator in ["euler", "exact"] {
+        let integrator = format!("whisking.integrator={integrator:?}");
+        let (_, one) = largest(&scene("free.toml", &[&integrator]));
+        let (_, four) = largest(&scene("free.toml", &[&integrator, "head.nodes=4"]));
+        let differ = one.iter().zip(&four).position(|(a, b)| a != b);
+        assert_eq!(differ, None, "{integrator}");
+    }
+}
+
+/// A head of so many boards, or one, whisking at `hz` with an obstacle before the left side, its sides begun
+/// apart.
+fn whole(nodes: u8, hz: f64, more: &[&str]) -> Scene {
+    let nodes = if nodes > 1 {
+        format!("nodes = {nodes}")
+    } else {
+        String::new()
+    };
+    let text = format!(
+        "name = \"whole\"\ntick_hz = 2000\nduration_s = 8.0\nseed = 3\n\
+         [head]\nwhiskers_per_side = 12\n{nodes}\n\
+         [whisking]\nfrequency_hz = {hz:?}\nintegrator = \"exact\"\ncoupling = true\n\
+         noise = 0.005\ngain = 1.0\nstart = [[1.0, 0.0], [0.6, 0.5]]\n\
+         [rcp]\ngain = 0.7\ntau_s = 0.125\n[cia]\ngain = 0.5\ntau_s = 0.125\n\
+         [plant]\nkind = \"ideal\"\nobstacle_deg = [100.0, 125.0]\nstiffness = 0.1\n"
+    );
+    let more: Vec<Override> = more.iter().map(|one| one.parse().unwrap()).collect();
+    Scene::from_str_with("test", &text, &more).unwrap().0
+}
+
+/// From contact of one board's whiskers to more drive of another's there are 4 ms, for which the
+/// bus has time: 5 ms are allowed.
+#[test]
+fn contact_excites_the_farthest_board_in_time() {
+    let mut run = Run::new(&whole(24, 2.0, &[]), None).unwrap();
+    let mut latencies = Vec::new();
+    let mut since = None;
+    let mut before = run.tick();
+    for _ in 1..run.ticks() {
+        let row = run.tick();
+        if before.contact[0] < 0.05 && row.contact[0] >= 0.05 {
+            since = Some(run.t_s());
+        }
+        // Of the first whisker of the right.
+        if let Some(felt_s) = since.filter(|_| row.g[1] > before.g[1] + 1e-3) {
+            latencies.push(run.t_s() - felt_s);
+            since = None;
+        }
+        before = row;
+    }
+    let worst = latencies.iter().copied().fold(0.0, f64::max);
+    let mean = latencies.iter().sum::<f64>() / latencies.len() as f64;
+    let load = run.module_mut().bus().unwrap().load();
+    println!(
+        "24 boards: {} contacts, {:.2} ms to excitation in the mean, {:.2} at most; bus busy \
+         {:.1} %, a frame at most {:.2} ms",
+        latencies.len(),
+        mean * 1e3,
+        worst * 1e3,
+        100.0 * load.busy_s / run.t_s(),
+        load.worst_s * 1e3,
+    );
+    assert!(latencies.len() > 10);
+    assert!(worst <= 5e-3, "{worst}");
+    assert!(load.worst_s < 4e-3 && load.dropped == 0, "{load:?}");
+}
+
+/// How far the sides are apart, degrees, at the frequency of the whisk; boards of a head are reset
+/// and armed again before, so that each has noise of its own.
+fn phase_deg(scene: &Scene, hz: f64) -> f64 {
+    let mut run = Run::new(scene, None).unwrap();
+    let settled = run.ticks() / 2;
+    for tick in 0..settled {
+        if let Some(bus) = run.module_mut().bus() {
+            let node = tick / 100;
+            match tick % 100 {
+                0 if (1..24).contains(&node) => bus.reset(node as usize),
+                0 if node == 30 => bus.arm(0, true),
+                _ => {}
+            }
+        }
+        run.tick();
+    }
+    let mut sums = [[0.0_f64; 2]; 2];
+    for tick in settled..run.ticks() {
+        let (sin, cos) = (std::f64::consts::TAU * hz * tick as f64 / 2000.0).sin_cos();
+        for ([x, y], theta) in sums.iter_mut().zip(run.tick().theta_deg) {
+            *x += theta * cos;
+            *y += theta * sin;
+        }
+    }
+    let [left, right] = sums.map(|[x, y]| f64::atan2(y, x).to_degrees());
+    left - right
+}
+
+/// The bus does not draw the sides apart: within a degree of one board's.
+#[test]
+fn sides_on_many_boards_whisk_together_as_on_one() {
+    for hz in [2.0, 8.0] {
+        let free = ["plant.obstacle_deg=[300.0, 300.0]", "duration_s=40.0"];
+        let [one, many] = [1, 24].map(|nodes| phase_deg(&whole(nodes, hz, &free), hz));
+        println!("{hz} Hz: sides {one:.3} degrees apart on one board, {many:.3} on 24");
+        assert!((many - one).abs() < 1.0);
+    }
+}
+
+/// A board that is reset computes on with its motors off, takes the others' phase, and is armed
+/// by command alone; meanwhile the next one leads, and no setpoint steps.
+#[test]
+fn a_board_that_returns_takes_the_phase_of_the_others() {
+    let scene = whole(
+        24,
+        2.0,
+        &["whisking.noise=0.0", "plant.obstacle_deg=[300.0, 300.0]"],
+    );
+    let mut run = Run::new(&scene, None).unwrap();
+    let mut fastest = 0.0_f64;
+    let mut last = f64::NAN;
+    for tick in 0..8_000 {
+        match tick {
+            // In the middle of a whisk.
+            4_300 => run.module_mut().bus().unwrap().reset(0),
+            6_000 => run.module_mut().bus().unwrap().arm(5, true),
+            _ => {}
+        }
+        let theta = run.tick().theta_deg[1];
+        if tick > 0 && tick < 4_000 {
+            fastest = fastest.max((theta - last).abs());
+        }
+        if tick > 4_000 {
+            assert!((theta - last).abs() <= 1.001 * fastest, "{tick}");
+        }
+        last = theta;
+        let bus = run.module_mut().bus().unwrap();
+        if (4_300..6_000).contains(&tick) {
+            assert!(!bus.is_armed(0) && bus.is_armed(1));
+        }
+        if tick == 4_500 {
+            assert!(bus.is_joined(0), "within 100 ms: {:?}", bus.happened());
+        }
+    }
+    let theta = run.row().theta_deg;
+    // It was never told ψ by the others but over the bus.
+    let mut rows = Vec::new();
+    run.look_at_whiskers(&mut rows);
+    println!(
+        "θ' of the board that returned {:.4}, of its neighbour {:.4}",
+        theta[0], rows[1].theta_deg
+    );
+    assert!((theta[0] - rows[1].theta_deg).abs() < 0.05);
+    let bus = run.module_mut().bus().unwrap();
+    assert!((0..24).all(|node| bus.is_armed(node)));
+    let lost = |happened: &&Happened| happened.what == NodeEvent::Lost(0);
+    assert_eq!(
+        bus.happened().iter().filter(lost).count(),
+        0,
+        "it was back before it was missed"
+    );
+}
+
+/// Ten thousand disturbances: boards that are reset, cut off and joined again, frames missed and
+/// destroyed. Setpoints never step, and in the end all whisk together again.
+#[test]
+fn nothing_on_the_bus_makes_a_setpoint_step() {
+    let mut run = Run::new(&whole(12, 4.0, &["duration_s=120.0"]), None).unwrap();
+    let mut random = physics::Noise::new(7);
+    let mut rows = Vec::new();
+    let mut last: Vec<f64> = Vec::new();
+    let (mut done, mut worst) = (0, 0.0_f64);
+    for tick in 0..80_000_u32 {
+        let bus = run.module_mut().bus().unwrap();
+        if tick % 8 == 0 {
+            done += 1;
+            let node = (random.uniform() * 11.99) as usize;
+            match (random.uniform() * 20.0) as u32 {
+                0 => bus.reset(node),
+                1..5 => bus.cut(node, true),
+                5..11 => bus.cut(node, false),
+                11 => bus.arm(node, true),
+                12 => bus.arm(node, random.uniform() < 0.9),
+                _ => {
+                    let missed = random.uniform() * 0.3;
+                    bus.disturb(missed, random.uniform() * 0.2, tick.into());
+                }
+            }
+        }
+        let armed = |bus: &Bus| -> Vec<bool> { (0..12).map(|node| bus.is_armed(node)).collect() };
+        let were_armed = armed(bus);
+        run.tick();
+        run.look_at_whiskers(&mut rows);
+        let are_armed = armed(run.module_mut().bus().unwrap());
+        for (n, row) in rows.iter().enumerate() {
+            let is_armed = were_armed[n / 2] && are_armed[n / 2];
+            if let Some(before) = last.get(n).filter(|_| is_armed) {
+                worst = worst.max((row.theta_deg - before).abs());
+            }
+        }
+        last = rows.iter().map(|row| row.theta_deg).collect();
+    }
+    let bus = run.module_mut().bus().unwrap();
+    for node in 0..12 {
+        bus.cut(node, false);
+    }
+    bus.disturb(0.0, 0.0, 0);
+    for _ in 0..4_000 {
+        run.tick();
+    }
+    let bus = run.module_mut().bus().unwrap();
+    assert!(
+        (0..12).all(|node| bus.is_joined(node)),
+        "{:?}",
+        bus.happened().last()
+    );
+    bus.arm(3, true);
+    for _ in 0..4_000 {
+        run.tick();
+    }
+    let bus = run.module_mut().bus().unwrap();
+    assert!((0..12).all(|node| bus.is_armed(node)));
+    run.look_at_whiskers(&mut rows);
+    let left: Vec<f64> = rows[..12].iter().map(|row| row.theta_deg).collect();
+    let spread = left
+        .iter()
+        .fold(0.0_f64, |most, theta| most.max((theta - left[0]).abs()));
+    println!(
+        "{done} disturbances: θ' moves {worst:.3} degrees a tick at most; in the end {spread:.3} apart"
+    );
+    assert!(spread < 0.5, "{left:?}");
+    assert!(worst < 2.0);
+}
