@@ -11,16 +11,19 @@
 //! bus takes. Nothing here waits for it, and a message is believed only in range and in time.
 
 mod clock;
+mod deciding;
 mod members;
 mod replica;
 mod times;
 
 use can::{Contact, Frame, Message};
 use heapless::Vec;
+use tactile::Decision;
 use whisking::{MAX_SIDES, Number, Real};
 
-use crate::{Config, Hardware, HeadConfig, Module, MotionConfig};
+use crate::{Config, Hardware, HeadConfig, Module, MotionConfig, Perception, SampleClassifier};
 use clock::Clock;
+use deciding::Deciding;
 use members::Members;
 use replica::Replica;
 pub use times::Times;
@@ -47,6 +50,8 @@ pub enum NodeEvent {
     Heard(u8),
     /// Another has the same number: its motors stay off, and it is silent.
     Twin,
+    /// The whiskers of the head together have decided, by what those of another have felt.
+    Decided(Decision),
 }
 
 /// A message that has come in time.
@@ -56,6 +61,16 @@ struct Due {
     at: u32,
     from: u8,
     message: Message,
+}
+
+/// Whether motors may run.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Motors {
+    May,
+    /// A stop came, and no arm since.
+    Stopped,
+    /// Another node has the same number.
+    Twin,
 }
 
 /// A board of a head.
@@ -69,14 +84,16 @@ pub struct Node {
     /// Ticks since the start for which it has joined none.
     alone: u16,
     is_joined: bool,
-    is_stopped: bool,
-    is_twin: bool,
+    motors: Motors,
     /// Stops that are still to be said.
     stops: u8,
     /// An arm to be said after the next tick.
     arms: bool,
     members: Members,
     replica: Replica,
+    deciding: Deciding,
+    /// That is to be said.
+    decision: Option<Decision>,
     due: Vec<Due, MOST_DUE>,
     /// What was said of contact last, and how long ago.
     said: Contact,
@@ -96,12 +113,13 @@ impl Node {
             tick: 0,
             alone: 0,
             is_joined: false,
-            is_stopped: false,
-            is_twin: false,
+            motors: Motors::May,
             stops: 0,
             arms: false,
             members: Members::new(head, number, times),
             replica: Replica::new(times),
+            deciding: Deciding::new(times),
+            decision: None,
             due: Vec::new(),
             said: Contact::default(),
             since_said: 0,
@@ -116,7 +134,7 @@ impl Node {
 
     /// Whether motors may run: no stop came after the last arm, and its number is its own.
     pub const fn may_run(&self) -> bool {
-        !self.is_stopped && !self.is_twin
+        matches!(self.motors, Motors::May)
     }
 
     /// Messages that it could not use.
@@ -130,10 +148,17 @@ impl Node {
     }
 
     /// Stops all motors of the head, its own before the next tick.
-    pub const fn stop(&mut self) {
-        self.is_stopped = true;
-        self.arms = false;
+    pub fn stop(&mut self) {
         self.stops = STOPS;
+        self.hear_stop();
+    }
+
+    fn hear_stop(&mut self) {
+        self.arms = false;
+        self.due.retain(|due| due.message != Message::Arm);
+        if self.motors == Motors::May {
+            self.motors = Motors::Stopped;
+        }
     }
 
     /// Arms all motors of the head.
@@ -148,17 +173,15 @@ impl Node {
             return;
         };
         if from == self.number {
-            if !self.is_twin {
-                self.is_twin = true;
+            if self.motors != Motors::Twin {
+                self.motors = Motors::Twin;
                 events(NodeEvent::Twin);
             }
             return;
         }
         match message {
             Message::Stop => {
-                self.is_stopped = true;
-                self.arms = false;
-                self.due.retain(|due| due.message != Message::Arm);
+                self.hear_stop();
                 return;
             }
             Message::Time { number, last_us } => {
@@ -167,12 +190,12 @@ impl Node {
                 }
                 return;
             }
-            Message::Contact(contact) => {
-                if self.members.heard(from, contact.is_joined) {
-                    events(NodeEvent::Heard(from));
-                }
-            }
             _ => {}
+        }
+        if let Message::Contact(contact) = message
+            && self.members.heard(from, contact.is_joined)
+        {
+            events(NodeEvent::Heard(from));
         }
         // One, where this node has done the same tick as the one that says it.
         let late = (self.tick as u8).wrapping_sub(stamp);
@@ -223,14 +246,43 @@ impl Node {
                     }
                 }
                 Message::Arm => is_armed = self.is_joined,
-                _ => {}
+                Message::Evidence(evidence) => {
+                    let made = now.wrapping_sub(self.times.delay.into());
+                    let decision = module.perception_mut().and_then(|perception| {
+                        let classifier = perception.classifier_mut();
+                        self.deciding.hear(one.from, made, evidence, classifier)
+                    });
+                    if let Some(decision) = decision {
+                        self.decision = Some(decision);
+                        events(NodeEvent::Decided(decision));
+                    }
+                }
+                Message::Decision { .. } => {
+                    if self.members.leader_of_time(self.is_joined) == Some(one.from)
+                        && let Some(perception) = module.perception_mut()
+                    {
+                        perception.classifier_mut().forget();
+                        self.deciding.decided(now);
+                    }
+                }
+                Message::Stop | Message::Time { .. } => {}
             }
         }
-        self.members.pass(events);
+        let is_led = self.members.leader_of_time(self.is_joined) != Some(self.number);
+        let mut classifier = module.perception_mut().map(Perception::classifier_mut);
+        if let Some(classifier) = &mut classifier {
+            classifier.set_led(is_led);
+        }
+        self.members.pass(&mut |event| {
+            if let (NodeEvent::Lost(number), Some(classifier)) = (event, &mut classifier) {
+                let _ = classifier.hear(number.into(), None);
+            }
+            events(event);
+        });
         self.join(config.motion.as_ref(), events);
         module.feel_elsewhere(self.members.contact());
-        if is_armed && !self.is_twin {
-            self.is_stopped = false;
+        if is_armed && self.motors != Motors::Twin {
+            self.motors = Motors::May;
             module.arm(true);
         }
         if !self.may_run() {
@@ -288,15 +340,16 @@ impl Node {
         }
     }
 
-    /// After a tick: what it says to the others.
+    /// After a tick, in which this board may have `decided`: what it says to the others.
     pub fn after<R: Number, H: Hardware>(
         &mut self,
         (module, config): (&Module<R, H>, &Config<R>),
+        decided: Option<Decision>,
         say: &mut impl FnMut(Frame),
     ) {
         let tick = self.tick;
         self.tick = tick.wrapping_add(1);
-        if self.is_twin {
+        if self.motors == Motors::Twin {
             return;
         }
         let stamp = tick as u8;
@@ -338,6 +391,22 @@ impl Node {
             }
         }
         self.say_contact(is_turn, module, &mut say);
+        let together = config.classifier.as_ref().map(|config| config.deciding);
+        if let (Some(perception), Some(tactile::Deciding::Together)) =
+            (module.perception(), together)
+        {
+            if let Some(decision) = decided.or(self.decision.take()) {
+                self.deciding
+                    .decided(tick.wrapping_add(self.times.delay.into()));
+                say(Message::Decision {
+                    class: decision.class().map(|class| class as u8),
+                    posterior: (decision.posterior().q32() >> 17) as u16,
+                    samples: decision.samples(),
+                });
+            } else if self.members.leader_of_time(self.is_joined) != Some(number) {
+                self.deciding.say(perception.classifier(), &mut say);
+            }
+        }
     }
 
     fn say_contact<R: Number, H: Hardware>(

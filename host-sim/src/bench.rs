@@ -379,7 +379,10 @@ where
 {
     match scene.head.nodes {
         None => Ok(Box::new(Hosted::<R>::new(scene, 0, pins, classifier)?)),
-        Some(nodes) => Ok(Box::new(Head::<R>::new(scene, nodes, pins, classifier)?)),
+        Some(nodes) => {
+            let head = Head::<R>::new(scene, nodes, &pins, classifier.as_ref())?;
+            Ok(Box::new(head))
+        }
     }
 }
 

@@ -6,7 +6,7 @@ use config::rule_settings;
 use firmware::{CodeClassifier, ModelLimits, ModelState, Refusal, Sample, SampleClassifier};
 use scene::{Deciding, Rule, Scene};
 use tactile::{
-    AnyRule, ClassList, ClassSettings, Decision, MAX_STREAMS, Model, ModelBuf, NaiveBayes,
+    AnyRule, Behind, ClassList, ClassSettings, Decision, MAX_STREAMS, Model, ModelBuf, NaiveBayes,
     Posteriors, Quantiser, RuleSettings, Threshold, TouchRule,
 };
 use zerocopy::IntoBytes;
@@ -94,6 +94,16 @@ impl Classifier {
         &self.settings
     }
 
+    /// Channels of its model: two of all whiskers, or two of each.
+    pub(crate) fn channels(&self) -> usize {
+        self.codes.model().map_or(0, Model::channels)
+    }
+
+    /// Whether its model has a second opinion.
+    pub(crate) fn has_opinion(&self) -> bool {
+        self.codes.model().is_some_and(Model::has_opinion)
+    }
+
     /// The names of its classes.
     pub fn classes(&self) -> &[String] {
         &self.classes
@@ -142,6 +152,26 @@ impl SampleClassifier for Classifier {
 
     fn reset(&mut self) {
         self.codes.reset();
+    }
+
+    fn classes(&self) -> usize {
+        self.codes.classes()
+    }
+
+    fn evidence(&self) -> Option<Behind> {
+        self.codes.evidence()
+    }
+
+    fn hear(&mut self, board: usize, behind: Option<&Behind>) -> Option<Decision> {
+        self.codes.hear(board, behind)
+    }
+
+    fn set_led(&mut self, is_led: bool) {
+        self.codes.set_led(is_led);
+    }
+
+    fn forget(&mut self) {
+        self.codes.forget();
     }
 
     fn set_rule(&mut self, settings: &RuleSettings) {
@@ -223,6 +253,32 @@ impl SampleClassifier for Tap {
         self.samples.fill(None);
         if let Some(classifier) = &mut self.classifier {
             classifier.reset();
+        }
+    }
+
+    fn classes(&self) -> usize {
+        self.classifier
+            .as_ref()
+            .map_or(0, SampleClassifier::classes)
+    }
+
+    fn evidence(&self) -> Option<Behind> {
+        self.classifier.as_ref()?.evidence()
+    }
+
+    fn hear(&mut self, board: usize, behind: Option<&Behind>) -> Option<Decision> {
+        self.classifier.as_mut()?.hear(board, behind)
+    }
+
+    fn set_led(&mut self, is_led: bool) {
+        if let Some(classifier) = &mut self.classifier {
+            classifier.set_led(is_led);
+        }
+    }
+
+    fn forget(&mut self) {
+        if let Some(classifier) = &mut self.classifier {
+            classifier.forget();
         }
     }
 

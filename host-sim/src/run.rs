@@ -11,7 +11,7 @@ use scene::{Scene, Texture};
 use tactile::Posteriors;
 
 use crate::Error;
-use crate::bench::{self, Bench, HostModule, Snapshot};
+use crate::bench::{self, Bench, Bus, HostModule, Snapshot};
 use crate::bus::Slave;
 use crate::bus::tmag5170::TmagSlave;
 use crate::classifier::Classifier;
@@ -144,6 +144,11 @@ impl Run {
     /// largest of its whiskers'.
     pub fn felt(&self) -> Vec<f64> {
         self.bench.felt()
+    }
+
+    /// The bus of a head of several boards; none where one board has all whiskers.
+    pub fn bus(&mut self) -> Option<&mut Bus> {
+        self.bench.bus()
     }
 
     /// The posterior of each class after the classifier's last full block, of the first

@@ -4,6 +4,7 @@ use std::path::Path;
 
 use firmware::NodeEvent;
 use host_sim::bench::{Bus, Happened};
+use host_sim::classifier::Classifier;
 use host_sim::run::Run;
 use scene::{Override, Scene};
 
@@ -106,7 +107,7 @@ fn contact_excites_the_farthest_board_in_time() {
     }
     let worst = latencies.iter().copied().fold(0.0, f64::max);
     let mean = latencies.iter().sum::<f64>() / latencies.len() as f64;
-    let load = run.module_mut().bus().unwrap().load();
+    let load = run.bus().unwrap().load();
     println!(
         "24 boards: {} contacts, {:.2} ms to excitation in the mean, {:.2} at most; bus busy \
          {:.1} %, a frame at most {:.2} ms",
@@ -127,7 +128,7 @@ fn phase_deg(scene: &Scene, hz: f64) -> f64 {
     let mut run = Run::new(scene, None).unwrap();
     let settled = run.ticks() / 2;
     for tick in 0..settled {
-        if let Some(bus) = run.module_mut().bus() {
+        if let Some(bus) = run.bus() {
             let node = tick / 100;
             match tick % 100 {
                 0 if (1..24).contains(&node) => bus.reset(node as usize),
@@ -175,8 +176,8 @@ fn a_board_that_returns_takes_the_phase_of_the_others() {
     for tick in 0..8_000 {
         match tick {
             // In the middle of a whisk.
-            4_300 => run.module_mut().bus().unwrap().reset(0),
-            6_000 => run.module_mut().bus().unwrap().arm(5, true),
+            4_300 => run.bus().unwrap().reset(0),
+            6_000 => run.bus().unwrap().arm(5, true),
             _ => {}
         }
         let theta = run.tick().theta_deg[1];
@@ -187,7 +188,7 @@ fn a_board_that_returns_takes_the_phase_of_the_others() {
             assert!((theta - last).abs() <= 1.001 * fastest, "{tick}");
         }
         last = theta;
-        let bus = run.module_mut().bus().unwrap();
+        let bus = run.bus().unwrap();
         if (4_300..6_000).contains(&tick) {
             assert!(!bus.is_armed(0) && bus.is_armed(1));
         }
@@ -196,7 +197,6 @@ fn a_board_that_returns_takes_the_phase_of_the_others() {
         }
     }
     let theta = run.row().theta_deg;
-    // It was never told ψ by the others but over the bus.
     let mut rows = Vec::new();
     run.look_at_whiskers(&mut rows);
     println!(
@@ -204,7 +204,7 @@ fn a_board_that_returns_takes_the_phase_of_the_others() {
         theta[0], rows[1].theta_deg
     );
     assert!((theta[0] - rows[1].theta_deg).abs() < 0.05);
-    let bus = run.module_mut().bus().unwrap();
+    let bus = run.bus().unwrap();
     assert!((0..24).all(|node| bus.is_armed(node)));
     let lost = |happened: &&Happened| happened.what == NodeEvent::Lost(0);
     assert_eq!(
@@ -224,7 +224,7 @@ fn nothing_on_the_bus_makes_a_setpoint_step() {
     let mut last: Vec<f64> = Vec::new();
     let (mut done, mut worst) = (0, 0.0_f64);
     for tick in 0..80_000_u32 {
-        let bus = run.module_mut().bus().unwrap();
+        let bus = run.bus().unwrap();
         if tick % 8 == 0 {
             done += 1;
             let node = (random.uniform() * 11.99) as usize;
@@ -244,7 +244,7 @@ fn nothing_on_the_bus_makes_a_setpoint_step() {
         let were_armed = armed(bus);
         run.tick();
         run.look_at_whiskers(&mut rows);
-        let are_armed = armed(run.module_mut().bus().unwrap());
+        let are_armed = armed(run.bus().unwrap());
         for (n, row) in rows.iter().enumerate() {
             let is_armed = were_armed[n / 2] && are_armed[n / 2];
             if let Some(before) = last.get(n).filter(|_| is_armed) {
@@ -253,7 +253,7 @@ fn nothing_on_the_bus_makes_a_setpoint_step() {
         }
         last = rows.iter().map(|row| row.theta_deg).collect();
     }
-    let bus = run.module_mut().bus().unwrap();
+    let bus = run.bus().unwrap();
     for node in 0..12 {
         bus.cut(node, false);
     }
@@ -261,7 +261,7 @@ fn nothing_on_the_bus_makes_a_setpoint_step() {
     for _ in 0..4_000 {
         run.tick();
     }
-    let bus = run.module_mut().bus().unwrap();
+    let bus = run.bus().unwrap();
     assert!(
         (0..12).all(|node| bus.is_joined(node)),
         "{:?}",
@@ -271,7 +271,7 @@ fn nothing_on_the_bus_makes_a_setpoint_step() {
     for _ in 0..4_000 {
         run.tick();
     }
-    let bus = run.module_mut().bus().unwrap();
+    let bus = run.bus().unwrap();
     assert!((0..12).all(|node| bus.is_armed(node)));
     run.look_at_whiskers(&mut rows);
     let left: Vec<f64> = rows[..12].iter().map(|row| row.theta_deg).collect();
@@ -283,4 +283,92 @@ fn nothing_on_the_bus_makes_a_setpoint_step() {
     );
     assert!(spread < 0.5, "{left:?}");
     assert!(worst < 2.0);
+}
+
+/// What a head decides of textures: how many decisions, the share that is right, and their time.
+fn decided(overrides: &[&str], missed: f64) -> (usize, f64, f64) {
+    let scene = scene("textures.toml", overrides);
+    let model = Path::new(ROOT).join("models/textures.model");
+    let model = tactile::ModelBuf::from_bytes(&std::fs::read(model).unwrap()).unwrap();
+    let classifier = Classifier::of_scene(model, &scene).unwrap();
+    let mut run = Run::new(&scene, Some(classifier)).unwrap();
+    let (mut right, mut all, mut samples) = (0, 0, 0.0);
+    if let Some(bus) = run.bus() {
+        bus.disturb(missed, 0.0, 5);
+    }
+    for _ in 0..run.ticks() {
+        run.pass();
+        for decided in run.decisions() {
+            all += 1;
+            samples += f64::from(decided.samples);
+            right += usize::from(decided.decision == decided.label);
+        }
+    }
+    (all, right as f64 / all as f64, samples / all as f64)
+}
+
+/// So many boards of a whisker each, or one board with as many, which decide together: decisions,
+/// share that is right, samples.
+fn together(boards: usize, has_bus: bool, (missed, seed): (f64, u64)) -> (usize, f64, f64) {
+    let each = format!("head.whiskers_per_side={boards}");
+    let nodes = format!("head.nodes={boards}");
+    let seed = format!("seed={seed}");
+    let mut overrides = vec![each.as_str(), &seed, "classifier.whiskers=together"];
+    if has_bus {
+        overrides.push(&nodes);
+    }
+    decided(&overrides, missed)
+}
+
+/// Four boards decide as often right as one with their whiskers, in the mean by as many samples;
+/// less often, as what is felt within the 10 ms of a message and its way is not used. What half of
+/// the boards misses makes it no worse.
+#[test]
+fn boards_decide_together() {
+    let (often, right, samples) = together(4, false, (0.0, 11));
+    for missed in [0.0, 0.5] {
+        let (all, of_them, by) = together(4, true, (missed, 11));
+        assert!(of_them > right - 0.06, "{of_them} {right}");
+        assert!(2 * all > often, "{all} of {often}");
+        assert!((0.7..1.3).contains(&(by / samples)), "{by} {samples}");
+    }
+}
+
+/// The table of docs/head.md: means of five seeds with their standard errors.
+#[test]
+#[ignore = "a table: two minutes"]
+fn table_of_deciding_together() {
+    let row = |boards, has_bus, missed| {
+        let of_seeds: Vec<_> = (21..26)
+            .map(|seed| together(boards, has_bus, (missed, seed)))
+            .collect();
+        let cell = |value: &dyn Fn(&(usize, f64, f64)) -> f64| {
+            let all: Vec<f64> = of_seeds.iter().map(value).collect();
+            let count = all.len() as f64;
+            let mean = all.iter().sum::<f64>() / count;
+            let square = all.iter().map(|x| (x - mean).powi(2)).sum::<f64>();
+            format!("{mean:.1} ± {:.1}", (square / (count - 1.0) / count).sqrt())
+        };
+        let bus = if has_bus {
+            format!("{:.0} %", 100.0 * missed)
+        } else {
+            "one board".to_owned()
+        };
+        // Forty seconds.
+        let rate = cell(&|(all, ..)| *all as f64 / 40.0);
+        let right = cell(&|(_, right, _)| 100.0 * right);
+        println!(
+            "| {boards} | {bus} | {rate} | {right} | {} |",
+            cell(&|(.., samples)| *samples)
+        );
+    };
+    println!(
+        "| whiskers | frames missed | decisions a second | right, % | samples |\n|---|---|---|---|---|"
+    );
+    for boards in [2, 4, 8, 12] {
+        row(boards, false, 0.0);
+        for missed in [0.0, 0.1, 0.5] {
+            row(boards, true, missed);
+        }
+    }
 }

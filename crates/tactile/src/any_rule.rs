@@ -53,6 +53,11 @@ impl AnyEvidence {
         }
     }
 
+    /// Whether it is that of the sequential rule, and of a block at least.
+    pub(crate) fn is_begun(&self) -> bool {
+        self.sequential().is_some_and(SequentialEvidence::is_begun)
+    }
+
     /// The same, to be changed.
     pub(crate) const fn sequential_mut(&mut self) -> Option<&mut SequentialEvidence> {
         match self {

@@ -7,6 +7,7 @@ use crate::any_rule::{AnyEvidence, AnyRule, RuleSettings};
 use crate::class_setting::ClassSettings;
 use crate::constants::Constants;
 use crate::decision::Decision;
+use crate::elsewhere::{Behind, Elsewhere};
 use crate::error::SetupError;
 use crate::format::MAX_STREAMS;
 use crate::model::Model;
@@ -53,6 +54,7 @@ pub struct StreamClassifier<W = &'static [u32]> {
     streams: Vec<StreamState<AnyEvidence>, MAX_STREAMS>,
     deciding: Deciding,
     heard: usize,
+    elsewhere: Elsewhere,
 }
 
 impl<W: Words> StreamClassifier<W> {
@@ -98,6 +100,7 @@ impl<W: Words> StreamClassifier<W> {
             streams: Vec::new(),
             deciding,
             heard,
+            elsewhere: Elsewhere::new(),
         })
     }
 
@@ -215,6 +218,50 @@ impl<W: Words> StreamClassifier<W> {
         for stream in &mut self.streams {
             stream.restart(model, rule);
         }
+        self.elsewhere.forget();
+    }
+
+    /// Whether another board of its head decides for all whiskers together. This one then only
+    /// gathers [evidence](Self::evidence) for it.
+    pub const fn set_led(&mut self, is_led: bool) {
+        self.elsewhere.set_led(is_led);
+    }
+
+    /// What its whiskers together have felt since the last decision; none: nothing, or each
+    /// decides by itself.
+    pub fn evidence(&self) -> Option<Behind> {
+        let Constants { model, rule } = &self.constants;
+        let AnyRule::Sequential(of_sum) = rule else {
+            return None;
+        };
+        let all = self.streams.iter();
+        let is_begun = all.clone().any(|one| one.evidence.is_begun());
+        let all = all.filter_map(|one| one.evidence.sequential());
+        (self.is_sum() && is_begun)
+            .then(|| of_sum.sum(model.classes(), all).a_sample(model.block()))
+    }
+
+    /// What the whiskers of another board have felt by now; none: it does not live. A decision
+    /// may fall by it.
+    pub fn hear(&mut self, board: usize, behind: Option<&Behind>) -> Option<Decision> {
+        let block = self.constants.model.block();
+        self.elsewhere.hear(board, behind, block);
+        if behind.is_none() || !self.is_sum() || self.elsewhere.is_led() {
+            return None;
+        }
+        self.decide_by_sum(None)
+    }
+
+    /// The whiskers of the head together have decided: what led there is forgotten.
+    pub fn forget(&mut self) {
+        let rule = &self.constants.rule;
+        for stream in &mut self.streams {
+            if stream.evidence.is_begun() {
+                stream.evidence = rule.start();
+                stream.is_spent();
+            }
+        }
+        self.elsewhere.forget();
     }
 
     /// Posterior of each class after the last full block, by which a stream would decide;
@@ -224,7 +271,7 @@ impl<W: Words> StreamClassifier<W> {
         if let AnyRule::Sequential(of_sum) = rule
             && self.is_sum()
         {
-            let sum = sum(of_sum, model.classes(), &self.streams);
+            let sum = sum(of_sum, model.classes(), (&self.streams, &self.elsewhere));
             return posteriors(model, rule, &AnyEvidence::Sequential(sum));
         }
         match self.streams.get(stream) {
@@ -252,31 +299,40 @@ impl<W: Words> StreamClassifier<W> {
         let touch = stream.touch;
         let (sums, evidence) = stream.close_block(model, rule);
         of_sum.gather(sums, evidence.sequential_mut()?);
-        let section = heard(model, rule);
-        if self.streams.get(n)?.is_early(section) {
+        if self.elsewhere.is_led() {
             return None;
         }
-        let sum = sum(of_sum, model.classes(), &self.streams);
+        self.decide_by_sum(Some((n, touch)))
+    }
+
+    /// Decides by all evidence there is, as stream and touch say more, or another board.
+    fn decide_by_sum(&mut self, by: Option<(usize, u16)>) -> Option<Decision> {
+        let Constants { model, rule } = &self.constants;
+        let AnyRule::Sequential(of_sum) = rule else {
+            return None;
+        };
+        let section = heard(model, rule);
+        let stream = by.and_then(|(n, _)| self.streams.get(n));
+        if stream.is_some_and(|stream| stream.is_early(section)) {
+            return None;
+        }
+        let sum = sum(of_sum, model.classes(), (&self.streams, &self.elsewhere));
         let decision = of_sum.decide_by(model.classes(), &sum)?;
 
-        let stream = self.streams.get(n)?;
-        let objection = stream.objection(section, model.classes(), decision.leader());
+        let leader = decision.leader();
+        let objection = stream.and_then(|one| one.objection(section, model.classes(), leader));
         let mut excess = [0_i32; 2];
-        for stream in &mut self.streams {
-            if stream
-                .evidence
-                .sequential()
-                .is_some_and(SequentialEvidence::is_begun)
-            {
-                let own = stream.excess(decision.leader());
+        for stream in &self.streams {
+            if stream.evidence.is_begun() {
+                let own = stream.excess(leader);
                 for (sum, own) in excess.iter_mut().zip(own) {
                     *sum = sum.saturating_add(own);
                 }
-                stream.evidence = rule.start();
-                stream.is_spent();
             }
         }
         let is_below = model.has_floors() && excess.iter().any(|tables| *tables < 0);
+        let touch = by.map_or(0, |(_, touch)| touch);
+        self.forget();
         Some(decision.in_touch(touch, reason(is_below, objection)))
     }
 }
@@ -287,12 +343,12 @@ impl<W: Words> StreamClassifier<W> {
 fn sum(
     rule: &SequentialRule,
     classes: usize,
-    streams: &[StreamState<AnyEvidence>],
+    (streams, elsewhere): (&[StreamState<AnyEvidence>], &Elsewhere),
 ) -> SequentialEvidence {
     let all = streams
         .iter()
         .filter_map(|stream| stream.evidence.sequential());
-    rule.sum(classes, all)
+    rule.sum(classes, all.chain(elsewhere.iter()))
 }
 
 /// Whether whiskers can decide so by a rule, and whether the program has the code for it.

@@ -74,6 +74,7 @@ mod classifier;
 mod constants;
 mod decision;
 mod divide;
+mod elsewhere;
 mod error;
 mod evidence;
 mod exp2;
@@ -111,6 +112,7 @@ pub use class_setting::{ClassList, ClassSetting, ClassSettings, MOST_THRESHOLD};
 pub use classifier::{Deciding, StreamClassifier};
 pub use constants::Constants;
 pub use decision::{Decision, Posterior, Reason};
+pub use elsewhere::Behind;
 pub use error::{ModelError, QuantiserError, SetupError};
 pub use evidence::EvidenceScale;
 pub use format::{

@@ -142,6 +142,26 @@ impl SequentialEvidence {
     pub(crate) const fn is_begun(&self) -> bool {
         self.blocks > 0
     }
+
+    /// What was gathered elsewhere, in so many blocks.
+    pub(crate) fn heard(deficits: [u32; MAX_CLASSES], blocks: u32) -> Self {
+        Self {
+            deficits: deficits.map(|deficit| deficit.min(MAX_DEFICIT)),
+            blocks,
+        }
+    }
+
+    /// How many blocks it has seen.
+    pub(crate) const fn blocks(&self) -> u32 {
+        self.blocks
+    }
+
+    /// By how much each class lies behind, a sample of a block of so many.
+    pub(crate) fn a_sample(&self, block: u32) -> [u16; MAX_CLASSES] {
+        let share = |deficit: u32| deficit.checked_div(block).unwrap_or(0);
+        self.deficits
+            .map(|deficit| u16::try_from(share(deficit)).unwrap_or(u16::MAX))
+    }
 }
 
 impl SequentialRule {

@@ -2,7 +2,7 @@
 
 use heapless::Vec;
 use serde::{Deserialize, Serialize};
-use tactile::{Deciding, Decision, RuleSettings, TouchDetector, Touching};
+use tactile::{Behind, Deciding, Decision, RuleSettings, TouchDetector, Touching};
 use whisking::{MAX_WHISKERS, Real};
 
 use crate::sensing::Reading;
@@ -53,6 +53,29 @@ pub trait SampleClassifier {
 
     /// Starts again.
     fn reset(&mut self);
+
+    /// How many classes its model has; 0: there is none.
+    fn classes(&self) -> usize {
+        0
+    }
+
+    /// What its whiskers have felt for the head to decide by
+    /// ([`StreamClassifier::evidence`](tactile::StreamClassifier::evidence)).
+    fn evidence(&self) -> Option<Behind> {
+        None
+    }
+
+    /// What those of another board have felt
+    /// ([`StreamClassifier::hear`](tactile::StreamClassifier::hear)).
+    fn hear(&mut self, _board: usize, _behind: Option<&Behind>) -> Option<Decision> {
+        None
+    }
+
+    /// Whether another board decides for the head.
+    fn set_led(&mut self, _is_led: bool) {}
+
+    /// The head has decided.
+    fn forget(&mut self) {}
 
     /// Other settings of its rule take effect; evidence stays. What does not fit changes
     /// nothing.

@@ -6,6 +6,9 @@ use tactile::{
     RuleSettings, StreamClassifier, Whisked, Words,
 };
 
+#[cfg(feature = "bus")]
+use tactile::Behind;
+
 use super::{ModelState, Refusal, Sample, SampleClassifier};
 
 /// The model was not trained on the integer codes of a sensor's two channels,
@@ -252,6 +255,36 @@ impl<W: Words> SampleClassifier for CodeClassifier<W> {
     fn reset(&mut self) {
         if let Ok(codes) = &mut self.found {
             codes.classifier.restart();
+        }
+    }
+
+    #[cfg(feature = "bus")]
+    fn classes(&self) -> usize {
+        self.model().map_or(0, Model::classes)
+    }
+
+    #[cfg(feature = "bus")]
+    fn evidence(&self) -> Option<Behind> {
+        self.classifier()?.evidence()
+    }
+
+    #[cfg(feature = "bus")]
+    fn hear(&mut self, board: usize, behind: Option<&Behind>) -> Option<Decision> {
+        let codes = self.found.as_mut().ok()?;
+        codes.classifier.hear(board, behind)
+    }
+
+    #[cfg(feature = "bus")]
+    fn set_led(&mut self, is_led: bool) {
+        if let Ok(codes) = &mut self.found {
+            codes.classifier.set_led(is_led);
+        }
+    }
+
+    #[cfg(feature = "bus")]
+    fn forget(&mut self) {
+        if let Ok(codes) = &mut self.found {
+            codes.classifier.forget();
         }
     }
 

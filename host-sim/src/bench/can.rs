@@ -1,5 +1,7 @@
 //! A CAN bus in simulation: arbitration, the time that frames take, and what can go wrong.
 
+use std::fmt;
+
 use can::Frame;
 use physics::Noise;
 
@@ -30,6 +32,22 @@ pub struct Load {
     pub worst_s: f64,
     /// Frames for which there was no room.
     pub dropped: u64,
+}
+
+impl fmt::Display for Load {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self {
+            frames,
+            worst_s,
+            dropped,
+            ..
+        } = self;
+        let worst_ms = worst_s * 1e3;
+        write!(
+            f,
+            "{frames} frames, each in {worst_ms:.2} ms at most, {dropped} dropped"
+        )
+    }
 }
 
 /// A bus.

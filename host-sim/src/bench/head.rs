@@ -3,10 +3,10 @@
 use std::ops::Range;
 
 use firmware::{
-    Command, Event, Module, NoActiveWhisker, Node, NodeEvent, NotDone, Packet, Whisker,
+    Command, Event, Module, Motion, NoActiveWhisker, Node, NodeEvent, NotDone, Packet, Whisker,
 };
 use physics::Noise;
-use scene::Scene;
+use scene::{Deciding, Scene};
 use whisking::{Number, Real};
 use wire::TaggedCommand;
 
@@ -139,6 +139,24 @@ pub(super) struct Head<R: Number> {
     each: usize,
 }
 
+/// Whether the boards of a head can decide by a model.
+fn suits_a_head(classifier: &Classifier) -> Result<(), Error> {
+    let refused = |found: &str, allowed: &str| {
+        let text = format!("classifier.model: found {found}; allowed with head.nodes: {allowed}");
+        Err(Error::Input(text))
+    };
+    if classifier.channels() != 2 {
+        return refused("one with tables of each whisker", "one of all whiskers");
+    }
+    if classifier.deciding() == Deciding::Together && classifier.has_opinion() {
+        return refused(
+            "one with a second opinion for whiskers that decide together",
+            "one without, which host-sim train --expect same makes",
+        );
+    }
+    Ok(())
+}
+
 fn pins_of(own: &Range<usize>, pins: &[Pins]) -> Vec<Pins> {
     // None, where whiskers are passive.
     pins.get(own.clone()).unwrap_or_default().to_vec()
@@ -148,16 +166,19 @@ impl<R: Number> Head<R> {
     pub(super) fn new(
         scene: &Scene,
         nodes: u8,
-        pins: Vec<Pins>,
-        classifier: Option<Classifier>,
+        pins: &[Pins],
+        classifier: Option<&Classifier>,
     ) -> Result<Self, Error> {
         let mut boards = Vec::new();
         let mut kbit_s = 0;
+        if let Some(classifier) = classifier {
+            suits_a_head(classifier)?;
+        }
         for number in 0..nodes {
             let each = scene.whiskers() / usize::from(nodes);
             let own = usize::from(number) * each..(usize::from(number) + 1) * each;
-            let own_pins = pins_of(&own, &pins);
-            let hosted = Hosted::new(scene, number, own_pins.clone(), classifier.clone())?;
+            let own_pins = pins_of(&own, pins);
+            let hosted = Hosted::new(scene, number, own_pins.clone(), classifier.cloned())?;
             kbit_s = hosted.config.head.bus.map_or(0, |bus| bus.kbit_s);
             boards.push(Board {
                 node: Node::new(&hosted.config.head, number),
@@ -265,11 +286,15 @@ impl<R: Number> Bench for Head<R> {
                 ..
             } = board;
             let bus = &mut self.bus;
+            let place = hosted.place(0);
             let now_us = *ticks as f64 * tick_us;
             node.before(
                 now_us as u64,
                 (&mut hosted.module, &hosted.config),
                 &mut |what| {
+                    if let (NodeEvent::Decided(decision), Some(place)) = (what, place) {
+                        events.push(Event::Decision(place, decision));
+                    }
                     bus.happened.push(Happened {
                         t_s,
                         node: n as u8,
@@ -277,8 +302,13 @@ impl<R: Number> Bench for Head<R> {
                     });
                 },
             );
+            let first = events.len();
             hosted.tick(events);
-            node.after((&hosted.module, &hosted.config), &mut |frame| {
+            let decided = events.iter().skip(first).find_map(|event| match event {
+                Event::Decision(_, decision) => Some(*decision),
+                _ => None,
+            });
+            node.after((&hosted.module, &hosted.config), decided, &mut |frame| {
                 bus.can.queue(n, frame, ready_us);
             });
             *ticks += 1;
@@ -307,7 +337,7 @@ impl<R: Number> Bench for Head<R> {
             if let Some(perception) = hosted.module.perception() {
                 snapshot.touch[side] = perception.touching(local).number;
             }
-            let state = hosted.module.motion().map(|motion| motion.state());
+            let state = hosted.module.motion().map(Motion::state);
             if let Some(of_side) = state.and_then(|state| state.sides.get(side)) {
                 *z = of_side.z.value.to_f64();
             }

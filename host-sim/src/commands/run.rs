@@ -95,7 +95,9 @@ pub fn run(arguments: &Arguments, verbosity: Verbosity) -> Result<String, Error>
     let row_bytes = TraceShape::of(scene).row_bytes();
     ahead::tell(scene, 1, Some(("the trace", row_bytes)), verbosity);
     let mut film = Film::default();
+    let mut carried = None;
     let played = play(run, scene, out, verbosity, |run, _| {
+        carried = run.bus().map(|bus| bus.load());
         if !pictures.is_empty() {
             film.take(run);
         }
@@ -126,6 +128,10 @@ pub fn run(arguments: &Arguments, verbosity: Verbosity) -> Result<String, Error>
     }
     if !no_plot {
         summary.push_str(", trace.svg, trace.png");
+    }
+    if let Some(load) = carried {
+        let busy = 100.0 * load.busy_s / scene.duration_s;
+        let _ = write!(summary, "\nbus: {busy:.1} % of the time, {load}");
     }
     if let Some(picture) = pictures.last() {
         let _ = write!(summary, "\nto look at next: {}", picture.display());

@@ -30,6 +30,8 @@ fn every_key_reaches_its_field() {
         head: HeadSection {
             whiskers_per_side: 1,
             sides: Sides::Both,
+            nodes: None,
+            bus_kbit_s: None,
         },
         sensor: SensorSection {
             mode: SensorMode::Fast,
