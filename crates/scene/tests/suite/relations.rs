@@ -9,7 +9,8 @@ const PASSIVE: &str = "name = 'a'\ntick_hz = 2000\nduration_s = 1\nseed = 0\n\
 fn missing_keys_and_tables() {
     assert_eq!(
         complaint(&PASSIVE.replace("head.whiskers_per_side = 1\n", "")),
-        "s.toml:1: [head]: missing; required: a table with the keys whiskers_per_side, sides"
+        "s.toml:1: [head]: missing; required: a table with the keys whiskers_per_side, sides, nodes, \
+         bus_kbit_s"
     );
     let all = "s.toml:1: name: missing\ns.toml:1: tick_hz: missing\ns.toml:1: duration_s: missing\n\
                s.toml:1: seed: missing\ns.toml:1: [head]: missing";
@@ -201,4 +202,22 @@ fn several_decide_only_where_they_can() {
             )
         );
     }
+}
+
+#[test]
+fn boards_of_a_head_share_alike() {
+    let head = |whiskers: usize, keys: &str| {
+        let keys = format!("head.whiskers_per_side = {whiskers}\n{keys}");
+        complaint(&PASSIVE.replace("head.whiskers_per_side = 1\n", &keys))
+    };
+    for nodes in [2, 3, 4, 6, 12] {
+        assert_eq!(head(6, &format!("head.nodes = {nodes}\n")), "");
+    }
+    assert!(head(6, "head.nodes = 5\n").contains(
+        "head.nodes: found 5 boards for 12 whiskers; allowed: a number that divides that of the \
+         whiskers"
+    ));
+    assert!(head(6, "head.nodes = 1\n").contains("head.nodes: found 1; allowed: "));
+    assert!(head(6, "head.bus_kbit_s = 500\n").contains("head.bus_kbit_s: found"));
+    assert!(head(6, "head.nodes = 2\nhead.bus_kbit_s = 50\n").contains("125 to 1000"));
 }
