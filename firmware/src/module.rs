@@ -38,6 +38,9 @@ pub struct WhiskerParts<H: Hardware> {
 /// A filter of self-motion, or none.
 const OWN: usize = Part::SelfMotion.is_built() as usize;
 
+/// Sides of which other boards feel something.
+const ELSEWHERE: usize = if Part::Bus.is_built() { MAX_SIDES } else { 0 };
+
 /// One whisker, in one tick.
 pub struct Whisker<R, H: Hardware> {
     place: Place,
@@ -108,7 +111,7 @@ pub struct Module<R: Real, H: Hardware> {
     whiskers: Vec<Whisker<R, H>, MAX_WHISKERS>,
     contact: [R; MAX_SIDES],
     /// What the other boards of its head feel.
-    elsewhere: [R; MAX_SIDES],
+    elsewhere: [R; ELSEWHERE],
     motion: Option<Motion<R>>,
     perception: Option<Perception<H::Classifier>>,
     clock: H::Clock,
@@ -149,7 +152,7 @@ impl<R: Real, H: Hardware> Module<R, H> {
         Self {
             whiskers: Vec::new(),
             contact: [R::ZERO; MAX_SIDES],
-            elsewhere: [R::ZERO; MAX_SIDES],
+            elsewhere: [R::ZERO; ELSEWHERE],
             motion: None,
             perception: None,
             clock,
@@ -179,8 +182,10 @@ impl<R: Real, H: Hardware> Module<R, H> {
         let places = (0..sides)
             .flat_map(|side| (0..whiskers_per_side).map(move |number| Place::new(side, number)));
         let own = config.head.of_node(number);
-        let places = places.skip(own.start).take(own.len());
-        for (place, WhiskerParts { source, motor }) in places.zip(parts) {
+        let places = (0..)
+            .zip(places)
+            .filter(|(n, _)| !Part::Bus.is_built() || own.contains(n));
+        for ((_, place), WhiskerParts { source, motor }) in places.zip(parts) {
             // As many as a checked configuration has, there is room for.
             let _ = self.whiskers.push(Whisker {
                 place,
@@ -278,17 +283,17 @@ impl<R: Real, H: Hardware> Module<R, H> {
     #[inline]
     fn contact_of_head(&self) -> [R; MAX_SIDES] {
         let mut most = self.contact;
-        if Part::Bus.is_built() {
-            for (most, elsewhere) in most.iter_mut().zip(self.elsewhere) {
-                *most = elsewhere.max(*most);
-            }
+        for (most, elsewhere) in most.iter_mut().zip(self.elsewhere) {
+            *most = elsewhere.max(*most);
         }
         most
     }
 
     /// What the other boards of its head feel, from the next tick on.
-    pub const fn feel_elsewhere(&mut self, contact: [R; MAX_SIDES]) {
-        self.elsewhere = contact;
+    pub fn feel_elsewhere(&mut self, contact: [R; MAX_SIDES]) {
+        for (own, contact) in self.elsewhere.iter_mut().zip(contact) {
+            *own = contact;
+        }
     }
 
     /// The whiskers, left side first.

@@ -61,7 +61,11 @@ impl<R: Real> Motion<R> {
     /// At its start, its motors not armed: of these whiskers of the head.
     pub(crate) fn new(config: &MotionConfig<R>, own: Range<usize>) -> Self {
         Self {
-            state: State::of_some(&config.start, own, config.seed),
+            state: if Part::Bus.is_built() {
+                State::of_some(&config.start, own, config.seed)
+            } else {
+                State::new(&config.start, config.seed)
+            },
             is_armed: false,
         }
     }

@@ -223,7 +223,7 @@ impl<W: Words> StreamClassifier<W> {
 
     /// Whether another board of its head decides for all whiskers together. This one then only
     /// gathers [evidence](Self::evidence) for it.
-    pub const fn set_led(&mut self, is_led: bool) {
+    pub fn set_led(&mut self, is_led: bool) {
         self.elsewhere.set_led(is_led);
     }
 
@@ -306,6 +306,7 @@ impl<W: Words> StreamClassifier<W> {
     }
 
     /// Decides by all evidence there is, as stream and touch say more, or another board.
+    #[inline]
     fn decide_by_sum(&mut self, by: Option<(usize, u16)>) -> Option<Decision> {
         let Constants { model, rule } = &self.constants;
         let AnyRule::Sequential(of_sum) = rule else {
@@ -322,17 +323,19 @@ impl<W: Words> StreamClassifier<W> {
         let leader = decision.leader();
         let objection = stream.and_then(|one| one.objection(section, model.classes(), leader));
         let mut excess = [0_i32; 2];
-        for stream in &self.streams {
+        for stream in &mut self.streams {
             if stream.evidence.is_begun() {
                 let own = stream.excess(leader);
                 for (sum, own) in excess.iter_mut().zip(own) {
                     *sum = sum.saturating_add(own);
                 }
+                stream.evidence = rule.start();
+                stream.is_spent();
             }
         }
+        self.elsewhere.forget();
         let is_below = model.has_floors() && excess.iter().any(|tables| *tables < 0);
         let touch = by.map_or(0, |(_, touch)| touch);
-        self.forget();
         Some(decision.in_touch(touch, reason(is_below, objection)))
     }
 }

@@ -16,24 +16,26 @@ const _: () = assert!(ENTRIES_PER_BIT == 1 << 10);
 #[derive(Debug, Clone)]
 pub(crate) struct Elsewhere {
     all: [Option<SequentialEvidence>; MOST],
-    is_led: bool,
+    /// Nothing at all, where there are no others.
+    is_led: [bool; (MOST > 0) as usize],
 }
 
 impl Elsewhere {
     pub(crate) const fn new() -> Self {
         Self {
             all: [const { None }; MOST],
-            is_led: false,
+            is_led: [false; _],
         }
     }
 
     /// Whether another board decides.
-    pub(crate) const fn is_led(&self) -> bool {
-        cfg!(feature = "elsewhere") && self.is_led
+    #[inline]
+    pub(crate) fn is_led(&self) -> bool {
+        self.is_led.contains(&true)
     }
 
-    pub(crate) const fn set_led(&mut self, is_led: bool) {
-        self.is_led = is_led;
+    pub(crate) fn set_led(&mut self, is_led: bool) {
+        self.is_led.fill(is_led);
     }
 
     /// That of a board by now, by sums of so many samples; none any more.

@@ -126,12 +126,19 @@ impl<R: Real> WhiskerState<R> {
 impl<R: Real> State<R> {
     /// A module at its start. `seed` determines the noise.
     pub fn new(start: &Start<R>, seed: u64) -> Self {
-        Self::of_some(start, 0..start.whiskers.len(), seed)
+        Self::of(start, &start.whiskers, seed)
     }
 
     /// The same with only some of the whiskers; none where there are not so many.
     pub fn of_some(start: &Start<R>, whiskers: Range<usize>, seed: u64) -> Self {
-        let whiskers = start.whiskers.get(whiskers).unwrap_or_default();
+        Self::of(
+            start,
+            start.whiskers.get(whiskers).unwrap_or_default(),
+            seed,
+        )
+    }
+
+    fn of(start: &Start<R>, whiskers: &[WhiskerStart<R>], seed: u64) -> Self {
         let kept: Vec<Psi<R>, MAX_SIDES> = listed(start.sides.iter().map(|side| side.oscillator));
         Self {
             noise: noise::State::new(kept.len(), seed),

@@ -4,7 +4,7 @@ use core::ops::Range;
 
 use serde::{Deserialize, Serialize};
 
-use super::HeadConfig;
+use super::{HeadConfig, Part};
 
 /// The bus of a head, and how many boards share its whiskers.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
@@ -20,6 +20,9 @@ impl HeadConfig {
     /// The whiskers of a board, counted from 0, left side first; all of them where there is one
     /// board, none of a node that there is not.
     pub fn of_node(&self, number: u8) -> Range<usize> {
+        if !Part::Bus.is_built() {
+            return 0..self.whiskers();
+        }
         let nodes = self.bus.map_or(1, |bus| bus.nodes);
         let each = self.whiskers().checked_div(nodes.into()).unwrap_or(0);
         let first = usize::from(number) * each;

@@ -87,7 +87,7 @@ fields! {
     Heat = 43: "motor.continuous_duty";
     SelfMotion = 44: "sensor.self_motion_s";
     Classes = 45: "priors or thresholds of classes";
-    Bus = 46: "head.nodes, head.bus_kbit_s";
+    Bus = 46: "head.nodes";
 }
 
 impl Field {

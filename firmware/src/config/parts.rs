@@ -71,7 +71,7 @@ parts! {
     Tmag5170 "tmag5170" = 24: "sensor tmag5170";
     SelfMotion "self-motion" = 25: "self-motion of the sensor";
     Priors "priors" = 26: "priors or thresholds of classes";
-    Bus "bus" = 27: "bus of several boards";
+    Bus "bus" = 27: "bus";
 }
 
 impl Part {
