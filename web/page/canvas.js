@@ -10,7 +10,8 @@ export function restyle() {
 
 /** A clean pen with its origin at the upper left, and the size to draw in. */
 export function fitted(canvas) {
-  const scale = window.devicePixelRatio || 1;
+  // Finer than twice is not seen, and costs a phone its pace.
+  const scale = Math.min(window.devicePixelRatio || 1, 2);
   const [w, h] = [canvas.clientWidth, canvas.clientHeight];
   if (canvas.width !== Math.round(w * scale) || canvas.height !== Math.round(h * scale)) {
     canvas.width = Math.round(w * scale);
@@ -25,29 +26,19 @@ export function fitted(canvas) {
 
 /** The two sides: what a line of each is drawn with, as colour alone would not do. */
 export const SIDES = [
-  { name: "left", dash: [] },
-  { name: "right", dash: [7, 4] },
+  { name: "left", dash: false },
+  { name: "right", dash: true },
 ];
 
-/** A column of points over time: at each pixel the least and the greatest, as more cannot be seen. */
-export function drawCurve(pen, points, column, x, y, colour, width) {
-  pen.strokeStyle = colour;
-  pen.lineWidth = width;
-  pen.beginPath();
-  let place = null, least = 0, most = 0;
-  const put = () => {
-    pen.lineTo(place, y(least));
-    if (most > least) pen.lineTo(place, y(most));
-  };
-  for (const point of points) {
-    const [now, value] = [Math.round(x(point[0])), point[column]];
-    if (Number.isNaN(value)) continue;
-    if (now !== place) {
-      if (place !== null) put();
-      [place, least, most] = [now, value, value];
-    } else if (value < least) least = value;
-    else if (value > most) most = value;
+const seen = new Map();
+const watcher = new IntersectionObserver((entries) => {
+  for (const { target, isIntersecting } of entries) seen.set(target, isIntersecting);
+});
+/** Whether a canvas is on the screen, as far as is known: what is not need not be drawn. */
+export function isSeen(canvas) {
+  if (!seen.has(canvas)) {
+    seen.set(canvas, true);
+    watcher.observe(canvas);
   }
-  if (place !== null) put();
-  pen.stroke();
+  return seen.get(canvas);
 }

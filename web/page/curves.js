@@ -1,8 +1,8 @@
 // The curves of the last seconds.
-import { SIDES, colours, drawCurve, fitted } from "./canvas.js";
+import { SIDES, colours, fitted } from "./canvas.js";
+import { SPAN_S, columns, drawCurve, now } from "./columns.js";
 import { $, element } from "./dom.js";
 
-export const SPAN_S = 4;
 const GUTTER = 46, HEAD = 19, FOOT = 22;
 
 // Title, column, the column that is drawn thin beside it, and the least range with its marks.
@@ -24,7 +24,7 @@ export function drawLegend(sides) {
   for (const [, canvas, side, width] of [...lines, thin]) {
     const [pen, w, h] = fitted(canvas);
     pen.strokeStyle = colours[SIDES[side].name];
-    pen.setLineDash(SIDES[side].dash);
+    pen.setLineDash(SIDES[side].dash ? [6, 3] : []);
     pen.lineWidth = width;
     pen.beginPath();
     pen.moveTo(1, h / 2);
@@ -34,61 +34,52 @@ export function drawLegend(sides) {
 }
 
 // The range of a strip: at least its own, and all that is to be seen, up to the next mark.
-function range(points, columns, [low, high], mark) {
+function range(values, [low, high], mark) {
   let [least, most] = [low, high];
-  for (const point of points) {
-    for (const column of columns) {
-      if (point[column] < least) least = point[column];
-      if (point[column] > most) most = point[column];
+  for (const column of columns) {
+    for (const k of values) {
+      if (column.least[k] < least) least = column.least[k];
+      if (column.most[k] > most) most = column.most[k];
     }
   }
   return [Math.floor(least / mark) * mark, Math.ceil(most / mark) * mark];
 }
 
-/** Draws them; a point has its time, and five values of each side. */
-export function drawCurves(canvas, points, sides) {
+/** Draws them. */
+export function drawCurves(canvas, sides) {
   const [pen, w, h] = fitted(canvas);
-  const end = points.length ? points[points.length - 1][0] : 0;
-  const room = (h - FOOT) / STRIPS.length;
+  const end = now(), room = (h - FOOT) / STRIPS.length;
   const x = (t) => w - (end - t) * (w - GUTTER) / SPAN_S;
+  const first = Math.max(Math.ceil(end - SPAN_S), 0);
   pen.font = "12px system-ui, sans-serif";
-  STRIPS.forEach(([title, column, thin, least, mark], n) => {
-    const [top, high] = [n * room + HEAD, room - HEAD - 4];
-    const columns = [];
-    for (let side = 0; side < sides; side++) {
-      for (const at of thin === null ? [column] : [column, thin]) columns.push(1 + 5 * side + at);
-    }
-    const [from, to] = range(points, columns, least, mark);
-    const y = (value) => top + high * (1 - (value - from) / (to - from));
-    pen.strokeStyle = colours.line;
-    pen.lineWidth = 1;
-    pen.strokeRect(GUTTER + 0.5, top, w - GUTTER - 1, high);
+  STRIPS.forEach(([title, value, thin, least, mark], n) => {
+    const [top, high] = [Math.round(n * room) + HEAD, Math.round(room) - HEAD - 4];
+    const shown = thin === null ? [[value, 2]] : [[thin, 1], [value, 2]];
+    const all = shown.flatMap(([k]) => Array.from({ length: sides }, (_, side) => 1 + 5 * side + k));
+    const [from, to] = range(all, least, mark);
+    const y = (at) => top + high * (1 - (at - from) / (to - from));
     pen.fillStyle = colours.ink;
     pen.textAlign = "left";
     pen.fillText(title, GUTTER, top - 6);
     pen.textAlign = "right";
     pen.fillText(to, GUTTER - 5, top + 9);
     pen.fillText(from, GUTTER - 5, top + high);
-    pen.save();
-    pen.beginPath();
-    pen.rect(GUTTER, top, w - GUTTER, high);
-    pen.clip();
-    for (let second = Math.ceil(end - SPAN_S); second <= end; second++) {
-      pen.beginPath();
-      pen.moveTo(x(second), top);
-      pen.lineTo(x(second), top + high);
-      pen.stroke();
+    pen.fillStyle = colours.line;
+    for (const edge of [top, top + high]) pen.fillRect(GUTTER, edge, w - GUTTER, 1);
+    for (let second = first; second <= end; second++) {
+      pen.fillRect(Math.round(Math.max(x(second), GUTTER)), top, 1, high);
     }
     for (let side = 0; side < sides; side++) {
-      pen.setLineDash(SIDES[side].dash);
-      const colour = colours[SIDES[side].name];
-      if (thin !== null) drawCurve(pen, points, 1 + 5 * side + thin, x, y, colour, 0.8);
-      drawCurve(pen, points, 1 + 5 * side + column, x, y, colour, 2);
+      const colour = colours[SIDES[side].name], { dash } = SIDES[side];
+      for (const [k, width] of shown) {
+        drawCurve(pen, 1 + 5 * side + k, end - SPAN_S, x, y, { colour, width, dash });
+      }
     }
-    pen.restore();
   });
   pen.textAlign = "center";
-  for (let second = Math.max(Math.ceil(end - SPAN_S + 0.2), 0); second <= end - 0.15; second++) {
-    pen.fillText(`${second} s`, Math.min(x(second), w - 16), h - 6);
+  pen.fillStyle = colours.ink;
+  for (let second = first; second <= end; second++) {
+    const at = x(second);
+    if (at > GUTTER + 10 && at < w - 14) pen.fillText(`${second} s`, at, h - 6);
   }
 }

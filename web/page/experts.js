@@ -19,7 +19,7 @@ export function report(fault, text) {
   }));
 }
 
-// The trace of text and sliders, computed in what time the picture leaves.
+// The trace of text and sliders, computed in what time the picture leaves, where its hash is seen.
 let tracer = null;
 export function startTrace(made) {
   if (tracer) tracer.free();
@@ -27,7 +27,7 @@ export function startTrace(made) {
   $("hash").textContent = "…";
 }
 export function traceOn() {
-  if (!tracer) return;
+  if (!tracer || !$("experts").open) return;
   const until = performance.now() + 4;
   let ended = false;
   while (!ended && performance.now() < until) ended = tracer.step(250);

@@ -1,8 +1,9 @@
 // The page: one scene, played, and what a person does with it.
 import { decoded, encoded } from "./address.js";
-import { restyle } from "./canvas.js";
+import { isSeen, restyle } from "./canvas.js";
+import { columns, gather } from "./columns.js";
 import { load } from "./core.js";
-import { SPAN_S, drawCurves, drawLegend } from "./curves.js";
+import { drawCurves, drawLegend } from "./curves.js";
 import { $ } from "./dom.js";
 import { download, link, report, startTrace, traceOn } from "./experts.js";
 import { clearMind, decide, drawMind } from "./mind.js";
@@ -18,7 +19,7 @@ const still = matchMedia("(prefers-reduced-motion: reduce)");
 
 let text = scene_text("whisker"), looked = null;
 let player = null, laid = null, playing = !still.matches;
-let points = [], sides = 1, owed = 0, stale = true;
+let sides = 1, owed = 0, stale = true;
 
 // Restarts the scene as text and sliders say; after an error the last scene stays.
 function start() {
@@ -39,7 +40,8 @@ function start() {
   sides = player.obstacles().length;
   if (text !== looked) look(player, text, fault_of);
   looked = text;
-  [points, owed, stale] = [[], 0, true];
+  columns.length = 0;
+  [owed, stale] = [0, true];
   endGame();
   clearMind(player);
   restage(player);
@@ -60,19 +62,17 @@ function showMenus() {
 }
 
 function advance(ticks) {
-  const more = player.step(ticks), width = 1 + 5 * sides;
-  for (let n = 0; n < more.length; n += width) points.push(more.subarray(n, n + width));
-  const from = points.length ? points[points.length - 1][0] - SPAN_S : 0;
-  points.splice(0, points.findIndex((point) => point[0] >= from));
+  gather(player.step(ticks), sides);
   decide(player.decisions(), sides, player.tick_hz());
   if (sounds()) hear(player.heard(), player.tick_hz() * Number($("speed").value));
   stale = true;
 }
 
 function draw() {
-  drawStage($("whisker"), player, isSecret() ? "hidden" : player.presented(), points);
-  drawCurves($("strips"), points, sides);
-  drawMind(player, isSecret());
+  const shown = isSecret() ? "hidden" : player.presented();
+  if (isSeen($("whisker"))) drawStage($("whisker"), player, shown);
+  if (isSeen($("strips"))) drawCurves($("strips"), sides);
+  drawMind(player, isSecret(), playing);
   stale = false;
 }
 
@@ -105,6 +105,7 @@ function frame(now) {
 function play(on) {
   playing = on;
   $("play").textContent = on ? "Pause" : "Play";
+  stale = true;
 }
 
 function edited(next) {

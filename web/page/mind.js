@@ -58,20 +58,23 @@ export function decide(lines, sides, tick_hz) {
   }
 }
 
-/** Writes beliefs and verdict; a `secret` one stays covered. */
-export function drawMind(player, secret) {
+/** Writes beliefs and verdict; a `secret` one stays covered. Before a decision it feels, if it plays. */
+export function drawMind(player, secret, playing) {
   const now = player.presented();
   // What was said of another surface says nothing of this one.
   if (now !== mind.before) mind.last = mind.last?.truth === now ? mind.last : null;
   mind.before = now;
   const { last, counts } = mind;
   player.posteriors().forEach((share, n) => {
-    mind.rows[n].fill.style.width = secret ? "0" : `${100 * share}%`;
-    mind.rows[n].number.textContent = secret ? "?" : percent(share);
+    const row = mind.rows[n], text = secret ? "?" : percent(share);
+    if (text === row.text) return;
+    row.text = text;
+    row.fill.style.transform = `scaleX(${secret ? 0 : share})`;
+    row.number.textContent = text;
   });
   $("decisions").hidden = secret;
   const covered = last ? "It has decided. You?" : "It is feeling…";
-  write("said", secret ? covered : last ? spoken(last) : "feeling…");
+  write("said", secret ? covered : last ? spoken(last) : playing ? "feeling…" : "press Play");
   const sure = last?.decision === "unknown" ? "" : ` · ${percent(last?.sure ?? 0)} sure`;
   const text = last && !secret ? `${worth(last)}${sure} · after ${last.ms} ms of touch` : "";
   write("judged", text);

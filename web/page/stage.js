@@ -1,5 +1,6 @@
 // The picture of motors, hairs and surfaces.
-import { SIDES, colours, drawCurve, fitted } from "./canvas.js";
+import { SIDES, colours, fitted } from "./canvas.js";
+import { drawCurve, now } from "./columns.js";
 import { paint } from "./surfaces.js";
 import { plain } from "./words.js";
 
@@ -84,30 +85,28 @@ function drawMotor(pen, x, y, ways) {
 }
 
 // What its sensor reads while it does this.
-function drawFeeling(pen, w, h, high, points) {
-  const from = 66, end = points.at(-1)?.[0] ?? 0;
+function drawFeeling(pen, w, h, high, sides) {
+  const left = 66, end = now();
   pen.fillStyle = colours.ink;
   pen.textAlign = "left";
   pen.fillText("it feels", 8, h - high / 2 + 5);
-  const x = (t) => w - 6 - (end - t) * (w - 6 - from) / FEEL_S;
+  const x = (t) => w - 6 - (end - t) * (w - 6 - left) / FEEL_S;
   const y = (code) => h - 4 - (high - 6) * code / 16383;
-  pen.save();
-  pen.beginPath();
-  pen.rect(from, h - high, w - 6 - from, high);
-  pen.clip();
-  drawCurve(pen, points.filter((point) => point[0] > end - FEEL_S), 3, x, y, colours.left, 1.5);
-  pen.restore();
+  for (let side = 0; side < sides; side++) {
+    const { name, dash } = SIDES[side];
+    drawCurve(pen, 3 + 5 * side, end - FEEL_S, x, y, { colour: colours[name], width: 2, dash });
+  }
 }
 
 /** Draws it; `shown` is the name of what lies there, or "hidden". */
-export function drawStage(canvas, player, shown, points) {
+export function drawStage(canvas, player, shown) {
   const [pen, w, whole] = fitted(canvas);
   const feel = FEEL * whole, h = whole - feel;
   pen.font = "600 14px system-ui, sans-serif";
-  drawFeeling(pen, w, whole, feel, points);
-  pen.textAlign = "center";
   const bodies = player.bodies(), walls = Array.from(player.obstacles());
   const each = player.whiskers_per_side(), sides = walls.length;
+  drawFeeling(pen, w, whole, feel, sides);
+  pen.textAlign = "center";
   for (let n = 0; n < bodies.length; n += BODY) {
     swing.low = Math.min(swing.low, bodies[n]);
     swing.high = Math.max(swing.high, bodies[n]);
@@ -147,7 +146,8 @@ export function drawStage(canvas, player, shown, points) {
       if (side === 0) {
         const name = shown === "hidden" ? "surface: ?" : `surface: ${plain(shown)}`;
         const over = (HALF * Math.abs(dy) + THICK * dx) * size + 6;
-        label(pen, w, name, x, Math.max(y - over, LABEL - 3));
+        // Between both, where there are two.
+        label(pen, w, name, sides > 1 ? w / 2 : x, sides > 1 ? LABEL : Math.max(y - over, LABEL - 3));
       }
     }
     pen.strokeStyle = colours[SIDES[side].name];

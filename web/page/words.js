@@ -12,6 +12,7 @@ const SURFACES = {
   p40: "coarsest sandpaper, P40",
   p80: "coarse sandpaper, P80",
   p180: "rough sandpaper, P180",
+  obstacle: "a wall",
 };
 
 /** A surface or a class; one that has no words of ours is called as it is. */
@@ -21,10 +22,10 @@ export const plain = (name) => SURFACES[name] ?? name;
 export const PRESETS = [
   ["whisker", "a hair tells four surfaces apart"],
   ["unknown", "a carpet that it never learnt"],
-  ["bench-textures", "surfaces held by hand, never twice alike"],
+  ["bench-textures", "surfaces held by hand"],
   ["both", "two hairs, left and right"],
   ["rcp", "a hair that touches pulls back"],
-  ["cia", "a touch on one side excites the other"],
+  ["cia", "one touch excites both sides"],
   ["free", "four hairs in free air"],
 ];
 
