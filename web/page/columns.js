@@ -2,8 +2,9 @@
 // value, as more cannot be seen. So a frame costs what is new, not what is shown.
 
 export const SPAN_S = 4;
-const COLUMNS = 400;
-const STEP_S = SPAN_S / COLUMNS;
+// About one for each pixel.
+const COLUMNS = innerWidth < 800 ? 400 : 1000;
+const STEP_S = SPAN_S / COLUMNS, DASH_S = 0.1;
 
 /** The columns, the oldest first: the time of each, and per value the least and the greatest. */
 export const columns = [];
@@ -16,7 +17,8 @@ export function gather(points, sides) {
     const t = points[n], index = Math.floor(t / STEP_S);
     let last = columns[columns.length - 1];
     if (!last || last.index !== index) {
-      last = { index, t: index * STEP_S, end: t, least: points.slice(n, n + width), most: points.slice(n, n + width) };
+      const [least, most] = [points.slice(n, n + width), points.slice(n, n + width)];
+      last = { index, t: index * STEP_S, end: t, least, most };
       columns.push(last);
       while (columns[0].index < index - COLUMNS) columns.shift();
     }
@@ -33,14 +35,14 @@ export function drawCurve(pen, k, from, x, y, { colour, width, dash }) {
   pen.fillStyle = colour;
   let before = null;
   for (let n = 0; n < columns.length; n++) {
-    const { index, t, least, most } = columns[n];
+    const { t, least, most } = columns[n];
     if (t < from || Number.isNaN(least[k])) continue;
     let [low, high] = [least[k], most[k]];
     // No gap to the column before.
     if (before && low > before.most[k]) low = before.most[k];
     if (before && high < before.least[k]) high = before.least[k];
     before = columns[n];
-    if (dash && index % 12 > 7) continue;
+    if (dash && t % DASH_S > 0.6 * DASH_S) continue;
     const left = Math.round(x(t)), right = Math.round(x(columns[n + 1]?.t ?? t + STEP_S));
     const top = Math.round(y(high) - width / 2);
     pen.fillRect(left, top, Math.max(right - left, 1), Math.max(Math.round(y(low) - y(high)), 0) + width);

@@ -9,7 +9,7 @@ const GUTTER = 46, HEAD = 19, FOOT = 22;
 const STRIPS = [
   ["Angle of the hair, degrees", 1, 0, [40, 110], 10],
   ["Bending at its root, sensor codes", 2, 3, [0, 16384], 8192],
-  ["Touch, 0 to 1", 4, null, [0, 1], 1],
+  ["Strength of touch", 4, null, [0, 1], 0.5],
 ];
 
 export function drawLegend(sides) {

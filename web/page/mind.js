@@ -29,7 +29,8 @@ export function clearMind(player) {
       bar.append(notch);
     }
     number.ariaLabel = plain(name);
-    return { fill, number, row: element("div", { className: "bar-row" }, element("span", {}, plain(name)), bar, number) };
+    const row = element("div", { className: "bar-row" }, element("span", {}, plain(name)), bar, number);
+    return { fill, number, row };
   });
   $("bars").replaceChildren(...mind.rows.map(({ row }) => row));
   $("decisions").replaceChildren();
@@ -72,12 +73,13 @@ export function drawMind(player, secret, playing) {
     row.fill.style.transform = `scaleX(${secret ? 0 : share})`;
     row.number.textContent = text;
   });
-  $("decisions").hidden = secret;
+  $("decisions").hidden = $("score").hidden = secret;
   const covered = last ? "It has decided. You?" : "It is feeling…";
   write("said", secret ? covered : last ? spoken(last) : playing ? "feeling…" : "press Play");
-  const sure = last?.decision === "unknown" ? "" : ` · ${percent(last?.sure ?? 0)} sure`;
-  const text = last && !secret ? `${worth(last)}${sure} · after ${last.ms} ms of touch` : "";
-  write("judged", text);
+  // Of a decision that names nothing the posterior is that of the class that came nearest.
+  const named = last && last.decision !== "unknown";
+  const sure = named ? ` · ${percent(last.sure)} sure · after ${last.ms} ms of touch` : "";
+  write("judged", last && !secret ? worth(last.verdict) + sure : "");
   $("judged").className = last && !secret ? `is-${last.verdict}` : "";
   write("score", `${counts.right} right, ${counts.wrong} wrong, ${counts.refused} unsure`);
 }

@@ -60,6 +60,7 @@ export function showSliders(player) {
     if (document.activeElement !== input) input.value = value ?? input.min;
     input.disabled = value === undefined && !usable[key];
     const none = key === "plant.friction" ? "each its own" : "off";
-    $(`${key}-value`).textContent = value !== undefined ? +value.toFixed(4) : usable[key] ? none : "no use here";
+    const lacking = usable[key] ? none : "no use here";
+    $(`${key}-value`).textContent = value === undefined ? lacking : +value.toFixed(4);
   }
 }

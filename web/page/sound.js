@@ -27,7 +27,7 @@ export function listen(on) {
 /** Plays codes, `hz` of them a second, after those before. */
 export function hear(codes, hz) {
   const { context } = sound;
-  if (!context || codes.length === 0) return;
+  if (context?.state !== "running" || codes.length === 0) return;
   const values = Array.from(codes, (code) => (code - 8192) / 8192);
   const before = sound.last ?? values[0];
   sound.last = values.at(-1);

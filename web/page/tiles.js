@@ -34,7 +34,6 @@ export function drawTiles(player, lay) {
     made.classList.toggle("is-strange", strange);
     tiles.set(name, made);
   }
-  $("strange").hidden = !names.some((name) => tiles.get(name).className);
   $("textures").replaceChildren(...tiles.values());
   paintTiles();
 }
@@ -56,11 +55,14 @@ export function paintTiles() {
 /** Says which one is chosen and which the game leaves out. */
 export function showTiles(player, laid) {
   const learnt = player.classes();
+  let strange = false;
   for (const [name, made] of tiles) {
     made.hidden = game.on && !learnt.includes(name);
+    strange ||= made.classList.contains("is-strange") && !made.hidden;
     if (game.on) made.removeAttribute("aria-pressed");
     else made.ariaPressed = String(name === laid);
   }
+  $("strange").hidden = !strange;
 }
 
 /** Lays one that nobody sees. */

@@ -37,9 +37,9 @@ export function spoken({ decision, reason, among }) {
 }
 
 /** What it is worth. */
-export function worth({ verdict, truth }) {
+export function worth(verdict) {
   if (verdict === "right") return "✓ right";
-  return verdict === "wrong" ? `✗ wrong: ${plain(truth)}` : "? unsure, though it knows this one";
+  return verdict === "wrong" ? "✗ wrong" : "? unsure, though it has learnt this one";
 }
 
 export const percent = (share) => `${(100 * share).toFixed(share > 0.99 && share < 0.9995 ? 1 : 0)} %`;
