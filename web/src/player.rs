@@ -291,7 +291,11 @@ mod tests {
         assert!(!decisions.is_empty());
         for line in decisions {
             let cells: Vec<&str> = line.split('\t').collect();
-            let worth = if cells[2] == "unknown" { "right" } else { "wrong" };
+            let worth = if cells[2] == "unknown" {
+                "right"
+            } else {
+                "wrong"
+            };
             assert_eq!((cells[5], cells[6]), ("carpet", worth), "{line}");
         }
     }

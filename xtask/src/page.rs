@@ -26,10 +26,10 @@ pub(crate) fn build() -> Result<(), Fault> {
 /// for its accessibility; `picture` is where the one of the README goes.
 pub(crate) fn test(picture: Option<PathBuf>) -> Result<(), Fault> {
     let python = python::with_browser()?;
-    let beside = ["-m", "pip", "install", "--quiet", "--disable-pip-version-check"];
-    let axe = ["--no-deps", "--require-hashes", "--requirement"];
-    let pinned = top().join("web/tests/axe.txt");
-    run(Command::new(&python).args(beside).args(axe).arg(pinned))?;
+    let mut axe = Command::new(&python);
+    axe.args("-m pip install --quiet --disable-pip-version-check".split(' '));
+    axe.args(["--no-deps", "--require-hashes", "--requirement"]);
+    run(axe.arg(top().join("web/tests/axe.txt")))?;
     let mut tests = Command::new(python);
     tests.args(["-m", "pytest", "--quiet", "-p", "no:cacheprovider"]);
     tests.arg(top().join("web/tests"));

@@ -59,6 +59,11 @@ fn main() -> Result<(), Box<dyn Error>> {
         fs::create_dir_all(folder)?;
     }
     fs::write(out, &html)?;
-    println!("{}: {} bytes, core {} bytes", out.display(), html.len(), wasm.len());
+    println!(
+        "{}: {} bytes, core {} bytes",
+        out.display(),
+        html.len(),
+        wasm.len()
+    );
     Ok(())
 }
