@@ -23,7 +23,7 @@ function tile(name, words, press) {
 /** Makes a tile for each surface that the scene can lay; `lay` takes a name, or null: in turns. */
 export function drawTiles(player, lay) {
   const names = player.textures(), learnt = player.classes();
-  $("choose").hidden = names.length === 0;
+  $("choose").hidden = $("textures").hidden = names.length === 0;
   $("game").hidden = names.length === 0 || learnt.length === 0;
   tiles.clear();
   tiles.set(null, tile("", TURNS, () => lay(null)));
