@@ -3,7 +3,7 @@ import { $, element } from "./dom.js";
 
 /** Shows what is wrong, with a way to its line in `text`; nothing if `fault` is empty. */
 export function report(fault, text) {
-  // What is hidden helps nobody.
+  // A message in a closed part would not be seen.
   if (fault) $("experts").open = true;
   $("problems").replaceChildren(...fault.split("\n").filter(Boolean).map((line) => {
     const found = /^scene:(\d+): (.*)$/s.exec(line);

@@ -54,7 +54,7 @@ function start() {
   return true;
 }
 
-// The menus name the scene that runs; "" is one of nobody's but the person's.
+// The menus name the scene that runs; "" stands for one that is not on the page.
 function showMenus() {
   const name = scenes().find((each) => scene_text(each) === text) ?? "";
   $("scene").value = name;

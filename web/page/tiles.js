@@ -65,7 +65,7 @@ export function showTiles(player, laid) {
   $("strange").hidden = !strange;
 }
 
-/** Lays one that nobody sees. */
+/** Lays one, covered. */
 export function ask(player) {
   const choice = player.classes().filter((name) => tiles.has(name));
   game.on = true;
