@@ -106,13 +106,15 @@ fn failed(fault: &dyn std::error::Error) -> Error {
 const SIZE: (u32, u32) = (1000, 760);
 const SETPOINT: RGBColor = RGBColor(150, 150, 150);
 const MEASURED: RGBColor = RGBColor(0, 90, 170);
-const CONTACT: RGBColor = RGBColor(200, 90, 0);
+/// The right side, or another curve beside a measured one.
+const OTHER: RGBColor = RGBColor(200, 90, 0);
 const RIGHT: RGBColor = RGBColor(0, 130, 60);
 const WRONG: RGBColor = RGBColor(190, 20, 20);
+const REFUSED: RGBColor = RGBColor(110, 70, 150);
 const TRUTH: RGBColor = RGBColor(220, 225, 230);
 
 /// The least error that the picture of a calibration shows, as a power of ten: what states
-/// or finds less stands at its edge.
+/// or finds less stands at its edge, as a ring.
 const LEAST: f64 = 4.0;
 
 /// Stated against found as an SVG document: of each point the posterior that was stated,
@@ -153,6 +155,7 @@ fn calibrated(title: &str, points: &[(f64, Interval)]) -> Result<String, Fault> 
         for (text, at) in [
             ("says too little", (0.2, 3.7)),
             ("says too much", (2.9, 0.3)),
+            ("ring: off the scale", (0.2, 3.5)),
         ] {
             let style = ("sans-serif", 15).into_font().color(&SETPOINT);
             chart.draw_series([Text::new(text, at, style)])?;
@@ -162,7 +165,13 @@ fn calibrated(title: &str, points: &[(f64, Interval)]) -> Result<String, Fault> 
             let interval = [found.low, found.high].map(|share| (x, place(share)));
             chart.draw_series(LineSeries::new(interval, MEASURED.stroke_width(1)))?;
             let point = (x, place(found.share));
-            chart.draw_series([Circle::new(point, 4, MEASURED.filled())])?;
+            let is_off = [*stated, found.share].map(|share| 1.0 - share < 10_f64.powf(-LEAST));
+            let style = if is_off.contains(&true) {
+                MEASURED.stroke_width(2)
+            } else {
+                MEASURED.filled()
+            };
+            chart.draw_series([Circle::new(point, 4, style)])?;
         }
         root.present()?;
     }

@@ -13,7 +13,7 @@ pub use player::Player;
 pub use tracer::Tracer;
 
 use host_sim::loaded::Loaded;
-use scene::{Override, key_facts};
+use scene::Override;
 use wasm_bindgen::prelude::wasm_bindgen;
 
 /// Checks a scene's text, with the lines `key=value` of `set` in place of its own keys; what is
@@ -50,26 +50,9 @@ pub fn scene_text(name: &str) -> Option<String> {
     text(name).map(str::to_owned)
 }
 
-/// The names of all textures.
-#[wasm_bindgen]
-pub fn textures() -> Vec<String> {
-    let own = |name: &&&str| !name.starts_with("own-");
-    let names = scene::Texture::NAMES.iter().filter(own);
-    names.map(|name| (*name).to_owned()).collect()
-}
-
-/// What a key of a scene means, with its range: for its slider.
-#[wasm_bindgen]
-pub fn meaning(key: &str) -> String {
-    key_facts(key).map_or_else(String::new, |facts| {
-        let unit = if facts.unit.is_empty() { "" } else { ", " };
-        format!("{} {}{unit}{}.", facts.meaning, facts.allowed, facts.unit)
-    })
-}
-
 #[cfg(test)]
 mod tests {
-    use super::{Tracer, loaded, meaning, scenes};
+    use super::{Tracer, loaded, scenes};
 
     #[test]
     fn every_scene_on_the_page_can_be_played_with_its_model() {
@@ -90,7 +73,6 @@ mod tests {
             fault.starts_with("rcp.gain: rcp.gain: found -1; "),
             "{fault}"
         );
-        assert!(meaning("rcp.gain").starts_with("Gain"));
     }
 
     #[test]

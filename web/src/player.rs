@@ -9,20 +9,21 @@ use wasm_bindgen::prelude::wasm_bindgen;
 
 use crate::loaded;
 
-/// The line of a decision.
-fn line(t_s: f64, d: &Decided) -> String {
+/// The line of a decision of a model of these classes.
+fn line(t_s: f64, d: &Decided, classes: &[String]) -> String {
     let side = d.place.map_or("", |place| place.side_name());
-    let posterior = format!("{:.4}", d.posterior);
-    let (samples, words) = (d.samples.to_string(), d.words());
-    let t_s = format!("{t_s:.3}");
+    let [reason, among] = d.why();
     let cells = [
-        &t_s,
+        &format!("{t_s:.3}"),
         side,
         &d.decision,
-        &posterior,
-        &samples,
+        &format!("{:.4}", d.posterior),
+        &d.samples.to_string(),
         &d.label,
-        &words,
+        &d.verdict(classes).to_string(),
+        &reason,
+        &among,
+        &d.touch.to_string(),
     ];
     cells.join("\t")
 }
@@ -39,6 +40,8 @@ pub struct Player {
     done: u64,
     whiskers: Vec<WhiskerRow>,
     decided: Vec<String>,
+    /// Readings of x for the ear, while somebody listens.
+    heard: Option<Vec<f32>>,
 }
 
 #[wasm_bindgen]
@@ -59,6 +62,7 @@ impl Player {
             done: 0,
             whiskers: Vec::new(),
             decided: Vec::new(),
+            heard: None,
         })
     }
 
@@ -67,10 +71,16 @@ impl Player {
     pub fn step(&mut self, ticks: u32) -> Vec<f64> {
         let mut points = Vec::new();
         for _ in 0..ticks {
-            let t_s = self.run.tick().t_s;
+            let row = self.run.tick();
+            let t_s = row.t_s;
             self.done += 1;
+            if let Some(heard) = &mut self.heard {
+                let x = row.x.into_iter().find(|x| x.is_finite());
+                heard.push(x.unwrap_or_default() as f32);
+            }
             for d in self.run.decisions() {
-                self.decided.push(line(t_s, &d));
+                let line = line(t_s, &d, self.run.classes());
+                self.decided.push(line);
             }
             if self.done.is_multiple_of(EVERY) {
                 self.run.look_at_whiskers(&mut self.whiskers);
@@ -150,8 +160,19 @@ impl Player {
         }
     }
 
-    /// The decisions since the last call: time, side, decision, posterior, samples, the truth and
-    /// the decision in words, with tabulators between them.
+    /// Starts or stops to keep what [`Player::heard`] returns.
+    pub fn listen(&mut self, on: bool) {
+        self.heard = on.then(Vec::new);
+    }
+
+    /// The readings of x since the last call, a code a tick, of the first whisker.
+    pub fn heard(&mut self) -> Vec<f32> {
+        self.heard.as_mut().map_or_else(Vec::new, std::mem::take)
+    }
+
+    /// The decisions since the last call, with tabulators between time, side, decision, posterior,
+    /// samples, the truth, what it is worth (`right`, `wrong`, `refused`), the reason and the pair
+    /// if no class is named (as in `decisions.csv`), and the number of the touch.
     pub fn decisions(&mut self) -> Vec<String> {
         std::mem::take(&mut self.decided)
     }
@@ -187,9 +208,19 @@ impl Player {
         }
     }
 
-    /// Whether it has textures.
-    pub fn has_textures(&self) -> bool {
-        self.scene.plant.textured.is_some()
+    /// The textures that can be laid: all that its plant computes; none where it has none.
+    pub fn textures(&self) -> Vec<String> {
+        let Some(textured) = &self.scene.plant.textured else {
+            return Vec::new();
+        };
+        let elastic = self.scene.plant.kind == PlantKind::Whisker;
+        let known = |texture: Texture| match texture.own() {
+            Some(_) => textured.textures.contains(&texture),
+            None => elastic || texture.is_simple(),
+        };
+        let named = |name: &&&str| Texture::named(name).is_some_and(known);
+        let names = Texture::NAMES.iter().filter(named);
+        names.map(|name| (*name).to_owned()).collect()
     }
 
     /// Whiskers on each side.
@@ -228,24 +259,65 @@ mod tests {
     use host_sim::decisions::Decided;
     use tactile::Decision;
 
-    use super::line;
+    use super::{Player, line};
+
+    fn player(scene: &str) -> Player {
+        Player::new(crate::text(scene).unwrap(), "").unwrap()
+    }
 
     #[test]
     fn a_decision_that_names_no_class_says_why() {
         let classes = ["ice", "loam"].map(str::to_owned);
-        for (bits, cells) in [
-            (0, "loam\t0.5000\t34\tloam\tloam"),
-            (1, "unknown\t0.5000\t34\tloam\tunknown"),
-            (
-                3,
-                "unknown\t0.5000\t34\tloam\toutside the poses of training",
-            ),
-            (5, "unknown\t0.5000\t34\tloam\tbetween loam and ice"),
+        for (bits, decision, why) in [
+            (0, "loam", "right\t\t"),
+            (1, "unknown", "refused\tunknown\t"),
+            (3, "unknown", "refused\tpose\t"),
+            (5, "unknown", "refused\tbetween\tloam|ice"),
         ] {
             // Class 1 at even odds.
-            let decision = Decision::from_memory(34, 1 << 27 | 1 << 15, bits << 16).unwrap();
-            let decided = Decided::new(decision, &classes, "loam", "1");
-            assert_eq!(line(1.25, &decided), format!("1.250\t\t{cells}"));
+            let made = Decision::from_memory(34, 1 << 27 | 1 << 15, bits << 16).unwrap();
+            let decided = Decided::new(made, &classes, "loam", "1");
+            let expected = format!("1.250\t\t{decision}\t0.5000\t34\tloam\t{why}\t0");
+            assert_eq!(line(1.25, &decided, &classes), expected);
         }
+    }
+
+    #[test]
+    fn unknown_is_right_of_what_the_model_does_not_know() {
+        let mut player = player("unknown");
+        player.lay("carpet");
+        player.step(8_000);
+        let decisions = player.decisions();
+        assert!(!decisions.is_empty());
+        for line in decisions {
+            let cells: Vec<&str> = line.split('\t').collect();
+            let worth = if cells[2] == "unknown" {
+                "right"
+            } else {
+                "wrong"
+            };
+            assert_eq!((cells[5], cells[6]), ("carpet", worth), "{line}");
+        }
+    }
+
+    #[test]
+    fn only_what_a_plant_computes_can_be_laid() {
+        assert_eq!(player("whisker").textures().len(), 11);
+        let simple = ["smooth", "p600", "p240", "carpet"];
+        assert_eq!(player("textures").textures(), simple);
+        assert!(player("cia").textures().is_empty());
+    }
+
+    #[test]
+    fn a_tick_is_heard_once_while_somebody_listens() {
+        let mut player = player("textures");
+        player.step(100);
+        assert!(player.heard().is_empty());
+        player.listen(true);
+        player.step(100);
+        let heard = player.heard();
+        assert_eq!(heard.len(), 100);
+        assert!(heard.iter().all(|x| (0.0..=16_383.0).contains(x)));
+        assert!(player.heard().is_empty());
     }
 }

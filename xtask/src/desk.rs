@@ -25,6 +25,7 @@ struct OfPage {
     first_frame_s: f64,
     frames_s: f64,
     tick_us: f64,
+    phone_frames_s: f64,
 }
 
 /// Measures both, and writes the page and the picture of the README.
@@ -59,5 +60,6 @@ fn written(python: &OfPython, page: &OfPage) -> String {
         first_frame_s = page.first_frame_s,
         frames_s = page.frames_s,
         tick_us = page.tick_us,
+        phone_frames_s = page.phone_frames_s,
     )
 }

@@ -22,10 +22,15 @@ pub(crate) fn build() -> Result<(), Fault> {
     run(pack.arg(top().join("web/page")).arg(path()))
 }
 
-/// Opens it in headless Chromium and uses it as a person would; `picture` is where the one of the
-/// README goes.
+/// Opens it in headless Chromium and uses it as a person would, on a desk and on a phone, with axe
+/// for its accessibility; `picture` is where the one of the README goes.
 pub(crate) fn test(picture: Option<PathBuf>) -> Result<(), Fault> {
-    let mut tests = Command::new(python::with_browser()?);
+    let python = python::with_browser()?;
+    let mut axe = Command::new(&python);
+    axe.args("-m pip install --quiet --disable-pip-version-check".split(' '));
+    axe.args(["--no-deps", "--require-hashes", "--requirement"]);
+    run(axe.arg(top().join("web/tests/axe.txt")))?;
+    let mut tests = Command::new(python);
     tests.args(["-m", "pytest", "--quiet", "-p", "no:cacheprovider"]);
     tests.arg(top().join("web/tests"));
     tests

@@ -34,12 +34,22 @@ pub(super) struct Axes<'t> {
     pub(super) y: &'t str,
     /// Room on the left, and beyond the end of the axis below, pixels.
     pub(super) room: (u32, u32),
-    /// Whether the names of the curves stand among them.
-    pub(super) legend: bool,
 }
 
 /// Width of a legend that stands beside a panel, pixels.
 const LEGEND: u32 = 170;
+
+/// Size of a mark, and of a ring around it, pixels.
+pub(super) const DOT: i32 = 4;
+pub(super) const RING: i32 = 7;
+
+/// A number on an axis, as people write it: 140, 0.5.
+pub(super) fn plain(value: f64) -> String {
+    // Sums of steps are not exact.
+    let rounded = (value * 1e6).round() / 1e6;
+    // Neither -0.
+    (rounded + 0.0).to_string()
+}
 
 /// What stands in a legend before a name.
 #[derive(Debug, Clone, Copy)]
@@ -48,8 +58,20 @@ pub(super) enum Sign {
     Line(RGBColor),
     /// A square.
     Square(RGBColor),
-    /// A dot, filled or a ring.
-    Dot(RGBColor, bool),
+    /// A filled dot.
+    Dot(RGBColor),
+    /// A cross.
+    Cross(RGBColor),
+    /// A triangle.
+    Triangle(RGBColor),
+    /// A ring, which stands around another.
+    Ring(RGBColor),
+}
+
+/// The legend of curves.
+pub(super) fn entries(curves: &[Curve]) -> Vec<(Sign, &'static str)> {
+    let line = |(name, colour, _): &Curve| (Sign::Line(*colour), *name);
+    curves.iter().map(line).collect()
 }
 
 /// A panel in two: for what it shows, and for its legend, which is drawn.
@@ -72,9 +94,15 @@ where
                 let corners = [(6, y - 6), (20, y + 6)];
                 legend.draw(&Rectangle::new(corners, colour.filled()))?;
             }
-            Sign::Dot(colour, true) => legend.draw(&Circle::new((13, y), 4, colour.filled()))?,
-            Sign::Dot(colour, false) => {
-                legend.draw(&Circle::new((13, y), 4, colour.stroke_width(2)))?;
+            Sign::Dot(colour) => legend.draw(&Circle::new((13, y), DOT, colour.filled()))?,
+            Sign::Cross(colour) => {
+                legend.draw(&Cross::new((13, y), DOT, colour.stroke_width(2)))?;
+            }
+            Sign::Triangle(colour) => {
+                legend.draw(&TriangleMarker::new((13, y), DOT + 1, colour.filled()))?;
+            }
+            Sign::Ring(colour) => {
+                legend.draw(&Circle::new((13, y), RING, colour.stroke_width(1)))?;
             }
         }
         let style = ("sans-serif", 13).into_font().color(&BLACK);
@@ -99,7 +127,7 @@ pub(super) fn range(curves: &[Curve], least: f64) -> (f64, f64) {
     (low - 0.06 * span, low + 1.06 * span)
 }
 
-/// Draws curves in a panel, with axes and legend.
+/// Draws curves in a panel, with axes.
 pub(super) fn curves<DB: DrawingBackend>(
     area: &DrawingArea<DB, Shift>,
     axes: Axes<'_>,
@@ -118,23 +146,14 @@ where
         .build_cartesian_2d(from..to, low..high)?;
     let mut mesh = chart.configure_mesh();
     mesh.light_line_style(WHITE).y_desc(axes.y);
+    let plain = |value: &f64| plain(*value);
+    mesh.x_label_formatter(&plain).y_label_formatter(&plain);
     if let Some(x) = axes.x {
         mesh.x_desc(x);
     }
     mesh.draw()?;
-    for (name, colour, points) in curves {
-        chart
-            .draw_series(LineSeries::new(points, colour.stroke_width(1)))?
-            .label(name)
-            .legend(move |(x, y)| PathElement::new([(x, y), (x + 16, y)], colour));
+    for (_, colour, points) in curves {
+        chart.draw_series(LineSeries::new(points, colour.stroke_width(1)))?;
     }
-    if !axes.legend {
-        return Ok(());
-    }
-    chart
-        .configure_series_labels()
-        .position(SeriesLabelPosition::UpperLeft)
-        .background_style(WHITE.mix(0.8))
-        .draw()?;
     Ok(())
 }

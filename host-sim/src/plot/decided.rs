@@ -3,8 +3,8 @@
 use plotters::coord::Shift;
 use plotters::prelude::*;
 
-use super::curves::{Sign, with_legend};
-use super::{Fault, MEASURED, Picture, Presented, RIGHT, SETPOINT, TRUTH, WRONG};
+use super::curves::{DOT, RING, Sign, plain, with_legend};
+use super::{Fault, Picture, Presented, REFUSED, RIGHT, SETPOINT, TRUTH, WRONG};
 use crate::decisions::{Decided, UNKNOWN, Verdict};
 
 /// Room on the left for the names of classes and the title beside them, pixels.
@@ -16,8 +16,9 @@ pub(super) fn names_width(classes: &[String]) -> u32 {
     (longest.unwrap_or(0) * LETTER + 24).clamp(64, 300) as u32
 }
 
-/// A row for each class, and one of what was unknown: grey where it was presented, a dot
-/// for each decision, a ring for one of the right side.
+/// A row for each class, and one of what was unknown: grey where it was presented, a mark
+/// for each decision whose colour and shape both say its worth, a ring around one of the right
+/// side.
 pub(super) fn decisions<DB: DrawingBackend>(
     area: &DrawingArea<DB, Shift>,
     picture: &Picture<'_>,
@@ -32,12 +33,12 @@ where
     let count = rows.len();
     let mut entries = vec![
         (Sign::Square(TRUTH), "presented"),
-        (Sign::Dot(RIGHT, true), "decision: right"),
-        (Sign::Dot(WRONG, true), "wrong"),
-        (Sign::Dot(MEASURED, true), "refused"),
+        (Sign::Dot(RIGHT), "decision: right"),
+        (Sign::Cross(WRONG), "wrong"),
+        (Sign::Triangle(REFUSED), "refused"),
     ];
     if picture.decided.iter().any(is_right) {
-        entries.push((Sign::Dot(SETPOINT, false), "by the right side"));
+        entries.push((Sign::Ring(SETPOINT), "by the right side"));
     }
     let area = with_legend(area, &entries)?;
     let mut chart = ChartBuilder::on(&area)
@@ -56,6 +57,7 @@ where
         .configure_mesh()
         .disable_mesh()
         .y_labels(count)
+        .x_label_formatter(&|t_s| plain(*t_s))
         .y_label_formatter(&name)
         .x_desc("time, s")
         .y_desc("class")
@@ -83,17 +85,21 @@ where
         if !(from..=to).contains(&t_s) {
             continue;
         }
-        let colour = match decided.verdict(picture.classes) {
-            Verdict::Right => RIGHT,
-            Verdict::Wrong => WRONG,
-            Verdict::Refused => MEASURED,
-        };
-        let style = if is_right(decided) {
-            colour.stroke_width(2)
-        } else {
-            colour.filled()
-        };
-        chart.draw_series([Circle::new((t_s, row as f64), 4, style)])?;
+        let at = (t_s, row as f64);
+        match decided.verdict(picture.classes) {
+            Verdict::Right => {
+                chart.draw_series([Circle::new(at, DOT, RIGHT.filled())])?;
+            }
+            Verdict::Wrong => {
+                chart.draw_series([Cross::new(at, DOT, WRONG.stroke_width(2))])?;
+            }
+            Verdict::Refused => {
+                chart.draw_series([TriangleMarker::new(at, DOT + 1, REFUSED.filled())])?;
+            }
+        }
+        if is_right(decided) {
+            chart.draw_series([Circle::new(at, RING, SETPOINT.stroke_width(1))])?;
+        }
     }
     Ok(())
 }

@@ -3,13 +3,13 @@
 use plotters::coord::Shift;
 use plotters::prelude::*;
 
-use super::curves::{Axes, Curve, curves, envelope};
-use super::{Fault, MEASURED, SETPOINT};
+use super::curves::{Axes, Curve, curves, entries, envelope, with_legend};
+use super::{Fault, MEASURED, OTHER, SETPOINT};
 use crate::Error;
 use crate::trace::Row;
 
 /// Colours of the sides, and of what is in their way.
-const SIDES: [RGBColor; 2] = [MEASURED, RGBColor(200, 90, 0)];
+const SIDES: [RGBColor; 2] = [MEASURED, OTHER];
 const OBSTACLES: [RGBColor; 2] = [RGBColor(150, 185, 215), RGBColor(235, 190, 150)];
 /// Height of a panel, and width of the picture, pixels.
 const PANEL: (u32, u32) = (1000, 230);
@@ -67,7 +67,7 @@ fn draw(area: &DrawingArea<SVGBackend<'_>, Shift>, panel: &Panel) -> Result<(), 
         x: Some("time, s"),
         y: "angle, degrees",
         room: (64, 6),
-        legend: true,
     };
+    let area = with_legend(&area, &entries(&shown))?;
     curves(&area, axes, span, (40.0, 150.0), shown)
 }

@@ -3,9 +3,9 @@
 use plotters::coord::Shift;
 use plotters::prelude::*;
 
-use super::curves::{Axes, Curve, Sign, curves, range, with_legend};
+use super::curves::{Axes, Curve, curves, entries, range, with_legend};
 use super::pixels::Pixels;
-use super::{CONTACT, Fault, MEASURED, SETPOINT, failed};
+use super::{Fault, MEASURED, OTHER, SETPOINT, failed};
 use crate::Error;
 
 /// Width of the picture, and height of a strip, pixels.
@@ -100,16 +100,12 @@ impl Strips {
                 .iter()
                 .map(|(name, ink, points)| (*name, ink.colour(), thinned(points)))
                 .collect();
-            let entries = shown
-                .iter()
-                .map(|(name, colour, _)| (Sign::Line(*colour), *name));
-            let area = with_legend(area, &entries.collect::<Vec<_>>())?;
+            let area = with_legend(area, &entries(&shown))?;
             let is_last = n + 1 == self.strips.len();
             let axes = Axes {
                 x: is_last.then_some("time, s"),
                 y: strip.y,
                 room: (64, 16),
-                legend: false,
             };
             curves(&area, axes, span, range(&shown, strip.least), shown)?;
         }
@@ -123,7 +119,7 @@ impl Ink {
         match self {
             Self::Wanted => SETPOINT,
             Self::Found => MEASURED,
-            Self::Other => CONTACT,
+            Self::Other => OTHER,
         }
     }
 }

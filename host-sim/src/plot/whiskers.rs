@@ -4,16 +4,15 @@
 use plotters::coord::Shift;
 use plotters::prelude::*;
 
-use super::curves::{Axes, Curve, Sign, curves, envelope, range, with_legend};
+use super::curves::{Axes, Curve, curves, entries, envelope, range, with_legend};
 use super::decided::{decisions, names_width};
 use super::pixels::Pixels;
-use super::{CONTACT, Fault, MEASURED, Picture, SETPOINT, SIZE, failed};
+use super::{Fault, MEASURED, OTHER, Picture, SETPOINT, SIZE, failed};
 use crate::Error;
 use crate::trace::Row;
 
-/// Colours of the right side.
+/// What is grey on the left side, on the right one.
 const PALE: RGBColor = RGBColor(225, 190, 160);
-const VIOLET: RGBColor = RGBColor(120, 60, 140);
 
 impl Picture<'_> {
     /// As an SVG document.
@@ -76,16 +75,8 @@ impl Picture<'_> {
             ),
         ] {
             let shown = of_sides(rows, &shown);
-            let entries = shown
-                .iter()
-                .map(|(name, colour, _)| (Sign::Line(*colour), *name));
-            let area = with_legend(area, &entries.collect::<Vec<_>>())?;
-            let axes = Axes {
-                x,
-                y,
-                room,
-                legend: false,
-            };
+            let area = with_legend(area, &entries(&shown))?;
+            let axes = Axes { x, y, room };
             curves(&area, axes, span, range(&shown, least), shown)?;
         }
         if let [classes] = classes {
@@ -111,7 +102,7 @@ const ANGLES: [Quantity; 2] = [
     },
     Quantity {
         names: ["measured", "measured, right"],
-        colours: [MEASURED, CONTACT],
+        colours: [MEASURED, OTHER],
         of: |row| row.angle_deg,
     },
 ];
@@ -124,7 +115,7 @@ const SENSORS: [Quantity; 2] = [
     },
     Quantity {
         names: ["x", "x, right"],
-        colours: [MEASURED, CONTACT],
+        colours: [MEASURED, OTHER],
         of: |row| row.x,
     },
 ];
@@ -132,7 +123,7 @@ const SENSORS: [Quantity; 2] = [
 const CONTACTS: [Quantity; 2] = [
     Quantity {
         names: ["contact π", "contact π, right"],
-        colours: [CONTACT, VIOLET],
+        colours: [MEASURED, OTHER],
         of: |row| row.contact,
     },
     Quantity {

@@ -1,8 +1,11 @@
 //! One HTML file from the page's parts: `pack CORE.wasm PAGE OUT.html`, PAGE being the folder with
-//! page.html, page.css and page.js.
+//! page.html, page.css and main.js with the modules that it imports.
 //!
 //! The core is compressed and encoded as text, as a page that is opened from disk may load nothing
-//! else; the browser's own DecompressionStream undoes it.
+//! else; the browser's own DecompressionStream undoes it. The content security policy names the
+//! hashes of scripts and style: whatever else got into the page would not run.
+
+mod modules;
 
 use std::error::Error;
 use std::io::Write;
@@ -10,8 +13,10 @@ use std::path::Path;
 use std::{env, fs};
 
 use base64::Engine;
+use base64::engine::general_purpose::STANDARD;
 use flate2::Compression;
 use flate2::write::GzEncoder;
+use sha2::{Digest, Sha256};
 use wasm_bindgen_cli_support::Bindgen;
 
 fn main() -> Result<(), Box<dyn Error>> {
@@ -30,16 +35,20 @@ fn main() -> Result<(), Box<dyn Error>> {
 
     let mut packed = GzEncoder::new(Vec::new(), Compression::best());
     packed.write_all(&wasm)?;
-    let core = base64::engine::general_purpose::STANDARD.encode(packed.finish()?);
+    let core = STANDARD.encode(packed.finish()?);
 
-    let part = |name: &str| fs::read_to_string(page.join(name));
+    let css = fs::read_to_string(page.join("page.css"))?;
+    let program = modules::joined(page, "main.js")?;
+    let sum = |content: &str| format!("'sha256-{}'", STANDARD.encode(Sha256::digest(content)));
     let parts = [
-        ("/* page.css */", part("page.css")?),
+        ("SCRIPTS", format!("{} {}", sum(&glue), sum(&program))),
+        ("STYLE", sum(&css)),
+        ("/* page.css */", css),
         ("/* glue */", glue),
-        ("/* page.js */", part("page.js")?),
+        ("/* main.js */", program),
         ("<!-- core -->", core),
     ];
-    let mut html = part("page.html")?;
+    let mut html = fs::read_to_string(page.join("page.html"))?;
     for (place, content) in parts {
         if html.matches(place).count() != 1 {
             return Err(format!("page.html: {place} is not there once").into());
@@ -50,6 +59,11 @@ fn main() -> Result<(), Box<dyn Error>> {
         fs::create_dir_all(folder)?;
     }
     fs::write(out, &html)?;
-    println!("{}: {} bytes, core {} bytes", out.display(), html.len(), wasm.len());
+    println!(
+        "{}: {} bytes, core {} bytes",
+        out.display(),
+        html.len(),
+        wasm.len()
+    );
     Ok(())
 }

@@ -1,0 +1,176 @@
+// The picture of motors, hairs and surfaces.
+import { SIDES, colours, fitted } from "./canvas.js";
+import { drawCurve, now } from "./columns.js";
+import { paint } from "./surfaces.js";
+import { plain } from "./words.js";
+
+// Numbers of a body: angle, length, contact, the point where it touches, and its points.
+const POINTS = 13, BODY = 6 + 3 * POINTS;
+// The angle that is drawn level, so that the picture is wide and low.
+const LEVEL_DEG = 84;
+// Half the length of a surface and its thickness, as shares of the hair's length.
+const HALF = 0.34, THICK = 0.17;
+const MOTOR = 24, LABEL = 18;
+// The height of the curve at the lower edge as a share, and the time that it shows.
+const FEEL = 0.18, FEEL_S = 1.5;
+
+const turned = (angle_deg) => (angle_deg - LEVEL_DEG + 90) * Math.PI / 180;
+const along = (angle) => [Math.sin(angle), Math.cos(angle)];
+
+// The angles between which the hairs have moved in this scene.
+const LEAST = { low: 68, high: 105 };
+const swing = { ...LEAST };
+export function restage(player) {
+  const walls = Array.from(player.obstacles()).filter(Number.isFinite);
+  swing.low = LEAST.low;
+  swing.high = Math.max(LEAST.high, ...walls);
+}
+
+// How far everything reaches outwards, up and down, in lengths of a hair.
+function extent(walls, slant) {
+  const points = [[0, 0]];
+  for (let angle = swing.low; angle <= swing.high + 4; angle += 5) points.push(along(turned(angle)));
+  for (const wall of walls.filter(Number.isFinite)) {
+    const [tip, way] = [along(turned(wall)), along(turned(wall) - slant)];
+    for (const half of [-HALF, HALF]) {
+      for (const thick of [0, THICK]) {
+        points.push([tip[0] + half * way[0] + thick * way[1], tip[1] + half * way[1] - thick * way[0]]);
+      }
+    }
+  }
+  const [xs, ys] = [points.map(([x]) => x), points.map(([, y]) => y)];
+  return { out: Math.max(...xs), up: -Math.min(...ys), down: Math.max(...ys) };
+}
+
+function label(pen, w, text, x, y) {
+  const half = pen.measureText(text).width / 2;
+  pen.fillStyle = colours.ink;
+  pen.fillText(text, Math.min(Math.max(x, half + 4), w - half - 4), y);
+}
+
+// A smooth curve through the points, a Catmull-Rom spline, thinner towards the tip.
+function drawShaft(pen, shaft) {
+  for (let k = 1; k < POINTS; k++) {
+    const from = shaft[k - 1], to = shaft[k];
+    const before = shaft[Math.max(k - 2, 0)], after = shaft[Math.min(k + 1, POINTS - 1)];
+    const leaving = from.map((value, axis) => value + (to[axis] - before[axis]) / 6);
+    const coming = to.map((value, axis) => value - (after[axis] - from[axis]) / 6);
+    pen.lineWidth = 5 - 3.8 * k / (POINTS - 1);
+    pen.beginPath();
+    pen.moveTo(...from);
+    pen.bezierCurveTo(...leaving, ...coming, ...to);
+    pen.stroke();
+  }
+}
+
+// Seen along its axis: housing, rotor, and the holder with magnet and sensor at the hair's root.
+function drawMotor(pen, x, y, ways) {
+  pen.fillStyle = colours.metal;
+  pen.strokeStyle = colours.ink;
+  pen.lineWidth = 1.5;
+  pen.beginPath();
+  pen.roundRect(x - MOTOR, y - MOTOR, 2 * MOTOR, 2 * MOTOR, 8);
+  pen.fill();
+  pen.stroke();
+  pen.beginPath();
+  pen.arc(x, y, 0.66 * MOTOR, 0, 2 * Math.PI);
+  pen.stroke();
+  pen.lineWidth = 11;
+  for (const [dx, dy] of ways) {
+    pen.beginPath();
+    pen.moveTo(x, y);
+    pen.lineTo(x + 0.8 * MOTOR * dx, y + 0.8 * MOTOR * dy);
+    pen.stroke();
+  }
+}
+
+// What its sensor reads while it does this.
+function drawFeeling(pen, w, h, high, sides) {
+  const left = 66, end = now();
+  pen.fillStyle = colours.ink;
+  pen.textAlign = "left";
+  pen.fillText("it feels", 8, h - high / 2 + 5);
+  const x = (t) => w - 6 - (end - t) * (w - 6 - left) / FEEL_S;
+  const y = (code) => h - 4 - (high - 6) * code / 16383;
+  for (let side = 0; side < sides; side++) {
+    const { name, dash } = SIDES[side];
+    drawCurve(pen, 3 + 5 * side, end - FEEL_S, x, y, { colour: colours[name], width: 2, dash });
+  }
+}
+
+/** Draws it; `shown` is the name of what lies there, or "hidden". */
+export function drawStage(canvas, player, shown) {
+  const [pen, w, whole] = fitted(canvas);
+  const feel = FEEL * whole, h = whole - feel;
+  pen.font = "600 14px system-ui, sans-serif";
+  const bodies = player.bodies(), walls = Array.from(player.obstacles());
+  const each = player.whiskers_per_side(), sides = walls.length;
+  drawFeeling(pen, w, whole, feel, sides);
+  pen.textAlign = "center";
+  for (let n = 0; n < bodies.length; n += BODY) {
+    swing.low = Math.min(swing.low, bodies[n]);
+    swing.high = Math.max(swing.high, bodies[n]);
+  }
+  const longest = Math.max(...bodies.filter((_, n) => n % BODY === 1));
+  const [slant, tilt] = Array.from(player.facing_deg(), (angle) => angle * Math.PI / 180);
+  const { out, up, down } = extent(walls, slant);
+  // A hair's length, in pixels.
+  const apart = sides > 1 ? 2 * MOTOR + 6 : 0;
+  const wide = (w - 2 * MOTOR - apart - 12) / (sides * out);
+  const size = Math.min(wide, (h - LABEL - 8) / (up + Math.max(down, 0.25)));
+  const reach = size / longest;
+  const middle = sides > 1 ? w / 2 : (w + size * out) / 2 - MOTOR / 2;
+  const y0 = LABEL + 4 + Math.max(up * size, (h - LABEL - 8 - (down - up) * size) / 2);
+  for (let side = 0; side < sides; side++) {
+    const way = side === 0 ? -1 : 1, x0 = middle + way * apart / 2;
+    // Where a point is drawn: s along an angle from the base, and x against protraction.
+    const at = (angle, s, x = 0) => [
+      x0 + way * reach * (s * Math.sin(angle) - x * Math.cos(angle)),
+      y0 + reach * (s * Math.cos(angle) + x * Math.sin(angle)),
+    ];
+    if (Number.isFinite(walls[side])) {
+      // Its section where the hair touches, or where the tip is: it leans, and the hair slides
+      // aside.
+      const limit = turned(walls[side]);
+      const first = bodies.subarray(BODY * side * each, BODY * (side * each + 1));
+      const aside = Number.isNaN(first[4]) ? first[BODY - 2] : first[4];
+      const back = aside * Math.tan(tilt) * reach;
+      const [dx, dy] = along(limit - slant);
+      let [x, y] = at(limit, longest);
+      x -= way * back * dy;
+      y += back * dx;
+      pen.save();
+      pen.transform(way * dx, dy, way * dy, -dx, x - way * HALF * size * dx, y - HALF * size * dy);
+      paint(pen, shown, 2 * HALF * size, THICK * size, colours.ink);
+      pen.restore();
+      if (side === 0) {
+        const name = shown === "hidden" ? "surface: ?" : `surface: ${plain(shown)}`;
+        const over = (HALF * Math.abs(dy) + THICK * dx) * size + 6;
+        // Between both, where there are two.
+        label(pen, w, name, sides > 1 ? w / 2 : x, sides > 1 ? LABEL : Math.max(y - over, LABEL - 3));
+      }
+    }
+    pen.strokeStyle = colours[SIDES[side].name];
+    const ways = [];
+    for (let n = side * each; n < (side + 1) * each; n++) {
+      const body = bodies.subarray(BODY * n, BODY * (n + 1));
+      const theta = turned(body[0]);
+      ways.push([way * Math.sin(theta), Math.cos(theta)]);
+      // Point 0 is that of contact, the shaft's are 1 to 13.
+      const point = (k) => at(theta, body[5 + 3 * k], body[3 + 3 * k]);
+      drawShaft(pen, Array.from({ length: POINTS }, (_, k) => point(k + 1)));
+      if (!Number.isNaN(body[3])) {
+        pen.beginPath();
+        pen.arc(...point(0), 4 + 10 * Math.min(body[2], 1), 0, 2 * Math.PI);
+        pen.lineWidth = 2;
+        pen.stroke();
+      }
+    }
+    drawMotor(pen, x0, y0, ways);
+    label(pen, w, sides > 1 ? SIDES[side].name : "motor", x0, y0 + MOTOR + 16);
+  }
+  if (sides === 1) {
+    const [dx, dy] = along(turned(swing.low));
+    label(pen, w, "hair", middle - 0.5 * size * dx, Math.min(y0 + 0.5 * size * dy + 22, h - 6));
+  }
+}
