@@ -1,10 +1,8 @@
 //! Bounds of numbers and factors in fixed point.
 
+use super::factor::SHIFT_MAX;
 use super::{Factor, Factors, FineFactor, Fix};
 use crate::{Bound, Bounded};
-
-/// The largest shift of a factor.
-const SHIFT_MAX: i32 = 30;
 
 impl Bounded for Fix {
     fn lies_within(&self, bound: Bound) -> bool {

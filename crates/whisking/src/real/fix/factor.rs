@@ -40,7 +40,7 @@ pub struct Factors<const K: usize> {
 }
 
 /// The largest shift of an `i32` that can be rounded.
-const SHIFT_MAX: i32 = 30;
+pub(super) const SHIFT_MAX: i32 = 30;
 
 /// The exponent, `least` to [`SHIFT_MAX`], of the largest power of two with
 /// which the product of `value`, rounded, stays within `limit`.
@@ -91,9 +91,11 @@ impl Factor {
     pub(super) fn new(value: f64) -> Self {
         // Casts saturate, and turn NaN into zero.
         let shift = scale(value * 65_536.0, 32_767.0, Self::LEAST);
-        let mantissa = libm::round(value * libm::exp2(f64::from(16 + shift)));
+        let mantissa = libm::round(value * libm::exp2(f64::from(16 + shift))) as i16;
+        // As of a fine one.
+        let is_normal = mantissa.unsigned_abs() >= 1 << 14;
         Self {
-            mantissa: mantissa as i16,
+            mantissa: if is_normal { mantissa } else { 0 },
             shift,
         }
     }
@@ -121,9 +123,11 @@ impl Factor {
 impl FineFactor {
     pub(super) fn new(value: f64) -> Self {
         let shift = scale(value * 4_294_967_296.0, 2_147_483_647.0, -1);
-        let mantissa = libm::round(value * libm::exp2(f64::from(32 + shift)));
+        let mantissa = libm::round(value * libm::exp2(f64::from(32 + shift))) as i32;
+        // Of no number in this format is a smaller share as much as half of the last bit.
+        let is_normal = mantissa.unsigned_abs() >= 1 << 30;
         Self {
-            mantissa: mantissa as i32,
+            mantissa: if is_normal { mantissa } else { 0 },
             shift,
         }
     }

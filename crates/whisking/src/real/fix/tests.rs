@@ -1,7 +1,7 @@
 //! Products, factors and limits of fixed point against f64.
 
 use super::{FRACTION, Factor, Factors, FineFactor, Fix};
-use crate::Real;
+use crate::{Bound, Bounded, Real};
 use proptest::prelude::*;
 
 const STEP: f64 = 1.0 / (1_u64 << FRACTION) as f64;
@@ -9,6 +9,14 @@ const STEP: f64 = 1.0 / (1_u64 << FRACTION) as f64;
 const FACTOR: f64 = 3.1e-5;
 
 proptest! {
+    /// However small a scene's value is, what it comes to is one that a tick takes.
+    #[test]
+    fn every_share_is_a_number(power in -80.0..0.0_f64) {
+        let share = libm::exp2(power);
+        prop_assert!(Fix::fine(share).lies_within(Bound::positive(0)));
+        prop_assert!(Fix::coefficient(share).lies_within(Bound::positive(0)));
+    }
+
     /// Any bits, and numbers of the format's range, halves of a step among them.
     #[test]
     fn single_precision_is_converted_as_double(bits: u32, near in -9.0..9.0_f32, half in -999..999_i16) {
