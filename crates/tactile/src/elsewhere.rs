@@ -5,6 +5,8 @@ use crate::sequential::SequentialEvidence;
 
 /// Most other boards.
 const MOST: usize = if cfg!(feature = "elsewhere") { 24 } else { 0 };
+/// Whether there can be any: 1 or 0.
+const ANY: usize = if cfg!(feature = "elsewhere") { 1 } else { 0 };
 
 /// By how much each class lies behind the likeliest by what a board has felt, 2⁻¹⁰ bits,
 /// saturated at 64; the likeliest by 0.
@@ -17,7 +19,7 @@ const _: () = assert!(ENTRIES_PER_BIT == 1 << 10);
 pub(crate) struct Elsewhere {
     all: [Option<SequentialEvidence>; MOST],
     /// Nothing at all, where there are no others.
-    is_led: [bool; (MOST > 0) as usize],
+    is_led: [bool; ANY],
 }
 
 impl Elsewhere {
