@@ -19,7 +19,7 @@ FIRST = """
 import time
 begun = time.perf_counter()
 import vibrissa
-vibrissa.Sim(vibrissa.SCENES["textures"]).run()
+vibrissa.Sim("textures").run()
 print(time.perf_counter() - begun)
 """
 

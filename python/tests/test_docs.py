@@ -2,6 +2,7 @@
 
 import ast
 import inspect
+import json
 from pathlib import Path
 
 import pytest
@@ -9,6 +10,7 @@ import pytest
 import vibrissa
 from vibrissa import _core
 
+NOTEBOOKS = Path(__file__).parents[1] / "notebooks"
 STUBS = Path(vibrissa.__file__).with_name("_core.pyi")
 
 
@@ -38,6 +40,16 @@ def test_stubs_have_the_docstrings_of_what_is_there():
     for name, stub, thing in found:
         assert thing.__doc__, name
         assert stub == inspect.getdoc(thing), name
+
+
+@pytest.mark.parametrize("path", sorted(NOTEBOOKS.glob("*.ipynb")), ids=lambda path: path.stem)
+def test_notebooks_are_committed_with_what_they_show(path):
+    cells = [cell for cell in json.loads(path.read_text())["cells"] if cell["cell_type"] == "code"]
+    # Each was executed, in order and with no fault: `notebooks/execute.py --keep`.
+    assert [cell["execution_count"] for cell in cells] == list(range(1, len(cells) + 1))
+    outputs = [output for cell in cells for output in cell["outputs"]]
+    assert "error" not in [output["output_type"] for output in outputs]
+    assert any("image/png" in output.get("data", {}) for output in outputs)
 
 
 @pytest.mark.parametrize("fields", [vibrissa.Share, vibrissa.Evaluation, vibrissa.Why])

@@ -201,3 +201,20 @@ def test_copies_of_environments_go_on_apart_to_the_same_bits(again):
         assert all(np.array_equal(a, b) for a, b in zip(one[:4], two[:4]))
     fresh = again(WhiskerVectorEnv(2, set=SHORT))
     assert fresh.reset(seed=1)[0].shape == (2, 4)
+
+
+def test_the_example_of_stable_baselines_has_what_it_needs():
+    example = runpy.run_path(str(Path(__file__).parents[1] / "examples" / "stable_baselines.py"))
+    env = example["make"]()
+    assert env.action_space == gymnasium.spaces.Box(-1.0, 1.0, (1,), np.float32)
+    env.reset(seed=1)
+    steps = [env.step(env.action_space.sample()) for _ in range(100)]
+    assert [step[3] for step in steps] == [False] * 99 + [True]
+
+
+def test_the_example_of_stable_baselines_learns():
+    # Half a gigabyte: where it is there.
+    example = runpy.run_path(str(Path(__file__).parents[1] / "examples" / "stable_baselines.py"))
+    pytest.importorskip("stable_baselines3")
+    before, after = example["main"](20_000)
+    assert after > before

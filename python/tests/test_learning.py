@@ -300,8 +300,8 @@ def test_low_and_high_are_an_interval_wherever_they_stand(heard):
     for table in (model.calibration, found.calibration):
         table = table[table["decisions"] > 0]
         assert np.all(table["low"] <= table["found"])
-        assert np.all(table["found"] <= table["high"] + 1e-9)
+        assert np.all(table["found"] <= table["high"])
     bins = found.calibration[found.calibration["decisions"] > 0]
     assert np.all(bins["stated_from"] <= bins["stated"])
     assert np.all(bins["stated"] <= bins["stated_to"])
-    assert found.found.low <= found.found.share <= found.found.high + 1e-9
+    assert found.found.low <= found.found.share <= found.found.high
