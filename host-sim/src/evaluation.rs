@@ -201,10 +201,28 @@ pub struct Candidate {
     pub evaluation: Evaluation,
 }
 
+/// Width of the interval of a share, from which on it says too little to choose by.
+const WIDEST: f64 = 0.3;
+
+/// The normal quantile of 97.5 %, for the 95 % interval of a mean.
+const Z: f64 = 1.96;
+
 impl Candidate {
     /// Share of wrong decisions among those that named a class; not a number without one.
     pub fn wrong(&self) -> f64 {
         1.0 - self.evaluation.calibration.found.share
+    }
+
+    /// The 95 % interval of that share, 0 to 1.
+    pub fn wrong_interval(&self) -> [f64; 2] {
+        let found = self.evaluation.calibration.found;
+        [1.0 - found.high, 1.0 - found.low]
+    }
+
+    /// The upper end of the 95 % interval of the mean samples of a decision; not a number without
+    /// two decisions.
+    fn samples_at_most(&self) -> f64 {
+        self.evaluation.samples + Z * self.evaluation.samples_error
     }
 }
 
@@ -229,19 +247,48 @@ pub fn scan(
     (1..).zip(THRESHOLDS).map(at).collect()
 }
 
-/// The lowest threshold from which on no more than a share of decisions is wrong, as
-/// far up as there are decisions.
-pub fn for_error(scan: &[Candidate], rate: f64) -> Option<&Candidate> {
-    let mut decided = scan.iter().rev().skip_while(|at| at.wrong().is_nan());
-    let mut lowest = None;
-    while let Some(at) = decided.next().filter(|at| at.wrong() <= rate) {
-        lowest = Some(at);
-    }
-    lowest
+/// A threshold that is wanted.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Suggestion<'s> {
+    /// Its figures are as wanted, and so are the ends of their 95 % intervals.
+    Backed(&'s Candidate),
+    /// Its figures are as wanted, but of so few decisions that this may be chance.
+    Chance(&'s Candidate),
+    /// There is none of [`THRESHOLDS`].
+    None,
 }
 
-/// The highest threshold up to which decisions take no more samples in the mean.
-pub fn for_samples(scan: &[Candidate], samples: f64) -> Option<&Candidate> {
+impl<'s> Suggestion<'s> {
+    /// The first that is backed, or else the first.
+    fn of(
+        mut wanted: impl Iterator<Item = &'s Candidate>,
+        backed: impl Fn(&Candidate) -> bool,
+    ) -> Self {
+        let Some(first) = wanted.next() else {
+            return Self::None;
+        };
+        let found = std::iter::once(first).chain(wanted).find(|at| backed(at));
+        found.map_or(Self::Chance(first), Self::Backed)
+    }
+}
+
+/// The lowest threshold from which on no more than a share of decisions is wrong, as far up as
+/// there are decisions; backed where the upper end of the share's interval is no more than that.
+pub fn for_error(scan: &[Candidate], rate: f64) -> Suggestion<'_> {
+    let decided = scan.iter().rev().skip_while(|at| at.wrong().is_nan());
+    let as_wanted: Vec<_> = decided.take_while(|at| at.wrong() <= rate).collect();
+    let backed = |at: &Candidate| at.wrong_interval().into_iter().all(|end| end <= rate);
+    Suggestion::of(as_wanted.into_iter().rev(), backed)
+}
+
+/// The highest threshold up to which decisions take no more samples in the mean; backed where the
+/// upper end of the mean's interval is no more than that, and the share of wrong decisions is known
+/// better than to [`WIDEST`].
+pub fn for_samples(scan: &[Candidate], samples: f64) -> Suggestion<'_> {
     let fast = |at: &&Candidate| at.evaluation.samples <= samples;
-    scan.iter().take_while(fast).last()
+    let as_wanted: Vec<_> = scan.iter().take_while(fast).collect();
+    Suggestion::of(as_wanted.into_iter().rev(), |at| {
+        let [low, high] = at.wrong_interval();
+        at.samples_at_most() <= samples && high - low < WIDEST
+    })
 }

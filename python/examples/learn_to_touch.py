@@ -9,7 +9,7 @@ import time
 
 import numpy as np
 
-from whisker.gym import CONTACT, WhiskerVectorEnv
+from vibrissa.gym import CONTACT, WhiskerVectorEnv
 
 ENVS, ROUNDS, STEPS = 128, 15, 100
 SECONDS = {"duration_s": 2.0}

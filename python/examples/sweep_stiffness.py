@@ -9,8 +9,8 @@ import sys
 
 import numpy as np
 
-from whisker import SCENES
-from whisker.sweep import sweep
+from vibrissa import SCENES
+from vibrissa.sweep import sweep
 
 KEYS = {"rcp.gain": [0.0, 0.7], "plant.stiffness": [0.05, 0.1]}
 

@@ -1,5 +1,8 @@
-"""Executes every notebook beside it, in a folder that is thrown away: `cargo xtask nightly`."""
+"""Executes every notebook beside it, in a folder that is thrown away: `cargo xtask nightly`.
 
+With ``--keep`` what they show is written into them: before a commit that changes it."""
+
+import sys
 import tempfile
 from pathlib import Path
 
@@ -7,13 +10,17 @@ import nbformat
 from nbclient import NotebookClient
 
 
-def main() -> None:
+def main(keeps: bool) -> None:
     for path in sorted(Path(__file__).parent.glob("*.ipynb")):
         notebook = nbformat.read(path, as_version=4)
         with tempfile.TemporaryDirectory() as folder:
-            NotebookClient(notebook, resources={"metadata": {"path": folder}}, timeout=600).execute()
+            resources = {"metadata": {"path": folder}}
+            client = NotebookClient(notebook, resources=resources, timeout=600, record_timing=False)
+            client.execute()
+        if keeps:
+            nbformat.write(notebook, path)
         print(f"{path.name}: {len(notebook.cells)} cells")
 
 
 if __name__ == "__main__":
-    main()
+    main("--keep" in sys.argv[1:])

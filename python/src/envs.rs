@@ -121,18 +121,18 @@ impl Member {
     }
 }
 
-/// Envs(scene, count, *, action="setpoint", ticks=1, model=None, set=None)
-///
 /// `count` runs of a scene side by side, stepped on all cores; an action is a setpoint in degrees
 /// or a gain for each whisker, held for `ticks` ticks.
-#[pyclass(frozen, module = "whisker._core")]
+#[pyclass(frozen, module = "vibrissa._core")]
 pub(crate) struct Envs {
     members: Mutex<Vec<Member>>,
     action: Action,
     ticks: u64,
     whiskers: usize,
+    per_side: usize,
     count: usize,
     limits: [f64; 2],
+    tick_hz: u32,
     recipe: Recipe,
 }
 
@@ -215,8 +215,10 @@ impl Envs {
             action,
             ticks,
             whiskers: loaded.scene.whiskers(),
+            per_side: loaded.scene.head.whiskers_per_side,
             count,
             limits,
+            tick_hz: loaded.scene.tick_hz,
             recipe: Recipe::new(given, loaded),
         })
     }
@@ -248,7 +250,7 @@ impl Envs {
             let did = members.iter().map(|one| (one.seed, one.acts.clone()));
             did.collect::<Vec<Did>>()
         });
-        let make = py.import("whisker._core")?.getattr("restored_envs")?;
+        let make = py.import("vibrissa._core")?.getattr("restored_envs")?;
         let action = match self.action {
             Action::Setpoint => "setpoint",
             Action::Gain => "gain",
@@ -336,6 +338,18 @@ impl Envs {
         });
         restarted.map_err(|error: Error| PyValueError::new_err(error.to_string()))?;
         seen.into_pyarray(py).reshape((self.count, width))
+    }
+
+    /// Actions a second.
+    #[getter]
+    fn rate_hz(&self) -> f64 {
+        f64::from(self.tick_hz) / self.ticks as f64
+    }
+
+    /// How many whiskers a side has.
+    #[getter]
+    const fn whiskers_per_side(&self) -> usize {
+        self.per_side
     }
 
     /// How many whiskers each has.

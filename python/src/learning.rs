@@ -3,11 +3,12 @@
 use host_sim::classifier::{self, Fault};
 use host_sim::decisions::{Columns, Decided, UNKNOWN};
 use host_sim::doubts;
-use host_sim::evaluation::{self, Evaluation};
-use host_sim::recording::{Recorder, Stream};
+use host_sim::evaluation::{self, Evaluation, Shown};
+use host_sim::recording::{self, Recorder, Stream};
 use host_sim::replay::Replay;
 use host_sim::run::Run;
 use host_sim::training::{Expected, How, Tables};
+use numpy::PyArray2;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -25,8 +26,6 @@ fn wrong(fault: impl std::fmt::Display) -> PyErr {
     PyValueError::new_err(fault.to_string())
 }
 
-/// record(scene, *, seed=None, set=None)
-///
 /// Runs a scene and returns what its whiskers feel that are heard, the air included: a recording
 /// to train on. The scene's classifier is not used. Its type knows the rate,
 /// `dtype.metadata["tick_hz"]`, which train goes by.
@@ -52,7 +51,10 @@ pub(crate) fn record<'py>(
         }
         PyResult::Ok(recorder.into_streams())
     });
-    recordings::at_rate(&recordings::array(py, &streams?)?, scene.tick_hz)
+    recordings::at_rate(
+        &recordings::array(py, &streams?, recording::CHANNELS)?,
+        scene.tick_hz,
+    )
 }
 
 /// Trains a model from recordings that the Python side has prepared.
@@ -167,21 +169,49 @@ pub(crate) fn classify<'py>(
     table::decisions(py, &[(None, &decided)], Columns::OfRecording)
 }
 
-/// What a model is worth on a recording that the Python side has prepared.
+/// The model's classes, what else was presented, and "unknown"; and how often each of them, a row,
+/// was taken for each, a column.
+fn confusion(classes: Vec<String>, presented: &[Shown]) -> (Vec<String>, Vec<Vec<i64>>) {
+    let mut labels = classes;
+    let presented_labels = presented.iter().map(|shown| shown.label.as_str());
+    for label in presented_labels.chain([UNKNOWN]) {
+        if !labels.iter().any(|known| known == label) {
+            labels.push(label.to_owned());
+        }
+    }
+    let mut counts = vec![vec![0; labels.len()]; labels.len()];
+    for decided in presented.iter().flat_map(|shown| &shown.decided) {
+        let place = |name: &str| labels.iter().position(|label| label == name);
+        let row = place(&decided.label).and_then(|row| counts.get_mut(row));
+        let cell = place(&decided.decision).and_then(|column| row?.get_mut(column));
+        if let Some(cell) = cell {
+            *cell += 1;
+        }
+    }
+    (labels, counts)
+}
+
+/// What a model is worth on recordings that the Python side has prepared.
 #[pyfunction]
 #[pyo3(signature = (model, data, *, channels, threshold))]
 pub(crate) fn evaluate<'py>(
     py: Python<'py>,
     model: &Bound<'py, PyAny>,
-    data: Prepared<'py>,
+    data: Vec<Prepared<'py>>,
     channels: [String; 2],
     threshold: f64,
 ) -> PyResult<Bound<'py, PyDict>> {
     let model = model::given(model)?;
     let classes = classifier::names(&model);
-    let (_, streams) = &warned(py, &data, &channels)?;
-    let presented = py.detach(|| evaluation::presentations(&model, threshold, streams));
-    let found = Evaluation::new(&classes, &presented.map_err(wrong)?);
+    let read = data
+        .iter()
+        .map(Prepared::read)
+        .collect::<PyResult<Vec<_>>>()?;
+    recordings::warn(py, &read, &channels)?;
+    let streams: Vec<Stream> = read.into_iter().flat_map(|(_, streams)| streams).collect();
+    let presented = py.detach(|| evaluation::presentations(&model, threshold, &streams));
+    let presented = presented.map_err(wrong)?;
+    let found = Evaluation::new(&classes, &presented);
     let dict = PyDict::new(py);
     dict.set_item("hits", found.hits)?;
     dict.set_item("left_out", found.left_out())?;
@@ -203,9 +233,11 @@ pub(crate) fn evaluate<'py>(
         dict.set_item(name, (share, low, high, count))?;
     }
     dict.set_item("stated", found.calibration.stated)?;
-    dict.set_item("confusion", found.score.to_string())?;
+    let (labels, counts) = confusion(classes, &presented);
+    dict.set_item("confusion", PyArray2::from_vec2(py, &counts)?)?;
+    dict.set_item("labels", labels)?;
 
-    let names = ["low", "high", "stated", "found", "found_low", "found_high"];
+    let names = ["stated_from", "stated_to", "stated", "found", "low", "high"];
     let mut columns = names.map(|name| (name, Kind::Number)).to_vec();
     columns.push(("decisions", Kind::Whole));
     let mut rows = Packed::default();

@@ -1,4 +1,4 @@
-//! `whisker._core`: the simulator, the trainer and the classifier for Python.
+//! `vibrissa._core`: the simulator, the trainer and the classifier for Python.
 //!
 //! What a scene, a column or a setting is called, its unit and its range are those of
 //! host-sim; here is only what turns Python's values into them and rows into arrays.
@@ -23,15 +23,21 @@ use pyo3::prelude::pymodule;
 #[pymodule]
 mod _core {
     #[pymodule_export]
+    #[allow(non_upper_case_globals, reason = "Python calls it so")]
+    const __version__: &str = env!("CARGO_PKG_VERSION");
+
+    #[pymodule_export]
     use crate::envs::{Envs, restored_envs};
     #[pymodule_export]
     use crate::learning::{classify, evaluate, record, train};
     #[pymodule_export]
     use crate::many::run_many;
     #[pymodule_export]
-    use crate::model::Model;
+    use crate::model::{Model, is_model};
     #[pymodule_export]
     use crate::press::press;
+    #[pymodule_export]
+    use crate::recordings::read;
     #[pymodule_export]
     use crate::scenes::{Problem, SceneError};
     #[pymodule_export]

@@ -48,8 +48,6 @@ fn fill(run: &mut Run, tables: &RunTables, every: u64, rows: &mut [u8]) -> Vec<D
     decided
 }
 
-/// run_many(scene, seeds, *, every=20, model=None, set=None) -> (rows, decisions)
-///
 /// Runs a scene once for each seed, on all cores. `rows` is a structured array of shape
 /// (seeds, rows) with every `every`th row of each trace (0: none); `decisions` has those of all
 /// runs, with the seed before the columns of `decisions.csv`. Scene, model and set are as for

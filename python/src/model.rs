@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use host_sim::classifier;
 use host_sim::training::TrainedModel;
-use pyo3::exceptions::PyValueError;
+use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyType};
 use scene::file;
@@ -14,10 +14,8 @@ use tactile::train::joint::Report;
 use crate::outside::file_error;
 use crate::table::{Kind, Layout, Packed};
 
-/// Model(source)
-///
 /// A model, of its bytes or its file; `train` makes one. `bytes(model)` are what a board runs.
-#[pyclass(frozen, module = "whisker")]
+#[pyclass(frozen, module = "vibrissa")]
 pub(crate) struct Model {
     model: ModelBuf,
     report: Option<Report>,
@@ -108,24 +106,42 @@ impl Model {
 
     fn __repr__(&self) -> String {
         let (classes, bytes) = (self.classes().join(", "), self.as_bytes().len());
-        format!("<whisker.Model of {classes}: {bytes} bytes>")
+        format!("<vibrissa.Model of {classes}: {bytes} bytes>")
     }
 }
 
-/// A model's bytes: of a [`Model`], as they are, or of a file.
-pub(crate) fn bytes(model: &Bound<'_, PyAny>) -> PyResult<Vec<u8>> {
-    if let Ok(model) = model.cast::<Model>() {
-        return Ok(model.get().as_bytes().to_vec());
+/// Whether it is a model, bytes that should be one, or a file of one, and no recording.
+#[pyfunction]
+pub(crate) fn is_model(source: &Bound<'_, PyAny>) -> bool {
+    if source.is_instance_of::<Model>() || source.is_instance_of::<PyBytes>() {
+        return true;
     }
-    if let Ok(bytes) = model.cast::<PyBytes>() {
-        return Ok(bytes.as_bytes().to_vec());
-    }
-    let path: PathBuf = model.extract()?;
-    file::read(&path, file::BINARY_BYTES).map_err(|error| file_error(&path, error))
+    let path = source.extract::<PathBuf>();
+    path.is_ok_and(|path| {
+        let read = file::read(&path, file::BINARY_BYTES);
+        read.is_ok_and(|bytes| ModelBuf::from_bytes(&bytes).is_ok())
+    })
 }
 
 /// The model of a [`Model`], of bytes or of a file.
+///
+/// # Errors
+/// What is wrong with it, under the name `model` and, of a file, its path.
 pub(crate) fn given(model: &Bound<'_, PyAny>) -> PyResult<ModelBuf> {
-    let model = ModelBuf::from_bytes(&bytes(model)?);
-    model.map_err(|error| PyValueError::new_err(format!("model: {error}")))
+    if let Ok(model) = model.cast::<Model>() {
+        return Ok(model.get().model.clone());
+    }
+    if let Ok(bytes) = model.cast::<PyBytes>() {
+        let model = ModelBuf::from_bytes(bytes.as_bytes());
+        return model.map_err(|error| PyValueError::new_err(format!("model: {error}")));
+    }
+    let path: PathBuf = model.extract().map_err(|_| {
+        let found = model.get_type();
+        PyTypeError::new_err(format!(
+            "model: found {found}, allowed: a Model, its bytes or a path"
+        ))
+    })?;
+    let bytes = file::read(&path, file::BINARY_BYTES).map_err(|error| file_error(&path, error))?;
+    let wrong = |error| PyValueError::new_err(format!("model: {}: {error}", path.display()));
+    ModelBuf::from_bytes(&bytes).map_err(wrong)
 }

@@ -7,8 +7,6 @@ use pyo3::types::PyDict;
 
 use crate::table::{Kind, Layout, Packed};
 
-/// press(shaft, *, push_deg, slant_deg=30.0, tilt_deg=0.0, friction=0.0)
-///
 /// How a tapered whisker bends that is pressed slowly against a plate, solved exactly: a row a
 /// push, with the columns of `columns("press")`.
 ///

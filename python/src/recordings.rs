@@ -1,12 +1,16 @@
-//! Recordings from and to arrays.
+//! Recordings from files, and from and to arrays.
+
+use std::path::PathBuf;
 
 use host_sim::doubts;
-use host_sim::recording::{COLUMNS, Stream, Tokens, touches};
+use host_sim::recording::{self, COLUMNS, Stream, Tokens, touches};
 use numpy::{PyReadonlyArray1, PyReadonlyArray2};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
+use scene::file;
 
+use crate::outside::file_error;
 use crate::table::{Kind, Layout, Packed};
 
 /// A recording as the Python side has prepared it.
@@ -115,21 +119,29 @@ pub(crate) fn at_rate<'py>(array: &Bound<'py, PyAny>, tick_hz: u32) -> PyResult<
     array.call_method1("view", (dtype,))
 }
 
-/// Streams with the columns of a recording's file.
-pub(crate) fn array<'py>(py: Python<'py>, streams: &[Stream]) -> PyResult<Bound<'py, PyAny>> {
+/// Streams with the columns of a recording's file that they have, of which two are `channels`.
+pub(crate) fn array<'py>(
+    py: Python<'py>,
+    streams: &[Stream],
+    channels: [&str; 2],
+) -> PyResult<Bound<'py, PyAny>> {
     let label = Kind::text(streams.iter().map(|stream| stream.label.as_str()));
     let trial = Kind::text(streams.iter().map(|stream| stream.trial.as_str()));
-    let has_pose = streams.iter().any(|stream| stream.pose.is_some());
-    let mut kinds = vec![
-        label,
-        trial,
-        Kind::Number,
-        Kind::Number,
-        Kind::Number,
-        Kind::Whole,
+    let poses = || streams.iter().filter_map(|stream| stream.pose.as_deref());
+    let pose = Kind::text(poses());
+    let kinds = [
+        Some(label),
+        Some(trial),
+        Some(Kind::Number),
+        Some(Kind::Number),
+        has(streams, |stream| stream.contact.is_some()).then_some(Kind::Number),
+        has(streams, |stream| stream.touch.is_some()).then_some(Kind::Whole),
+        has(streams, |stream| stream.pose.is_some()).then_some(pose),
     ];
-    kinds.extend(has_pose.then_some(Kind::Whole));
-    let layout = Layout::new(COLUMNS.iter().map(|column| column.name).zip(kinds));
+    let mut names = COLUMNS.map(|column| column.name);
+    names[2..4].copy_from_slice(&channels);
+    let columns = names.into_iter().zip(kinds);
+    let layout = Layout::new(columns.filter_map(|(name, kind)| Some((name, kind?))));
     let mut rows = Packed::default();
     for stream in streams {
         for (n, [x, y]) in stream.samples.iter().enumerate() {
@@ -137,16 +149,48 @@ pub(crate) fn array<'py>(py: Python<'py>, streams: &[Stream]) -> PyResult<Bound<
             rows.text(&stream.trial, trial);
             rows.number(*x);
             rows.number(*y);
-            let contact = stream.contact.as_ref().and_then(|all| all.get(n));
-            rows.number(contact.copied().unwrap_or(1.0));
-            let touch = stream.touch.as_ref().and_then(|all| all.get(n));
-            rows.whole(touch.copied().unwrap_or(0).into());
-            if has_pose {
-                // The simulator numbers them.
-                let pose = stream.pose.as_deref().and_then(|pose| pose.parse().ok());
-                rows.whole(pose.unwrap_or(0));
+            if kinds[4].is_some() {
+                let contact = stream.contact.as_ref().and_then(|all| all.get(n));
+                rows.number(contact.copied().unwrap_or(1.0));
+            }
+            if kinds[5].is_some() {
+                let touch = stream.touch.as_ref().and_then(|all| all.get(n));
+                rows.whole(touch.copied().unwrap_or(0).into());
+            }
+            if kinds[6].is_some() {
+                rows.text(stream.pose.as_deref().unwrap_or_default(), pose);
             }
         }
     }
     layout.array(py, rows.bytes)
+}
+
+fn has(streams: &[Stream], column: impl Fn(&Stream) -> bool) -> bool {
+    streams.iter().any(column)
+}
+
+/// Reads a recording's file, as `host-sim record` and `whisker capture` write it: its rows, as
+/// `record` returns them, with `contact`, `touch` and `pose` where the file has them, and with its
+/// rate. `channels` are the columns that are read as the two channels.
+#[pyfunction]
+#[pyo3(signature = (path, *, channels=["x".to_owned(), "y".to_owned()]))]
+#[pyo3(text_signature = "(path, *, channels=(\"x\", \"y\"))")]
+pub(crate) fn read(
+    py: Python<'_>,
+    path: PathBuf,
+    channels: [String; 2],
+) -> PyResult<Bound<'_, PyAny>> {
+    let channels = channels.each_ref().map(String::as_str);
+    let wrong = |fault: String| PyValueError::new_err(format!("{}: {fault}", path.display()));
+    let recording = py.detach(|| {
+        let bytes =
+            file::read(&path, file::TABLE_BYTES).map_err(|error| file_error(&path, error))?;
+        let read = recording::read_whole(bytes.as_slice(), channels);
+        read.map_err(|error| wrong(error.to_string()))
+    })?;
+    let rows = array(py, &recording.streams, channels)?;
+    match recording.tick_hz {
+        Some(tick_hz) => at_rate(&rows, tick_hz),
+        None => Ok(rows),
+    }
 }

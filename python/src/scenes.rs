@@ -1,21 +1,20 @@
-//! Scenes as they are given in Python: a path, a TOML text, or a dictionary.
+//! Scenes as they are given in Python: a name, a path, a TOML text, or a dictionary.
 
 use std::path::{Path, PathBuf};
 
 use host_sim::Error;
 use host_sim::loaded::Loaded;
 use pyo3::create_exception;
-use pyo3::exceptions::{PyOSError, PyRuntimeError, PyTypeError, PyValueError};
+use pyo3::exceptions::{PyFileNotFoundError, PyOSError, PyRuntimeError, PyTypeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList, PyTuple, PyType};
 use scene::{Override, Problems, Scene, file};
-use tactile::ModelBuf;
 
 use crate::model;
 use crate::outside::file_error;
 
 create_exception!(
-    whisker,
+    vibrissa,
     SceneError,
     PyValueError,
     "What is wrong with a scene, one problem a line; `problems` has them singly."
@@ -25,7 +24,7 @@ create_exception!(
 type Fields = (String, Option<usize>, String, String, String);
 
 /// One thing wrong with a scene.
-#[pyclass(frozen, get_all, module = "whisker")]
+#[pyclass(frozen, get_all, module = "vibrissa")]
 #[derive(Clone)]
 pub(crate) struct Problem {
     /// The scene's file, or where in the arguments it stands.
@@ -149,9 +148,13 @@ impl Given {
         let path: PathBuf = scene.extract().map_err(|_| {
             let found = scene.get_type();
             PyTypeError::new_err(format!(
-                "scene: found {found}, allowed: a path, TOML text or a dict"
+                "scene: found {found}, allowed: a name, a path, TOML text or a dict"
             ))
         })?;
+        let path = match scene.extract::<String>() {
+            Ok(name) if is_name(&name) && !path.is_file() => named(scene.py(), &name)?,
+            _ => path,
+        };
         Ok(Self {
             file: path.display().to_string(),
             text: file::read_text(&path).map_err(|error| file_error(&path, error))?,
@@ -179,18 +182,17 @@ impl Given {
     ) -> PyResult<Loaded> {
         // Problems singly; what follows has them as one text.
         self.scene(py, seed)?;
-        let given = model.map(model::bytes).transpose()?;
+        // Before the scene's own model is looked for: what is wrong with it is not the scene's.
+        let given = model.map(model::given).transpose()?;
         let named = |path: &Path| match &given {
-            Some(bytes) => Ok(bytes.clone()),
+            Some(model) => Ok(model.as_bytes().to_vec()),
             None => file::read(&self.folder.join(path), file::BINARY_BYTES)
                 .map_err(|error| error.to_string()),
         };
         let loaded = Loaded::from_text(&self.file, &self.text, &self.set, named);
         let mut loaded = loaded.map_err(|error| raised(py, error))?;
-        if let Some(bytes) = given.as_ref().filter(|_| loaded.scene.awaits_model()) {
-            let model = ModelBuf::from_bytes(bytes);
-            let model = model.map_err(|error| PyValueError::new_err(format!("model: {error}")))?;
-            loaded = loaded.with_deployed(Path::new("model"), Some(model));
+        if given.is_some() && loaded.scene.classifier.is_some() {
+            loaded = loaded.with_deployed(Path::new("model"), given);
         }
         loaded.scene.seed = seed.unwrap_or(loaded.scene.seed);
         Ok(loaded)
@@ -206,6 +208,47 @@ fn is_text(scene: &str) -> bool {
         .is_some_and(|extension| extension == "toml")
         || path.exists();
     scene.contains('\n') || scene.contains('=') && !is_path
+}
+
+/// Whether it may be a scene's name: a path has a separator or an extension.
+fn is_name(scene: &str) -> bool {
+    !scene.is_empty() && !scene.contains(['.', '/', '\\'])
+}
+
+/// The file of a scene that is given by its name: one of the package, or `scenes/NAME.toml` here.
+///
+/// # Errors
+/// `FileNotFoundError` with the names that are most like it.
+fn named(py: Python<'_>, name: &str) -> PyResult<PathBuf> {
+    let all = py.import("vibrissa")?.getattr("SCENES")?;
+    if let Ok(path) = all.get_item(name) {
+        return path.extract();
+    }
+    let here = Path::new("scenes").join(format!("{name}.toml"));
+    if here.is_file() {
+        return Ok(here);
+    }
+    let mut known: Vec<String> = all
+        .try_iter()?
+        .map(|name| name?.extract())
+        .collect::<PyResult<_>>()?;
+    let beside = std::fs::read_dir("scenes").into_iter().flatten().flatten();
+    let beside = beside.map(|entry| entry.path()).filter(|path| {
+        path.extension()
+            .is_some_and(|extension| extension == "toml")
+    });
+    known.extend(beside.filter_map(|path| Some(path.file_stem()?.to_str()?.to_owned())));
+    known.sort();
+    known.dedup();
+    let matches = py.import("difflib")?.getattr("get_close_matches")?;
+    let nearest: Vec<String> = matches.call1((name, &known))?.extract()?;
+    let allowed = if nearest.is_empty() {
+        format!("a path, or a name: {}", known.join(", "))
+    } else {
+        format!("a path, or a name; nearest: {}", nearest.join(", "))
+    };
+    let fault = format!("scene: found {name:?}, allowed: {allowed}");
+    Err(PyFileNotFoundError::new_err(fault))
 }
 
 /// The keys of a table, of which messages say where they stand; None is left out.

@@ -87,16 +87,15 @@ impl State {
     }
 }
 
-/// Sim(scene, *, seed=None, model=None, set=None)
-///
 /// A scene in motion: the firmware's module on simulated sensors, motors and surfaces.
 ///
-/// `scene` is a path, TOML text or a dictionary of the same keys; `seed` and the keys of `set`
-/// (such as {"plant.stiffness": 0.2}) take the place of the scene's own. `model` is a Model, its
-/// bytes or a path, in place of the one that the scene names.
+/// `scene` is a name of SCENES or of `scenes/NAME.toml` here, a path, TOML text or a dictionary of
+/// the same keys; `seed` and the keys of `set` (such as {"plant.stiffness": 0.2}) take the place
+/// of the scene's own. `model` is a Model, its bytes or a path, in place of the one that the scene
+/// names.
 ///
 /// Raises SceneError for a scene that is wrong.
-#[pyclass(frozen, module = "whisker")]
+#[pyclass(frozen, module = "vibrissa")]
 pub(crate) struct Sim {
     state: Mutex<State>,
     tables: RunTables,
@@ -122,7 +121,6 @@ impl Sim {
         let mut run = run.map_err(raised)?;
         let last = run.posteriors();
         let classes = run.classes().to_vec();
-        let count = classes.len();
         Ok(Self {
             tables: RunTables::of(scene, &classes),
             shape: TraceShape::of(scene),
@@ -134,7 +132,12 @@ impl Sim {
                 .motor
                 .as_ref()
                 .map(|motor| [motor.min_deg, motor.max_deg]),
-            posteriors: Layout::new([("t_s", Kind::Number), ("posterior", Kind::Numbers(count))]),
+            posteriors: Layout::new(
+                ["t_s"]
+                    .into_iter()
+                    .chain(classes.iter().map(String::as_str))
+                    .map(|name| (name, Kind::Number)),
+            ),
             classes,
             state: Mutex::new(State {
                 run,
@@ -252,11 +255,11 @@ impl Sim {
             (state.seed, state.done, state.script.clone())
         });
         let Some(calls) = script.whole() else {
-            let fault = "it was told more than a million setpoints, gains and textures since its \
-                         start, which are not all kept: reset it before it is copied";
+            let fault = "it got more than a million setpoints, gains and textures since its start, \
+                         which are not all kept: reset it before it is copied";
             return Err(PyRuntimeError::new_err(fault));
         };
-        let make = py.import("whisker._core")?.getattr("restored_sim")?;
+        let make = py.import("vibrissa._core")?.getattr("restored_sim")?;
         Ok((make, (self.recipe.parts(py), seed, calls.to_vec(), done)))
     }
 
@@ -373,8 +376,8 @@ impl Sim {
         table::decisions(py, &[(None, &decided)], self.tables.decisions)
     }
 
-    /// `t_s` and the posterior of each of `classes`, whenever a block has changed them, of the
-    /// first whisker or of all together: shape (blocks,), `posterior` of shape (blocks, classes).
+    /// `t_s` and, under the name of each of `classes`, its posterior: a row whenever a block has
+    /// changed them, of the first whisker or of all together.
     #[getter]
     fn posteriors<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         let bytes = py.detach(|| self.state().posteriors.bytes.clone());
@@ -411,16 +414,22 @@ impl Sim {
         self.ticks
     }
 
-    /// How many have passed.
+    /// How many ticks have passed.
     #[getter]
-    fn done(&self, py: Python<'_>) -> u64 {
+    fn ticks_done(&self, py: Python<'_>) -> u64 {
         py.detach(|| self.state().done)
+    }
+
+    /// Whether the scene has ended: `while not sim.done: sim.step(100)`. It can still be stepped.
+    #[getter]
+    fn done(&self, py: Python<'_>) -> bool {
+        py.detach(|| self.state().left()) == 0
     }
 
     fn __repr__(&self, py: Python<'_>) -> String {
         let done = py.detach(|| self.state().done);
         let Self { name, ticks, .. } = self;
-        format!("<whisker.Sim {name:?}: tick {done} of {ticks}>")
+        format!("<vibrissa.Sim {name:?}: tick {done} of {ticks}>")
     }
 }
 

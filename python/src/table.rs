@@ -14,8 +14,6 @@ use scene::{Scene, Texture};
 pub(crate) enum Kind {
     /// `float64`; not a number where a file has an empty cell.
     Number,
-    /// So many of them.
-    Numbers(usize),
     /// `int64`.
     Whole,
     /// `uint64`.
@@ -34,11 +32,14 @@ impl Kind {
     const fn bytes(self) -> usize {
         match self {
             Self::Number | Self::Whole | Self::Seed => 8,
-            Self::Numbers(count) => 8 * count,
             Self::Text(width) => 4 * width,
         }
     }
 }
+
+/// A trial of the trace: a number, but text as in all tables, since a recording's may be any token.
+/// Ten digits are more trials than ticks of a month.
+const TRIAL: Kind = Kind::Text(10);
 
 /// The columns of a table.
 #[derive(Debug, Clone, Default)]
@@ -47,7 +48,7 @@ pub(crate) struct Layout {
 }
 
 impl Layout {
-    pub(crate) fn new(columns: impl IntoIterator<Item = (&'static str, Kind)>) -> Self {
+    pub(crate) fn new<'n>(columns: impl IntoIterator<Item = (&'n str, Kind)>) -> Self {
         let columns = columns.into_iter();
         Self {
             columns: columns
@@ -77,7 +78,6 @@ impl Layout {
         for (name, kind) in &self.columns {
             match kind {
                 Kind::Number => fields.append((name, "f8"))?,
-                Kind::Numbers(count) => fields.append((name, "f8", (count,)))?,
                 Kind::Whole => fields.append((name, "i8"))?,
                 Kind::Seed => fields.append((name, "u8"))?,
                 Kind::Text(width) => fields.append((name, format!("U{width}")))?,
@@ -151,7 +151,8 @@ impl RunTables {
         let label = Kind::text(textures.iter().copied().chain(["obstacle"]));
         let columns = shape.names().into_iter().map(|name| {
             let kind = match name.as_str() {
-                "touch" | "touch_right" | "trial" => Kind::Whole,
+                "touch" | "touch_right" => Kind::Whole,
+                "trial" => TRIAL,
                 "decision" | "decision_right" => decision,
                 "label" => label,
                 _ => Kind::Number,
@@ -182,7 +183,7 @@ impl RunTables {
             rows.text(decision.unwrap_or_default(), self.decision);
         }
         rows.text(line.presented.0, self.label);
-        rows.whole(line.presented.1 as i64);
+        rows.text(&line.presented.1.to_string(), TRIAL);
         let each = self.shape.whiskers_per_side.max(1);
         let mut sides = line.whiskers.chunks(each);
         let firsts = [sides.next(), sides.next()].map(|side| side.and_then(<[_]>::first));

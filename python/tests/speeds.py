@@ -10,16 +10,16 @@ import time
 
 import numpy as np
 
-import whisker
-from whisker.gym import WhiskerVectorEnv
+import vibrissa
+from vibrissa.gym import WhiskerVectorEnv
 
 RUNS = 7
-SCENE = whisker.SCENES["textures"]
+SCENE = vibrissa.SCENES["textures"]
 FIRST = """
 import time
 begun = time.perf_counter()
-import whisker
-whisker.Sim(whisker.SCENES["textures"]).run()
+import vibrissa
+vibrissa.Sim("textures").run()
 print(time.perf_counter() - begun)
 """
 
@@ -53,7 +53,7 @@ def steps_a_second() -> float:
 
 
 def main() -> None:
-    sim = whisker.Sim(SCENE)
+    sim = vibrissa.Sim(SCENE)
 
     def one() -> float:
         sim.reset()
@@ -62,7 +62,7 @@ def main() -> None:
     figures = {
         "first_trace_s": spread([fresh() for _ in range(RUNS)]),
         "run_s": spread([one() for _ in range(RUNS)]),
-        "hundred_s": spread([timed(lambda: whisker.run_many(SCENE, range(100))) for _ in range(RUNS)]),
+        "hundred_s": spread([timed(lambda: vibrissa.run_many(SCENE, range(100))) for _ in range(RUNS)]),
         # Of this process, whose largest work so far the hundred are; before the environments.
         "peak_mib": resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024,
         "env_steps_s": spread([steps_a_second() for _ in range(RUNS)]),

@@ -12,8 +12,8 @@ import numpy as np
 import pytest
 from gymnasium.utils.env_checker import check_env
 
-import whisker
-from whisker.gym import CONTACT, WhiskerEnv, WhiskerVectorEnv, find_the_edge, touch_gently
+import vibrissa
+from vibrissa.gym import CONTACT, WhiskerEnv, WhiskerVectorEnv, find_the_edge, touch_gently
 
 SHORT = {"duration_s": 0.5}
 
@@ -23,22 +23,62 @@ SHORT = {"duration_s": 0.5}
 def test_gymnasium_finds_nothing_wrong(action, scene):
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
-        check_env(WhiskerEnv(whisker.SCENES[scene], action=action, set=SHORT), skip_render_check=True)
+        check_env(WhiskerEnv(scene, action=action, set=SHORT, render_mode="rgb_array"))
 
 
 def test_made_by_name():
-    env = gymnasium.make("Whisker-v0", set=SHORT, ticks=100)
+    env = gymnasium.make("vibrissa.gym:Whisker-v0", set=SHORT, ticks=100)
     observation, info = env.reset(seed=3)
     assert observation.shape == (4,) and info["seed"] == 3
     ended = [env.step(env.action_space.sample())[3] for _ in range(10)]
     assert ended == [False] * 9 + [True]
 
 
+def test_it_draws_the_whiskers_at_their_angles_and_marks_a_touch():
+    env = gymnasium.make("vibrissa.gym:Whisker-v0", render_mode="rgb_array", ticks=200)
+    assert env.unwrapped.metadata["render_fps"] == 10
+    env.reset(seed=1)
+    pictures = {}
+    for setpoint in (75.0, 96.0, 110.0):
+        for _ in range(4):
+            observation, *_ = env.step(np.array([setpoint], np.float32))
+        drawn = env.render()
+        assert drawn.shape == (160, 240, 3) and drawn.dtype == np.uint8
+        pictures[setpoint] = drawn, observation[CONTACT][0]
+    # Row of the whisker's tip: the leftmost dark pixel; a larger angle is further up, to the front.
+    tips = []
+    for setpoint in (75.0, 96.0):
+        rows, columns = np.nonzero((pictures[setpoint][0] < 80).all(axis=2))
+        tips.append(rows[np.argmin(columns)])
+    assert tips[0] > 96 > tips[1]
+    orange = {s: (drawn == (200, 70, 0)).all(axis=2).any() for s, (drawn, _) in pictures.items()}
+    assert orange == {s: contact >= 0.05 for s, (_, contact) in pictures.items()}
+    assert orange[110.0] and not orange[75.0]
+    with pytest.raises(ValueError, match="render_mode: found 'human', allowed: None, rgb_array"):
+        WhiskerEnv(render_mode="human")
+
+
+def test_many_draw_one_picture_each():
+    many = gymnasium.make_vec(
+        "vibrissa.gym:Whisker-v0",
+        3,
+        vectorization_mode="vector_entry_point",
+        scene="both",
+        set=SHORT,
+        render_mode="rgb_array",
+    )
+    many.reset(seed=1)
+    pictures = many.render()
+    assert len(pictures) == 3 and all(one.shape == (160, 240, 3) for one in pictures)
+    dark = (pictures[0] < 80).all(axis=2)
+    assert dark[:, :100].any() and dark[:, 140:].any()
+
+
 def test_an_observation_is_the_trace_s():
     env = WhiskerEnv(ticks=200)
     env.reset(seed=9)
     observation, *_ = env.step(np.array([90.0], np.float32))
-    sim = whisker.Sim(whisker.SCENES["textures"], seed=9)
+    sim = vibrissa.Sim(vibrissa.SCENES["textures"], seed=9)
     sim.setpoint(90.0)
     row = sim.step(200)[-1]
     names = ["angle_left_deg", "x_left", "y_left", "contact_left"]
@@ -79,7 +119,7 @@ def test_the_example_learns():
 
 def test_what_is_wrong_is_said():
     with pytest.raises(ValueError, match="passive"):
-        WhiskerEnv(whisker.SCENES["passive"])
+        WhiskerEnv(vibrissa.SCENES["passive"])
     with pytest.raises(ValueError, match="allowed: setpoint, gain"):
         WhiskerEnv(action="force")
     with pytest.raises(gymnasium.error.ResetNeeded):
@@ -161,3 +201,20 @@ def test_copies_of_environments_go_on_apart_to_the_same_bits(again):
         assert all(np.array_equal(a, b) for a, b in zip(one[:4], two[:4]))
     fresh = again(WhiskerVectorEnv(2, set=SHORT))
     assert fresh.reset(seed=1)[0].shape == (2, 4)
+
+
+def test_the_example_of_stable_baselines_has_what_it_needs():
+    example = runpy.run_path(str(Path(__file__).parents[1] / "examples" / "stable_baselines.py"))
+    env = example["make"]()
+    assert env.action_space == gymnasium.spaces.Box(-1.0, 1.0, (1,), np.float32)
+    env.reset(seed=1)
+    steps = [env.step(env.action_space.sample()) for _ in range(100)]
+    assert [step[3] for step in steps] == [False] * 99 + [True]
+
+
+def test_the_example_of_stable_baselines_learns():
+    # Half a gigabyte: where it is there.
+    example = runpy.run_path(str(Path(__file__).parents[1] / "examples" / "stable_baselines.py"))
+    pytest.importorskip("stable_baselines3")
+    before, after = example["main"](20_000)
+    assert after > before

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-import whisker
+import vibrissa
 
 MIDDLE = {
     "length_m": 0.112,
@@ -15,8 +15,8 @@ MIDDLE = {
 
 
 def test_a_row_a_push():
-    rows = whisker.press("biotact-middle", push_deg=[20, 0, 5])
-    assert list(rows.dtype.names) == list(whisker.columns("press"))
+    rows = vibrissa.press("biotact-middle", push_deg=[20, 0, 5])
+    assert list(rows.dtype.names) == list(vibrissa.columns("press"))
     assert list(rows["push_deg"]) == [20, 0, 5]
     # As an independent solution has it.
     assert rows["moment_x_nm"] == pytest.approx([2.62846e-3, 0, 4.77759e-4], rel=1e-5)
@@ -28,12 +28,12 @@ def test_a_row_a_push():
 
 def test_a_shaft_may_be_its_numbers_and_the_plate_be_tilted_and_rough():
     how = {"push_deg": np.array([5.0, 25.0]), "slant_deg": 40, "tilt_deg": 20, "friction": 0.2}
-    named, own = (whisker.press(shaft, **how) for shaft in ("biotact-middle", MIDDLE))
+    named, own = (vibrissa.press(shaft, **how) for shaft in ("biotact-middle", MIDDLE))
     for name in named.dtype.names:
         assert own[name] == pytest.approx(named[name], rel=1e-8)
     assert np.all(named["moment_y_nm"] > 0)
     assert named["friction_n"] == pytest.approx(0.2 * named["normal_n"])
-    assert whisker.press(MIDDLE, push_deg=5.0).shape == (1,)
+    assert vibrissa.press(MIDDLE, push_deg=5.0).shape == (1,)
 
 
 @pytest.mark.parametrize(
@@ -49,4 +49,4 @@ def test_a_shaft_may_be_its_numbers_and_the_plate_be_tilted_and_rough():
 )
 def test_what_is_wrong_is_said(shaft, how, message):
     with pytest.raises(ValueError, match=message):
-        whisker.press(shaft, **{"push_deg": 5, **how})
+        vibrissa.press(shaft, **{"push_deg": 5, **how})

@@ -8,8 +8,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-import whisker
-from whisker.sweep import sweep
+import vibrissa
+from vibrissa.sweep import sweep
 
 KEYS = {"rcp.gain": [0.0, 0.7]}
 
@@ -25,7 +25,7 @@ def swept(monkeypatch, where):
     paths = [here, *filter(None, [os.environ.get("PYTHONPATH")])]
     monkeypatch.setenv("PYTHONPATH", os.pathsep.join(paths))
     monkeypatch.syspath_prepend(here)
-    scene = str(whisker.SCENES["textures"])
+    scene = str(vibrissa.SCENES["textures"])
     return sweep(scene, {**KEYS, "duration_s": [5.0]}, range(4), figures, batch=3)
 
 
@@ -39,8 +39,8 @@ def test_rows_are_those_of_single_runs(monkeypatch, where):
         (gain, seed) for gain in (0.0, 0.7) for seed in range(4)
     ]
     for row in rows[::3]:
-        sim = whisker.Sim(
-            whisker.SCENES["textures"],
+        sim = vibrissa.Sim(
+            vibrissa.SCENES["textures"],
             seed=row["seed"],
             set={"rcp.gain": row["rcp.gain"], "duration_s": 5.0},
         )
@@ -54,15 +54,15 @@ def test_rows_are_those_of_single_runs(monkeypatch, where):
 def test_a_model_and_what_is_wrong_come_through(monkeypatch):
     monkeypatch.setenv("WHISKER_SWEEP", "processes")
     monkeypatch.syspath_prepend(str(Path(__file__).parent))
-    scene = whisker.SCENES["textures"]
-    model = whisker.Model(scene.parent / "models" / "textures.model")
+    scene = vibrissa.SCENES["textures"]
+    model = vibrissa.Model(scene.parent / "models" / "textures.model")
     keys = {"duration_s": [2.0]}
     assert sweep(scene, keys, [1], figures, model=model) == sweep(scene, keys, [1], figures)
-    with pytest.raises(whisker.SceneError, match="rcp.gain: found -1"):
+    with pytest.raises(vibrissa.SceneError, match="rcp.gain: found -1"):
         sweep(scene, {"rcp.gain": [0.7, -1.0]}, [1], figures, batch=1)
 
 
 def test_an_unknown_place_is_refused(monkeypatch):
     monkeypatch.setenv("WHISKER_SWEEP", "abacus")
     with pytest.raises(ValueError, match="allowed: processes, dask, ray"):
-        sweep(whisker.SCENES["textures"], KEYS, [1], figures)
+        sweep(vibrissa.SCENES["textures"], KEYS, [1], figures)

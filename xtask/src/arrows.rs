@@ -24,7 +24,7 @@ const ROWS: [&[&str]; 7] = [
     &["config"],
     &["firmware", "scene"],
     &[
-        "can", "mlx90333", "physics", "rtt", "tactile", "tmag5170", "whisking", "wire",
+        "can", "mlx90333", "physics", "rtt", "tactile", "tmag5170", "united", "whisking", "wire",
     ],
 ];
 

@@ -115,12 +115,12 @@ pub(crate) fn test() -> Result<(), Fault> {
     ends.dedup();
     for (minor, python) in ends {
         println!("Python 3.{minor}, of {} here", pythons.len());
-        let packages = ["gymnasium", "mypy", "pytest"];
+        let packages = ["gymnasium", "mypy", "pandas", "pytest"];
         let inside = environment(python, &format!("3.{minor}"), &packages)?;
         run(pip(&inside).arg(&wheel))?;
         // The stubs say what is there.
         let mut stubs = Command::new(&inside);
-        run(stubs.args(["-m", "mypy.stubtest", "whisker._core"]))?;
+        run(stubs.args(["-m", "mypy.stubtest", "vibrissa._core"]))?;
         let mut tests = Command::new(inside);
         tests
             .args(["-m", "pytest", "--quiet"])

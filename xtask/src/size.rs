@@ -79,6 +79,7 @@ pub(crate) fn print(board: Board, scene: &str, elf: &Path) -> Result<(), Fault> 
         Size::of_scene(elf)?,
         stack::worst(board, elf)?
     );
+    println!("{}", elf.display());
     Ok(())
 }
 

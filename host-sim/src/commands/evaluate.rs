@@ -8,7 +8,7 @@ use tactile::ModelBuf;
 use super::{channels, picture, rate as rate_option};
 use crate::Error;
 use crate::classifier::{self, Fault};
-use crate::evaluation::{self, Candidate, Evaluation, THRESHOLDS};
+use crate::evaluation::{self, Evaluation, Suggestion, THRESHOLDS};
 use crate::files;
 use crate::misfit::{misfits, oddities};
 use crate::output::{self, write_whole};
@@ -143,9 +143,18 @@ fn wanted(option: &str, value: Option<f64>, most: f64) -> Result<(), Error> {
     }
 }
 
-fn suggestion(found: Option<&Candidate>, wanted: &str) -> String {
+fn suggestion(found: Suggestion<'_>, wanted: &str) -> String {
     match found {
-        Some(at) => format!("\nfor {wanted}: --threshold {}", at.threshold),
-        None => format!("\nfor {wanted}: no threshold of these"),
+        Suggestion::Backed(at) => format!("\nfor {wanted}: --threshold {}", at.threshold),
+        Suggestion::Chance(at) => {
+            let [low, high] = at.wrong_interval().map(|share| 100.0 * share);
+            let count = at.evaluation.calibration.found.count;
+            format!(
+                "\nfor {wanted}: no threshold, as of decisions at {} {low:.1} to {high:.1} % may be \
+                 wrong by these {count}; record more",
+                at.threshold
+            )
+        }
+        Suggestion::None => format!("\nfor {wanted}: no threshold of these"),
     }
 }

@@ -60,22 +60,42 @@ fn evaluate_states_finds_and_counts() {
 #[test]
 fn evaluate_suggests_a_threshold() {
     // One sample is wrong in a fifth of cases, two that agree never.
-    let test = "a,0,0,0\na,0,0,0\na,0,100,0\na,0,0,0\na,0,0,0\n".repeat(8);
-    let place = evaluating(&test);
+    let test = |times| "a,0,0,0\na,0,0,0\na,0,100,0\na,0,0,0\na,0,0,0\n".repeat(times);
+    let place = evaluating(&test(40));
     let evaluate = "evaluate --model m --data test.csv";
-    let suggested = |wish: &str| {
+    let suggested = |place: &Place, wish: &str| {
         let printed = place.done(&format!("{evaluate} {wish}")).stdout;
         let lines = printed.lines().filter(|line| line.starts_with("for "));
         lines
             .map(|line| line.rsplit(": ").next().unwrap().to_owned())
             .collect::<Vec<_>>()
     };
-    assert_eq!(suggested("--error-rate 0.3"), ["--threshold 0.5"]);
-    assert_eq!(suggested("--error-rate 0.1"), ["--threshold 0.9"]);
-    assert_eq!(suggested("--time 0.0005"), ["--threshold 0.85"]);
-    assert_eq!(suggested("--time 0.0001"), ["no threshold of these"]);
-    let both = suggested("--time 0.0005 --error-rate 0.1");
+    assert_eq!(suggested(&place, "--error-rate 0.3"), ["--threshold 0.5"]);
+    assert_eq!(suggested(&place, "--error-rate 0.1"), ["--threshold 0.9"]);
+    assert_eq!(suggested(&place, "--time 0.0005"), ["--threshold 0.85"]);
+    assert_eq!(
+        suggested(&place, "--time 0.0001"),
+        ["no threshold of these"]
+    );
+    let both = suggested(&place, "--time 0.0005 --error-rate 0.1");
     assert_eq!(both, ["--threshold 0.9", "--threshold 0.85"]);
+
+    // Of twenty decisions none is wrong, which a sixth may be.
+    let few = evaluating(&test(8));
+    assert_eq!(suggested(&few, "--error-rate 0.3"), ["--threshold 0.9"]);
+    let [line] = &suggested(&few, "--error-rate 0.1")[..] else {
+        panic!("one line");
+    };
+    assert!(
+        line.starts_with("no threshold, as of decisions at 0.9 0.0 to "),
+        "{line}"
+    );
+    // One decision: all may be wrong, however fast it was.
+    let one = evaluating("a,0,0,0\na,0,0,0\n");
+    let [line] = &suggested(&one, "--time 0.1")[..] else {
+        panic!("one line");
+    };
+    assert!(line.ends_with("record more"), "{line}");
 }
 
 #[test]

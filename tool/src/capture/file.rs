@@ -1,5 +1,6 @@
 //! The file that is captured to.
 
+use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
 use host_sim::Error;
@@ -94,6 +95,13 @@ impl Recording {
 
     pub(crate) fn all_touches(&self) -> usize {
         count(self.streams.iter())
+    }
+
+    /// How many labels it has, and how many poses.
+    pub(crate) fn labels_and_poses(&self) -> [usize; 2] {
+        let labels: BTreeSet<_> = self.streams.iter().map(|stream| &stream.label).collect();
+        let poses: BTreeSet<_> = self.streams.iter().map(|stream| &stream.pose).collect();
+        [labels.len(), poses.len()]
     }
 
     pub(crate) fn next_trial(&self, label: &str) -> u64 {

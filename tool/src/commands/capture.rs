@@ -17,6 +17,9 @@ use crate::conversation::Conversation;
 use crate::source::{Source, SourceChoice, seconds};
 use crate::tally::{Before, Tally, side};
 
+/// Poses from which on a model names textures between them.
+const POSES: usize = 3;
+
 /// What is captured, how much of it, and where it goes.
 #[derive(Debug, Args)]
 #[command(group(clap::ArgGroup::new("source").required(true)))]
@@ -164,17 +167,58 @@ fn complete(
     let out = recording.path().display();
     report::say(format_args!(
         "{out}: {} samples, {} touches; records lost: {} of {}\n\
-         from the first touch: {lasted_s:.0} s of the module's time\n\
-         next: cargo run -p host-sim -- train --data {out} --rate {} --out MODEL\n\
-         another pose first: hold the samples some degrees otherwise, and go on with --resume \
-         --pose NAME; three to five are best",
+         from the first touch: {lasted_s:.0} s of the module's time\n{}",
         recording.samples(),
         recording.all_touches(),
         tally.lost,
         tally.records + tally.lost,
-        about.tick_hz
+        next(
+            recording.path(),
+            about.tick_hz,
+            recording.labels_and_poses(),
+            arguments.source.is_simulated()
+        )
     ));
     Ok(warnings)
+}
+
+/// What comes next, by what is in the recording and what lies beside it: other labels where there
+/// is one, training, a model that it can judge, and, where somebody holds the samples, other poses.
+fn next(out: &Path, tick_hz: u32, [labels, poses]: [usize; 2], is_simulated: bool) -> String {
+    let name = out.display();
+    if labels < 2 {
+        return "next: another sample, as a model tells samples apart: go on with --resume --label \
+                NAME"
+            .to_owned();
+    }
+    let mut lines = vec![format!(
+        "next: cargo run -p host-sim -- train --data {name} --rate {tick_hz} --out MODEL"
+    )];
+    if let Some(model) = model_beside(out) {
+        lines.push(format!(
+            "or, if it was not trained on these touches: cargo run -p host-sim -- evaluate --model {} \
+             --data {name}",
+            model.display()
+        ));
+    }
+    if poses < POSES && !is_simulated {
+        lines.push(format!(
+            "another pose first: hold the samples some degrees otherwise, and go on with --resume \
+             --pose NAME; three to five are best, and there is {poses}"
+        ));
+    }
+    lines.join("\n")
+}
+
+/// The first model in the folder of a recording.
+fn model_beside(recording: &Path) -> Option<PathBuf> {
+    let folder = match recording.parent() {
+        Some(folder) if folder != Path::new("") => folder,
+        _ => Path::new("."),
+    };
+    let files = std::fs::read_dir(folder).into_iter().flatten().flatten();
+    let is_model = |path: &PathBuf| path.extension().is_some_and(|end| end == "model");
+    files.map(|file| file.path()).filter(is_model).min()
 }
 
 /// What a calibration says, as a recording has it in its header.

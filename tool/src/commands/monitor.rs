@@ -16,6 +16,7 @@ use crate::monitor::{
     About, History, Known, Listener, Shared, Size, Snapshot, Watching, Wish, joined, open, size,
 };
 use crate::record_file::{self, RecordFile};
+use crate::script::Script;
 use crate::source::{SourceChoice, seconds};
 
 const PICTURES_HZ: f64 = 20.0;
@@ -41,6 +42,9 @@ pub(crate) struct Arguments {
     /// --emulated
     #[arg(long, value_name = "N", value_parser = seconds)]
     speed: Option<f64>,
+    /// Commands for the module, as for whisker records: lines TIME COMMAND [SIDE [VALUE]]
+    #[arg(long, value_name = "FILE")]
+    script: Option<PathBuf>,
     /// For how long; without it until it is ended
     #[arg(long, value_name = "S", value_parser = seconds)]
     seconds: Option<f64>,
@@ -117,6 +121,7 @@ fn listen(
 fn begin(arguments: &Arguments, wishes: Receiver<Wish>) -> Result<(Watching, Ready), Error> {
     let scene = arguments.source.scene();
     let known = Known::of(scene, arguments.model.as_deref())?;
+    let script = Script::of(arguments.script.as_deref(), &arguments.source)?;
     let mut module = arguments.source.module()?;
     let begun_s = module.source().now_s();
     // From the first tick on: how the whisker swings in the air is learnt from.
@@ -149,6 +154,8 @@ fn begin(arguments: &Arguments, wishes: Receiver<Wish>) -> Result<(Watching, Rea
         .map(|frames| f64::from(frames) / PICTURES_HZ);
     let watching = Watching {
         module,
+        script,
+        tick_hz,
         files,
         shared: shared.clone(),
         wishes,

@@ -12,6 +12,7 @@ use wire::{Answer, Command, CommandStatus, Flags};
 use super::history::History;
 use crate::conversation::Conversation;
 use crate::record_file::RecordFile;
+use crate::script::Script;
 use crate::source::Incoming;
 
 /// After how long without an answer the motors are asked to stop again, s.
@@ -57,6 +58,8 @@ pub(crate) enum Wish {
 
 pub(crate) struct Watching {
     pub(crate) module: Conversation,
+    pub(crate) script: Script,
+    pub(crate) tick_hz: u32,
     pub(crate) files: Vec<RecordFile>,
     pub(crate) shared: Arc<Mutex<Shared>>,
     pub(crate) wishes: Receiver<Wish>,
@@ -125,6 +128,12 @@ impl Watching {
                 self.stop(stopping, now_s)?;
             }
 
+            // What is being stopped goes on with no script.
+            if stopping.is_none()
+                && let Some(line) = self.script.play(&mut self.module)?
+            {
+                self.say(line);
+            }
             let incoming = self.module.receive()?;
             let answers = self.take(&incoming)?;
             for answer in &answers {
@@ -181,6 +190,11 @@ impl Watching {
 
     fn take(&mut self, incoming: &Incoming) -> Result<Vec<Answer>, Error> {
         let answers = lock(&self.shared).history.take(incoming);
+        for packet in &incoming.packets {
+            if let Some(line) = self.script.answered(packet, self.tick_hz) {
+                self.say(line);
+            }
+        }
         for file in &mut self.files {
             file.packets(&incoming.packets)?;
             for line in &incoming.lines {
@@ -190,19 +204,24 @@ impl Watching {
         Ok(answers)
     }
 
+    /// Shows a line at the bottom.
+    fn say(&self, line: String) {
+        let mut shared = lock(&self.shared);
+        let now = shared.history.now();
+        shared.message = Some((now, line));
+    }
+
     fn tell(&self, answer: &Answer) {
         let name = match answer.command {
             number if number == Command::Arm.number() => "arm",
             number if number == Command::Stop.number() => "stop",
             _ => return,
         };
-        let mut shared = lock(&self.shared);
-        let now = shared.history.now();
         let status = match answer.status {
             CommandStatus::Done => "done".to_owned(),
             status => status.to_string(),
         };
-        shared.message = Some((now, format!("{name}: {status}")));
+        self.say(format!("{name}: {status}"));
     }
 }
 

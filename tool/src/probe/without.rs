@@ -8,8 +8,8 @@ use host_sim::progress::Verbosity;
 use super::SeenProbe;
 use crate::source::{BoardName, Laying, Source};
 
-const WITHOUT: &str = "this whisker was built without probes; the one that has them is built by \
-                       cargo build -p whisker --features probe";
+const WITHOUT: &str = "this whisker was built without probes; the build that has them: cargo run -p \
+                       whisker --features probe -- …";
 
 fn without<T>() -> Result<T, Error> {
     Err(Error::Input(WITHOUT.to_owned()))

@@ -39,8 +39,9 @@ impl Interval {
         let half = spread.sqrt() / (1.0 + Z2 / n);
         Self {
             share,
-            low: (middle - half).max(0.0),
-            high: (middle + half).min(1.0),
+            // Exact where all or none are: rounding must not leave the share outside.
+            low: (middle - half).max(0.0).min(share),
+            high: (middle + half).min(1.0).max(share),
             count,
         }
     }

@@ -97,8 +97,8 @@ fn each_lack_is_reported_with_what_mends_it() {
             "target thumbv7m-none-eabi: rustup target add --toolchain 1.95.0 thumbv7m-none-eabi",
         ),
         (
-            |facts| facts.free_mib = Some(2047),
-            "free disk, 2.0 GiB: 2 GiB are needed",
+            |facts| facts.free_mib = Some(3071),
+            "free disk, 3.0 GiB (needed: 3 GiB): cargo clean",
         ),
         (
             |facts| facts.ports.clear(),

@@ -3,8 +3,8 @@
 Names, units and shapes are those of the files that ``host-sim`` writes; ``columns("trace")``
 tells them.
 
->>> import whisker
->>> sim = whisker.Sim(whisker.SCENES["textures"], seed=7)
+>>> import vibrissa
+>>> sim = vibrissa.Sim("textures", seed=7)
 >>> rows = sim.run(every=20)
 >>> sim.decisions["decision"][0] in sim.classes + ["unknown"]
 True
@@ -12,8 +12,19 @@ True
 
 from pathlib import Path
 
-from whisker._core import Model, Problem, SceneError, Sim, columns, press, record, run_many
-from whisker.learning import Evaluation, Why, classify, evaluate, train, why
+from vibrissa._core import (
+    Model,
+    Problem,
+    SceneError,
+    Sim,
+    __version__,
+    columns,
+    press,
+    read,
+    record,
+    run_many,
+)
+from vibrissa.learning import Evaluation, Share, Why, classify, evaluate, train, why
 
 #: The scenes of the project by their names, with their models beside them.
 SCENES: dict[str, Path] = {
@@ -26,12 +37,15 @@ __all__ = [
     "Model",
     "Problem",
     "SceneError",
+    "Share",
     "Sim",
     "Why",
+    "__version__",
     "classify",
     "columns",
     "evaluate",
     "press",
+    "read",
     "record",
     "run_many",
     "train",

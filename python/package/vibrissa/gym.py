@@ -6,6 +6,9 @@ of all whiskers. An action is a setpoint in degrees or a gain for each whisker. 
 something is the user's to say, by a function of the observation, the action and the observation
 before, whose arrays have one more axis in front where there are several environments.
 
+``gymnasium.make("vibrissa.gym:Whisker-v0")`` makes one, and ``make_vec`` many. With
+``render_mode="rgb_array"``, ``render()`` draws the whiskers as they are.
+
 Needs ``gymnasium``.
 """
 
@@ -18,8 +21,9 @@ import numpy as np
 from gymnasium.vector import AutoresetMode, VectorEnv
 from gymnasium.vector.utils import batch_space
 
-from whisker import SCENES
-from whisker._core import Envs
+from vibrissa import SCENES
+from vibrissa._core import Envs
+from vibrissa._picture import picture
 
 ANGLE = slice(0, None, 4)
 X = slice(1, None, 4)
@@ -48,6 +52,14 @@ def find_the_edge(observation: np.ndarray, action: np.ndarray, before: np.ndarra
     return (touches != touched).astype(np.float64).mean(axis=-1)
 
 
+def _rendering(mode: str | None, envs: Envs, metadata: dict[str, Any]) -> dict[str, Any]:
+    """The metadata of an environment: as many pictures a second as actions."""
+    if mode not in (None, *metadata["render_modes"]):
+        allowed = ", ".join(metadata["render_modes"])
+        raise ValueError(f"render_mode: found {mode!r}, allowed: None, {allowed}")
+    return {**metadata, "render_fps": envs.rate_hz}
+
+
 def _spaces(envs: Envs) -> tuple[gymnasium.spaces.Box, gymnasium.spaces.Box]:
     low = np.tile(np.array([-360.0, 0.0, 0.0, 0.0], np.float32), envs.whiskers)
     high = np.tile(np.array([360.0, 16383.0, 16383.0, np.inf], np.float32), envs.whiskers)
@@ -72,7 +84,7 @@ def _whole(name: str, seed: Any) -> int:
 class WhiskerEnv(gymnasium.Env):
     """A scene in which an agent acts every ``ticks`` ticks until the scene has ended."""
 
-    metadata = {"render_modes": []}
+    metadata = {"render_modes": ["rgb_array"], "render_fps": 2000}
 
     def __init__(
         self,
@@ -83,11 +95,12 @@ class WhiskerEnv(gymnasium.Env):
         ticks: int = 1,
         model: Any = None,
         set: Mapping[str, Any] | None = None,
-        render_mode: None = None,
+        render_mode: str | None = None,
     ) -> None:
         scene = SCENES["textures"] if scene is None else scene
         self._envs = Envs(scene, 1, action=action, ticks=ticks, model=model, set=set)
         self._reward = reward
+        self.metadata = _rendering(render_mode, self._envs, self.metadata)
         self.render_mode = render_mode
         self.observation_space, self.action_space = _spaces(self._envs)
         self._before: np.ndarray | None = None
@@ -111,6 +124,14 @@ class WhiskerEnv(gymnasium.Env):
         self._before = observation
         return observation, reward, False, ended, {}
 
+    def render(self) -> np.ndarray | None:
+        """The whiskers from above, as the last observation has them: pixels of red, green, blue."""
+        if self.render_mode is None:
+            return None
+        if self._before is None:
+            raise gymnasium.error.ResetNeeded("render before reset")
+        return picture(self._before, self._envs.whiskers_per_side, TOUCHING)
+
     def _step(self, action: np.ndarray, begin: bool, seed: int) -> tuple[np.ndarray, bool]:
         seen, ended = self._envs.step(action, np.array([begin]), np.array([seed], np.uint64))
         return seen[0], bool(ended[0])
@@ -119,7 +140,11 @@ class WhiskerEnv(gymnasium.Env):
 class WhiskerVectorEnv(VectorEnv):
     """So many of them on all cores; one that has ended restarts with its next step."""
 
-    metadata = {"render_modes": [], "autoreset_mode": AutoresetMode.NEXT_STEP}
+    metadata = {
+        "render_modes": ["rgb_array"],
+        "render_fps": 2000,
+        "autoreset_mode": AutoresetMode.NEXT_STEP,
+    }
 
     def __init__(
         self,
@@ -131,10 +156,13 @@ class WhiskerVectorEnv(VectorEnv):
         ticks: int = 1,
         model: Any = None,
         set: Mapping[str, Any] | None = None,
+        render_mode: str | None = None,
     ) -> None:
         scene = SCENES["textures"] if scene is None else scene
         self._envs = Envs(scene, num_envs, action=action, ticks=ticks, model=model, set=set)
         self._reward = reward
+        self.metadata = _rendering(render_mode, self._envs, self.metadata)
+        self.render_mode = render_mode
         self.num_envs = num_envs
         self.single_observation_space, self.single_action_space = _spaces(self._envs)
         self.observation_space = batch_space(self.single_observation_space, num_envs)
@@ -198,9 +226,17 @@ class WhiskerVectorEnv(VectorEnv):
         self._before, self._ended = observations, ended
         return observations, rewards, np.zeros(self.num_envs, bool), ended.copy(), {}
 
+    def render(self) -> tuple[np.ndarray, ...] | None:
+        """A picture of each environment."""
+        if self.render_mode is None:
+            return None
+        if self._before is None:
+            raise gymnasium.error.ResetNeeded("render before reset")
+        return tuple(picture(one, self._envs.whiskers_per_side, TOUCHING) for one in self._before)
+
 
 gymnasium.register(
     "Whisker-v0",
-    entry_point="whisker.gym:WhiskerEnv",
-    vector_entry_point="whisker.gym:WhiskerVectorEnv",
+    entry_point="vibrissa.gym:WhiskerEnv",
+    vector_entry_point="vibrissa.gym:WhiskerVectorEnv",
 )

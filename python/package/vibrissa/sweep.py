@@ -18,7 +18,7 @@ from typing import Any
 
 import numpy as np
 
-from whisker._core import run_many
+from vibrissa._core import run_many
 
 #: What a task should take, s.
 TASK_S = 1.0

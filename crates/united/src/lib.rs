@@ -1,0 +1,1 @@
+//! Nothing: what this is for stands in its Cargo.toml.

@@ -1,0 +1,147 @@
+"""Recordings of any kind, prepared for the trainer and the classifier."""
+
+from collections.abc import Mapping
+from os import PathLike, fspath
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from vibrissa import _core
+
+#: The rate of recordings that do not say theirs, Hz.
+USUAL_RATE = 2000
+
+
+class Prepared(NamedTuple):
+    """What the core takes of a recording."""
+
+    name: str
+    streams: list[tuple[str, str, int, int, str | None]]
+    samples: np.ndarray
+    contact: np.ndarray | None
+    touch: np.ndarray | None
+
+
+def _column(recording: Any, name: str) -> Any:
+    """A column of a structured array, a mapping or a table; None if it has none."""
+    names = getattr(getattr(recording, "dtype", None), "names", None)
+    if names is None:
+        if not hasattr(recording, "keys"):
+            raise TypeError(
+                f"recording: found {type(recording)}, allowed: a path, or a structured array, a "
+                "dictionary or a table that has the columns of a recording"
+            )
+        names = list(recording.keys())
+    if name not in names:
+        return None
+    values = recording[name]
+    if isinstance(values, np.ma.MaskedArray):
+        # What is masked is missing.
+        return values.astype(object).filled(np.nan)
+    return np.asarray(values)
+
+
+def _is_missing(value: Any) -> bool:
+    try:
+        return value is None or bool(value != value)
+    except TypeError:  # pandas.NA
+        return True
+
+
+def _tokens(name: str, column: str, values: np.ndarray) -> np.ndarray:
+    """Labels or trials as text; those that are missing are refused by their row."""
+    if values.dtype.kind in "iubU":
+        return values
+    for row, value in enumerate(values):
+        if _is_missing(value):
+            raise ValueError(f"{name}: row {row}: the {column} is missing")
+    texts = [value.decode() if isinstance(value, bytes) else str(value) for value in values]
+    return np.asarray(texts, dtype=str)
+
+
+def _pose(poses: np.ndarray | None, row: int) -> str | None:
+    if poses is None or _is_missing(poses[row]) or str(poses[row]) == "":
+        return None
+    return str(poses[row])
+
+
+def _touches(name: str, values: np.ndarray) -> np.ndarray:
+    """Numbers of touches, or truths."""
+    for row, value in enumerate(values if values.dtype.kind in "Of" else ()):
+        if _is_missing(value) or not 0 <= value <= 65535:
+            raise ValueError(
+                f"{name}: row {row}: touch: found {value!r}, allowed: whole numbers from 0 to 65535"
+            )
+    whole = values.astype(np.int64)
+    if np.any(whole != values) or np.any((whole < 0) | (whole > 65535)):
+        raise ValueError(f"{name}: touch: allowed: whole numbers from 0 to 65535")
+    return whole.astype(np.uint16)
+
+
+def prepared(name: str, recording: Any, channels: tuple[str, str]) -> Prepared:
+    found = {column: _column(recording, column) for column in ("label", "trial", *channels)}
+    missing = [column for column, values in found.items() if values is None]
+    if missing:
+        raise ValueError(f"{name}: no column {missing[0]!r}; a recording has {', '.join(found)}")
+    label, trial, x, y = found.values()
+    label, trial = _tokens(name, "label", label), _tokens(name, "trial", trial)
+    contact, touch = _column(recording, "contact"), _column(recording, "touch")
+    pose = _column(recording, "pose")
+    columns = {**found, "contact": contact, "touch": touch, "pose": pose}
+    for column, values in columns.items():
+        if values is not None and values.shape != label.shape:
+            raise ValueError(f"{name}: {column} has the shape {values.shape}, not {label.shape}")
+    if touch is not None:
+        touch = _touches(name, touch)
+    changes = np.flatnonzero((label[1:] != label[:-1]) | (trial[1:] != trial[:-1])) + 1
+    ends = [0, *changes.tolist(), len(label)]
+    streams = [
+        (str(label[a]), str(trial[a]), a, b, _pose(pose, a))
+        for a, b in zip(ends, ends[1:])
+        if b > a
+    ]
+    return Prepared(
+        name,
+        streams,
+        np.ascontiguousarray(np.column_stack([x, y]), dtype=np.float64),
+        None if contact is None else np.ascontiguousarray(contact, dtype=np.float64),
+        None if touch is None else np.ascontiguousarray(touch),
+    )
+
+
+def named(recordings: Any, channels: tuple[str, str]) -> list[tuple[str, Any]]:
+    """Recordings with their names: one or several, read where they are paths."""
+    if isinstance(recordings, Mapping) and "label" not in recordings:
+        all_of_them = [(str(name), one) for name, one in recordings.items()]
+    elif isinstance(recordings, (list, tuple)):
+        all_of_them = [(_name(one, f"recording {n}"), one) for n, one in enumerate(recordings, 1)]
+    else:
+        all_of_them = [(_name(recordings, "recording"), recordings)]
+    return [
+        (name, _core.read(one, channels=channels) if isinstance(one, (str, PathLike)) else one)
+        for name, one in all_of_them
+    ]
+
+
+def _name(recording: Any, otherwise: str) -> str:
+    return fspath(recording) if isinstance(recording, (str, PathLike)) else otherwise
+
+
+def _own_rate(recording: Any) -> int | None:
+    """The rate that a recording knows: what ``record`` returns by its type, a table by ``attrs``."""
+    metadata = getattr(getattr(recording, "dtype", None), "metadata", None)
+    attributes = metadata or getattr(recording, "attrs", None) or {}
+    return attributes.get("tick_hz")
+
+
+def rate_of(named: list[tuple[str, Any]], rate: int | None) -> int:
+    """The rate of all; what contradicts it is refused."""
+    said = "rate"
+    for name, recording in named:
+        own = _own_rate(recording)
+        if own is None:
+            continue
+        if rate is not None and own != rate:
+            raise ValueError(f"{said}: found {rate}, {name}: tick_hz has {own}")
+        said, rate = f"{name}: tick_hz", own
+    return USUAL_RATE if rate is None else rate
