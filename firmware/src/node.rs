@@ -161,9 +161,10 @@ impl Node {
         }
     }
 
-    /// Arms all motors of the head.
+    /// Arms all motors of the head, which ends a stop that came before.
     pub const fn arm(&mut self) {
         self.arms = true;
+        self.stops = 0;
     }
 
     /// A frame has come; `at_us`: when it ended, by the node's own clock.
@@ -228,10 +229,18 @@ impl Node {
         let mut is_armed = false;
         let due = core::mem::take(&mut self.due);
         for one in due {
-            if one.at != now {
-                // There was room for it.
-                let _ = self.due.push(one);
-                continue;
+            match one.at.wrapping_sub(now).cast_signed() {
+                0 => {}
+                1.. => {
+                    // There was room for it.
+                    let _ = self.due.push(one);
+                    continue;
+                }
+                // The clock was set since.
+                _ => {
+                    self.lost = self.lost.saturating_add(1);
+                    continue;
+                }
             }
             match one.message {
                 Message::Contact(contact) => self.members.feels(one.from, contact.pi),
@@ -283,6 +292,7 @@ impl Node {
         module.feel_elsewhere(self.members.contact());
         if is_armed && self.motors != Motors::Twin {
             self.motors = Motors::May;
+            self.stops = 0;
             module.arm(true);
         }
         if !self.may_run() {

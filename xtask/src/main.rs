@@ -30,6 +30,8 @@ mod speed;
 mod steps;
 mod studies;
 mod traces;
+#[cfg(test)]
+mod united;
 mod walk;
 
 use std::path::PathBuf;

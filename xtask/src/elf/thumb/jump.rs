@@ -3,8 +3,9 @@
 
 use std::ops::Range;
 
-/// What fills a table up to a whole word: MOV r8, r8.
-const FILL: [u8; 2] = [0xC0, 0x46];
+/// What fills a table up to a whole word: MOV r8, r8, and NOP. No table has such an entry, which
+/// would lead further than a function is long.
+const FILLS: [[u8; 2]; 2] = [[0xC0, 0x46], [0x00, 0xBF]];
 
 /// A jump by a table of constants that follows it.
 #[derive(Debug, Clone, Copy)]
@@ -81,5 +82,6 @@ pub(super) fn table<'b>(
     let to = from + (from..place.end).take_while(is_entry).count() as u64;
     let [from, to] = [from, to].map(|at| (at - place.start) as usize);
     let table = body.get(from..to).unwrap_or_default();
-    table.strip_suffix(&FILL).unwrap_or(table)
+    let filled = FILLS.iter().find_map(|fill| table.strip_suffix(fill));
+    filled.unwrap_or(table)
 }
