@@ -98,7 +98,7 @@ fn a_file_has_several_poses() {
     let place = Place::new();
     let capture = "capture --sim bench.toml --out c.csv --label smooth --touches 2";
     let ran = place.done(&format!("{capture} --pose flat"));
-    ran.prints("\nanother pose first: hold the samples some degrees otherwise");
+    ran.prints("\nnext: another sample, as a model tells samples apart");
     place.done(&format!("{capture} --pose tilted --resume"));
     let streams = recording(&place, "c.csv");
     assert_eq!(shape(&streams), [("smooth", "0", 2), ("smooth", "1", 2)]);
