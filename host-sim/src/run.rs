@@ -125,12 +125,7 @@ impl Run {
 
     fn command(&mut self, n: usize, command: Command<f64>) -> Result<(), Error> {
         let done = self.bench.command(n, command);
-        done.map_err(|error| {
-            // As in the files: by the side, and there from 1.
-            let (side, place) = (n / self.whiskers.max(1), n % self.whiskers.max(1));
-            let side = if side == 0 { "left" } else { "right" };
-            Error::Input(format!("whisker {side} {}: {error}", place + 1))
-        })
+        done.map_err(|error| Error::Input(format!("whisker {n}: {error}")))
     }
 
     /// What the classifier got of the first whisker in the last tick, or would have got:
