@@ -65,7 +65,7 @@ pub use io::{AngleInput, BusError, Clock, FrameSource, Polled, WordSource};
 pub use module::{Hardware, Module, Whisker, WhiskerParts};
 pub use motion::{Command, Motion, NoActiveWhisker, NotDone};
 #[cfg(feature = "bus")]
-pub use node::{Node, NodeEvent, Times};
+pub use node::{Node, NodeEvent};
 pub use packet::{EventRecord, Packet};
 pub use perception::{
     ClassifierConfig, CodeClassifier, ModelLimits, ModelState, NotCodes, Perception, Refusal,

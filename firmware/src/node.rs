@@ -26,7 +26,7 @@ use clock::Clock;
 use deciding::Deciding;
 use members::Members;
 use replica::Replica;
-pub use times::Times;
+use times::Times;
 
 /// Most messages that have come and have not taken effect yet.
 const MOST_DUE: usize = 64;

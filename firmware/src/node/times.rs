@@ -2,22 +2,22 @@
 
 /// Times of the bus in ticks, from one on.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Times {
+pub(super) struct Times {
     /// From the stamp of a message to its effect: 4 ms.
-    pub delay: u16,
+    pub(super) delay: u16,
     /// Between two ψ of a side: 2 ms.
-    pub psi: u16,
+    pub(super) psi: u16,
     /// Between two messages of contact: 10 ms.
-    pub contact: u16,
+    pub(super) contact: u16,
     /// Least between two of contact that rises: 5 ms.
-    pub rise: u16,
+    pub(super) rise: u16,
     /// After which a node that is not heard does not live: three times that of contact.
-    pub drop: u16,
+    pub(super) drop: u16,
 }
 
 impl Times {
     /// At so many ticks a second, up to 20,000.
-    pub const fn at(tick_hz: u32) -> Self {
+    pub(super) const fn at(tick_hz: u32) -> Self {
         const fn ticks(ms: u32, tick_hz: u32) -> u16 {
             (ms * tick_hz).div_ceil(1000) as u16
         }
