@@ -36,6 +36,16 @@ pub fn words(decision: Decision, classes: &[String]) -> String {
     in_words(name(decision, classes), decision.reason(), among.as_ref())
 }
 
+/// The same with the certainty of a class that it names. Of a decision that names none the posterior
+/// is the nearest class's, which would read as the certainty that it is unknown.
+pub fn stated(decision: Decision, classes: &[String]) -> String {
+    let words = words(decision, classes);
+    match decision.class() {
+        Some(_) => format!("{words} {:.2} %", 100.0 * decision.posterior().to_f64()),
+        None => words,
+    }
+}
+
 fn in_words(name: &str, reason: Option<Reason>, among: Option<&[String; 2]>) -> String {
     let among = among.map_or([""; 2], |among| among.each_ref().map(String::as_str));
     match lines::why(reason, among).concat().trim_start() {

@@ -9,8 +9,8 @@ use firmware::design_parameters::{Plausible, sensor_limits};
 use firmware::{Event, Perception, Place, Reading, Sensed, SensorLimits};
 use host_sim::Error;
 use host_sim::classifier::Classifier;
-use host_sim::decisions;
 use mlx90333::Word;
+use tactile::Decision;
 use whisking::{Real, filter};
 use wire::{Flags, TickRecord};
 
@@ -24,11 +24,7 @@ const UNSEEN: u32 = 100;
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Decided {
     pub(crate) side: usize,
-    /// The class, or why it is none.
-    pub(crate) said: String,
-    /// Its posterior, 0 to 1, and the samples that it used.
-    pub(crate) posterior: f64,
-    pub(crate) samples: u32,
+    pub(crate) decision: Decision,
 }
 
 /// What is known of one whisker from its records.
@@ -195,12 +191,9 @@ impl Listener {
                 }
             });
         }
-        let classes = perception.classifier().classes();
         let decided = fell.into_iter().map(|(place, decision)| Decided {
             side: usize::from(place.side),
-            said: decisions::words(decision, classes),
-            posterior: decision.posterior().to_f64(),
-            samples: decision.samples(),
+            decision,
         });
         self.decided.extend(decided);
     }

@@ -118,10 +118,8 @@ impl History {
             Event::Touch { place, number } => format!("{t_s:8.3} {}touch {number}", of(place)),
             Event::TouchEnd { place, number } => format!("{t_s:8.3} {}  {number} ends", of(place)),
             Event::Decision(place, decision) => {
-                let said = decisions::words(*decision, &self.module_classes);
-                let percent = 100.0 * decision.posterior().to_f64();
-                let samples = decision.samples();
-                format!("{t_s:8.3} {}{said} {percent:.2} % {samples}", of(place))
+                let said = decisions::stated(*decision, &self.module_classes);
+                format!("{t_s:8.3} {}{said} {}", of(place), decision.samples())
             }
             _ => return None,
         })
@@ -194,12 +192,9 @@ impl History {
         let hz = f64::from(self.tick_hz);
         for side in view.sides() {
             if let Some(said) = by(&self.decided[*side], end) {
-                let (at_s, decided) = (said.ticks as f64 / hz, &said.what);
-                lines.push(format!(
-                    "{} {:.2} % at {at_s:.3} s",
-                    decided.said,
-                    100.0 * decided.posterior
-                ));
+                let at_s = said.ticks as f64 / hz;
+                let stated = decisions::stated(said.what.decision, self.classes());
+                lines.push(format!("{stated} at {at_s:.3} s"));
             }
         }
         let [all, same] = self.agreed;

@@ -4,6 +4,7 @@ use std::path::Path;
 
 use firmware::{Event, EventRecord, Packet};
 use host_sim::decisions;
+use tactile::Decision;
 use wire::{Command, TickRecord};
 
 use super::{Decided, Listener};
@@ -13,6 +14,12 @@ use crate::tally::Tally;
 
 /// What was decided: tick, side, class, posterior in millionths, samples.
 type Row = (u32, usize, String, i64, u32);
+
+fn row(tick: u32, side: usize, decision: Decision, classes: &[String]) -> Row {
+    let said = decisions::words(decision, classes);
+    let millionths = (1e6 * decision.posterior().to_f64()).floor() as i64;
+    (tick, side, said, millionths, decision.samples())
+}
 
 /// Listens so long to a module of the kind `how`; `drops` says which records get lost.
 /// Returns what the PC decided, and what the module did.
@@ -41,10 +48,7 @@ fn listened(
                     sequence,
                     event: Event::Decision(place, decision),
                 }) => {
-                    let said = decisions::words(*decision, &classes);
-                    let millionths = (1e6 * decision.posterior().to_f64()).floor() as i64;
-                    let side = usize::from(place.side);
-                    sent.push((*sequence, side, said, millionths, decision.samples()));
+                    sent.push(row(*sequence, place.side.into(), *decision, &classes));
                     continue;
                 }
                 _ => continue,
@@ -53,15 +57,8 @@ fn listened(
                 continue;
             }
             let before = tally.take(record);
-            for decided in listener.take(record, before) {
-                let Decided {
-                    side,
-                    said,
-                    posterior,
-                    samples,
-                } = decided;
-                let millionths = (1e6 * posterior).floor() as i64;
-                own.push((record.sequence, side, said, millionths, samples));
+            for Decided { side, decision } in listener.take(record, before) {
+                own.push(row(record.sequence, side, decision, &classes));
             }
         }
     }
