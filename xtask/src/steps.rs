@@ -1,15 +1,33 @@
-//! Steps that are run one after the other, and the time each took.
+//! Steps that are run one after the other, the time each took, and how busy it kept the processors.
 
+use std::num::NonZero;
 use std::time::{Duration, Instant};
+use std::{fs, thread};
 
 use crate::run::{Fault, no_faults};
+
+/// What a step took.
+#[derive(Clone, Copy, Default)]
+struct Took {
+    time: Duration,
+    /// Of all processors, for all programs that the step started and waited for.
+    processors: Duration,
+}
+
+impl Took {
+    /// By how much of the time that all processors have they were busy, percent.
+    fn busy(self) -> f64 {
+        let all = thread::available_parallelism().map_or(1, NonZero::get) as f64;
+        100.0 * self.processors.as_secs_f64() / (all * self.time.as_secs_f64()).max(1e-9)
+    }
+}
 
 /// Steps run so far.
 #[derive(Default)]
 pub(crate) struct Steps {
     /// Parts of the names of the steps that are wanted; none: all are.
     wanted: Vec<String>,
-    done: Vec<(&'static str, Duration)>,
+    done: Vec<(&'static str, Took)>,
     faults: Vec<String>,
 }
 
@@ -32,9 +50,13 @@ impl Steps {
             return Ok(());
         }
         println!("== {name}");
-        let begun = Instant::now();
+        let (begun, before) = (Instant::now(), processors());
         let result = step();
-        self.done.push((name, begun.elapsed()));
+        let took = Took {
+            time: begun.elapsed(),
+            processors: processors().saturating_sub(before),
+        };
+        self.done.push((name, took));
         if result.is_err() {
             self.print();
         }
@@ -57,10 +79,30 @@ impl Steps {
 
     fn print(&self) {
         println!();
-        for (name, time) in &self.done {
-            println!("{:>7.1} s  {name}", time.as_secs_f64());
+        let mut all = Took::default();
+        for (name, took) in &self.done {
+            print(name, *took);
+            all.time += took.time;
+            all.processors += took.processors;
         }
-        let whole: Duration = self.done.iter().map(|(_, time)| *time).sum();
-        println!("{:>7.1} s  in all", whole.as_secs_f64());
+        print("in all", all);
     }
+}
+
+fn print(name: &str, took: Took) {
+    let seconds = took.time.as_secs_f64();
+    println!("{seconds:>7.1} s {:>4.0} %  {name}", took.busy());
+}
+
+/// The processors' time of all programs that have ended so far; zero where no system says it.
+fn processors() -> Duration {
+    let stat = fs::read_to_string("/proc/self/stat").unwrap_or_default();
+    // Fields 16 and 17, of which the second, in brackets, may hold spaces.
+    let (_, fields) = stat.rsplit_once(')').unwrap_or_default();
+    let hundredths = fields.split_whitespace().skip(13).take(2);
+    Duration::from_millis(
+        10 * hundredths
+            .filter_map(|n| n.parse::<u64>().ok())
+            .sum::<u64>(),
+    )
 }
