@@ -7,7 +7,7 @@ use crate::motor::{IdealMotor, MotorSettings, Pins, SimMotor};
 use crate::plant::{
     self, Elastic, ElasticSettings, HOLD, Ideal, Plant, SurfacePose, Textured, TexturedSettings,
 };
-use physics::{At, BadSetting, Bent, Biotact, Facing, Follicle, Shaft, Surface};
+use physics::{At, BadSetting, Bent, Biotact, Facing, Follicle, Outline, Shaft, Surface};
 
 /// The motors of all whiskers and the surface they meet.
 #[derive(Debug)]
@@ -59,6 +59,14 @@ impl World {
                         slant_deg: facing.slant_deg,
                         tilt_deg: facing.tilt_deg,
                         elevation_deg: facing.elevation_deg,
+                    };
+                    settings.touches_at = facing.touches_at;
+                    settings.outline = Outline {
+                        flat_m: [
+                            facing.begins_m.unwrap_or(f64::NEG_INFINITY),
+                            facing.ends_m.unwrap_or(f64::INFINITY),
+                        ],
+                        radius_m: facing.edge_radius_m,
                     };
                 }
                 if let Some(textured) = &scene.plant.textured {

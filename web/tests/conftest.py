@@ -20,6 +20,10 @@ FLAGS = [
 ]
 
 
+def pytest_configure(config):
+    config.addinivalue_line("markers", "alone: counts frames, so that no other browser may run")
+
+
 class Browser:
     """One Chromium, and what a person does in it."""
 

@@ -215,6 +215,7 @@ def test_keys_play_and_step(page):
     assert page.text("play") == "Pause"
 
 
+@pytest.mark.alone
 def test_size_first_frame_frames_a_second_and_the_picture(browser, page):
     first = page.js("return window.whisker.firstFrame")
     before = page.js("return {...window.whisker}")

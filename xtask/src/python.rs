@@ -209,5 +209,5 @@ pub(crate) fn to_write(name: &str) -> PathBuf {
 
 /// The program that runs the page's tests, with Selenium.
 pub(crate) fn with_browser() -> Result<PathBuf, Fault> {
-    environment(&newest()?, "browser", &["pytest", "selenium"])
+    environment(&newest()?, "browser", &["pytest", "pytest-xdist", "selenium"])
 }

@@ -1,5 +1,6 @@
 //! Where a whisker is, and the flat plate that it may touch.
 
+use crate::outline::Outline;
 use crate::surface::Surface;
 use crate::vector::{V3, across, add, cross, dot, scale, sub, unit};
 
@@ -23,7 +24,7 @@ impl Pose {
     }
 }
 
-/// A flat plate with a textured surface. Its heights belong to it: a place has
+/// A flat plate with a textured surface, endless or with an end, or a round bar. Its heights belong to it: a place has
 /// the same height whenever it is touched.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Plate {
@@ -33,6 +34,8 @@ pub struct Plate {
     pub normal: [f64; 3],
     /// First coordinate of the surface: a unit vector in the plane.
     pub along: [f64; 3],
+    /// Where it ends along that coordinate.
+    pub outline: Outline,
     /// What it is made of.
     pub surface: Surface,
 }

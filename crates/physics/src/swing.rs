@@ -5,6 +5,7 @@
 //! larger θ. The sensor's x is opposed to protraction, so that a plate in the
 //! way makes it positive, as BIOTACT eq. 11 has it; its y is opposed to the axis.
 
+use crate::outline::Outline;
 use crate::pose::{Plate, Pose};
 use crate::surface::Surface;
 
@@ -77,6 +78,7 @@ impl Plate {
                 tilt,
             ],
             along: [cosine, sine, 0.0],
+            outline: Outline::PLANE,
             surface,
         }
     }

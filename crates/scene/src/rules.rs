@@ -23,6 +23,7 @@ pub(crate) fn apply(values: &Values, text: &mut Text<'_>) {
     texture_suits_the_plant(values, text);
     tilts_stay_in_range(values, text);
     poses_change_in_the_air(values, text);
+    plate_begins_before_it_ends(values, text);
     several_can_decide(values, text);
     costs_or_thresholds(values, text);
     mode_is_the_mlx90333s(values, text);
@@ -227,6 +228,22 @@ fn poses_change_in_the_air(values: &Values, text: &mut Text<'_>) {
         let found = format!("found \"timed\" with {spread}");
         let allowed = "allowed: \"air\", as poses change where nothing is touched".to_owned();
         text.report(offset, "plant.exchange".to_owned(), found, allowed);
+    }
+}
+
+fn plate_begins_before_it_ends(values: &Values, text: &mut Text<'_>) {
+    let (Some(Some(begins)), Some(Some(ends)), Some(offset)) = (
+        values.get::<Option<f64>>("plant", "begins_m"),
+        values.get::<Option<f64>>("plant", "ends_m"),
+        values.offset("plant", "ends_m"),
+    ) else {
+        return;
+    };
+    if ends < begins {
+        let path = "plant.ends_m".to_owned();
+        let found = format!("found {ends} with begins_m = {begins}");
+        let allowed = format!("allowed: at least {begins}, where it is a round bar");
+        text.report(offset, path, found, allowed);
     }
 }
 

@@ -68,9 +68,9 @@ mod tests {
                 defaults += 1;
             }
         }
-        // Nineteen of the motor, twelve of the plant, ten of the sensor, two of telemetry, one of
+        // Nineteen of the motor, fourteen of the plant, ten of the sensor, two of telemetry, one of
         // the head, of whisking and of the classifier.
-        assert_eq!(defaults, 47);
+        assert_eq!(defaults, 49);
     }
 
     #[test]

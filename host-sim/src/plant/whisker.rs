@@ -3,7 +3,8 @@
 //! Glossary:
 //!
 //! - *θ′*: angle of the base, degrees; the base turns about the motor's axis;
-//! - *plate*: stands where the tip of a straight shaft touches it at θ′_lim;
+//! - *plate*: stands where the tip of a straight shaft, or another place of it, touches it at
+//!   θ′_lim; it may end, or be a bar;
 //! - *piece*: of a surface; every presentation shows another.
 //!
 //! The physics is [`TouchingWhisker`]; here are its scale and its surfaces. The
@@ -21,7 +22,8 @@ use scene::Texture;
 use super::{BadSetting, Head, Plant, SurfacePose};
 use physics::vector::{add, dot, scale, sub};
 use physics::{
-    At, Bent, Facing, Grit, Material, Plate, SensorSettings, Shaft, Surface, TouchingWhisker,
+    At, Bent, Facing, Grit, Material, Outline, Plate, SensorSettings, Shaft, Surface,
+    TouchingWhisker,
 };
 
 /// What holds a resting tip on a surface of no friction of its own and on a scene's own, as a
@@ -46,6 +48,10 @@ pub struct ElasticSettings {
     pub shaft: Shaft,
     /// How whiskers and plates stand.
     pub facing: Facing,
+    /// Where on the straight shaft plates touch first, as a share of its length, 0.2 to 1.
+    pub touches_at: f64,
+    /// Where plates end.
+    pub outline: Outline,
     /// The scene's own surfaces.
     pub own: [Surface; 4],
     /// Friction coefficient of every texture in place of its own, 0 to 8; a resting tip is held
@@ -62,6 +68,8 @@ impl ElasticSettings {
         Self {
             shaft,
             facing: Facing::USUAL,
+            touches_at: 1.0,
+            outline: Outline::PLANE,
             own: [Surface::of(Material::SmoothPlastic); 4],
             friction: None,
             noise_codes: SensorSettings::default().noise_codes,
@@ -85,6 +93,9 @@ pub struct Elastic {
     /// As the scene has it.
     facing: Facing,
     length_m: f64,
+    /// Of the straight shaft to where it first touches.
+    reach_m: f64,
+    outline: Outline,
     own: [Surface; 4],
     friction: Option<f64>,
     surface: Surface,
@@ -133,6 +144,7 @@ impl Elastic {
         check("slant_deg", settings.facing.slant_deg, 0.0, 80.0)?;
         check("tilt_deg", settings.facing.tilt_deg, -80.0, 80.0)?;
         let elevation_deg = check("elevation_deg", settings.facing.elevation_deg, -60.0, 60.0)?;
+        let touches_at = check("touches_at", settings.touches_at, 0.2, 1.0)?;
         for surface in &settings.own {
             surface.check()?;
         }
@@ -170,6 +182,8 @@ impl Elastic {
             head,
             facing: settings.facing,
             length_m: shaft.length_m,
+            reach_m: touches_at * shaft.length_m,
+            outline: settings.outline,
             own: settings.own,
             friction: settings.friction,
             surface,
@@ -206,7 +220,10 @@ impl Elastic {
             ..self.facing
         };
         let limit = (limit_deg + pose.obstacle_deg).to_radians();
-        let plate = || Plate::in_the_way(limit, self.length_m, &facing, self.surface);
+        let plate = || Plate {
+            outline: self.outline,
+            ..Plate::in_the_way(limit, self.reach_m, &facing, self.surface)
+        };
         limit.is_finite().then(plate)
     }
 

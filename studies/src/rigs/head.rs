@@ -14,7 +14,7 @@ use super::chance::{Chance, seed_of};
 use super::module::{EACH, HeadModule, PositionControl, SIDES};
 use super::read::keys;
 use physics::vector::add;
-use physics::{Plate, Pose, SensorSettings, Shaft, Surface, TouchingWhisker};
+use physics::{Outline, Plate, Pose, SensorSettings, Shaft, Surface, TouchingWhisker};
 
 /// Channels: x and y of every whisker, left side first.
 pub(crate) const CHANNELS: usize = 2 * SIDES * EACH;
@@ -95,6 +95,7 @@ impl WhiskingHead {
             point_m: add(aside, spot[1], up),
             normal: [-cosine, 0.0, sine],
             along,
+            outline: Outline::PLANE,
             surface: *visit.surface,
         }
     }

@@ -3,11 +3,17 @@
 use crate::compliance::Compliance;
 use crate::grid::Place;
 use crate::modal::{ModalShaft, ModalState, ModalStep};
+use crate::outline::{Outline, Tangent};
 use crate::pose::PlatePose;
 use crate::relief::Relief;
 use crate::shapes::{Amplitudes, Curve};
 use crate::surface::Surface;
 use crate::vector::{V3, dot};
+
+/// Rounds in which the place is found that is nearest to a body, and how far each goes at most, as
+/// a share of the length.
+const NEARER: usize = 5;
+const FARTHEST: f64 = 0.05;
 
 /// The elastic whisker and the surface before it.
 #[derive(Debug, Clone)]
@@ -17,6 +23,7 @@ pub(super) struct Body {
     /// How the shaft is bent, where the last part has computed it.
     pub(super) curve: Option<Curve>,
     pub(super) ground: Ground,
+    pub(super) outline: Outline,
     pub(super) touch: Touch,
     pub(super) last: Option<Last>,
     /// Steps in contact are cut 2ⁿ times as finely as usual.
@@ -29,6 +36,58 @@ impl Body {
         self.state.free(&steps.parts[0]);
         self.state.keep(0.0);
         self.leave();
+    }
+
+    /// The place of a shaft that is nearest to the body, and the plane there where it is none for
+    /// all places.
+    pub(super) fn nearest(&self, curve: &Curve, pose: &PlatePose) -> (Place, Option<Tangent>) {
+        let grid = &self.shaft.grid;
+        if self.outline.is_plane() {
+            return (curve.lowest(grid, pose.up()), None);
+        }
+        let tangent_at = |place: &Place| self.outline.tangent(pose.place(curve.at(place)));
+        let leaves = |place: &Place, tangent: &Tangent| {
+            let [leaves, round] = tangent.leaves(pose.vector(curve.along(place)));
+            [
+                leaves,
+                round + curve.rise(place, pose.components(tangent.up()))[1],
+            ]
+        };
+        let mut place = grid.lowest(&grid.nodes.map(|at_m| {
+            let node = grid.anywhere(at_m);
+            leaves(&node, &tangent_at(&node))[0]
+        }));
+        let mut tangent = tangent_at(&place);
+        // Newton's method from there; a few rounds, as nodes are as far apart as bars are thick.
+        for _ in 0..NEARER {
+            let [leaves, grows] = leaves(&place, &tangent);
+            if grows <= 0.0 || (place.at_m == self.shaft.length_m && leaves <= 0.0) {
+                break;
+            }
+            let most_m = FARTHEST * self.shaft.length_m;
+            place = grid.place(place.at_m - (leaves / grows).clamp(-most_m, most_m));
+            tangent = tangent_at(&place);
+        }
+        (place, Some(tangent))
+    }
+
+    /// Over what distance the ground under a place changes, m.
+    pub(super) fn finest_m(&self) -> f64 {
+        let finest_m = self.ground.relief.finest_m;
+        if self.outline.is_plane() {
+            finest_m
+        } else {
+            finest_m.min(self.outline.radius_m)
+        }
+    }
+
+    /// The plane that a shaft touches, where it is none for all places.
+    pub(super) fn tangent(&self, curve: &Curve, pose: &PlatePose) -> Option<Tangent> {
+        if self.outline.is_plane() {
+            None
+        } else {
+            self.nearest(curve, pose).1
+        }
     }
 
     /// Sets the state of the modes, away from any plate.

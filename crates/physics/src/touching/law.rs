@@ -29,6 +29,7 @@ use super::body::Body;
 use crate::compliance::Compliance;
 use crate::contact::{Force, Frame, Problem};
 use crate::modal::ModalStep;
+use crate::outline::Tangent;
 use crate::pose::PlatePose;
 use crate::shapes::{Amplitudes, Curve, SHAPES, Ways};
 use crate::vector::{V3, add, dot, length2, scale};
@@ -61,6 +62,8 @@ pub(super) struct Part<'a> {
     pub(super) ground: [f64; 3],
     /// How the base carries the place away from the foot.
     pub(super) carried: V3,
+    /// The plane that the poses are seen from, where it is not the plate's own.
+    pub(super) tangent: Option<Tangent>,
 }
 
 /// A part that has been solved on a plane.

@@ -48,6 +48,7 @@ use super::secant::secant;
 use crate::contact::Frame;
 use crate::grid::Place;
 use crate::modal::{ModalStep, pushed};
+use crate::outline::Tangent;
 use crate::pose::PlatePose;
 use crate::shapes::{Amplitudes, Curve};
 use crate::vector::{V3, add, dot, length, length2, scale, sub};
@@ -100,22 +101,30 @@ struct Round {
 impl Body {
     /// One part of a step, from one pose to the next.
     pub(super) fn part(&mut self, old: &PlatePose, new: &PlatePose, step: &ModalStep, part_s: f64) {
-        let mut part = self.free_part(old, new, step, part_s);
+        let before = self.curve.take();
+        let before = before.unwrap_or_else(|| self.state.curve(&self.shaft));
+        let tangent = self.tangent(&before, old);
+        let seen = tangent.map(|tangent| [tangent.see(old), tangent.see(new)]);
+        let poses = seen.as_ref().map_or([old, new], |[old, new]| [old, new]);
+        let mut part = Part {
+            tangent,
+            ..self.free_part(before, poses, step, part_s)
+        };
         let (mut place, mut ground, mut end);
         if part.touching {
             // Forces change little from part to part.
             end = pushed(&part.free, &part.responses, &self.touch.forces);
-            place = self.expected(&part.before, new.up());
+            place = self.expected(&part.before, new);
             ground = None;
         } else {
-            let Some(touched) = self.touched(&part) else {
+            let Some(touched) = self.touched(&part, new) else {
                 return;
             };
             end = part.free;
             (place, ground) = (touched.0, Some(touched.1));
         }
         let length_m = self.shaft.length_m;
-        let near = NEAR * self.ground.relief.finest_m;
+        let near = NEAR * self.finest_m();
         let (mut missed, mut relax, mut to) = (None, 1.0, None);
         for n in 1..=ROUNDS {
             let round = self.round(&mut part, &place, &end, to, ground.take());
@@ -157,13 +166,11 @@ impl Body {
     /// Moves on without a force, and says what is known of the part then.
     fn free_part<'a>(
         &mut self,
-        old: &'a PlatePose,
-        new: &'a PlatePose,
+        before: Curve,
+        [old, new]: [&'a PlatePose; 2],
         step: &ModalStep,
         part_s: f64,
     ) -> Part<'a> {
-        let known = self.curve.take();
-        let before = known.unwrap_or_else(|| self.state.curve(&self.shaft));
         let law = self.law(step, part_s);
         let share = law.share(1.0);
         let touching = self.touch.is_contact();
@@ -188,28 +195,34 @@ impl Body {
             foot: [0.0; 3],
             ground: [0.0; 3],
             carried: [0.0; 3],
+            tangent: None,
             law,
         }
     }
 
     /// Where a shaft that touches is expected to touch at the end of the part.
-    fn expected(&self, before: &Curve, up: V3) -> Place {
-        let grid = &self.shaft.grid;
-        let place = grid.place(self.touch.next_m);
-        let lowest = before.lowest(grid, up);
-        let deeper = dot(sub(before.at(&place), before.at(&lowest)), up);
-        if deeper > DEEPER * self.shaft.length_m {
-            lowest
-        } else {
-            place
-        }
+    fn expected(&self, before: &Curve, pose: &PlatePose) -> Place {
+        let place = self.shaft.grid.place(self.touch.next_m);
+        let (nearest, tangent) = self.nearest(before, pose);
+        let most = DEEPER * self.shaft.length_m;
+        let (deeper, most) = match tangent {
+            None => {
+                let way = sub(before.at(&place), before.at(&nearest));
+                (dot(way, pose.up()), most)
+            }
+            Some(tangent) => {
+                let here = self.outline.tangent(pose.place(before.at(&place)));
+                (here.above_m - tangent.above_m, tangent.deeper_m(most))
+            }
+        };
+        if deeper > most { nearest } else { place }
     }
 
     /// Where a shaft that was in the air is below the ground at the end of the part; if it is
     /// not, it stays in the air.
-    fn touched(&mut self, part: &Part<'_>) -> Option<(Place, Known)> {
+    fn touched(&mut self, part: &Part<'_>, pose: &PlatePose) -> Option<(Place, Known)> {
         let curve = self.shaft.shapes.curve(&part.free);
-        let place = curve.lowest(&self.shaft.grid, part.pose.up());
+        let (place, _) = self.nearest(&curve, pose);
         let kept = part.law.kept();
         let to = sub(part.pose.place(curve.at(&place)), scale(kept, part.stretch));
         let below = [to[0], to[1]];
@@ -217,12 +230,12 @@ impl Body {
             let foot = self.foot(part, part.before.at(&place));
             [0, 1].map(|i| felt[i] + to[i] - foot[i])
         });
-        let ground = self.ground.relief.at(felt);
+        let ground = bowed(&part.tangent, self.ground.relief.at(felt), to);
         if to[2] < ground[0] {
             return Some((place, (to, ground)));
         }
         let stretch = scale(kept, self.touch.stretch);
-        let inside = to[2] < self.ground.relief.at(below)[0];
+        let inside = to[2] < bowed(&part.tangent, self.ground.relief.at(below), to)[0];
         self.touch = Touch {
             felt: inside.then_some(felt),
             ..Touch::in_the_air(&part.law.compliance, stretch)
@@ -256,12 +269,18 @@ impl Body {
         let lengthwise = part.touching && place.at_m < self.shaft.length_m;
         let along = lengthwise.then(|| level(new.vector(middle.along(place))));
         let relief = &mut self.ground.relief;
+        let tangent = part.tangent;
         let mut ground_at = |at: V3| {
             let [x, y] = aside(along, [at[0] - foot[0], at[1] - foot[1]]);
-            relief.at([felt[0] + x, felt[1] + y])
+            bowed(&tangent, relief.at([felt[0] + x, felt[1] + y]), at)
         };
+        let kept = self
+            .touch
+            .ground
+            .map(|ground| bowed(&tangent, ground, foot));
+        let ground = kept.unwrap_or_else(|| ground_at(foot));
         part.foot = foot;
-        part.ground = self.touch.ground.unwrap_or_else(|| ground_at(foot));
+        part.ground = ground;
         part.carried = sub(sub(new.place(at), part.stretch), foot);
         let moves = Moves::new(&shapes.ways(&middle, place), part);
         let (there, ground) = known.unwrap_or_else(|| {
@@ -306,13 +325,25 @@ impl Body {
     /// Newton's method; beyond the length where the tip points at the plane.
     fn better_m(&self, part: &Part<'_>, place: &Place, round: &Round) -> f64 {
         let up = part.pose.up();
-        let [rise, bend] = round.curve.rise(place, up);
+        let [mut rise, mut bend] = round.curve.rise(place, up);
+        let along = part.tangent.as_ref().map(|tangent| {
+            // Along the surface, which falls away from the plane.
+            let at_m = part.pose.place(round.curve.at(place))[0];
+            let along = part.pose.vector(round.curve.along(place))[0];
+            let [slope, change] = tangent.falls(at_m);
+            rise -= slope * along;
+            bend -= change * along * along;
+            (tangent, at_m, along)
+        });
         if place.at_m == self.shaft.length_m && rise <= 0.0 {
             return place.at_m;
         }
         let turns = self.shaft.shapes.turns(&round.curve, place);
         let steep = bend + dot(round.force, up) * round.moves.turned(&turns, up, &part.responses);
-        let shift = if steep > 0.0 { -rise / steep } else { 0.0 };
+        let mut shift = if steep > 0.0 { -rise / steep } else { 0.0 };
+        if let Some((tangent, at_m, along)) = along.filter(|(.., along)| *along != 0.0) {
+            shift = (tangent.on(at_m + shift * along) - at_m) / along;
+        }
         place.at_m + shift.max(-MOST * self.shaft.length_m)
     }
 
@@ -324,7 +355,7 @@ impl Body {
         let Solved { frame, force, .. } = solved;
         // Straight up or down: the ground is known there.
         let ground = self.ground.relief.at(*felt);
-        let deep = ground[0] - next[2];
+        let deep = bowed(&part.tangent, ground, *next)[0] - next[2];
         let body = part.pose.components(solved.stretch);
         let left_j = solved.left_j.max(0.0);
         // A foot in the air stays there.
@@ -344,6 +375,15 @@ impl Body {
             lowered_m: (1.0 - paid) * deep,
             ..Touch::in_the_air(&part.law.compliance, stretch)
         };
+    }
+}
+
+/// The ground at a place, where the body is round too.
+#[inline]
+fn bowed(tangent: &Option<Tangent>, ground: [f64; 3], at: V3) -> [f64; 3] {
+    match tangent {
+        Some(tangent) => tangent.bowed(ground, at[0]),
+        None => ground,
     }
 }
 

@@ -92,7 +92,9 @@ impl Body {
     fn bend_clear(&mut self, pose: &PlatePose) {
         for _ in 0..8 {
             let curve = self.state.curve(&self.shaft);
-            let place = curve.lowest(&self.shaft.grid, pose.up());
+            let (place, tangent) = self.nearest(&curve, pose);
+            let seen = tangent.map(|tangent| tangent.see(pose));
+            let pose = seen.as_ref().unwrap_or(pose);
             let deep = self.deep(&curve, &place, pose);
             if deep <= 0.0 {
                 return;
@@ -105,7 +107,9 @@ impl Body {
             self.state.limit(&self.shaft);
         }
         let curve = self.state.curve(&self.shaft);
-        let place = curve.lowest(&self.shaft.grid, pose.up());
+        let (place, tangent) = self.nearest(&curve, pose);
+        let seen = tangent.map(|tangent| tangent.see(pose));
+        let pose = seen.as_ref().unwrap_or(pose);
         let deep = self.deep(&curve, &place, pose);
         if deep > 0.0 {
             let compliance = self.shaft.compliance(self.ground.compliance_m_n);
@@ -131,7 +135,7 @@ impl Body {
         } else {
             way_m + self.state.speed(&self.shaft) * dt_s
         };
-        let grains = far_m / (TRAVEL * self.ground.relief.finest_m);
+        let grains = far_m / (TRAVEL * self.finest_m());
         let flat = self.ground.relief.finest_m.is_infinite();
         let most = if flat { PHASE } else { ROUGH_PHASE };
         let phase = self.shaft.highest_rad_s * dt_s / most;

@@ -1,5 +1,6 @@
 //! Whiskers against closed forms, and what no contact may do.
 
+mod bar;
 mod bent;
 mod closed_forms;
 mod elastica;
@@ -7,7 +8,7 @@ mod energy;
 mod rough;
 
 use super::TouchingWhisker;
-use crate::{Material, Plate, Pose, SensorSettings, Shaft, Surface};
+use crate::{Material, Outline, Plate, Pose, SensorSettings, Shaft, Surface};
 
 pub(super) const DT: f64 = 5e-4;
 
@@ -45,6 +46,7 @@ pub(super) fn floor(surface: Surface) -> Plate {
         point_m: [0.0; 3],
         normal: [0.0, 0.0, 1.0],
         along: [1.0, 0.0, 0.0],
+        outline: Outline::PLANE,
         surface,
     }
 }

@@ -261,6 +261,19 @@ keys! {
         /// By how much the shaft points out of the plane of whisking, along the motor's axis: it
         /// sweeps a cone.
         elevation_deg: f64 = number(-60.0..=60.0).unit("degrees").default("0.0").only_if(WHISKER),
+
+        /// Where on the straight shaft a plate touches it first, as a share of its length; 1: the
+        /// tip.
+        touches_at: f64 = number(0.2..=1.0).default("1.0").only_if(WHISKER),
+
+        /// Where the plate begins, from the place of first touch and away from the motor.
+        begins_m: Option<f64> = number(-0.5..=0.5).unit("m").optional("endless").only_if(WHISKER),
+
+        /// Where it ends; where it begins too, it is a round bar.
+        ends_m: Option<f64> = number(-0.5..=0.5).unit("m").optional("endless").only_if(WHISKER),
+
+        /// Radius of its ends, and of a bar; the plate is twice as thick.
+        edge_radius_m: f64 = number(1e-4..=0.1).unit("m").default("0.001").only_if(WHISKER),
     }
 }
 

@@ -118,6 +118,13 @@ fn poses_are_of_elastic_whiskers_in_the_air_and_within_the_tilts() {
              where nothing is touched"
                 .to_owned(),
         ),
+        (
+            whisker,
+            "begins_m = 0.01\nends_m = -0.02",
+            "plant.ends_m: found -0.02 with begins_m = 0.01; allowed: at least 0.01, where it is a \
+             round bar"
+                .to_owned(),
+        ),
     ];
     for (kind, keys, says) in cases {
         let text = with(FULL, "kind      = \"ideal\"\n", &format!("{kind}{keys}\n"));

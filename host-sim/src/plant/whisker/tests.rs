@@ -7,7 +7,7 @@ use scene::Texture;
 
 use super::{Elastic, ElasticSettings};
 use crate::plant::{BadSetting, Head, Plant, SurfacePose};
-use physics::{Biotact, Grit, Material, Shaft, Surface};
+use physics::{Biotact, Facing, Grit, Material, Outline, Shaft, Surface};
 
 const TICK_S: f64 = 5e-4;
 
@@ -54,6 +54,32 @@ fn settled(shaft: Shaft, surface: Surface, overlap: f64) -> [f64; 2] {
         }
     }
     mean
+}
+
+#[test]
+fn a_bar_is_touched_where_an_elastica_is() {
+    let shaft = Shaft::biotact(Biotact::Middle);
+    let facing = Facing {
+        slant_deg: 0.0,
+        tilt_deg: 0.0,
+        elevation_deg: 0.0,
+    };
+    let settings = ElasticSettings {
+        facing,
+        touches_at: 0.6,
+        outline: Outline::bar(5e-4),
+        ..quiet(shaft)
+    };
+    let mut plant = Elastic::new(head(1), settings, 7).unwrap();
+    plant.present_surface(frictionless());
+    for n in 0..8000 {
+        let share = (f64::from(n) / 4000.0).min(1.0);
+        plant.advance(&[99.0 + 11.0 * share], TICK_S);
+    }
+    let at = plant.contact_at(0).unwrap();
+    // tests/truth/bar.csv, 10 degrees.
+    assert!((at.arc_m - 0.067_428_8).abs() < 2e-4, "{at:?}");
+    assert!(at.plate_m[0].abs() < 5e-4, "{at:?}");
 }
 
 /// Squares of the cosines between a plate's normal and the sensor's x and y.

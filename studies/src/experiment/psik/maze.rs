@@ -3,7 +3,7 @@
 //! they say.
 
 use anyhow::Result;
-use physics::{Material, Plate, Pose};
+use physics::{Material, Outline, Plate, Pose};
 use rayon::prelude::*;
 
 use crate::chart::{Mark, Series, linear, panel};
@@ -88,6 +88,7 @@ impl Walls<'_> {
             point_m: [wall.from_m[0], wall.from_m[1], 0.0],
             normal: [x, y, 0.0],
             along: [wall.along[0], wall.along[1], 0.0],
+            outline: Outline::PLANE,
             surface,
         })
     }

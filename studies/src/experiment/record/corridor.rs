@@ -8,7 +8,7 @@ use crate::experiment::request::{Extent, Request};
 use crate::paper::psik::{CORRIDORS, RATE_HZ};
 use crate::rigs::{Chance, Robot, seed_of};
 use anyhow::Result;
-use physics::Plate;
+use physics::{Outline, Plate};
 
 /// Columns before the readings: the inputs, then how far the neck is off the middle, m, its
 /// heading, radians, and D of both sides, mm. Behind them are x and y of one vibrissa of the left
@@ -58,6 +58,7 @@ fn plate(request: &Request, side: usize, number: usize, seed: u64) -> Plate {
         point_m: [along, left * rig.width_m / 2.0, up],
         normal: [0.0, -left, 0.0],
         along: [1.0, 0.0, 0.0],
+        outline: Outline::PLANE,
         surface: relief(request, number),
     }
 }

@@ -7,7 +7,7 @@ use crate::experiment::request::{Extent, Request};
 use crate::paper::lep10::FLOORS;
 use crate::rigs::{Chance, Floor, RobotMotion, seed_of};
 use anyhow::Result;
-use physics::{Plate, Shaft, TouchingWhisker};
+use physics::{Outline, Plate, Shaft, TouchingWhisker};
 
 pub(crate) const MOTIONS: [RobotMotion; 3] = [
     RobotMotion::Anticlockwise,
@@ -90,6 +90,7 @@ pub(crate) fn record(request: &Request, job: usize, seed: u64) -> Result<Recordi
         point_m: [0.0; 3],
         normal: [0.0, 0.0, 1.0],
         along: [1.0, 0.0, 0.0],
+        outline: Outline::PLANE,
         surface: whiskers::floor(&request.rigs.surfaces, request.texture(floor, PLACEBO)),
     };
     let lead = (LEAD_S * rig.tick_hz).round() as usize;

@@ -8,7 +8,7 @@ use crate::experiment::request::{Extent, Request};
 use crate::paper::psik::{ARCS, RATE_HZ, VIBRISSAE};
 use crate::rigs::{Chance, panned, seed_of};
 use anyhow::Result;
-use physics::{Plate, sensor_code};
+use physics::{Outline, Plate, sensor_code};
 
 pub(crate) const PAPERS: usize = 8;
 /// The sandpaper of all in a placebo: P80.
@@ -57,6 +57,7 @@ fn sheet(request: &Request, job: usize, seed: u64) -> Plate {
         point_m: [sweep.distance_m, along, up],
         normal: [-1.0, 0.0, 0.0],
         along: [0.0, 1.0, 0.0],
+        outline: Outline::PLANE,
         surface: whiskers::sandpaper(&request.rigs.surfaces, request.texture(paper, PLACEBO)),
     }
 }

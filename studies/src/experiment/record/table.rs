@@ -7,7 +7,7 @@ use crate::paper::pose::{ANGLES_DEG, SPEEDS_MM_S, TEXTURES};
 use crate::rigs::{Carriage, Chance, Table, facing, seed_of};
 use anyhow::{Context, Result};
 use physics::vector::{add, cross};
-use physics::{Plate, Pose, Shaft, Surface, TouchingWhisker};
+use physics::{Outline, Plate, Pose, Shaft, Surface, TouchingWhisker};
 
 /// How often each contact is made.
 pub(crate) const TIMES: usize = 2;
@@ -107,6 +107,7 @@ fn approach(
         point_m: origin,
         normal,
         along,
+        outline: Outline::PLANE,
         surface,
     };
     let pose = Pose {

@@ -6,16 +6,33 @@ use crate::vector::{add, dot, scale, sub};
 use crate::{Facing, Follicle, Plate, Pose, Shaft, TouchingWhisker};
 
 /// One line of a table, its numbers by the names of their columns.
-struct Row(Vec<(&'static str, f64)>);
+pub(super) struct Row(pub(super) Vec<(&'static str, f64)>);
 
 impl Row {
-    fn get(&self, name: &str) -> f64 {
+    pub(super) fn get(&self, name: &str) -> f64 {
         let found = self.0.iter().find(|(column, _)| *column == name);
         found.unwrap_or_else(|| panic!("{name}")).1
     }
+
+    /// The shaft that it is of.
+    pub(super) fn shaft(&self) -> Shaft {
+        let hub_diameter_m = self.get("hub_m");
+        Shaft {
+            length_m: self.get("length_m"),
+            hub_diameter_m,
+            tip_diameter_m: hub_diameter_m / self.get("taper"),
+            youngs_pa: self.get("youngs_pa"),
+            density_kg_m3: 1200.0,
+            damping: 0.1,
+            follicle: Follicle {
+                rotation_n_m_rad: self.get("follicle_nm_rad"),
+                axial_n_m: 1e9,
+            },
+        }
+    }
 }
 
-fn table(text: &'static str) -> Vec<Row> {
+pub(super) fn table(text: &'static str) -> Vec<Row> {
     let mut lines = text.lines();
     let names: Vec<&str> = lines.next().unwrap().split(',').collect();
     let row = |line: &'static str| {
@@ -35,20 +52,8 @@ fn same(a: &Row, b: &Row) -> bool {
 /// the contact (m) at each push of a case, while it is pushed at 5° a second.
 fn pushed(case: &[Row]) -> Vec<[f64; 4]> {
     let first = &case[0];
-    let length_m = first.get("length_m");
-    let hub_diameter_m = first.get("hub_m");
-    let shaft = Shaft {
-        length_m,
-        hub_diameter_m,
-        tip_diameter_m: hub_diameter_m / first.get("taper"),
-        youngs_pa: first.get("youngs_pa"),
-        density_kg_m3: 1200.0,
-        damping: 0.1,
-        follicle: Follicle {
-            rotation_n_m_rad: first.get("follicle_nm_rad"),
-            axial_n_m: 1e9,
-        },
-    };
+    let shaft = first.shaft();
+    let length_m = shaft.length_m;
     let facing = Facing {
         slant_deg: first.get("slant_deg"),
         tilt_deg: first.get("tilt_deg"),

@@ -3,7 +3,9 @@
 use proptest::prelude::*;
 
 use super::{QUIET, flat, floor};
-use crate::{Biotact, Facing, Grit, Material, Plate, Pose, Shaft, Surface, TouchingWhisker};
+use crate::{
+    Biotact, Facing, Grit, Material, Outline, Plate, Pose, Shaft, Surface, TouchingWhisker,
+};
 
 /// Pointing down at an angle, the tip of the straight shaft `above` the floor.
 fn slanted(angle: f64, length_m: f64, above: f64) -> Pose {
@@ -66,14 +68,25 @@ pub(super) fn materials() -> Vec<Material> {
     all
 }
 
+/// An endless floor, its end about under the tip, and a bar there.
+fn any_outline() -> impl Strategy<Value = Outline> {
+    prop_oneof![
+        Just(Outline::PLANE),
+        (0.01..0.3_f64, 1e-4..0.02_f64).prop_map(|(end_m, r)| Outline::edge(end_m, r)),
+        (0.01..0.3_f64, 1e-4..0.02_f64).prop_map(|(at_m, r)| Outline {
+            flat_m: [at_m; 2],
+            radius_m: r,
+        }),
+    ]
+}
+
 /// Let go with the base at rest, a whisker's energy does not rise.
 fn released(
     shaft: &Shaft,
-    surface: Surface,
+    plate: Plate,
     (angle, above, bend): Release,
     dt_s: f64,
 ) -> Result<(), TestCaseError> {
-    let plate = floor(surface);
     let length = shaft.length_m;
     let pose = slanted(angle, length, above * length);
     let mut whisker = TouchingWhisker::new(shaft, &QUIET, 1).unwrap();
@@ -106,7 +119,13 @@ fn what_once_gave_energy_gives_none() {
     let release = (0.042_483_781_144_719, -0.045_717_268_309_824_47, bend);
     let dt_s = 10.0_f64.powf(-4.414_960_386_869_022);
     let slippery = ground(4.823_948_455_042_236_5, 0.0);
-    released(&Shaft::biotact(Biotact::Front), slippery, release, dt_s).unwrap();
+    released(
+        &Shaft::biotact(Biotact::Front),
+        floor(slippery),
+        release,
+        dt_s,
+    )
+    .unwrap();
     // A bounce: static shapes that were still bent as it touched again.
     let release = (
         0.038_989_875_503_091_166,
@@ -115,7 +134,7 @@ fn what_once_gave_energy_gives_none() {
     );
     let dt_s = 10.0_f64.powf(-3.600_001_869_551_938_7);
     let rubbing = ground(5.585_192_711_423_789, 0.393_237_069_956_088);
-    released(&Shaft::psikharpax(1), rubbing, release, dt_s).unwrap();
+    released(&Shaft::psikharpax(1), floor(rubbing), release, dt_s).unwrap();
 }
 
 proptest! {
@@ -126,11 +145,13 @@ proptest! {
     fn energy_never_rises_on_any_material(
         shaft in any_shaft(),
         material in prop::sample::select(materials()),
+        outline in any_outline(),
         seed: u64,
         release in any_release(),
         dt_s in 1e-4..2e-3_f64,
     ) {
-        released(&shaft, Surface::of(material).piece(seed), release, dt_s)?;
+        let surface = Surface::of(material).piece(seed);
+        released(&shaft, Plate { outline, ..floor(surface) }, release, dt_s)?;
     }
 
     /// The same on surfaces that no material has, smooth, slippery and undamped too.
@@ -143,6 +164,7 @@ proptest! {
         damping in prop_oneof![Just(0.0), 0.0..2.0_f64],
         friction in prop_oneof![Just(0.0), 0.0..2.0_f64],
         extra in 1.0..2.0_f64,
+        outline in any_outline(),
         seed: u64,
         release in any_release(),
         dt in -4.5..-2.5_f64,
@@ -153,7 +175,8 @@ proptest! {
             seed,
             ..flat(10.0_f64.powf(stiffness), damping, extra * friction, friction)
         };
-        released(&shaft, surface, release, 10.0_f64.powf(dt))?;
+        let plate = Plate { outline, ..floor(surface) };
+        released(&shaft, plate, release, 10.0_f64.powf(dt))?;
     }
 
     /// Any surface, shaft, speed and step: finite, and the sensor in its range.
@@ -169,6 +192,7 @@ proptest! {
         speed in -100.0..100.0_f64,
         angle in -1.57..1.57_f64,
         dt in -6.0..0.0_f64,
+        outline in any_outline(),
         seed: u64,
     ) {
         let length_m = 10.0_f64.powf(length);
@@ -192,7 +216,7 @@ proptest! {
             let way = speed * dt_s * f64::from(n);
             pose.base_m[0] += way;
             pose.base_m[2] += 0.2 * length_m * way.sin();
-            whisker.step(&pose, Some(&floor(surface)), dt_s);
+            whisker.step(&pose, Some(&Plate { outline, ..floor(surface) }), dt_s);
             let energy = whisker.energy_j();
             prop_assert!(energy.is_finite() && energy < 1e12, "{energy}");
             prop_assert!(whisker.reading().iter().all(|r| r.abs() <= 1.0));
@@ -227,6 +251,11 @@ proptest! {
         tilt_deg in -60.0..60.0_f64,
         stiffness in 2.0..9.0_f64,
         friction in 0.0..1.5_f64,
+        outline in prop_oneof![
+            Just(Outline::PLANE),
+            (-0.01..0.01_f64, 1e-4..0.01_f64).prop_map(|(end_m, r)| Outline::edge(end_m, r)),
+            (1e-4..0.02_f64).prop_map(Outline::bar),
+        ],
         (push_deg, hz, tick_hz) in any_swing(),
     ) {
         let shaft = Shaft {
@@ -237,7 +266,10 @@ proptest! {
         };
         let facing = Facing { slant_deg, tilt_deg, elevation_deg: 0.0 };
         let ground = flat(10.0_f64.powf(stiffness), 0.3, friction, friction);
-        let plate = Plate::in_the_way(1.0, length_m, &facing, ground);
+        let plate = Plate {
+            outline,
+            ..Plate::in_the_way(1.0, length_m, &facing, ground)
+        };
         let mut whisker = TouchingWhisker::new(&shaft, &QUIET, 1).unwrap();
         let modes = shaft.modes(1).unwrap();
         let (swing, omega) = ((push_deg + 5.0).to_radians(), core::f64::consts::TAU * hz);
