@@ -171,10 +171,15 @@ pub(crate) fn whole() -> Result<(), Fault> {
     run(Command::new(&inside).arg(folder.join("notebooks/execute.py")))
 }
 
+/// The wheel of a release, for every Python from the oldest on.
+pub(crate) fn release() -> Result<PathBuf, Fault> {
+    wheel(&newest()?, Profile::Release)
+}
+
 /// The figures of the wheel that `pip install` would make, as JSON.
 pub(crate) fn figures() -> Result<String, Fault> {
     let python = newest()?;
-    let wheel = wheel(&python, Profile::Release)?;
+    let wheel = release()?;
     let inside = environment(&python, "speeds", &["gymnasium"])?;
     run(pip(&inside).arg(&wheel))?;
     let bytes = fs::metadata(&wheel)
