@@ -91,9 +91,10 @@ fn without_folders(built: &Path) -> Result<String, Fault> {
     let flags = [(&*top(), "."), (built, "target"), (&cargo, "cargo")].map(|(folder, name)| {
         let folder = folder.display().to_string();
         // Flags are divided at spaces.
-        match folder.contains(' ') {
-            true => Err(format!("{folder}: a release needs a path without spaces")),
-            false => Ok(format!("--remap-path-prefix={folder}={name}")),
+        if folder.contains(' ') {
+            Err(format!("{folder}: a release needs a path without spaces"))
+        } else {
+            Ok(format!("--remap-path-prefix={folder}={name}"))
         }
     });
     let flags: Result<Vec<_>, _> = flags.into_iter().collect();

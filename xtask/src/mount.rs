@@ -157,7 +157,7 @@ mod tests {
         let [a, b, c, e] = ["a", "b", "c", "e"].map(|letter| mm[letter]);
         let [f, g, h, i, j] = ["f", "g", "h", "i", "j"].map(|letter| mm[letter]);
         let ring = |inner: f64, outer: f64| PI * (outer * outer - inner * inner);
-        let height = i + g + (e + h) / 2.0;
+        let height = i + g + f64::midpoint(e, h);
         let mount = ring(f / 2.0, f / 2.0 + j) * height + ring(f / 2.0 + j, f / 2.0 + 3.0 * j) * j;
         // A cone that is cut off twice, by the whole cone's height.
         let cone = |diameter: f64| PI * diameter.powi(3) / (12.0 * (b - c) / a);

@@ -26,7 +26,8 @@ struct Tick {
 
 #[derive(serde::Deserialize)]
 struct Decision {
-    decision: String,
+    #[serde(rename = "decision")]
+    class: String,
     posterior: f64,
     t_s: f64,
 }
@@ -90,18 +91,25 @@ fn seen(from: f64, to: f64) -> String {
 }
 
 fn drawn(ticks: &[Tick], decisions: &[Decision], obstacle: f64) -> String {
-    let [left, right, above, below] = CHART;
-    let x_of = |t_s: f64| left + (right - left) * t_s / SECONDS;
-    let mut svg = String::from(
-        r##"<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 820 270" font-family="sans-serif" font-size="14">
+    let [left, .., below] = CHART;
+    format!(
+        r#"<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 820 270" font-family="sans-serif" font-size="14">
 <rect width="100%" height="100%" fill="white"/>
-"##,
-    );
-    // The surface, by its texture, which changes in the air.
-    let [from, to] = [
-        at(obstacle + 3.0, 0.72 * LENGTH),
-        at(obstacle + 3.0, 1.1 * LENGTH),
-    ];
+{}{}{}{}<text x="{left}" y="{}">{SECONDS} s of a simulated run of scenes/textures.toml, at its own pace</text>
+</svg>
+"#,
+        surfaces(ticks, obstacle),
+        whisker(ticks, obstacle),
+        readings(ticks),
+        named(decisions),
+        below + 30.0
+    )
+}
+
+/// The surface, by its texture, which changes while the whisker is in the air.
+fn surfaces(ticks: &[Tick], obstacle: f64) -> String {
+    let [[x, y], [tip_x, tip_y]] = [0.72, 1.1].map(|part| at(obstacle + 3.0, part * LENGTH));
+    let mut svg = String::new();
     let mut begun = 0.0;
     for (n, tick) in ticks.iter().enumerate() {
         let next = ticks.get(n + 1);
@@ -109,63 +117,56 @@ fn drawn(ticks: &[Tick], decisions: &[Decision], obstacle: f64) -> String {
             continue;
         }
         let until = next.map_or(SECONDS, |next| next.t_s);
-        let (label, show) = (&tick.label, seen(begun, until));
         let _ = writeln!(
             svg,
-            r##"<g opacity="0">{show}<line x1="{:.1}" y1="{:.1}" x2="{:.1}" y2="{:.1}" stroke="#8a6d3b" stroke-width="10"/><text x="{:.1}" y="{:.1}">{label}</text></g>"##,
-            from[0],
-            from[1],
-            to[0],
-            to[1],
-            to[0] + 14.0,
-            to[1] + 20.0
+            r##"<g opacity="0">{}<line x1="{x:.1}" y1="{y:.1}" x2="{tip_x:.1}" y2="{tip_y:.1}" stroke="#8a6d3b" stroke-width="10"/><text x="{:.1}" y="{:.1}">{}</text></g>"##,
+            seen(begun, until),
+            tip_x + 14.0,
+            tip_y + 20.0,
+            tick.label
         );
         begun = until;
     }
-    // The whisker, its motor, and a dot while it touches.
-    let positions: Vec<String> = ticks
-        .iter()
-        .step_by(STEP)
-        .chain(ticks.last())
+    svg
+}
+
+/// The whisker, its motor, and a dot while it touches.
+fn whisker(ticks: &[Tick], obstacle: f64) -> String {
+    let shown = ticks.iter().step_by(STEP).chain(ticks.last());
+    let shafts: Vec<String> = shown
         .map(|tick| shaft(tick.angle_left_deg, obstacle))
         .collect();
-    let _ = writeln!(
-        svg,
-        r##"<path d="{}" fill="none" stroke="black" stroke-width="3" stroke-linecap="round"><animate attributeName="d" dur="{SECONDS}s" repeatCount="indefinite" values="{}"/></path>
-<circle cx="{}" cy="{}" r="13" fill="#c8ced6" stroke="black"/>
-<text x="{}" y="{}" text-anchor="middle">motor and sensor</text>"##,
-        positions[0],
-        positions.join(";"),
-        BASE[0],
-        BASE[1],
-        BASE[0],
-        BASE[1] + 30.0
-    );
-    let mut touches = vec![(0.0, "0")];
-    for pair in ticks.windows(2) {
-        let [before, after] = pair else { continue };
-        let touches_it = |tick: &Tick| tick.angle_left_deg >= obstacle;
-        if touches_it(before) != touches_it(after) {
-            touches.push((after.t_s, if touches_it(after) { "1" } else { "0" }));
+    let touches = |tick: &Tick| tick.angle_left_deg >= obstacle;
+    let mut dots = vec![(0.0, "0")];
+    for (before, after) in ticks.iter().zip(ticks.iter().skip(1)) {
+        if touches(before) != touches(after) {
+            dots.push((after.t_s, if touches(after) { "1" } else { "0" }));
         }
     }
-    let tip = at(obstacle, LENGTH);
-    let _ = writeln!(
-        svg,
-        r##"<circle cx="{:.1}" cy="{:.1}" r="7" fill="#d9534f" opacity="0">{}</circle>"##,
-        tip[0],
-        tip[1],
-        jumps("opacity", &touches)
-    );
-    // What the sensor reads, the least and the most of each pixel.
-    let codes = || ticks.iter().map(|tick| tick.x_left);
-    let (least, most) = codes().fold((f64::MAX, f64::MIN), |(a, b), x| (a.min(x), b.max(x)));
+    let ([x, y], [tip_x, tip_y]) = (BASE, at(obstacle, LENGTH));
+    format!(
+        r##"<path d="{}" fill="none" stroke="black" stroke-width="3" stroke-linecap="round"><animate attributeName="d" dur="{SECONDS}s" repeatCount="indefinite" values="{}"/></path>
+<circle cx="{x}" cy="{y}" r="13" fill="#c8ced6" stroke="black"/>
+<text x="{x}" y="{}" text-anchor="middle">motor and sensor</text>
+<circle cx="{tip_x:.1}" cy="{tip_y:.1}" r="7" fill="#d9534f" opacity="0">{}</circle>
+"##,
+        shafts.first().map_or("", String::as_str),
+        shafts.join(";"),
+        y + 30.0,
+        jumps("opacity", &dots)
+    )
+}
+
+/// What the sensor reads, the least and the most of each pixel; what is still to come is pale.
+fn readings(ticks: &[Tick]) -> String {
+    let [left, right, above, below] = CHART;
+    let codes = ticks.iter().map(|tick| tick.x_left);
+    let (least, most) = codes.fold((f64::MAX, f64::MIN), |(a, b), x| (a.min(x), b.max(x)));
     let y_of = |x: f64| below - (below - above) * (x - least) / (most - least);
     let mut line = String::new();
-    let columns = (right - left) as usize;
-    for column in ticks.chunks(ticks.len().div_ceil(columns)) {
-        let here = || column.iter().map(|tick| y_of(tick.x_left));
-        let (top, bottom) = here().fold((f64::MAX, f64::MIN), |(a, b), y| (a.min(y), b.max(y)));
+    for column in ticks.chunks(ticks.len().div_ceil((right - left) as usize)) {
+        let here = column.iter().map(|tick| y_of(tick.x_left));
+        let (top, bottom) = here.fold((f64::MAX, f64::MIN), |(a, b), y| (a.min(y), b.max(y)));
         let first = if line.is_empty() { 'M' } else { 'L' };
         let _ = write!(
             line,
@@ -173,37 +174,49 @@ fn drawn(ticks: &[Tick], decisions: &[Decision], obstacle: f64) -> String {
             x_of(column[0].t_s)
         );
     }
-    let _ = writeln!(
-        svg,
+    let width = right - left;
+    format!(
         r##"<text x="{left}" y="20">what the sensor reads (blue), and what the module decides (green)</text>
 <path d="{line}" fill="none" stroke="#0050a0"/>
-<rect x="{left}" y="{:.0}" width="{:.0}" height="{:.0}" fill="white" opacity="0.8"><animate attributeName="x" dur="{SECONDS}s" repeatCount="indefinite" values="{left};{right}"/><animate attributeName="width" dur="{SECONDS}s" repeatCount="indefinite" values="{:.0};0"/></rect>"##,
+<rect x="{left}" y="{}" width="{width}" height="{}" fill="white" opacity="0.8"><animate attributeName="x" dur="{SECONDS}s" repeatCount="indefinite" values="{left};{right}"/><animate attributeName="width" dur="{SECONDS}s" repeatCount="indefinite" values="{width};0"/></rect>
+"##,
         above - 10.0,
-        right - left,
-        below - above + 15.0,
-        right - left
-    );
-    for (n, decision) in decisions.iter().enumerate() {
-        let (x, y) = (x_of(decision.t_s), above - 15.0);
+        below - above + 15.0
+    )
+}
+
+fn x_of(t_s: f64) -> f64 {
+    let [left, right, ..] = CHART;
+    left + (right - left) * t_s / SECONDS
+}
+
+/// A dot for each decision, and the last one in words.
+fn named(decisions: &[Decision]) -> String {
+    let [left, _, above, _] = CHART;
+    let mut svg = String::new();
+    for (
+        n,
+        Decision {
+            class,
+            posterior,
+            t_s,
+        },
+    ) in decisions.iter().enumerate()
+    {
         let until = decisions.get(n + 1).map_or(SECONDS, |next| next.t_s);
-        let Decision { decision: name, .. } = decision;
-        let says = match name.as_str() {
-            "unknown" => name.clone(),
-            _ => format!("{name}, {:.1} % sure", 100.0 * decision.posterior),
+        let says = match class.as_str() {
+            "unknown" => class.clone(),
+            _ => format!("{class}, {:.1} % sure", 100.0 * posterior),
         };
         let _ = writeln!(
             svg,
-            r##"<circle cx="{x:.1}" cy="{y}" r="4" fill="#2e8b57" opacity="0">{}</circle>
+            r##"<circle cx="{:.1}" cy="{}" r="4" fill="#2e8b57" opacity="0">{}</circle>
 <text x="{left}" y="55" font-size="20" fill="#2e8b57" opacity="0">{says}{}</text>"##,
-            seen(decision.t_s, SECONDS),
-            seen(decision.t_s, until)
+            x_of(*t_s),
+            above - 15.0,
+            seen(*t_s, SECONDS),
+            seen(*t_s, until)
         );
     }
-    let _ = writeln!(
-        svg,
-        r##"<text x="{left}" y="{}">{SECONDS} s of a simulated run of scenes/textures.toml, at its own pace</text>
-</svg>"##,
-        below + 30.0
-    );
     svg
 }
