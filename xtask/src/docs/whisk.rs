@@ -108,7 +108,7 @@ fn drawn(ticks: &[Tick], decisions: &[Decision], obstacle: f64) -> String {
 
 /// The surface, by its texture, which changes while the whisker is in the air.
 fn surfaces(ticks: &[Tick], obstacle: f64) -> String {
-    let [[x, y], [tip_x, tip_y]] = [0.72, 1.1].map(|part| at(obstacle + 3.0, part * LENGTH));
+    let [[x, y], [tip_x, tip_y]] = [0.88, 1.15].map(|part| at(obstacle + 3.0, part * LENGTH));
     let mut svg = String::new();
     let mut begun = 0.0;
     for (n, tick) in ticks.iter().enumerate() {
