@@ -1,5 +1,5 @@
-//! A release: one archive with all that a stranger needs, the same bytes wherever it is built, and a
-//! test that uses nothing but this archive.
+//! A release: one archive with all that a stranger needs, which names no folder of the machine that
+//! built it, and a test that uses nothing but this archive.
 
 use std::path::{Path, PathBuf};
 use std::process::Command;
