@@ -4,6 +4,7 @@
 mod by_hand;
 mod faults;
 mod main_job;
+mod whisk;
 
 use crate::firmware::Board;
 use crate::run::{
@@ -12,8 +13,10 @@ use crate::run::{
 use crate::{cost, descriptions, emulate, studies};
 use main_job::DECISIONS;
 
-/// Writes the documents that follow from the source alone, or checks that they are up to date.
+/// Writes the documents that follow from the source alone or from a run of seconds, or checks that
+/// they are up to date.
 pub(crate) fn quick(check: bool) -> Result<(), Fault> {
+    document("docs/whisk.svg", whisk::picture()?.as_bytes(), check)?;
     document("docs/scenes.md", scene::reference().as_bytes(), check)?;
     document("docs/faults.md", faults::page().as_bytes(), check)?;
     document(

@@ -9,6 +9,7 @@ mod count;
 mod dependencies;
 mod descriptions;
 mod desk;
+mod dist;
 mod docs;
 mod elf;
 mod emulate;
@@ -17,6 +18,7 @@ mod faults;
 mod figures;
 mod firmware;
 mod fuzz;
+mod mount;
 mod mutants;
 mod nightly;
 mod page;
@@ -148,6 +150,11 @@ enum Command {
     /// Writes docs/registers.md, and holds its facts against the descriptions that others
     /// have made of the chips
     Descriptions,
+    /// Builds a release into target/dist: programs, images of the boards, wheel, page, book, parts to
+    /// print, checksums
+    Dist(dist::Choice),
+    /// Writes what of a whisker can be printed into target/mount, as STL
+    Mount,
     /// Builds the book into target/book, unless a link or an image is broken
     Book,
     /// Runs the command blocks of the book's pages, of the README and of CONTRIBUTING
@@ -157,7 +164,7 @@ enum Command {
         /// Only say whether they are up to date
         #[arg(long)]
         check: bool,
-        /// Only those that need no run: of keys, of faults, of columns
+        /// Only the quick ones: of keys, of faults, of columns, the moving picture
         #[arg(long)]
         quick: bool,
     },
@@ -366,6 +373,8 @@ fn main() -> ExitCode {
         Command::Reproducible(build) => reproducible::twice(build.board, &build.scene),
         Command::Speed(choice) => speed::speed(&choice),
         Command::Descriptions => descriptions::page(false).and_then(|()| descriptions::compare()),
+        Command::Dist(choice) => dist::all(&choice),
+        Command::Mount => mount::all(),
         Command::Book => book::build(),
         Command::Walk(choice) => walk::all(&choice),
         Command::Docs { check, quick: true } => docs::quick(check),

@@ -10,7 +10,7 @@ use crate::firmware::{self, Board, every_part};
 use crate::run::{Fault, cargo, installed, run, target, top};
 use crate::steps::Steps;
 use crate::{
-    ci, cost, dependencies, docs, emulate, endurance, faults, fuzz, mutants, panics, python,
+    ci, cost, dependencies, dist, docs, emulate, endurance, faults, fuzz, mutants, panics, python,
     reproducible, scenarios, size, studies, walk,
 };
 
@@ -49,6 +49,7 @@ pub(crate) fn all(only: Vec<String>) -> Result<(), Fault> {
         let mut boards = Board::ALL.into_iter();
         boards.try_for_each(|board| reproducible::twice(board, scene))
     });
+    steps.try_run("a release, and its use without Rust", dist::nightly);
     steps.try_run("mutants", mutants::all);
     steps.try_run("mutations", mutations);
     steps.end()

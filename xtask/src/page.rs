@@ -1,6 +1,6 @@
 //! The page for a browser, one HTML file, and its tests in one.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use crate::run::{Fault, cargo, cargo_apart, run, target, top};
@@ -24,7 +24,7 @@ pub(crate) fn build() -> Result<(), Fault> {
 
 /// Opens it in headless Chromium and uses it as a person would, on a desk and on a phone, with axe
 /// for its accessibility; `picture` is where the one of the README goes.
-pub(crate) fn test(picture: Option<PathBuf>) -> Result<(), Fault> {
+pub(crate) fn test(picture: Option<&Path>) -> Result<(), Fault> {
     let python = python::with_browser()?;
     let mut axe = Command::new(&python);
     axe.args("-m pip install --quiet --disable-pip-version-check".split(' '));
@@ -39,7 +39,7 @@ pub(crate) fn test(picture: Option<PathBuf>) -> Result<(), Fault> {
         tests.env("WHISKER_PAGE", path());
         tests.env("WHISKER_TRACES", &traces);
         tests.env("WHISKER_FIGURES", python::to_write("page.json"));
-        if let Some(picture) = &picture {
+        if let Some(picture) = picture {
             tests.env("WHISKER_PICTURE", picture);
         }
         run(&mut tests)?;

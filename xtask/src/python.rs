@@ -171,10 +171,15 @@ pub(crate) fn whole() -> Result<(), Fault> {
     run(Command::new(&inside).arg(folder.join("notebooks/execute.py")))
 }
 
+/// The wheel of a release, for every Python from the oldest on.
+pub(crate) fn release() -> Result<PathBuf, Fault> {
+    wheel(&newest()?, Profile::Release)
+}
+
 /// The figures of the wheel that `pip install` would make, as JSON.
 pub(crate) fn figures() -> Result<String, Fault> {
     let python = newest()?;
-    let wheel = wheel(&python, Profile::Release)?;
+    let wheel = release()?;
     let inside = environment(&python, "speeds", &["gymnasium"])?;
     run(pip(&inside).arg(&wheel))?;
     let bytes = fs::metadata(&wheel)
@@ -209,5 +214,9 @@ pub(crate) fn to_write(name: &str) -> PathBuf {
 
 /// The program that runs the page's tests, with Selenium.
 pub(crate) fn with_browser() -> Result<PathBuf, Fault> {
-    environment(&newest()?, "browser", &["pytest", "pytest-xdist", "selenium"])
+    environment(
+        &newest()?,
+        "browser",
+        &["pytest", "pytest-xdist", "selenium"],
+    )
 }

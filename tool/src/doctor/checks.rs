@@ -6,7 +6,7 @@ use clap::ValueEnum;
 
 use super::Facts;
 use crate::probe::SeenProbe;
-use crate::source::{Board, BoardName};
+use crate::source::{Board, BoardName, workspace};
 
 /// What somebody wants to do.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
@@ -82,7 +82,8 @@ pub(crate) fn checks(facts: &Facts, board: BoardName, purposes: &[Purpose]) -> V
     let is_for = |purpose| purposes.is_empty() || purposes.contains(&purpose);
     let mut list = List {
         checks: Vec::new(),
-        is_needed: true,
+        // A release builds nothing.
+        is_needed: workspace().is_some(),
     };
     toolchain(facts, &mut list);
     let more_gib = u64::from(is_for(Purpose::Probe)) * PROBE_ROOM_GIB;

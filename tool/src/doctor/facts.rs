@@ -1,11 +1,10 @@
 //! What is found on this PC.
 
-use std::path::Path;
 use std::process::Command;
 
 use super::usb::{SerialPort, has_rules, serial_ports};
 use crate::probe::{SeenProbe, seen};
-use crate::source::BoardName;
+use crate::source::{BoardName, workspace};
 
 const PINS: &str = include_str!("../../../rust-toolchain.toml");
 
@@ -55,10 +54,9 @@ impl Facts {
 
 /// What a program prints, run in the workspace; none if it is not there, or fails.
 fn said(program: &str, arguments: &[&str]) -> Option<String> {
-    let here = Path::new(env!("CARGO_MANIFEST_DIR"));
     let mut command = Command::new(program);
     // The folder that this was built in may be gone.
-    if here.is_dir() {
+    if let Some(here) = workspace().filter(|here| here.is_dir()) {
         command.current_dir(here);
     }
     let output = command.args(arguments).output().ok()?;

@@ -45,6 +45,15 @@ pub(crate) fn is_of(program: &Path, board: Option<BoardName>) -> Result<(), Erro
     Err(Error::file(program, fault))
 }
 
+/// The workspace that this was built in; none of a release, which knows no folder of the machine
+/// that built it.
+pub(crate) fn workspace() -> Option<&'static Path> {
+    match option_env!("WHISKER_RELEASE") {
+        None => Path::new(env!("CARGO_MANIFEST_DIR")).parent(),
+        Some(_) => None,
+    }
+}
+
 /// Builds the program of a board, which brings `scene` with it; returns its file.
 pub(crate) fn build(board: BoardName, scene: &Path) -> Result<PathBuf, Error> {
     let Board {
@@ -54,8 +63,13 @@ pub(crate) fn build(board: BoardName, scene: &Path) -> Result<PathBuf, Error> {
         facts,
         ..
     } = board.board();
-    let here = Path::new(env!("CARGO_MANIFEST_DIR"));
-    let top = here.parent().unwrap_or(here);
+    let Some(top) = workspace() else {
+        let fault = format!(
+            "a released whisker builds no programs; allowed: --program boards/{feature}.elf, of \
+             the release's folder"
+        );
+        return Err(Error::Input(fault));
+    };
     let built = std::env::var_os("CARGO_TARGET_DIR").map_or_else(|| top.join("target"), Into::into);
     let built: PathBuf = std::path::absolute(built)
         .map_err(|error| Error::Work(format!("the folder that is built in: {error}")))?;

@@ -150,7 +150,7 @@ fn the_dimensions_of_the_mount_are_those_of_its_drawing() {
         mm.insert(letter, size.parse::<f64>().unwrap());
     }
     let letters: Vec<&str> = mm.keys().copied().collect();
-    assert_eq!(letters, ["a", "b", "c", "d", "e", "f", "g", "h"]);
+    assert_eq!(letters, ["a", "b", "c", "d", "e", "f", "g", "h", "i", "j"]);
     assert_eq!([mm["d"], mm["e"]], [2.0 * RADIUS, LENGTH]);
     let [along, share] = field(mm["g"]);
     assert!((along - 60.0).abs() < 0.3, "{along}");

@@ -108,7 +108,7 @@ impl Body {
         let poses = seen.as_ref().map_or([old, new], |[old, new]| [old, new]);
         let mut part = Part {
             tangent,
-            ..self.free_part(before, poses, step, part_s)
+            ..self.free_part(&before, poses, step, part_s)
         };
         let (mut place, mut ground, mut end);
         if part.touching {
@@ -166,7 +166,7 @@ impl Body {
     /// Moves on without a force, and says what is known of the part then.
     fn free_part<'a>(
         &mut self,
-        before: Curve,
+        before: &Curve,
         [old, new]: [&'a PlatePose; 2],
         step: &ModalStep,
         part_s: f64,
@@ -184,7 +184,7 @@ impl Body {
         Part {
             old,
             pose: new,
-            before,
+            before: *before,
             dt_s: part_s,
             touching,
             friction: self.ground.surface.friction_at(self.touch.slip_m_s),
@@ -230,12 +230,12 @@ impl Body {
             let foot = self.foot(part, part.before.at(&place));
             [0, 1].map(|i| felt[i] + to[i] - foot[i])
         });
-        let ground = bowed(&part.tangent, self.ground.relief.at(felt), to);
+        let ground = bowed(part.tangent.as_ref(), self.ground.relief.at(felt), to);
         if to[2] < ground[0] {
             return Some((place, (to, ground)));
         }
         let stretch = scale(kept, self.touch.stretch);
-        let inside = to[2] < bowed(&part.tangent, self.ground.relief.at(below), to)[0];
+        let inside = to[2] < bowed(part.tangent.as_ref(), self.ground.relief.at(below), to)[0];
         self.touch = Touch {
             felt: inside.then_some(felt),
             ..Touch::in_the_air(&part.law.compliance, stretch)
@@ -272,12 +272,12 @@ impl Body {
         let tangent = part.tangent;
         let mut ground_at = |at: V3| {
             let [x, y] = aside(along, [at[0] - foot[0], at[1] - foot[1]]);
-            bowed(&tangent, relief.at([felt[0] + x, felt[1] + y]), at)
+            bowed(tangent.as_ref(), relief.at([felt[0] + x, felt[1] + y]), at)
         };
         let kept = self
             .touch
             .ground
-            .map(|ground| bowed(&tangent, ground, foot));
+            .map(|ground| bowed(tangent.as_ref(), ground, foot));
         let ground = kept.unwrap_or_else(|| ground_at(foot));
         part.foot = foot;
         part.ground = ground;
@@ -355,7 +355,7 @@ impl Body {
         let Solved { frame, force, .. } = solved;
         // Straight up or down: the ground is known there.
         let ground = self.ground.relief.at(*felt);
-        let deep = bowed(&part.tangent, ground, *next)[0] - next[2];
+        let deep = bowed(part.tangent.as_ref(), ground, *next)[0] - next[2];
         let body = part.pose.components(solved.stretch);
         let left_j = solved.left_j.max(0.0);
         // A foot in the air stays there.
@@ -380,7 +380,7 @@ impl Body {
 
 /// The ground at a place, where the body is round too.
 #[inline]
-fn bowed(tangent: &Option<Tangent>, ground: [f64; 3], at: V3) -> [f64; 3] {
+fn bowed(tangent: Option<&Tangent>, ground: [f64; 3], at: V3) -> [f64; 3] {
     match tangent {
         Some(tangent) => tangent.bowed(ground, at[0]),
         None => ground,
