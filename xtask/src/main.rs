@@ -281,6 +281,10 @@ struct EmulateWhat {
     /// Talk with the board over its serial line: lines, records, commands and garbage
     #[arg(long)]
     serial: bool,
+    /// Run as many boards as the scene's head has, joined by their bus, and compare every tick with
+    /// the simulated head
+    #[arg(long)]
+    head: bool,
     /// Stop motors by every way while the links are flooded, and see each stop obeyed and answered
     #[arg(long)]
     stopping: bool,
@@ -310,6 +314,7 @@ impl Emulate {
         let scenarios = [
             (what.check, &*compare),
             (what.deadlines, &*deadlines),
+            (what.head, "head"),
             (what.overload, "overload"),
             (what.sensor_loss, "sensor-loss"),
             (what.latency, "latency"),
