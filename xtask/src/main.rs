@@ -208,8 +208,8 @@ struct Emulate {
     /// The scene in whose world --scenario runs; none: its own, with a simulated motor
     #[arg(long, value_name = "SCENE", requires = "scenario")]
     world: Option<PathBuf>,
-    /// A key of the scene with another value for --scenario, such as motor.arm=on-command
-    #[arg(long, value_name = "KEY=VALUE", requires = "scenario")]
+    /// A key of the scene with another value, such as motor.arm=on-command
+    #[arg(long, value_name = "KEY=VALUE", requires = "scene")]
     set: Vec<String>,
     /// Who fetches the log meanwhile
     #[arg(
@@ -300,9 +300,9 @@ impl Emulate {
         let Some(scene) = self.scene else {
             return emulate::compare_all(&on);
         };
+        let scene = emulate::variants::with(&scene, &self.set)?;
         let what = self.what;
         if let (Some(scenario), Some(json)) = (&what.scenario, &self.json) {
-            let scene = emulate::variants::with(&scene, &self.set)?;
             return emulate::tried(&on, &scene, scenario, self.world.as_deref(), json);
         }
         if let Some(out) = what.out {

@@ -6,6 +6,7 @@ use host_sim::Error;
 use host_sim::decisions::Decided;
 use host_sim::run::Run;
 
+use crate::chip::SIDE_NAMES;
 use crate::compare::{difference, same_numbers};
 use crate::deployment::flashed;
 use crate::emulate::pwm_counts;
@@ -41,7 +42,7 @@ pub(crate) fn compare(
     let mut alone = Run::with_pwm(&alone, classifier, pwm)?;
 
     let named = |fault: String| Error::Work(format!("{}: {fault}", path.display()));
-    let (mut most, mut decisions) = ([[f64::MIN; 2]; 3], 0);
+    let (mut most, mut decisions) = ([[f64::NAN; 2]; 3], 0);
     for n in 1..=host.ticks() {
         let (mut expected, mut found) = (host.tick(), boards.tick());
         boards.module_mut().check()?;
@@ -84,8 +85,14 @@ pub(crate) fn compare(
         host.ticks()
     )];
     let names = ["boards", "simulated head", "one simulated board"];
-    lines.extend(names.into_iter().zip(most).map(|(name, [left, right])| {
-        format!("{name}: largest θ′ left {left:.2}, right {right:.2} degrees")
+    lines.extend(names.into_iter().zip(most).map(|(name, most)| {
+        let of_side = |(side, theta): (&str, f64)| format!("{side} {theta:.2}");
+        let sides = SIDE_NAMES.into_iter().zip(most);
+        let sides: Vec<String> = sides
+            .filter(|(_, theta)| !theta.is_nan())
+            .map(of_side)
+            .collect();
+        format!("{name}: largest θ′ {} degrees", sides.join(", "))
     }));
     Ok(lines)
 }

@@ -6,7 +6,7 @@ use whisking::Real;
 
 use super::timing::serial_most;
 use super::{BoardFacts, Clocks, RECEIVED_BYTES, TICK_MIN_HZ, serial_keeps_up};
-use crate::{BusConfig, Config, ConfigError, Driver, Field};
+use crate::{BusConfig, Config, ConfigError, Driver, Field, Part};
 
 /// What a scene needs of a board.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -40,7 +40,7 @@ impl Needs {
             whiskers_per_side: config.head.whiskers_per_side,
             driver: config.motion.as_ref().map(|motion| motion.driver),
             serial_baud: config.links.serial_baud,
-            bus: config.head.bus,
+            bus: config.head.bus.filter(|_| Part::Bus.is_built()),
         }
     }
 
