@@ -221,7 +221,7 @@ impl BoardFacts {
 mod tests {
     use super::{Misfit, Needs};
     use crate::boards::{ALL, NUCLEO_F446RE, NUCLEO_G071RB, REST_US};
-    use crate::{Config, ConfigError, Driver, Field};
+    use crate::{BusConfig, Config, ConfigError, Driver, Field};
 
     fn still() -> Needs {
         Needs::of(&Config::<f32>::still())
@@ -253,6 +253,19 @@ mod tests {
         };
         assert_eq!(NUCLEO_F446RE.fits(&brushless), Err(Misfit::TwoBrushless));
         let most = |is_slow| NUCLEO_F446RE.clocks_of(is_slow).tick_max_hz(REST_US);
+        let head = |nodes, kbit_s| Needs {
+            whiskers_per_side: 12,
+            bus: Some(BusConfig { nodes, kbit_s }),
+            ..both
+        };
+        assert_eq!(NUCLEO_F446RE.fits(&head(12, 1_000)), Ok(()));
+        assert_eq!(NUCLEO_F446RE.fits(&head(8, 500)), Err(Misfit::Share(2)));
+        let can_hz = NUCLEO_F446RE.clocks.serial_hz;
+        assert_eq!(
+            NUCLEO_F446RE.fits(&head(24, 999)),
+            Err(Misfit::BusOfClock { can_hz })
+        );
+        assert_eq!(NUCLEO_G071RB.fits(&head(24, 1_000)), Err(Misfit::NoBus));
         let too_fast = [false, true].map(|is_slow| (most(is_slow) + 1, is_slow));
         for (tick_hz, is_slow) in [(199, false), (0, false)].into_iter().chain(too_fast) {
             let fast = Needs {

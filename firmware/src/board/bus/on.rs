@@ -107,7 +107,7 @@ impl Head {
     /// silent, as it has no whiskers.
     pub(crate) fn start(settings: &Settings, pace: &Pace, number: u8) -> Self {
         let bus = settings.head.bus.filter(|bus| number < bus.nodes);
-        let timing = bus.and_then(|_| pace.bus);
+        let timing = bus.and(pace.bus);
         Self(timing.and_then(|timing| {
             ON_BUS.try_init_with(|| OnBus {
                 node: Node::new(&settings.head, number),
