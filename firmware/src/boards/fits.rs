@@ -122,7 +122,7 @@ impl fmt::Display for Misfit {
             Self::Sides(1) => f.write_str("\"left\", because it carries one whisker"),
             Self::Sides(_) => f.write_str("\"left\" or \"both\""),
             Self::Whiskers => f.write_str("1, because it carries one whisker a side"),
-            Self::NoBus => f.write_str("no such key, because its program has no bus"),
+            Self::NoBus => f.write_str("no such key, because its chip or its program has no CAN"),
             Self::Share(most) => write!(f, "as many as make {most} whiskers a board or fewer"),
             Self::BusOfClock { can_hz } => write!(
                 f,

@@ -97,8 +97,8 @@ impl Time {
 
     /// Now, µs.
     fn now(&mut self) -> u64 {
-        let since = self.clock.now().wrapping_sub(self.tick) / self.per_us;
-        self.tick_us + u64::from(since)
+        let since = self.clock.now().wrapping_sub(self.tick);
+        self.tick_us + u64::from(since.checked_div(self.per_us).unwrap_or(0))
     }
 }
 
