@@ -11,6 +11,8 @@
 //! shorter than a frame. (A TMAG5170 is read within the tick.) In the first tick there is no frame yet, and the
 //! module takes its sensor to be at rest, which in host-sim's first tick it is.
 
+use std::ops::Range;
+
 use embedded_hal::digital::{InputPin, OutputPin};
 use embedded_hal::pwm::SetDutyCycle;
 use firmware::{AngleInput, Event, Packet, Place};
@@ -93,11 +95,22 @@ impl Board {
     /// A board with `program` in its flash, sensors on the sides of `scene`, and the motors
     /// behind `pins`; started, and before its first tick.
     pub(crate) fn new(program: &Program, scene: &Scene, pins: Vec<Pins>) -> Result<Self, Fault> {
-        let sensors = (0..scene.head.sides.count()).map(|side| Wired::new(scene, side));
+        Self::of_node(program, scene, (0, 0..scene.head.sides.count()), pins)
+    }
+
+    /// Board `number` of a head, with those of the scene's whiskers, the first on its left side.
+    pub(crate) fn of_node(
+        program: &Program,
+        scene: &Scene,
+        (number, own): (u8, Range<usize>),
+        pins: Vec<Pins>,
+    ) -> Result<Self, Fault> {
+        let sides = own.len();
+        let sensors = own.map(|n| Wired::new(scene, n));
         let sensors = sensors.collect::<Option<_>>();
         let mut board = Self {
             machine: Machine::new(program)?,
-            watch: Watch::new(program, scene)?,
+            watch: Watch::new(program, scene, sides)?,
             sensors: sensors.ok_or(Fault::NoMagnet)?,
             pins,
             ring: Receiver::default(),
@@ -120,7 +133,8 @@ impl Board {
             }
             (SensorModel::Tmag5170, _) => board.machine.with_chip(Chip::tilt_sensors),
         }
-        for side in 0..scene.head.sides.count() {
+        board.machine.with_chip(|chip| chip.set_number(number));
+        for side in 0..sides {
             board.program_sensor(side, config::decoder(&scene.sensor), 0);
         }
         match board.machine.run(PATIENCE, &mut board.sensors, &mut ())? {
@@ -165,8 +179,8 @@ impl Board {
             .map(drop)
     }
 
-    /// Runs to the end of the next tick, through resets if they are borne.
-    fn pass_tick(&mut self) -> Result<(), Fault> {
+    /// The world has moved on: what the next tick reads.
+    fn begin_tick(&mut self) -> Result<(), Fault> {
         self.inputs();
         if self.moves > 0 {
             for (side, sensor) in self.sensors.iter_mut().enumerate() {
@@ -175,6 +189,12 @@ impl Board {
                 }
             }
         }
+        Ok(())
+    }
+
+    /// Runs to the end of the next tick, through resets if they are borne.
+    fn pass_tick(&mut self) -> Result<(), Fault> {
+        self.begin_tick()?;
         let limit = self.machine.now + self.world_waits.unwrap_or(PATIENCE);
         loop {
             let stop = self
@@ -217,6 +237,42 @@ impl Board {
         self.reset = Some(cause);
         self.watch.restart();
         self.ring = Receiver::default();
+    }
+
+    /// The world has moved on, for a board of a head, which is run by [`Self::run_until`].
+    pub(crate) fn begin(&mut self) -> Result<(), Fault> {
+        self.begin_tick()
+    }
+
+    /// Runs until then; how many ticks have ended.
+    pub(crate) fn run_until(&mut self, until: Ps) -> Result<u32, Fault> {
+        let mut ended = 0;
+        loop {
+            match self
+                .machine
+                .run(until, &mut self.sensors, &mut self.meter)?
+            {
+                Stop::Time => return Ok(ended),
+                Stop::Reset(cause) => self.was_reset(cause),
+                Stop::Ready => {}
+                Stop::Tick => {
+                    self.outputs();
+                    self.moves += 1;
+                    ended += 1;
+                }
+            }
+            self.drain()?;
+        }
+    }
+
+    /// After the tick of a board of a head: what it has said, and what it shows of itself.
+    pub(crate) fn end(
+        &mut self,
+        events: &mut Vec<Event>,
+        snapshot: &mut Snapshot,
+    ) -> Result<(), Fault> {
+        self.look_at_tick(events)?;
+        self.watch.look(&self.machine.memories, snapshot)
     }
 
     /// Lets `time` pass on the chip alone; whether the tick ends within it.
@@ -399,6 +455,11 @@ impl Board {
 
     fn run_tick(&mut self, events: &mut Vec<Event>) -> Result<(), Fault> {
         self.pass_tick()?;
+        self.look_at_tick(events)
+    }
+
+    /// What the tick that has ended has said.
+    fn look_at_tick(&mut self, events: &mut Vec<Event>) -> Result<(), Fault> {
         if let Some(cause) = self.reset
             && !self.bears_resets
         {

@@ -8,6 +8,8 @@
 //! ends the run with a [`Fault`]; a peripheral without its clock reads zero and
 //! ignores writes, as on the chip.
 
+mod can;
+mod can_bus;
 mod dma;
 mod facts;
 mod fault;
@@ -40,6 +42,7 @@ mod usart;
 mod watchdog;
 mod wiring;
 
+pub(crate) use can::{Arrival, Request};
 pub(crate) use facts::{Fact, FactKind, facts};
 pub(crate) use fault::Fault;
 pub(crate) use model::{CoreKind, Model};
@@ -50,6 +53,7 @@ pub(crate) use sensor_lines::SensorEnd;
 pub(crate) use time::Ps;
 pub(crate) use wiring::SIDE_NAMES;
 
+use can::BxCan;
 use dma::Dma;
 use flash::Flash;
 use gpio::Gpio;
@@ -95,6 +99,8 @@ pub(crate) struct Chip {
     /// USART2, the ST-LINK's serial port, and its line.
     usart: Usart,
     serial: SerialLine,
+    /// The controller of a head's bus, where the chip has one.
+    can: BxCan,
     /// The wires of each side's sensor.
     lines: [SensorLines; 2],
     fault: Option<Fault>,
@@ -125,6 +131,7 @@ impl Chip {
             watchdog: Watchdog::new(model.lsi_hz, model.has_window),
             usart: Usart::new(model.usart_version),
             serial: SerialLine::default(),
+            can: BxCan::default(),
             lines: SIDE_NAMES.map(SensorLines::new),
             fault: None,
         })
@@ -147,6 +154,7 @@ impl Chip {
         self.mux = Mux::default();
         self.watchdog.reset();
         self.usart.reset();
+        self.can.reset();
         // /SS floats, with the sensor's own pull-up.
         self.select_sensors();
         Ok(())
@@ -166,7 +174,14 @@ impl Chip {
             (side.end_of_frame, up)
         });
         let supply = (SUPPLY_IRQ, self.exti.interrupts());
-        std::iter::once(tick).chain(frames).chain([supply])
+        let bus = wiring.can.iter().flat_map(|can| {
+            let [heard, sent] = self.can.interrupts();
+            [(can.heard_irq, heard), (can.sent_irq, sent)]
+        });
+        std::iter::once(tick)
+            .chain(frames)
+            .chain([supply])
+            .chain(bus)
     }
 
     /// When the tick's timer had its last update.
@@ -180,7 +195,11 @@ impl Chip {
             (0..self.timers.len()).filter_map(|n| self.timers[n].next(self.timer_clock(n)));
         let bytes = self.spis.iter().filter_map(|spi| spi.shift);
         let bytes = bytes.map(|shift| shift.ends);
-        let serial = [self.usart.sends_until(), self.serial.next()];
+        let serial = [
+            self.usart.sends_until(),
+            self.serial.next(),
+            self.can.next(),
+        ];
         let serial = serial.into_iter().flatten();
         let others = self.watchdog.bites().into_iter().chain(serial);
         timers.chain(bytes).chain(others).min()
@@ -213,6 +232,7 @@ impl Chip {
             }
             self.end_bytes(sensors);
             self.carry_serial()?;
+            self.can.advance(due);
         }
         self.now = now;
         Ok(None)

@@ -6,6 +6,7 @@ use std::path::Path;
 
 use clap::ValueEnum;
 use config::AnyConfig;
+use firmware::boards::BoardFacts;
 use firmware::{Event, EventRecord, Packet};
 use host_sim::Error;
 use host_sim::classifier::Classifier;
@@ -80,17 +81,7 @@ impl Pair {
     pub(crate) fn new(loaded: &mut Loaded, program: &Program) -> Result<Self, Error> {
         let model = program.model()?;
         let classifier = loaded.classifier()?;
-        let touch = classifier.as_ref().and_then(Classifier::touch_rule);
-        let least = config::contact_min(&loaded.scene, touch.map(|touch| touch.gate));
-        let listens = matches!(least, Ok(Some(_)));
-        let feels = matches!(config::contact::<f32>(&loaded.scene, listens), Ok(Some(_)));
-        let format = image(&loaded.scene, loaded.model(), model.facts)?.config;
-        if let Some(whisking) = &mut loaded.scene.whisking {
-            whisking.numbers = match format {
-                AnyConfig::Single(_) => Numbers::Single,
-                AnyConfig::Fixed(_) => Numbers::Fixed,
-            };
-        }
+        let feels = same_numbers(loaded, classifier.as_ref(), model.facts)?;
         let scene = &loaded.scene;
         let host = Run::with_pwm(scene, classifier, pwm_counts(scene, model))?;
         let target = Session::running(scene, host.classes().to_vec(), program)?;
@@ -177,6 +168,26 @@ impl Pair {
         }
         ticks
     }
+}
+
+/// Gives a scene the number format of a board; whether it uses contact.
+pub(crate) fn same_numbers(
+    loaded: &mut Loaded,
+    classifier: Option<&Classifier>,
+    facts: &BoardFacts,
+) -> Result<bool, Error> {
+    let touch = classifier.and_then(Classifier::touch_rule);
+    let least = config::contact_min(&loaded.scene, touch.map(|touch| touch.gate));
+    let listens = matches!(least, Ok(Some(_)));
+    let feels = matches!(config::contact::<f32>(&loaded.scene, listens), Ok(Some(_)));
+    let format = image(&loaded.scene, loaded.model(), facts)?.config;
+    if let Some(whisking) = &mut loaded.scene.whisking {
+        whisking.numbers = match format {
+            AnyConfig::Single(_) => Numbers::Single,
+            AnyConfig::Fixed(_) => Numbers::Fixed,
+        };
+    }
+    Ok(feels)
 }
 
 /// What was compared, and found equal to the last bit.
@@ -286,7 +297,7 @@ pub(crate) fn compare_loaded(
 }
 
 /// The first column whose bits differ; one that is not a number equals another.
-fn difference(a: &Row, b: &Row) -> Option<&'static str> {
+pub(crate) fn difference(a: &Row, b: &Row) -> Option<&'static str> {
     let same = |a: f64, b: f64| a.to_bits() == b.to_bits() || (a.is_nan() && b.is_nan());
     if !same(a.t_s, b.t_s) {
         return Some("t");

@@ -289,7 +289,8 @@ impl Machine {
             self.now += held;
             self.core.pass(held, self.cycle);
         }
-        if before == self.tick && self.exception == 0 {
+        // Another handler of its priority may follow at once.
+        if before == self.tick && self.exception != self.tick {
             observer.tick_ends(self.now, &self.spent);
             return Ok(true);
         }

@@ -18,7 +18,7 @@ use crate::compare::{self, Circumstances, Probe};
 use crate::deployment::flashed;
 use crate::program::Program;
 use crate::session::Session;
-use crate::{deadlines, deploying, latency, serial, stopping, telemetry};
+use crate::{deadlines, deploying, head, latency, serial, stopping, telemetry};
 use step::Case;
 
 /// A scene and what is flashed for it; to a program that brings no scene with it this one is
@@ -104,7 +104,7 @@ pub struct Scenario {
 }
 
 /// All of them.
-pub const ALL: [Scenario; 12] = [
+pub const ALL: [Scenario; 13] = [
     Scenario {
         name: "compare",
         what: "Runs the scene on PC and board and compares every tick",
@@ -121,6 +121,15 @@ pub const ALL: [Scenario; 12] = [
                     agreed.stack
                 )]
             })
+        }),
+    },
+    Scenario {
+        name: "head",
+        what: "Runs the scene on boards that a bus joins, and compares every tick with the \
+               simulated head",
+        how: What::Work(|given| {
+            let (scene, program) = given.parts();
+            head::compare(scene, program, given.duration)
         }),
     },
     Scenario {

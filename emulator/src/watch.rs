@@ -147,23 +147,24 @@ fn along<'d>(from: Place<'d>, names: &[&str]) -> Result<Place<'d>, Fault> {
 }
 
 impl Watch {
-    /// Of a board that runs `scene`.
-    pub(crate) fn new(program: &Program, scene: &Scene) -> Result<Self, Fault> {
+    /// Of a board that runs `scene`, and has so many of its whiskers.
+    pub(crate) fn new(program: &Program, scene: &Scene, whiskers: usize) -> Result<Self, Fault> {
         let info = DebugInfo::new(program)?;
         let module = info.variable(name::MODULE)?;
-        // There is a whisker a side.
         let sides = scene.head.sides.count() as u32;
-        let each = |names: &[&str], part: &[&str]| -> Result<Vec<Place<'_>>, Fault> {
+        let whiskers = whiskers as u32;
+        let some = |count: u32, names: &[&str], part: &[&str]| -> Result<Vec<Place<'_>>, Fault> {
             let list = along(module, names)?;
-            (0..sides).map(|n| along(list.element(n)?, part)).collect()
+            (0..count).map(|n| along(list.element(n)?, part)).collect()
         };
+        let each = |names: &[&str], part: &[&str]| some(whiskers, names, part);
         let numbers = |places: Vec<Place<'_>>| -> Result<Vec<Variable>, Fault> {
             places.into_iter().map(Variable::at).collect()
         };
         let mut watch = Self {
             missed: along(module, &name::MISSED)?.scalar()?.0,
             touch: Vec::new(),
-            contact: numbers(each(&[name::CONTACT], &[])?)?,
+            contact: numbers(some(sides, &[name::CONTACT], &[])?)?,
             z: Vec::new(),
             theta: Vec::new(),
             gain: Vec::new(),
@@ -175,11 +176,11 @@ impl Watch {
         }
         if scene.whisking.is_some() {
             let [motion, state] = name::STATE;
-            let whiskers = [motion, state, name::WHISKERS];
-            watch.z = numbers(each(&[motion, state, name::SIDES], &[name::Z])?)?;
-            watch.theta = numbers(each(&whiskers, &name::THETA)?)?;
-            let nominal = numbers(each(&whiskers, &name::NOMINAL)?)?;
-            let lift = numbers(each(&whiskers, &[name::LIFT])?)?;
+            let all = [motion, state, name::WHISKERS];
+            watch.z = numbers(some(sides, &[motion, state, name::SIDES], &[name::Z])?)?;
+            watch.theta = numbers(each(&all, &name::THETA)?)?;
+            let nominal = numbers(each(&all, &name::NOMINAL)?)?;
+            let lift = numbers(each(&all, &[name::LIFT])?)?;
             let gains = nominal.into_iter().zip(lift);
             watch.gain = gains.map(|(nominal, lift)| [nominal, lift]).collect();
         }

@@ -20,6 +20,6 @@ pub use slot::{
     MARK_WORDS, SLOT_HEADER_BYTES, SLOT_HEADER_WORDS, SlotHeader, has_armed, newest_first, next,
 };
 pub use timing::{
-    CLOCK_WAIT_LOOPS, Clocks, PWM_HZ, Pacing, RECEIVED_BYTES, REST_US, SLOT_FAST_NS, TICK_MIN_HZ,
-    TickPeriod, serial_keeps_up,
+    CLOCK_WAIT_LOOPS, CanTiming, Clocks, PWM_HZ, Pacing, RECEIVED_BYTES, REST_US, SLOT_FAST_NS,
+    TICK_MIN_HZ, TickPeriod, serial_keeps_up,
 };

@@ -333,12 +333,20 @@ impl<R: Real, H: Hardware> Module<R, H> {
 
     /// What it decides, if anything.
     pub const fn perception(&self) -> Option<&Perception<H::Classifier>> {
-        self.perception.as_ref()
+        if Part::Classifier.is_built() {
+            self.perception.as_ref()
+        } else {
+            None
+        }
     }
 
     /// What it decides, if anything.
     pub const fn perception_mut(&mut self) -> Option<&mut Perception<H::Classifier>> {
-        self.perception.as_mut()
+        if Part::Classifier.is_built() {
+            self.perception.as_mut()
+        } else {
+            None
+        }
     }
 
     /// What it decides with, which leaves the module without it.

@@ -366,7 +366,8 @@ impl Node {
         let number = self.number;
         let mut say = |message: Message| say(message.frame(number, stamp));
         let Times { psi, contact, .. } = self.times;
-        let is_turn = tick % u32::from(contact) == u32::from(number) % u32::from(contact);
+        let of_turn = |count: u32| count.checked_rem(contact.into());
+        let is_turn = of_turn(tick) == of_turn(number.into());
         if self.stops > 0 && (self.stops == STOPS || is_turn) {
             self.stops -= 1;
             say(Message::Stop);

@@ -1,6 +1,6 @@
 //! A module of any scene behind one interface: the firmware's [`Module`] on mock hardware.
 
-mod can;
+pub mod can;
 mod head;
 mod line;
 mod mock;

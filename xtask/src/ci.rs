@@ -139,11 +139,13 @@ fn first_board() -> Result<(), Fault> {
 }
 
 /// What it does with two, and in other ways; and the others: a program a board, to which scenes
-/// are deployed, but in fixed point and with TMAG5170s on the first; the night has these on each.
+/// are deployed, but in fixed point, as two boards of a head and with TMAG5170s on the first; the
+/// night has these on each.
 fn other_boards() -> Result<(), Fault> {
     let [board, small, smallest] = Board::ALL;
     emulate::compare_with_tilt(board)?;
     emulate::compare_in_fixed_point(board)?;
+    emulate::compare_head(board, " --duration 2")?;
     let board = Emulated::deployed(board)?;
     // The scene in which records cost most.
     emulate::emulate(&board, Path::new(emulate::WORLD), &["telemetry"])?;

@@ -255,6 +255,17 @@ pub(crate) fn compare_with_options(on: &Emulated) -> Result<(), Fault> {
     emulate(on, &options, COMPARE)
 }
 
+/// Compares [`CIA`] on a board a side, which a bus joins, with the simulated head.
+pub(crate) fn compare_head(board: Board, options: &str) -> Result<(), Fault> {
+    let scenario = format!("head{options}");
+    emulate(&Emulated::linked(board), &head_of_two()?, &[&scenario])
+}
+
+/// [`CIA`] on two boards. Writes it and returns its path.
+pub(crate) fn head_of_two() -> Result<PathBuf, Fault> {
+    variants::with(&top().join(CIA), &["head.nodes=2".to_owned()])
+}
+
 /// [`FULL`] on both sides: the noisiest scene. Writes it and returns its path.
 pub(crate) fn noisiest() -> Result<PathBuf, Fault> {
     variants::on_both_sides(&top().join(FULL))

@@ -78,12 +78,13 @@ impl Board {
 }
 
 /// The parts of a program that takes any scene: the default features of the crate `firmware`, but
-/// for what the board has no time for.
+/// for what the board has no time for, and the bus where it has one.
 pub(crate) fn every_part(board: Board) -> &'static [&'static str] {
-    if board.facts.takes_opinion {
-        &["default"]
-    } else {
-        &["without-opinion"]
+    match (board.facts.takes_opinion, board.facts.has_bus) {
+        (true, true) => &["default", "bus"],
+        (true, false) => &["default"],
+        (false, true) => &["without-opinion", "bus"],
+        (false, false) => &["without-opinion"],
     }
 }
 

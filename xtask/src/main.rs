@@ -215,8 +215,8 @@ struct Emulate {
     /// The scene in whose world --scenario runs; none: its own, with a simulated motor
     #[arg(long, value_name = "SCENE", requires = "scenario")]
     world: Option<PathBuf>,
-    /// A key of the scene with another value for --scenario, such as motor.arm=on-command
-    #[arg(long, value_name = "KEY=VALUE", requires = "scenario")]
+    /// A key of the scene with another value, such as motor.arm=on-command
+    #[arg(long, value_name = "KEY=VALUE", requires = "scene")]
     set: Vec<String>,
     /// Who fetches the log meanwhile
     #[arg(
@@ -288,6 +288,10 @@ struct EmulateWhat {
     /// Talk with the board over its serial line: lines, records, commands and garbage
     #[arg(long)]
     serial: bool,
+    /// Run as many boards as the scene's head has, joined by their bus, and compare every tick with
+    /// the simulated head
+    #[arg(long)]
+    head: bool,
     /// Stop motors by every way while the links are flooded, and see each stop obeyed and answered
     #[arg(long)]
     stopping: bool,
@@ -303,9 +307,9 @@ impl Emulate {
         let Some(scene) = self.scene else {
             return emulate::compare_all(&on);
         };
+        let scene = emulate::variants::with(&scene, &self.set)?;
         let what = self.what;
         if let (Some(scenario), Some(json)) = (&what.scenario, &self.json) {
-            let scene = emulate::variants::with(&scene, &self.set)?;
             return emulate::tried(&on, &scene, scenario, self.world.as_deref(), json);
         }
         if let Some(out) = what.out {
@@ -317,6 +321,7 @@ impl Emulate {
         let scenarios = [
             (what.check, &*compare),
             (what.deadlines, &*deadlines),
+            (what.head, "head"),
             (what.overload, "overload"),
             (what.sensor_loss, "sensor-loss"),
             (what.latency, "latency"),

@@ -11,6 +11,7 @@ use std::path::Path;
 use scene::Scene;
 
 use crate::elf::contents;
+use crate::emulate::head_of_two;
 use crate::emulate::variants::without_telemetry;
 use crate::figures::Figure;
 use crate::firmware::{self, Board, Size};
@@ -57,7 +58,10 @@ pub(crate) fn all(csv: Option<&Path>, check: bool) -> Result<(), Fault> {
             // A board that does not take it has no line.
             measured.take(board, &scene, None)?;
         }
-        measured.control(board)?;
+        measured.control(board, Path::new(CONTROL))?;
+        if board.facts.has_bus {
+            measured.control(board, &head_of_two()?)?;
+        }
         measured.any_scene(board)?;
     }
     let found = measured.proven()?;
@@ -100,7 +104,8 @@ pub(crate) fn short() -> Result<(), Fault> {
             return Err(reason);
         }
     }
-    measured.control(board)?;
+    measured.control(board, Path::new(CONTROL))?;
+    measured.control(board, &head_of_two()?)?;
     let [.., smallest] = Board::ALL;
     if let Some(reason) = measured.take(smallest, Path::new(TILT), None)? {
         return Err(reason);
@@ -156,9 +161,8 @@ impl Measured {
         Ok(())
     }
 
-    /// Builds [`CONTROL`], which has no line in the table.
-    fn control(&mut self, board: Board) -> Result<(), Fault> {
-        let path = Path::new(CONTROL);
+    /// Builds a scene that has no line in the table.
+    fn control(&mut self, board: Board, path: &Path) -> Result<(), Fault> {
         let scene = load(path)?;
         let elf = firmware::build(board, path)?;
         let misfits = misfits(&mut self.seen, board, path, &scene, &elf)?;

@@ -4,7 +4,7 @@ use firmware::boards::{self, BoardFacts};
 use scene::{Rule, Scene, SensorMode};
 use tactile::{Deciding, ModelBuf, StreamClassifier};
 
-use crate::module::rule_settings;
+use crate::module::{bus, rule_settings};
 use crate::{Mismatch, NoSuchFormat, classes, suits};
 
 /// Largest exponent of a model's scale that still lets 14-bit codes fit it.
@@ -33,13 +33,6 @@ pub(crate) fn fits(
     model: Option<&ModelBuf>,
     board: &BoardFacts,
 ) -> Result<(), Unfit> {
-    if let Some(nodes) = scene.head.nodes {
-        return Err(Unfit::Board(format!(
-            "head.nodes: found {nodes}; allowed on the {}: no such key, because its program has no \
-             bus yet",
-            board.name
-        )));
-    }
     let needs = needs(scene);
     if let Err(misfit) = board.fits(&needs) {
         let (key, found) = found(misfit, scene);
@@ -61,6 +54,7 @@ fn needs(scene: &Scene) -> boards::Needs {
         whiskers_per_side: scene.head.whiskers_per_side as u8,
         driver: scene.motor.as_ref().map(|motor| motor.driver),
         serial_baud: scene.telemetry.serial_baud,
+        bus: bus(scene),
     }
 }
 
@@ -71,6 +65,14 @@ fn found(misfit: boards::Misfit, scene: &Scene) -> (&'static str, String) {
         boards::Misfit::Whiskers => {
             let found = scene.head.whiskers_per_side.to_string();
             ("head.whiskers_per_side", found)
+        }
+        boards::Misfit::NoBus | boards::Misfit::Share(_) => {
+            let nodes = scene.head.nodes.unwrap_or_default();
+            ("head.nodes", nodes.to_string())
+        }
+        boards::Misfit::BusOfClock { .. } => {
+            let kbit_s = bus(scene).map_or(0, |bus| bus.kbit_s);
+            ("head.bus_kbit_s", kbit_s.to_string())
         }
         boards::Misfit::TwoBrushless => ("motor.driver", "\"six-step\" on two sides".to_owned()),
         boards::Misfit::TickHz { .. } => ("tick_hz", scene.tick_hz.to_string()),

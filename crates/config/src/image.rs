@@ -42,6 +42,7 @@ fn parts<R: Real>(config: &Config<R>) -> Vec<Part> {
         (links.serial_baud.is_some(), Part::Serial),
         (links.has_pins, Part::Pins),
         (config.contact.is_some(), Part::Contact),
+        (config.head.bus.is_some(), Part::Bus),
         (config.sensor.limits.zero.is_some(), Part::Zero),
         (config.sensor.self_motion.is_some(), Part::SelfMotion),
         (true, config.sensor.kind.part()),
@@ -95,7 +96,11 @@ fn features<R: Real>(
         let needed = of_models.into_iter().filter(|(is_needed, _)| *is_needed);
         features.extend(needed.map(|(_, feature)| feature));
     }
-    if config.head.sides > 1 {
+    let own = match config.head.bus {
+        Some(bus) => config.head.whiskers() / usize::from(bus.nodes).max(1),
+        None => config.head.sides.into(),
+    };
+    if own > 1 {
         features.push("both-sides");
     }
     if board.has_fpu && R::FORMAT == FormatCode::Fixed {

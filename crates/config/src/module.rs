@@ -110,6 +110,14 @@ pub fn build<R: Real>(scene: &Scene, target: Target<'_>) -> Result<Config<R>, Mi
 /// Bits a second of a bus, thousands, unless the scene says otherwise.
 const KBIT_S: u16 = 1000;
 
+/// The bus of a scene's head.
+pub(crate) fn bus(scene: &Scene) -> Option<BusConfig> {
+    scene.head.nodes.map(|nodes| BusConfig {
+        nodes,
+        kbit_s: scene.head.bus_kbit_s.unwrap_or(KBIT_S),
+    })
+}
+
 fn head(scene: &Scene, overrides: &str) -> Result<HeadConfig, Mismatch> {
     let too_long = |field| move |_| Mismatch::Config(ConfigError::Room(field));
     Ok(HeadConfig {
@@ -118,10 +126,7 @@ fn head(scene: &Scene, overrides: &str) -> Result<HeadConfig, Mismatch> {
         tick_hz: scene.tick_hz,
         sides: scene.head.sides.count() as u8,
         whiskers_per_side: scene.head.whiskers_per_side as u8,
-        bus: scene.head.nodes.map(|nodes| BusConfig {
-            nodes,
-            kbit_s: scene.head.bus_kbit_s.unwrap_or(KBIT_S),
-        }),
+        bus: bus(scene),
     })
 }
 

@@ -8,7 +8,7 @@ use super::rcc::Bus;
 use super::timers::Kind;
 use super::wiring::{PWM, Pin, Request, SERIAL};
 use super::{
-    Model, SUPPLY_IRQ, dma, flash, gpio, lines, mux, power, remap, spi, timer, usart, watchdog,
+    Model, SUPPLY_IRQ, can, dma, flash, gpio, lines, mux, power, remap, spi, timer, usart, watchdog,
 };
 
 /// What a fact is of.
@@ -85,6 +85,7 @@ fn name(model: &Model, unit: Unit) -> &'static str {
         Unit::Power => "PWR",
         Unit::Lines => "EXTI",
         Unit::Usart => "USART2",
+        Unit::Can => "CAN1",
     }
 }
 
@@ -103,6 +104,7 @@ fn fields(model: &Model, unit: Unit) -> Vec<Field> {
         Unit::Lines => lines::fields(model.lines),
         Unit::Dma(n) => dma::fields(model.dmas[n]).to_vec(),
         Unit::Usart => usart::fields(model.usart_version),
+        Unit::Can => can::fields(),
         Unit::Requests => mux::FIELDS.to_vec(),
         Unit::Remap => remap::FIELDS.to_vec(),
         _ => Vec::new(),
@@ -220,6 +222,12 @@ fn wired(model: &Model) -> Vec<Fact> {
         facts.push(fact(FactKind::Request, usart, part, [request.channel, 0]));
     }
     facts.extend(pins(usart, &["TX", "RX"], &SERIAL, serial.function));
+    if let Some(port) = &wiring.can {
+        let can = name(model, Unit::Can);
+        facts.push(interrupt(can, "RX0", port.heard_irq));
+        facts.push(interrupt(can, "TX", port.sent_irq));
+        facts.extend(pins(can, &["RX", "TX"], &[port.rx, port.tx], port.function));
+    }
     let pwm = timer(wiring.pwm_timer);
     let signals = ["CH1", "CH2", "CH3"];
     facts.extend(pins(pwm, &signals, &PWM, wiring.pwm_function));

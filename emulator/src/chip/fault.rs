@@ -34,6 +34,9 @@ pub enum Fault {
     /// The chip was reset within a run that must not be interrupted.
     #[error("the chip was reset by {0:?}")]
     Reset(super::reset::ResetCause),
+    /// Boards of a head do not tick alike.
+    #[error("a board of the head ticked not once while another did")]
+    Unequal,
     /// A scene's sensor has no magnet that can be simulated.
     #[error("no such magnet")]
     NoMagnet,

@@ -25,6 +25,8 @@ pub(super) enum Unit {
     Lines,
     /// USART2.
     Usart,
+    /// CAN1.
+    Can,
 }
 
 /// A unit, its base address, and its gate in RCC where it has one.

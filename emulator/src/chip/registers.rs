@@ -51,6 +51,7 @@ impl Chip {
                 Unit::Power => self.power.read(offset),
                 Unit::Lines => self.exti.read(offset),
                 Unit::Usart => self.usart.read(offset),
+                Unit::Can => self.can.read(offset),
                 Unit::Dma(n) => self.dmas[n].read(offset),
                 Unit::Requests => self.mux.read(offset),
                 Unit::Remap => Remap::read(offset),
@@ -111,6 +112,7 @@ impl Chip {
                 let clock = self.serial_clock();
                 self.usart.write(offset, value, now, clock)
             }
+            Unit::Can => self.can.write(offset, value, now),
             Unit::Dma(n) => self.dmas[n].write(offset, value),
             Unit::Requests => self.mux.write(offset, value),
             Unit::Remap => self.remap.write(offset, value),
@@ -159,6 +161,7 @@ impl Chip {
                 Unit::Debug => self.debug.reset(),
                 Unit::Power => self.power.reset(),
                 Unit::Usart => self.usart.reset(),
+                Unit::Can => self.can.reset(),
                 Unit::Watchdog | Unit::Rcc | Unit::Flash | Unit::Lines => {}
             }
         }

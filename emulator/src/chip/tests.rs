@@ -1,5 +1,6 @@
 //! Peripherals against their reference manual, as a driver sees them.
 
+mod bus;
 mod frame;
 mod pins;
 mod power;
@@ -12,7 +13,7 @@ use std::cell::RefCell;
 
 use super::map::Unit;
 use super::models::{F446, MODELS};
-use super::wiring::{ENABLES, HALLS, PWM, SERIAL, SIGNALS};
+use super::wiring::{ENABLES, HALLS, NUMBER, PWM, SERIAL, SIGNALS};
 use super::{Chip, CoreKind, Fault, Memory, Model, Ps, ResetCause, SensorEnd};
 
 const RCC: u32 = 0x4002_3800;
@@ -286,6 +287,8 @@ fn no_pin_is_used_twice() {
     for model in MODELS {
         let mut pins = [PWM, ENABLES, HALLS].concat();
         pins.extend([SERIAL, SIGNALS].concat());
+        pins.extend(NUMBER);
+        pins.extend(model.wiring.can.iter().flat_map(|can| [can.rx, can.tx]));
         for side in model.wiring.sides {
             pins.extend(side.spi);
             pins.extend(side.encoder);

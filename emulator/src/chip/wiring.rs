@@ -91,6 +91,20 @@ pub(super) struct SerialPort {
     pub(super) tx_request: Request,
 }
 
+/// The bus of a head.
+#[derive(Debug)]
+pub(super) struct CanPort {
+    /// The bus whose clock it divides.
+    pub(super) bus: Bus,
+    pub(super) rx: Pin,
+    pub(super) tx: Pin,
+    /// The alternate function of both.
+    pub(super) function: u32,
+    /// The interrupts of the first FIFO, and of the mailboxes.
+    pub(super) heard_irq: u16,
+    pub(super) sent_irq: u16,
+}
+
 /// Everything that a board has wired.
 #[derive(Debug)]
 pub(super) struct Wiring {
@@ -105,6 +119,7 @@ pub(super) struct Wiring {
     pub(super) pwm_function: u32,
     pub(super) spi_function: u32,
     pub(super) serial: SerialPort,
+    pub(super) can: Option<CanPort>,
 }
 
 /// What messages and the log call the sides.
@@ -122,6 +137,15 @@ pub(super) const SERIAL: [Pin; 2] = [Pin::new('A', 2), Pin::new('A', 3)];
 pub(super) const SIGNALS: [Pin; 2] = [Pin::new('B', 8), Pin::new('B', 9)];
 /// Hall sensors of a brushless motor.
 pub(super) const HALLS: [Pin; 3] = [Pin::new('A', 15), Pin::new('B', 3), Pin::new('B', 10)];
+
+/// The bits of a board's number in a head, the lowest first: low where a jumper is.
+pub(super) const NUMBER: [Pin; 5] = [
+    Pin::new('C', 0),
+    Pin::new('C', 1),
+    Pin::new('C', 2),
+    Pin::new('C', 3),
+    Pin::new('C', 4),
+];
 
 /// The left side's pins, which every board has: SCK, MISO and MOSI; /SS; the encoder; the
 /// direction.

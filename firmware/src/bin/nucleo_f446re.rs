@@ -10,10 +10,17 @@ pub mod board;
 #[path = "../board/nucleo_f446re.rs"]
 mod here;
 
-#[cfg(all(target_os = "none", not(feature = "both-sides")))]
+#[cfg(all(target_os = "none", not(any(feature = "both-sides", feature = "bus"))))]
 program!(tick: TIM7, end_of_frame: DMA2_STREAM0);
-#[cfg(all(target_os = "none", feature = "both-sides"))]
+#[cfg(all(target_os = "none", feature = "both-sides", not(feature = "bus")))]
 program!(tick: TIM7, end_of_frame: DMA2_STREAM0, end_of_right_frame: DMA1_STREAM3);
+#[cfg(all(target_os = "none", not(feature = "both-sides"), feature = "bus"))]
+program!(tick: TIM7, end_of_frame: DMA2_STREAM0, bus: CAN1_RX0, CAN1_TX);
+#[cfg(all(target_os = "none", feature = "both-sides", feature = "bus"))]
+program!(
+    tick: TIM7, end_of_frame: DMA2_STREAM0,
+    end_of_right_frame: DMA1_STREAM3, bus: CAN1_RX0, CAN1_TX
+);
 
 /// On a PC there is nothing to do: this program is for the board.
 #[cfg(not(target_os = "none"))]

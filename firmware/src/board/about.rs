@@ -19,12 +19,12 @@ pub(crate) struct About {
 }
 
 impl About {
-    /// Of these settings.
-    pub(crate) fn new(settings: &Settings) -> Self {
+    /// Of these settings, and of the node of a head.
+    pub(crate) fn new(settings: &Settings, node: u8) -> Self {
         Self {
             name: settings.head.name.clone(),
             tick_hz: settings.head.tick_hz,
-            whiskers: settings.head.whiskers() as u32,
+            whiskers: settings.head.of_node(node).len() as u32,
             links: settings.links,
             has_motors: settings.motion.is_some(),
         }

@@ -19,10 +19,12 @@ static INNER: StaticCell<Inner> = StaticCell::new();
 #[inline(never)]
 pub(crate) fn start(
     settings: &Settings,
+    node: u8,
     pace: &Pace,
     counter: Counter,
 ) -> Option<&'static mut Inner> {
-    let sides = settings.head.sides;
+    // Of a head it has some of the whiskers, each on a side of its own.
+    let sides = settings.head.of_node(node).len() as u8;
     here::clock_sensors(sides);
     let clocks = pace::clocks();
     let frames = FramePace {
@@ -38,7 +40,7 @@ pub(crate) fn start(
     });
     let period = clocks.tick_counts(pace.tick);
     let inner = INNER.try_init_with(|| Inner::empty((counter, period)))?;
-    inner.build(settings, 0, parts, perception::start(settings));
+    inner.build(settings, node, parts, perception::start(settings, node));
     Some(inner)
 }
 

@@ -24,6 +24,12 @@
 
 pub(crate) mod about;
 pub(crate) mod blocking_spi;
+#[cfg(not(feature = "bus"))]
+#[path = "bus/off.rs"]
+pub(crate) mod bus;
+#[cfg(feature = "bus")]
+#[path = "bus/on.rs"]
+pub(crate) mod bus;
 pub(crate) mod counters;
 pub(crate) mod encoder;
 pub(crate) mod faults;

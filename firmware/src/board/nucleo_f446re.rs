@@ -2,9 +2,9 @@
 //!
 //! Two whiskers, one a side: [`LEFT`] and [`RIGHT`] say what each hangs on. A brushless
 //! motor, of which there can be one, has TIM1's outputs PA8 to PA10, PC10 to PC12, and Halls
-//! on PA15, PB3 and PB10. TIM7 makes the ticks, TIM5 measures them.
+//! on PA15, PB3 and PB10. The bus of a head is CAN1 on PA11 and PA12. TIM7 makes the ticks, TIM5 measures them.
 
-use firmware::boards::{self, BoardFacts, Clocks, REST_US};
+use firmware::boards::{self, BoardFacts, CanTiming, Clocks, REST_US};
 
 /// What a PC knows of it too.
 pub(crate) const FACTS: BoardFacts = boards::NUCLEO_F446RE;
@@ -53,6 +53,16 @@ const _: () = assert!(
         && CLOCKS.pwm_hz == 2 * APB2_HZ
         && CLOCKS.serial_hz == APB1_HZ
 );
+
+// A million bits a second of 18 quanta, sampled after 16.
+const _: () = assert!(matches!(
+    CLOCKS.can_timing(1_000),
+    Some(CanTiming {
+        prescaler: 2,
+        before: 15,
+        after: 2
+    })
+));
 
 // 28.4 µs a byte; a fast slot of 50 µs at 2 kHz, a safe one of 78.4 µs at 1 kHz.
 const _: () = assert!(
@@ -206,6 +216,11 @@ mod chip {
             TIM5.cr1().write(|w| w.set_cen(true));
             Self(())
         }
+
+        /// The same, which [counts](Self::start), for another reader.
+        pub(crate) const fn running() -> Self {
+            Self(())
+        }
     }
 
     impl Clock for Counter {
@@ -331,6 +346,21 @@ mod chip {
                 w.set_spi2en(true);
             });
         }
+        settle();
+    }
+
+    /// The controller of a head's bus, CAN1; its pins RX and TX, and their alternate function.
+    #[cfg(feature = "bus")]
+    pub(crate) const BUS: stm32_metapac::can::Can = stm32_metapac::CAN1;
+    #[cfg(feature = "bus")]
+    pub(crate) const BUS_PINS: [PinName; 2] = [PinName::new('A', 11), PinName::new('A', 12)];
+    #[cfg(feature = "bus")]
+    pub(crate) const BUS_FUNCTION: AlternateFunction = 9;
+
+    /// Clock for it.
+    #[cfg(feature = "bus")]
+    pub(crate) fn clock_bus() {
+        RCC.apb1enr().modify(|w| w.set_can1en(true));
         settle();
     }
 

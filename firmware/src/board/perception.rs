@@ -14,17 +14,27 @@ use crate::here::FACTS;
 type Classifier = CodeClassifier<&'static [u32]>;
 
 /// The classifier of a scene that has one, before a model was [found](find) for it.
-pub(crate) fn start(settings: &Settings) -> Option<Classifier> {
+pub(crate) fn start(settings: &Settings, node: u8) -> Option<Classifier> {
     let config = settings.classifier.as_ref();
     let config = config.filter(|_| Part::Classifier.is_built())?;
     let heard = config.deciding.heard(settings.head.whiskers());
+    let heard = of_node(heard, settings, node);
     Some(CodeClassifier::refused(Refusal::Absent, heard))
+}
+
+/// How many of the whiskers that are heard, the first of all, are this board's.
+fn of_node(heard: usize, settings: &Settings, node: u8) -> usize {
+    if !Part::Bus.is_built() {
+        return heard;
+    }
+    let own = settings.head.of_node(node);
+    heard.saturating_sub(own.start).min(own.len())
 }
 
 /// Finds the model of a scene; refuses it, if it is not the one that the scene was deployed with,
 /// or nothing for it.
 #[inline(never)]
-pub(crate) fn find(inner: &mut Inner, settings: &Settings, deployed: Option<Deployed>) {
+pub(crate) fn find(inner: &mut Inner, settings: &Settings, node: u8, deployed: Option<Deployed>) {
     let perception = inner.perception_mut();
     let perception = perception.filter(|_| Part::Classifier.is_built());
     let (Some(perception), Some(config), Some(deployed)) =
@@ -44,7 +54,13 @@ pub(crate) fn find(inner: &mut Inner, settings: &Settings, deployed: Option<Depl
         tick_hz: settings.head.tick_hz,
     };
     let rule = (rule, config.deciding);
-    let whiskers = settings.head.whiskers();
+    let heard = config.deciding.heard(settings.head.whiskers());
+    let whiskers = match of_node(heard, settings, node) {
+        // It decides nothing, as the first whisker alone is heard.
+        0 if Part::Bus.is_built() => return,
+        own if Part::Bus.is_built() => own,
+        _ => settings.head.whiskers(),
+    };
     let model = slots::model(slot);
     classifier.find(model, limits, rule, &settings.classes, whiskers);
     let crc = classifier.model().map(Model::crc);

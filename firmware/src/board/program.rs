@@ -5,9 +5,10 @@
 //! | `tick` | 2 | one [`firmware::Module::tick`]; puts its events into a queue |
 //! | `end_of_frame` | 2 | raises /SS after the left sensor's last byte |
 //! | `end_of_right_frame` | 2 | the same on the right, where the image has that side |
+//! | `hear`, `said` | 2 | what came by the bus of a head, and what went, where the image has one |
 //! | `idle` | 0 | writes the log, checks what nothing writes, feeds the watchdog, sleeps |
 //!
-//! All but the last have one priority, as they work on the same registers: none can
+//! All but `idle` have one priority, as they work on the same registers: none can
 //! interrupt another, and they share the module without a lock. Events come to idle, and other
 //! settings from it, by queues with one writer and one reader each, without a lock too. Tasks are
 //! bound to a board's interrupts by [`program!`](crate::program).
@@ -19,6 +20,7 @@ use heapless::spsc::{Consumer, Producer};
 use static_cell::StaticCell;
 
 use super::about::About;
+use super::bus::{self, Head};
 use super::counters::{MISSED, TICKS, WORST, WrappingCounter};
 use super::integrity::Integrity;
 use super::loading::{Line, Order};
@@ -58,6 +60,7 @@ impl Queues {
 pub struct Module {
     inner: &'static mut Inner,
     telemetry: Telemetry,
+    head: Head,
     /// In RAM, where they can be changed.
     settings: &'static mut Settings,
     /// The next full second, in [`TICKS`].
@@ -92,7 +95,8 @@ pub(crate) fn start(core: cortex_m::Peripherals, queues: &'static mut Queues) ->
     };
     let is_slow = found.settings.sensor.kind.is_slow();
     pace::set(found.settings.head.tick_hz, is_slow);
-    let about = About::new(found.settings);
+    let node = bus::number(found.settings);
+    let about = About::new(found.settings, node);
     log::start(cause, &start, &found);
     serial::started(cause, &start, &about);
     supply::start();
@@ -112,10 +116,10 @@ pub(crate) fn start(core: cortex_m::Peripherals, queues: &'static mut Queues) ->
     let Scene {
         settings, deployed, ..
     } = found;
-    let Some(inner) = hardware::start(settings, &pace, Counter::start(core)) else {
+    let Some(inner) = hardware::start(settings, node, &pace, Counter::start(core)) else {
         faults::die(number::MODEL, || {})
     };
-    perception::find(inner, settings, deployed);
+    perception::find(inner, settings, node, deployed);
     let gate = perception::gate_of(inner);
     perception::adapt(settings, gate);
     let integrity = Integrity::new(settings, inner);
@@ -144,9 +148,11 @@ pub(crate) fn start(core: cortex_m::Peripherals, queues: &'static mut Queues) ->
     #[cfg(feature = "mlx90333")]
     hardware::test_sensors(inner, settings, &pace);
     let second = settings.head.tick_hz;
+    let head = Head::start(settings, &pace, node);
     let module = Module {
         inner,
         telemetry,
+        head,
         settings,
         second,
     };
@@ -191,10 +197,16 @@ pub(crate) fn tick(module: &mut Module, events: &mut Events) {
     let Module {
         inner,
         telemetry,
+        head,
         settings,
         ..
     } = module;
-    inner.tick(settings, &mut |event| put(events, telemetry, event));
+    head.before(inner, settings, &mut |event| put(events, telemetry, event));
+    inner.tick(settings, &mut |event| {
+        head.note(&event);
+        put(events, telemetry, event);
+    });
+    head.after(inner, settings);
     let tick_hz = settings.head.tick_hz;
     let now = TICKS.increment();
     if telemetry.is_busy() {
@@ -231,6 +243,7 @@ fn obey(module: &mut Module, events: &mut Events) {
 #[inline(never)]
 fn stop(module: &mut Module, events: &mut Events, is_by_button: bool) {
     module.inner.arm(false);
+    module.head.stop();
     retained::set_stopped(module.inner.motion().is_some());
     REQUEST.take();
     if is_by_button {
@@ -245,6 +258,7 @@ fn stop(module: &mut Module, events: &mut Events, is_by_button: bool) {
 #[inline(never)]
 fn arm(module: &mut Module) {
     module.inner.arm(true);
+    module.head.arm();
     retained::set_stopped(false);
 }
 
@@ -285,10 +299,15 @@ fn talk(module: &mut Module) {
     let Module {
         inner,
         telemetry,
+        head,
         settings,
         ..
     } = module;
+    let was_armed = Part::Bus.is_built() && inner.is_armed();
     telemetry.talk(inner, settings, TICKS.get());
+    if Part::Bus.is_built() && !was_armed && inner.is_armed() {
+        head.arm();
+    }
 }
 
 /// Once a second: for [`Idle`], which has no access to the module, and for the next start.
@@ -307,6 +326,18 @@ pub(crate) fn end_of_frame(module: &mut Module, side: usize) {
     if let Some(whisker) = module.inner.whiskers_mut().get_mut(side) {
         sensor::end_of_frame(whisker.sensor_mut().source_mut());
     }
+}
+
+/// Frames have come by the bus.
+#[cfg(feature = "bus")]
+pub(crate) fn hear(module: &mut Module) {
+    module.head.hear();
+}
+
+/// Frames of this board have gone.
+#[cfg(feature = "bus")]
+pub(crate) fn said(module: &mut Module) {
+    module.head.said();
 }
 
 /// The state of the idle task.
@@ -434,7 +465,10 @@ impl Idle {
 /// and of each side's rx DMA.
 #[macro_export]
 macro_rules! program {
-    (tick: $tick:ident, end_of_frame: $left:ident $(, end_of_right_frame: $right:ident)?) => {
+    (
+        tick: $tick:ident, end_of_frame: $left:ident
+        $(, end_of_right_frame: $right:ident)? $(, bus: $heard:ident, $said:ident)?
+    ) => {
         #[rtic::app(device = stm32_metapac, peripherals = false)]
         #[allow(
             unsafe_op_in_unsafe_fn,
@@ -491,6 +525,16 @@ macro_rules! program {
             $(#[task(binds = $right, priority = 2, shared = [module])]
             fn end_of_right_frame(cx: end_of_right_frame::Context) {
                 program::end_of_frame(cx.shared.module, 1);
+            })?
+
+            $(#[task(binds = $heard, priority = 2, shared = [module])]
+            fn hear(cx: hear::Context) {
+                program::hear(cx.shared.module);
+            }
+
+            #[task(binds = $said, priority = 2, shared = [module])]
+            fn said(cx: said::Context) {
+                program::said(cx.shared.module);
             })?
 
             #[idle(local = [idle])]

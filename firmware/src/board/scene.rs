@@ -1,6 +1,6 @@
 //! Which scene the board runs: that of the newest valid slot, or none.
 
-use firmware::boards::{Clocks, Misfit, Needs, TickPeriod, newest_first};
+use firmware::boards::{CanTiming, Clocks, Misfit, Needs, TickPeriod, newest_first};
 use firmware::{ConfigError, Field, Header, Links, Part, decode_into};
 use static_cell::StaticCell;
 
@@ -18,6 +18,8 @@ pub(crate) struct Pace {
     pub(crate) tick: TickPeriod,
     /// Counts of the byte timers from the start of a byte to that of the next.
     pub(crate) slot_counts: u16,
+    /// Bits of the bus of a head.
+    pub(crate) bus: Option<CanTiming>,
 }
 
 impl Pace {
@@ -27,6 +29,10 @@ impl Pace {
         Some(Self {
             tick: clocks.tick(tick_hz)?,
             slot_counts: clocks.slot_counts(tick_hz, settings.sensor.rest_us)?,
+            bus: match settings.head.bus.filter(|_| Part::Bus.is_built()) {
+                Some(bus) => Some(clocks.can_timing(bus.kbit_s)?),
+                None => None,
+            },
         })
     }
 }
@@ -112,7 +118,8 @@ fn read(slot: usize, settings: &mut Settings) -> Result<Deployed, ConfigError> {
 /// Whether this board, as the image was built, can do it.
 fn fits(settings: &Settings) -> Result<(), ConfigError> {
     FACTS.fits(&Needs::of(settings)).map_err(Misfit::error)?;
-    if usize::from(settings.head.sides) > SIDES.len() {
+    // As many as any board of a head, the first.
+    if settings.head.of_node(0).len() > SIDES.len() {
         return Err(ConfigError::Room(Field::Sides));
     }
     let clocks = FACTS.clocks_of(settings.sensor.kind.is_slow());

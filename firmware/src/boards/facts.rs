@@ -24,6 +24,8 @@ pub struct BoardFacts {
     pub takes_opinion: bool,
     /// Most sides, of one whisker each.
     pub max_sides: u8,
+    /// Whether its program can speak on the bus of a head.
+    pub has_bus: bool,
     /// What lies where in its flash.
     pub flash: FlashMap,
 }
@@ -65,6 +67,7 @@ pub const NUCLEO_F446RE: BoardFacts = BoardFacts {
     max_classes: 16,
     takes_opinion: true,
     max_sides: 2,
+    has_bus: true,
     // Sectors 0 to 5, 6, 7 (RM0390, flash module organization).
     flash: FlashMap::with_two_models(
         Region::new(0x0800_0000, 256 * KIB),
@@ -125,6 +128,7 @@ pub const NUCLEO_F103RB: BoardFacts = BoardFacts {
     max_classes: SMALL_CLASSES,
     takes_opinion: false,
     max_sides: 1,
+    has_bus: false,
     flash: SMALL_FLASH,
 };
 
@@ -151,6 +155,7 @@ pub const NUCLEO_G071RB: BoardFacts = BoardFacts {
     max_classes: SMALL_CLASSES,
     takes_opinion: false,
     max_sides: 1,
+    has_bus: false,
     flash: SMALL_FLASH,
 };
 

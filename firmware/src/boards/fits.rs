@@ -6,7 +6,7 @@ use whisking::Real;
 
 use super::timing::serial_most;
 use super::{BoardFacts, Clocks, RECEIVED_BYTES, TICK_MIN_HZ, serial_keeps_up};
-use crate::{Config, ConfigError, Driver, Field};
+use crate::{BusConfig, Config, ConfigError, Driver, Field, Part};
 
 /// What a scene needs of a board.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -25,6 +25,8 @@ pub struct Needs {
     pub driver: Option<Driver>,
     /// Bits a second of the serial port, if there is one.
     pub serial_baud: Option<u32>,
+    /// The bus of a head, whose whiskers its boards share.
+    pub bus: Option<BusConfig>,
 }
 
 impl Needs {
@@ -38,6 +40,21 @@ impl Needs {
             whiskers_per_side: config.head.whiskers_per_side,
             driver: config.motion.as_ref().map(|motion| motion.driver),
             serial_baud: config.links.serial_baud,
+            bus: config.head.bus.filter(|_| Part::Bus.is_built()),
+        }
+    }
+
+    /// Whiskers of one board, of which each hangs on a side of its own.
+    const fn sides_of_board(&self) -> u8 {
+        match self.bus {
+            Some(bus) => {
+                let all = self.sides.saturating_mul(self.whiskers_per_side);
+                match all.checked_div(bus.nodes) {
+                    Some(each) => each,
+                    None => 0,
+                }
+            }
+            None => self.sides,
         }
     }
 }
@@ -49,6 +66,15 @@ pub enum Misfit {
     Sides(u8),
     /// It has one whisker a side.
     Whiskers,
+    /// Its program has no bus.
+    NoBus,
+    /// So many whiskers at most are on a board of a head.
+    Share(u8),
+    /// The clock of the bus, Hz, is no multiple of its bits.
+    BusOfClock {
+        /// That clock.
+        can_hz: u32,
+    },
     /// One brushless motor takes every output of the PWM's timer.
     TwoBrushless,
     /// A sensor frame has to fit into a tick.
@@ -77,7 +103,9 @@ impl Misfit {
     pub const fn error(self) -> ConfigError {
         match self {
             Self::Sides(_) => ConfigError::Room(Field::Sides),
-            Self::Whiskers => ConfigError::Room(Field::Whiskers),
+            Self::Whiskers | Self::Share(_) => ConfigError::Room(Field::Whiskers),
+            Self::NoBus => ConfigError::Room(Field::Bus),
+            Self::BusOfClock { .. } => ConfigError::Range(Field::Bus),
             Self::TwoBrushless => ConfigError::Room(Field::Driver),
             Self::TickHz { .. } => ConfigError::Range(Field::TickHz),
             Self::BaudOfClock { .. } | Self::BaudOfTicks { .. } => {
@@ -94,6 +122,12 @@ impl fmt::Display for Misfit {
             Self::Sides(1) => f.write_str("\"left\", because it carries one whisker"),
             Self::Sides(_) => f.write_str("\"left\" or \"both\""),
             Self::Whiskers => f.write_str("1, because it carries one whisker a side"),
+            Self::NoBus => f.write_str("no such key, because its chip or its program has no CAN"),
+            Self::Share(most) => write!(f, "as many as make {most} whiskers a board or fewer"),
+            Self::BusOfClock { can_hz } => write!(
+                f,
+                "125 to 1000, of which {can_hz} Hz are a multiple by 8 to 18 and a whole number"
+            ),
             Self::TwoBrushless => f.write_str(
                 "\"h-bridge\" on two sides, because one brushless motor takes every output of \
                  the PWM's timer",
@@ -135,13 +169,23 @@ impl BoardFacts {
     /// # Errors
     /// The first thing that it cannot.
     pub const fn fits(&self, needs: &Needs) -> Result<(), Misfit> {
-        if needs.sides > self.max_sides {
-            return Err(Misfit::Sides(self.max_sides));
+        let sides = needs.sides_of_board();
+        if needs.bus.is_some() {
+            if !self.has_bus {
+                return Err(Misfit::NoBus);
+            }
+            if sides > self.max_sides {
+                return Err(Misfit::Share(self.max_sides));
+            }
+        } else {
+            if sides > self.max_sides {
+                return Err(Misfit::Sides(self.max_sides));
+            }
+            if needs.whiskers_per_side != 1 {
+                return Err(Misfit::Whiskers);
+            }
         }
-        if needs.whiskers_per_side != 1 {
-            return Err(Misfit::Whiskers);
-        }
-        if needs.sides > 1 && matches!(needs.driver, Some(Driver::SixStep)) {
+        if sides > 1 && matches!(needs.driver, Some(Driver::SixStep)) {
             return Err(Misfit::TwoBrushless);
         }
         let clocks = self.clocks_of(needs.is_slow);
@@ -152,6 +196,12 @@ impl BoardFacts {
                 frame_us: clocks.frame_least_ns() / 1_000,
                 rest_us: needs.rest_us,
             });
+        }
+        if let Some(bus) = needs.bus
+            && clocks.can_timing(bus.kbit_s).is_none()
+        {
+            let can_hz = clocks.serial_hz;
+            return Err(Misfit::BusOfClock { can_hz });
         }
         if let Some(baud) = needs.serial_baud {
             if clocks.serial_divider(baud).is_none() {
@@ -171,7 +221,7 @@ impl BoardFacts {
 mod tests {
     use super::{Misfit, Needs};
     use crate::boards::{ALL, NUCLEO_F446RE, NUCLEO_G071RB, REST_US};
-    use crate::{Config, ConfigError, Driver, Field};
+    use crate::{BusConfig, Config, ConfigError, Driver, Field};
 
     fn still() -> Needs {
         Needs::of(&Config::<f32>::still())
@@ -203,6 +253,19 @@ mod tests {
         };
         assert_eq!(NUCLEO_F446RE.fits(&brushless), Err(Misfit::TwoBrushless));
         let most = |is_slow| NUCLEO_F446RE.clocks_of(is_slow).tick_max_hz(REST_US);
+        let head = |nodes, kbit_s| Needs {
+            whiskers_per_side: 12,
+            bus: Some(BusConfig { nodes, kbit_s }),
+            ..both
+        };
+        assert_eq!(NUCLEO_F446RE.fits(&head(12, 1_000)), Ok(()));
+        assert_eq!(NUCLEO_F446RE.fits(&head(8, 500)), Err(Misfit::Share(2)));
+        let can_hz = NUCLEO_F446RE.clocks.serial_hz;
+        assert_eq!(
+            NUCLEO_F446RE.fits(&head(24, 999)),
+            Err(Misfit::BusOfClock { can_hz })
+        );
+        assert_eq!(NUCLEO_G071RB.fits(&head(24, 1_000)), Err(Misfit::NoBus));
         let too_fast = [false, true].map(|is_slow| (most(is_slow) + 1, is_slow));
         for (tick_hz, is_slow) in [(199, false), (0, false)].into_iter().chain(too_fast) {
             let fast = Needs {

@@ -22,11 +22,27 @@ pub struct Clocks {
     pub counter_hz: u32,
     /// What the timer of the motor's PWM counts.
     pub pwm_hz: u32,
-    /// What the serial port divides.
+    /// What the serial port divides, and the controller of the bus: the clock of the same bus.
     pub serial_hz: u32,
     /// The watchdog's oscillator: least, nominal, most (the chip's data sheet).
     pub watchdog_hz: [u32; 3],
 }
+
+/// A bit of a CAN bus, in quanta of its clock divided by `prescaler`: one to fall in with, so many
+/// `before` it is sampled, and so many `after`.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct CanTiming {
+    /// 1 to 1,024.
+    pub prescaler: u16,
+    /// 1 to 16.
+    pub before: u8,
+    /// 1 to 8; as many a bit may be lengthened or shortened by.
+    pub after: u8,
+}
+
+/// Quanta of a bit, least and most: with more than 18 the sample cannot be at seven eighths (CiA
+/// 301), as there are 16 before it at most.
+const CAN_QUANTA: [u8; 2] = [8, 18];
 
 /// From the start of a byte to that of the next where the tick leaves no more
 /// room, ns: a gap of 18 µs or more, half as much again as the sensor asks for
@@ -252,6 +268,30 @@ impl Clocks {
         }
     }
 
+    /// How the controller of a bus makes `kbit_s` thousand bits a second; `None`: it cannot make
+    /// them exactly.
+    pub const fn can_timing(&self, kbit_s: u16) -> Option<CanTiming> {
+        let bit_hz = kbit_s as u32 * 1_000;
+        if bit_hz == 0 || !self.serial_hz.is_multiple_of(bit_hz) {
+            return None;
+        }
+        let counts = self.serial_hz / bit_hz;
+        let mut quanta = CAN_QUANTA[1];
+        while quanta >= CAN_QUANTA[0] {
+            let prescaler = counts / quanta as u32;
+            if counts.is_multiple_of(quanta as u32) && prescaler <= 1_024 {
+                let after = (quanta + 3) / 8;
+                return Some(CanTiming {
+                    prescaler: prescaler as u16,
+                    before: quanta - 1 - after,
+                    after,
+                });
+            }
+            quanta -= 1;
+        }
+        None
+    }
+
     /// Counts of the watchdog until it bites: 20 ms nominally. A motor that is
     /// left on for as long, or for the longest over the spread of the watchdog's
     /// oscillator, does no harm: a stall is tolerated for 200 ms.
@@ -414,6 +454,42 @@ mod tests {
         assert_eq!(pacing(fast, 2_000), [21, 50]);
         assert_eq!(pacing(fast, 1_000), [50, 294]);
         assert_eq!(pacing(slow, 500), [50, 1_038]);
+    }
+
+    /// The register of an online calculator for the bxCAN (bittiming.can-wiki.info, 36 MHz), whose
+    /// fields count from 0; and samples near seven eighths of a bit.
+    #[test]
+    fn bits_of_a_bus_are_as_long_as_they_should_be() {
+        let register = |timing: super::CanTiming| {
+            let [before, after] = [timing.before, timing.after].map(|n| u32::from(n) - 1);
+            after << 20 | before << 16 | (u32::from(timing.prescaler) - 1)
+        };
+        let fast = NUCLEO_F446RE.clocks.can_timing(1_000).unwrap();
+        assert_eq!(register(fast), 0x001e_0001);
+        assert_eq!(
+            NUCLEO_F446RE.clocks.can_timing(500).map(register),
+            Some(0x001e_0003)
+        );
+        for clocks in [NUCLEO_F446RE.clocks, NUCLEO_F446RE.clocks.halved()] {
+            for kbit_s in 125..=1_000 {
+                let Some(timing) = clocks.can_timing(kbit_s) else {
+                    assert_ne!(
+                        clocks.serial_hz % (u32::from(kbit_s) * 8_000),
+                        0,
+                        "{kbit_s}"
+                    );
+                    continue;
+                };
+                let quanta = 1 + u32::from(timing.before + timing.after);
+                let counts = u32::from(timing.prescaler) * quanta;
+                assert_eq!(counts * u32::from(kbit_s) * 1_000, clocks.serial_hz);
+                let sampled = f64::from(1 + timing.before) / f64::from(quanta);
+                assert!((sampled - 0.875).abs() < 0.045, "{kbit_s}: {timing:?}");
+                assert!(timing.before <= 16 && timing.after <= 8);
+            }
+        }
+        assert_eq!(NUCLEO_F446RE.clocks.can_timing(0), None);
+        assert_eq!(NUCLEO_F446RE.clocks.can_timing(999), None);
     }
 
     #[test]

@@ -69,8 +69,9 @@ impl Clock {
 
     /// Which tick begins now, by the clock of the head; none: it is not known.
     pub(super) fn tick(&self, now_us: u64, tick_hz: u32) -> Option<u32> {
-        let us = u128::from(now_us.wrapping_add_signed(self.offset_us));
-        let tick = (us * u128::from(tick_hz) + 500_000) / 1_000_000;
+        // Of 48 bits, as a message has: then the product fits, and a board divides no 128 bits.
+        let us = now_us.wrapping_add_signed(self.offset_us) & ((1 << 48) - 1);
+        let tick = us.saturating_mul(tick_hz.into()).saturating_add(500_000) / 1_000_000;
         self.is_set.then_some(tick as u32)
     }
 }

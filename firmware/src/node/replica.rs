@@ -87,7 +87,8 @@ impl Replica {
         if let Some(is_led) = self.is_led.get_mut(side) {
             *is_led = true;
         }
-        let [x, y] = [0, 1].map(|k| heard[k] - own[k]);
+        let ([heard_x, heard_y], [own_x, own_y]) = (heard, own);
+        let [x, y] = [heard_x - own_x, heard_y - own_y];
         // Alike, but for how numbers are rounded.
         if x.abs() <= 1 && y.abs() <= 1 {
             return;

@@ -13,12 +13,13 @@ const ERROR_BITS: u32 = 23;
 
 /// A frame that has come through.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Sent {
+pub struct Sent {
     /// When it ended, µs since the start.
-    pub(super) at_us: u64,
+    pub at_us: f64,
     /// Who sent it.
-    pub(super) from: usize,
-    pub(super) frame: Frame,
+    pub from: usize,
+    /// What.
+    pub frame: Frame,
 }
 
 /// What a bus has carried.
@@ -52,7 +53,7 @@ impl fmt::Display for Load {
 
 /// A bus.
 #[derive(Debug)]
-pub(super) struct Can {
+pub struct Can {
     bit_us: f64,
     /// Of each node, with the time of its queueing, µs.
     queues: Vec<Vec<(f64, Frame)>>,
@@ -64,7 +65,8 @@ pub(super) struct Can {
 }
 
 impl Can {
-    pub(super) fn new(nodes: usize, kbit_s: u16) -> Self {
+    /// Of so many nodes, and thousand bits a second.
+    pub fn new(nodes: usize, kbit_s: u16) -> Self {
         Self {
             bit_us: 1e3 / f64::from(kbit_s),
             queues: vec![Vec::new(); nodes],
@@ -75,17 +77,19 @@ impl Can {
         }
     }
 
-    pub(super) const fn load(&self) -> Load {
+    /// What it has carried.
+    pub const fn load(&self) -> Load {
         self.load
     }
 
-    pub(super) fn corrupt(&mut self, share: f64, seed: u64) {
+    /// From now on an error destroys this share of frames.
+    pub fn corrupt(&mut self, share: f64, seed: u64) {
         self.corrupted = share;
         self.random = Noise::new(seed);
     }
 
     /// Gives a node a frame to send, at `now_us`.
-    pub(super) fn queue(&mut self, from: usize, frame: Frame, now_us: f64) {
+    pub fn queue(&mut self, from: usize, frame: Frame, now_us: f64) {
         let Some(queue) = self.queues.get_mut(from) else {
             return;
         };
@@ -97,15 +101,22 @@ impl Can {
     }
 
     /// Drops what a node has to send.
-    pub(super) fn clear(&mut self, node: usize) {
+    pub fn clear(&mut self, node: usize) {
         if let Some(queue) = self.queues.get_mut(node) {
             queue.clear();
         }
     }
 
+    /// Takes back a frame that a node was to send.
+    pub fn withdraw(&mut self, node: usize, frame: &Frame) {
+        if let Some(queue) = self.queues.get_mut(node) {
+            queue.retain(|(_, one)| one != frame);
+        }
+    }
+
     /// The next frame that ends by `until_us`: of those that are there when the bus is free, the
     /// one with the lowest identifier.
-    pub(super) fn next(&mut self, until_us: f64) -> Option<Sent> {
+    pub fn next(&mut self, until_us: f64) -> Option<Sent> {
         loop {
             let all = self.queues.iter().flatten();
             let first_us = all.map(|(at_us, _)| *at_us).min_by(f64::total_cmp)?;
@@ -139,7 +150,7 @@ impl Can {
             self.load.busy_s += f64::from(bits) * self.bit_us * 1e-6;
             self.load.worst_s = self.load.worst_s.max((end_us - queued_us) * 1e-6);
             return Some(Sent {
-                at_us: end_us as u64,
+                at_us: end_us,
                 from,
                 frame,
             });
@@ -167,7 +178,7 @@ mod tests {
             [0, 2, 1]
         );
         let bits: u32 = [a, c, b].iter().map(Frame::bits).sum();
-        assert_eq!(sent[2].at_us, u64::from(2 * bits));
+        assert!((sent[2].at_us - f64::from(2 * bits)).abs() < 1e-9);
         assert_eq!(can.load().frames, 3);
         assert!((can.load().busy_s - f64::from(2 * bits) * 1e-6).abs() < 1e-12);
         assert_eq!(can.next(1e6), None);

@@ -243,7 +243,9 @@ impl<R: Number> Head<R> {
         let tick_us = 1e6 / self.tick_hz;
         let end_us = (self.done + 1) as f64 * tick_us;
         while let Some(sent) = self.bus.can.next(end_us) {
-            let since_us = end_us - sent.at_us as f64;
+            // Whole microseconds, as a board counts them.
+            let at_us = sent.at_us.floor();
+            let since_us = end_us - at_us;
             if self.bus.cut[sent.from] {
                 continue;
             }
@@ -258,7 +260,7 @@ impl<R: Number> Head<R> {
                 if self.bus.cut[n] || is_missed {
                     continue;
                 }
-                let t_s = sent.at_us as f64 * 1e-6;
+                let t_s = at_us * 1e-6;
                 let happened = &mut self.bus.happened;
                 board.node.hear(&sent.frame, own_us, &mut |what| {
                     happened.push(Happened {

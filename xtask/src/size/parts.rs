@@ -56,6 +56,7 @@ fn is_named(part: &str, named: Named<'_>, has_fpu: bool) -> Result<bool, Fault> 
         "classifier" => classifier.is_some(),
         "touch detector" => knows_touches,
         "several whiskers" => classifier.is_some_and(|c| c.whiskers != Deciding::First),
+        "bus of a head" => scene.head.nodes.is_some(),
         "TMAG5170" => scene.sensor.model == SensorModel::Tmag5170,
         "roughness" | "roughness or floors" => !is_single,
         "second opinion" => {

@@ -98,6 +98,7 @@ pub(crate) static F103: Model = Model {
                 channel: WIRED,
             },
         },
+        can: None,
     },
 };
 

@@ -14,7 +14,7 @@ use crate::chip::spi;
 use crate::chip::timers::Kind;
 use crate::chip::usart;
 use crate::chip::wiring::{
-    ByteSignal, LEFT_DIRECTION, LEFT_ENCODER, LEFT_SELECT, LEFT_SPI, Pin, Request, SERIAL,
+    ByteSignal, CanPort, LEFT_DIRECTION, LEFT_ENCODER, LEFT_SELECT, LEFT_SPI, Pin, Request, SERIAL,
     SerialPort, Side, Wiring,
 };
 
@@ -44,6 +44,7 @@ pub(crate) static F446: Model = Model {
         (Unit::Watchdog, 0x4000_3000, None),
         (Unit::Spi(1), 0x4000_3800, Some((Bus::Apb1, 14))),
         (Unit::Usart, 0x4000_4400, Some((Bus::Apb1, 17))),
+        (Unit::Can, 0x4000_6400, Some((Bus::Apb1, 25))),
         (Unit::Power, 0x4000_7000, Some((Bus::Apb1, 28))),
         (Unit::Tim(TIM1), 0x4001_0000, Some((Bus::Apb2, 0))),
         (Unit::Tim(TIM8), 0x4001_0400, Some((Bus::Apb2, 1))),
@@ -114,6 +115,14 @@ pub(crate) static F446: Model = Model {
                 channel: 4,
             },
         },
+        can: Some(CanPort {
+            bus: Bus::Apb1,
+            rx: Pin::new('A', 11),
+            tx: Pin::new('A', 12),
+            function: 9,
+            heard_irq: 20,
+            sent_irq: 19,
+        }),
     },
 };
 

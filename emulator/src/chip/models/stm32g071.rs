@@ -100,6 +100,7 @@ pub(crate) static G071: Model = Model {
                 channel: 53,
             },
         },
+        can: None,
     },
 };
 

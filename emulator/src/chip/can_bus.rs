@@ -1,0 +1,51 @@
+//! A chip on the bus of a head: what comes, and what it sends; and its number.
+
+use super::can::{Arrival, Request};
+use super::map::Unit;
+use super::time::Ps;
+use super::wiring::NUMBER;
+use super::{Chip, Fault};
+
+/// By how many thousandths the chip's bits may differ from those of the others.
+const OFF_PERMILLE: Ps = 5;
+
+impl Chip {
+    /// Sets the jumpers of a board to its number.
+    pub(crate) fn set_number(&mut self, number: u8) {
+        for (bit, pin) in NUMBER.into_iter().enumerate() {
+            self.gpio[pin.port].drive(pin.number, number >> bit & 1 == 0);
+        }
+    }
+
+    /// Something comes from the bus at this time.
+    pub(crate) fn expect(&mut self, at: Ps, what: Arrival) {
+        if self.is_clocked(Unit::Can) {
+            self.can.expect(at, what);
+        }
+    }
+
+    /// What it has asked of a bus with such bits since the last call, and when.
+    pub(crate) fn take_requests(&mut self, bit: Ps) -> Result<Vec<(Ps, Request)>, Fault> {
+        let requests = self.can.take_requests();
+        let Some(wires) = self
+            .model
+            .wiring
+            .can
+            .as_ref()
+            .filter(|_| !requests.is_empty())
+        else {
+            return Ok(Vec::new());
+        };
+        let found = self.can.bit(self.clocks.bus(wires.bus));
+        let agrees = found.abs_diff(bit) * 1_000 <= OFF_PERMILLE * bit;
+        let is_wired =
+            self.drives(&[wires.tx], wires.function) && self.hears(&[wires.rx], wires.function);
+        if agrees && is_wired {
+            return Ok(requests);
+        }
+        Err(Fault::Misused {
+            peripheral: "CAN1",
+            what: "its bits are not as long as those of the others, or its pins are not its own",
+        })
+    }
+}

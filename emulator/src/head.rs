@@ -1,0 +1,229 @@
+//! A head of emulated boards, all with the same bytes, their jumpers apart: the wire between them
+//! is host-sim's.
+//!
+//! Boards run in turn, for less time than the shortest frame takes: so what one sends cannot come
+//! to another before that has been there. All have the same clock, and begin at the same moment.
+
+mod compare;
+
+use std::ops::Range;
+
+use firmware::Event;
+use host_sim::Error;
+use host_sim::bench::can::Can;
+use host_sim::bench::{Bench, Load, Snapshot};
+use host_sim::bus::Slave;
+use host_sim::bus::tmag5170::TmagSlave;
+use host_sim::motor::Pins;
+use host_sim::run::Run;
+use host_sim::world::World;
+use scene::Scene;
+
+use crate::board::Board;
+use crate::chip::{Arrival, Fault, Ps, Request};
+use crate::emulate::pwm_counts;
+use crate::program::Program;
+
+pub(crate) use compare::compare;
+
+/// Picoseconds in a microsecond.
+const US: f64 = 1e6;
+
+/// Bits of the shortest frame, with the space behind it.
+const LEAST_BITS: Ps = 47;
+
+/// Bits a second of a bus, thousands, unless the scene says otherwise.
+const KBIT_S: u16 = 1000;
+
+/// One of the boards.
+#[derive(Debug)]
+struct Node {
+    board: Board,
+    own: Range<usize>,
+    snapshot: Snapshot,
+}
+
+/// A head of boards.
+#[derive(Debug)]
+pub(crate) struct Head {
+    nodes: Vec<Node>,
+    can: Can,
+    bit: Ps,
+    /// The time up to which all have run.
+    now: Ps,
+    /// From one tick to the next.
+    period: Ps,
+    each: usize,
+    fault: Option<Fault>,
+}
+
+impl Head {
+    /// The boards of `scene`, their motors on `pins`, left side first; started, and before their
+    /// first tick.
+    fn new(program: &Program, scene: &Scene, pins: &[Pins]) -> Result<Self, Fault> {
+        let nodes = scene.head.nodes.unwrap_or(1);
+        let each = scene.whiskers() / usize::from(nodes).max(1);
+        let kbit_s = scene.head.bus_kbit_s.unwrap_or(KBIT_S);
+        let board = |number: u8| -> Result<Node, Fault> {
+            let own = usize::from(number) * each..(usize::from(number) + 1) * each;
+            let pins = pins.get(own.clone()).unwrap_or_default().to_vec();
+            let sides = scene.head.sides.count();
+            Ok(Node {
+                board: Board::of_node(program, scene, (number, own.clone()), pins)?,
+                own,
+                snapshot: Snapshot {
+                    theta_deg: vec![f64::NAN; each],
+                    z: [f64::NAN; 2],
+                    g: [f64::NAN; 2],
+                    contact: [0, 1].map(|side| if side < sides { 0.0 } else { f64::NAN }),
+                    touch: [0; 2],
+                },
+            })
+        };
+        let nodes = (0..nodes).map(board).collect::<Result<Vec<_>, _>>()?;
+        let started = nodes.iter().map(|node| node.board.machine.now);
+        let mut head = Self {
+            now: started.max().unwrap_or_default(),
+            can: Can::new(nodes.len(), kbit_s),
+            nodes,
+            bit: 1_000_000_000 / Ps::from(kbit_s),
+            period: 1_000_000_000_000 / Ps::from(scene.tick_hz),
+            each: scene.head.whiskers_per_side,
+            fault: None,
+        };
+        for node in &mut head.nodes {
+            node.board.run_until(head.now)?;
+        }
+        Ok(head)
+    }
+
+    /// What the bus has carried.
+    pub(crate) const fn load(&self) -> Load {
+        self.can.load()
+    }
+
+    /// Fails with what has stopped a board.
+    pub(crate) fn check(&self) -> Result<(), Fault> {
+        self.fault.clone().map_or(Ok(()), Err)
+    }
+
+    /// Lets all run on; how many ticks of each have ended.
+    fn run_on(&mut self, ended: &mut [u32]) -> Result<(), Fault> {
+        let until = self.now + (LEAST_BITS - 1) * self.bit;
+        while let Some(sent) = self.can.next(until as f64 / US) {
+            let at = (sent.at_us * US).round() as Ps;
+            for (n, node) in self.nodes.iter_mut().enumerate() {
+                let what = if n == sent.from {
+                    Arrival::Sent(sent.frame)
+                } else {
+                    Arrival::Heard(sent.frame)
+                };
+                node.board.machine.disturb(|chip| chip.expect(at, what));
+            }
+        }
+        for ((n, node), ended) in self.nodes.iter_mut().enumerate().zip(ended) {
+            *ended += node.board.run_until(until)?;
+            let requests = node
+                .board
+                .machine
+                .with_chip(|chip| chip.take_requests(self.bit))?;
+            for (at, request) in requests {
+                match request {
+                    Request::Send(frame) => self.can.queue(n, frame, at as f64 / US),
+                    Request::Withdraw(frame) => self.can.withdraw(n, &frame),
+                }
+            }
+        }
+        self.now = until;
+        Ok(())
+    }
+
+    /// One tick of all: until the last has ended.
+    fn pass_tick(&mut self, events: &mut Vec<Event>) -> Result<(), Fault> {
+        for node in &mut self.nodes {
+            node.board.begin()?;
+        }
+        let mut ended = vec![0; self.nodes.len()];
+        let limit = self.now + 2 * self.period;
+        while ended.contains(&0) && self.now < limit {
+            self.run_on(&mut ended)?;
+        }
+        if ended.iter().any(|ended| *ended != 1) {
+            return Err(Fault::Unequal);
+        }
+        for node in &mut self.nodes {
+            node.board.end(events, &mut node.snapshot)?;
+        }
+        Ok(())
+    }
+
+    fn find(&mut self, n: usize) -> Option<(&mut Board, usize)> {
+        let mut all = self.nodes.iter_mut();
+        let node = all.find(|node| node.own.contains(&n))?;
+        Some((&mut node.board, n - node.own.start))
+    }
+}
+
+impl Bench for Head {
+    fn tick(&mut self, events: &mut Vec<Event>) {
+        if self.fault.is_none() {
+            self.fault = self.pass_tick(events).err();
+        }
+    }
+
+    fn look(&mut self, snapshot: &mut Snapshot) {
+        for (side, most) in snapshot.contact.iter_mut().enumerate() {
+            let felt = self.nodes.iter().map(|node| node.snapshot.contact[side]);
+            *most = felt.fold(f64::NAN, f64::max);
+        }
+        for side in 0..2 {
+            let first = side * self.each;
+            let mut all = self.nodes.iter();
+            let Some(node) = all.find(|node| node.own.contains(&first)) else {
+                continue;
+            };
+            snapshot.z[side] = node.snapshot.z[side];
+            // Of the first two whiskers of a board, which are on its sides.
+            let local = (first - node.own.start).min(1);
+            snapshot.g[side] = node.snapshot.g[local];
+            snapshot.touch[side] = node.snapshot.touch[local];
+        }
+        for node in &self.nodes {
+            if let Some(places) = snapshot.theta_deg.get_mut(node.own.clone()) {
+                places.copy_from_slice(&node.snapshot.theta_deg);
+            }
+        }
+    }
+
+    fn slave_mut(&mut self, n: usize) -> Option<&mut Slave> {
+        let (board, n) = self.find(n)?;
+        board.slave_mut(n)
+    }
+
+    fn tmag_mut(&mut self, n: usize) -> Option<&mut TmagSlave> {
+        let (board, n) = self.find(n)?;
+        board.tmag_mut(n)
+    }
+
+    fn bend(&mut self, n: usize, deflection: [f64; 2]) {
+        if let Some((board, n)) = self.find(n) {
+            board.bend(n, deflection);
+        }
+    }
+
+    fn tells_faults(&self) -> bool {
+        false
+    }
+}
+
+/// The head of a scene in its world, before its first tick.
+pub(crate) fn start(
+    scene: &Scene,
+    classes: Vec<String>,
+    program: &Program,
+) -> Result<Run<Head>, Error> {
+    let model = program.model()?;
+    let (world, pins) = World::wired(scene, pwm_counts(scene, model))?;
+    let head = Head::new(program, scene, &pins)?;
+    Ok(Run::of(scene, Box::new(head), classes, world))
+}

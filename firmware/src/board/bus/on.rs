@@ -1,0 +1,220 @@
+//! A board of a head on its bus: the node of `firmware`, its controller, and its number.
+//!
+//! The interrupts of the controller have the tick's priority: what has come is heard at once,
+//! between two ticks, with the time at which it came.
+
+#[path = "bxcan.rs"]
+mod bxcan;
+
+use can::Frame;
+use firmware::{Clock, Event, Node, NodeEvent};
+use static_cell::StaticCell;
+use tactile::Decision;
+
+use crate::board::gpio::{Pin, PinName};
+use crate::board::pin_config::PinConfig;
+use crate::board::scene::Pace;
+use crate::board::types::{Inner, Settings};
+use crate::board::{pace, retained};
+use crate::here::Counter;
+use bxcan::Controller;
+
+/// Bits of the board's number, the lowest first: jumpers to ground. A board without one is node
+/// 0; a second one without stays off, and is silent, as soon as it hears the first.
+const NUMBER: [PinName; 5] = [
+    PinName::new('C', 0),
+    PinName::new('C', 1),
+    PinName::new('C', 2),
+    PinName::new('C', 3),
+    PinName::new('C', 4),
+];
+
+/// Rounds for which pull-ups of some 40 kΩ charge a jumper's pin: more than 10 µs.
+const PULL_UP_ROUNDS: u32 = 1_000;
+
+/// Which node of its head a board is, by its jumpers; 0 where it has all whiskers.
+pub(crate) fn number(settings: &Settings) -> u8 {
+    if settings.head.bus.is_none() {
+        return 0;
+    }
+    crate::here::clock_ports();
+    for pin in NUMBER {
+        Pin::new(pin, PinConfig::INPUT.pulled_up());
+    }
+    cortex_m::asm::delay(PULL_UP_ROUNDS);
+    let bits = NUMBER.iter().rev();
+    bits.fold(0, |number, pin| number << 1 | u8::from(pin.is_low()))
+}
+
+/// A board of a head; nothing where one board has all whiskers.
+pub(crate) struct Head(Option<&'static mut OnBus>);
+
+/// Where that lies.
+static ON_BUS: StaticCell<OnBus> = StaticCell::new();
+
+struct OnBus {
+    node: Node,
+    controller: Controller,
+    own: Time,
+    /// What the tick has decided.
+    decided: Option<Decision>,
+}
+
+/// The board's own time.
+struct Time {
+    clock: Counter,
+    /// Counts in a microsecond.
+    per_us: u32,
+    /// The last tick, by the clock, and µs since the first.
+    tick: u32,
+    tick_us: u64,
+    /// Of the next tick, and what was rounded off of it, µs by ticks a second.
+    next_us: u64,
+    rest: u32,
+}
+
+impl Time {
+    fn new() -> Self {
+        Self {
+            clock: Counter::running(),
+            per_us: (pace::clocks().counter_hz / 1_000_000).max(1),
+            tick: 0,
+            tick_us: 0,
+            next_us: 0,
+            rest: 0,
+        }
+    }
+
+    /// A tick begins.
+    fn tick(&mut self, tick_hz: u32) -> u64 {
+        self.tick = self.clock.now();
+        self.tick_us = self.next_us;
+        let us = self.rest + 1_000_000;
+        self.next_us += u64::from(us / tick_hz.max(1));
+        self.rest = us % tick_hz.max(1);
+        self.tick_us
+    }
+
+    /// Now, µs.
+    fn now(&mut self) -> u64 {
+        let since = self.clock.now().wrapping_sub(self.tick);
+        self.tick_us + u64::from(since.checked_div(self.per_us).unwrap_or(0))
+    }
+}
+
+impl Head {
+    /// On the bus from now on, as node `number`. One whose number is none of the head's is
+    /// silent, as it has no whiskers.
+    pub(crate) fn start(settings: &Settings, pace: &Pace, number: u8) -> Self {
+        let bus = settings.head.bus.filter(|bus| number < bus.nodes);
+        let timing = bus.and(pace.bus);
+        Self(timing.and_then(|timing| {
+            ON_BUS.try_init_with(|| OnBus {
+                node: Node::new(&settings.head, number),
+                controller: Controller::start(timing),
+                own: Time::new(),
+                decided: None,
+            })
+        }))
+    }
+
+    /// Before a tick.
+    pub(crate) fn before(
+        &mut self,
+        inner: &mut Inner,
+        settings: &Settings,
+        events: &mut impl FnMut(Event),
+    ) {
+        let Some(OnBus {
+            node, own, decided, ..
+        }) = &mut self.0
+        else {
+            return;
+        };
+        let now_us = own.tick(settings.head.tick_hz);
+        *decided = None;
+        let was_armed = inner.is_armed();
+        let place = inner.whiskers().first().map(firmware::Whisker::place);
+        node.before(now_us, (inner, settings), &mut |what| {
+            if let (NodeEvent::Decided(decision), Some(place)) = (what, place) {
+                events(Event::Decision(place, decision));
+            }
+        });
+        let is_armed = inner.is_armed();
+        if is_armed != was_armed {
+            // No reset undoes what the head was told.
+            retained::set_stopped(!is_armed);
+            events(if is_armed {
+                Event::Armed
+            } else {
+                Event::Stopped
+            });
+        }
+    }
+
+    /// Notes an event of this tick.
+    #[inline]
+    pub(crate) fn note(&mut self, event: &Event) {
+        if let (Some(OnBus { decided, .. }), Event::Decision(_, decision)) = (&mut self.0, event) {
+            decided.get_or_insert(*decision);
+        }
+    }
+
+    /// After it: what this board says to the others.
+    pub(crate) fn after(&mut self, inner: &Inner, settings: &Settings) {
+        let Some(OnBus {
+            node,
+            controller,
+            decided,
+            ..
+        }) = &mut self.0
+        else {
+            return;
+        };
+        controller.tick(settings.head.tick_hz);
+        node.after((inner, settings), *decided, &mut |frame| {
+            controller.say(frame);
+        });
+    }
+
+    /// Frames have come.
+    pub(crate) fn hear(&mut self) {
+        let Some(OnBus { node, own, .. }) = &mut self.0 else {
+            return bxcan::ignore();
+        };
+        let at_us = own.now();
+        while let Some(frame) = Controller::take() {
+            // What matters of it shows in the next tick.
+            node.hear(&frame, at_us, &mut |_| {});
+        }
+    }
+
+    /// Frames of this board have come through.
+    pub(crate) fn said(&mut self) {
+        let Some(OnBus {
+            node,
+            controller,
+            own,
+            ..
+        }) = &mut self.0
+        else {
+            return bxcan::ignore();
+        };
+        let at_us = own.now();
+        controller.go_on(&mut |frame: &Frame| node.said(frame, at_us));
+    }
+
+    /// Stops the motors of the head.
+    pub(crate) fn stop(&mut self) {
+        if let Some(OnBus { node, .. }) = &mut self.0 {
+            node.stop();
+        }
+    }
+
+    /// Arms them.
+    pub(crate) fn arm(&mut self) {
+        if let Some(OnBus { node, .. }) = &mut self.0 {
+            node.arm();
+        }
+    }
+}
