@@ -83,8 +83,11 @@ impl<R: Real> Config<R> {
     /// pulls it to the circle and to the other side is left out: within `ticks` f_W T / 2 of it.
     pub fn aged(&self, difference: Psi<R>, ticks: u16) -> Psi<R> {
         let turned = |[x, y]: Psi<R>| match self {
-            Self::Euler(euler) => [x - y.times_fine(euler.turn), y + x.times_fine(euler.turn)],
-            Self::Exact(exact) => exact.turned([x, y]),
+            Self::Euler(euler) if cfg!(feature = "euler") => {
+                [x - y.times_fine(euler.turn), y + x.times_fine(euler.turn)]
+            }
+            Self::Exact(exact) if cfg!(feature = "exact") => exact.turned([x, y]),
+            Self::Euler(_) | Self::Exact(_) => [x, y],
         };
         (0..ticks).fold(difference, |psi, _| turned(psi))
     }
@@ -92,13 +95,14 @@ impl<R: Real> Config<R> {
     /// Adds `difference` to ψ of a side; nothing to one that there is not.
     pub fn shift(&self, state: &mut State<R>, side: usize, difference: Psi<R>) {
         match self {
-            Self::Euler(_) => {
+            Self::Euler(_) if cfg!(feature = "euler") => {
                 if let Some([x, y]) = state.kept.get_mut(side) {
                     *x = *x + difference[0];
                     *y = *y + difference[1];
                 }
             }
-            Self::Exact(exact) => exact.shift(state, side, difference),
+            Self::Exact(exact) if cfg!(feature = "exact") => exact.shift(state, side, difference),
+            Self::Euler(_) | Self::Exact(_) => {}
         }
     }
 
