@@ -18,7 +18,7 @@ and psi(0). Pushes are followed in steps of 0.1 degrees. A shaft lets go at the
 push at which c = L, or where the branch ends in a fold before; that is the last row of its case,
 without moment and force.
 
-TABLE. `python bar.py` writes bar.csv, in a minute (Python 3.11, numpy 2, scipy 1.17).
+TABLE. `python bar.py` writes bar.csv, in some minutes (scipy 1.17).
 """
 import csv
 from itertools import product
