@@ -8,7 +8,7 @@ mod compare;
 
 use std::ops::Range;
 
-use firmware::Event;
+use firmware::{BusConfig, Event};
 use host_sim::Error;
 use host_sim::bench::can::Can;
 use host_sim::bench::{Bench, Load, Snapshot};
@@ -31,9 +31,6 @@ const US: f64 = 1e6;
 
 /// Bits of the shortest frame, with the space behind it.
 const LEAST_BITS: Ps = 47;
-
-/// Bits a second of a bus, thousands, unless the scene says otherwise.
-const KBIT_S: u16 = 1000;
 
 /// One of the boards.
 #[derive(Debug)]
@@ -60,10 +57,9 @@ pub(crate) struct Head {
 impl Head {
     /// The boards of `scene`, their motors on `pins`, left side first; started, and before their
     /// first tick.
-    fn new(program: &Program, scene: &Scene, pins: &[Pins]) -> Result<Self, Fault> {
-        let nodes = scene.head.nodes.unwrap_or(1);
+    fn new(program: &Program, scene: &Scene, bus: BusConfig, pins: &[Pins]) -> Result<Self, Fault> {
+        let BusConfig { nodes, kbit_s } = bus;
         let each = scene.whiskers() / usize::from(nodes).max(1);
-        let kbit_s = scene.head.bus_kbit_s.unwrap_or(KBIT_S);
         let board = |number: u8| -> Result<Node, Fault> {
             let own = usize::from(number) * each..(usize::from(number) + 1) * each;
             let pins = pins.get(own.clone()).unwrap_or_default().to_vec();
@@ -219,11 +215,12 @@ impl Bench for Head {
 /// The head of a scene in its world, before its first tick.
 pub(crate) fn start(
     scene: &Scene,
+    bus: BusConfig,
     classes: Vec<String>,
     program: &Program,
 ) -> Result<Run<Head>, Error> {
     let model = program.model()?;
     let (world, pins) = World::wired(scene, pwm_counts(scene, model))?;
-    let head = Head::new(program, scene, &pins)?;
+    let head = Head::new(program, scene, bus, &pins)?;
     Ok(Run::of(scene, Box::new(head), classes, world))
 }

@@ -15,7 +15,7 @@ pub(crate) struct Choice {
     /// Then unpack it into a clean folder, and take it to a decision of an emulated board
     #[arg(long)]
     test: bool,
-    /// What the command runs itself as, once the compilers are told to name no folder of this machine
+    /// What the command runs itself as, with compilers that name no folder of this machine
     #[arg(long, hide = true, conflicts_with = "test")]
     within: bool,
 }

@@ -18,7 +18,7 @@ pub use bearable::Unbearable;
 pub use classes::classes;
 pub use fits::Unfit;
 pub use image::{AnyConfig, Image, image};
-pub use module::{GATE, RunsOn, Target, build, decoder, decoder_of, rule_settings};
+pub use module::{GATE, RunsOn, Target, build, bus, decoder, decoder_of, rule_settings};
 pub use numbers::{NoSuchFormat, NumberFormat, in_simulation, on_board};
 pub use protecting::Unprotected;
 pub use settling::Unsettled;

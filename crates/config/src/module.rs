@@ -110,8 +110,8 @@ pub fn build<R: Real>(scene: &Scene, target: Target<'_>) -> Result<Config<R>, Mi
 /// Bits a second of a bus, thousands, unless the scene says otherwise.
 const KBIT_S: u16 = 1000;
 
-/// The bus of a scene's head.
-pub(crate) fn bus(scene: &Scene) -> Option<BusConfig> {
+/// The bus of a scene's head; none: one board has all whiskers.
+pub fn bus(scene: &Scene) -> Option<BusConfig> {
     scene.head.nodes.map(|nodes| BusConfig {
         nodes,
         kbit_s: scene.head.bus_kbit_s.unwrap_or(KBIT_S),

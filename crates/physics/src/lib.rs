@@ -6,7 +6,7 @@
 //!   base, a spring;
 //! - *mode*: a shape in which the shaft rings at one frequency;
 //! - *pose*: position and axes of the base, which the caller moves;
-//! - *plate*: a flat, textured surface; *relief*: its heights;
+//! - *plate*: a flat, textured surface, which may end, or a bar; *relief*: its heights;
 //! - *sensor*: a magnet that turns with the base, and a Hall sensor.
 //!
 //! A [`Shaft`] has [`Modes`]; a [`TouchingWhisker`] is moved along poses

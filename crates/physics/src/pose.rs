@@ -24,8 +24,8 @@ impl Pose {
     }
 }
 
-/// A flat plate with a textured surface, endless or with an end, or a round bar. Its heights belong to it: a place has
-/// the same height whenever it is touched.
+/// A flat plate with a textured surface, endless or with an end, or a round bar. Its heights
+/// belong to it: a place has the same height whenever it is touched.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Plate {
     /// A point of the mean plane, m: the origin of the surface's coordinates.

@@ -23,7 +23,7 @@ pub(crate) fn compare(
     duration_s: Option<f64>,
 ) -> Result<Vec<String>, Error> {
     let (mut loaded, program) = flashed(path, program)?;
-    let Some(nodes) = loaded.scene.head.nodes else {
+    let Some(bus) = config::bus(&loaded.scene) else {
         let fault = "head.nodes: found none; allowed: a head of several boards";
         return Err(Error::Input(format!("{}: {fault}", path.display())));
     };
@@ -36,7 +36,7 @@ pub(crate) fn compare(
     let scene = &loaded.scene;
     let pwm = pwm_counts(scene, model);
     let mut host = Run::with_pwm(scene, classifier.clone(), pwm)?;
-    let mut boards = super::start(scene, host.classes().to_vec(), &program)?;
+    let mut boards = super::start(scene, bus, host.classes().to_vec(), &program)?;
     let mut alone = scene.clone();
     alone.head.nodes = None;
     let mut alone = Run::with_pwm(&alone, classifier, pwm)?;
@@ -79,9 +79,10 @@ pub(crate) fn compare(
     }
     let load = boards.module_mut().load();
     let mut lines = vec![format!(
-        "{}: {nodes} boards and the simulated head agree to the last bit in {} ticks, {decisions} \
+        "{}: {} boards and the simulated head agree to the last bit in {} ticks, {decisions} \
          decisions; {load}",
         path.display(),
+        bus.nodes,
         host.ticks()
     )];
     let names = ["boards", "simulated head", "one simulated board"];

@@ -44,7 +44,7 @@ const RQCP: u32 = 1 << 0;
 const TXOK: u32 = 1 << 1;
 const ABRQ: u32 = 1 << 7;
 
-/// Acknowledges what nobody waits for.
+/// Acknowledges what no node waits for.
 pub(super) fn ignore() {
     while Controller::take().is_some() {}
     let all = (0..BOXES).fold(0, |all, n| all | RQCP << (8 * n));
@@ -110,13 +110,14 @@ impl Controller {
                 }
             }
         }
-        if self.off == 0 && !CAN.esr().read().boff() {
+        let wait = OFF_MS * tick_hz / 1_000;
+        if self.off < wait && !CAN.esr().read().boff() {
+            self.off = 0;
             return;
         }
         self.off += 1;
         // It recovers once it has gone into its start and out of it again, and the bus has been
         // silent for 128 times eleven bits.
-        let wait = OFF_MS * tick_hz / 1_000;
         if self.off == wait {
             CAN.mcr().modify(|w| w.set_inrq(true));
         } else if self.off > wait {

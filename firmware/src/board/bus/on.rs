@@ -142,7 +142,7 @@ impl Head {
         });
         let is_armed = inner.is_armed();
         if is_armed != was_armed {
-            // No reset undoes what the head was told.
+            // A reset does not undo what another board has asked for.
             retained::set_stopped(!is_armed);
             events(if is_armed {
                 Event::Armed
