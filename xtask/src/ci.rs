@@ -6,7 +6,7 @@ use std::path::Path;
 use crate::emulate::Emulated;
 use crate::firmware::{Board, every_part};
 use crate::run::{Fault, cargo, run, take_built_programs};
-use crate::steps::Steps;
+use crate::steps::{Step, Steps};
 use crate::{
     book, cost, count, dependencies, descriptions, docs, emulate, endurance, faults, fuzz, page,
     panics, python, scenarios, size, studies, walk,
@@ -31,34 +31,67 @@ const LINTED: &str = "fuzz/engine,mlx90333/defmt,tmag5170/defmt";
 /// Of the properties' cases.
 const SEED: &str = "1";
 
+/// What runs on this PC: the main job, whose output and files are what the generated documents must
+/// hold, and all that is built beside the product.
+const ON_THE_PC: [Step; 7] = [
+    ("main job and documents", docs::short),
+    ("chips as described", descriptions::compare),
+    ("the book", the_book),
+    ("Python", python::test),
+    ("studies", studies_on_same_cases),
+    ("experiments, cut short", studies::experiments_in_short),
+    ("page", page),
+];
+
+/// What builds programs of boards, all in one place and therefore one after the other.
+const ON_THE_BOARDS: [Step; 10] = [
+    ("firmware, three scenes", size::short),
+    ("a panic would be found", a_panic),
+    ("picture of the emulated board", docs::asymmetry_is_current),
+    ("the walk through the book", walk::short),
+    ("emulated boards, one side and two", board),
+    ("injected faults, five hundred", faults::short),
+    ("faults from files", scenarios::short),
+    ("endurance, in short", endurance::short),
+    ("counts of a tick", count::short),
+    ("cost of a tick on the board", cost::short),
+];
+
 /// Everything, or the steps whose names contain one of `only`.
 pub(crate) fn all(only: Vec<String>) -> Result<(), Fault> {
-    let mut steps = Steps::new(only);
+    let steps = Steps::new(only);
+    let done = in_order(&steps);
+    steps.end().and(done)
+}
+
+fn in_order(steps: &Steps) -> Result<(), Fault> {
     steps.run("format", format)?;
     steps.run("core for WebAssembly", web)?;
     steps.run("lints", lints)?;
-    // All tests, and the main job, whose output and files are what the generated documents
-    // must hold.
     steps.run("tests", tests)?;
     steps.run("dependencies", dependencies::check)?;
     steps.run("untrusted input", fuzz::short)?;
-    steps.run("main job and documents", docs::short)?;
-    steps.run("chips as described", descriptions::compare)?;
-    steps.run("the book", || book::test().and_then(|()| book::build()))?;
-    steps.run("Python", python::test)?;
-    steps.run("page", || page::build().and_then(|()| page::test(None)))?;
-    steps.run("studies", || studies::check(Some(SEED)))?;
-    steps.run("experiments, cut short", studies::experiments_in_short)?;
-    steps.run("firmware, three scenes", size::short)?;
-    steps.run("a panic would be found", || panics::control(Board::ALL[0]))?;
-    steps.run("emulated boards, one side and two", board)?;
-    steps.run("the walk through the book", walk::short)?;
-    steps.run("injected faults, five hundred", faults::short)?;
-    steps.run("faults from files", scenarios::short)?;
-    steps.run("endurance, in short", endurance::short)?;
-    steps.run("counts of a tick", count::short)?;
-    steps.run("cost of a tick on the board", cost::short)?;
-    steps.end()
+    steps.beside(&[&ON_THE_BOARDS, &ON_THE_PC])?;
+    // With the processors to itself.
+    steps.run("page, frames counted", || page::count_frames(None))
+}
+
+fn the_book() -> Result<(), Fault> {
+    book::test()?;
+    book::build()
+}
+
+fn studies_on_same_cases() -> Result<(), Fault> {
+    studies::check(Some(SEED))
+}
+
+fn page() -> Result<(), Fault> {
+    page::build()?;
+    page::test()
+}
+
+fn a_panic() -> Result<(), Fault> {
+    panics::control(Board::ALL[0])
 }
 
 fn format() -> Result<(), Fault> {
@@ -89,7 +122,7 @@ fn tests() -> Result<(), Fault> {
     };
     // With the tests' features, which programs alone have not.
     run(cargo(&["build", "--locked", "--bins", "--tests"]).args(ALL))?;
-    take_built_programs();
+    take_built_programs()?;
     test(&ALL)?;
     // What a newcomer's `cargo test` leaves out: it builds the program of another board.
     let ignored = ["--test", "program", "--", "--ignored"];

@@ -31,7 +31,8 @@ struct OfPage {
 /// Measures both, and writes the page and the picture of the README.
 pub(crate) fn measure() -> Result<(), Fault> {
     page::build()?;
-    page::test(Some(&top().join("docs/page.png")))?;
+    page::test()?;
+    page::count_frames(Some(&top().join("docs/page.png")))?;
     let read = |json: &str| serde_json::from_str(json).map_err(|error| error.to_string());
     let page: OfPage = read(&python::written("page.json")?)?;
     let said = python::figures()?;

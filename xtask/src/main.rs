@@ -344,7 +344,9 @@ fn main() -> ExitCode {
         Command::Ci(Only { steps }) => ci::all(steps),
         Command::Nightly(Only { steps }) => nightly::all(steps),
         Command::Page { test: false } => page::build(),
-        Command::Page { test: true } => page::build().and_then(|()| page::test(None)),
+        Command::Page { test: true } => page::build()
+            .and_then(|()| page::test())
+            .and_then(|()| page::count_frames(None)),
         Command::Python => python::test(),
         Command::Desk => desk::measure(),
         Command::Firmware {

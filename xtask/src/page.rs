@@ -23,26 +23,34 @@ pub(crate) fn build() -> Result<(), Fault> {
 }
 
 /// Opens it in headless Chromium and uses it as a person would, on a desk and on a phone, with axe
-/// for its accessibility; `picture` is where the one of the README goes.
-pub(crate) fn test(picture: Option<&Path>) -> Result<(), Fault> {
+/// for its accessibility.
+pub(crate) fn test() -> Result<(), Fault> {
+    // Most of the time a browser waits: two at once.
+    run(tests()?.args(["-n2", "-mnot alone"]))
+}
+
+/// Counts its frames, for which nothing else may run; `picture` is where the one of the README
+/// goes.
+pub(crate) fn count_frames(picture: Option<&Path>) -> Result<(), Fault> {
+    let mut tests = tests()?;
+    if let Some(picture) = picture {
+        tests.env("WHISKER_PICTURE", picture);
+    }
+    run(tests.args(["-n0", "-malone"]))
+}
+
+/// Its tests, without a choice.
+fn tests() -> Result<Command, Fault> {
     let python = python::with_browser()?;
     let mut axe = Command::new(&python);
     axe.args("-m pip install --quiet --disable-pip-version-check".split(' '));
     axe.args(["--no-deps", "--require-hashes", "--requirement"]);
     run(axe.arg(top().join("web/tests/axe.txt")))?;
-    let traces = traces::written()?;
-    // Most of the time a browser waits: two at once, but alone where frames are counted.
-    for which in [["-n2", "-mnot alone"], ["-n0", "-malone"]] {
-        let mut tests = Command::new(&python);
-        tests.args(["-m", "pytest", "--quiet", "-p", "no:cacheprovider"]);
-        tests.args(which).arg(top().join("web/tests"));
-        tests.env("WHISKER_PAGE", path());
-        tests.env("WHISKER_TRACES", &traces);
-        tests.env("WHISKER_FIGURES", python::to_write("page.json"));
-        if let Some(picture) = picture {
-            tests.env("WHISKER_PICTURE", picture);
-        }
-        run(&mut tests)?;
-    }
-    Ok(())
+    let mut tests = Command::new(&python);
+    tests.args(["-m", "pytest", "--quiet", "-p", "no:cacheprovider"]);
+    tests.arg(top().join("web/tests"));
+    tests.env("WHISKER_PAGE", path());
+    tests.env("WHISKER_TRACES", traces::written()?);
+    tests.env("WHISKER_FIGURES", python::to_write("page.json"));
+    Ok(tests)
 }

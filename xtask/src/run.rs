@@ -106,13 +106,24 @@ pub(crate) fn cargo_apart(command: &str, package: &str, folder: &str) -> Command
     command
 }
 
-/// Where CI has built all programs, in one build with the tests.
+/// Where the programs are that CI has built, in one build with the tests.
 static BUILT: OnceLock<PathBuf> = OnceLock::new();
 
-/// From now on, [`workspace_program`] takes what is built: cargo would build each again, as
-/// dependencies have other features where a program is built alone.
-pub(crate) fn take_built_programs() {
-    BUILT.get_or_init(|| target().join("debug"));
+/// The programs that steps of CI and commands of the book call.
+const CALLED: [&str; 3] = ["emulator", "host-sim", "whisker"];
+
+/// From now on, [`workspace_program`] takes what is built, in copies: cargo would build each again,
+/// as dependencies have other features where a program is built alone, and puts it in the place of
+/// what another step runs.
+pub(crate) fn take_built_programs() -> Result<(), Fault> {
+    let kept = target().join("kept/programs");
+    for program in CALLED {
+        write(&kept.join(program), "")?;
+        fs::copy(target().join("debug").join(program), kept.join(program))
+            .map_err(|error| format!("{program}: {error}"))?;
+    }
+    BUILT.get_or_init(|| kept);
+    Ok(())
 }
 
 /// A program of the workspace that is built, if CI has built all.

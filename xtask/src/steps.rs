@@ -1,34 +1,24 @@
-//! Steps that are run one after the other, the time each took, and how busy it kept the processors.
+//! Steps that are run one after the other or side by side, the time each took, and how busy all
+//! of them kept the processors.
 
 use std::num::NonZero;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Mutex, PoisonError};
 use std::time::{Duration, Instant};
 use std::{fs, thread};
 
-use crate::run::{Fault, no_faults};
+use crate::run::{Fault, each, no_faults};
 
-/// What a step took.
-#[derive(Clone, Copy, Default)]
-struct Took {
-    time: Duration,
-    /// Of all processors, for all programs that the step started and waited for.
-    processors: Duration,
-}
-
-impl Took {
-    /// By how much of the time that all processors have they were busy, percent.
-    fn busy(self) -> f64 {
-        let all = thread::available_parallelism().map_or(1, NonZero::get) as f64;
-        100.0 * self.processors.as_secs_f64() / (all * self.time.as_secs_f64()).max(1e-9)
-    }
-}
+/// A name, and what is done.
+pub(crate) type Step = (&'static str, fn() -> Result<(), Fault>);
 
 /// Steps run so far.
-#[derive(Default)]
 pub(crate) struct Steps {
     /// Parts of the names of the steps that are wanted; none: all are.
     wanted: Vec<String>,
-    done: Vec<(&'static str, Took)>,
-    faults: Vec<String>,
+    begun: Instant,
+    done: Mutex<Vec<(&'static str, Duration)>>,
+    faults: Vec<Fault>,
 }
 
 impl Steps {
@@ -36,13 +26,15 @@ impl Steps {
     pub(crate) fn new(wanted: Vec<String>) -> Self {
         Self {
             wanted,
-            ..Self::default()
+            begun: Instant::now(),
+            done: Mutex::default(),
+            faults: Vec::new(),
         }
     }
 
     /// Runs a step, if it is wanted, and notes its time.
     pub(crate) fn run(
-        &mut self,
+        &self,
         name: &'static str,
         step: impl FnOnce() -> Result<(), Fault>,
     ) -> Result<(), Fault> {
@@ -50,48 +42,49 @@ impl Steps {
             return Ok(());
         }
         println!("== {name}");
-        let (begun, before) = (Instant::now(), processors());
+        let begun = Instant::now();
         let result = step();
-        let took = Took {
-            time: begun.elapsed(),
-            processors: processors().saturating_sub(before),
-        };
-        self.done.push((name, took));
-        if result.is_err() {
-            self.print();
-        }
-        result
+        let mut done = self.done.lock().unwrap_or_else(PoisonError::into_inner);
+        done.push((name, begun.elapsed()));
+        result.map_err(|fault| format!("{name}: {fault}"))
     }
 
-    /// Runs a step, and goes on after a failure, which [`Steps::end`] tells.
+    /// Runs lists of steps side by side: where those of one wait for a link, a browser or a clock,
+    /// those of another keep the processors busy. After a failure no list begins another step.
+    pub(crate) fn beside(&self, lists: &[&[Step]]) -> Result<(), Fault> {
+        let failed = AtomicBool::new(false);
+        each(lists.to_vec(), lists.len(), |steps: &[Step]| {
+            for &(name, step) in steps {
+                if failed.load(Ordering::Relaxed) {
+                    break;
+                }
+                self.run(name, step)
+                    .inspect_err(|_| failed.store(true, Ordering::Relaxed))?;
+            }
+            Ok(())
+        })
+    }
+
+    /// Runs a step, and goes on after a failure, which [`Steps::end`] reports.
     pub(crate) fn try_run(&mut self, name: &'static str, step: impl FnOnce() -> Result<(), Fault>) {
         if let Err(fault) = self.run(name, step) {
             println!("{fault}");
-            self.faults.push(format!("{name}: {fault}"));
+            self.faults.push(fault);
         }
     }
 
     /// Prints the table of times.
     pub(crate) fn end(self) -> Result<(), Fault> {
-        self.print();
+        println!();
+        for (name, took) in self.done.into_inner().unwrap_or_default() {
+            println!("{:>7.1} s  {name}", took.as_secs_f64());
+        }
+        let took = self.begun.elapsed().as_secs_f64();
+        let all = thread::available_parallelism().map_or(1, NonZero::get) as f64;
+        let busy = 100.0 * processors().as_secs_f64() / (all * took).max(1e-9);
+        println!("{took:>7.1} s  in all, processors {busy:.0} % busy");
         no_faults(&self.faults)
     }
-
-    fn print(&self) {
-        println!();
-        let mut all = Took::default();
-        for (name, took) in &self.done {
-            print(name, *took);
-            all.time += took.time;
-            all.processors += took.processors;
-        }
-        print("in all", all);
-    }
-}
-
-fn print(name: &str, took: Took) {
-    let seconds = took.time.as_secs_f64();
-    println!("{seconds:>7.1} s {:>4.0} %  {name}", took.busy());
 }
 
 /// The processors' time of all programs that have ended so far; zero where no system says it.
