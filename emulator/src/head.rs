@@ -2,7 +2,7 @@
 //! is host-sim's.
 //!
 //! Boards run in turn, for less time than the shortest frame takes: so what one sends cannot come
-//! to another before that has been there. All have the same clock, and begin at the same moment.
+//! to another before that has been there. All begin at the same moment, by clocks that may differ.
 
 mod compare;
 
@@ -32,10 +32,37 @@ const US: f64 = 1e6;
 /// Bits of the shortest frame, with the space behind it.
 const LEAST_BITS: Ps = 47;
 
+/// By how much the clock of a board is faster than that of the bus, millionths.
+#[derive(Debug, Clone, Copy)]
+struct Crystal(i32);
+
+impl Crystal {
+    /// What its board takes `time` of the bus for.
+    fn own(self, time: Ps) -> Ps {
+        scaled(time, self.millionths(), 1_000_000)
+    }
+
+    /// When by the bus it is `time` by its board.
+    fn of_bus(self, time: Ps) -> Ps {
+        scaled(time, 1_000_000, self.millionths())
+    }
+
+    fn millionths(self) -> u128 {
+        1_000_000_u32.saturating_add_signed(self.0).max(1).into()
+    }
+}
+
+/// `time * by / of`.
+fn scaled(time: Ps, by: u128, of: u128) -> Ps {
+    let scaled = u128::from(time) * by / of;
+    Ps::try_from(scaled).unwrap_or(Ps::MAX)
+}
+
 /// One of the boards.
 #[derive(Debug)]
 struct Node {
     board: Board,
+    crystal: Crystal,
     own: Range<usize>,
     snapshot: Snapshot,
 }
@@ -56,8 +83,14 @@ pub(crate) struct Head {
 
 impl Head {
     /// The boards of `scene`, their motors on `pins`, left side first; started, and before their
-    /// first tick.
-    fn new(program: &Program, scene: &Scene, bus: BusConfig, pins: &[Pins]) -> Result<Self, Fault> {
+    /// first tick. The crystals of the even ones are faster by `ppm` millionths, of the odd ones
+    /// slower.
+    fn new(
+        (program, ppm): (&Program, i32),
+        scene: &Scene,
+        bus: BusConfig,
+        pins: &[Pins],
+    ) -> Result<Self, Fault> {
         let BusConfig { nodes, kbit_s } = bus;
         let each = scene.whiskers() / usize::from(nodes).max(1);
         let board = |number: u8| -> Result<Node, Fault> {
@@ -66,6 +99,7 @@ impl Head {
             let sides = scene.head.sides.count();
             Ok(Node {
                 board: Board::of_node(program, scene, (number, own.clone()), pins)?,
+                crystal: Crystal(if number.is_multiple_of(2) { ppm } else { -ppm }),
                 own,
                 snapshot: Snapshot {
                     theta_deg: vec![f64::NAN; each],
@@ -77,7 +111,9 @@ impl Head {
             })
         };
         let nodes = (0..nodes).map(board).collect::<Result<Vec<_>, _>>()?;
-        let started = nodes.iter().map(|node| node.board.machine.now);
+        let started = nodes
+            .iter()
+            .map(|node| node.crystal.of_bus(node.board.machine.now));
         let mut head = Self {
             now: started.max().unwrap_or_default(),
             can: Can::new(nodes.len(), kbit_s),
@@ -88,7 +124,7 @@ impl Head {
             fault: None,
         };
         for node in &mut head.nodes {
-            node.board.run_until(head.now)?;
+            node.board.run_until(node.crystal.own(head.now))?;
         }
         Ok(head)
     }
@@ -114,18 +150,20 @@ impl Head {
                 } else {
                     Arrival::Heard(sent.frame)
                 };
+                let at = node.crystal.own(at);
                 node.board.machine.disturb(|chip| chip.expect(at, what));
             }
         }
         for ((n, node), ended) in self.nodes.iter_mut().enumerate().zip(ended) {
-            *ended += node.board.run_until(until)?;
+            *ended += node.board.run_until(node.crystal.own(until))?;
             let requests = node
                 .board
                 .machine
                 .with_chip(|chip| chip.take_requests(self.bit))?;
             for (at, request) in requests {
+                let at_us = node.crystal.of_bus(at) as f64 / US;
                 match request {
-                    Request::Send(frame) => self.can.queue(n, frame, at as f64 / US),
+                    Request::Send(frame) => self.can.queue(n, frame, at_us),
                     Request::Withdraw(frame) => self.can.withdraw(n, &frame),
                 }
             }
@@ -212,15 +250,16 @@ impl Bench for Head {
     }
 }
 
-/// The head of a scene in its world, before its first tick.
+/// The head of a scene in its world, before its first tick; the crystals of its boards by so many
+/// millionths faster and slower.
 pub(crate) fn start(
     scene: &Scene,
     bus: BusConfig,
     classes: Vec<String>,
-    program: &Program,
+    (program, ppm): (&Program, i32),
 ) -> Result<Run<Head>, Error> {
     let model = program.model()?;
     let (world, pins) = World::wired(scene, pwm_counts(scene, model))?;
-    let head = Head::new(program, scene, bus, &pins)?;
+    let head = Head::new((program, ppm), scene, bus, &pins)?;
     Ok(Run::of(scene, Box::new(head), classes, world))
 }

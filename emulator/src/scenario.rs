@@ -67,6 +67,10 @@ pub struct Given {
     /// How many seconds of the scene PC and board are compared; none: all of it
     #[arg(long, value_name = "S")]
     duration: Option<f64>,
+    /// By how many millionths the crystals of a head's boards are faster and, of every other one,
+    /// slower
+    #[arg(long, default_value_t = 0, value_parser = clap::value_parser!(i32).range(0..=1_000))]
+    ppm: i32,
     /// Over how many minutes of simulated time deadlines are measured
     #[arg(long, default_value_t = 10.0)]
     minutes: f64,
@@ -129,7 +133,7 @@ pub const ALL: [Scenario; 13] = [
                simulated head",
         how: What::Work(|given| {
             let (scene, program) = given.parts();
-            head::compare(scene, program, given.duration)
+            head::compare(scene, program, given.duration, given.ppm)
         }),
     },
     Scenario {

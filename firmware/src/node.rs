@@ -81,6 +81,8 @@ pub struct Node {
     clock: Clock,
     /// The number of the next tick, by the clock of the head.
     tick: u32,
+    /// How late the last tick began, by that clock, µs.
+    late_us: i32,
     /// Ticks since the start for which it has joined none.
     alone: u16,
     is_joined: bool,
@@ -111,6 +113,7 @@ impl Node {
             times,
             clock: Clock::new(),
             tick: 0,
+            late_us: 0,
             alone: 0,
             is_joined: false,
             motors: Motors::May,
@@ -125,6 +128,12 @@ impl Node {
             since_said: 0,
             lost: 0,
         }
+    }
+
+    /// How late the last tick began by the clock of the head, µs; negative: how early, zero where
+    /// that clock is its own or not known. Ticks have to be that much shorter for a while.
+    pub const fn late_us(&self) -> i32 {
+        self.late_us
     }
 
     /// Whether it shares clock and oscillators of its head.
@@ -302,9 +311,11 @@ impl Node {
 
     /// Sets the number of the tick by the clock of the head.
     fn keep_time(&mut self, now_us: u64, tick_hz: u32, events: &mut impl FnMut(NodeEvent)) {
-        let Some(tick) = self.clock.tick(now_us, tick_hz) else {
+        let Some((tick, late_us)) = self.clock.tick(now_us, tick_hz) else {
+            self.late_us = 0;
             return;
         };
+        self.late_us = late_us;
         let off = tick.wrapping_sub(self.tick).cast_signed();
         if !self.is_joined {
             self.tick = tick;

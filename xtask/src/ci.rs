@@ -178,7 +178,7 @@ fn other_boards() -> Result<(), Fault> {
     let [board, small, smallest] = Board::ALL;
     emulate::compare_with_tilt(board)?;
     emulate::compare_in_fixed_point(board)?;
-    emulate::compare_head(board, " --duration 2")?;
+    emulate::compare_head(board, " --duration 2 --ppm 300")?;
     let board = Emulated::deployed(board)?;
     // The scene in which records cost most.
     emulate::emulate(&board, Path::new(emulate::WORLD), &["telemetry"])?;

@@ -233,6 +233,9 @@ struct Emulate {
     /// Over how many minutes of simulated time
     #[arg(long, requires = "deadlines", default_value_t = 10.0)]
     minutes: f64,
+    /// By how many millionths the crystals of boards are faster and, of every other one, slower
+    #[arg(long, requires = "head", default_value_t = 0)]
+    ppm: u16,
     /// How often under each flood
     #[arg(long, requires = "stopping", default_value_t = 100)]
     stops: u32,
@@ -317,11 +320,12 @@ impl Emulate {
         }
         let compare = format!("compare --probe {}", self.probe);
         let deadlines = format!("deadlines --minutes {}", self.minutes);
+        let head = format!("head --ppm {}", self.ppm);
         let stopping = format!("stopping --stops {}", self.stops);
         let scenarios = [
             (what.check, &*compare),
             (what.deadlines, &*deadlines),
-            (what.head, "head"),
+            (what.head, &*head),
             (what.overload, "overload"),
             (what.sensor_loss, "sensor-loss"),
             (what.latency, "latency"),

@@ -12,8 +12,9 @@ use crate::deployment::flashed;
 use crate::emulate::pwm_counts;
 
 /// Runs the head of the scene in `path` on the PC and on boards, in their number format; every
-/// number of every row of the trace and every decision must be the same, to the last bit. What was
-/// seen, a line each.
+/// number of every row of the trace and every decision must be the same, to the last bit. The
+/// crystals of every other board are by `ppm` millionths faster, those between as much slower. What
+/// was seen, a line each.
 ///
 /// # Errors
 /// [`Error::Input`] for a scene that is wrong or no head, [`Error::Work`] for what differs.
@@ -21,6 +22,7 @@ pub(crate) fn compare(
     path: &Path,
     program: &Path,
     duration_s: Option<f64>,
+    ppm: i32,
 ) -> Result<Vec<String>, Error> {
     let (mut loaded, program) = flashed(path, program)?;
     let Some(bus) = config::bus(&loaded.scene) else {
@@ -36,7 +38,7 @@ pub(crate) fn compare(
     let scene = &loaded.scene;
     let pwm = pwm_counts(scene, model);
     let mut host = Run::with_pwm(scene, classifier.clone(), pwm)?;
-    let mut boards = super::start(scene, bus, host.classes().to_vec(), &program)?;
+    let mut boards = super::start(scene, bus, host.classes().to_vec(), (&program, ppm))?;
     let mut alone = scene.clone();
     alone.head.nodes = None;
     let mut alone = Run::with_pwm(&alone, classifier, pwm)?;
@@ -79,8 +81,8 @@ pub(crate) fn compare(
     }
     let load = boards.module_mut().load();
     let mut lines = vec![format!(
-        "{}: {} boards and the simulated head agree to the last bit in {} ticks, {decisions} \
-         decisions; {load}",
+        "{}: {} boards, crystals ±{ppm} ppm, and the simulated head agree to the last bit in {} \
+         ticks, {decisions} decisions; {load}",
         path.display(),
         bus.nodes,
         host.ticks()

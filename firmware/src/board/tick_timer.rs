@@ -32,6 +32,16 @@ impl TickTimer {
     }
 }
 
+/// Makes the tick that has just begun, and those after it, so many counts of the timer long: it has
+/// counted less so far.
+#[cfg(feature = "bus")]
+#[inline]
+pub(crate) fn last(counts: u16) {
+    TICK_TIMER
+        .arr()
+        .write(|w| w.set_arr(counts.wrapping_sub(1)));
+}
+
 /// Acknowledges the interrupt, where whoever does it has the chip for itself.
 #[inline]
 pub(crate) fn acknowledge() {

@@ -67,12 +67,17 @@ impl Clock {
         (number, self.said_us)
     }
 
-    /// Which tick begins now, by the clock of the head; none: it is not known.
-    pub(super) fn tick(&self, now_us: u64, tick_hz: u32) -> Option<u32> {
+    /// Which tick of the head's clock is nearest to now, and by how much it is past, µs; none: that
+    /// clock is not known.
+    pub(super) fn tick(&self, now_us: u64, tick_hz: u32) -> Option<(u32, i32)> {
         // Of 48 bits, as a message has: then the product fits, and a board divides no 128 bits.
         let us = now_us.wrapping_add_signed(self.offset_us) & ((1 << 48) - 1);
-        let tick = us.saturating_mul(tick_hz.into()).saturating_add(500_000) / 1_000_000;
-        self.is_set.then_some(tick as u32)
+        let rounded = us.saturating_mul(tick_hz.into()).saturating_add(500_000);
+        // Of a tick, from −500,000 to 499,999.
+        let millionths = (rounded % 1_000_000) as i32 - 500_000;
+        let past_us = millionths.checked_div(tick_hz.cast_signed()).unwrap_or(0);
+        self.is_set
+            .then_some(((rounded / 1_000_000) as u32, past_us))
     }
 }
 
@@ -101,8 +106,11 @@ mod tests {
             prop_assert!(second.is_set());
             let tick = |us: u64| ((us as f64) * 2e-3).round() as u32;
             for after in [0, 250_001, 499_999, 1_000_000] {
-                let found = second.tick(own_us + after, 2000).unwrap();
-                prop_assert!(found.abs_diff(tick(head_us + after)) <= 1);
+                let (found, past_us) = second.tick(own_us + after, 2000).unwrap();
+                let head_us = head_us + after;
+                prop_assert!(found.abs_diff(tick(head_us)) <= 1);
+                let nearest_us = i64::from(found) * 500 + i64::from(past_us);
+                prop_assert_eq!(nearest_us as u32, head_us as u32);
             }
         }
     }
@@ -117,6 +125,7 @@ mod tests {
         clock.hear(1, 4, 900, 400);
         assert_eq!(clock.tick(400, 2000), None);
         clock.hear(1, 5, 10_400, 500);
-        assert_eq!(clock.tick(500, 2000), Some(21));
+        // 10,600 µs, 21.2 ticks.
+        assert_eq!(clock.tick(500, 2000), Some((21, 100)));
     }
 }

@@ -7,6 +7,7 @@
 mod bxcan;
 
 use can::Frame;
+use firmware::boards::TickPeriod;
 use firmware::{Clock, Event, Node, NodeEvent};
 use static_cell::StaticCell;
 use tactile::Decision;
@@ -15,7 +16,7 @@ use crate::board::gpio::{Pin, PinName};
 use crate::board::pin_config::PinConfig;
 use crate::board::scene::Pace;
 use crate::board::types::{Inner, Settings};
-use crate::board::{pace, retained};
+use crate::board::{pace, retained, tick_timer};
 use crate::here::Counter;
 use bxcan::Controller;
 
@@ -60,6 +61,13 @@ struct OnBus {
     decided: Option<Decision>,
 }
 
+/// A tick is this much shorter or longer at most where it follows the clock of the head, as a share
+/// of it: ten times what crystals differ by, and nothing to a sensor's frame.
+const FOLLOWS_MOST: i32 = 1_024;
+/// A tick makes good this part of what it is late by. The clock of the head is known to some
+/// microseconds, by messages that come between ticks.
+const FOLLOWS: i32 = 16;
+
 /// The board's own time.
 struct Time {
     clock: Counter,
@@ -71,18 +79,43 @@ struct Time {
     /// Of the next tick, and what was rounded off of it, µs by ticks a second.
     next_us: u64,
     rest: u32,
+    period: TickPeriod,
+    /// Counts of the tick timer in a microsecond, and those by which ticks were longer than their
+    /// period and which are no microsecond yet.
+    timer_per_us: i32,
+    longer: i32,
 }
 
 impl Time {
-    fn new() -> Self {
+    fn new(period: TickPeriod) -> Self {
+        let clocks = pace::clocks();
+        let per_us = |hz: u32| (hz / 1_000_000).max(1);
         Self {
             clock: Counter::running(),
-            per_us: (pace::clocks().counter_hz / 1_000_000).max(1),
+            per_us: per_us(clocks.counter_hz),
             tick: 0,
             tick_us: 0,
             next_us: 0,
             rest: 0,
+            period,
+            timer_per_us: per_us(clocks.tick_timer_hz).cast_signed(),
+            longer: 0,
         }
+    }
+
+    /// The tick that has begun is late by the clock of the head: it becomes shorter.
+    fn follow(&mut self, late_us: i32) {
+        let TickPeriod { prescaler, period } = self.period;
+        let (prescaler, period) = (i32::from(prescaler.max(1)), i32::from(period));
+        let most = period / FOLLOWS_MOST;
+        let late = late_us.saturating_mul(self.timer_per_us) / prescaler;
+        let counts = (period - (late / FOLLOWS).clamp(-most, most)).min(u16::MAX.into());
+        tick_timer::last(counts as u16);
+        self.longer += (counts - period) * prescaler;
+        let us = self.longer.checked_div_euclid(self.timer_per_us);
+        let us = us.unwrap_or(0);
+        self.longer -= us * self.timer_per_us;
+        self.next_us = self.next_us.wrapping_add_signed(us.into());
     }
 
     /// A tick begins.
@@ -112,7 +145,7 @@ impl Head {
             ON_BUS.try_init_with(|| OnBus {
                 node: Node::new(&settings.head, number),
                 controller: Controller::start(timing),
-                own: Time::new(),
+                own: Time::new(pace.tick),
                 decided: None,
             })
         }))
@@ -140,6 +173,7 @@ impl Head {
                 events(Event::Decision(place, decision));
             }
         });
+        own.follow(node.late_us());
         let is_armed = inner.is_armed();
         if is_armed != was_armed {
             // A reset does not undo what another board has asked for.
