@@ -427,22 +427,6 @@ mod tests {
     }
 
     #[test]
-    fn unknown_is_neither_right_nor_wrong() {
-        let names = ["ice".to_owned(), "loam".to_owned()];
-        let decisions = [
-            decided("ice", "ice", 20),
-            decided("ice", UNKNOWN, 900),
-            decided("loam", "loam", 40),
-        ];
-        let score = Score::new(&names, &decisions);
-        assert_eq!((score.decisions(), score.refused()), (2, 1));
-        assert_eq!(score.hit_rate(), Some(1.0));
-        assert_eq!(score.mean_samples(), Some(30.0));
-        let text = score.to_string();
-        assert!(text.contains("    ice |       1       0       1"), "{text}");
-    }
-
-    #[test]
     fn names_with_commas_survive_the_file_and_a_scene_tells_the_time() {
         let decisions = [decided("sand, wet", "ice", 20)];
         let written = |columns| {

@@ -32,8 +32,6 @@ mod flaws;
 mod ideal;
 mod pins;
 mod play;
-#[cfg(test)]
-pub(crate) mod rig;
 mod rotor;
 mod settings;
 mod stage;

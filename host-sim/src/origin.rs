@@ -110,16 +110,7 @@ pub fn foreign(file: &[u8]) -> Option<String> {
 
 #[cfg(test)]
 mod tests {
-    use super::{Origin, foreign, split};
-
-    #[test]
-    fn other_encodings_and_separators_are_named_with_their_line() {
-        let fault = |file: &[u8]| foreign(file).unwrap_or_default();
-        assert!(fault(b"\xff\xfel\0a\0").starts_with("line 1: the text is in UTF-16"));
-        assert!(fault(b"# a\nlabel;trial;x;y\nice;1;0,5;2\n").starts_with("line 2: semicolons"));
-        assert!(fault(b"label\ttrial\tx\ty\n").starts_with("line 1: tabs"));
-        assert_eq!(foreign(b"label,trial,x,y,a;b\n"), None);
-    }
+    use super::{Origin, split};
 
     #[test]
     fn what_is_written_is_read() {

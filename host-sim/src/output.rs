@@ -227,11 +227,4 @@ mod tests {
         let left: Vec<_> = fs::read_dir(path.parent().unwrap()).unwrap().collect();
         assert_eq!(left.len(), 1, "{left:?}");
     }
-
-    #[test]
-    fn a_folder_in_the_way_is_an_error() {
-        let folder = tempfile::tempdir().unwrap();
-        let error = write_whole(folder.path(), b"x").unwrap_err();
-        assert_eq!(error.exit_status(), 2);
-    }
 }

@@ -272,21 +272,6 @@ mod tests {
         }
     }
 
-    #[test]
-    fn numbers_are_a_shaft_as_its_name_is() {
-        let of_numbers = Pressing {
-            shaft: None,
-            length_m: Some(0.112),
-            hub_m: Some(2.282e-3),
-            taper: Some(8.0),
-            youngs_pa: Some(1.394e9),
-            follicle_nm_rad: Some(0.2),
-            ..named("")
-        };
-        let [a, b] = [of_numbers, named("biotact-middle")].map(|one| one.press().unwrap());
-        assert!((a[0].normal_n / b[0].normal_n - 1.0).abs() < 1e-9);
-    }
-
     /// What the solver refuses is refused before, by the name of its field.
     #[test]
     fn the_ends_of_all_ranges_are_allowed() {

@@ -24,27 +24,3 @@ pub fn agreed(said: impl IntoIterator<Item = Said>) -> Result<Option<u32>, Strin
     }
     Ok(first.map(|(_, hz)| hz))
 }
-
-#[cfg(test)]
-mod tests {
-    use super::{Said, agreed};
-
-    #[test]
-    fn who_says_a_rate_must_agree_with_the_others() {
-        let said = |all: &[(&str, Option<u32>)]| {
-            let all: Vec<Said> = all.iter().map(|(who, hz)| ((*who).into(), *hz)).collect();
-            agreed(all)
-        };
-        assert_eq!(said(&[("a", None)]), Ok(None));
-        assert_eq!(
-            said(&[("a", None), ("b", Some(5)), ("c", Some(5))]),
-            Ok(Some(5))
-        );
-        let fault = said(&[
-            ("--rate", Some(5)),
-            ("b", None),
-            ("c.csv: tick_hz", Some(6)),
-        ]);
-        assert_eq!(fault, Err("--rate: found 5, c.csv: tick_hz has 6".into()));
-    }
-}

@@ -20,9 +20,6 @@ pub struct NaiveBayes<R: DecisionRule, W = &'static [u32]> {
 }
 
 impl<R: DecisionRule, W: Words> NaiveBayes<R, W> {
-    /// Bytes that change as samples come in.
-    pub const STATE_BYTES: usize = size_of::<StreamState<R::Evidence>>();
-
     /// Joins a model and a rule; nothing is seen yet, all classes are equal.
     ///
     /// # Errors

@@ -131,31 +131,6 @@ mod tests {
     }
 
     #[test]
-    fn single_precision_follows_double() {
-        for tick_hz in [200.0, 2_000.0, 20_000.0] {
-            let (c32, c64) = (
-                Config::<f32>::new(CORNER_HZ, tick_hz).unwrap(),
-                Config::<f64>::new(CORNER_HZ, tick_hz).unwrap(),
-            );
-            let (mut s32, mut s64) = (State::default(), State::default());
-            let mut worst = 0.0_f64;
-            for n in 0..200_000_u32 {
-                let x = if n.wrapping_mul(2_654_435_761) >> 31 == 0 {
-                    1.0
-                } else {
-                    -1.0
-                };
-                let (y32, y64) = (
-                    c32.process(&mut s32, x),
-                    c64.process(&mut s64, f64::from(x)),
-                );
-                worst = worst.max((f64::from(y32) - y64).abs());
-            }
-            assert!(worst < 2e-6, "{tick_hz}: {worst:e}");
-        }
-    }
-
-    #[test]
     fn a_corner_at_or_above_half_the_rate_is_refused() {
         assert!(Config::<f32>::new(50.0, 100.0).is_err());
         assert!(Config::<f32>::new(50.0, f64::NAN).is_err());

@@ -94,16 +94,6 @@ fn operations_of_one_transaction_walk_through_one_frame() {
 }
 
 #[test]
-fn the_real_driver_reads_what_was_set() {
-    let mut sensor = driver();
-    sensor.spi_mut().set([0.5, -0.125]);
-    let frame = sensor.read_paced(50_000).unwrap();
-    assert!((frame.first().normalised() - 0.5).abs() < 6.2e-5);
-    assert!((frame.second().normalised() + 0.125).abs() < 6.2e-5);
-    assert_eq!(sensor.spi_mut().traffic().delay_ns, 350_000);
-}
-
-#[test]
 fn each_fault_is_seen_as_what_it_is() {
     let mut sensor = driver();
     sensor.spi_mut().set([0.25, 0.0]);

@@ -13,14 +13,15 @@
 //! As the part does, the slave checks the CRC of every command, obeys none that is wrong or
 //! has not 32 clocks, and inverts the last bit of its reply to a wrong one. The one difference
 //! on the wire: it judges the whole command before it sends that bit, where the part has not
-//! seen the last bit yet. No time passes here.
+//! seen the last bit yet. No time passes here. It has no pairs, thresholds, temperature or
+//! conversions on command, for which no board asks.
 
 mod below_magnet;
 
 use embedded_hal::spi::{ErrorType, Operation, SpiDevice};
 use tmag5170::{
-    Access, Average, Channels, Command, DataType, FRAME_LEN, Field, OperatingMode, Range, Register,
-    Status, StatusFaults, Temperature, Trigger, Version, crc4, encode,
+    Access, Average, Channels, Command, FRAME_LEN, Field, OperatingMode, Range, Register, Status,
+    StatusFaults, Version, crc4, encode,
 };
 
 use physics::Noise;
@@ -60,23 +61,17 @@ pub enum LineFault {
 /// same along all axes, are choices.
 const NOISE_OF_32_MT: f64 = 0.025;
 
-/// Of X, Y and Z: the result, its thresholds, and the report that it is beyond them.
-const AXES: [(Register, Register, StatusFaults); 3] = [
-    (Register::X, Register::XThresholds, StatusFaults::LIMIT_X),
-    (Register::Y, Register::YThresholds, StatusFaults::LIMIT_Y),
-    (Register::Z, Register::ZThresholds, StatusFaults::LIMIT_Z),
-];
+const AXES: [Register; 3] = [Register::X, Register::Y, Register::Z];
 
 /// A sensor, and the wire to it: an [`SpiDevice`].
 ///
-/// A new one has just been powered up, in a field of zero at 25 °C and without fault.
+/// A new one has just been powered up, in a field of zero and without fault.
 #[derive(Debug, Clone)]
 pub struct TmagSlave {
     registers: [u16; Register::ALL.len()],
     version: Version,
     field_mt: [f64; 3],
-    celsius: f64,
-    /// Field, temperature or settings are new since the last conversion.
+    /// Field or settings are new since the last conversion.
     due: bool,
     /// Sets converted.
     sets: u16,
@@ -84,8 +79,6 @@ pub struct TmagSlave {
     happened: StatusFaults,
     /// The command before was wrong.
     refused: bool,
-    /// S2..S0 of the next reply are the data type.
-    tell_type: bool,
     noise: Option<Noise>,
     injected: Injected<LineFault>,
     traffic: Traffic,
@@ -98,13 +91,11 @@ impl TmagSlave {
             registers: [0; Register::ALL.len()],
             version,
             field_mt: [0.0; 3],
-            celsius: 25.0,
             due: true,
             sets: 0,
             standing: StatusFaults::NONE,
             happened: StatusFaults::NONE,
             refused: false,
-            tell_type: false,
             noise: None,
             injected: Injected::NONE,
             traffic: Traffic::default(),
@@ -130,18 +121,11 @@ impl TmagSlave {
         self.due = true;
         self.sets = 0;
         self.refused = false;
-        self.tell_type = false;
     }
 
     /// The field along X, Y and Z, mT; NaN reads as 0.
     pub const fn set_field(&mut self, field_mt: [f64; 3]) {
         self.field_mt = field_mt;
-        self.due = true;
-    }
-
-    /// The temperature of the die, °C.
-    pub const fn set_celsius(&mut self, celsius: f64) {
-        self.celsius = celsius;
         self.due = true;
     }
 
@@ -217,10 +201,6 @@ impl TmagSlave {
         self.standing | self.happened
     }
 
-    fn data_type(&self) -> DataType {
-        DataType::of(self.register(Register::SystemConfig)).unwrap_or_default()
-    }
-
     /// Measures, if there is something new to measure.
     fn convert(&mut self, fault: Option<LineFault>) {
         if !self.due {
@@ -234,44 +214,20 @@ impl TmagSlave {
         let device = self.register(Register::DeviceConfig);
         let sensor = self.register(Register::SensorConfig);
         let channels = Channels::of(sensor).unwrap_or_default();
-        // One conversion alone has twelve bits.
-        let resolved = match Average::of(device) {
-            Some(Average::X1) => !0xF,
-            _ => !0,
-        };
         let conversions = Average::of(device).unwrap_or_default().count();
         let noise_mt = NOISE_OF_32_MT * (32.0 / f64::from(conversions)).sqrt();
-        for (axis, (register, thresholds, beyond)) in AXES.into_iter().enumerate() {
+        for (axis, register) in AXES.into_iter().enumerate() {
             if channels.axes()[axis] {
                 let range = Range::of(sensor >> (2 * axis)).unwrap_or_default();
                 let full_scale = range.full_scale_mt(self.version);
                 let noise = self.noise.as_mut().map_or(0.0, Noise::next);
                 let field_mt = strength * self.field_mt[axis] + noise_mt * noise;
                 let field = Field::from_mt(field_mt as f32, full_scale);
-                *self.at(register) = field.code() as u16 & resolved;
-                self.check_limits(field, thresholds, beyond);
+                *self.at(register) = field.code() as u16;
             }
         }
-        if device & 0x0008 != 0 {
-            let temperature = Temperature::from_celsius(self.celsius as f32);
-            *self.at(Register::Temperature) = temperature.code();
-        }
         self.sets = (self.sets + 1) % 8;
-        let axes = channels.axes().map(u16::from);
-        *self.at(Register::ConversionStatus) =
-            0x2000 | (axes[0] << 8) | (axes[1] << 9) | (axes[2] << 10) | (self.sets << 4);
         self.due = false;
-    }
-
-    /// Notes a field beyond its thresholds, where they are watched.
-    fn check_limits(&mut self, field: Field, thresholds: Register, beyond: StatusFaults) {
-        let watched = self.register(Register::SystemConfig) & beyond.sys_status() != 0;
-        let [high, low] = self.register(thresholds).to_be_bytes();
-        let [high, low] = [high as i8, low as i8];
-        let eighth = (field.code() >> 8) as i8;
-        if watched && (eighth > high || eighth < low) {
-            self.happened = self.happened | beyond;
-        }
     }
 
     /// The status bits of this moment.
@@ -280,43 +236,22 @@ impl TmagSlave {
         let afe = report.without(StatusFaults::RESTARTED).afe_status() != 0;
         let sys = report.sys_status() != 0;
         let bit = |set: bool, bit: Status| if set { bit.bits() } else { 0 };
-        let count = if self.tell_type {
-            self.data_type() as u16
-        } else {
-            self.sets
-        };
         let bits = bit(self.refused, Status::PREVIOUS_CRC)
             | bit(report.contains(StatusFaults::RESTARTED), Status::RESTARTED)
             | bit(sys, Status::SYSTEM)
             | bit(afe, Status::AFE)
             | bit(afe || sys, Status::ERROR)
-            | count;
+            | self.sets;
         Status::new(bits)
     }
 
     /// The reply to a command, of which `arrived` bytes have come; what depends on others is
     /// not to be sent yet.
     fn reply(&self, command: [u8; FRAME_LEN], arrived: usize) -> [u8; FRAME_LEN] {
-        let status = self.status();
-        let pair = |first: Register, second: Register, shift: u32| {
-            let code = |register| self.register(register) >> shift;
-            encode::pair(status, code(first), code(second))
-        };
-        let reply = match self.data_type() {
-            DataType::Register => {
-                let [first, ..] = command;
-                let asked = Register::at(first & 0x7F).filter(|_| first & 0x80 != 0);
-                let value = asked.map_or(0, |register| self.register(register));
-                encode::register(status, value)
-            }
-            DataType::Xy => pair(Register::X, Register::Y, 4),
-            DataType::Xz => pair(Register::X, Register::Z, 4),
-            DataType::Zy => pair(Register::Z, Register::Y, 4),
-            DataType::Xt => pair(Register::X, Register::Temperature, 4),
-            DataType::Yt => pair(Register::Y, Register::Temperature, 4),
-            DataType::Zt => pair(Register::Z, Register::Temperature, 4),
-            DataType::AngleMagnitude => pair(Register::Angle, Register::Magnitude, 1),
-        };
+        let [first, ..] = command;
+        let asked = Register::at(first & 0x7F).filter(|_| first & 0x80 != 0);
+        let value = asked.map_or(0, |register| self.register(register));
+        let reply = encode::register(self.status(), value);
         if arrived == FRAME_LEN && self.is_wrong(command) {
             encode::rejecting(reply)
         } else {
@@ -348,21 +283,9 @@ impl TmagSlave {
         let Ok(command) = Command::decode(&[b0, b1, b2, (b3 & 0xF0) | crc4(&command)]) else {
             return;
         };
-        self.tell_type = command.tell_type;
-        let replied_a_register = self.data_type() == DataType::Register;
         match command.access {
             Access::Write(register, value) => self.write(register, value),
-            Access::Read(register) if replied_a_register => self.clear(register),
-            Access::Read(_) => {}
-        }
-        let trigger = Trigger::of(self.register(Register::SystemConfig));
-        let waits = matches!(
-            OperatingMode::of(self.register(Register::DeviceConfig)),
-            Some(OperatingMode::Configuration | OperatingMode::Standby | OperatingMode::Triggered)
-        );
-        if command.convert && trigger == Some(Trigger::Command) && waits {
-            self.due = true;
-            self.convert(None);
+            Access::Read(register) => self.clear(register),
         }
     }
 

@@ -31,26 +31,3 @@ impl Reasons {
         each.filter(move |(_, count)| are_told && *count > 0)
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use tactile::Decision;
-
-    use super::{Decided, Reasons};
-
-    #[test]
-    fn each_reason_is_counted_unless_all_are_unknown() {
-        let decided = |bits: u32| {
-            let decision = Decision::from_memory(40, 0, bits << 16).unwrap();
-            Decided::new(decision, &["ice".to_owned()], "ice", "1")
-        };
-        let apart = |bits: &[u32]| {
-            let decided: Vec<_> = bits.iter().copied().map(decided).collect();
-            Reasons::of(decided.iter()).apart().collect::<Vec<_>>()
-        };
-        assert_eq!(apart(&[0, 1, 1]), []);
-        assert_eq!(apart(&[0, 3]), [("pose", 1)]);
-        let all = [("unknown", 2), ("pose", 1), ("between", 3)];
-        assert_eq!(apart(&[0, 5, 1, 3, 5, 1, 0, 13]), all);
-    }
-}

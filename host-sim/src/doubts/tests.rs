@@ -22,21 +22,6 @@ fn rows(label: &str, trial: usize, range: std::ops::Range<u32>) -> String {
 }
 
 #[test]
-fn a_value_far_from_all_others_is_named() {
-    let mut table = rows("a", 1, 0..100);
-    assert_eq!(found(&[("r.csv", &table)]), []);
-    table.push_str("a,1,1e9,7\n");
-    let doubt = found(&[("r.csv", &table)]);
-    assert_eq!((doubt[0].recording, doubt[0].sample), (0, 100));
-    assert!(
-        doubt[0].said.starts_with("x is 1000000000, far from"),
-        "{doubt:?}"
-    );
-    let few = "a,1,5,7\na,1,6,7\na,1,1e9,7\n";
-    assert_eq!(found(&[("r.csv", few)]), []);
-}
-
-#[test]
 fn what_stands_apart_does_not_make_the_scale() {
     let table = format!(
         "label,trial,x,y\n{}a,1,4294967295,-1e300\n",
@@ -56,17 +41,6 @@ fn what_stands_apart_does_not_make_the_scale() {
 }
 
 #[test]
-fn trials_in_pieces_are_counted() {
-    let doubt = found(&[("r.csv", "a,1,1,2\nb,1,3,4\na,1,5,6\nb,1,7,8\n")]);
-    assert_eq!(doubt.len(), 1);
-    assert_eq!(doubt[0].sample, 2);
-    assert!(
-        doubt[0].said.contains("2 trials are in 4 pieces"),
-        "{doubt:?}"
-    );
-}
-
-#[test]
 fn trials_that_overlap_are_found() {
     let overlapping = [
         rows("a", 1, 0..400),
@@ -79,20 +53,6 @@ fn trials_that_overlap_are_found() {
     assert!(doubt[0].said.starts_with(said), "{doubt:?}");
     let apart = [rows("a", 1, 0..400), rows("a", 2, 400..800)];
     assert_eq!(found(&[("r.csv", &apart.concat())]), []);
-}
-
-#[test]
-fn a_recording_under_two_names_is_found() {
-    let table = [rows("a", 1, 0..200), rows("b", 1, 500..700)].concat();
-    let doubt = found(&[("one.csv", &table), ("two.csv", &table)]);
-    assert_eq!(doubt.len(), 1, "{doubt:?}");
-    assert!(doubt[0].said.starts_with("100 % of trial"), "{doubt:?}");
-    assert!(
-        doubt[0]
-            .said
-            .contains("in two.csv too. So it is with 4 trials."),
-        "{doubt:?}"
-    );
 }
 
 #[test]

@@ -276,6 +276,4 @@ impl Plant for Textured {
 }
 
 #[cfg(test)]
-mod sizing;
-#[cfg(test)]
 mod tests;

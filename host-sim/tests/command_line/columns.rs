@@ -1,6 +1,6 @@
 //! What stands in the trace beside the first columns, and that each column is documented.
 
-use crate::common::{IDEAL, Place, SEQUENTIAL, TEXTURED, cells, model};
+use crate::common::{Place, SEQUENTIAL, TEXTURED, cells, model};
 
 /// The cells of a column, as they are written.
 fn column<'t>(rows: &[Vec<&'t str>], name: &str) -> Vec<&'t str> {
@@ -102,34 +102,6 @@ fn every_column_that_is_written_is_on_the_page() {
 }
 
 #[test]
-fn every_whisker_has_its_own_motion_and_contact() {
-    let scene = IDEAL.replace("gain = 1.0", "gain = [1.0, 0.5, 1.0, 0.25]");
-    let place = Place::with(&[("s.toml", &scene)]);
-    place.done("run s.toml --out .");
-    let text = place.text("trace.csv");
-    let rows = cells(&text);
-    for side in ["left", "right"] {
-        let first = numbers(&rows, &format!("theta_{side}_deg"));
-        let second = numbers(&rows, &format!("theta_{side}_2_deg"));
-        let share = if side == "left" { 0.5 } else { 0.25 };
-        // The muscle's drive is proportional to the gain: less of it moves less.
-        let travel = |theta: &[f64]| theta.iter().fold(0.0_f64, |most, x| most.max(x - 50.0));
-        assert!(travel(&second) < travel(&first) * (share + 0.2), "{side}");
-        assert!(travel(&second) > 1.0, "{side}");
-        assert_eq!(numbers(&rows, &format!("angle_{side}_2_deg")), second);
-        // A side feels what the most bent of its whiskers feels.
-        let side_contact = numbers(&rows, &format!("contact_{side}"));
-        let second_contact = numbers(&rows, &format!("contact_{side}_2"));
-        let pairs = side_contact.iter().zip(&second_contact);
-        assert!(pairs.clone().all(|(side, second)| *second <= side + 1e-6));
-        assert!(
-            pairs.clone().any(|(side, second)| *second < side - 0.1),
-            "{side}"
-        );
-    }
-}
-
-#[test]
 fn speed_and_duty_are_those_of_the_motion() {
     let place = Place::with(&[("s.toml", TEXTURED)]);
     place.done("run s.toml --out .");
@@ -166,39 +138,6 @@ fn speed_and_duty_are_those_of_the_motion() {
             .iter()
             .all(|fault| *fault == "0")
     );
-}
-
-#[test]
-fn an_elastic_whisker_touches_at_its_tip_first_and_then_below_it() {
-    let place = Place::with(&[("s.toml", &elastic())]);
-    place.done("run s.toml --out .");
-    let text = place.text("trace.csv");
-    let rows = cells(&text);
-    let (at, on) = (
-        column(&rows, "touch_at_left_m"),
-        column(&rows, "place_left_m"),
-    );
-    assert!(rows[0].ends_with(&["touch_at_left_m", "place_left_m"]));
-    let touches = at.iter().zip(&on).filter(|(at, _)| !at.is_empty());
-    let touches: Vec<[f64; 2]> = touches
-        .map(|(at, on)| [at, on].map(|cell| cell.parse().unwrap()))
-        .collect();
-    assert!(
-        touches.len() > 50 && touches.len() < 950,
-        "{}",
-        touches.len()
-    );
-    // At the tip of its 112 mm, near where a straight tip touches.
-    let [first_at, first_on] = touches[0];
-    assert!(
-        first_at > 0.111 && first_on.abs() < 0.001,
-        "{first_at} {first_on}"
-    );
-    assert!(touches.iter().all(|[at, _]| *at > 0.056 && *at <= 0.112));
-    assert!(touches.iter().any(|[at, _]| *at < 0.1115));
-    let in_the_air = at.iter().zip(numbers(&rows, "angle_left_deg"));
-    let mut in_the_air = in_the_air.filter(|(at, _)| at.is_empty());
-    assert!(in_the_air.all(|(_, angle)| angle < 90.0));
 }
 
 /// A driver that may not exceed a hundredth of its duty cannot follow: the motor is given up.

@@ -53,19 +53,6 @@ fn run_writes_a_row_a_tick() {
 }
 
 #[test]
-fn a_side_that_is_not_built_has_empty_cells() {
-    let place = Place::with(&[("s.toml", TEXTURED)]);
-    place.done("run s.toml --out .");
-    let text = place.text("trace.csv");
-    for row in &cells(&text)[1..] {
-        for right in [2, 4, 6, 8, 10] {
-            assert!(!row[right - 1].is_empty());
-            assert_eq!(row[right], "");
-        }
-    }
-}
-
-#[test]
 fn run_writes_decisions_where_the_scene_classifies() {
     let place = classifying();
     let ran = place.done("run scenes/textured.toml --out out");
@@ -107,26 +94,6 @@ fn run_writes_decisions_where_the_scene_classifies() {
     // Two windows fit in each of four presentations of 250 samples.
     assert_eq!(decided.len(), 8);
     assert!(decided.iter().all(|d| d.samples == 120));
-}
-
-#[test]
-fn the_seed_is_the_only_source_of_chance() {
-    let place = classifying();
-    let run = |scene: &str| {
-        place.write("scenes/s.toml", scene);
-        place.done("run scenes/s.toml --out out");
-        place.bytes("out/trace.csv")
-    };
-    let noisy = format!("{TEXTURED}{SEQUENTIAL}");
-    let other = |scene: &str| scene.replace("seed = 1", "seed = 2");
-    let first = run(&noisy);
-    let decided = place.bytes("out/decisions.csv");
-    assert!(first == run(&noisy), "the same seed, other bytes");
-    assert_eq!(decided, place.bytes("out/decisions.csv"));
-    assert!(first != run(&other(&noisy)), "another seed, the same bytes");
-    assert!(run(IDEAL) == run(&other(IDEAL)), "without noise no chance");
-    let hummed = IDEAL.replace("noise = 0.0", "noise = 0.01");
-    assert!(run(&hummed) != run(&other(&hummed)));
 }
 
 #[test]
@@ -202,70 +169,6 @@ fn recordings_may_come_in_any_dress() {
     }
     let unfinished = RECORDING.trim_end().as_bytes();
     assert!(train(unfinished) == plain, "no newline at the end");
-}
-
-#[test]
-fn record_writes_what_the_classifier_would_get() {
-    let place = Place::with(&[("s.toml", TEXTURED)]);
-    let ran = place.done("record s.toml --out recorded.csv");
-    assert!(
-        ran.stdout.contains("1000 samples in 4 streams"),
-        "{}",
-        ran.stdout
-    );
-    place.done("run s.toml --out .");
-    let (recorded, trace) = (place.text("recorded.csv"), place.text("trace.csv"));
-    let (recorded, trace) = (cells(&recorded), cells(&trace));
-    let column = |name: &str| trace[0].iter().position(|title| *title == name).unwrap();
-    let (x, y, contact) = (column("x_left"), column("y_left"), column("contact_left"));
-    assert_eq!(recorded.len(), trace.len());
-    for (recorded, trace) in recorded[1..].iter().zip(&trace[1..]) {
-        assert_eq!(recorded[2..4], [trace[x], trace[y]]);
-        let [found, expected] = [recorded[4], trace[contact]].map(str::parse::<f64>);
-        assert!((found.unwrap() - expected.unwrap()).abs() < 1e-7);
-    }
-    assert_eq!(
-        (recorded[1][0], recorded[251][0], recorded[501][0]),
-        ("smooth", "carpet", "smooth")
-    );
-    assert_eq!((recorded[1][1], recorded[501][1]), ("0", "1"));
-    place.done("record s.toml --out other.csv --seed 7");
-    assert_ne!(place.text("other.csv"), place.text("recorded.csv"));
-}
-
-#[test]
-fn help_names_every_command_and_option() {
-    let place = Place::new();
-    let help = |line: &str| place.done(line).stdout;
-    for word in "run record train classify evaluate score sweep columns --quiet status".split(' ') {
-        assert!(help("--help").contains(word), "{word}");
-    }
-    for (command, options) in [
-        ("run", "<SCENE> --set --seed --out --plot --no-plot"),
-        ("sweep", "<SCENE> --set --key --seeds --out"),
-        (
-            "train",
-            "--data --out --rate --unknown --plot --tables --bins --smooth --block --gate --gap \
-             24 100 0.7 5 40 20 0.05 0.1",
-        ),
-        (
-            "evaluate",
-            "--model --data --threshold 0.99 --error-rate --time --rate --plot",
-        ),
-        (
-            "score",
-            "<SCENE> --seeds --train-seed --threshold --unknown --tables --gate --gap",
-        ),
-        (
-            "classify",
-            "--model --data --rule --threshold --window --out",
-        ),
-    ] {
-        let text = help(&format!("{command} --help"));
-        let mut options = options.split(' ');
-        assert!(options.all(|option| text.contains(option)), "{text}");
-    }
-    assert!(help("--version").starts_with("host-sim "));
 }
 
 #[test]

@@ -1,8 +1,6 @@
 //! The core as a program of one's own uses it: a run owns all that it needs,
 //! moves to another thread, and starts again.
 
-use std::thread;
-
 use firmware::{Event, Sample};
 use host_sim::bus::WireFault;
 use host_sim::classifier::Classifier;
@@ -96,15 +94,6 @@ fn a_run_that_is_reset_equals_a_new_one() {
         assert!(see(&mut again) == second, "{text}");
         again.reset(1).unwrap();
         assert!(see(&mut again) == first, "{text}");
-    }
-}
-
-#[test]
-fn the_largest_seed_is_one_like_any_other() {
-    for text in scenes() {
-        let mut run = run(&scene(&text, u64::MAX));
-        assert_eq!(see(&mut run).rows.len() as u64, run.ticks());
-        run.reset(u64::MAX).unwrap();
     }
 }
 
@@ -208,38 +197,6 @@ fn gains_and_setpoints_are_taken_between_ticks() {
 }
 
 #[test]
-fn a_motor_follows_its_setpoint() {
-    let mut run = run(&scene(TEXTURED, 1));
-    run.set_setpoint_deg(0, Some(70.0)).unwrap();
-    let last = (0..1000).map(|_| run.tick()).last().unwrap();
-    assert!((last.angle_deg[0] - 70.0).abs() < 1.0, "{last:?}");
-}
-
-#[test]
-fn runs_on_other_threads_agree() {
-    let text = format!("{TEXTURED}{SEQUENTIAL}");
-    let here = see(&mut run(&scene(&text, 5)));
-    // Made here, half of it run there, the rest of it here.
-    let mut moved = run(&scene(&text, 5));
-    let text = &text;
-    let there = thread::scope(|threads| {
-        let both = [0, 1].map(|_| threads.spawn(move || see(&mut run(&scene(text, 5)))));
-        let half = threads.spawn(|| {
-            for _ in 0..moved.ticks() / 2 {
-                moved.tick();
-            }
-        });
-        half.join().unwrap();
-        both.map(|thread| thread.join().unwrap())
-    });
-    assert!(!here.decisions.is_empty());
-    assert!(there.iter().all(|seen| *seen == here));
-    let rest = moved.ticks() - moved.ticks() / 2;
-    let last = (0..rest).map(|_| moved.tick().t_s).last();
-    assert_eq!(last.map(f64::to_bits), here.rows.last().map(|row| row[0]));
-}
-
-#[test]
 fn posteriors_are_seen_between_decisions() {
     assert_eq!(run(&scene(TEXTURED, 1)).posteriors(), None);
     let mut run = run(&scene(&format!("{TEXTURED}{SEQUENTIAL}"), 1));
@@ -271,27 +228,4 @@ fn a_recording_is_what_a_classifier_gets() {
     let [decided, recorded] = [classifying, recording].map(|mut run| see(&mut run));
     assert_eq!(decided.samples, recorded.samples);
     assert!(recorded.samples.iter().all(Option::is_some));
-}
-
-#[test]
-fn textures_are_exchanged_in_the_air() {
-    let timed = Scene::from_str("s.toml", TEXTURED).unwrap();
-    let air = TEXTURED.replace("exchange = \"timed\"\n", "");
-    let air =
-        Scene::from_str("s.toml", &air.replace("duration_s = 0.5", "duration_s = 2")).unwrap();
-    for scene in [timed, air] {
-        let mut run = Run::new(&scene, None).unwrap();
-        let (mut label, mut still, mut late) = ("free", 0, Vec::new());
-        for n in 0..run.ticks() {
-            still = if run.touches() { 0 } else { still + 1 };
-            run.tick();
-            if run.presented().0 != label {
-                label = run.presented().0;
-                late.push((n, still));
-            }
-        }
-        let on_time = late.iter().all(|(n, _)| n % 250 == 0);
-        let in_air = late[1..].iter().all(|(_, still)| *still >= 40);
-        assert!(late.len() > 2 && on_time != in_air, "{late:?}");
-    }
 }

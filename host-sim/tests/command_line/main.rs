@@ -8,7 +8,6 @@ mod does;
 mod judges;
 mod library;
 mod main_job;
-mod meaning;
 mod misfits;
 mod mutations;
 mod others_recordings;

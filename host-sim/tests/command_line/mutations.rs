@@ -3,20 +3,17 @@
 
 use std::path::Path;
 
-use host_sim::classifier::Classifier;
 use host_sim::commands::classify;
 use host_sim::commands::train;
 use host_sim::decisions::Decided;
 use host_sim::progress::Verbosity;
 use host_sim::recording::CHANNELS;
-use host_sim::run::Run;
 use host_sim::training::{How, Tables};
 use proptest::collection::vec;
 use proptest::prelude::*;
 use scene::{Rule, Scene};
-use tactile::ModelBuf;
 
-use crate::common::{IDEAL, Place, RECORDING, SEQUENTIAL, TEXTURED, decisions, model};
+use crate::common::{Place, RECORDING, SEQUENTIAL, TEXTURED, decisions, model};
 
 /// A change to some bytes.
 #[derive(Debug, Clone)]
@@ -95,34 +92,6 @@ fn mutilated(bytes: &[u8], cuts: &[Cut]) -> Vec<u8> {
     bytes
 }
 
-/// Some ticks of a scene, if it is one.
-fn play(text: &str, ticks: u64) -> Result<(), TestCaseError> {
-    let Ok(scene) = Scene::from_str("s.toml", text) else {
-        return Ok(());
-    };
-    if config::check(&scene).is_err() {
-        return Ok(());
-    }
-    let model = model(2, 20, true);
-    let model = ModelBuf::from_bytes(&model).unwrap();
-    let rule = scene.classifier.as_ref().map(|classifier| classifier.rule);
-    let classifier = rule.and_then(|rule| Classifier::new(model, rule).ok());
-    let mut run = match Run::new(&scene, classifier) {
-        Ok(run) => run,
-        // Its motor bears neither its whisking nor its gains.
-        Err(host_sim::Error::Input(_)) => return Ok(()),
-        Err(error) => return Err(TestCaseError::fail(format!("{error}: {text}"))),
-    };
-    for _ in 0..run.ticks().min(ticks) {
-        let row = run.tick();
-        let sides = scene.head.sides.count();
-        for value in row.pairs().iter().flat_map(|pair| &pair[..sides]) {
-            prop_assert!(value.is_finite(), "{row:?}: {text}");
-        }
-    }
-    Ok(())
-}
-
 /// Trains on and classifies a recording, whatever it is; decisions, if any
 /// fall, must be whole.
 fn train_and_decide(folder: &Place, model: &str, recording: &str) -> Result<(), TestCaseError> {
@@ -180,65 +149,12 @@ proptest! {
     #![proptest_config(ProptestConfig { cases: 400, ..ProptestConfig::default() })]
 
     #[test]
-    fn scenes_are_refused_or_played(which in 0..3_usize, cuts in vec(cut(), 1..4)) {
-        let fixed = TEXTURED.replace("noise =", "numbers = \"fixed\"\nnoise =");
-        let texts = [IDEAL.to_owned(), format!("{TEXTURED}{SEQUENTIAL}"), fixed];
-        let bytes = mutilated(texts[which].as_bytes(), &cuts);
-        play(&String::from_utf8_lossy(&bytes), 60)?;
-    }
-
-    #[test]
     fn recordings_are_refused_or_understood(cuts in vec(cut(), 1..4)) {
         let place = Place::new();
         place.write("m", model(2, 2, true));
         place.write("r.csv", mutilated(RECORDING.as_bytes(), &cuts));
         train_and_decide(&place, "m", "r.csv")?;
     }
-
-    /// With its checksum mended, so that what lies behind it is reached.
-    #[test]
-    fn models_are_refused_or_followed(cuts in vec(cut(), 1..3), mended: bool) {
-        let place = Place::with(&[("r.csv", RECORDING)]);
-        let mut bytes = mutilated(&model(2, 2, true), &cuts);
-        if mended {
-            mend(&mut bytes);
-        }
-        place.write("m", bytes);
-        train_and_decide(&place, "m", "r.csv")?;
-    }
-}
-
-/// Puts right the length and the checksum of a model file.
-fn mend(bytes: &mut [u8]) {
-    if bytes.len() < 20 {
-        return;
-    }
-    let length = bytes.len() as u32;
-    bytes[12..16].copy_from_slice(&length.to_le_bytes());
-    let (body, crc) = bytes.split_at_mut(length as usize - 4);
-    crc.copy_from_slice(&crc32(body).to_le_bytes());
-}
-
-/// CRC-32 as in zip, bit by bit.
-fn crc32(bytes: &[u8]) -> u32 {
-    let step = |crc: u32, _| {
-        if crc & 1 == 1 {
-            crc >> 1 ^ 0xEDB8_8320
-        } else {
-            crc >> 1
-        }
-    };
-    let byte = |crc: u32, byte: &u8| (0..8).fold(crc ^ u32::from(*byte), step);
-    !bytes.iter().fold(u32::MAX, byte)
-}
-
-#[test]
-fn a_mended_model_is_valid() {
-    let valid = model(2, 2, true);
-    let mut bytes = valid.clone();
-    *bytes.last_mut().unwrap() ^= 1;
-    mend(&mut bytes);
-    assert!(bytes == valid);
 }
 
 proptest! {

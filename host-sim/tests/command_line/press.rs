@@ -57,17 +57,6 @@ fn a_file_has_the_same_table_and_another_the_shapes() {
 }
 
 #[test]
-fn a_shaft_may_be_its_numbers() {
-    let place = Place::new();
-    let numbers_of = "press --length-m 0.112 --hub-m 0.002282 --taper 8 --youngs-pa 1.394e9";
-    let own = place.done(&format!("{numbers_of} --follicle-nm-rad 0.2 --push-deg 10"));
-    let named = place.done(&format!("{MIDDLE} --push-deg 10"));
-    assert_eq!(own.stdout, named.stdout);
-    let clamped = place.done(&format!("{numbers_of} --follicle-nm-rad inf --push-deg 10"));
-    assert!(numbers(&clamped.stdout)[0][1] > numbers(&named.stdout)[0][1]);
-}
-
-#[test]
 fn what_is_wrong_is_refused_with_its_range() {
     let place = Place::new();
     let numbers_of = "--length-m 0.1 --hub-m 2e-3 --taper 8 --youngs-pa 1e9 --follicle-nm-rad 0.1";

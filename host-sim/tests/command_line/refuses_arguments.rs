@@ -14,25 +14,6 @@ const SINGLE: &str = "train --tables single --data r.csv";
 const CLASSIFY: &str = "classify --model m --data r.csv";
 
 #[test]
-fn commands_and_options_that_are_not_there_or_are_missing() {
-    let place = place();
-    for (line, naming) in [
-        ("bogus", &["bogus"][..]),
-        ("runn s.toml --out o", &["runn", "run"]),
-        ("--loud", &["--loud"]),
-        ("run --out o", &["<SCENE>"]),
-        ("run s.toml", &["--out"]),
-        ("run s.toml s.toml --out o", &["s.toml"]),
-        ("train --out o", &["--data"]),
-        ("train --data r.csv", &["--out"]),
-        ("classify --out o", &["--model", "--data", "--rule"]),
-        ("run s.toml --out o --out o", &["--out"]),
-    ] {
-        place.refuses(line, naming);
-    }
-}
-
-#[test]
 fn training_options_out_of_range() {
     let place = place();
     for (option, values) in [

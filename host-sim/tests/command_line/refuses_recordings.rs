@@ -39,46 +39,6 @@ fn files_that_are_no_recording() {
     refused_by_both(model(2, 20, true), &[]);
 }
 
-#[test]
-fn columns_that_are_missing_or_there_twice() {
-    for column in ["label", "trial", "x", "y"] {
-        let header = RECORDING.replacen(column, "other", 1);
-        refused_by_both(header, &["line 1", &format!("no column {column:?}")]);
-    }
-    let twice = "label,trial,x,y,x\nlow,0,1,2,3\nhigh,0,4,5,6\n";
-    refused_by_both(twice, &["line 1", "two columns \"x\""]);
-    refused_by_both(RECORDING.replacen("label", "Label", 1), &["no column"]);
-}
-
-#[test]
-fn rows_that_do_not_fit() {
-    for (row, naming) in [
-        (&b"low,0,nan,8000"[..], &["line 4", "x is \"nan\""][..]),
-        (b"low,0,8000,NaN", &["line 4", "y is \"NaN\""]),
-        (b"low,0,inf,8000", &["line 4", "x is \"inf\""]),
-        (b"low,0,8000,-infinity", &["line 4", "y is \"-infinity\""]),
-        (b"low,0,1e999,8000", &["line 4", "x is \"1e999\""]),
-        (b"low,0,eight,8000", &["line 4", "x is \"eight\""]),
-        (b"low,0,,8000", &["line 4", "x is \"\""]),
-        (b"low,0,0x10,8000", &["line 4", "x is \"0x10\""]),
-        (b"low,0,8000", &["line 4", "3 cells"]),
-        (b"low,0,1,2,3", &["line 4", "5 cells"]),
-        (b",0,8000,8000", &["line 4", "label is empty"]),
-        (b"l\xffw,0,8000,8000", &["line 4", "UTF-8"]),
-        (b"low,0,\xff,8000", &["line 4", "UTF-8"]),
-    ] {
-        refused_by_both(with_row(row), naming);
-    }
-}
-
-#[test]
-fn touches_that_are_no_numbers() {
-    for touch in ["-1", "1.5", "65536", "", "yes"] {
-        let recording = format!("label,trial,x,y,touch\nlow,0,1,2,0\nlow,0,1,2,{touch}\n");
-        refused_by_both(recording, &["line 3", &format!("touch is {touch:?}")]);
-    }
-}
-
 /// What can be classified but teaches nothing.
 #[test]
 fn lessons_without_content() {
@@ -109,20 +69,6 @@ fn lessons_without_content() {
     );
     let narrow = RECORDING.replace("8000", "0").replace("8100", "1e-300");
     refused(&narrow, &["y: its range"]);
-}
-
-/// Numbers far outside the model's range are the edge's, not an error.
-#[test]
-fn huge_numbers_are_classified() {
-    let place = Place::with(&[("r.csv", RECORDING)]);
-    place.done("train --tables single --data r.csv --out m --block 1");
-    let huge = "label,trial,x,y\nlow,0,-1e308,8000\nhigh,0,1e308,8000\nhigh,0,1.7e308,-1e308\n";
-    place.write("huge.csv", huge);
-    let classify = "classify --model m --data huge.csv --rule window --window 1 --out d.csv";
-    place.done(classify);
-    let decided = crate::common::decisions(&place.text("d.csv"));
-    assert_eq!(decided.len(), 3);
-    assert!(decided.iter().all(|d| d.decision == d.label), "{decided:?}");
 }
 
 #[test]

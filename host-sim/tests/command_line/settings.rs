@@ -34,36 +34,6 @@ fn a_run_is_as_if_the_file_said_so() {
 }
 
 #[test]
-fn keys_are_checked_as_in_the_file() {
-    let place = Place::with(&[("s.toml", IDEAL)]);
-    for (set, naming) in [
-        (
-            "--set rcp.gian=0.5",
-            &["--set rcp.gian=0.5: rcp.gian: unknown key", "`gain`"][..],
-        ),
-        ("--set wisking.noise=0.5", &["did you mean `whisking`?"]),
-        ("--set tick_hz=199", &["tick_hz: found 199", "from 200 to"]),
-        (
-            "--set whisking.integrator=eular",
-            &["did you mean \"euler\"?"],
-        ),
-        ("--set plant.kind=textured", &["plant.textures: missing"]),
-        ("--set rcp.gain", &["KEY=VALUE"]),
-        ("--set =1", &["KEY=VALUE"]),
-        ("--set seed=-1", &["seed: found -1"]),
-        ("--seed -1", &["--seed"]),
-        ("--seed 9223372036854775808", &["--seed", "whole number"]),
-        ("--seed 1.5", &["--seed"]),
-    ] {
-        place.refuses_to_write(&format!("run s.toml {set}"), naming);
-    }
-    // A fault of the file is reported beside it, with its line.
-    place.write("wrong.toml", IDEAL.replace("= 0.7", "= -0.7"));
-    let naming = ["wrong.toml:15: rcp.gain", "--set seed=-1: seed"];
-    place.refuses_to_write("run wrong.toml --set seed=-1", &naming);
-}
-
-#[test]
 fn a_sweep_has_a_row_a_run_and_each_is_that_of_run() {
     let place = classifying();
     let axes = "--key plant.obstacle_deg=[75.0],[80.0] --key classifier.threshold=0.8,0.9";

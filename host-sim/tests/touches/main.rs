@@ -5,8 +5,6 @@
 //! noise on the same way, of which one has nothing before it from the contact on: the
 //! ringing of the last contact is in both.
 
-#![allow(clippy::print_stdout, reason = "a measurement")]
-
 use host_sim::classifier::Classifier;
 use host_sim::plant::{Elastic, ElasticSettings, Head, Plant, Textured, TexturedSettings};
 use host_sim::recording::{GATE, Recorder, Stream};
@@ -18,7 +16,6 @@ use tactile::train::joint::{Options, Trial, train};
 const TEXTURES: &str = include_str!("../../../scenes/textures.toml");
 const WHISKER: &str = include_str!("../../../scenes/whisker.toml");
 const PLANTS: [(&str, &str); 2] = [("textured", TEXTURES), ("whisker", WHISKER)];
-const FREQUENCIES: [f64; 4] = [2.0, 4.0, 6.0, 8.0];
 const TICK_HZ: f64 = 2000.0;
 /// Ticks until the detector has learnt what is in the air.
 const LEARNT: u64 = 4000;
@@ -38,15 +35,6 @@ fn scene(text: &str, hz: f64, limit_deg: f64, seconds: f64, seed: u64) -> Scene 
     scene
 }
 
-/// With contact that excites the array (CIA), beside the suppression (RCP) or alone.
-fn excited(text: &str, alone: bool) -> String {
-    let rcp = "[rcp]\ngain  = 0.7\ntau_s = 0.125\n";
-    let cia = "[cia]\ngain  = 0.3\ntau_s = 0.125\n";
-    assert!(text.contains(rcp));
-    let both = format!("{rcp}\n{cia}");
-    text.replace(rcp, if alone { cia } else { &both })
-}
-
 /// What happened in some runs.
 #[derive(Debug, Default)]
 struct Found {
@@ -62,11 +50,6 @@ struct Found {
 
 impl Found {
     fn contacts(&mut self, scene: &Scene) {
-        self.contacts_of(Biotact::Middle, scene);
-    }
-
-    /// Of the elastic whisker with this shaft, which is the scene's too.
-    fn contacts_of(&mut self, shaft: Biotact, scene: &Scene) {
         let obstacle = scene.plant.obstacle.as_ref().unwrap();
         let head = Head {
             whiskers_per_side: 1,
@@ -84,7 +67,7 @@ impl Found {
         } else {
             let settings = ElasticSettings {
                 noise_codes,
-                ..ElasticSettings::of(Shaft::biotact(shaft))
+                ..ElasticSettings::of(Shaft::biotact(Biotact::Middle))
             };
             let plant = Elastic::new(head, settings, scene.seed).unwrap();
             self.run(scene, plant, Elastic::in_the_air);
@@ -149,42 +132,12 @@ impl Found {
     fn mean(&self) -> f64 {
         self.delays.iter().sum::<u64>() as f64 / self.delays.len() as f64 * 1000.0 / TICK_HZ
     }
-
-    fn print(&mut self, title: &str) {
-        self.delays.sort_unstable();
-        let place = self.delays.len() * 95 / 100;
-        let late = self.delays.get(place).copied().unwrap_or(0) as f64 * 1000.0 / TICK_HZ;
-        println!(
-            "| {title} | {} | {:.1} % | {:.2} | {late:.1} | {} | {} | {} in {:.1} min |",
-            self.delays.len() as u64 + self.missed,
-            100.0 * self.soon(),
-            self.mean(),
-            self.missed,
-            self.more,
-            self.false_ones,
-            self.ticks as f64 / TICK_HZ / 60.0
-        );
-    }
 }
 
 fn texture(scene: &Scene, label: &str) -> Texture {
     let textured = scene.plant.textured.as_ref().unwrap();
     let mut textures = textured.textures.iter();
     *textures.find(|texture| texture.name() == label).unwrap()
-}
-
-/// When touches are reported in the air, s.
-fn in_air(scene: &Scene) -> Vec<f64> {
-    let mut run = Run::new(scene, None).unwrap();
-    let (mut last, mut onsets) = (0, Vec::new());
-    for _ in 0..run.ticks() {
-        let row = run.tick();
-        if row.touch[0] != 0 && row.touch[0] != last {
-            onsets.push(row.t_s);
-        }
-        last = row.touch[0];
-    }
-    onsets
 }
 
 #[test]
@@ -266,96 +219,5 @@ fn nothing_is_decided_in_the_air() {
             run.decisions().next().is_some()
         });
         assert_eq!(decisions.count() > 0, limit_deg < 200.0, "{limit_deg} {hz}");
-    }
-}
-
-#[test]
-#[ignore = "minutes: prints the measurement"]
-fn measurement() {
-    println!(
-        "| plant, Hz | contacts | within 2 ms | mean, ms | 95 %, ms | missed | again | in the air |"
-    );
-    for (name, text) in PLANTS {
-        let gates = [
-            ("RCP", text.to_owned()),
-            ("CIA", excited(text, true)),
-            ("both", excited(text, false)),
-        ];
-        for (gate, text) in gates {
-            for hz in FREQUENCIES {
-                let mut found = Found::default();
-                let seeds = if gate == "RCP" { 400..420 } else { 400..405 };
-                for seed in seeds {
-                    found.contacts(&scene(&text, hz, 100.0, 40.0, seed));
-                }
-                found.print(&format!("{name}, {hz} Hz, {gate}"));
-            }
-        }
-        for hz in FREQUENCIES {
-            let mut found = Found::default();
-            found.contacts(&scene(text, hz, 100.0, 600.0, 420));
-            found.print(&format!("{name}, {hz} Hz, ten minutes"));
-        }
-    }
-    for (name, text) in PLANTS {
-        for hz in FREQUENCIES {
-            for seed in [421, 422] {
-                let onsets = in_air(&scene(text, hz, 300.0, 600.0, seed));
-                let early = onsets.iter().filter(|t_s| **t_s < 10.0).count();
-                println!(
-                    "| {name}, {hz} Hz | ten minutes of air: {early} in the first 10 s, then {} |",
-                    onsets.len() - early
-                );
-            }
-        }
-    }
-}
-
-/// What subtracting self-motion changes: suppression by what is no contact, touches in the air and
-/// onsets of real ones.
-#[test]
-#[ignore = "minutes: prints the measurement"]
-fn measurement_of_self_motion() {
-    const SHAFTS: [(Biotact, &str); 3] = [
-        (Biotact::Front, "biotact-front"),
-        (Biotact::Middle, "biotact-middle"),
-        (Biotact::Rear, "biotact-rear"),
-    ];
-    for (shaft, name) in SHAFTS {
-        let text = WHISKER.replace("biotact-middle", name);
-        for hz in [2.0, 4.0, 8.0] {
-            for tau_s in [None, Some(2.0)] {
-                let scene = |limit_deg, seconds, seed| {
-                    let mut scene = scene(&text, hz, limit_deg, seconds, seed);
-                    scene.sensor.self_motion_s = tau_s;
-                    scene
-                };
-                let (mut suppressed, mut ticks, mut touches) = (0.0, 0, 0);
-                for seed in 430..433 {
-                    let mut run = Run::new(&scene(300.0, 60.0, seed), None).unwrap();
-                    let mut last = 0;
-                    for n in 0..run.ticks() {
-                        let row = run.tick();
-                        if n >= 4 * LEARNT {
-                            suppressed += row.z[0];
-                            ticks += 1;
-                            touches += u32::from(row.touch[0] != 0 && row.touch[0] != last);
-                        }
-                        last = row.touch[0];
-                    }
-                }
-                let mut found = Found::default();
-                for seed in 430..435 {
-                    found.contacts_of(shaft, &scene(100.0, 40.0, seed));
-                }
-                let with = tau_s.map_or("as it is", |_| "without self-motion");
-                println!(
-                    "| {name}, {hz} Hz, {with} | in the air: z {:.3}, {:.1} touches a minute",
-                    suppressed / f64::from(ticks),
-                    f64::from(touches) / f64::from(ticks) * TICK_HZ * 60.0
-                );
-                found.print(&format!("{name}, {hz} Hz, {with}"));
-            }
-        }
     }
 }

@@ -47,13 +47,6 @@ pub(crate) fn trace(settings: &Settings, integrator: &str, duration_s: f64) -> V
     run(&scene(settings, integrator, duration_s))
 }
 
-/// The same with its numbers in `format`.
-pub(crate) fn trace_in(format: &str, settings: &Settings, duration_s: f64) -> Vec<Row> {
-    let text = scene(settings, "exact", duration_s);
-    let numbers = format!("[whisking]\nnumbers = \"{format}\"");
-    run(&text.replace("[whisking]", &numbers))
-}
-
 /// The trace of a scene file.
 fn run(scene: &str) -> Vec<Row> {
     let folder = tempfile::tempdir().unwrap();

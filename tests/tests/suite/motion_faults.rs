@@ -8,9 +8,6 @@ use scene::Scene;
 use whisking::motor::{FOLLOWING_S, Fault};
 
 const LEFT: Place = Place::new(0, 0);
-/// Ticks in a millisecond.
-const MS: u64 = TICK_HZ / 1000;
-
 /// Free whisking so often a second.
 fn free_at(frequency_hz: f64, motor: &str) -> Scene {
     let text = format!(
@@ -58,46 +55,6 @@ fn sound_motors_have_no_fault_at_any_frequency() {
         assert_eq!(played.events, [], "{frequency_hz} Hz");
         assert!(turned_by(&played, TICK_HZ) > 20.0, "it whisks");
     }
-}
-
-/// At 8 Hz the drive turns round before a guard that is reset at each turn can trip.
-#[test]
-fn an_encoder_that_stands_still_is_found_at_any_frequency() {
-    for frequency_hz in [0.5, 2.0, 8.0] {
-        let start = 3 * TICK_HZ;
-        let scene = free_at(frequency_hz, "");
-        let played = cut_at(&scene, start + 5 * TICK_HZ, Wire::Encoder, start);
-        let found = faults(&played);
-        let &(first, fault) = found.first().expect("a fault");
-        let silent = [Fault::Stall, Fault::Encoder, Fault::Following];
-        assert!(silent.contains(&fault), "{frequency_hz} Hz: {fault:?}");
-        // From a pause at a turning point, at 0.5 Hz, half a second.
-        assert!(first - start < TICK_HZ / 2, "{frequency_hz} Hz: {first}");
-        // By then, and until it has come to rest, the whisker has not been turned further
-        // beyond where it whisks than the following error may be.
-        let turning = &angles(&played, 0)[start as usize..(first + 200 * MS) as usize];
-        let ranged = extent(&angles(&undisturbed(&scene, start), 0)[TICK_HZ as usize..]);
-        let turned = extent(turning);
-        assert!(turned < ranged + 40.0, "{frequency_hz} Hz: {turned}");
-    }
-}
-
-#[test]
-fn an_encoder_that_counts_backwards_is_found_before_the_whisker_is_far() {
-    let scene = free_at(8.0, "");
-    let start = 3 * TICK_HZ;
-    let sound = undisturbed(&scene, start + 200 * MS);
-    let played = cut_at(&scene, start + 200 * MS, Wire::EncoderChannels, start);
-    let found = faults(&played);
-    let &(first, fault) = found.first().expect("a fault");
-    // The jump of the count is seen at once, or the whisker is seen to run away.
-    assert!(
-        [Fault::Runaway, Fault::Travel].contains(&fault),
-        "{fault:?}"
-    );
-    assert!(first - start < 50 * MS);
-    let ranged = extent(&angles(&sound, 0)[TICK_HZ as usize..]);
-    assert!(turned_by(&played, start) < ranged + 40.0);
 }
 
 /// Wired the wrong way round from the start, where nothing jumps.

@@ -53,16 +53,6 @@ fn it_feels_what_it_is_bent_by() {
 }
 
 #[test]
-fn another_seed_is_other_noise_and_the_same_seed_the_same() {
-    let heard = |seed: u64| {
-        let scene = Scene { seed, ..tilted() };
-        undisturbed(&scene, 400).heard
-    };
-    assert_eq!(heard(1), heard(1));
-    assert_ne!(heard(1), heard(2));
-}
-
-#[test]
 fn a_cut_wire_switches_it_off_until_it_is_mended() {
     let of = |seconds: f64| u64::from(ticks(seconds, TICK_HZ as u32));
     let [cut, mended] = [2000, 3000];

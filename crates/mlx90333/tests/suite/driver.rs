@@ -120,11 +120,3 @@ fn bus_errors_come_through_every_read() {
     assert_eq!(broken().read_raw(), Err(expected));
     assert_eq!(broken().read_raw_paced(50_000), Err(expected));
 }
-
-#[test]
-fn errors_are_errors() {
-    let bus: Box<dyn std::error::Error> = Box::new(Error::Bus(ErrorKind::ModeFault));
-    assert_eq!(bus.to_string(), "SPI bus: ModeFault");
-    let frame: Box<dyn std::error::Error> = Box::new(Error::<ErrorKind>::from(FrameError::LineLow));
-    assert_eq!(frame.to_string(), FrameError::LineLow.to_string());
-}

@@ -344,16 +344,6 @@ fn negative_zero_becomes_zero() {
     assert!(whisking.noise.is_sign_positive());
 }
 
-#[test]
-fn a_scene_goes_to_another_thread() {
-    fn is_free<T: Send + Sync + Clone + 'static>(value: T) -> T {
-        value
-    }
-    let scene = is_free(read(FULL));
-    let there = std::thread::spawn(move || scene.whiskers());
-    assert_eq!(there.join().expect("it counts"), 2);
-}
-
 /// [`FULL`] as it stands on a bench: what it meets and its model are left out.
 fn on_a_bench() -> Scene {
     let without_model = with(FULL, "model     = \"models/example.model\"", "");

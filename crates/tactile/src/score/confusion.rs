@@ -140,13 +140,6 @@ impl Confusion {
         ratio(self.count(truth, truth), self.trials_of(truth))
     }
 
-    /// Mean hit rate of the classes that have trials, each class counting the
-    /// same (LEP10, LEP12).
-    pub fn mean_hit_rate(&self) -> Option<f64> {
-        let rates = (0..self.classes).filter_map(|class| self.hit_rate_of(class));
-        Statistics::of(rates).map(|s| s.mean)
-    }
-
     /// Cohen's κ (POSE eq. 8); `None` without a named class, or where chance
     /// alone would always be right.
     pub fn kappa(&self) -> Option<f64> {

@@ -382,21 +382,6 @@ fn evidence_is_the_rules_own() {
     assert_eq!(decided.map(|d| d.samples()), Some(4), "as before");
 }
 
-#[test]
-fn settings_are_stored_and_checked() {
-    let settings = [
-        RuleSettings::Sequential(threshold(0.99)),
-        RuleSettings::Window(40),
-    ];
-    for settings in settings {
-        let text = serde_json::to_string(&(settings, Deciding::Together)).unwrap();
-        let read: (RuleSettings, Deciding) = serde_json::from_str(&text).unwrap();
-        assert_eq!(read, (settings, Deciding::Together), "{text}");
-    }
-    let wrong = serde_json::from_str::<Threshold>("[0,0]");
-    assert!(wrong.unwrap_err().to_string().contains("threshold"));
-}
-
 /// Two whiskers with tables of their own, whose shafts feel the same surfaces otherwise: 0 feels
 /// class 0 at 100 and class 1 at 900, 1 the other way round.
 fn own_tables() -> ModelBuf {

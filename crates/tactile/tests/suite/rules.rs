@@ -196,23 +196,6 @@ fn any_rule_is_the_rule_itself() {
     assert_eq!(wrong.unwrap_err(), SetupError::Window { window, block });
 }
 
-/// One value owns model and evidence; it can go to another thread and start again.
-#[test]
-fn an_owned_classifier_is_sent_and_reset() {
-    let buf = two_normals(1);
-    let mut fresh = Window::new(buf.clone(), 5).unwrap();
-    let codes = [430, 560, 610, 480, 390];
-    let run = |c: &mut Window<_>| codes.map(|code| c.push(&[code]).unwrap());
-    let expected = run(&mut fresh.clone());
-    fresh.push(&[700]).unwrap();
-    let sent = std::thread::spawn(move || {
-        fresh.reset();
-        fresh
-    });
-    assert_eq!(run(&mut sent.join().unwrap()), expected);
-    assert!(expected[4].is_some());
-}
-
 /// A board's classifier lies in its RAM: counted in words, of which a pointer and a count are
 /// one each. The second opinion takes 1.2 kB of it: 64 samples, and what was felt of a touch.
 #[test]

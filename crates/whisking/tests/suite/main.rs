@@ -1,7 +1,6 @@
 //! Tests of the pattern generator, the position control and the motor drivers,
 //! by topic.
 
-mod bits;
 mod bounds;
 mod module_terms;
 mod motor_duty;
@@ -16,7 +15,6 @@ mod motor_stall;
 mod oscillator_terms;
 mod phase_noise;
 mod pins;
-mod plain_data;
 mod same_bits;
 mod settings;
 mod sides;

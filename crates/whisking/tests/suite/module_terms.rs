@@ -90,24 +90,6 @@ fn gates_and_drives_reach_the_muscles() {
     }
 }
 
-/// A force that jumps between 0 and 1 has differences of up to eight; no
-/// format's sums overflow.
-#[test]
-fn a_force_that_jumps_every_tick_stays_in_every_format() {
-    fn check<R: Real>() {
-        let config = settings(Integrator::Exact).build::<R>().unwrap().muscle;
-        let mut state = muscle::State::default();
-        for n in 0..20 {
-            let drive = if n % 2 == 0 { R::ONE } else { R::ZERO };
-            config.step(&mut state, R::ZERO, drive, drive);
-            assert_eq!(state.theta.to_f64(), 0.0);
-        }
-    }
-    check::<f64>();
-    check::<f32>();
-    check::<Fix>();
-}
-
 /// The measured velocity passes a first-order low-pass at 100 Hz.
 #[test]
 fn the_measured_velocity_is_smoothed_as_the_closed_form_says() {

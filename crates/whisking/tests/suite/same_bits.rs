@@ -4,8 +4,31 @@
 //! A change that only moves code must not move a last bit. Whoever changes an equation, a
 //! constant or the order of operations on purpose puts the new fingerprints here.
 
-use crate::bits::Fingerprint;
 use whisking::{Fix, GateSettings, Integrator, Number, Settings, State};
+
+/// Fowler, Noll and Vo's hash (FNV-1a, 64 bits).
+struct Fingerprint(u64);
+
+impl Fingerprint {
+    const fn new() -> Self {
+        Self(0xCBF2_9CE4_8422_2325)
+    }
+
+    fn add_bytes(&mut self, bytes: impl IntoIterator<Item = u8>) {
+        for byte in bytes {
+            self.0 = (self.0 ^ u64::from(byte)).wrapping_mul(0x0100_0000_01B3);
+        }
+    }
+
+    /// Adds a number's bits.
+    fn add(&mut self, number: f64) {
+        self.add_bytes(number.to_bits().to_le_bytes());
+    }
+
+    const fn value(&self) -> u64 {
+        self.0
+    }
+}
 
 const TICKS: usize = 2_000;
 const PSI: [[f64; 2]; 2] = [[1.4, 0.2], [-0.3, 0.9]];

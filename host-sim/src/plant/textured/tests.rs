@@ -206,22 +206,6 @@ fn vibration_is_that_of_a_resonator_over_a_random_profile() {
     }
 }
 
-#[test]
-fn rougher_textures_shake_more() {
-    let textures = [
-        Texture::Smooth,
-        Texture::P600,
-        Texture::P240,
-        Texture::Carpet,
-    ];
-    let shaking =
-        textures.map(|texture| vibration(SurfaceSettings::of(texture), 300.0, TICK_S, 5.0));
-    assert!(
-        shaking.windows(2).all(|pair| pair[1] > 3.0 * pair[0]),
-        "{shaking:?}"
-    );
-}
-
 /// Readings of whiskers that whisk against P240.
 fn readings(whiskers: usize, seed: u64) -> Vec<Vec<[f64; 2]>> {
     let mut plant = Textured::new(head(whiskers), TexturedSettings::default(), seed).unwrap();
