@@ -57,18 +57,3 @@ pub(crate) fn plain(markdown: &str) -> String {
     text.push_str(rest);
     text.replace(['`', '*'], "")
 }
-
-#[cfg(test)]
-mod tests {
-    use super::plain;
-
-    #[test]
-    fn links_and_marks_become_plain() {
-        let text = plain("as 20; [every frame](troubleshooting.md#the-sensor), `x` and *y*");
-        assert_eq!(
-            text,
-            "as 20; every frame (docs/troubleshooting.md#the-sensor), x and y"
-        );
-        assert_eq!(plain("a [b"), "a b");
-    }
-}

@@ -191,15 +191,3 @@ pub(crate) fn short() -> Result<(), Fault> {
 /// Hours of the short form, on the PC and on the board, where touches are reported after a second
 /// and the fourth wraps.
 const SHORT_H: [f64; 2] = [0.65, 0.0015];
-
-#[cfg(test)]
-mod tests {
-    use super::cut;
-
-    #[test]
-    fn hours_are_cut_into_equal_shards() {
-        assert_eq!(cut(168.0, 6.0, 13), (28, 6.0));
-        assert_eq!(cut(6.5, 6.0, 13), (13, 0.5));
-        assert_eq!(cut(0.0, 6.0, 13), (0, 0.0));
-    }
-}

@@ -177,18 +177,6 @@ mod tests {
     }
 
     #[test]
-    fn a_table_is_read_back_as_it_was_written() {
-        let figures = [figure("drive", 21.0, 21.0), figure("unit", 33.5, 40.0)];
-        assert_eq!(TABLE.parse(&TABLE.text(&figures)), Ok(figures.to_vec()));
-        assert!(TABLE.parse("kernel,mean\n").is_err());
-        for line in ["drive,f32\n", "drive,1,2\n", "drive,f32,1,x\n"] {
-            let wrong = TABLE.text(&figures) + line;
-            assert!(TABLE.parse(&wrong).is_err(), "{line}");
-        }
-        assert_eq!(TABLE.lines(&figures).lines().count(), 3);
-    }
-
-    #[test]
     fn five_per_cent_are_borne_and_no_more() {
         let known = [figure("a", 100.0, 200.0)];
         let check = |mean, worst| TABLE.compare(&known, &[figure("a", mean, worst)], true);

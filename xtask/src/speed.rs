@@ -119,20 +119,3 @@ fn least_and_median(mut list: Vec<f64>) -> [f64; 2] {
     list.sort_by(f64::total_cmp);
     [0, list.len() / 2].map(|at| list.get(at).copied().unwrap_or(f64::NAN))
 }
-
-#[cfg(test)]
-mod tests {
-    use super::{children_s, least_and_median};
-
-    #[test]
-    fn the_children_s_user_time_is_in_the_second_line() {
-        let text = "0m0.010000s 0m0.020000s\n1m2.500000s 0m0.100000s\n";
-        assert_eq!(children_s(text), Some(62.5));
-        assert_eq!(children_s("0m0.01s 0m0.02s\n"), None);
-    }
-
-    #[test]
-    fn the_median_of_an_even_list_is_the_upper_one() {
-        assert_eq!(least_and_median(vec![4.0, 1.0, 3.0, 2.0]), [1.0, 3.0]);
-    }
-}

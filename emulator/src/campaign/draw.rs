@@ -110,26 +110,3 @@ fn injection(random: &mut Xoshiro256PlusPlus, has: Has, to_s: f64) -> Injection 
         detail: random.next_u64(),
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::{Has, Kind, Plan, injections, random};
-
-    #[test]
-    fn every_word_has_its_run() {
-        let has = Has {
-            motors: true,
-            chip: true,
-            whiskers: 1,
-            tick_hz: 2_000,
-        };
-        for number in [0, 1, 700, u64::from(u32::MAX)] {
-            let drawn = injections(Plan::Words, number, has, &mut random(number));
-            let found = drawn
-                .iter()
-                .map(|drawn| (drawn.kind, drawn.detail as u32, drawn.ticks));
-            let expected = (Kind::RamBit, number as u32, Some(1));
-            assert_eq!(found.collect::<Vec<_>>(), [expected]);
-        }
-    }
-}

@@ -123,18 +123,3 @@ impl Place<'_> {
         Ok(())
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::short;
-
-    #[test]
-    fn names_are_those_of_the_program() {
-        let found =
-            short("INNER.val.value.value.__0.whiskers.buffer.buffer[1].value.servo.Some.__0");
-        assert_eq!(found, "INNER.whiskers[1].servo");
-        let found = short("__rtic_internal_shared_resource_module.__0.value.value.__0.second");
-        assert_eq!(found, "module.second");
-        assert_eq!(short("TICKS.__0.v.value"), "TICKS.v");
-    }
-}

@@ -163,38 +163,3 @@ const COUNTERS: &str = "
 | what is counted | bits | starts so many counts before its wrap, at 2,000 ticks a second |
 |---|---|---|
 ";
-
-#[cfg(test)]
-mod tests {
-    use super::{ShardRow, page};
-
-    #[test]
-    fn shards_of_a_scene_are_summed_and_boards_stand_apart() {
-        let row = |subject: &str, seed| ShardRow {
-            subject: subject.to_owned(),
-            scene: "full".to_owned(),
-            seed,
-            hours: 6.0,
-            ticks: 10,
-            decisions: 7,
-            first_rate: Some(2.0),
-            last_rate: Some(3.0),
-            first_right: Some(0.5),
-            last_right: None,
-            touches: 70_000,
-            wrapped: 1,
-            took_s: 60.0,
-        };
-        let rows = [row("host-sim", 0), row("host-sim", 1), row("board", 0)];
-        let page = page(&rows);
-        for line in [
-            "| full | 2 | 12.0 | 14 | 2 | 3 | 50.00 | – | 140000 | 2 |",
-            "| board | full | 1 | 21600 | 10 | 7 | 1 |",
-            "12.0 simulated hours in 2 shards, 6.0 hours in a minute",
-            "a week takes 0.5 h",
-            "| ticks | 32 | 1500 |",
-        ] {
-            assert!(page.contains(line), "{line}\n{page}");
-        }
-    }
-}

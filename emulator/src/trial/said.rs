@@ -188,31 +188,3 @@ fn of_log(t_s: f64, line: &str) -> Listed {
         text,
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::of_log;
-
-    #[test]
-    fn a_line_of_the_log_is_taken_apart() {
-        let line = "0.250 ERROR fault left 9 motor held (a, b?)";
-        let listed = of_log(0.2505, line);
-        assert_eq!(listed.kind, "fault");
-        assert_eq!(listed.side.as_deref(), Some("left"));
-        assert_eq!(listed.number, Some(9));
-        assert_eq!(listed.name.as_deref(), Some("motor held"));
-        assert_eq!(listed.text, "fault left 9 motor held (a, b?)");
-        let listed = of_log(0.0, "0.000 INFO  start 0.1.0 bench 2000 power-up 1 0");
-        assert_eq!(
-            (&*listed.kind, listed.side, listed.number),
-            ("start", None, None)
-        );
-        let listed = of_log(0.0, "0.000 INFO  self-test left 13 0.4 2.1");
-        assert_eq!(
-            (&*listed.kind, listed.number, listed.name),
-            ("self-test", Some(13), None)
-        );
-        let listed = of_log(0.0, "0.000 ERROR fault board 52 watchdog (a?)");
-        assert_eq!((listed.side, listed.number), (None, Some(52)));
-    }
-}

@@ -215,27 +215,6 @@ fn a_passive_module_streams_and_refuses_what_needs_a_motor() {
 }
 
 #[test]
-fn it_says_by_which_model_it_decides() {
-    let (mut module, config) = module::<f32>();
-    let mut link = Link::new();
-    let mut asked = |model| {
-        let request = TaggedCommand {
-            tag: 1,
-            command: Command::Model,
-        };
-        let about = About { model };
-        let answer = link.carry_out(&mut module, &config, request, about, 0);
-        (answer.status, answer.values)
-    };
-    let runs = ModelState::Runs {
-        crc: 0xFEDC_BA98,
-        classes: 4,
-    };
-    assert_eq!(asked(runs), (CommandStatus::Done, [-0x0123_4568, 4]));
-    assert_eq!(asked(ModelState::NotHere), (CommandStatus::NotHere, [0, 0]));
-}
-
-#[test]
 fn a_scene_is_loaded_with_motors_off_and_where_there_is_room() {
     let load = |config, model| Load { config, model };
     let room = load(100, 8);

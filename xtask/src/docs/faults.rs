@@ -42,18 +42,3 @@ const fn ends(recovery: Recovery) -> &'static str {
         Recovery::Deployed => "deployed",
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::{TABLE, at_once, ends, page};
-
-    #[test]
-    fn every_word_is_explained() {
-        let page = page();
-        for row in TABLE {
-            for word in [at_once(row.reaction), ends(row.recovery)] {
-                assert!(page.contains(&format!("- *{word}*: ")), "{word}");
-            }
-        }
-    }
-}

@@ -48,20 +48,3 @@ pub(super) fn page(said: &str, decisions: &str) -> Result<String, Fault> {
         contact_ms = many.contact_ms,
     ))
 }
-
-#[cfg(test)]
-mod tests {
-    use super::page;
-
-    #[test]
-    fn the_main_jobs_page_quotes_the_mean_of_many_runs() {
-        let table = "part,runs,hit_rate,hit_rate_error,worst_run,stated,found,contact_ms\n\
-            goals,20,,,,,,\n\
-            main job,100,98.92,0.08,96.81,99.7,99.23,30.2\n";
-        let text = page("trace\n\nthe score\n", table).unwrap();
-        assert!(text.contains("```text\nthe score\n```"), "{text}");
-        assert!(text.contains("Over 100 runs"), "{text}");
-        assert!(text.contains("98.9 ± 0.1 %"), "{text}");
-        assert!(page("trace\n\nthe score\n", "part,runs\n").is_err());
-    }
-}

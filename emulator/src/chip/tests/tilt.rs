@@ -51,17 +51,6 @@ fn frame(on: &Registers, rig: &mut Rig, [lead, lag]: [Ps; 2]) -> Result<[u8; 4],
 const WELL: [Ps; 2] = [45 * NS, 45 * NS];
 
 #[test]
-fn four_bytes_go_both_ways_in_mode_0() {
-    for on in SIDES {
-        let mut rig = rig(&on, 0, false, FASTER);
-        assert_eq!(frame(&on, &mut rig, WELL), Ok(ANSWERS));
-        let sensor = &rig.sensors[on.side];
-        assert_eq!(sensor.heard, [0x80, 0x81, 0x82, 0x83]);
-        assert_eq!((sensor.latched, sensor.released), (1, 1));
-    }
-}
-
-#[test]
 fn in_another_mode_or_on_joined_lines_it_is_silent() {
     for on in SIDES {
         for (mode, is_joined) in [(1, false), (2, false), (0, true)] {
