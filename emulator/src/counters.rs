@@ -39,7 +39,6 @@ struct Counter {
     start: fn(i64) -> i64,
 }
 
-/// One that is not seen elsewhere than where it is.
 const fn counter(
     what: &'static str,
     path: &'static str,

@@ -93,12 +93,10 @@ impl Head {
         Ok(head)
     }
 
-    /// What the bus has carried.
     pub(crate) const fn load(&self) -> Load {
         self.can.load()
     }
 
-    /// Fails with what has stopped a board.
     pub(crate) fn check(&self) -> Result<(), Fault> {
         self.fault.clone().map_or(Ok(()), Err)
     }
@@ -212,7 +210,6 @@ impl Bench for Head {
     }
 }
 
-/// The head of a scene in its world, before its first tick.
 pub(crate) fn start(
     scene: &Scene,
     bus: BusConfig,

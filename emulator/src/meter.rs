@@ -21,7 +21,6 @@ impl Tally {
         }
     }
 
-    /// The mean; 0 without a value.
     pub(crate) fn mean(&self) -> f64 {
         self.sum as f64 / self.count.max(1) as f64
     }

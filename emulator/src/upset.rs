@@ -57,7 +57,6 @@ pub(crate) struct Planned {
 }
 
 impl Planned {
-    /// Plans it for the next tick; it takes the place of what was planned before.
     pub(crate) const fn plan(&mut self, instruction: u64, upset: Upset) {
         self.next = Some((instruction, upset));
     }

@@ -200,7 +200,6 @@ fn detail(fault: SensorFault) -> u16 {
     }
 }
 
-/// The fault of a number and the first two of these details.
 fn sensor_fault(number: u8, details: [u32; 2]) -> Option<SensorFault> {
     #[cfg(feature = "tmag5170")]
     if let Some(fault) = crate::TiltFault::of(number, details) {
@@ -242,7 +241,6 @@ mod tests {
     use super::{EventRecord, Packet};
     use crate::{Event, Health, Place, SensorFault};
 
-    /// What a PC makes of a packet's frame.
     fn received(packet: &Packet) -> Option<Packet> {
         let mut splitter = Splitter::<FRAME_BYTES>::new();
         wire::frame(packet)

@@ -23,7 +23,6 @@ pub(crate) struct Deployment {
     pub(crate) loaded: Option<Loaded>,
 }
 
-/// The model that the scene in a file names, if any.
 pub(crate) fn model_of(file: &Path, scene: &Scene) -> Result<Option<ModelBuf>, Error> {
     let folder = file.parent().unwrap_or(Path::new("."));
     let model = scene.model_path(folder);

@@ -24,7 +24,6 @@ pub(crate) const fn number(event: &Event) -> Option<u8> {
     }
 }
 
-/// What the table of faults says of an event, if it is about a fault.
 pub(crate) fn fault(EventRecord { sequence, event }: &EventRecord, tick_hz: u32) -> Option<Fault> {
     let number = number(event)?;
     let t_s = f64::from(*sequence) / f64::from(tick_hz);

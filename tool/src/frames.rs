@@ -126,12 +126,10 @@ impl Seen {
         }
     }
 
-    /// How many begin as frames do.
     pub(crate) const fn begun(&self) -> usize {
         self.frames - self.silent - self.low - self.bad_start
     }
 
-    /// Whether it answers some frames and others not at all.
     pub(crate) fn is_silent_at_times(&self) -> bool {
         self.begun() > 0 && self.share(self.silent) > 1.0 - CLEAN
     }

@@ -47,7 +47,6 @@ pub(crate) fn all(csv: Option<&Path>, check: bool) -> Result<(), Fault> {
     write_page(false)
 }
 
-/// Checks the first scene that is measured on the board.
 pub(crate) fn short() -> Result<(), Fault> {
     let stages = stages()?;
     let mut scenes = stages.chunk_by(Stage::goes_with);

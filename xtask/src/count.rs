@@ -43,7 +43,6 @@ pub(crate) fn all(csv: Option<&Path>, check: bool) -> Result<(), Fault> {
     TABLE.take(&found, csv, check)
 }
 
-/// Checks [`SHORT`] on the first processor.
 pub(crate) fn short() -> Result<(), Fault> {
     TABLE.check_part(&count(PROCESSORS[0], &SHORT, &[])?)
 }

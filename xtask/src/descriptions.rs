@@ -20,7 +20,6 @@ fn facts(board: Option<Board>) -> Result<String, Fault> {
     output(&mut command)
 }
 
-/// Writes the page, or checks that it is up to date.
 pub(crate) fn page(check: bool) -> Result<(), Fault> {
     document(PAGE, facts(None)?.as_bytes(), check)
 }

@@ -63,7 +63,6 @@ fn cut(hours: f64, longest: f64, least: usize) -> (usize, f64) {
 }
 
 impl Shard {
-    /// Where its row is kept.
     fn file(&self) -> PathBuf {
         let board = self.board.as_ref();
         let subject = board.map_or("host-sim", |(board, _)| board.name);
@@ -88,7 +87,6 @@ impl Shard {
     }
 }
 
-/// Shards of every scene on the PC.
 fn on_pc(scenes: &[PathBuf], hours: f64) -> Vec<Shard> {
     let (count, hours) = cut(hours, SHARD_H[0], scenes.len());
     let shard = |(n, scene): (usize, &PathBuf)| Shard {

@@ -224,7 +224,6 @@ pub(crate) fn whole() -> Result<(), Fault> {
     })
 }
 
-/// One run again.
 fn again(name: &str, number: u64) -> Result<(), Fault> {
     let out = folder().join("again.csv");
     if out.exists() {

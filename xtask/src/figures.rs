@@ -31,7 +31,6 @@ impl Figure {
         Self::new(key, &[(mean * 10.0).round() / 10.0, worst])
     }
 
-    /// Its numbers with so many decimals each.
     pub(crate) fn text(&self, decimals: &[usize], separator: &str) -> String {
         let numbers = self.numbers.iter().zip(decimals);
         let numbers = numbers.map(|(number, &decimals)| format!("{number:.decimals$}"));
@@ -56,7 +55,6 @@ pub(crate) struct Table {
 }
 
 impl Table {
-    /// Reads it, or what stands in its place at `csv`.
     pub(crate) fn read(&self, csv: Option<&Path>) -> Result<Vec<Figure>, Fault> {
         self.parse(&read(&self.place(csv))?)
     }
@@ -80,7 +78,6 @@ impl Table {
         write(&self.place(csv), self.text(found))
     }
 
-    /// Prints a part of the table and compares it.
     pub(crate) fn check_part(&self, found: &[Figure]) -> Result<(), Fault> {
         print!("{}", self.lines(found));
         self.compare(&self.read(None)?, found, false)
@@ -90,7 +87,6 @@ impl Table {
         csv.map_or_else(|| top().join(self.file), Path::to_owned)
     }
 
-    /// The table as it is committed.
     fn text(&self, figures: &[Figure]) -> String {
         let mut text = format!("{}\n", self.header);
         for figure in figures {

@@ -85,7 +85,6 @@ fn sleeps_well(elf: &Path) -> Result<(), Fault> {
     ))
 }
 
-/// Checks a program.
 pub(crate) fn check(elf: &Path) -> Result<Proven, Fault> {
     sleeps_well(elf)?;
     let program = Program::of(elf)?;

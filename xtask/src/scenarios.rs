@@ -274,7 +274,6 @@ const ROWS: &[Row] = &[
 ];
 
 impl Bound {
-    /// What is not so.
     fn broken(&self, json: &Value) -> Option<String> {
         let number = |key: &str| {
             let value = json.pointer(&format!("/{key}"));
@@ -316,7 +315,6 @@ impl Bound {
 }
 
 impl Row {
-    /// The file, with the keys that are set.
     fn name(&self) -> String {
         [&[self.file], self.set].concat().join(" ")
     }
@@ -339,7 +337,6 @@ impl Row {
         crate::emulate::trying(on, &scene, &file, None, &self.json())
     }
 
-    /// What is not as it should be.
     fn judged(&self) -> Result<Option<String>, Fault> {
         let path = self.json();
         let json = serde_json::from_str(&read(&path)?);
@@ -381,7 +378,6 @@ pub(crate) fn short() -> Result<(), Fault> {
     )
 }
 
-/// Runs every row.
 pub(crate) fn all() -> Result<(), Fault> {
     rows(ROWS.iter().collect())
 }

@@ -79,7 +79,6 @@ pub(crate) fn ns_per_tick(scene: &Path) -> Result<u64, Fault> {
     Ok((1e9 * least / f64::from(ticks)) as u64)
 }
 
-/// host-sim, built for release.
 fn released() -> Result<PathBuf, Fault> {
     let build = ["build", "--release", "--locked", "--quiet"];
     run(cargo(&build).args(["-p", "host-sim"]))?;

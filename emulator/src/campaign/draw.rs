@@ -32,7 +32,6 @@ pub(super) enum Plan {
 pub(super) struct Has {
     /// Motors that move.
     pub(super) motors: bool,
-    /// A chip.
     pub(super) chip: bool,
     pub(super) whiskers: usize,
     pub(super) tick_hz: u32,
@@ -51,7 +50,6 @@ fn one_of(random: &mut Xoshiro256PlusPlus, kinds: &[Kind]) -> Kind {
     kinds.get(n).copied().unwrap_or(Kind::SensorSilent)
 }
 
-/// Draws what is injected in a run.
 pub(super) fn injections(
     plan: Plan,
     number: u64,

@@ -42,7 +42,6 @@ pub(super) struct Seen {
 const AT_STOP_DEG: f64 = 0.1;
 
 impl Seen {
-    /// Looks at the motor of the next whisker.
     pub(super) fn look_at(&mut self, motor: &SimMotor) {
         let (angle, duty) = (motor.angle_deg(), motor.duty());
         let [back, front] = motor.settings().stops_deg;
@@ -52,7 +51,6 @@ impl Seen {
         self.displaced_deg.push(motor.displaced_deg());
     }
 
-    /// Whether nothing at all differs from `other`.
     pub(super) fn is_same(&self, other: &Self) -> bool {
         // A side that does not exist has values that are not even equal to themselves.
         let bits = |row: &Row| row.pairs().map(|pair| pair.map(f64::to_bits));
@@ -121,7 +119,6 @@ impl<'p> Subject<'p> {
         Ok(seen)
     }
 
-    /// Sends a command, by the serial line or by the other way that it has.
     pub(super) fn send(&mut self, command: Command, is_by_serial: bool) -> Result<(), Fault> {
         match self {
             Self::OnPc { run, commands, .. } => {
@@ -159,12 +156,10 @@ impl<'p> Subject<'p> {
     }
 }
 
-/// The number of a whisker, left side first.
 pub(super) fn number(place: Place, per_side: usize) -> usize {
     usize::from(place.side) * per_side + usize::from(place.whisker)
 }
 
-/// What can be seen of the last tick of `run`.
 pub(super) fn seen<B: host_sim::bench::Bench + ?Sized>(run: &Run<B>, per_side: usize) -> Seen {
     let notices = run.events().iter().filter_map(Notice::of);
     let decisions = run.decisions().filter_map(|decided| {

@@ -18,7 +18,6 @@ pub(super) struct ShardTable {
 }
 
 impl ShardTable {
-    /// Opens the table in `path`, or begins one.
     pub(super) fn open(path: &Path) -> Result<Self, Error> {
         output::check(path)?;
         let done = if path.exists() {

@@ -63,7 +63,6 @@ impl Dma {
         }
     }
 
-    /// Whether the interrupt of a stream or channel is up.
     pub(super) fn interrupts(&self, stream: usize) -> bool {
         match self {
             Self::Streams(streams) => streams.interrupts(stream),
@@ -78,7 +77,6 @@ impl Dma {
         }
     }
 
-    /// Whether register and setting are modelled.
     pub(super) fn write(&mut self, offset: u32, value: u32) -> bool {
         match self {
             Self::Streams(streams) => streams.write(offset, value),

@@ -20,7 +20,6 @@ const ERASES: u32 = 1 << 1;
 
 const BASE: u32 = 0x0800_0000;
 
-/// What is known of a version's registers.
 pub(super) fn fields(version: Version) -> Vec<Field> {
     version.layout().fields()
 }

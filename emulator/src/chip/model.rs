@@ -40,7 +40,6 @@ pub(crate) struct Model {
     pub(super) timers: &'static [(Kind, Bus)],
     pub(super) spi_version: spi::Version,
     pub(super) usart_version: usart::Version,
-    /// The bus of each SPI.
     pub(super) spis: &'static [Bus],
     pub(super) dmas: &'static [dma::Version],
     /// Whether a DMAMUX says which request a channel listens to.
@@ -62,12 +61,10 @@ pub(crate) struct Model {
 }
 
 impl Model {
-    /// The interrupt of the tick in the NVIC.
     pub(crate) const fn tick_irq(&self) -> u16 {
         self.wiring.tick_irq
     }
 
-    /// The interrupts at the end of a frame, the left side's first.
     pub(crate) fn frame_irqs(&self) -> impl Iterator<Item = u16> {
         self.wiring.sides.iter().map(|side| side.end_of_frame)
     }

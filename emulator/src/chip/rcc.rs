@@ -76,7 +76,6 @@ impl Clocks {
         }
     }
 
-    /// The clock of a bus.
     pub(super) const fn bus(&self, bus: Bus) -> Ps {
         match bus {
             Bus::Apb1 => self.apb1,
@@ -85,7 +84,6 @@ impl Clocks {
         }
     }
 
-    /// What the timers on a bus count.
     pub(super) const fn timer(&self, bus: Bus) -> Ps {
         match bus {
             Bus::Apb1 => self.apb1_timer,
@@ -178,7 +176,6 @@ impl Rcc {
         taken
     }
 
-    /// Whether the clock security system interrupts.
     pub(super) const fn has_clock_failed(&self) -> bool {
         self.has_failed
     }
@@ -219,7 +216,6 @@ impl Rcc {
         self.layout.kept.iter().position(|(at, _)| *at == offset)
     }
 
-    /// A register that keeps what is written.
     fn kept(&self, offset: u32) -> u32 {
         self.place(offset).map_or(0, |place| self.kept[place])
     }
@@ -260,7 +256,6 @@ impl Rcc {
         })
     }
 
-    /// Whether the register is modelled.
     pub(super) fn write(&mut self, offset: u32, value: u32) -> bool {
         let layout = self.layout;
         if offset == layout.csr.0 {
@@ -287,7 +282,6 @@ impl Rcc {
         true
     }
 
-    /// The clocks that the registers make.
     pub(super) fn clocks(&self) -> Result<Clocks, Fault> {
         (self.layout.clocks)(self)
     }

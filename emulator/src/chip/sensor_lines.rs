@@ -18,7 +18,6 @@ use tmag5170::timing;
 use super::fault::Fault;
 use super::time::Ps;
 
-/// The sensor's end of the wires.
 pub(crate) trait SensorEnd {
     /// A frame begins: the sensor takes what it will answer with. Its bytes are fetched by the core,
     /// which `is_polled`, or by the DMA.
@@ -27,7 +26,6 @@ pub(crate) trait SensorEnd {
     /// Eight clocks: what is on the line while the master sends `sent`.
     fn exchange(&mut self, sent: u8) -> u8;
 
-    /// The frame is over: /SS has risen.
     fn release(&mut self) {}
 }
 
@@ -152,7 +150,6 @@ impl SensorLines {
         }
     }
 
-    /// The sensor is in its slow mode from now on.
     pub(super) fn slow_down(&mut self) {
         self.needs = Needs::SLOW;
     }
@@ -164,12 +161,10 @@ impl SensorLines {
         self.silence = ps(rest_us * 1_000);
     }
 
-    /// From now on it does not see /SS rise, or does again.
     pub(super) const fn stick(&mut self, is_stuck: bool) {
         self.stuck = if is_stuck { Some(false) } else { None };
     }
 
-    /// The sensor is a TMAG5170 from now on.
     pub(super) fn tilt(&mut self) {
         self.needs = Needs::TILT;
     }
@@ -261,7 +256,6 @@ impl SensorLines {
         Ok(())
     }
 
-    /// The DMA has put the next byte there.
     pub(super) fn put(&mut self, place: u32) {
         self.put.push(place);
     }

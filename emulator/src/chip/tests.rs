@@ -57,7 +57,6 @@ impl SensorEnd for Script {
     }
 }
 
-/// A little RAM.
 struct Ram(RefCell<[u8; 64]>);
 
 impl Memory for Ram {

@@ -60,14 +60,12 @@ pub(super) struct Side {
 /// What of a timer asks for a byte.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum ByteSignal {
-    /// Its update.
     Update,
     /// A match of its channel 1.
     Compare,
 }
 
 impl ByteSignal {
-    /// The manuals' name.
     pub(super) const fn name(self) -> &'static str {
         match self {
             Self::Update => "UP",

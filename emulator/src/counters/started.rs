@@ -125,7 +125,6 @@ impl Started {
         Ok(())
     }
 
-    /// How many have wrapped.
     pub(crate) fn wrapped(&self) -> Result<usize, String> {
         let left = self.seen.iter().filter(|seen| !seen.is_beyond);
         let left: Vec<&str> = left.map(|seen| seen.counter.what).collect();

@@ -24,7 +24,6 @@ const AROUND: [&str; 9] = [
     "__0", "value", "inner", "buffer", "uninit", "__1", "val", "Some", "Ok",
 ];
 
-/// A variable's name without what is put around it.
 fn short(path: &str) -> String {
     let path = ["shared_resource_", "local_init_", "local_resource_"]
         .into_iter()

@@ -10,7 +10,6 @@ use crate::counters;
 const WEEK_H: f64 = 168.0;
 const DAY_H: f64 = 24.0;
 
-/// The shards of one scene in one place.
 struct Group<'r> {
     rows: Vec<&'r ShardRow>,
 }
@@ -36,7 +35,6 @@ impl<'r> Group<'r> {
         self.rows.iter().map(|row| of(row)).sum()
     }
 
-    /// The mean of what has one; nothing without any.
     fn mean(&self, of: impl Fn(&ShardRow) -> Option<f64>) -> Option<f64> {
         let values: Vec<f64> = self.rows.iter().filter_map(|row| of(row)).collect();
         let count = values.len() as f64;
@@ -49,7 +47,6 @@ impl<'r> Group<'r> {
     }
 }
 
-/// A number with so many decimals, or a dash.
 fn cell(value: Option<f64>, decimals: usize) -> String {
     value.map_or_else(|| "–".to_owned(), |value| format!("{value:.decimals$}"))
 }

@@ -38,7 +38,6 @@ impl ShardRow {
     }
 }
 
-/// The row that a shard has left in `path`.
 pub(super) fn row(path: &Path) -> Result<ShardRow, Error> {
     let read = csv::Reader::from_path(path);
     let row = read.and_then(|mut reader| reader.deserialize().next().transpose());

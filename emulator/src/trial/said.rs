@@ -25,7 +25,6 @@ pub(super) struct Listed {
     pub(super) side: Option<String>,
     /// Of a fault or a limit.
     pub(super) number: Option<u8>,
-    /// Its name.
     pub(super) name: Option<String>,
     /// The whole line.
     pub(super) text: String,
@@ -87,7 +86,6 @@ const SPOKEN: [Command; 15] = {
     ]
 };
 
-/// An answer in the words that the serial line has for it.
 fn in_words(answer: &Answer) -> String {
     let mut spoken = SPOKEN.iter();
     let command = spoken.find(|command| command.number() == answer.command);
@@ -101,7 +99,6 @@ fn in_words(answer: &Answer) -> String {
 }
 
 impl Lister {
-    /// Takes what was said since the last call.
     pub(super) fn listen(&mut self, session: &mut Session) -> Result<(), Error> {
         let t_s = session.run.t_s();
         for line in session.log() {
@@ -152,7 +149,6 @@ impl Lister {
     }
 }
 
-/// What a line of the log tells.
 fn of_log(t_s: f64, line: &str) -> Listed {
     // Time and level come first.
     let mut rest = line.splitn(3, ' ').nth(2).unwrap_or(line).trim_start();

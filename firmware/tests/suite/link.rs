@@ -10,7 +10,6 @@ const ABOUT: About = About {
     model: ModelState::Refused(Refusal::Damaged),
 };
 
-/// What the module answers.
 fn ask(
     link: &mut Link,
     module: &mut Whiskers<f32>,

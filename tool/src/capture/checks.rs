@@ -88,7 +88,6 @@ impl Checks {
         .map(|what| format!("{}: {what}", self.label))
     }
 
-    /// A sample; says so once it is at the end of the sensor's range.
     pub(crate) fn sample(&mut self, sample: &Sampled) -> Option<String> {
         if sample.contact < GATE {
             return None;

@@ -254,7 +254,6 @@ struct Capture {
 }
 
 impl Capture {
-    /// Listens until the sample that is being laid was touched so often.
     fn label(
         &mut self,
         label: &Label,

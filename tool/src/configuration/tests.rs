@@ -12,7 +12,6 @@ use super::Running;
 use crate::deployment::model_of;
 use crate::source::scene_file;
 
-/// The scenes of the workspace that are whole.
 fn scenes() -> Vec<(PathBuf, Loaded)> {
     let files = std::fs::read_dir(scene_file("")).unwrap();
     let files = files.map(|file| file.unwrap().path());

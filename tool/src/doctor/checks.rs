@@ -57,7 +57,6 @@ const RULES: &str = "echo 'SUBSYSTEM==\"usb\", ATTR{idVendor}==\"0483\", MODE=\"
                      /etc/udev/rules.d/69-whisker.rules && sudo udevadm control --reload && \
                      sudo udevadm trigger";
 
-/// Checks so far, and whether the next ones are needed.
 struct List {
     checks: Vec<Check>,
     is_needed: bool,

@@ -30,7 +30,6 @@ pub(crate) struct Facts {
 }
 
 impl Facts {
-    /// Looks for everything; a chip behind a probe as for one of `board`.
     pub(crate) fn gather(board: BoardName) -> Self {
         let (toolchain, targets) = pinned(PINS);
         let fetched = ["target", "list", "--installed", "--toolchain", &toolchain];
@@ -72,7 +71,6 @@ fn words(said: Option<String>) -> Vec<String> {
     words.map(str::to_owned).collect()
 }
 
-/// Toolchain and targets of a toolchain file, those that are for boards.
 fn pinned(file: &str) -> (String, Vec<String>) {
     let quoted = |line: &str| line.split('"').nth(1).map(str::to_owned);
     let channel = file.lines().find(|line| line.starts_with("channel"));

@@ -98,7 +98,6 @@ impl History {
         (seconds * f64::from(self.tick_hz)) as u64
     }
 
-    /// The names of the PC's classes; none without a model.
     pub(crate) fn classes(&self) -> &[String] {
         self.listener.as_ref().map_or(&[], Listener::classes)
     }

@@ -51,7 +51,6 @@ pub(crate) struct Whisker {
     pub(crate) posteriors: Vec<(String, f32)>,
 }
 
-/// Setpoint and measured angle, degrees; x and y, codes; contact, z, duty.
 pub(crate) fn signals(record: &TickRecord) -> [f64; SIGNALS] {
     let sample = Sample::new(record, 0.0);
     let [x, y] = sample.codes.map(f64::from);

@@ -140,7 +140,6 @@ impl View {
         }
     }
 
-    /// Goes by so many pictures, if the picture is held.
     fn go(&mut self, extent: Extent, pictures: f64) {
         if self.held.is_none() {
             return;

@@ -204,7 +204,6 @@ impl Watching {
         Ok(answers)
     }
 
-    /// Shows a line at the bottom.
     fn say(&self, line: String) {
         let mut shared = lock(&self.shared);
         let now = shared.history.now();

@@ -165,7 +165,6 @@ impl SourceChoice {
     }
 }
 
-/// A time in seconds, as an option has it.
 pub(crate) fn seconds(text: &str) -> Result<f64, String> {
     let seconds = text.parse().ok();
     let seconds = seconds.filter(|seconds: &f64| *seconds > 0.0 && *seconds <= 1e6);

@@ -39,7 +39,6 @@ fn bringup(place: &Place, events: &[&str], steps: &str) -> String {
     )
 }
 
-/// What is found where this befalls the board, in these steps.
 fn finds(events: &[&str], steps: &str, found: &[&str]) {
     let place = Place::new();
     let ran = place.fails(&bringup(&place, events, &format!("--steps {steps}")));

@@ -85,7 +85,6 @@ fn missed(stages: &[Stage], figures: &[Figure]) -> Result<String, Fault> {
     }
 }
 
-/// The page.
 pub(super) fn page(figures: &[Figure], deadlines: &str, sizes: &[Figure]) -> Result<String, Fault> {
     let stages = stages()?;
     let rows = figures.iter().map(|figure| {

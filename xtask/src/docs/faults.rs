@@ -4,7 +4,6 @@ use firmware::FAULTS;
 use firmware::design_parameters::{RECOVER_S, RETRY_S, WINDOW_S};
 use firmware::faults::{Reaction, Recovery, TABLE};
 
-/// The page.
 pub(super) fn page() -> String {
     let rows = TABLE.iter().map(|row| {
         let (number, name, causes, check) = (row.number, row.name, row.causes, row.check);

@@ -21,7 +21,6 @@ struct ManyRuns {
 }
 
 impl ManyRuns {
-    /// From the table of decisions.
     fn read(table: &str) -> Result<Self, Fault> {
         let mut reader = csv::Reader::from_reader(table.as_bytes());
         let mut lines = reader.deserialize::<Self>().flatten();

@@ -87,7 +87,6 @@ struct Instruction {
     second: Option<u16>,
 }
 
-/// What stands in `body`, without its constants.
 fn instructions(body: &[u8], begin: u64, is_instruction: impl Fn(u64) -> bool) -> Vec<Instruction> {
     let half = |address: u64| -> Option<u16> {
         let at = (address - begin) as usize;

@@ -20,7 +20,6 @@ pub(super) struct Found {
 }
 
 impl Found {
-    /// From what libFuzzer says.
     pub(super) fn read(name: &str, said: &str) -> Result<Self, Fault> {
         let mut figures = [0; 6];
         for (figure, (_, label)) in figures.iter_mut().zip(FIGURES) {
@@ -32,7 +31,6 @@ impl Found {
         Ok(Self { name, figures })
     }
 
-    /// A line for a person to read.
     pub(super) fn text(&self) -> String {
         let figures = FIGURES.iter().zip(self.figures);
         let figures = figures.map(|((column, _), figure)| format!("{column} {figure}"));
@@ -40,7 +38,6 @@ impl Found {
         format!("{}: {figures}, no finding", self.name)
     }
 
-    /// A line of the page.
     pub(super) fn row(&self) -> String {
         let figures = self.figures.map(|figure| figure.to_string());
         format!("| {} | {} | 0 |", self.name, figures.join(" | "))

@@ -74,7 +74,6 @@ pub(crate) fn beside_goals(figures: &[Figure]) -> Result<String, Fault> {
     Ok(lines?.join("\n"))
 }
 
-/// Names every program that exceeds a limit.
 pub(super) fn within_limits(found: &[Figure]) -> Result<(), Fault> {
     let limits = [("flash", FLASH), ("static RAM", RAM), ("stack", STACK)];
     let mut faults = Vec::new();

@@ -18,7 +18,6 @@ const RI0R: u32 = CAN + 0x1B0;
 /// A million bits a second of 36 MHz, as online calculators have it.
 const BITS: u32 = 0x001E_0001;
 
-/// On the bus, its filter open.
 fn on_bus() -> Rig {
     let mut rig = Rig::clocked();
     rig.write(MCR, 1);

@@ -41,7 +41,6 @@ fn motor_pins_carry_the_duty_only_while_everything_says_so() {
     carries(&[(bdtr, 1 << 15), output], 0, "a plain output, low");
 }
 
-/// Gives the pins of both encoders to their timers.
 fn connect_encoders(rig: &mut Rig) {
     rig.write(GPIOA, DEBUGGER | 0b1010);
     rig.write(GPIOA + 0x20, 0x11);

@@ -100,7 +100,6 @@ impl Port {
         self.model.program == "nucleo_f446re"
     }
 
-    /// Offsets of what was received, and of what is to be sent.
     fn data(&self, sent: u32) -> u32 {
         if self.model.program == "nucleo_g071rb" {
             0x24 + 4 * sent
@@ -109,7 +108,6 @@ impl Port {
         }
     }
 
-    /// Registers of a stream or channel: peripheral, memory, count, control.
     fn dma(&self, stream: u32, channel: u32) -> [u32; 4] {
         if self.is_streams() {
             let at = DMA1 + 0x10 + 0x18 * stream;
@@ -128,7 +126,6 @@ impl Port {
         self.dma(6, if self.model.has_mux { 3 } else { 6 })
     }
 
-    /// Sends so many bytes from an address.
     fn send(&self, rig: &mut Rig, from: u32, bytes: u32) {
         let [peripheral, memory, count, control] = self.tx();
         rig.write(peripheral, USART2 + self.data(1));

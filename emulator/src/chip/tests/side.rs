@@ -10,7 +10,6 @@ pub(super) const SLOT: Ps = 50 * US;
 /// Eight bits at 312.5 kHz.
 pub(super) const BYTE: Ps = 25_600_000;
 
-/// Registers and settings, as the driver names them.
 pub(super) struct Registers {
     pub(super) side: usize,
     pub(super) spi: u32,

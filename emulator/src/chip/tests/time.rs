@@ -46,7 +46,6 @@ fn the_tick_interrupts_every_half_millisecond_until_acknowledged() {
     assert!(ticks(&rig), "without drift");
 }
 
-/// Starts it as the board does: 160 counts of 8 kHz.
 fn start_watchdog(rig: &mut Rig) {
     for key in [0xCCCC, 0x5555] {
         rig.write(IWDG, key);
