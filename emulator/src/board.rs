@@ -46,7 +46,6 @@ pub(crate) struct Board {
     ring: Receiver,
     line: Receiver,
     log: Vec<u8>,
-    /// Whether the log is fetched.
     has_reader: bool,
     /// The faults that the module has queued, and their ends, until they are taken.
     pub(crate) notices: Vec<(Place, Notice)>,
@@ -58,9 +57,7 @@ pub(crate) struct Board {
     pub(crate) is_late: bool,
     /// How often the world has moved on.
     moves: u64,
-    /// How the ticks have kept their time.
     pub(crate) meter: Meter,
-    /// Whether a reset is no fault.
     pub(crate) bears_resets: bool,
     fault: Option<Fault>,
 }

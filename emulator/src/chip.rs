@@ -101,7 +101,6 @@ pub(crate) struct Chip {
     serial: SerialLine,
     /// The controller of a head's bus, where the chip has one.
     can: BxCan,
-    /// The wires of each side's sensor.
     lines: [SensorLines; 2],
     fault: Option<Fault>,
 }

@@ -70,7 +70,6 @@ pub(crate) type Seen = (Row, Vec<Decided>);
 pub(crate) struct Pair {
     pub(crate) host: Run,
     pub(crate) target: Session,
-    /// Whether the scene uses contact.
     pub(crate) feels: bool,
     classifies: bool,
 }

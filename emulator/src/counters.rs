@@ -20,7 +20,6 @@ enum Place {
     Tim5,
 }
 
-/// Offset of a timer's count.
 const CNT: u32 = 0x24;
 /// TIM5 of the F446, which has no variable; on the other boards one stands for it.
 const TIM5: u32 = 0x4000_0C00;

@@ -15,9 +15,7 @@ use crate::program::Program;
 
 #[derive(Debug, Clone)]
 pub(crate) struct Deployment {
-    /// The configuration, with its header.
     pub(crate) config: Vec<u8>,
-    /// The model; empty: none.
     pub(crate) model: Vec<u8>,
 }
 

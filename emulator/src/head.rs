@@ -46,9 +46,7 @@ pub(crate) struct Head {
     nodes: Vec<Node>,
     can: Can,
     bit: Ps,
-    /// The time up to which all have run.
     now: Ps,
-    /// From one tick to the next.
     period: Ps,
     each: usize,
     fault: Option<Fault>,

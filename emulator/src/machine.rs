@@ -20,13 +20,10 @@ const INTERRUPTS: u32 = 16;
 /// Why [`Machine::run`] came back.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Stop {
-    /// The tick's handler has returned.
     Tick,
     /// The core sleeps for the first time since it started.
     Ready,
-    /// The time is up.
     Time,
-    /// The chip has been reset, and the program starts again.
     Reset(ResetCause),
 }
 
@@ -66,9 +63,7 @@ pub(crate) struct Machine {
     stack: Stack,
     /// Time since power-up.
     pub(crate) now: Ps,
-    /// The next event of a peripheral.
     due: Option<Ps>,
-    /// A cycle of the core.
     pub(crate) cycle: Ps,
     exception: u32,
     /// What is left of an IT block, as in xPSR.

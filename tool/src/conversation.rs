@@ -77,7 +77,6 @@ impl Conversation {
         }
     }
 
-    /// Asks for something and waits for the answer, whatever it is.
     pub(crate) fn answer(&mut self, command: Command) -> Result<Answer, Error> {
         let tag = self.send(command)?;
         let begun = self.source.now_s();

@@ -19,7 +19,6 @@ use crate::configuration::{Program, Running, in_format};
 pub(crate) struct Deployment {
     pub(crate) config: Running,
     pub(crate) model: Option<ModelBuf>,
-    /// The scene, for a module that is simulated.
     pub(crate) loaded: Option<Loaded>,
 }
 

@@ -26,7 +26,6 @@ pub(crate) struct Seen {
     pub(crate) silent: usize,
     pub(crate) low: usize,
     pub(crate) bad_start: usize,
-    /// How many of the others keep each rule.
     pub(crate) kept: Vec<(&'static str, usize)>,
     pub(crate) sum_rule: Option<&'static str>,
     pub(crate) words: Option<&'static str>,
@@ -202,7 +201,6 @@ impl Seen {
         found
     }
 
-    /// What was seen, in a few lines.
     pub(crate) fn text(&self) -> String {
         let mut text = format!(
             "{} frames: {} all ones, {} all zeros, {} with another start",

@@ -18,7 +18,6 @@ use crate::tuning::{Tuner, live_key};
 struct Entry {
     /// s since the script began.
     at_s: f64,
-    /// As it stands there.
     text: String,
     action: Action,
 }
@@ -38,7 +37,6 @@ pub(crate) struct Script {
     /// The command that is not answered yet, and the tag of its request.
     pending: Option<(u16, String)>,
     refused: u32,
-    /// Who sets keys, where any is set.
     tuner: Option<Tuner>,
 }
 

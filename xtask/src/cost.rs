@@ -12,7 +12,6 @@ use crate::run::{Fault, document, read, top, write};
 use crate::{count, emulate, firmware, size};
 use stages::{Stage, stages};
 
-/// The committed table.
 const TABLE: Table = Table {
     file: "docs/measured/cost.csv",
     header: "stage,target,mean,worst",
@@ -24,7 +23,6 @@ const TABLE: Table = Table {
 /// How the board keeps its time, over ten minutes.
 const DEADLINES: &str = "docs/measured/deadlines.csv";
 
-/// The page that shows both.
 const PAGE: &str = "docs/measured/cost.md";
 
 /// Minutes of the emulated board for the table.

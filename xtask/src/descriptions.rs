@@ -7,7 +7,6 @@ use std::process::Stdio;
 use crate::firmware::Board;
 use crate::run::{Fault, cargo_apart, document, output, workspace_program};
 
-/// The page.
 const PAGE: &str = "docs/registers.md";
 
 /// What the emulator says of all chips, or of a board's.

@@ -14,7 +14,6 @@ use crate::run::{
     write,
 };
 
-/// What the rows call a run on this PC.
 const PC: &str = "host-sim";
 /// What they call a run that flips a bit of a word of RAM, of which every word has one.
 const WORDS: &str = "nucleo-f446re-words";

@@ -9,7 +9,6 @@ use crate::run::{Fault, read, top, write};
 /// A line of a table.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Figure {
-    /// What was measured.
     pub(crate) key: Vec<String>,
     /// How much, in one number for each of the table's decimals.
     pub(crate) numbers: Vec<f64>,
@@ -41,7 +40,6 @@ impl Figure {
 /// Decimals of mean and worst.
 pub(crate) const INSTRUCTIONS: &[usize] = &[1, 0];
 
-/// A committed table.
 pub(crate) struct Table {
     /// Seen from the top of the workspace.
     pub(crate) file: &'static str,
@@ -50,7 +48,6 @@ pub(crate) struct Table {
     pub(crate) decimals: &'static [usize],
     /// By how much a number may become dearer before a check fails.
     pub(crate) slack: f64,
-    /// What writes it.
     pub(crate) command: &'static str,
 }
 

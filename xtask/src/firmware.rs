@@ -16,16 +16,13 @@ use crate::run::{Fault, cargo, read_bytes, run, target, top, write};
 /// A board that the firmware runs on.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct Board {
-    /// Its name, and its feature in `firmware/Cargo.toml`.
     pub(crate) name: &'static str,
-    /// What it compiles for.
     pub(crate) target: &'static str,
     /// What its program and a PC know of it.
     pub(crate) facts: &'static BoardFacts,
 }
 
 impl Board {
-    /// Every board.
     pub(crate) const ALL: [Self; 3] = [
         Self {
             name: "nucleo-f446re",

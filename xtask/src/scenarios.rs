@@ -19,11 +19,8 @@ enum Bound {
     Fault(bool),
     /// An event of one of these kinds comes after so many seconds.
     Said(&'static [&'static str], f64),
-    /// An event of this kind with this number comes.
     Numbered(&'static str, u64),
-    /// No event of this kind comes.
     NeverSaid(&'static str),
-    /// The motors are off at the end.
     Off,
 }
 
@@ -39,7 +36,6 @@ struct Row {
 /// What a lab flashes, which names no model.
 const SCENE: &str = crate::emulate::BENCH;
 
-/// What they run on.
 const BOARD: Board = Board::ALL[0];
 
 /// A simulated motor, and nothing within reach.
@@ -81,7 +77,6 @@ const fn tilt(file: &'static str, bounds: &'static [Bound]) -> Row {
     row(file, TILT, bounds)
 }
 
-/// All of them.
 const ROWS: &[Row] = &[
     row("whisking", &[], WHISKS_ON),
     row("whisking", &["whisking.frequency_hz=0.2"], WHISKS_ON),
@@ -369,7 +364,6 @@ const SHORT: &[&str] = &[
     "sensor-restart sensor.model=tmag5170",
 ];
 
-/// Runs one row of each kind.
 pub(crate) fn short() -> Result<(), Fault> {
     rows(
         ROWS.iter()

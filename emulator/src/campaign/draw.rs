@@ -30,7 +30,6 @@ pub(super) enum Plan {
 /// What a scene and its subject have.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Has {
-    /// Motors that move.
     pub(super) motors: bool,
     pub(super) chip: bool,
     pub(super) whiskers: usize,

@@ -17,10 +17,8 @@ pub(super) struct OnBoard<'p> {
     pub(super) session: Session,
     words: &'p Words,
     servos: Servos,
-    /// What was sent to it since the last tick.
     commands: Vec<Command>,
     tag: u16,
-    /// The word or register that was changed.
     pub(super) changed: Option<String>,
 }
 

@@ -12,7 +12,6 @@ const REASONS: &str = include_str!("reasons.toml");
 /// What runs with two injections are called.
 const TWO: &str = "two-at-once";
 
-/// Outcomes in the order of the columns.
 const OUTCOMES: [Ending; 5] = [
     Ending::Masked,
     Ending::Noticed,

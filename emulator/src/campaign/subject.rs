@@ -17,7 +17,6 @@ use crate::program::Program;
 
 #[derive(Debug, Clone, Default)]
 pub(super) struct Seen {
-    /// Setpoints and angles.
     pub(super) row: Row,
     /// What the pins ask of each motor, 0 to 1, left side first.
     pub(super) effort: Vec<f64>,
@@ -28,9 +27,7 @@ pub(super) struct Seen {
     pub(super) homing: Vec<bool>,
     /// What was sent to it before this tick.
     pub(super) commands: Vec<Command>,
-    /// What the module has reported, and of which whisker.
     pub(super) notices: Vec<(usize, Notice)>,
-    /// The whiskers that have decided, and for what.
     pub(super) decisions: Vec<(usize, String)>,
     /// What has reset the chip.
     pub(super) reset: Option<ResetCause>,
@@ -73,7 +70,6 @@ pub(super) enum Subject<'p> {
     OnPc {
         run: Box<Run>,
         per_side: usize,
-        /// What was sent to it since the last tick.
         commands: Vec<Command>,
     },
     OnBoard(Box<OnBoard<'p>>),

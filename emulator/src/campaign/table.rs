@@ -13,7 +13,6 @@ use super::outcome::RunRow;
 pub(super) struct ShardTable {
     path: PathBuf,
     writer: csv::Writer<File>,
-    /// The runs that it had when it was opened.
     pub(super) done: Vec<u64>,
 }
 

@@ -12,7 +12,6 @@ use streams::Streams;
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Version {
-    /// Streams, each of which selects a request.
     Streams,
     /// Channels, whose requests are wired, or selected by a DMAMUX.
     Channels,

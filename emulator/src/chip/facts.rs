@@ -16,15 +16,11 @@ use super::{
 pub(crate) enum FactKind {
     /// Bytes of flash, or of RAM; bits of a priority in the NVIC.
     Chip,
-    /// The base of a peripheral.
     Address,
     /// The register of RCC, from its base, and the bit in it that clocks a peripheral.
     Gate,
-    /// The same of its reset.
     Reset,
-    /// The number of an interrupt in the NVIC.
     Interrupt,
-    /// The alternate function of a pin.
     Pin,
     /// What selects a request: the channel of a stream, or the number of DMAMUX.
     Request,

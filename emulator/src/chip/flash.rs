@@ -37,7 +37,6 @@ pub(super) struct Flash {
     /// The first of two words, where both are written at once.
     first: Option<u32>,
     busy_until: Ps,
-    /// Offsets of what is being erased.
     erased: Option<Range<u32>>,
 }
 
@@ -156,7 +155,6 @@ impl Flash {
         true
     }
 
-    /// Offsets of what has begun to be erased since the last call.
     pub(super) fn take_erased(&mut self) -> Option<Range<u32>> {
         self.erased.take()
     }

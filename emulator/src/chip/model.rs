@@ -22,12 +22,10 @@ pub(crate) enum CoreKind {
 
 #[derive(Debug)]
 pub(crate) struct Model {
-    /// The board's program.
     pub(crate) program: &'static str,
     pub(crate) core: CoreKind,
     /// Bits of a priority in the NVIC.
     pub(crate) priority_bits: u8,
-    /// Bytes of flash, and of RAM.
     pub(crate) flash: u32,
     pub(crate) ram: u32,
     /// What the board's program and a PC know of it.

@@ -89,7 +89,6 @@ impl Chip {
             && self.spis[side].mode() == Some(mode)
     }
 
-    /// Brings the levels of the pins to the sensors' /SS.
     pub(super) fn select_sensors(&mut self) {
         for (side, wires) in self.model.wiring.sides.iter().enumerate() {
             let low = self.role(wires.select) == Role::Output(false);

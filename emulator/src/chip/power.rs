@@ -140,7 +140,6 @@ pub(super) struct Power {
     control: u32,
     /// It is below the detector's threshold.
     low: bool,
-    /// The option bytes.
     options: u32,
 }
 

@@ -111,7 +111,6 @@ pub(super) struct Layout {
     /// The register that selects the system clock, the mask of the selection, and how far
     /// above stands what is selected.
     selection: (u32, u32, u32),
-    /// Registers of peripheral resets.
     resets: &'static [(Bus, u32)],
     /// Registers of clock gates, and their values after a reset.
     gates: &'static [(Bus, u32, u32)],
@@ -122,7 +121,6 @@ pub(super) struct Layout {
     /// Where the clock security system tells of its interrupt, and is answered; nothing where
     /// it is not used.
     security: Option<u32>,
-    /// The clocks that the registers make.
     clocks: fn(&Rcc) -> Result<Clocks, Fault>,
 }
 

@@ -39,7 +39,6 @@ struct Needs {
     clock_max_hz: u32,
     /// From the supply to the first byte.
     start_up: Ps,
-    /// Between two bytes.
     gap: Ps,
     /// From /SS low to the first byte, and from the last to /SS high.
     lead: Ps,
@@ -47,7 +46,6 @@ struct Needs {
     /// For which /SS is high between two frames, and after one that is not good.
     high: Ps,
     rest: Ps,
-    /// Whether what the master has read is good.
     is_good: fn(Decoder, &[u8]) -> bool,
     /// The SPI mode, and whether data to the sensor comes by an open drain, as it is joined to
     /// data from it.
@@ -101,14 +99,12 @@ pub(super) struct SensorLines {
     silence: Ps,
     /// It does not see /SS rise, and takes all bytes for one frame; whether that is over.
     stuck: Option<bool>,
-    /// What messages call the side.
     side: &'static str,
     selected: bool,
     /// When /SS fell.
     fell: Ps,
     /// No byte has been clocked since /SS fell.
     fresh: bool,
-    /// When the last byte ended.
     ended: Option<Ps>,
     /// When the byte that the sensor has seen began.
     seen: Option<Ps>,

@@ -12,7 +12,6 @@ pub(super) struct SerialLine {
     pub(super) sending: VecDeque<u8>,
     /// When the first of that has gone.
     pub(super) ends: Ps,
-    /// What it has received.
     pub(super) heard: Vec<u8>,
 }
 

@@ -5,7 +5,6 @@ use super::map::Unit;
 use super::time::Ps;
 use super::{Chip, Memory};
 
-/// A second.
 const SECOND: Ps = 1_000_000_000_000;
 
 /// Start, eight bits and stop.

@@ -75,7 +75,6 @@ impl Memory for Ram {
 struct Rig {
     chip: Chip,
     ram: Ram,
-    /// Left and right.
     sensors: [Script; 2],
     now: Ps,
 }

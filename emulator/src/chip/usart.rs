@@ -112,9 +112,7 @@ pub(super) struct Usart {
     cr3: u32,
     brr: u32,
     shift: Option<Shift>,
-    /// The byte that waits to be sent.
     waiting: Option<u8>,
-    /// The byte that waits to be read.
     received: Option<u8>,
     last: u8,
     overrun: bool,

@@ -8,7 +8,6 @@ use serde::{Deserialize, Serialize};
 
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(super) struct ShardRow {
-    /// Where it ran: `host-sim`, or the board's name.
     pub(super) subject: String,
     pub(super) scene: String,
     /// The seed in place of the scene's own.

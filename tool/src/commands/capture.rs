@@ -249,7 +249,6 @@ struct Capture {
     done: u64,
     /// When the first ended: by the module's clock, s, and by the PC's.
     first: Option<(f64, Timestamp)>,
-    /// Lines about what is wrong.
     warnings: usize,
 }
 

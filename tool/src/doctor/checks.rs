@@ -23,7 +23,6 @@ pub(crate) enum Purpose {
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct Check {
     what: String,
-    /// What mends it, where it is missing.
     mend: Option<String>,
     is_needed: bool,
 }

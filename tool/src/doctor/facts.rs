@@ -11,7 +11,6 @@ const PINS: &str = include_str!("../../../rust-toolchain.toml");
 /// What is found on this PC.
 #[derive(Debug, Clone)]
 pub(crate) struct Facts {
-    /// The toolchain and the targets that the workspace asks for.
     pub(super) toolchain: String,
     pub(super) targets: Vec<String>,
     pub(super) rustup: Option<String>,

@@ -46,7 +46,6 @@ pub(crate) struct History {
     pub(crate) tally: Tally,
     pub(crate) sides: [VecDeque<Entry>; 2],
     pub(crate) lines: VecDeque<Said<String>>,
-    /// What has happened in the module, health apart.
     pub(crate) events: VecDeque<Said<EventRecord>>,
     pub(crate) module_classes: Vec<String>,
     pub(crate) beliefs: [VecDeque<Belief>; 2],

@@ -29,7 +29,6 @@ pub(crate) struct Shown {
     pub(crate) behind_s: Option<f64>,
     pub(crate) has_help: bool,
     pub(crate) whiskers: Vec<Whisker>,
-    /// Touches and decisions, the newest last.
     pub(crate) events: Vec<String>,
     /// Faults, the newest first, and how many there were.
     pub(crate) faults: Vec<Fault>,
@@ -206,7 +205,6 @@ impl History {
     }
 }
 
-/// Flags of a record that are shown, in their order.
 pub(crate) const STATES: [(&str, Flags); 6] = [
     ("armed", Flags::ARMED),
     ("running", Flags::RUNNING),

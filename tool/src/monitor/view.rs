@@ -35,7 +35,6 @@ pub(crate) enum Deed {
     Save,
 }
 
-/// Every key, as the help has it.
 pub(crate) const KEYS: [(&str, &str); 10] = [
     ("x, space", "stop: motors off until they are armed"),
     ("a", "arm: motors may be driven"),

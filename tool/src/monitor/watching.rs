@@ -50,9 +50,7 @@ pub(crate) fn joined(listener: JoinHandle<Result<(), Error>>) -> Result<(), Erro
 pub(crate) enum Wish {
     Arm,
     Stop,
-    /// Ends, the module going on.
     End,
-    /// Stops the motors, and ends.
     StopAndEnd,
 }
 

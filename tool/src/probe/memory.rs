@@ -52,7 +52,6 @@ impl MemoryPort {
         Ok(Self { interface })
     }
 
-    /// The identity of the chip, where such a board's has it.
     pub(super) fn chip_id(&mut self, board: BoardName) -> Result<u16, Error> {
         debug_unit::identity(self, board)
     }

@@ -73,7 +73,6 @@ pub(crate) struct SourceChoice {
 }
 
 impl SourceChoice {
-    /// The scene of the module's program, where it is named.
     pub(crate) fn scene(&self) -> Option<&Path> {
         self.sim.as_deref().or(self.emulated.as_deref())
     }

@@ -4,7 +4,6 @@ use serde::Deserialize;
 
 use crate::run::Fault;
 
-/// The figures of decisions, as `studies decisions` writes them.
 pub(super) const DECISIONS: &str = "docs/measured/decisions.csv";
 
 /// The main job over many runs.

@@ -18,7 +18,6 @@ const RESET: usize = 1;
 
 pub(crate) struct Function {
     pub(crate) name: String,
-    /// Its addresses.
     pub(crate) range: Range<u64>,
     /// Bytes of stack that it takes itself.
     pub(crate) own: u64,

@@ -14,13 +14,10 @@ use jump::Jump;
 /// What an instruction does.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Step {
-    /// Takes bytes of stack.
     Push(u64),
-    /// Calls or branches to an address.
     Go(u64),
     /// Goes wherever a register or a word in memory says, or moves the stack by one.
     Open,
-    /// Stops the program.
     Trap,
 }
 

@@ -3,7 +3,6 @@
 use crate::figures::{Figure, Table};
 use crate::run::{Fault, no_faults};
 
-/// The committed table.
 pub(crate) const TABLE: Table = Table {
     file: "docs/measured/sizes.csv",
     header: "scene,board,flash_bytes,ram_bytes,stack_bytes",
@@ -39,7 +38,6 @@ const RAM: u64 = 15 * 1024;
 /// tick may come in between.
 const STACK: u64 = 5632;
 
-/// The limits in words.
 pub(crate) fn limits() -> String {
     format!(
         "No program takes more than {FLASH} of flash, scene and model apart, {RAM} of static RAM\n\

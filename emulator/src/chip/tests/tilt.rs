@@ -4,7 +4,6 @@ use super::side::{LEFT, RIGHT, Registers, SIDES};
 use super::{GPIOA, GPIOB, Rig, US};
 use crate::chip::{Fault, Ps};
 
-/// A nanosecond.
 const NS: Ps = 1_000;
 /// From the core's clock of 160 MHz that the rigs have, SPI1's and SPI2's to 5 MHz.
 const FASTER: u32 = 4;

@@ -21,7 +21,6 @@ pub(super) const TERM: Signal = Signal::TERM;
 pub(super) const HANGUP: Signal = Signal::HUP;
 pub(super) const INTERRUPT: Signal = Signal::INT;
 
-/// For how long something is waited for.
 const PATIENCE: Duration = Duration::from_secs(30);
 
 /// The program in a terminal.
