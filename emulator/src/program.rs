@@ -160,6 +160,3 @@ fn head(bytes: &[u8], board: BoardCode) -> Result<HeadConfig, ConfigError> {
 fn read<R: Real>(bytes: &[u8], board: BoardCode) -> Result<HeadConfig, ConfigError> {
     decode::<R>(bytes, board).map(|config| config.head)
 }
-
-#[cfg(test)]
-mod tests;

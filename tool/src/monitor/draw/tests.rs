@@ -10,7 +10,7 @@ use wire::{Flags, TickRecord};
 use super::{Theme, draw};
 use crate::monitor::history::History;
 use crate::monitor::shown::Shown;
-use crate::monitor::svg::{svg, text};
+use crate::monitor::svg::svg;
 use crate::monitor::view::{Key, View};
 use crate::source::Incoming;
 
@@ -56,37 +56,6 @@ fn drawn(shown: &Shown, theme: Theme, width: u16, height: u16) -> ratatui::buffe
     let mut terminal = Terminal::new(TestBackend::new(width, height)).unwrap();
     terminal.draw(|frame| draw(frame, shown, theme)).unwrap();
     terminal.backend().buffer().clone()
-}
-
-#[test]
-fn all_is_there_in_the_smallest_usual_window() {
-    let shown = history().shown(&View::new(), "bench, simulated", String::new());
-    let buffer = drawn(&shown, PLAIN, 80, 24);
-    let text = text(&buffer);
-    for word in [
-        "bench, simulated",
-        "6.00 s  live",
-        "[ARMED]",
-        "[TOUCHING]",
-        "  running ",
-        "measured",
-        "setpoint",
-        "contact",
-        "duty",
-        "no model: --model",
-        "touch 3",
-        "carpet 99.50 % 640",
-        "fault left 6 does not move",
-        "longest tick 43.5 us (4 %)",
-        "lost 0",
-        "x stop",
-        "q end",
-    ] {
-        assert!(text.contains(word), "{word}:\n{text}");
-    }
-    assert_eq!(text.lines().count(), 24);
-    // The line of the chart.
-    assert!(text.chars().any(|c| ('\u{2801}'..='\u{28FF}').contains(&c)));
 }
 
 #[test]
