@@ -201,7 +201,6 @@ impl<'a> Pages<'a> {
         (!is_there).then(|| format!("no such heading; there are {}", known.join(", ")))
     }
 
-    /// Pages in the folder of the book that its summary does not name.
     fn left_out(&self) -> Vec<String> {
         let mut found = Vec::new();
         let mut folders = vec![self.top.join(self.src)];

@@ -159,7 +159,6 @@ fn place(of: &PeripheralRccRegister) -> Option<[u32; 2]> {
     }
 }
 
-/// The number in the NVIC of a peripheral's interrupt.
 fn interrupt(name: &str, signal: &str) -> Option<u32> {
     if name == "PVD" {
         let mut all = METADATA.interrupts.iter();

@@ -46,7 +46,6 @@ pub(crate) struct Board {
     ring: Receiver,
     line: Receiver,
     log: Vec<u8>,
-    /// Whether the log is fetched.
     has_reader: bool,
     /// The faults that the module has queued, and their ends, until they are taken.
     pub(crate) notices: Vec<(Place, Notice)>,
@@ -58,9 +57,7 @@ pub(crate) struct Board {
     pub(crate) is_late: bool,
     /// How often the world has moved on.
     moves: u64,
-    /// How the ticks have kept their time.
     pub(crate) meter: Meter,
-    /// Whether a reset is no fault.
     pub(crate) bears_resets: bool,
     fault: Option<Fault>,
 }
@@ -232,7 +229,6 @@ impl Board {
         self.machine.memories.lose_ram()
     }
 
-    /// The program starts again, with empty queues and rings.
     fn was_reset(&mut self, cause: ResetCause) {
         self.reset = Some(cause);
         self.watch.restart();
@@ -286,7 +282,6 @@ impl Board {
         }
     }
 
-    /// Lets time pass on the chip while nothing moves outside of it.
     pub(crate) fn wait(&mut self, time: Ps) -> Result<(), Fault> {
         let limit = self.machine.now + time;
         loop {
@@ -299,7 +294,6 @@ impl Board {
         }
     }
 
-    /// Ticks that the module has counted as missed since it started.
     pub(crate) fn missed(&self) -> Result<u32, Fault> {
         self.watch.missed(&self.machine.memories)
     }
@@ -315,7 +309,6 @@ impl Board {
         rtt.log().ask_to_wait(memories)
     }
 
-    /// From now on the log is not fetched, and its ring is full.
     pub(crate) fn lose_reader(&mut self) -> Result<(), Fault> {
         self.has_reader = false;
         let Machine { rtt, memories, .. } = &self.machine;
@@ -368,7 +361,6 @@ impl Board {
         self.machine.with_chip(Chip::serial_read)
     }
 
-    /// Levels of the pins of contact and of decisions.
     pub(crate) fn signals(&mut self) -> [bool; 2] {
         self.machine.with_chip(|chip| chip.signals())
     }
@@ -386,7 +378,6 @@ impl Board {
         Ok(())
     }
 
-    /// Brings angles and Hall sensors to the chip's pins.
     fn inputs(&mut self) {
         for (side, pins) in self.pins.iter_mut().enumerate() {
             let (position, halls) = match pins {
@@ -407,7 +398,6 @@ impl Board {
         }
     }
 
-    /// Brings the chip's motor pins to the motors.
     fn outputs(&mut self) {
         let (duties, directions, enables) = self.machine.with_chip(|chip| {
             let (directions, enables) = (chip.motor_directions(), chip.motor_enables());
@@ -458,7 +448,6 @@ impl Board {
         self.look_at_tick(events)
     }
 
-    /// What the tick that has ended has said.
     fn look_at_tick(&mut self, events: &mut Vec<Event>) -> Result<(), Fault> {
         if let Some(cause) = self.reset
             && !self.bears_resets

@@ -101,7 +101,6 @@ pub(crate) struct Chip {
     serial: SerialLine,
     /// The controller of a head's bus, where the chip has one.
     can: BxCan,
-    /// The wires of each side's sensor.
     lines: [SensorLines; 2],
     fault: Option<Fault>,
 }
@@ -184,12 +183,10 @@ impl Chip {
             .chain(bus)
     }
 
-    /// When the tick's timer had its last update.
     pub(crate) fn tick_began(&self) -> Ps {
         self.timers[self.model.wiring.tick].updated
     }
 
-    /// The next time at which something happens by itself.
     pub(crate) fn next_event(&self) -> Option<Ps> {
         let timers =
             (0..self.timers.len()).filter_map(|n| self.timers[n].next(self.timer_clock(n)));
@@ -238,7 +235,6 @@ impl Chip {
         Ok(None)
     }
 
-    /// Tells the sensors of frames that are over, and of bytes that have begun.
     fn begin_bytes(&mut self, sensors: &mut [impl SensorEnd]) -> Result<(), Fault> {
         for (side, sensor) in sensors.iter_mut().enumerate() {
             if self.lines[side].take_over() {
@@ -253,7 +249,6 @@ impl Chip {
         Ok(())
     }
 
-    /// Ends the bytes that are due.
     fn end_bytes(&mut self, sensors: &mut [impl SensorEnd]) {
         let now = self.now;
         for side in 0..self.spis.len() {
@@ -298,7 +293,6 @@ impl Chip {
         self.flash.busy_until()
     }
 
-    /// Keeps the first fault of an access for [`Chip::advance`] to tell.
     pub(crate) fn keep(&mut self, fault: Fault) {
         self.fault.get_or_insert(fault);
     }
@@ -306,10 +300,8 @@ impl Chip {
 
 /// The chip's memories, as the DMA sees them.
 pub(crate) trait Memory {
-    /// A byte; `None` where there is no memory.
     fn get(&self, address: u32) -> Option<u8>;
 
-    /// Writes a byte; `None` where there is no RAM.
     fn put(&self, address: u32, byte: u8) -> Option<()>;
 }
 

@@ -64,14 +64,12 @@ pub(crate) struct Circumstances {
 /// after the lines of the start.
 const GONE_AFTER_S: f64 = 0.5;
 
-/// What a tick of the board has come to.
 pub(crate) type Seen = (Row, Vec<Decided>);
 
 /// A scene on the PC, in the board's number format, and on the board.
 pub(crate) struct Pair {
     pub(crate) host: Run,
     pub(crate) target: Session,
-    /// Whether the scene uses contact.
     pub(crate) feels: bool,
     classifies: bool,
 }
@@ -100,14 +98,12 @@ impl Pair {
         self.follow(n, found, touch)
     }
 
-    /// One tick of the board alone.
     pub(crate) fn tick_board(&mut self) -> Result<Seen, Error> {
         self.target.tick()?;
         let run = &self.target.run;
         Ok((*run.row(), run.decisions().collect()))
     }
 
-    /// One tick of the PC, the `n`-th, as [`Self::tick`]; the board was ahead.
     pub(crate) fn follow(
         &mut self,
         n: u64,

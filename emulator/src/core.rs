@@ -115,13 +115,11 @@ impl Core {
         self.inner.step()
     }
 
-    /// Raises the non-maskable interrupt once.
     pub(crate) fn raise_nmi(&self) {
         self.inner
             .with_sys(|sys| sys.set_pending(Exception::NMI, true));
     }
 
-    /// Whether it executes nothing more until it is reset.
     pub(crate) fn has_locked_up(&self) -> bool {
         self.stuck || self.inner.is_locked_up()
     }

@@ -29,7 +29,6 @@ pub(crate) struct Price<'p> {
     pub(crate) most: f64,
 }
 
-/// Measures the tick's handler; what was found.
 pub(crate) fn cost(scene: &Scene, prices: &[Price<'_>]) -> Result<Vec<String>, Error> {
     let mut said = Vec::new();
     for price in prices {
@@ -51,7 +50,6 @@ pub(crate) fn cost(scene: &Scene, prices: &[Price<'_>]) -> Result<Vec<String>, E
     Ok(said)
 }
 
-/// Mean instructions of the tick's handler.
 fn mean(scene: &Scene, (program, asks): (&Program, Asks)) -> Result<f64, Error> {
     let mut session = Session::running(scene, Vec::new(), program)?;
     if let Asks::Serial = asks {

@@ -20,7 +20,6 @@ enum Place {
     Tim5,
 }
 
-/// Offset of a timer's count.
 const CNT: u32 = 0x24;
 /// TIM5 of the F446, which has no variable; on the other boards one stands for it.
 const TIM5: u32 = 0x4000_0C00;
@@ -39,7 +38,6 @@ struct Counter {
     start: fn(i64) -> i64,
 }
 
-/// One that is not seen elsewhere than where it is.
 const fn counter(
     what: &'static str,
     path: &'static str,
@@ -137,21 +135,4 @@ const COUNTERS: [Counter; 14] = [
 pub(crate) fn described() -> impl Iterator<Item = (&'static str, u32, i64)> {
     let wrap = COUNTERS.iter().filter(|counter| counter.is_seen());
     wrap.map(|counter| (counter.what, counter.width, -(counter.start)(2_000)))
-}
-
-#[cfg(test)]
-mod tests {
-    use super::COUNTERS;
-
-    #[test]
-    fn each_starts_before_its_wrap_and_is_beyond_after_it() {
-        for counter in COUNTERS.iter().filter(|counter| counter.is_seen()) {
-            let first = counter.first(2_000);
-            let left = -(counter.start)(2_000) as u32;
-            let at = |count: u32| first.wrapping_add(count) & counter.mask();
-            assert!(!counter.is_beyond(first), "{}", counter.what);
-            assert!(!counter.is_beyond(at(left - 1)), "{}", counter.what);
-            assert!(counter.is_beyond(at(left)), "{}", counter.what);
-        }
-    }
 }

@@ -22,7 +22,6 @@ const THUMB: u32 = 1;
 /// In a call the core is asked after so many instructions whether it has taken an exception.
 const CHECKED: u64 = 10_000;
 
-/// A kernel whose calls are counted.
 struct Kernel {
     name: String,
     body: u32,
@@ -30,7 +29,6 @@ struct Kernel {
 }
 
 impl Kernel {
-    /// What the program says of it, at an address.
     fn read(at: u32, memories: &Memories) -> Result<Self, Fault> {
         let byte = |at| {
             let outside = || Fault::Memory(format!("{at:#010x} is not in memory"));

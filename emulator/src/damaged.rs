@@ -46,7 +46,6 @@ pub(crate) fn configs(right: &[u8]) -> Vec<(Vec<u8>, ConfigError)> {
 /// What is wrong with a model, the model, and why a board must refuse it.
 pub(crate) type Wrong = (&'static str, Vec<u8>, Refusal);
 
-/// Models that a board must refuse.
 pub(crate) fn models(right: &[u8], facts: &BoardFacts) -> Result<Vec<Wrong>, Error> {
     let changed = |at, by| changed(right, at, by);
     let [slot, _] = facts.flash.slots;

@@ -15,13 +15,10 @@ use crate::program::Program;
 
 #[derive(Debug, Clone)]
 pub(crate) struct Deployment {
-    /// The configuration, with its header.
     pub(crate) config: Vec<u8>,
-    /// The model; empty: none.
     pub(crate) model: Vec<u8>,
 }
 
-/// A scene, and a program as it is flashed for it.
 pub(crate) fn flashed(scene: &Path, program: &Path) -> Result<(Loaded, Program), Error> {
     let loaded = Loaded::new(scene)?;
     let program = flashed_for(&loaded.scene, scene, program)?;
@@ -41,7 +38,6 @@ pub(crate) fn flashed_for(scene: &Scene, path: &Path, program: &Path) -> Result<
     Ok(program)
 }
 
-/// The model that `scene` names, which stands in the file `path`.
 pub(crate) fn model_of(scene: &Scene, path: &Path) -> Result<Option<ModelBuf>, Error> {
     let folder = path.parent().unwrap_or(Path::new("."));
     let model = scene
@@ -50,7 +46,6 @@ pub(crate) fn model_of(scene: &Scene, path: &Path) -> Result<Option<ModelBuf>, E
     Ok(model.transpose()?.map(|(_, model)| model))
 }
 
-/// What a board runs by for a scene that decides by `model`.
 pub(crate) fn image(
     scene: &Scene,
     model: Option<&ModelBuf>,
@@ -79,7 +74,6 @@ impl Deployment {
         crc.map_or(0, |crc| u32::from_le_bytes(*crc))
     }
 
-    /// Has it lie in the first slot of a program that is flashed.
     pub(crate) fn flash(&self, program: &mut Program) -> Result<(), Error> {
         let [slot, _] = program.model()?.facts.flash.slots;
         let header = SlotHeader::linked(self.model_crc());
@@ -88,7 +82,6 @@ impl Deployment {
         Ok(program.add(slot.model.start, &self.model)?)
     }
 
-    /// How many words come when it is sent.
     pub(crate) fn load(&self) -> Load {
         let [config, model] = [&self.config, &self.model].map(|bytes| words(bytes).len());
         Load {

@@ -50,7 +50,6 @@ pub(crate) fn start(
     Ok(run)
 }
 
-/// What the log of a board says that runs no scene.
 pub(crate) const NO_SCENE: &str = "no scene: ";
 
 /// As [`start`], of a board that may have no scene, or refuse it.

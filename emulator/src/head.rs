@@ -73,9 +73,7 @@ pub(crate) struct Head {
     nodes: Vec<Node>,
     can: Can,
     bit: Ps,
-    /// The time up to which all have run.
     now: Ps,
-    /// From one tick to the next.
     period: Ps,
     each: usize,
     fault: Option<Fault>,
@@ -129,12 +127,10 @@ impl Head {
         Ok(head)
     }
 
-    /// What the bus has carried.
     pub(crate) const fn load(&self) -> Load {
         self.can.load()
     }
 
-    /// Fails with what has stopped a board.
     pub(crate) fn check(&self) -> Result<(), Fault> {
         self.fault.clone().map_or(Ok(()), Err)
     }

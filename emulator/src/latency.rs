@@ -101,7 +101,6 @@ impl Contact {
         }))
     }
 
-    /// Whether g of the other side has risen.
     fn excites(&self, row: &Row) -> bool {
         row.g[1 - self.side] > self.gain
     }

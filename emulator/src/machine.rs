@@ -20,13 +20,10 @@ const INTERRUPTS: u32 = 16;
 /// Why [`Machine::run`] came back.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Stop {
-    /// The tick's handler has returned.
     Tick,
     /// The core sleeps for the first time since it started.
     Ready,
-    /// The time is up.
     Time,
-    /// The chip has been reset, and the program starts again.
     Reset(ResetCause),
 }
 
@@ -43,12 +40,9 @@ pub(crate) struct Spent {
     pub other: u64,
 }
 
-/// What happens in the core, as it happens.
 pub(crate) trait Observer {
-    /// The tick's handler begins `latency` after its timer's update.
     fn tick_begins(&mut self, _now: Ps, _latency: Ps, _spent: &Spent) {}
 
-    /// The tick's handler has returned.
     fn tick_ends(&mut self, _now: Ps, _spent: &Spent) {}
 }
 
@@ -69,9 +63,7 @@ pub(crate) struct Machine {
     stack: Stack,
     /// Time since power-up.
     pub(crate) now: Ps,
-    /// The next event of a peripheral.
     due: Option<Ps>,
-    /// A cycle of the core.
     pub(crate) cycle: Ps,
     exception: u32,
     /// What is left of an IT block, as in xPSR.
@@ -88,7 +80,6 @@ pub(crate) struct Machine {
 }
 
 impl Machine {
-    /// A board with `program` in its flash, as its supply comes.
     pub(crate) fn new(program: &Program) -> Result<Self, Fault> {
         let model = program.model()?;
         let memories = Memories::new(program, model)?;
@@ -158,17 +149,14 @@ impl Machine {
         bytes.try_for_each(|(place, byte)| self.memories.write(place, &[*byte]))
     }
 
-    /// Raises the non-maskable interrupt without a cause.
     pub(crate) fn raise_nmi(&self) {
         self.core.raise_nmi();
     }
 
-    /// Whether the core is in the handler of the tick.
     pub(crate) const fn is_in_tick(&self) -> bool {
         self.exception == self.tick
     }
 
-    /// The most bytes that the stack has held since the reset.
     pub(crate) fn stack_used(&self) -> Result<u32, Fault> {
         self.stack.used(&self.memories)
     }
@@ -298,7 +286,6 @@ impl Machine {
         Ok(false)
     }
 
-    /// Lets the chip do what is due and sets the core's interrupt lines.
     fn look(&mut self, sensors: &mut [impl SensorEnd]) -> Result<Option<ResetCause>, Fault> {
         let due = self.due.is_some_and(|due| due <= self.now);
         if !self.shared.take_touched() && !due {
@@ -329,7 +316,6 @@ impl Machine {
         Ok(reset)
     }
 
-    /// Resets the chip; RAM keeps its contents.
     pub(crate) fn reset(&mut self, cause: ResetCause) -> Result<(), Fault> {
         let space = self.memories.space(&self.shared)?;
         self.core = Core::new(self.model, &self.memories, space);
@@ -347,7 +333,6 @@ impl Machine {
         Ok(())
     }
 
-    /// Takes the chip's next event, clock and interrupt lines.
     fn follow_chip(&mut self) {
         let chip = self.shared.chip();
         self.due = chip.next_event();

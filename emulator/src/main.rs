@@ -95,7 +95,6 @@ enum Command {
     },
 }
 
-/// A scenario by its name.
 fn scenarios() -> impl TypedValueParser<Value = &'static Scenario> {
     let name = |scenario: &Scenario| PossibleValue::new(scenario.name).help(scenario.what);
     PossibleValuesParser::new(scenario::ALL.iter().map(name)).try_map(|name| {

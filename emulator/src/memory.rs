@@ -56,7 +56,6 @@ impl Shared {
         self.touched.load(Ordering::Relaxed) && self.touched.swap(false, Ordering::Relaxed)
     }
 
-    /// Has the machine look at the chip.
     pub(crate) fn touch(&self) {
         self.touched.store(true, Ordering::Relaxed);
     }
@@ -175,7 +174,6 @@ impl Memories {
         Ok(memories)
     }
 
-    /// The address space of the core.
     pub(crate) fn space(&self, shared: &Arc<Shared>) -> Result<AddressSpace, Fault> {
         let space = AddressSpace::new("chip", 32).with_unassigned(UnassignedPolicy::FAULT);
         {
@@ -215,7 +213,6 @@ impl Memories {
         self.flash_len
     }
 
-    /// Reads RAM as a probe does.
     pub(crate) fn read(&self, address: u32, bytes: &mut [u8]) -> Result<(), Fault> {
         let offset = ram_offset(address)?;
         self.ram.read_at(offset, bytes).map_err(refused).map(drop)
@@ -227,7 +224,6 @@ impl Memories {
         Ok(u32::from_le_bytes(bytes))
     }
 
-    /// Flips bits of a byte of RAM or flash.
     pub(crate) fn flip(&self, address: u32, bits: u8) -> Result<(), Fault> {
         let outside = || Fault::Memory(format!("{address:#010x} is not in memory"));
         let byte = [self.get(address).ok_or_else(outside)? ^ bits];
@@ -270,12 +266,10 @@ impl Memories {
         Ok(bytes)
     }
 
-    /// RAM has lost its contents, and is zero as at the first start.
     pub(crate) fn lose_ram(&self) -> Result<(), Fault> {
         self.write(RAM, &vec![0; self.ram_len as usize])
     }
 
-    /// Writes RAM as a probe does.
     pub(crate) fn write(&self, address: u32, bytes: &[u8]) -> Result<(), Fault> {
         let offset = ram_offset(address)?;
         self.ram.write_at(offset, bytes).map_err(refused).map(drop)

@@ -21,7 +21,6 @@ impl Tally {
         }
     }
 
-    /// The mean; 0 without a value.
     pub(crate) fn mean(&self) -> f64 {
         self.sum as f64 / self.count.max(1) as f64
     }
@@ -101,50 +100,5 @@ impl Observer for Meter {
         if let Some((began, _)) = self.began {
             self.figures.length.add(now - began);
         }
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::{Meter, Tally};
-    use crate::machine::{Observer, Spent};
-
-    #[test]
-    fn whole_ticks_are_taken_apart_and_the_log_is_kept_out() {
-        let mut meter = Meter::default();
-        let mut spent = Spent::default();
-        let mut writer = 0;
-        // Handler, frame, idle, and whether idle logs, from tick to tick.
-        let ticks = [
-            (100, 30, 40, false),
-            (120, 30, 900, true),
-            (90, 0, 40, false),
-        ];
-        for (n, (tick, frame, thread, logs)) in (0_u64..).zip(ticks) {
-            meter.tick_begins(500 * n, 7 + n, &spent);
-            spent.tick += tick;
-            meter.tick_ends(500 * n + 50 + n, &spent);
-            meter.logged(writer);
-            spent.frame += frame;
-            spent.thread += thread;
-            writer += u32::from(logs);
-        }
-        meter.tick_begins(1_600, 3, &spent);
-        meter.logged(writer);
-
-        let figures = &meter.figures;
-        let is = |extent: Tally, sum, worst| {
-            assert_eq!((extent.sum, extent.worst), (sum, worst));
-        };
-        is(figures.tick, 310, 120);
-        is(figures.handlers, 60, 30);
-        is(figures.idle, 80, 40);
-        is(figures.logging, 900, 900);
-        // 170, 190 with idle's mean for its logging, 130.
-        is(figures.whole, 490, 190);
-        is(figures.latency, 27, 9);
-        is(figures.length, 153, 52);
-        is(figures.period, 1_600, 600);
-        assert_eq!(figures.whole.count, 3);
     }
 }

@@ -24,7 +24,6 @@ impl Stack {
         })
     }
 
-    /// The most bytes it has held since the reset.
     pub(crate) fn used(self, memories: &Memories) -> Result<u32, Fault> {
         if memories.word(self.end)? != PAINT {
             let what = "the stack was not painted, or ran over its end";

@@ -71,7 +71,6 @@ impl Program {
         &self.bytes
     }
 
-    /// What is flashed, by address.
     pub(crate) fn segments(&self) -> impl Iterator<Item = (u32, &[u8])> {
         self.segments
             .iter()
@@ -94,7 +93,6 @@ impl Program {
         Ok(segments.any(|(at, _)| places.contains(&at)))
     }
 
-    /// Whether it is the program of `scene`, if it brings one with it.
     pub(crate) fn check_of(&self, scene: &Scene) -> Result<(), Fault> {
         let board = self.model()?.facts;
         let Some(config) = self.config()? else {
@@ -123,7 +121,6 @@ impl Program {
         Ok(())
     }
 
-    /// The configuration that it brings with it, and what lies behind that.
     fn config(&self) -> Result<Option<&[u8]>, Fault> {
         let [slot, _] = self.model()?.facts.flash.slots;
         let start = slot.config().start;
@@ -150,7 +147,6 @@ impl Program {
     }
 }
 
-/// The head of a configuration.
 fn head(bytes: &[u8], board: BoardCode) -> Result<HeadConfig, ConfigError> {
     let header = Header::of(bytes)?;
     let end = HEADER_BYTES.saturating_add(header.length as usize);
@@ -164,6 +160,3 @@ fn head(bytes: &[u8], board: BoardCode) -> Result<HeadConfig, ConfigError> {
 fn read<R: Real>(bytes: &[u8], board: BoardCode) -> Result<HeadConfig, ConfigError> {
     decode::<R>(bytes, board).map(|config| config.head)
 }
-
-#[cfg(test)]
-mod tests;

@@ -195,7 +195,6 @@ fn cell(model: &Model, fact: Option<&Fact>) -> String {
     format!("0x{register:02X}, {bit}{}", marked.unwrap_or_default())
 }
 
-/// An address as the manuals write it.
 fn hex(address: u32) -> String {
     format!("0x{:04X}_{:04X}", address >> 16, address & 0xFFFF)
 }
@@ -204,7 +203,6 @@ fn register(fact: &Fact) -> &str {
     fact.part.split('.').next().unwrap_or_default()
 }
 
-/// The name of some bits, and where they stand; nothing of a whole register.
 fn places(fact: &Fact) -> String {
     let Some((_, name)) = fact.part.split_once('.') else {
         return String::new();

@@ -115,7 +115,6 @@ fn compare_packets(talk: &mut Talk, scene: &Scene) -> Result<String, Error> {
     ))
 }
 
-/// Commands as lines: what is answered, and what the records then say.
 fn commands(talk: &mut Talk) -> Result<String, Error> {
     const BEGIN: [(&str, &str); 9] = [
         ("arm", "ok arm"),
@@ -195,7 +194,6 @@ fn garbage(talk: &mut Talk) -> Result<String, Error> {
     Ok("garbage refused, and what follows it understood".to_owned())
 }
 
-/// At [`SLOW_BAUD`] records are refused, and all else is as before.
 fn refuse_records(path: &Path, program: &Path) -> Result<String, Error> {
     let mut loaded = Loaded::new(path)?;
     loaded.scene.telemetry.serial_baud = Some(SLOW_BAUD);

@@ -80,7 +80,6 @@ impl Session {
         Self::of(scene, &program)
     }
 
-    /// The same of what is flashed.
     pub(crate) fn of(scene: &Scene, program: &Program) -> Result<Self, Error> {
         // Decisions are in the log, by their names.
         Self::around(start_without(scene, Vec::new(), program)?, scene, program)
@@ -330,7 +329,6 @@ impl Session {
     }
 }
 
-/// The answer to the request with this number, among packets.
 pub(crate) fn answer_to(tag: u16, packets: &[Packet]) -> Option<Answer> {
     packets.iter().find_map(|packet| match packet {
         Packet::Answer(answer) if answer.tag == tag => Some(*answer),

@@ -32,7 +32,6 @@ enum By {
     Button,
 }
 
-/// What is sent to a board, and by what it is stopped.
 struct Flood {
     what: &'static str,
     line: Line,
@@ -112,7 +111,6 @@ impl Flood {
         }
     }
 
-    /// Whether it arms motors again at once.
     fn arms(&self) -> bool {
         matches!(self.line, Line::Full(b"arm\n")) || self.probe == Some(Command::Arm)
     }
@@ -222,7 +220,6 @@ fn flooded(
 }
 
 impl Flooded<'_> {
-    /// A number below `most`.
     fn drawn(&mut self, most: u32) -> u32 {
         self.random = self
             .random
@@ -245,7 +242,6 @@ impl Flooded<'_> {
         self.written - waiting
     }
 
-    /// A tick under the flood.
     fn tick(&mut self) -> Result<(), Error> {
         match self.flood.line {
             Line::Quiet => {}
@@ -304,7 +300,6 @@ impl Flooded<'_> {
         wrong("no motor is driven once they are armed")
     }
 
-    /// Arms the motors by a probe.
     fn arm(&mut self, stop: u32) -> Result<(), Error> {
         let command = Command::Arm;
         let tag = 0x8000 | stop as u16;
@@ -383,7 +378,6 @@ impl Flooded<'_> {
         matches!(self.flood.line, Line::Full([0xA5, ..]))
     }
 
-    /// Ends the line that the flood was in.
     fn end_line(&mut self) {
         if let Line::Full(again) = self.flood.line
             && self.next != 0

@@ -15,7 +15,6 @@ use crate::session::answer_to;
 /// For how long an answer is waited for, and every part of a conversation lasts, s.
 const PART_S: f64 = 0.1;
 
-/// What is not as it should be.
 pub(crate) fn wrong<T>(what: impl Into<String>) -> Result<T, Error> {
     Err(Error::Work(what.into()))
 }
@@ -61,7 +60,6 @@ impl Talk {
         }
     }
 
-    /// One tick of the board alone, of which nothing is read.
     pub(crate) fn tick(&mut self) -> Result<(), Error> {
         let before = self.pair.target.run.row().angle_deg;
         let seen = self.pair.tick_board()?;

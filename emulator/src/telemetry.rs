@@ -45,7 +45,6 @@ pub(crate) fn talk(path: &Path, program: &Path, without: &Path) -> Result<Vec<St
     Ok(said)
 }
 
-/// What a PC wants of the board, in this order, a part of the time each.
 fn script(scene: &Scene) -> Vec<(Command, CommandStatus)> {
     let left = WhiskerId::default();
     let nowhere = WhiskerId { side: 5, number: 9 };

@@ -87,7 +87,6 @@ impl Choice {
     }
 }
 
-/// Runs a board from before its first tick to the end of the scene.
 fn run(
     mut session: Session,
     servos: &Servos,
@@ -137,7 +136,6 @@ pub(crate) fn befalling(path: &Path, scene: &Scene) -> Result<Hands, Error> {
     Ok(Hands::new(&scenario, scene))
 }
 
-/// A file that is wrong.
 fn wrong(path: &Path, what: impl std::fmt::Display) -> Error {
     Error::file(path, what)
 }

@@ -57,7 +57,6 @@ pub(crate) struct Planned {
 }
 
 impl Planned {
-    /// Plans it for the next tick; it takes the place of what was planned before.
     pub(crate) const fn plan(&mut self, instruction: u64, upset: Upset) {
         self.next = Some((instruction, upset));
     }
@@ -73,24 +72,5 @@ impl Planned {
     pub(crate) fn due(&mut self, spent: u64) -> Option<Upset> {
         let (_, upset) = self.now.take_if(|(at, _)| *at <= spent)?;
         Some(upset)
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::{Planned, Upset};
-
-    /// Before its instruction, once, and not before the next tick has begun.
-    #[test]
-    fn what_is_planned_is_due_in_the_next_tick() {
-        let mut planned = Planned::default();
-        planned.plan(10, Upset::Held(7));
-        assert_eq!(planned.due(1_000), None);
-        planned.tick_begins(1_000);
-        assert_eq!(planned.due(1_009), None);
-        assert_eq!(planned.due(1_010), Some(Upset::Held(7)));
-        assert_eq!(planned.due(1_011), None);
-        planned.tick_begins(2_000);
-        assert_eq!(planned.due(2_010), None);
     }
 }

@@ -187,7 +187,6 @@ impl Watch {
         Ok(watch)
     }
 
-    /// Fills in what the module shows of itself.
     pub(crate) fn look(&self, ram: &Memories, snapshot: &mut Snapshot) -> Result<(), Fault> {
         let fill = |places: &mut [f64], variables: &[Variable]| -> Result<(), Fault> {
             for (place, variable) in places.iter_mut().zip(variables) {
@@ -211,12 +210,10 @@ impl Watch {
         Ok(())
     }
 
-    /// Ticks that the module has missed since it started.
     pub(crate) fn missed(&self, ram: &Memories) -> Result<u32, Fault> {
         ram.word(self.missed)
     }
 
-    /// The program starts again, with an empty queue.
     pub(crate) const fn restart(&mut self) {
         self.queue.seen = 0;
     }

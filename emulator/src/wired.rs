@@ -91,7 +91,6 @@ impl Wired {
         }
     }
 
-    /// Its supply has gone.
     pub(crate) fn lose_power(&mut self) {
         if let Kind::Tmag5170(tmag) = &mut self.kind {
             tmag.below.slave.restart();

@@ -84,7 +84,6 @@ impl<R: Real> Motion<R> {
         self.is_armed = is_armed;
     }
 
-    /// Sets the nominal gain of the `n`-th whisker.
     pub(crate) fn set_gain(&mut self, n: usize, gain: R) -> Result<(), NoActiveWhisker> {
         let whisker = self.state.whiskers.get_mut(n).ok_or(NoActiveWhisker)?;
         whisker.set_nominal(gain);

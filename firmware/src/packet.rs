@@ -200,7 +200,6 @@ fn detail(fault: SensorFault) -> u16 {
     }
 }
 
-/// The fault of a number and the first two of these details.
 fn sensor_fault(number: u8, details: [u32; 2]) -> Option<SensorFault> {
     #[cfg(feature = "tmag5170")]
     if let Some(fault) = crate::TiltFault::of(number, details) {
@@ -232,7 +231,7 @@ fn sensor_fault(number: u8, details: [u32; 2]) -> Option<SensorFault> {
 mod tests {
     use mlx90333::{Faults, FrameError};
     use proptest::prelude::*;
-    use tactile::{Decision, Reason};
+    use tactile::Decision;
     use whisking::motor;
     use wire::{
         Answer, Command, CommandStatus, FRAME_BYTES, Piece, Splitter, TaggedCommand, TickRecord,
@@ -242,7 +241,6 @@ mod tests {
     use super::{EventRecord, Packet};
     use crate::{Event, Health, Place, SensorFault};
 
-    /// What a PC makes of a packet's frame.
     fn received(packet: &Packet) -> Option<Packet> {
         let mut splitter = Splitter::<FRAME_BYTES>::new();
         wire::frame(packet)
@@ -430,27 +428,6 @@ mod tests {
                 0x00, 0x0B, 0xBC, 0x05, 0x08, 0x01, 0x02, 0x03, 0x3D, 0x8C, 0x63, 0x7B, 0x00
             ]
         );
-    }
-
-    #[test]
-    fn a_decision_keeps_its_reason_and_its_rival() {
-        for (bits, reason) in [
-            (1, Reason::Unknown),
-            (1 | 1 << 1, Reason::Pose),
-            (1 | 2 << 1 | 7 << 3, Reason::Between(7)),
-        ] {
-            let sent = Decision::from_memory(34, 3 << 27, 9 | bits << 16).unwrap();
-            let event = Event::Decision(Place::new(1, 0), sent);
-            let packet = Packet::Event(EventRecord { sequence: 5, event });
-            let Some(Packet::Event(EventRecord { event, .. })) = received(&packet) else {
-                panic!("{packet:?}");
-            };
-            let Event::Decision(_, came) = event else {
-                panic!("{event:?}");
-            };
-            assert_eq!((came.reason(), came.touch()), (Some(reason), 9));
-            assert_eq!((came.class(), came.leader()), (None, 3));
-        }
     }
 
     #[test]

@@ -242,7 +242,6 @@ impl Record {
         (record, start)
     }
 
-    /// Counts a reset; whether it is one too many.
     fn count_reset(&mut self) -> bool {
         let is_often = self.windows.iter().all(|window| *window > 0);
         // The place of the reset that is longest ago.

@@ -116,7 +116,6 @@ impl Spread {
     }
 }
 
-/// The square root.
 fn root(square: u32) -> u32 {
     F32(square as f32).sqrt().0 as u32
 }

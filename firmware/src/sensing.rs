@@ -226,7 +226,6 @@ impl<F: WordSource> Sensor<F> {
         false
     }
 
-    /// No good frame.
     #[cold]
     #[inline(never)]
     fn hold(

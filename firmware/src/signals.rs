@@ -44,36 +44,3 @@ impl Signals {
         [self.touching != 0, self.decided.is_some()]
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::Signals;
-    use crate::{Event, Place};
-    use tactile::Decision;
-
-    #[test]
-    fn contact_is_of_any_whisker_and_decisions_are_pulses() {
-        let mut signals = Signals::new();
-        let [left, right] = [0, 1].map(|side| Place::new(side, 0));
-        let touch = |place| Event::Touch { place, number: 1 };
-        let end = |place| Event::TouchEnd { place, number: 1 };
-        assert_eq!(signals.levels(0, 20), [false, false]);
-        signals.note(&touch(left), 1);
-        signals.note(&touch(right), 1);
-        signals.note(&end(left), 2);
-        assert_eq!(signals.levels(2, 20), [true, false]);
-        signals.note(&end(right), 3);
-        assert_eq!(signals.levels(3, 20), [false, false]);
-        // Across the wrap of the count.
-        let now = u32::MAX - 5;
-        let decision = Decision::from_memory(1, 0, 0).unwrap();
-        signals.note(&Event::Decision(left, decision), now);
-        assert_eq!(signals.levels(now, 20), [false, true]);
-        assert_eq!(signals.levels(now.wrapping_add(10), 20), [false, true]);
-        // Another one makes it longer.
-        signals.note(&Event::Decision(left, decision), now.wrapping_add(10));
-        assert_eq!(signals.levels(now.wrapping_add(29), 20), [false, true]);
-        assert_eq!(signals.levels(now.wrapping_add(30), 20), [false, false]);
-        assert_eq!(signals.levels(now.wrapping_add(31), 20), [false, false]);
-    }
-}

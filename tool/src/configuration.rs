@@ -46,7 +46,6 @@ pub(crate) struct Running {
     pub(crate) has_slow_sensors: bool,
     /// Whether its whiskers have motors.
     pub(crate) has_motor: bool,
-    /// Whether it decides, by a model that is deployed with it.
     pub(crate) decides: bool,
     contact_min: Option<f64>,
     /// The priors and thresholds of its model's classes.

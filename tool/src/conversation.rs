@@ -47,7 +47,6 @@ impl Conversation {
         }
     }
 
-    /// Prints the lines that it logs for so many seconds.
     pub(crate) fn print_log(&mut self, seconds: f64) -> Result<(), Error> {
         let begun = self.source.now_s();
         while self.source.now_s() - begun < seconds {
@@ -78,7 +77,6 @@ impl Conversation {
         }
     }
 
-    /// Asks for something and waits for the answer, whatever it is.
     pub(crate) fn answer(&mut self, command: Command) -> Result<Answer, Error> {
         let tag = self.send(command)?;
         let begun = self.source.now_s();
@@ -106,7 +104,6 @@ impl Conversation {
         Ok((answer.status == CommandStatus::Done).then_some(answer.values))
     }
 
-    /// Where the module is, and the version of its firmware.
     pub(crate) fn origin(&mut self) -> Result<Origin, Error> {
         let [version, patch] = self.ask(Command::Version)?.values;
         let (major, minor) = (version >> 16, version & 0xFFFF);
@@ -130,7 +127,6 @@ impl Conversation {
         })
     }
 
-    /// The names of the classes of its model; none where it decides by none.
     pub(crate) fn classes(&mut self) -> Result<Vec<String>, Error> {
         let answer = self.answer(Command::Model)?;
         let count = match answer.status {

@@ -19,11 +19,9 @@ use crate::configuration::{Program, Running, in_format};
 pub(crate) struct Deployment {
     pub(crate) config: Running,
     pub(crate) model: Option<ModelBuf>,
-    /// The scene, for a module that is simulated.
     pub(crate) loaded: Option<Loaded>,
 }
 
-/// The model that the scene in a file names, if any.
 pub(crate) fn model_of(file: &Path, scene: &Scene) -> Result<Option<ModelBuf>, Error> {
     let folder = file.parent().unwrap_or(Path::new("."));
     let model = scene.model_path(folder);

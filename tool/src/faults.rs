@@ -24,7 +24,6 @@ pub(crate) const fn number(event: &Event) -> Option<u8> {
     }
 }
 
-/// What the table of faults says of an event, if it is about a fault.
 pub(crate) fn fault(EventRecord { sequence, event }: &EventRecord, tick_hz: u32) -> Option<Fault> {
     let number = number(event)?;
     let t_s = f64::from(*sequence) / f64::from(tick_hz);
@@ -56,19 +55,4 @@ pub(crate) fn plain(markdown: &str) -> String {
     }
     text.push_str(rest);
     text.replace(['`', '*'], "")
-}
-
-#[cfg(test)]
-mod tests {
-    use super::plain;
-
-    #[test]
-    fn links_and_marks_become_plain() {
-        let text = plain("as 20; [every frame](troubleshooting.md#the-sensor), `x` and *y*");
-        assert_eq!(
-            text,
-            "as 20; every frame (docs/troubleshooting.md#the-sensor), x and y"
-        );
-        assert_eq!(plain("a [b"), "a b");
-    }
 }

@@ -26,7 +26,6 @@ pub(crate) struct Seen {
     pub(crate) silent: usize,
     pub(crate) low: usize,
     pub(crate) bad_start: usize,
-    /// How many of the others keep each rule.
     pub(crate) kept: Vec<(&'static str, usize)>,
     pub(crate) sum_rule: Option<&'static str>,
     pub(crate) words: Option<&'static str>,
@@ -126,12 +125,10 @@ impl Seen {
         }
     }
 
-    /// How many begin as frames do.
     pub(crate) const fn begun(&self) -> usize {
         self.frames - self.silent - self.low - self.bad_start
     }
 
-    /// Whether it answers some frames and others not at all.
     pub(crate) fn is_silent_at_times(&self) -> bool {
         self.begun() > 0 && self.share(self.silent) > 1.0 - CLEAN
     }
@@ -204,7 +201,6 @@ impl Seen {
         found
     }
 
-    /// What was seen, in a few lines.
     pub(crate) fn text(&self) -> String {
         let mut text = format!(
             "{} frames: {} all ones, {} all zeros, {} with another start",

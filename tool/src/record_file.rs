@@ -88,7 +88,6 @@ impl RecordFile {
         Ok(())
     }
 
-    /// Writes a line of the log; a table has none.
     pub(crate) fn line(&mut self, line: &str) -> Result<(), Error> {
         let written = match &mut self.form {
             Form::Table(_) => Ok(()),
@@ -97,7 +96,6 @@ impl RecordFile {
         written.map_err(|error| Error::write(&self.path, error))
     }
 
-    /// Puts the complete file in its place.
     pub(crate) fn finish(self) -> Result<(), Error> {
         let output = match self.form {
             Form::Table(rows) => rows.finish(),

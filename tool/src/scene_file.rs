@@ -76,7 +76,6 @@ fn as_refs(lines: &[String]) -> Vec<&str> {
     lines.iter().map(String::as_str).collect()
 }
 
-/// TOML, or a word without its quotes.
 fn value(text: &str) -> Value {
     text.parse().unwrap_or_else(|_| Value::from(text))
 }

@@ -18,7 +18,6 @@ use crate::tuning::{Tuner, live_key};
 struct Entry {
     /// s since the script began.
     at_s: f64,
-    /// As it stands there.
     text: String,
     action: Action,
 }
@@ -38,7 +37,6 @@ pub(crate) struct Script {
     /// The command that is not answered yet, and the tag of its request.
     pending: Option<(u16, String)>,
     refused: u32,
-    /// Who sets keys, where any is set.
     tuner: Option<Tuner>,
 }
 
@@ -195,38 +193,8 @@ fn entry(words: &str) -> Result<Entry, String> {
 
 #[cfg(test)]
 mod tests {
-    use scene::Override;
-    use wire::{Command, WhiskerId};
 
-    use super::{Action, Script};
-
-    #[test]
-    fn lines_are_commands_at_their_times() {
-        let text = "# a remark\n0 arm\n0.5 gain left 0.5 # half\n\n1 setpoint right 75\n1 set motor.kp 0.1\n";
-        let script = Script::parse(text).unwrap();
-        let [left, right] = [0, 1].map(|side| WhiskerId { side, number: 0 });
-        let found: Vec<_> = script
-            .entries
-            .iter()
-            .map(|e| (e.at_s, e.action.clone()))
-            .collect();
-        assert_eq!(
-            found,
-            [
-                (0.0, Action::Give(Command::Arm)),
-                (0.5, Action::Give(Command::Gain(left, 1 << 23))),
-                (1.0, Action::Give(Command::Setpoint(right, 1 << 22))),
-                (
-                    1.0,
-                    Action::Set(Override::new(
-                        "set motor.kp 0.1".to_owned(),
-                        "motor.kp",
-                        "0.1"
-                    ))
-                ),
-            ]
-        );
-    }
+    use super::Script;
 
     #[test]
     fn faults_name_their_line() {

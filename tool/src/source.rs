@@ -40,7 +40,6 @@ use crate::loading::load;
 #[derive(Debug, Default)]
 pub(crate) struct Incoming {
     pub(crate) packets: Vec<Packet>,
-    /// Whole lines of its log.
     pub(crate) lines: Vec<String>,
 }
 

@@ -151,7 +151,6 @@ fn truth(text: &str) -> Option<bool> {
     }
 }
 
-/// Reads a table; the error names the line.
 pub(crate) fn read(file: &[u8]) -> Result<Kept, String> {
     if let Some(fault) = origin::foreign(file) {
         return Err(fault);

@@ -18,7 +18,6 @@ pub(crate) enum Before {
 pub(crate) struct Tally {
     last: [Option<u32>; 2],
     pub(crate) records: u64,
-    /// Those that have not.
     pub(crate) lost: u64,
     pub(crate) restarts: u64,
 }

@@ -52,7 +52,6 @@ impl Tuner {
         &self.scene
     }
 
-    /// The scene's file with keys in place of its own.
     fn with(&self, set: &[Override]) -> Result<Loaded, Error> {
         let folder = self.path.parent().unwrap_or(Path::new("."));
         let name = self.path.display().to_string();
@@ -63,12 +62,10 @@ impl Tuner {
         self.source.of_module(loaded)
     }
 
-    /// How the module is given the scene.
     fn remedy(&self) -> String {
         format!("whisker deploy --scene {}", self.path.display())
     }
 
-    /// Asks a module for all that it runs by.
     pub(crate) fn look(&self, module: &mut Conversation) -> Result<Has, Error> {
         let running = Running::ask(module)?;
         let (name, file) = (&running.head.name, self.path.display());

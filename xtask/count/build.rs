@@ -43,7 +43,6 @@ fn main() -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-/// A model of sensor codes of two channels whose classes overlap.
 fn model(classes: u32, block: u32) -> Result<Vec<u8>, Box<dyn Error>> {
     let options = Options {
         block,
@@ -80,7 +79,6 @@ fn joint_model(classes: u32) -> Result<Vec<u8>, Box<dyn Error>> {
     Ok(trained.model()?.as_bytes().to_vec())
 }
 
-/// Sensor codes x and y of a class.
 fn samples() -> impl FnMut(u32) -> [f64; 2] {
     let mut random = 1_u32;
     let mut code = move |middle: u32| {

@@ -8,7 +8,6 @@ pub(crate) fn build() -> Result<(), Fault> {
     run(build.arg("--").arg(top()))
 }
 
-/// The tests of the package, which are not the workspace's.
 pub(crate) fn test() -> Result<(), Fault> {
     run(&mut cargo_apart("test", "book", "bookbinder"))
 }

@@ -12,7 +12,6 @@ use crate::run::{Fault, document, read, top, write};
 use crate::{count, emulate, firmware, size};
 use stages::{Stage, stages};
 
-/// The committed table.
 const TABLE: Table = Table {
     file: "docs/measured/cost.csv",
     header: "stage,target,mean,worst",
@@ -24,7 +23,6 @@ const TABLE: Table = Table {
 /// How the board keeps its time, over ten minutes.
 const DEADLINES: &str = "docs/measured/deadlines.csv";
 
-/// The page that shows both.
 const PAGE: &str = "docs/measured/cost.md";
 
 /// Minutes of the emulated board for the table.
@@ -47,7 +45,6 @@ pub(crate) fn all(csv: Option<&Path>, check: bool) -> Result<(), Fault> {
     write_page(false)
 }
 
-/// Checks the first scene that is measured on the board.
 pub(crate) fn short() -> Result<(), Fault> {
     let stages = stages()?;
     let mut scenes = stages.chunk_by(Stage::goes_with);

@@ -14,7 +14,6 @@ const PROCESSORS: [(&str, &str); 2] = [
     ("cortex-m0", "nucleo-g071rb"),
 ];
 
-/// The committed table.
 pub(crate) const TABLE: Table = Table {
     file: "docs/measured/instructions.csv",
     header: "kernel,format,target,mean,worst",
@@ -26,7 +25,6 @@ pub(crate) const TABLE: Table = Table {
 /// Programs that are counted where time is short: frame, touch and classifier, the parts of a tick.
 const SHORT: [&str; 2] = ["integers", "parts"];
 
-/// All of them.
 const PROGRAMS: [&str; 5] = ["computation", "functions", "integers", "parts", "whisking"];
 
 /// Of these the one that also counts twenty-four whiskers, where there is an FPU.
@@ -43,7 +41,6 @@ pub(crate) fn all(csv: Option<&Path>, check: bool) -> Result<(), Fault> {
     TABLE.take(&found, csv, check)
 }
 
-/// Checks [`SHORT`] on the first processor.
 pub(crate) fn short() -> Result<(), Fault> {
     TABLE.check_part(&count(PROCESSORS[0], &SHORT, &[])?)
 }

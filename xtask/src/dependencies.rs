@@ -8,7 +8,6 @@ use crate::studies;
 /// What the lock file alone says.
 const OFFLINE: [&str; 4] = ["licenses", "bans", "sources", "--hide-inclusion-graph"];
 
-/// The product's workspace and the studies'.
 const WORKSPACES: [&str; 2] = ["Cargo.toml", studies::MANIFEST];
 
 /// Checks `what` of each workspace.

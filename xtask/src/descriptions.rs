@@ -7,7 +7,6 @@ use std::process::Stdio;
 use crate::firmware::Board;
 use crate::run::{Fault, cargo_apart, document, output, workspace_program};
 
-/// The page.
 const PAGE: &str = "docs/registers.md";
 
 /// What the emulator says of all chips, or of a board's.
@@ -20,7 +19,6 @@ fn facts(board: Option<Board>) -> Result<String, Fault> {
     output(&mut command)
 }
 
-/// Writes the page, or checks that it is up to date.
 pub(crate) fn page(check: bool) -> Result<(), Fault> {
     document(PAGE, facts(None)?.as_bytes(), check)
 }

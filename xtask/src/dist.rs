@@ -46,7 +46,6 @@ const COPIED: [(&str, &str); 7] = [
 /// The most seconds from the archive to a decision.
 const MOST_S: f64 = 60.0;
 
-/// Builds target/dist/NAME.tar.gz and its checksum.
 pub(crate) fn all(choice: &Choice) -> Result<(), Fault> {
     if choice.within {
         return fill(&folder_of(&target()));
@@ -72,7 +71,6 @@ pub(crate) fn all(choice: &Choice) -> Result<(), Fault> {
     if choice.test { test(&archive) } else { Ok(()) }
 }
 
-/// What the nightly run does.
 pub(crate) fn nightly() -> Result<(), Fault> {
     all(&Choice {
         test: true,

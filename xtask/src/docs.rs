@@ -26,7 +26,6 @@ pub(crate) fn quick(check: bool) -> Result<(), Fault> {
     )
 }
 
-/// Writes every generated document, or checks that they are up to date.
 pub(crate) fn all(check: bool) -> Result<(), Fault> {
     from_tables(check)?;
     asymmetry(check)?;

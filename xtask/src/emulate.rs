@@ -37,7 +37,6 @@ impl Emulated {
         })
     }
 
-    /// The program for a scene.
     fn program(&self, scene: &Path) -> Result<PathBuf, Fault> {
         match &self.any_scene {
             Some(program) => Ok(program.clone()),
@@ -80,7 +79,6 @@ pub(crate) fn emulate(on: &Emulated, scene: &Path, scenarios: &[&str]) -> Result
     Ok(())
 }
 
-/// Writes the files of a run of `scene` to `out`.
 pub(crate) fn files(on: &Emulated, scene: &Path, out: &Path) -> Result<(), Fault> {
     let mut command = workspace_program("emulator");
     command.args(["run", "--out"]).arg(absolute(out)?);

@@ -63,7 +63,6 @@ fn cut(hours: f64, longest: f64, least: usize) -> (usize, f64) {
 }
 
 impl Shard {
-    /// Where its row is kept.
     fn file(&self) -> PathBuf {
         let board = self.board.as_ref();
         let subject = board.map_or("host-sim", |(board, _)| board.name);
@@ -88,7 +87,6 @@ impl Shard {
     }
 }
 
-/// Shards of every scene on the PC.
 fn on_pc(scenes: &[PathBuf], hours: f64) -> Vec<Shard> {
     let (count, hours) = cut(hours, SHARD_H[0], scenes.len());
     let shard = |(n, scene): (usize, &PathBuf)| Shard {
@@ -191,15 +189,3 @@ pub(crate) fn short() -> Result<(), Fault> {
 /// Hours of the short form, on the PC and on the board, where touches are reported after a second
 /// and the fourth wraps.
 const SHORT_H: [f64; 2] = [0.65, 0.0015];
-
-#[cfg(test)]
-mod tests {
-    use super::cut;
-
-    #[test]
-    fn hours_are_cut_into_equal_shards() {
-        assert_eq!(cut(168.0, 6.0, 13), (28, 6.0));
-        assert_eq!(cut(6.5, 6.0, 13), (13, 0.5));
-        assert_eq!(cut(0.0, 6.0, 13), (0, 0.0));
-    }
-}

@@ -14,7 +14,6 @@ use crate::run::{
     write,
 };
 
-/// What the rows call a run on this PC.
 const PC: &str = "host-sim";
 /// What they call a run that flips a bit of a word of RAM, of which every word has one.
 const WORDS: &str = "nucleo-f446re-words";
@@ -224,7 +223,6 @@ pub(crate) fn whole() -> Result<(), Fault> {
     })
 }
 
-/// One run again.
 fn again(name: &str, number: u64) -> Result<(), Fault> {
     let out = folder().join("again.csv");
     if out.exists() {

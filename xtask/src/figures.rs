@@ -9,7 +9,6 @@ use crate::run::{Fault, read, top, write};
 /// A line of a table.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Figure {
-    /// What was measured.
     pub(crate) key: Vec<String>,
     /// How much, in one number for each of the table's decimals.
     pub(crate) numbers: Vec<f64>,
@@ -31,7 +30,6 @@ impl Figure {
         Self::new(key, &[(mean * 10.0).round() / 10.0, worst])
     }
 
-    /// Its numbers with so many decimals each.
     pub(crate) fn text(&self, decimals: &[usize], separator: &str) -> String {
         let numbers = self.numbers.iter().zip(decimals);
         let numbers = numbers.map(|(number, &decimals)| format!("{number:.decimals$}"));
@@ -42,7 +40,6 @@ impl Figure {
 /// Decimals of mean and worst.
 pub(crate) const INSTRUCTIONS: &[usize] = &[1, 0];
 
-/// A committed table.
 pub(crate) struct Table {
     /// Seen from the top of the workspace.
     pub(crate) file: &'static str,
@@ -51,12 +48,10 @@ pub(crate) struct Table {
     pub(crate) decimals: &'static [usize],
     /// By how much a number may become dearer before a check fails.
     pub(crate) slack: f64,
-    /// What writes it.
     pub(crate) command: &'static str,
 }
 
 impl Table {
-    /// Reads it, or what stands in its place at `csv`.
     pub(crate) fn read(&self, csv: Option<&Path>) -> Result<Vec<Figure>, Fault> {
         self.parse(&read(&self.place(csv))?)
     }
@@ -80,7 +75,6 @@ impl Table {
         write(&self.place(csv), self.text(found))
     }
 
-    /// Prints a part of the table and compares it.
     pub(crate) fn check_part(&self, found: &[Figure]) -> Result<(), Fault> {
         print!("{}", self.lines(found));
         self.compare(&self.read(None)?, found, false)
@@ -90,7 +84,6 @@ impl Table {
         csv.map_or_else(|| top().join(self.file), Path::to_owned)
     }
 
-    /// The table as it is committed.
     fn text(&self, figures: &[Figure]) -> String {
         let mut text = format!("{}\n", self.header);
         for figure in figures {
@@ -174,18 +167,6 @@ mod tests {
 
     fn figure(name: &str, mean: f64, worst: f64) -> Figure {
         Figure::instructions(&[name, "f32"], mean, worst)
-    }
-
-    #[test]
-    fn a_table_is_read_back_as_it_was_written() {
-        let figures = [figure("drive", 21.0, 21.0), figure("unit", 33.5, 40.0)];
-        assert_eq!(TABLE.parse(&TABLE.text(&figures)), Ok(figures.to_vec()));
-        assert!(TABLE.parse("kernel,mean\n").is_err());
-        for line in ["drive,f32\n", "drive,1,2\n", "drive,f32,1,x\n"] {
-            let wrong = TABLE.text(&figures) + line;
-            assert!(TABLE.parse(&wrong).is_err(), "{line}");
-        }
-        assert_eq!(TABLE.lines(&figures).lines().count(), 3);
     }
 
     #[test]

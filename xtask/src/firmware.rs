@@ -16,16 +16,13 @@ use crate::run::{Fault, cargo, read_bytes, run, target, top, write};
 /// A board that the firmware runs on.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct Board {
-    /// Its name, and its feature in `firmware/Cargo.toml`.
     pub(crate) name: &'static str,
-    /// What it compiles for.
     pub(crate) target: &'static str,
     /// What its program and a PC know of it.
     pub(crate) facts: &'static BoardFacts,
 }
 
 impl Board {
-    /// Every board.
     pub(crate) const ALL: [Self; 3] = [
         Self {
             name: "nucleo-f446re",
@@ -44,12 +41,10 @@ impl Board {
         },
     ];
 
-    /// The program in `firmware/src/bin`.
     fn program(self) -> String {
         self.name.replace('-', "_")
     }
 
-    /// The board of that name.
     pub(crate) fn named(name: &str) -> Result<Self, Fault> {
         let names = || Self::ALL.map(|board| board.name).join(", ");
         let board = Self::ALL.into_iter().find(|board| board.name == name);
@@ -94,7 +89,6 @@ pub(crate) fn build(board: Board, scene: &Path) -> Result<PathBuf, Fault> {
     built(board, scene, &[])
 }
 
-/// Builds the program that takes any scene, and brings none with it.
 pub(crate) fn build_any_scene(board: Board) -> Result<PathBuf, Fault> {
     run(&mut compiler(board, every_part(board)))?;
     Ok(elf(board))
@@ -114,7 +108,6 @@ pub(crate) fn build_kept(board: Board, scene: &Path) -> Result<PathBuf, Fault> {
     kept(|| build(board, scene))
 }
 
-/// Builds a program and keeps it apart.
 pub(crate) fn kept(build: impl FnOnce() -> Result<PathBuf, Fault>) -> Result<PathBuf, Fault> {
     static BUILT: Mutex<u32> = Mutex::new(0);
     // A build that has panicked has left nothing that another needs.
@@ -150,7 +143,6 @@ pub(crate) fn flash(elf: &Path) -> Result<(), Fault> {
     run(probe.args(["run", "--chip", "STM32F446RETx"]).arg(elf))
 }
 
-/// What is linked into a program for a scene.
 pub(crate) struct Linked {
     /// The configuration, and the features that it needs.
     pub(crate) image: Image,
@@ -159,7 +151,6 @@ pub(crate) struct Linked {
 }
 
 impl Linked {
-    /// The compiler of its program, of the parts that it needs.
     fn compiler(&self, board: Board) -> Command {
         let mut command = compiler(board, &self.image.features);
         self.name_files(&mut command);
@@ -222,7 +213,6 @@ fn compiler(board: Board, parts: &[&str]) -> Command {
     command
 }
 
-/// Where the program of a board is.
 fn elf(board: Board) -> PathBuf {
     elf_in(board, &target())
 }
@@ -252,7 +242,6 @@ impl Size {
     /// A scene that is linked, and its model.
     const SCENE: [&str; 3] = [".scene", ".model", ".scene_b"];
 
-    /// Of an ELF file.
     pub(crate) fn of(elf: &Path) -> Result<Self, Fault> {
         with_elf(elf, |file| {
             match (sum(file, &Self::FLASH), sum(file, &Self::RAM)) {
@@ -262,13 +251,11 @@ impl Size {
         })
     }
 
-    /// Bytes of the scene and the model that an ELF file brings with it.
     pub(crate) fn of_scene(elf: &Path) -> Result<u64, Fault> {
         with_elf(elf, |file| Ok::<_, Fault>(sum(file, &Self::SCENE)))
     }
 }
 
-/// Bytes of the sections with these names.
 fn sum(file: &object::File<'_>, names: &[&str]) -> u64 {
     file.sections()
         .filter(|section| section.name().is_ok_and(|name| names.contains(&name)))

@@ -11,7 +11,6 @@ const CORNERS: u32 = 96;
 
 type Point = [f64; 3];
 
-/// Writes the parts to target/mount.
 pub(crate) fn all() -> Result<(), Fault> {
     for (name, bytes) in parts(&read(&top().join("docs/build.md"))?)? {
         let file = target().join(format!("mount/{name}.stl"));
@@ -104,7 +103,6 @@ fn turned(profile: &[[f64; 2]]) -> Vec<[Point; 3]> {
     triangles
 }
 
-/// A binary STL file; readers find normals by themselves.
 fn stl(triangles: &[[Point; 3]]) -> Vec<u8> {
     let mut bytes = vec![0; 80];
     bytes.extend((triangles.len() as u32).to_le_bytes());

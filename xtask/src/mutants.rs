@@ -29,7 +29,6 @@ fn kept() -> Result<Kept, Fault> {
     toml::from_str(&list).map_err(|error| error.to_string())
 }
 
-/// Fails with every mutant that survives, or whose place is not found.
 pub(crate) fn all() -> Result<(), Fault> {
     let kept = kept()?;
     let tree = copy(&target().join("mutants"))?;
@@ -44,7 +43,6 @@ pub(crate) fn all() -> Result<(), Fault> {
 }
 
 impl Mutant {
-    /// Why it is not caught, if it is not.
     fn survives(&self, tree: &Path) -> Option<Fault> {
         let fault = self.try_in(tree).err()?;
         Some(format!("{}: {}: {fault}", self.file, self.replace))

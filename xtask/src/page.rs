@@ -11,7 +11,6 @@ pub(crate) fn path() -> PathBuf {
     target().join("page/whisker.html")
 }
 
-/// Builds target/page/whisker.html.
 pub(crate) fn build() -> Result<(), Fault> {
     let core = ["build", "--locked", "-p", "page", "--lib"];
     let web = ["--profile", "page", "--target", "wasm32-unknown-unknown"];

@@ -25,7 +25,6 @@ const MEANT: &str = "board::faults::";
 /// What stops the program if `main` returns, which it cannot.
 const START: &str = "Reset";
 
-/// The scene of the control: all parts.
 const CONTROL: &str = "scenes/full.toml";
 
 /// What the walk over a program has seen.
@@ -85,7 +84,6 @@ fn sleeps_well(elf: &Path) -> Result<(), Fault> {
     ))
 }
 
-/// Checks a program.
 pub(crate) fn check(elf: &Path) -> Result<Proven, Fault> {
     sleeps_well(elf)?;
     let program = Program::of(elf)?;

@@ -78,7 +78,6 @@ fn newest() -> Result<PathBuf, Fault> {
     Ok(python)
 }
 
-/// Builds the wheel and returns its path.
 fn wheel(python: &Path, profile: Profile) -> Result<PathBuf, Fault> {
     let tools = environment(python, "tools", &["maturin>=1.9,<2"])?;
     let wheels = place("wheels");
@@ -171,7 +170,6 @@ pub(crate) fn whole() -> Result<(), Fault> {
     run(Command::new(&inside).arg(folder.join("notebooks/execute.py")))
 }
 
-/// The wheel of a release, for every Python from the oldest on.
 pub(crate) fn release() -> Result<PathBuf, Fault> {
     wheel(&newest()?, Profile::Release)
 }
@@ -202,7 +200,6 @@ pub(crate) fn against_mujoco() -> Result<(), Fault> {
     run(compare.env("OPENBLAS_NUM_THREADS", "1"))
 }
 
-/// A file that a Python program has written.
 pub(crate) fn written(name: &str) -> Result<String, Fault> {
     read(&place(name))
 }

@@ -43,7 +43,6 @@ pub(crate) fn twice(board: Board, scene: &Path) -> Result<(), Fault> {
     Ok(())
 }
 
-/// Copies what is committed, or would be, to `folder`.
 pub(crate) fn copy(folder: &Path) -> Result<PathBuf, Fault> {
     let wrong = |error: std::io::Error| format!("{}: {error}", folder.display());
     remove(folder)?;
@@ -60,7 +59,6 @@ pub(crate) fn copy(folder: &Path) -> Result<PathBuf, Fault> {
     Ok(folder.to_owned())
 }
 
-/// Builds in a copy; gives the ELF file.
 fn build(board: Board, scene: &Path, folder: &Path) -> Result<PathBuf, Fault> {
     let built = folder.join("target");
     let remap = format!("-D warnings --remap-path-prefix={}=.", folder.display());
@@ -75,7 +73,6 @@ fn build(board: Board, scene: &Path, folder: &Path) -> Result<PathBuf, Fault> {
     Ok(firmware::elf_in(board, &built))
 }
 
-/// The sections of an ELF file that are flashed: their names and bytes.
 fn flashed(elf: &Path) -> Result<Vec<(String, Vec<u8>)>, Fault> {
     with_elf(elf, |file| {
         let mut sections = Vec::new();

@@ -19,11 +19,8 @@ enum Bound {
     Fault(bool),
     /// An event of one of these kinds comes after so many seconds.
     Said(&'static [&'static str], f64),
-    /// An event of this kind with this number comes.
     Numbered(&'static str, u64),
-    /// No event of this kind comes.
     NeverSaid(&'static str),
-    /// The motors are off at the end.
     Off,
 }
 
@@ -39,7 +36,6 @@ struct Row {
 /// What a lab flashes, which names no model.
 const SCENE: &str = crate::emulate::BENCH;
 
-/// What they run on.
 const BOARD: Board = Board::ALL[0];
 
 /// A simulated motor, and nothing within reach.
@@ -81,7 +77,6 @@ const fn tilt(file: &'static str, bounds: &'static [Bound]) -> Row {
     row(file, TILT, bounds)
 }
 
-/// All of them.
 const ROWS: &[Row] = &[
     row("whisking", &[], WHISKS_ON),
     row("whisking", &["whisking.frequency_hz=0.2"], WHISKS_ON),
@@ -274,7 +269,6 @@ const ROWS: &[Row] = &[
 ];
 
 impl Bound {
-    /// What is not so.
     fn broken(&self, json: &Value) -> Option<String> {
         let number = |key: &str| {
             let value = json.pointer(&format!("/{key}"));
@@ -316,7 +310,6 @@ impl Bound {
 }
 
 impl Row {
-    /// The file, with the keys that are set.
     fn name(&self) -> String {
         [&[self.file], self.set].concat().join(" ")
     }
@@ -339,7 +332,6 @@ impl Row {
         crate::emulate::trying(on, &scene, &file, None, &self.json())
     }
 
-    /// What is not as it should be.
     fn judged(&self) -> Result<Option<String>, Fault> {
         let path = self.json();
         let json = serde_json::from_str(&read(&path)?);
@@ -372,7 +364,6 @@ const SHORT: &[&str] = &[
     "sensor-restart sensor.model=tmag5170",
 ];
 
-/// Runs one row of each kind.
 pub(crate) fn short() -> Result<(), Fault> {
     rows(
         ROWS.iter()
@@ -381,7 +372,6 @@ pub(crate) fn short() -> Result<(), Fault> {
     )
 }
 
-/// Runs every row.
 pub(crate) fn all() -> Result<(), Fault> {
     rows(ROWS.iter().collect())
 }

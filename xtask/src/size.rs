@@ -73,7 +73,6 @@ pub(crate) fn all(csv: Option<&Path>, check: bool) -> Result<(), Fault> {
     }
 }
 
-/// Prints flash, static RAM and the stack's bound of an ELF file in bytes.
 pub(crate) fn print(board: Board, scene: &str, elf: &Path) -> Result<(), Fault> {
     let Size { flash, ram } = Size::of(elf)?;
     println!(
@@ -198,7 +197,6 @@ fn measured(board: Board, scene: &str, elf: &Path, host: Option<u64>) -> Result<
     })
 }
 
-/// The model that a scene names.
 fn model_bytes(scene: &Scene) -> Result<Option<Vec<u8>>, Fault> {
     let path = scene.model_path(&top().join("scenes"));
     path.map(|path| read_bytes(&top().join(path))).transpose()

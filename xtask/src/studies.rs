@@ -13,14 +13,12 @@ fn in_workspace(command: &str) -> Command {
     cargo(&[command, "--locked", "--manifest-path", MANIFEST])
 }
 
-/// The program, in the profile of the tests.
 fn program() -> Command {
     let mut program = in_workspace("run");
     program.args(["--quiet", "--"]);
     program
 }
 
-/// Checks their format.
 pub(crate) fn format() -> Result<(), Fault> {
     run(&mut cargo(&["fmt", "--manifest-path", MANIFEST, "--check"]))
 }
@@ -41,7 +39,6 @@ pub(crate) fn experiments_in_short() -> Result<(), Fault> {
     run(experiments.arg(target().join("experiments")))
 }
 
-/// All experiments.
 pub(crate) fn experiments() -> Result<(), Fault> {
     let all = ["--release", "--quiet", "--", "--quiet"];
     let mut experiments = in_workspace("run");

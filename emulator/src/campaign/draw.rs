@@ -30,9 +30,7 @@ pub(super) enum Plan {
 /// What a scene and its subject have.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Has {
-    /// Motors that move.
     pub(super) motors: bool,
-    /// A chip.
     pub(super) chip: bool,
     pub(super) whiskers: usize,
     pub(super) tick_hz: u32,
@@ -51,7 +49,6 @@ fn one_of(random: &mut Xoshiro256PlusPlus, kinds: &[Kind]) -> Kind {
     kinds.get(n).copied().unwrap_or(Kind::SensorSilent)
 }
 
-/// Draws what is injected in a run.
 pub(super) fn injections(
     plan: Plan,
     number: u64,
@@ -108,28 +105,5 @@ fn injection(random: &mut Xoshiro256PlusPlus, has: Has, to_s: f64) -> Injection 
         start,
         ticks: length,
         detail: random.next_u64(),
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::{Has, Kind, Plan, injections, random};
-
-    #[test]
-    fn every_word_has_its_run() {
-        let has = Has {
-            motors: true,
-            chip: true,
-            whiskers: 1,
-            tick_hz: 2_000,
-        };
-        for number in [0, 1, 700, u64::from(u32::MAX)] {
-            let drawn = injections(Plan::Words, number, has, &mut random(number));
-            let found = drawn
-                .iter()
-                .map(|drawn| (drawn.kind, drawn.detail as u32, drawn.ticks));
-            let expected = (Kind::RamBit, number as u32, Some(1));
-            assert_eq!(found.collect::<Vec<_>>(), [expected]);
-        }
     }
 }

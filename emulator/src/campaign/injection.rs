@@ -133,7 +133,6 @@ impl Kind {
         Self::Late,
     ];
 
-    /// What it befalls: a motor, a sensor or a chip.
     pub(super) fn befalls(self) -> Befallen {
         if Self::MOTOR.contains(&self) {
             Befallen::Motor
@@ -144,7 +143,6 @@ impl Kind {
         }
     }
 
-    /// Whether every frame that the sensor sends while it lasts is bad.
     pub(super) const fn spoils_every_frame(self) -> bool {
         matches!(
             self,
@@ -162,7 +160,6 @@ impl Kind {
         self.befalls() == Befallen::Chip
     }
 
-    /// What the sensor's frames then get, where `byte` is one of theirs.
     const fn on_the_wire(self, byte: u8) -> Option<WireFault> {
         Some(match self {
             Self::SensorSilent | Self::SensorLoose => WireFault::Silent,
@@ -208,12 +205,10 @@ impl Injection {
         self.ticks.map(|ticks| self.start + ticks)
     }
 
-    /// Whether it is there in this tick.
     pub(super) fn lasts(&self, tick: u64) -> bool {
         tick >= self.start && self.end().is_none_or(|end| tick < end)
     }
 
-    /// Whether the encoder's count stands still.
     pub(super) fn cuts_encoder(&self) -> bool {
         let jitters = self.kind == Kind::EncoderJitter && self.jitters_around_stillness();
         jitters || self.kind == Kind::EncoderStuck
@@ -331,7 +326,6 @@ impl Injection {
         }
     }
 
-    /// A command that somebody may send at any time.
     fn command(&self, random: &mut Xoshiro256PlusPlus) -> Command {
         let whisker = WhiskerId {
             side: (self.detail % 2) as u8,

@@ -196,7 +196,6 @@ impl Judge {
         None
     }
 
-    /// Notes what was commanded before this tick.
     fn obey(&mut self, commands: &[Command]) {
         self.stopped_for = self.stopped_for.map(|ticks| ticks + 1);
         for command in commands {
@@ -218,7 +217,6 @@ impl Judge {
         }
     }
 
-    /// Setpoints may be approached from now on.
     fn approach(&mut self) {
         for whisker in &mut self.whiskers {
             whisker.approaches = self.approach;

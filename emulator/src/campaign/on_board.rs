@@ -17,10 +17,8 @@ pub(super) struct OnBoard<'p> {
     pub(super) session: Session,
     words: &'p Words,
     servos: Servos,
-    /// What was sent to it since the last tick.
     commands: Vec<Command>,
     tag: u16,
-    /// The word or register that was changed.
     pub(super) changed: Option<String>,
 }
 
@@ -74,7 +72,6 @@ impl OnBoard<'_> {
         Ok(seen)
     }
 
-    /// Sends a command as a frame, by the serial line or by a probe.
     pub(super) fn send(&mut self, command: Command, is_by_serial: bool) -> Result<(), Fault> {
         self.tag = self.tag.wrapping_add(1);
         let tag = self.tag;
@@ -93,7 +90,6 @@ impl OnBoard<'_> {
         Ok(())
     }
 
-    /// Inverts a bit of RAM, between two ticks or within the next.
     pub(super) fn flip_ram(&mut self, detail: u64) -> Result<(), Fault> {
         let (word, name) = self.words.pick(detail as u32);
         let [bit, byte, within, instruction] = parts(detail);
@@ -117,7 +113,6 @@ impl OnBoard<'_> {
         Ok(())
     }
 
-    /// Inverts a bit of a register of the core within the next tick.
     pub(super) fn flip_core(&mut self, detail: u64) {
         let [bit, register, _, instruction] = parts(detail);
         let register = register % REGISTERS.len() as u32;
@@ -140,12 +135,10 @@ impl OnBoard<'_> {
         self.changed = Some(format!("{name} bit {bit}"));
     }
 
-    /// Inverts a bit of a peripheral's register.
     pub(super) fn flip_register(&mut self, detail: u64) {
         self.changed = self.session.machine().with_chip(|chip| chip.flip(detail));
     }
 
-    /// Holds the core within the next tick.
     pub(super) fn hold(&mut self, detail: u64) {
         // From a tenth of a tick to ten ticks, which the watchdog bears.
         let share = 0.1 * 100.0_f64.powf((detail % 1001) as f64 / 1000.0);
@@ -154,7 +147,6 @@ impl OnBoard<'_> {
         machine.upset_next_tick(MIDDLE, Upset::Held(time as u64));
     }
 
-    /// Errors and warnings of the log since the last call.
     pub(super) fn complaints(&mut self) -> Vec<String> {
         let lines = self.session.log().into_iter();
         lines

@@ -53,9 +53,7 @@ pub(super) struct Findings {
     pub(super) harm: Option<(u64, Harm)>,
     /// The tick of what was noticed first after the injection, and what it was.
     pub(super) noticed: Option<(u64, String)>,
-    /// Where the emulated chip could not follow.
     pub(super) unfollowed: Option<String>,
-    /// How it differs from the undisturbed run.
     pub(super) difference: Option<&'static str>,
 }
 

@@ -12,7 +12,6 @@ const REASONS: &str = include_str!("reasons.toml");
 /// What runs with two injections are called.
 const TWO: &str = "two-at-once";
 
-/// Outcomes in the order of the columns.
 const OUTCOMES: [Ending; 5] = [
     Ending::Masked,
     Ending::Noticed,
@@ -21,7 +20,6 @@ const OUTCOMES: [Ending; 5] = [
     Ending::Unfollowed,
 ];
 
-/// The name of a value as it stands in the tables.
 fn name(value: impl serde::Serialize) -> String {
     let value = toml::Value::try_from(value).ok();
     value
@@ -66,7 +64,6 @@ fn without_indices(name: &str) -> String {
     kept
 }
 
-/// Where a silent run was hit: a variable, a register, or the kind of fault.
 fn place(row: &RunRow) -> String {
     match &row.changed {
         Some(changed) => {
@@ -79,7 +76,6 @@ fn place(row: &RunRow) -> String {
     }
 }
 
-/// Why what was hit there is silent.
 fn reason(place: &str, reasons: &BTreeMap<String, String>) -> Option<String> {
     let fitting = reasons
         .iter()

@@ -230,7 +230,6 @@ impl Findings {
     }
 }
 
-/// By how much the angles differ at most; 0 where there are none.
 fn extent(angles: &[f64]) -> f64 {
     let lowest = angles.iter().copied().fold(f64::INFINITY, f64::min);
     let highest = angles.iter().copied().fold(f64::NEG_INFINITY, f64::max);
@@ -245,7 +244,6 @@ fn first_notice(seen: &Seen, complaints: &[String]) -> Option<String> {
     notice.or(reset).or(line)
 }
 
-/// A line of the log without its time and level.
 fn stripped(line: &str) -> String {
     let said = line.split_once("ERROR").or_else(|| line.split_once("WARN"));
     said.map_or(line, |(_, said)| said).trim().to_owned()

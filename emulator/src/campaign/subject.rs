@@ -17,7 +17,6 @@ use crate::program::Program;
 
 #[derive(Debug, Clone, Default)]
 pub(super) struct Seen {
-    /// Setpoints and angles.
     pub(super) row: Row,
     /// What the pins ask of each motor, 0 to 1, left side first.
     pub(super) effort: Vec<f64>,
@@ -28,9 +27,7 @@ pub(super) struct Seen {
     pub(super) homing: Vec<bool>,
     /// What was sent to it before this tick.
     pub(super) commands: Vec<Command>,
-    /// What the module has reported, and of which whisker.
     pub(super) notices: Vec<(usize, Notice)>,
-    /// The whiskers that have decided, and for what.
     pub(super) decisions: Vec<(usize, String)>,
     /// What has reset the chip.
     pub(super) reset: Option<ResetCause>,
@@ -42,7 +39,6 @@ pub(super) struct Seen {
 const AT_STOP_DEG: f64 = 0.1;
 
 impl Seen {
-    /// Looks at the motor of the next whisker.
     pub(super) fn look_at(&mut self, motor: &SimMotor) {
         let (angle, duty) = (motor.angle_deg(), motor.duty());
         let [back, front] = motor.settings().stops_deg;
@@ -52,7 +48,6 @@ impl Seen {
         self.displaced_deg.push(motor.displaced_deg());
     }
 
-    /// Whether nothing at all differs from `other`.
     pub(super) fn is_same(&self, other: &Self) -> bool {
         // A side that does not exist has values that are not even equal to themselves.
         let bits = |row: &Row| row.pairs().map(|pair| pair.map(f64::to_bits));
@@ -75,7 +70,6 @@ pub(super) enum Subject<'p> {
     OnPc {
         run: Box<Run>,
         per_side: usize,
-        /// What was sent to it since the last tick.
         commands: Vec<Command>,
     },
     OnBoard(Box<OnBoard<'p>>),
@@ -121,7 +115,6 @@ impl<'p> Subject<'p> {
         Ok(seen)
     }
 
-    /// Sends a command, by the serial line or by the other way that it has.
     pub(super) fn send(&mut self, command: Command, is_by_serial: bool) -> Result<(), Fault> {
         match self {
             Self::OnPc { run, commands, .. } => {
@@ -159,12 +152,10 @@ impl<'p> Subject<'p> {
     }
 }
 
-/// The number of a whisker, left side first.
 pub(super) fn number(place: Place, per_side: usize) -> usize {
     usize::from(place.side) * per_side + usize::from(place.whisker)
 }
 
-/// What can be seen of the last tick of `run`.
 pub(super) fn seen<B: host_sim::bench::Bench + ?Sized>(run: &Run<B>, per_side: usize) -> Seen {
     let notices = run.events().iter().filter_map(Notice::of);
     let decisions = run.decisions().filter_map(|decided| {

@@ -13,12 +13,10 @@ use super::outcome::RunRow;
 pub(super) struct ShardTable {
     path: PathBuf,
     writer: csv::Writer<File>,
-    /// The runs that it had when it was opened.
     pub(super) done: Vec<u64>,
 }
 
 impl ShardTable {
-    /// Opens the table in `path`, or begins one.
     pub(super) fn open(path: &Path) -> Result<Self, Error> {
         output::check(path)?;
         let done = if path.exists() {

@@ -157,7 +157,6 @@ pub(crate) enum Arrival {
 /// What its mailboxes have asked for.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Request {
-    /// To send a frame.
     Send(Frame),
     /// Not to send it any more.
     Withdraw(Frame),
@@ -197,7 +196,6 @@ impl Default for BxCan {
     }
 }
 
-/// The mailbox and word of a register.
 const fn transmit(offset: u32) -> Option<(usize, usize)> {
     let place = offset.wrapping_sub(TI0R) as usize / 4;
     if place < 4 * MAILBOXES {
@@ -219,18 +217,15 @@ impl BxCan {
         self.mcr & (INRQ | SLEEP) == 0 && !self.is_off
     }
 
-    /// A bit, by the clock of its bus.
     pub(super) const fn bit(&self, bus: Ps) -> Ps {
         let quanta = 3 + (self.btr >> 16 & 15) + (self.btr >> 20 & 7);
         bus * ((self.btr & BRP) + 1) as Ps * quanta as Ps
     }
 
-    /// Something will come from the bus at this time.
     pub(super) fn expect(&mut self, at: Ps, what: Arrival) {
         self.arriving.push_back((at, what));
     }
 
-    /// When the next comes.
     pub(super) fn next(&self) -> Option<Ps> {
         self.arriving.front().map(|(at, _)| *at)
     }
@@ -240,7 +235,6 @@ impl BxCan {
         std::mem::take(&mut self.requests)
     }
 
-    /// What has come by `now`.
     pub(super) fn advance(&mut self, now: Ps) {
         while let Some((_, what)) = self.arriving.pop_front_if(|(at, _)| *at <= now) {
             if !self.is_on() {
@@ -267,14 +261,12 @@ impl BxCan {
         }
     }
 
-    /// Whether the filter lets a frame into the first FIFO.
     const fn accepts(&self, frame: &Frame) -> bool {
         let [_, _, _, active, id, mask] = self.filter;
         let is_active = self.filter_mode & FINIT == 0 && active & 1 != 0;
         is_active && ((frame.id() as u32) << 21 ^ id) & mask & (STID | IDE | RTR) == 0
     }
 
-    /// The interrupts of reception, and of transmission.
     pub(super) fn interrupts(&self) -> [bool; 2] {
         let sent = self.mailboxes.iter().any(|one| one.is_completed);
         [
@@ -399,7 +391,6 @@ impl BxCan {
     }
 }
 
-/// Where a filter's register is kept.
 fn place(offset: u32) -> usize {
     let found = FILTERS.iter().position(|of| *of == offset);
     found.unwrap_or_default()

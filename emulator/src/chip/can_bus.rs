@@ -10,14 +10,12 @@ use super::{Chip, Fault};
 const OFF_PERMILLE: Ps = 5;
 
 impl Chip {
-    /// Sets the jumpers of a board to its number.
     pub(crate) fn set_number(&mut self, number: u8) {
         for (bit, pin) in NUMBER.into_iter().enumerate() {
             self.gpio[pin.port].drive(pin.number, number >> bit & 1 == 0);
         }
     }
 
-    /// Something comes from the bus at this time.
     pub(crate) fn expect(&mut self, at: Ps, what: Arrival) {
         if self.is_clocked(Unit::Can) {
             self.can.expect(at, what);

@@ -12,7 +12,6 @@ use streams::Streams;
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Version {
-    /// Streams, each of which selects a request.
     Streams,
     /// Channels, whose requests are wired, or selected by a DMAMUX.
     Channels,
@@ -63,7 +62,6 @@ impl Dma {
         }
     }
 
-    /// Whether the interrupt of a stream or channel is up.
     pub(super) fn interrupts(&self, stream: usize) -> bool {
         match self {
             Self::Streams(streams) => streams.interrupts(stream),
@@ -78,7 +76,6 @@ impl Dma {
         }
     }
 
-    /// Whether register and setting are modelled.
     pub(super) fn write(&mut self, offset: u32, value: u32) -> bool {
         match self {
             Self::Streams(streams) => streams.write(offset, value),

@@ -16,15 +16,11 @@ use super::{
 pub(crate) enum FactKind {
     /// Bytes of flash, or of RAM; bits of a priority in the NVIC.
     Chip,
-    /// The base of a peripheral.
     Address,
     /// The register of RCC, from its base, and the bit in it that clocks a peripheral.
     Gate,
-    /// The same of its reset.
     Reset,
-    /// The number of an interrupt in the NVIC.
     Interrupt,
-    /// The alternate function of a pin.
     Pin,
     /// What selects a request: the channel of a stream, or the number of DMAMUX.
     Request,
@@ -39,7 +35,6 @@ pub(crate) struct Fact {
     pub(crate) kind: FactKind,
     /// The peripheral, by the name that the manuals have for it.
     pub(crate) of: String,
-    /// What of it.
     pub(crate) part: String,
     pub(crate) value: [u32; 2],
 }
@@ -144,7 +139,6 @@ pub(crate) fn facts(model: &Model) -> Vec<Fact> {
     facts
 }
 
-/// The kinds of timers, SPIs and DMA controllers.
 fn kinds(model: &Model) -> Vec<Fact> {
     let kind = |unit, kind: &str, bus: Option<Bus>| {
         let bus = bus.map_or(0, |bus| if bus == Bus::Apb2 { 2 } else { 1 });
@@ -188,7 +182,6 @@ fn bits(of: &str, field: &Field) -> Fact {
     fact(FactKind::Bits, of, part, [field.offset, field.bits])
 }
 
-/// What the board's wires hang on.
 fn wired(model: &Model) -> Vec<Fact> {
     let wiring = &model.wiring;
     let timer = |n| name(model, Unit::Tim(n));

@@ -12,7 +12,6 @@ pub(super) struct Field {
     pub(super) bits: u32,
 }
 
-/// Bits of a register.
 pub(super) const fn field(
     register: &'static str,
     offset: u32,
@@ -27,7 +26,6 @@ pub(super) const fn field(
     }
 }
 
-/// A register as a whole.
 pub(super) const fn whole(register: &'static str, offset: u32) -> Field {
     field(register, offset, "", u32::MAX)
 }

@@ -20,7 +20,6 @@ const ERASES: u32 = 1 << 1;
 
 const BASE: u32 = 0x0800_0000;
 
-/// What is known of a version's registers.
 pub(super) fn fields(version: Version) -> Vec<Field> {
     version.layout().fields()
 }
@@ -38,7 +37,6 @@ pub(super) struct Flash {
     /// The first of two words, where both are written at once.
     first: Option<u32>,
     busy_until: Ps,
-    /// Offsets of what is being erased.
     erased: Option<Range<u32>>,
 }
 
@@ -157,7 +155,6 @@ impl Flash {
         true
     }
 
-    /// Offsets of what has begun to be erased since the last call.
     pub(super) fn take_erased(&mut self) -> Option<Range<u32>> {
         self.erased.take()
     }
@@ -170,7 +167,7 @@ impl Flash {
 
 #[cfg(test)]
 mod tests {
-    use super::{ACR, ERASES, Flash, KEYS, PG, Version, WORDS};
+    use super::{ACR, Flash, KEYS, PG, Version, WORDS};
 
     fn unlocked(version: Version) -> Flash {
         let mut flash = Flash::new(&[(ACR, 0)], version);
@@ -192,35 +189,6 @@ mod tests {
             assert!(!flash.write(layout.keyr, KEYS[0], 0));
             assert_eq!(flash.read(layout.cr, 0), Some(layout.lock));
         }
-    }
-
-    #[test]
-    fn a_sector_is_erased_where_it_lies_and_takes_its_time() {
-        let mut flash = unlocked(Version::F4);
-        let layout = Version::F4.layout();
-        assert!(flash.write(layout.cr, ERASES | 7 << 3 | WORDS | layout.strt, 5));
-        assert_eq!(flash.take_erased(), Some(384 * 1024..512 * 1024));
-        let ready = 5 + layout.erases;
-        assert_eq!(flash.busy_until(), ready);
-        assert!(!flash.write(layout.cr, PG, ready - 1));
-        assert!(flash.write(layout.cr, PG | WORDS, ready));
-        assert!(flash.store(8, 4, ready));
-        assert_eq!(flash.busy_until(), ready + layout.writes);
-        // One that is smaller than those of a model.
-        let mut flash = unlocked(Version::F4);
-        assert!(!flash.write(layout.cr, ERASES | 3 << 3 | WORDS | layout.strt, 5));
-    }
-
-    #[test]
-    fn pages_are_erased_by_address_or_by_number() {
-        let (mut flash, layout) = (unlocked(Version::F1), Version::F1.layout());
-        assert!(flash.write(layout.cr, ERASES, 0));
-        assert!(flash.write(layout.ar.unwrap(), 0x0801_8000, 0));
-        assert!(flash.write(layout.cr, ERASES | layout.strt, 0));
-        assert_eq!(flash.take_erased(), Some(96 * 1024..97 * 1024));
-        let (mut flash, layout) = (unlocked(Version::G0), Version::G0.layout());
-        assert!(flash.write(layout.cr, ERASES | 48 << 3 | layout.strt, 0));
-        assert_eq!(flash.take_erased(), Some(96 * 1024..98 * 1024));
     }
 
     #[test]

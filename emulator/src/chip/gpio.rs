@@ -20,7 +20,6 @@ pub(super) enum Reset {
     V2([u32; 3]),
 }
 
-/// What is known of a port's registers.
 pub(super) const fn fields(reset: Reset) -> &'static [Field] {
     match reset {
         Reset::V1 => &v1::FIELDS,
@@ -70,7 +69,6 @@ impl Gpio {
         };
     }
 
-    /// Drives a pin from outside.
     pub(super) fn drive(&mut self, pin: u32, high: bool) {
         self.outside = self.outside & !(1 << pin) | u32::from(high) << pin;
     }
@@ -83,7 +81,6 @@ impl Gpio {
         }
     }
 
-    /// Whether a peripheral hears the pin by that alternate function.
     pub(super) fn feeds(&self, pin: u32, function: u32) -> bool {
         match self.config {
             // An ordinary input is a peripheral's, too.
@@ -127,7 +124,6 @@ impl Gpio {
         }
     }
 
-    /// Whether the register is modelled.
     pub(super) fn write(&mut self, offset: u32, value: u32) -> bool {
         match (self.common(offset), &mut self.config) {
             (Some(Common::Idr), _) => return false,

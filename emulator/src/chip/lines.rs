@@ -63,12 +63,10 @@ impl Lines {
         *self = Self::new(self.layout);
     }
 
-    /// The detector's line has risen.
     pub(super) const fn rise(&mut self) {
         self.pending |= self.rising & DETECTOR;
     }
 
-    /// Whether the detector interrupts.
     pub(super) const fn interrupts(&self) -> bool {
         self.pending & self.mask & DETECTOR != 0
     }
@@ -83,7 +81,6 @@ impl Lines {
         })
     }
 
-    /// Whether register and setting are modelled.
     pub(super) fn write(&mut self, offset: u32, value: u32) -> bool {
         let layout = self.layout;
         let only_detector = |value: u32, after_reset: u32| value & !DETECTOR == after_reset;

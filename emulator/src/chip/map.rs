@@ -12,16 +12,11 @@ pub(super) enum Unit {
     Rcc,
     Flash,
     Dma(usize),
-    /// DMAMUX.
     Requests,
-    /// AFIO.
     Remap,
-    /// SYSCFG.
     System,
     Debug,
-    /// PWR.
     Power,
-    /// EXTI.
     Lines,
     /// USART2.
     Usart,

@@ -22,12 +22,10 @@ pub(crate) enum CoreKind {
 
 #[derive(Debug)]
 pub(crate) struct Model {
-    /// The board's program.
     pub(crate) program: &'static str,
     pub(crate) core: CoreKind,
     /// Bits of a priority in the NVIC.
     pub(crate) priority_bits: u8,
-    /// Bytes of flash, and of RAM.
     pub(crate) flash: u32,
     pub(crate) ram: u32,
     /// What the board's program and a PC know of it.
@@ -40,7 +38,6 @@ pub(crate) struct Model {
     pub(super) timers: &'static [(Kind, Bus)],
     pub(super) spi_version: spi::Version,
     pub(super) usart_version: usart::Version,
-    /// The bus of each SPI.
     pub(super) spis: &'static [Bus],
     pub(super) dmas: &'static [dma::Version],
     /// Whether a DMAMUX says which request a channel listens to.
@@ -62,12 +59,10 @@ pub(crate) struct Model {
 }
 
 impl Model {
-    /// The interrupt of the tick in the NVIC.
     pub(crate) const fn tick_irq(&self) -> u16 {
         self.wiring.tick_irq
     }
 
-    /// The interrupts at the end of a frame, the left side's first.
     pub(crate) fn frame_irqs(&self) -> impl Iterator<Item = u16> {
         self.wiring.sides.iter().map(|side| side.end_of_frame)
     }

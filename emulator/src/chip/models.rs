@@ -10,5 +10,4 @@ pub(crate) use stm32f103::F103;
 pub(crate) use stm32f446::F446;
 pub(crate) use stm32g071::G071;
 
-/// All of them.
 pub(crate) static MODELS: [&Model; 3] = [&F446, &F103, &G071];

@@ -27,7 +27,6 @@ impl Mux {
         self.request(offset as usize / 4)
     }
 
-    /// Whether register and setting are modelled.
     pub(super) fn write(&mut self, offset: u32, value: u32) -> bool {
         let known = offset < 4 * CHANNELS && value & !DMAREQ_ID == 0;
         if known {

@@ -11,26 +11,22 @@ impl Chip {
         self.gpio[port].role(number)
     }
 
-    /// Whether a peripheral drives the pins by that alternate function.
     pub(super) fn drives(&self, pins: &[Pin], function: u32) -> bool {
         let mut roles = pins.iter().map(|&pin| self.role(pin));
         roles.all(|role| role == Role::Alternate(function))
     }
 
-    /// Whether a peripheral hears the pins by that alternate function.
     pub(super) fn hears(&self, pins: &[Pin], function: u32) -> bool {
         let mut pins = pins.iter();
         pins.all(|pin| self.gpio[pin.port].feeds(pin.number, function))
     }
 
-    /// Moves the encoder of a side to this position, counts.
     pub(crate) fn set_encoder(&mut self, side: usize, position: i32) {
         let wires = &self.model.wiring.sides[side];
         let connected = self.hears(&wires.encoder, wires.encoder_function);
         self.timers[wires.encoder_timer].set_position(position, connected);
     }
 
-    /// Sets the levels of the Hall sensors of a brushless motor.
     pub(crate) fn set_halls(&mut self, levels: [bool; 3]) {
         for (Pin { port, number }, high) in HALLS.into_iter().zip(levels) {
             // A line that the debugger keeps is not the port's.
@@ -39,7 +35,6 @@ impl Chip {
         }
     }
 
-    /// Presses the user button or lets it go.
     pub(crate) fn set_button(&mut self, is_down: bool) {
         self.gpio[BUTTON.port].drive(BUTTON.number, !is_down);
     }
@@ -94,7 +89,6 @@ impl Chip {
             && self.spis[side].mode() == Some(mode)
     }
 
-    /// Brings the levels of the pins to the sensors' /SS.
     pub(super) fn select_sensors(&mut self) {
         for (side, wires) in self.model.wiring.sides.iter().enumerate() {
             let low = self.role(wires.select) == Role::Output(false);

@@ -28,12 +28,10 @@ impl Plain {
         Some(self.values[self.place(offset)?])
     }
 
-    /// What they hold.
     pub(super) fn values(&self) -> &[u32] {
         &self.values
     }
 
-    /// Whether the register is modelled.
     pub(super) fn write(&mut self, offset: u32, value: u32) -> bool {
         let place = self.place(offset);
         place.map(|place| self.values[place] = value).is_some()

@@ -103,7 +103,6 @@ pub(super) static G0: Layout = Layout {
     brown_out: None,
 };
 
-/// The bits of PWR that are modelled.
 pub(super) fn fields(layout: &Layout) -> Vec<Field> {
     let control = layout.registers[0].0;
     let (register, status) = match control {
@@ -141,7 +140,6 @@ pub(super) struct Power {
     control: u32,
     /// It is below the detector's threshold.
     low: bool,
-    /// The option bytes.
     options: u32,
 }
 
@@ -185,7 +183,6 @@ impl Power {
         self.low && !was_low
     }
 
-    /// What holds the chip in reset now.
     pub(super) fn holds_in_reset(&self) -> Option<ResetCause> {
         if self.supply_mv < self.layout.power_down_mv {
             return Some(ResetCause::Power);
@@ -196,14 +193,12 @@ impl Power {
         (self.supply_mv < *level_mv).then_some(ResetCause::BrownOut)
     }
 
-    /// Sets the brown-out level, where there are any.
     pub(super) fn set_brown_out(&mut self, level: u32) {
         if let Some(BrownOut { shift, .. }) = self.layout.brown_out {
             self.options = self.options & !(3 << shift) | level << shift;
         }
     }
 
-    /// Whether there is a level to set.
     pub(super) fn has_brown_out(&self) -> bool {
         self.layout.brown_out.is_some()
     }
@@ -222,7 +217,6 @@ impl Power {
         Some(value | if offset == at && self.low { flag } else { 0 })
     }
 
-    /// Whether register and setting are modelled.
     pub(super) fn write(&mut self, offset: u32, value: u32) -> bool {
         let Layout {
             registers,

@@ -76,7 +76,6 @@ impl Clocks {
         }
     }
 
-    /// The clock of a bus.
     pub(super) const fn bus(&self, bus: Bus) -> Ps {
         match bus {
             Bus::Apb1 => self.apb1,
@@ -85,7 +84,6 @@ impl Clocks {
         }
     }
 
-    /// What the timers on a bus count.
     pub(super) const fn timer(&self, bus: Bus) -> Ps {
         match bus {
             Bus::Apb1 => self.apb1_timer,
@@ -113,7 +111,6 @@ pub(super) struct Layout {
     /// The register that selects the system clock, the mask of the selection, and how far
     /// above stands what is selected.
     selection: (u32, u32, u32),
-    /// Registers of peripheral resets.
     resets: &'static [(Bus, u32)],
     /// Registers of clock gates, and their values after a reset.
     gates: &'static [(Bus, u32, u32)],
@@ -124,7 +121,6 @@ pub(super) struct Layout {
     /// Where the clock security system tells of its interrupt, and is answered; nothing where
     /// it is not used.
     security: Option<u32>,
-    /// The clocks that the registers make.
     clocks: fn(&Rcc) -> Result<Clocks, Fault>,
 }
 
@@ -178,7 +174,6 @@ impl Rcc {
         taken
     }
 
-    /// Whether the clock security system interrupts.
     pub(super) const fn has_clock_failed(&self) -> bool {
         self.has_failed
     }
@@ -219,7 +214,6 @@ impl Rcc {
         self.layout.kept.iter().position(|(at, _)| *at == offset)
     }
 
-    /// A register that keeps what is written.
     fn kept(&self, offset: u32) -> u32 {
         self.place(offset).map_or(0, |place| self.kept[place])
     }
@@ -260,7 +254,6 @@ impl Rcc {
         })
     }
 
-    /// Whether the register is modelled.
     pub(super) fn write(&mut self, offset: u32, value: u32) -> bool {
         let layout = self.layout;
         if offset == layout.csr.0 {
@@ -287,7 +280,6 @@ impl Rcc {
         true
     }
 
-    /// The clocks that the registers make.
     pub(super) fn clocks(&self) -> Result<Clocks, Fault> {
         (self.layout.clocks)(self)
     }

@@ -16,14 +16,12 @@ impl Chip {
         Some((unit, clocked, address - base))
     }
 
-    /// Whether a unit has its clock.
     pub(super) fn is_clocked(&self, unit: Unit) -> bool {
         let mut map = self.model.map.iter();
         let found = map.find(|(found, ..)| *found == unit);
         found.is_some_and(|(_, base, _)| self.find(*base).is_some_and(|(_, clocked, _)| clocked))
     }
 
-    /// Whether the chip has a unit.
     pub(super) fn has(&self, unit: Unit) -> bool {
         self.model.map.iter().any(|(found, ..)| *found == unit)
     }
@@ -66,7 +64,6 @@ impl Chip {
         })
     }
 
-    /// Writes the bits of `mask` into a register, at the time in [`Chip::now`].
     pub(crate) fn write(&mut self, address: u32, value: u32, mask: u32) -> Result<(), Fault> {
         let now = self.now;
         let unmodelled = Fault::Unmodelled {
@@ -168,7 +165,6 @@ impl Chip {
     }
 }
 
-/// Bytes of an access to these bits.
 const fn bytes_of(mask: u32) -> u32 {
     mask.count_ones() / 8
 }

@@ -21,7 +21,6 @@ pub(super) struct Remap {
 }
 
 impl Remap {
-    /// Whether a pin is JTAG's.
     pub(super) fn keeps(self, port: usize, pin: u32) -> bool {
         JTAG.contains(&(port, pin)) && !JTAG_GIVEN_UP.contains(&self.mapr)
     }
@@ -34,7 +33,6 @@ impl Remap {
         }
     }
 
-    /// Whether register and setting are modelled.
     pub(super) const fn write(&mut self, offset: u32, value: u32) -> bool {
         if offset != MAPR || value & !SWJ_CFG != 0 {
             return false;

@@ -18,7 +18,6 @@ use tmag5170::timing;
 use super::fault::Fault;
 use super::time::Ps;
 
-/// The sensor's end of the wires.
 pub(crate) trait SensorEnd {
     /// A frame begins: the sensor takes what it will answer with. Its bytes are fetched by the core,
     /// which `is_polled`, or by the DMA.
@@ -27,7 +26,6 @@ pub(crate) trait SensorEnd {
     /// Eight clocks: what is on the line while the master sends `sent`.
     fn exchange(&mut self, sent: u8) -> u8;
 
-    /// The frame is over: /SS has risen.
     fn release(&mut self) {}
 }
 
@@ -41,7 +39,6 @@ struct Needs {
     clock_max_hz: u32,
     /// From the supply to the first byte.
     start_up: Ps,
-    /// Between two bytes.
     gap: Ps,
     /// From /SS low to the first byte, and from the last to /SS high.
     lead: Ps,
@@ -49,7 +46,6 @@ struct Needs {
     /// For which /SS is high between two frames, and after one that is not good.
     high: Ps,
     rest: Ps,
-    /// Whether what the master has read is good.
     is_good: fn(Decoder, &[u8]) -> bool,
     /// The SPI mode, and whether data to the sensor comes by an open drain, as it is joined to
     /// data from it.
@@ -103,14 +99,12 @@ pub(super) struct SensorLines {
     silence: Ps,
     /// It does not see /SS rise, and takes all bytes for one frame; whether that is over.
     stuck: Option<bool>,
-    /// What messages call the side.
     side: &'static str,
     selected: bool,
     /// When /SS fell.
     fell: Ps,
     /// No byte has been clocked since /SS fell.
     fresh: bool,
-    /// When the last byte ended.
     ended: Option<Ps>,
     /// When the byte that the sensor has seen began.
     seen: Option<Ps>,
@@ -152,7 +146,6 @@ impl SensorLines {
         }
     }
 
-    /// The sensor is in its slow mode from now on.
     pub(super) fn slow_down(&mut self) {
         self.needs = Needs::SLOW;
     }
@@ -164,12 +157,10 @@ impl SensorLines {
         self.silence = ps(rest_us * 1_000);
     }
 
-    /// From now on it does not see /SS rise, or does again.
     pub(super) const fn stick(&mut self, is_stuck: bool) {
         self.stuck = if is_stuck { Some(false) } else { None };
     }
 
-    /// The sensor is a TMAG5170 from now on.
     pub(super) fn tilt(&mut self) {
         self.needs = Needs::TILT;
     }
@@ -261,7 +252,6 @@ impl SensorLines {
         Ok(())
     }
 
-    /// The DMA has put the next byte there.
     pub(super) fn put(&mut self, place: u32) {
         self.put.push(place);
     }

@@ -9,16 +9,13 @@ use super::time::Ps;
 pub(super) struct SerialLine {
     /// A bit at the other end; none: nothing is there.
     pub(super) bit: Option<Ps>,
-    /// What it is to send.
     pub(super) sending: VecDeque<u8>,
     /// When the first of that has gone.
     pub(super) ends: Ps,
-    /// What it has received.
     pub(super) heard: Vec<u8>,
 }
 
 impl SerialLine {
-    /// When a byte of the other end has come.
     pub(super) fn next(&self) -> Option<Ps> {
         (!self.sending.is_empty()).then_some(self.ends)
     }

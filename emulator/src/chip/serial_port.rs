@@ -5,7 +5,6 @@ use super::map::Unit;
 use super::time::Ps;
 use super::{Chip, Memory};
 
-/// A second.
 const SECOND: Ps = 1_000_000_000_000;
 
 /// Start, eight bits and stop.
@@ -16,12 +15,10 @@ const BITS: Ps = 10;
 const OFF_PERMILLE: Ps = 16;
 
 impl Chip {
-    /// Somebody is at the other end of the serial line, at so many bits a second.
     pub(crate) const fn attach_serial(&mut self, baud: u32) {
         self.serial.bit = Some(SECOND / baud as Ps);
     }
 
-    /// Has the other end send bytes, one after the other from now on.
     pub(crate) fn serial_write(&mut self, bytes: &[u8]) {
         let Some(bit) = self.serial.bit else {
             return;
@@ -32,22 +29,18 @@ impl Chip {
         self.serial.sending.extend(bytes);
     }
 
-    /// Bytes that the other end has not sent yet.
     pub(crate) fn serial_waiting(&self) -> usize {
         self.serial.sending.len()
     }
 
-    /// What the other end has received since the last call.
     pub(crate) fn serial_read(&mut self) -> Vec<u8> {
         std::mem::take(&mut self.serial.heard)
     }
 
-    /// The clock of the USART, that of its bus.
     pub(super) fn serial_clock(&self) -> Ps {
         self.clocks.bus(self.model.wiring.serial.bus)
     }
 
-    /// Whether the USART's bits are those of the other end.
     fn agrees(&self, bit: Ps) -> Result<(), Fault> {
         let found = self.usart.bit(self.serial_clock());
         if found.abs_diff(bit) * 1_000 <= OFF_PERMILLE * bit {

@@ -51,7 +51,6 @@ const OF_QUEUES: [Field; 2] = [
     field("CR2", CR2, "FRXTH", FRXTH),
 ];
 
-/// What is known of the registers of that version.
 pub(super) fn fields(version: Version) -> Vec<Field> {
     match version {
         Version::One => FIELDS.to_vec(),
@@ -130,7 +129,6 @@ impl Spi {
         *self = Self::new(self.version);
     }
 
-    /// Bytes that it can hold of each direction.
     const fn room(&self) -> usize {
         match self.version {
             Version::One => 1,
@@ -146,7 +144,6 @@ impl Spi {
         }
     }
 
-    /// The period of the SPI's clock, from that of its bus.
     pub(super) fn bit(&self, bus: Ps) -> Ps {
         bus << (((self.cr1 & BR) >> BR.trailing_zeros()) + 1)
     }
@@ -160,7 +157,6 @@ impl Spi {
         }
     }
 
-    /// The byte on its way has come to its end: `answer` was on the line.
     pub(super) fn end(&mut self, answer: u8, now: Ps, bus: Ps) {
         self.shift = None;
         if self.received.len == self.room() {
@@ -172,13 +168,11 @@ impl Spi {
         self.begin(now, bus);
     }
 
-    /// Whether as much has been received as is reported.
     const fn is_received(&self) -> bool {
         let pairs = matches!(self.version, Version::Queues) && self.cr2 & FRXTH == 0;
         self.received.len >= if pairs { 2 } else { 1 }
     }
 
-    /// Whether received bytes are the DMA's to fetch.
     pub(super) const fn asks_dma(&self) -> bool {
         self.cr2 & RXDMAEN != 0
     }
@@ -188,7 +182,6 @@ impl Spi {
         self.is_received() && self.asks_dma()
     }
 
-    /// Bytes that an access of so many moves.
     fn moved(&self, bytes: u32) -> u32 {
         match self.version {
             Version::One => 1,
@@ -196,7 +189,6 @@ impl Spi {
         }
     }
 
-    /// Reads so many bytes of a register.
     pub(super) fn read(&mut self, offset: u32, bytes: u32) -> Option<u32> {
         Some(match offset {
             CR1 => self.cr1,

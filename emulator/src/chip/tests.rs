@@ -11,9 +11,7 @@ mod time;
 
 use std::cell::RefCell;
 
-use super::map::Unit;
-use super::models::{F446, MODELS};
-use super::wiring::{ENABLES, HALLS, NUMBER, PWM, SERIAL, SIGNALS};
+use super::models::F446;
 use super::{Chip, CoreKind, Fault, Memory, Model, Ps, ResetCause, SensorEnd};
 
 const RCC: u32 = 0x4002_3800;
@@ -59,7 +57,6 @@ impl SensorEnd for Script {
     }
 }
 
-/// A little RAM.
 struct Ram(RefCell<[u8; 64]>);
 
 impl Memory for Ram {
@@ -78,7 +75,6 @@ impl Memory for Ram {
 struct Rig {
     chip: Chip,
     ram: Ram,
-    /// Left and right.
     sensors: [Script; 2],
     now: Ps,
 }
@@ -243,59 +239,4 @@ fn a_peripheral_reset_puts_its_registers_back() {
         1,
         "another peripheral is left alone"
     );
-}
-
-#[test]
-fn every_unit_has_its_gate_and_its_reset() {
-    for model in MODELS {
-        let rcc = model.map.iter().find(|(unit, ..)| *unit == Unit::Rcc);
-        let rcc = rcc.unwrap().1;
-        for &(unit, base, gate) in model.map {
-            let Some((bus, bit)) = gate else { continue };
-            let mut rig = Rig::of(model);
-            let enable = rcc + model.rcc.gate(bus).unwrap();
-            rig.write(enable, 1 << bit);
-            let is_clocked = |rig: &Rig| rig.chip.find(base).unwrap().1;
-            assert!(is_clocked(&rig), "{unit:?}");
-            rig.write(enable, !(1 << bit));
-            assert!(!is_clocked(&rig), "{unit:?}");
-            if let Some(reset) = model.rcc.reset(bus) {
-                rig.write(rcc + reset, 1 << bit);
-                assert!(rig.chip.rcc.take_reset(bus, bit), "{unit:?}");
-            }
-        }
-    }
-}
-
-/// What kind each is, and the bus whose clock it has, is held against descriptions of the chips by
-/// `cargo xtask descriptions`.
-#[test]
-fn timers_and_spis_have_the_clock_of_their_bus() {
-    let mut rig = Rig::of(&F446);
-    rig.run_fast();
-    let clocks = rig.chip.clocks;
-    for (n, (_, bus)) in F446.timers.iter().enumerate() {
-        assert_eq!(rig.chip.timer_clock(n), clocks.timer(*bus), "{n}");
-    }
-    for (n, bus) in F446.spis.iter().enumerate() {
-        assert_eq!(rig.chip.spi_clock(n), clocks.bus(*bus), "{n}");
-    }
-}
-
-#[test]
-fn no_pin_is_used_twice() {
-    for model in MODELS {
-        let mut pins = [PWM, ENABLES, HALLS].concat();
-        pins.extend([SERIAL, SIGNALS].concat());
-        pins.extend(NUMBER);
-        pins.extend(model.wiring.can.iter().flat_map(|can| [can.rx, can.tx]));
-        for side in model.wiring.sides {
-            pins.extend(side.spi);
-            pins.extend(side.encoder);
-            pins.extend([side.select, side.direction]);
-        }
-        for (n, pin) in pins.iter().enumerate() {
-            assert!(!pins[..n].contains(pin), "{}: {pin:?}", model.program);
-        }
-    }
 }

@@ -93,7 +93,6 @@ pub(super) struct Timer {
     position: i32,
 }
 
-/// Whether a timer of that kind has a register there.
 const fn has(kind: Kind, offset: u32) -> bool {
     match kind {
         Kind::Basic => !matches!(offset, SMCR | CCMR1..=CCER | CCR1..),
@@ -102,7 +101,6 @@ const fn has(kind: Kind, offset: u32) -> bool {
     }
 }
 
-/// What is known of the registers of a timer of that kind.
 pub(super) fn fields(kind: Kind) -> Vec<Field> {
     let fields = FIELDS.into_iter();
     // The request of a channel that it has.
@@ -128,7 +126,6 @@ impl Timer {
         };
     }
 
-    /// Whether it has that register, which is one of those above.
     const fn has(&self, offset: u32) -> bool {
         has(self.kind, offset)
     }
@@ -146,7 +143,6 @@ impl Timer {
         clock * (Ps::from(self.active[0]) + 1)
     }
 
-    /// Brings count and flags up to `now`.
     pub(super) fn sync(&mut self, now: Ps, clock: Ps) {
         if !self.counts_time() {
             self.since = now;
@@ -172,7 +168,6 @@ impl Timer {
         self.since += steps * step;
     }
 
-    /// An update, by the counter or by software.
     fn update(&mut self, by_software: bool) {
         if self.cr1 & UDIS != 0 {
             return;
@@ -185,7 +180,6 @@ impl Timer {
         self.update_waits |= self.dier & UDE != 0;
     }
 
-    /// The next update or match that somebody will hear of.
     pub(super) fn next(&self, clock: Ps) -> Option<Ps> {
         let (period, count) = (Ps::from(self.active[1]) + 1, Ps::from(self.count));
         let update = (self.dier & (UIE | UDE) != 0).then(|| period.saturating_sub(count).max(1));
@@ -200,7 +194,6 @@ impl Timer {
         left.map(|left| self.since + left * self.step(clock))
     }
 
-    /// Whether a signal of its waits for the DMA.
     pub(super) const fn requests(&self, signal: ByteSignal) -> bool {
         match signal {
             ByteSignal::Update => self.update_waits,
@@ -208,7 +201,6 @@ impl Timer {
         }
     }
 
-    /// It waits no more.
     pub(super) const fn serve(&mut self, signal: ByteSignal) {
         match signal {
             ByteSignal::Update => self.update_waits = false,
@@ -271,7 +263,6 @@ impl Timer {
         })
     }
 
-    /// Whether register and setting are modelled.
     pub(super) fn write(&mut self, offset: u32, value: u32, now: Ps, clock: Ps) -> bool {
         self.sync(now, clock);
         if !self.has(offset) {

@@ -22,7 +22,6 @@ impl Chip {
         Ok(held)
     }
 
-    /// Lets the voltage detector look.
     pub(super) fn compare_supply(&mut self) {
         if self.power.compare() {
             self.exti.rise();
@@ -35,7 +34,6 @@ impl Chip {
         self.power.has_brown_out()
     }
 
-    /// The sensors are in their slow mode, and need what they need there.
     pub(crate) fn slow_sensors(&mut self) {
         self.lines.iter_mut().for_each(SensorLines::slow_down);
     }
@@ -47,14 +45,12 @@ impl Chip {
         }
     }
 
-    /// A side's sensor does not see /SS rise, or does again.
     pub(crate) fn stick_select(&mut self, side: usize, is_stuck: bool) {
         if let Some(lines) = self.lines.get_mut(side) {
             lines.stick(is_stuck);
         }
     }
 
-    /// The sensors are TMAG5170s, and need what these need.
     pub(crate) fn tilt_sensors(&mut self) {
         self.lines.iter_mut().for_each(SensorLines::tilt);
     }
@@ -66,7 +62,6 @@ impl Chip {
         Ok(had)
     }
 
-    /// A probe lets go of the chip, and leaves its debug unit as after a power-up.
     pub(crate) fn let_go(&mut self) {
         self.debug.reset();
     }
@@ -77,7 +72,6 @@ impl Chip {
         self.debug.values().iter().any(|bits| *bits != 0)
     }
 
-    /// Whether the non-maskable interrupt is up.
     pub(crate) fn has_nmi(&self) -> bool {
         self.rcc.has_clock_failed()
     }

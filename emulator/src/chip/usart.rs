@@ -31,7 +31,6 @@ pub(super) enum Version {
     Two,
 }
 
-/// Where the registers of a version are.
 struct Layout {
     status: u32,
     received: u32,
@@ -72,7 +71,6 @@ const fn layout(version: Version) -> Layout {
     }
 }
 
-/// What is known of the registers of that version.
 pub(super) fn fields(version: Version) -> Vec<Field> {
     let at = layout(version);
     let mut fields = vec![
@@ -114,9 +112,7 @@ pub(super) struct Usart {
     cr3: u32,
     brr: u32,
     shift: Option<Shift>,
-    /// The byte that waits to be sent.
     waiting: Option<u8>,
-    /// The byte that waits to be read.
     received: Option<u8>,
     last: u8,
     overrun: bool,
@@ -139,17 +135,14 @@ impl Usart {
         self.cr1 & (ue | what) == ue | what
     }
 
-    /// A bit, by the clock of its bus.
     pub(super) fn bit(&self, bus: Ps) -> Ps {
         bus * Ps::from(self.brr)
     }
 
-    /// Whether it would take a byte from the line.
     pub(super) const fn listens(&self) -> bool {
         self.does(RE)
     }
 
-    /// A byte has come.
     pub(super) const fn receive(&mut self, byte: u8) {
         if self.received.is_some() {
             self.overrun = self.cr3 & OVRDIS == 0;
@@ -160,12 +153,10 @@ impl Usart {
         self.received = Some(byte);
     }
 
-    /// When the byte on its way out has gone.
     pub(super) fn sends_until(&self) -> Option<Ps> {
         self.shift.map(|shift| shift.ends)
     }
 
-    /// The byte that has gone by `now`; the one that waits follows.
     pub(super) fn sent(&mut self, now: Ps, bus: Ps) -> Option<u8> {
         let gone = self.shift.take_if(|shift| shift.ends <= now)?;
         self.begin(now, bus);
@@ -182,12 +173,10 @@ impl Usart {
         }
     }
 
-    /// Whether a byte that came asks the DMA to fetch it.
     pub(super) const fn requests_fetch(&self) -> bool {
         self.received.is_some() && self.cr3 & DMAR != 0
     }
 
-    /// Whether there is room for a byte that the DMA is to bring.
     pub(super) const fn requests_byte(&self) -> bool {
         self.waiting.is_none() && self.cr3 & DMAT != 0 && self.does(TE)
     }
@@ -215,7 +204,6 @@ impl Usart {
         })
     }
 
-    /// Whether register and setting are modelled.
     pub(super) fn write(&mut self, offset: u32, value: u32, now: Ps, bus: Ps) -> bool {
         let at = layout(self.version);
         match offset {

@@ -62,7 +62,6 @@ impl Watchdog {
         };
     }
 
-    /// When it will bite if it is not fed.
     pub(super) fn bites(&self) -> Option<Ps> {
         let count = self.lsi * (4 << self.prescaler.min(6));
         self.running
@@ -81,7 +80,6 @@ impl Watchdog {
         })
     }
 
-    /// Whether the register is modelled.
     pub(super) fn write(&mut self, offset: u32, value: u32, now: Ps) -> bool {
         match (offset, value & KEY) {
             (KR, 0xCCCC) => {

@@ -9,7 +9,6 @@ use super::rcc::Bus;
 /// A pin.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct Pin {
-    /// The port, GPIOA first.
     pub(super) port: usize,
     pub(super) number: u32,
 }
@@ -35,7 +34,6 @@ pub(super) struct Request {
 pub(super) struct Side {
     /// SCK, MISO and MOSI of the sensor's SPI (SPI1 on the left, SPI2 on the right).
     pub(super) spi: [Pin; 3],
-    /// /SS of the sensor.
     pub(super) select: Pin,
     /// The timer that asks for the next byte of a frame, and by what.
     pub(super) byte_timer: usize,
@@ -48,26 +46,21 @@ pub(super) struct Side {
     pub(super) tx: Request,
     /// The interrupt of the rx stream in the NVIC.
     pub(super) end_of_frame: u16,
-    /// Channels A and B of the encoder.
     pub(super) encoder: [Pin; 2],
     pub(super) encoder_timer: usize,
-    /// The alternate function of the encoder's pins.
     pub(super) encoder_function: u32,
-    /// Direction of the H-bridge.
     pub(super) direction: Pin,
 }
 
 /// What of a timer asks for a byte.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum ByteSignal {
-    /// Its update.
     Update,
     /// A match of its channel 1.
     Compare,
 }
 
 impl ByteSignal {
-    /// The manuals' name.
     pub(super) const fn name(self) -> &'static str {
         match self {
             Self::Update => "UP",
@@ -79,11 +72,9 @@ impl ByteSignal {
 /// The serial port that the ST-LINK is on.
 #[derive(Debug)]
 pub(super) struct SerialPort {
-    /// The bus whose clock it divides.
     pub(super) bus: Bus,
     pub(super) tx: Pin,
     pub(super) rx: Pin,
-    /// The alternate function of both.
     pub(super) function: u32,
     /// The DMA controller that moves the bytes, DMA1 first.
     pub(super) dma: usize,
@@ -94,11 +85,9 @@ pub(super) struct SerialPort {
 /// The bus of a head.
 #[derive(Debug)]
 pub(super) struct CanPort {
-    /// The bus whose clock it divides.
     pub(super) bus: Bus,
     pub(super) rx: Pin,
     pub(super) tx: Pin,
-    /// The alternate function of both.
     pub(super) function: u32,
     /// The interrupts of the first FIFO, and of the mailboxes.
     pub(super) heard_irq: u16,
@@ -108,7 +97,6 @@ pub(super) struct CanPort {
 /// Everything that a board has wired.
 #[derive(Debug)]
 pub(super) struct Wiring {
-    /// Left and, where the board has it, right.
     pub(super) sides: &'static [Side],
     /// The timer that makes the ticks, and its interrupt in the NVIC.
     pub(super) tick: usize,
@@ -122,20 +110,17 @@ pub(super) struct Wiring {
     pub(super) can: Option<CanPort>,
 }
 
-/// What messages and the log call the sides.
 pub(crate) const SIDE_NAMES: [&str; 2] = ["left", "right"];
 
 /// Channels 1 to 3 of TIM1 on every board: an H-bridge a side on the first two, or three
 /// half-bridges.
 pub(super) const PWM: [Pin; 3] = [Pin::new('A', 8), Pin::new('A', 9), Pin::new('A', 10)];
-/// Enable inputs of three half-bridges.
 pub(super) const ENABLES: [Pin; 3] = [Pin::new('C', 10), Pin::new('C', 11), Pin::new('C', 12)];
 /// The user button, low while it is pressed.
 pub(super) const BUTTON: Pin = Pin::new('C', 13);
 /// What USART2 sends and receives, and the pins of contact and of decisions.
 pub(super) const SERIAL: [Pin; 2] = [Pin::new('A', 2), Pin::new('A', 3)];
 pub(super) const SIGNALS: [Pin; 2] = [Pin::new('B', 8), Pin::new('B', 9)];
-/// Hall sensors of a brushless motor.
 pub(super) const HALLS: [Pin; 3] = [Pin::new('A', 15), Pin::new('B', 3), Pin::new('B', 10)];
 
 /// The bits of a board's number in a head, the lowest first: low where a jumper is.

@@ -24,7 +24,6 @@ const AROUND: [&str; 9] = [
     "__0", "value", "inner", "buffer", "uninit", "__1", "val", "Some", "Ok",
 ];
 
-/// A variable's name without what is put around it.
 fn short(path: &str) -> String {
     let path = ["shared_resource_", "local_init_", "local_resource_"]
         .into_iter()
@@ -121,20 +120,5 @@ impl Place<'_> {
                 .leaves(&format!("{path}.{name}"), into)?;
         }
         Ok(())
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::short;
-
-    #[test]
-    fn names_are_those_of_the_program() {
-        let found =
-            short("INNER.val.value.value.__0.whiskers.buffer.buffer[1].value.servo.Some.__0");
-        assert_eq!(found, "INNER.whiskers[1].servo");
-        let found = short("__rtic_internal_shared_resource_module.__0.value.value.__0.second");
-        assert_eq!(found, "module.second");
-        assert_eq!(short("TICKS.__0.v.value"), "TICKS.v");
     }
 }

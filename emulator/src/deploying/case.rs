@@ -20,7 +20,6 @@ use crate::session::Session;
 /// How long a whisker takes to come to rest, s.
 const TO_REST_S: f64 = 0.3;
 
-/// A scene, what a board has of it, and that in its flash.
 pub(super) struct Flashed {
     pub(super) loaded: Loaded,
     pub(super) deployment: Deployment,
@@ -126,7 +125,6 @@ impl<'p> Case<'p> {
         Ok(self.program.model()?.facts)
     }
 
-    /// The program with these scenes and models.
     pub(super) fn with(&self, flash: &[u8]) -> Result<Program, Error> {
         let mut program = self.program.clone();
         program.add(program.scenes()?.start, flash)?;

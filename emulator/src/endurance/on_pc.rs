@@ -101,7 +101,6 @@ pub(super) fn on_pc(path: &Path, seed: u64, hours: f64) -> Result<ShardRow, Erro
     })
 }
 
-/// Whether every number of the sides that there are is one.
 fn is_finite(row: &Row, sides: usize) -> bool {
     let mut values = row.pairs().into_iter();
     values.all(|pair| pair.iter().take(sides).all(|value| value.is_finite()))

@@ -10,7 +10,6 @@ use crate::counters;
 const WEEK_H: f64 = 168.0;
 const DAY_H: f64 = 24.0;
 
-/// The shards of one scene in one place.
 struct Group<'r> {
     rows: Vec<&'r ShardRow>,
 }
@@ -36,7 +35,6 @@ impl<'r> Group<'r> {
         self.rows.iter().map(|row| of(row)).sum()
     }
 
-    /// The mean of what has one; nothing without any.
     fn mean(&self, of: impl Fn(&ShardRow) -> Option<f64>) -> Option<f64> {
         let values: Vec<f64> = self.rows.iter().filter_map(|row| of(row)).collect();
         let count = values.len() as f64;
@@ -49,7 +47,6 @@ impl<'r> Group<'r> {
     }
 }
 
-/// A number with so many decimals, or a dash.
 fn cell(value: Option<f64>, decimals: usize) -> String {
     value.map_or_else(|| "–".to_owned(), |value| format!("{value:.decimals$}"))
 }
@@ -163,38 +160,3 @@ const COUNTERS: &str = "
 | what is counted | bits | starts so many counts before its wrap, at 2,000 ticks a second |
 |---|---|---|
 ";
-
-#[cfg(test)]
-mod tests {
-    use super::{ShardRow, page};
-
-    #[test]
-    fn shards_of_a_scene_are_summed_and_boards_stand_apart() {
-        let row = |subject: &str, seed| ShardRow {
-            subject: subject.to_owned(),
-            scene: "full".to_owned(),
-            seed,
-            hours: 6.0,
-            ticks: 10,
-            decisions: 7,
-            first_rate: Some(2.0),
-            last_rate: Some(3.0),
-            first_right: Some(0.5),
-            last_right: None,
-            touches: 70_000,
-            wrapped: 1,
-            took_s: 60.0,
-        };
-        let rows = [row("host-sim", 0), row("host-sim", 1), row("board", 0)];
-        let page = page(&rows);
-        for line in [
-            "| full | 2 | 12.0 | 14 | 2 | 3 | 50.00 | – | 140000 | 2 |",
-            "| board | full | 1 | 21600 | 10 | 7 | 1 |",
-            "12.0 simulated hours in 2 shards, 6.0 hours in a minute",
-            "a week takes 0.5 h",
-            "| ticks | 32 | 1500 |",
-        ] {
-            assert!(page.contains(line), "{line}\n{page}");
-        }
-    }
-}

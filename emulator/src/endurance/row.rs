@@ -8,7 +8,6 @@ use serde::{Deserialize, Serialize};
 
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(super) struct ShardRow {
-    /// Where it ran: `host-sim`, or the board's name.
     pub(super) subject: String,
     pub(super) scene: String,
     /// The seed in place of the scene's own.
@@ -38,41 +37,9 @@ impl ShardRow {
     }
 }
 
-/// The row that a shard has left in `path`.
 pub(super) fn row(path: &Path) -> Result<ShardRow, Error> {
     let read = csv::Reader::from_path(path);
     let row = read.and_then(|mut reader| reader.deserialize().next().transpose());
     let row = row.map_err(|error| Error::file(path, error))?;
     row.ok_or_else(|| Error::file(path, "it has no row"))
-}
-
-#[cfg(test)]
-mod tests {
-    use super::{ShardRow, row};
-
-    #[test]
-    fn a_row_survives_its_file() {
-        let written = ShardRow {
-            subject: "host-sim".to_owned(),
-            scene: "full".to_owned(),
-            seed: 3,
-            hours: 6.0,
-            ticks: 43_200_000,
-            decisions: 9,
-            first_rate: Some(1.5),
-            last_rate: Some(1.25),
-            first_right: Some(0.5),
-            last_right: None,
-            touches: 70_000,
-            wrapped: 1,
-            took_s: 0.1,
-        };
-        let folder = std::env::temp_dir().join(format!("endurance-{}", std::process::id()));
-        let path = folder.join("row.csv");
-        std::fs::create_dir_all(&folder).expect("a folder");
-        written.write(&path).expect("it is written");
-        let found = row(&path).expect("it is read");
-        std::fs::remove_dir_all(&folder).expect("it is ours");
-        assert_eq!(found, written);
-    }
 }

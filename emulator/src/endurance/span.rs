@@ -48,7 +48,6 @@ impl Span {
         (self.decisions > 0).then(|| self.right as f64 / self.decisions as f64)
     }
 
-    /// Says how a later part, as long as this one, differs from it, if it does.
     pub(super) fn difference(&self, later: &Self) -> Option<String> {
         let pairs = self.ranges.as_flattened().iter();
         for (before, after) in pairs.zip(later.ranges.as_flattened()) {

@@ -82,7 +82,6 @@ impl Trouble {
         }
     }
 
-    /// Lets it befall the sensor of a side; whether there is such a sensor.
     fn befall(self, session: &mut Session, side: usize) -> bool {
         match self {
             Self::Mlx(wire, word) => session.run.slave_mut(side).map(|slave| {
@@ -98,7 +97,6 @@ impl Trouble {
     }
 }
 
-/// Several steps on a board of their own.
 pub(super) struct Case {
     pub(super) what: String,
     /// Whether a reset is no fault.
@@ -120,7 +118,6 @@ fn wrong<T>(what: String) -> Result<T, Error> {
     Err(Error::Work(what))
 }
 
-/// A board, and its log since it was read.
 struct Runner {
     session: Session,
     log: Vec<String>,
@@ -261,7 +258,6 @@ impl Runner {
         Ok(())
     }
 
-    /// Holds the button down, and lets it go for 50 ms before and after.
     fn press(&mut self, ms: u32) -> Result<(), Error> {
         for (is_down, ms) in [(false, 50), (true, ms), (false, 50)] {
             let machine = self.session.machine();
@@ -289,7 +285,6 @@ impl Runner {
         Ok(())
     }
 
-    /// The line of the log that says `text`.
     fn line(&self, text: &str) -> Result<String, Error> {
         let line = self.log.iter().find(|line| line.contains(text)).cloned();
         line.ok_or_else(|| Error::Work(self.not_said(text)))

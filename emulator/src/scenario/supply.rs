@@ -191,7 +191,6 @@ fn never_comes(facts: &BoardFacts) -> Case {
     case("the clock from outside never comes", moves)
 }
 
-/// A probe lets go of a board, and another may halt it a second later.
 fn lets_go() -> Case {
     let lets_go = Do(|board| {
         board.machine().with_chip(Chip::let_go);

@@ -111,7 +111,6 @@ pub(super) struct Figures {
     at_stop: u64,
     driven: u64,
     squares: f64,
-    /// How many duties there are in that.
     duties: u64,
     resets: Vec<f64>,
     max_following_deg: f64,
@@ -151,7 +150,6 @@ impl Figures {
         }
     }
 
-    /// Looks at the tick that was just made.
     pub(super) fn look(
         &mut self,
         session: &mut Session,

@@ -107,7 +107,6 @@ pub(super) struct Scenario {
 }
 
 impl Scenario {
-    /// Reads a file.
     pub(super) fn load(path: &Path) -> Result<Self, Error> {
         let text = read(path).map_err(|fault| wrong(path, fault))?;
         Self::parse(&text).map_err(|fault| wrong(path, fault))
@@ -137,7 +136,6 @@ impl Scenario {
         })
     }
 
-    /// Checks that a scene has everything that events befall.
     pub(super) fn fits(&self, path: &Path, scene: &Scene) -> Result<(), Error> {
         let sides = scene.head.sides.count();
         for event in &self.events {

@@ -25,7 +25,6 @@ enum Sensor {
 }
 
 impl Sensor {
-    /// On the wires of an MLX90333; `None`: it is not simulated.
     const fn of_mlx(self) -> Option<WireFault> {
         match self {
             Self::Frozen => Some(WireFault::Frozen),
@@ -39,7 +38,6 @@ impl Sensor {
         }
     }
 
-    /// On the wires of a TMAG5170.
     const fn of_tmag(self) -> LineFault {
         match self {
             Self::Frozen => LineFault::Frozen,
@@ -94,7 +92,6 @@ impl Around {
         has_restarted: false,
     };
 
-    /// Adds an event that has begun after those before.
     fn add(&mut self, what: &What) {
         match *what {
             What::Stuck => self.cut[0] = true,
@@ -155,7 +152,6 @@ impl Hands {
         }
     }
 
-    /// What is to be done before the tick that begins at `t_s`.
     pub(crate) fn act(&mut self, t_s: f64, session: &mut Session) -> Result<(), Error> {
         let lasting = self.events.iter().filter(|event| event.lasts(t_s));
         let (mut around, mut now) = ([Around::WELL; 2], AtBoard::default());
@@ -203,7 +199,6 @@ impl Hands {
         Ok(())
     }
 
-    /// Whether power has gone in the last tick.
     pub(super) const fn has_cut_power(&self) -> bool {
         self.has_cut
     }

@@ -40,7 +40,6 @@ impl Arrived {
     }
 }
 
-/// An event that sends.
 struct Sender<'s> {
     event: &'s Event,
     /// How often it has sent, or would have.
@@ -73,7 +72,6 @@ impl Sender<'_> {
     }
 }
 
-/// Who sends.
 pub(super) struct Links<'s> {
     senders: Vec<Sender<'s>>,
     tick_s: f64,

@@ -25,7 +25,6 @@ pub(super) struct Listed {
     pub(super) side: Option<String>,
     /// Of a fault or a limit.
     pub(super) number: Option<u8>,
-    /// Its name.
     pub(super) name: Option<String>,
     /// The whole line.
     pub(super) text: String,
@@ -87,7 +86,6 @@ const SPOKEN: [Command; 15] = {
     ]
 };
 
-/// An answer in the words that the serial line has for it.
 fn in_words(answer: &Answer) -> String {
     let mut spoken = SPOKEN.iter();
     let command = spoken.find(|command| command.number() == answer.command);
@@ -101,7 +99,6 @@ fn in_words(answer: &Answer) -> String {
 }
 
 impl Lister {
-    /// Takes what was said since the last call.
     pub(super) fn listen(&mut self, session: &mut Session) -> Result<(), Error> {
         let t_s = session.run.t_s();
         for line in session.log() {
@@ -152,7 +149,6 @@ impl Lister {
     }
 }
 
-/// What a line of the log tells.
 fn of_log(t_s: f64, line: &str) -> Listed {
     // Time and level come first.
     let mut rest = line.splitn(3, ' ').nth(2).unwrap_or(line).trim_start();
@@ -186,33 +182,5 @@ fn of_log(t_s: f64, line: &str) -> Listed {
         number,
         name: name.filter(|name| !name.is_empty()),
         text,
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::of_log;
-
-    #[test]
-    fn a_line_of_the_log_is_taken_apart() {
-        let line = "0.250 ERROR fault left 9 motor held (a, b?)";
-        let listed = of_log(0.2505, line);
-        assert_eq!(listed.kind, "fault");
-        assert_eq!(listed.side.as_deref(), Some("left"));
-        assert_eq!(listed.number, Some(9));
-        assert_eq!(listed.name.as_deref(), Some("motor held"));
-        assert_eq!(listed.text, "fault left 9 motor held (a, b?)");
-        let listed = of_log(0.0, "0.000 INFO  start 0.1.0 bench 2000 power-up 1 0");
-        assert_eq!(
-            (&*listed.kind, listed.side, listed.number),
-            ("start", None, None)
-        );
-        let listed = of_log(0.0, "0.000 INFO  self-test left 13 0.4 2.1");
-        assert_eq!(
-            (&*listed.kind, listed.number, listed.name),
-            ("self-test", Some(13), None)
-        );
-        let listed = of_log(0.0, "0.000 ERROR fault board 52 watchdog (a?)");
-        assert_eq!((listed.side, listed.number), (None, Some(52)));
     }
 }

@@ -96,7 +96,6 @@ impl Servos {
         self.armed.map(read).transpose()
     }
 
-    /// What the motor of a side is to do.
     pub(crate) fn wants(&self, side: usize, ram: &Memories) -> Result<Wants, Fault> {
         let mut wants = Wants::default();
         let Some(servo) = self.servos.get(side) else {

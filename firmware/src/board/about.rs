@@ -30,7 +30,6 @@ impl About {
         }
     }
 
-    /// The name of the scene.
     pub(crate) fn name(&self) -> &str {
         if self.name.is_empty() {
             NO_SCENE

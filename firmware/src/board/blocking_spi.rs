@@ -72,13 +72,11 @@ impl ErrorType for Device {
 }
 
 impl Device {
-    /// Sets the SPI up; its pins are the caller's.
     pub(crate) fn start(port: &'static SensorPort, wires: &'static Wires) -> Self {
         set_up(port, wires, false);
         Self { port, wires }
     }
 
-    /// Waits until `is_so`, within a bound.
     #[inline]
     fn wait(&self, is_so: impl Fn() -> bool) -> Result<(), Stuck> {
         if (0..self.wires.polls).any(|_| is_so()) {
@@ -88,7 +86,6 @@ impl Device {
         }
     }
 
-    /// Sends a byte and returns the one that came meanwhile.
     #[inline]
     fn byte(&self, sent: u8) -> Result<u8, Stuck> {
         let spi = self.port.spi;

@@ -12,11 +12,9 @@ pub(crate) static WORST: WrappingCounter = WrappingCounter::new();
 /// Ticks missed since the start, as of the last whole second. Only the tick sets it.
 pub(crate) static MISSED: WrappingCounter = WrappingCounter::new();
 
-/// A count; wraps around.
 pub(crate) struct WrappingCounter(AtomicU32);
 
 impl WrappingCounter {
-    /// Zero.
     pub(crate) const fn new() -> Self {
         Self(AtomicU32::new(0))
     }
@@ -30,13 +28,11 @@ impl WrappingCounter {
         count
     }
 
-    /// Another count, from the only writer.
     #[inline]
     pub(crate) fn set(&self, count: u32) {
         self.0.store(count, Ordering::Relaxed);
     }
 
-    /// The count.
     #[inline]
     pub(crate) fn get(&self) -> u32 {
         self.0.load(Ordering::Relaxed)

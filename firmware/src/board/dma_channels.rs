@@ -6,7 +6,6 @@ use stm32_metapac::bdma::Ch;
 use stm32_metapac::bdma::regs::Isr;
 use stm32_metapac::bdma::vals::{Dir, Pl};
 
-/// Two channels of DMA1, counted from 0.
 pub(crate) struct Route {
     /// Requested by the SPI's reception.
     pub(crate) rx: usize,
@@ -20,7 +19,6 @@ pub(crate) struct Transfers {
     tx: Channel,
 }
 
-/// A channel.
 #[derive(Clone, Copy)]
 struct Channel {
     registers: Ch,
@@ -37,7 +35,6 @@ mod flag {
 }
 
 impl Channel {
-    /// Counted from 0.
     fn new(number: usize) -> Self {
         // The channels of DMA1 are seven.
         let number = number % 7;
@@ -47,7 +44,6 @@ impl Channel {
         }
     }
 
-    /// Whether one of these flags is among `found`.
     #[inline]
     const fn has(self, found: Isr, flags: u32) -> bool {
         found.0 & flags << self.flags != 0
@@ -111,7 +107,6 @@ impl Transfers {
         self.rx.has(flags, flag::COMPLETE) && !error(self.rx) && !error(self.tx)
     }
 
-    /// Acknowledges the interrupt. The flags stay.
     #[inline]
     pub(crate) fn acknowledge(&self) {
         self.rx.registers.cr().modify(|w| {
@@ -120,7 +115,6 @@ impl Transfers {
         });
     }
 
-    /// Stops both at once, in the middle of a transfer too.
     #[inline]
     pub(crate) fn stop(&self) {
         for channel in [&self.rx, &self.tx] {

@@ -15,14 +15,12 @@ pub(crate) struct Route {
     pub(crate) tx: (u8, u8),
 }
 
-/// The transfers on a route.
 pub(crate) struct Transfers {
     dma: Dma,
     rx: Stream,
     tx: Stream,
 }
 
-/// A stream and the channel of its request.
 #[derive(Clone, Copy)]
 struct Stream {
     registers: St,
@@ -42,7 +40,6 @@ mod flag {
 }
 
 impl Stream {
-    /// Stream and channel of a controller.
     fn new(dma: Dma, (number, channel): (u8, u8)) -> Self {
         let number = usize::from(number % 4);
         Self {
@@ -52,7 +49,6 @@ impl Stream {
         }
     }
 
-    /// Whether one of these flags is among `found`.
     #[inline]
     const fn has(self, found: Ixr, flags: u32) -> bool {
         found.0 & flags << self.flags != 0
@@ -60,7 +56,6 @@ impl Stream {
 }
 
 impl Transfers {
-    /// On a route that has its clock.
     pub(crate) fn new(&Route { dma, rx, tx }: &Route) -> Self {
         let (rx, tx) = (Stream::new(dma, rx), Stream::new(dma, tx));
         Self { dma, rx, tx }
@@ -107,13 +102,11 @@ impl Transfers {
         self.dma.isr(0).read()
     }
 
-    /// Whether the rx DMA has ended, with or without an error.
     #[inline]
     pub(crate) fn has_ended(&self) -> bool {
         self.rx.has(self.flags(), flag::COMPLETE | flag::ERROR)
     }
 
-    /// Whether the rx DMA has moved all bytes, and neither met an error.
     #[inline]
     pub(crate) fn is_complete(&self) -> bool {
         let flags = self.flags();
@@ -121,7 +114,6 @@ impl Transfers {
         self.rx.has(flags, flag::COMPLETE) && !error(self.rx) && !error(self.tx)
     }
 
-    /// Acknowledges the interrupt. The flags stay.
     #[inline]
     pub(crate) fn acknowledge(&self) {
         self.rx.registers.cr().modify(|w| {
@@ -130,7 +122,6 @@ impl Transfers {
         });
     }
 
-    /// Stops both at once, in the middle of a transfer too.
     pub(crate) fn stop(&self) {
         for stream in [&self.rx, &self.tx] {
             let cr = stream.registers.cr();

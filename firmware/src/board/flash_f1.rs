@@ -14,7 +14,6 @@ const PAGE: u32 = 1024;
 /// What went wrong: PGERR and WRPRTERR, cleared by writing ones.
 const ERRORS: u32 = 0x14;
 
-/// What writes it.
 pub(crate) struct Writer(());
 
 /// Waits until it is ready; whether all went well.

@@ -24,7 +24,6 @@ const AT_A_TIME: Psize = Psize::PSIZE32;
 /// What went wrong: OPERR, WRPERR, PGAERR, PGPERR and PGSERR, cleared by writing ones.
 const ERRORS: u32 = 0xF2;
 
-/// Waits until it is ready; whether all went well.
 fn is_done() -> bool {
     // What was stored is on its way before BSY is looked at.
     cortex_m::asm::dsb();
@@ -32,18 +31,15 @@ fn is_done() -> bool {
     FLASH.sr().read().0 & ERRORS == 0
 }
 
-/// What writes it.
 pub(crate) struct Writer(());
 
 impl Writer {
-    /// Ready to write, until it is [closed](Self::close) or the next reset.
     pub(crate) fn new() -> Self {
         flash_lock::open();
         FLASH.sr().write_value(Sr(ERRORS));
         Self(())
     }
 
-    /// Nothing is written any more.
     pub(crate) fn close(self) {
         FLASH.cr().write(|w| w.set_lock(true));
     }

@@ -24,7 +24,6 @@ pub(crate) struct Writer {
     waiting: Option<(usize, u32)>,
 }
 
-/// Waits until it is ready; whether all went well.
 fn is_done() -> bool {
     cortex_m::asm::dsb();
     while FLASH.sr().read().bsy() || FLASH.sr().read().cfgbsy() {}
@@ -32,14 +31,12 @@ fn is_done() -> bool {
 }
 
 impl Writer {
-    /// Ready to write, until it is [closed](Self::close) or the next reset.
     pub(crate) fn new() -> Self {
         flash_lock::open();
         FLASH.sr().write_value(Sr(ERRORS));
         Self { waiting: None }
     }
 
-    /// Nothing is written any more.
     pub(crate) fn close(self) {
         FLASH.cr().write(|w| w.set_lock(true));
     }

@@ -6,7 +6,6 @@ use stm32_metapac::FLASH;
 /// RM0444 have the same).
 const KEYS: [u32; 2] = [0x4567_0123, 0xCDEF_89AB];
 
-/// Opens it.
 pub(crate) fn open() {
     if FLASH.cr().read().lock() {
         for key in KEYS {

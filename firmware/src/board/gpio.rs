@@ -11,7 +11,6 @@ use stm32_metapac::{GPIOA, GPIOB, GPIOC};
 use super::pin_config::PinConfig;
 use crate::here::gpio::configure;
 
-/// A pin of the chip: what a wiring table names.
 #[derive(Clone, Copy)]
 pub(crate) struct PinName {
     port: Gpio,
@@ -33,18 +32,15 @@ impl PinName {
         Self { port, number }
     }
 
-    /// Configures it.
     pub(crate) fn configure(self, config: PinConfig) {
         configure(self.port, usize::from(self.number % 16), config);
     }
 
-    /// Its output low.
     #[inline]
     pub(crate) fn low(self) {
         self.port.bsrr().write_value(Bsrr(1 << (16 + self.number)));
     }
 
-    /// Its output high.
     #[inline]
     pub(crate) fn high(self) {
         self.port.bsrr().write_value(Bsrr(1 << self.number));
@@ -59,7 +55,6 @@ impl PinName {
     }
 }
 
-/// A pin that was configured.
 pub(crate) struct Pin(PinName);
 
 impl Pin {

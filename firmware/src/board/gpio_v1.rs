@@ -5,7 +5,6 @@ use stm32_metapac::gpio::vals::{CnfIn, CnfOut, Mode as Direction};
 
 use crate::board::pin_config::{Mode, PinConfig, Pull, Speed};
 
-/// Configures pin `n` of `port`, 0 to 15.
 #[inline(never)]
 pub(crate) fn configure(port: Gpio, n: usize, config: PinConfig) {
     let output = match config.mode {

@@ -81,7 +81,6 @@ fn scene(found: &Scene) {
     }
 }
 
-/// How a slot is called.
 const fn slot_name(slot: usize) -> &'static str {
     if slot == 0 { "A" } else { "B" }
 }

@@ -12,7 +12,6 @@ use defmt::{Encoder, global_logger};
 
 use super::rtt::{LOG, LOG_BYTES};
 
-/// A line that is being written.
 struct Line {
     encoder: Encoder,
     staged: Staged,
@@ -24,7 +23,6 @@ struct Line {
 struct Staged {
     /// Where the next goes.
     at: usize,
-    /// For how many there is room.
     room: u32,
     /// One found none.
     is_lost: bool,

@@ -89,7 +89,6 @@ mod chip {
 
     /// Interrupts once a tick.
     pub(crate) const TICK_TIMER: TimGp16 = TIM3;
-    /// Its interrupt.
     pub(crate) const TICK_INTERRUPT: Interrupt = Interrupt::TIM3;
 
     /// Each pin has one alternate function without remapping.
@@ -197,7 +196,6 @@ mod chip {
         RCC.cir().read().cssf()
     }
 
-    /// Clock for the ports, and for what says which pin does what.
     pub(crate) fn clock_ports() {
         RCC.apb2enr().modify(|w| {
             w.set_gpioaen(true);
@@ -207,26 +205,22 @@ mod chip {
         });
     }
 
-    /// Clock for what reads the sensor.
     pub(crate) fn clock_sensors(_: u8) {
         RCC.ahbenr().modify(|w| w.set_dma1en(true));
         RCC.apb1enr().modify(|w| w.set_tim4en(true));
         RCC.apb2enr().modify(|w| w.set_spi1en(true));
     }
 
-    /// Clock for the serial port.
     pub(crate) fn clock_serial() {
         RCC.ahbenr().modify(|w| w.set_dma1en(true));
         RCC.apb1enr().modify(|w| w.set_usart2en(true));
     }
 
-    /// The SPI, of which there is one, as after a reset.
     pub(crate) fn reset_spi(_: Spi) {
         RCC.apb2rstr().modify(|w| w.set_spi1rst(true));
         RCC.apb2rstr().modify(|w| w.set_spi1rst(false));
     }
 
-    /// Clock for motor and encoder.
     pub(crate) fn clock_motors(_: u8) {
         RCC.apb1enr().modify(|w| w.set_tim2en(true));
         RCC.apb2enr().modify(|w| w.set_tim1en(true));

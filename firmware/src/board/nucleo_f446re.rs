@@ -11,10 +11,8 @@ use firmware::boards::{self, BoardFacts, CanTiming, Clocks, REST_US};
 pub(crate) const FACTS: BoardFacts = boards::NUCLEO_F446RE;
 /// Its clocks, before they are halved for slow sensors.
 pub(crate) const CLOCKS: Clocks = FACTS.clocks;
-/// The number format of the tick.
 #[cfg(not(feature = "fixed"))]
 pub(crate) type Number = f32;
-/// The number format of the tick.
 #[cfg(feature = "fixed")]
 pub(crate) type Number = whisking::Fix;
 
@@ -118,7 +116,6 @@ mod chip {
 
     /// Interrupts once a tick.
     pub(crate) const TICK_TIMER: TimBasic = TIM7;
-    /// Its interrupt.
     pub(crate) const TICK_INTERRUPT: Interrupt = Interrupt::TIM7;
     /// Alternate function of the PWM's pins, TIM1.
     pub(crate) const PWM_FUNCTION: AlternateFunction = 1;
@@ -211,7 +208,6 @@ mod chip {
     pub(crate) struct Counter(());
 
     impl Counter {
-        /// Counts from now on.
         pub(crate) fn start(_: cortex_m::Peripherals) -> Self {
             TIM5.arr().write_value(u32::MAX);
             TIM5.cr1().write(|w| w.set_cen(true));
@@ -311,7 +307,6 @@ mod chip {
         RCC.cir().read().cssf()
     }
 
-    /// Clock for the ports.
     pub(crate) fn clock_ports() {
         RCC.ahb1enr().modify(|w| {
             w.set_gpioaen(true);
@@ -358,21 +353,18 @@ mod chip {
     #[cfg(feature = "bus")]
     pub(crate) const BUS_FUNCTION: AlternateFunction = 9;
 
-    /// Clock for it.
     #[cfg(feature = "bus")]
     pub(crate) fn clock_bus() {
         RCC.apb1enr().modify(|w| w.set_can1en(true));
         settle();
     }
 
-    /// Clock for the serial port.
     pub(crate) fn clock_serial() {
         RCC.ahb1enr().modify(|w| w.set_dma1en(true));
         RCC.apb1enr().modify(|w| w.set_usart2en(true));
         settle();
     }
 
-    /// A side's SPI as after a reset.
     pub(crate) fn reset_spi(spi: Spi) {
         if cfg!(feature = "both-sides") && spi == SPI2 {
             RCC.apb1rstr().modify(|w| w.set_spi2rst(true));

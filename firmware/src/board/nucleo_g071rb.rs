@@ -10,7 +10,6 @@ use firmware::boards::{self, BoardFacts, Clocks, REST_US};
 pub(crate) const FACTS: BoardFacts = boards::NUCLEO_G071RB;
 /// Its clocks, before they are halved for slow sensors.
 pub(crate) const CLOCKS: Clocks = FACTS.clocks;
-/// The number format of the tick.
 pub(crate) type Number = whisking::Fix;
 
 /// The chip's own oscillator, Hz, within 1 % from 0 to 85 °C (data sheet). The
@@ -89,7 +88,6 @@ mod chip {
 
     /// Interrupts once a tick.
     pub(crate) const TICK_TIMER: TimGp16 = TIM3;
-    /// Its interrupt.
     pub(crate) const TICK_INTERRUPT: Interrupt = Interrupt::TIM3;
 
     /// DMA1 channel 1, counted from 0; it has an interrupt of its own.
@@ -204,7 +202,6 @@ mod chip {
         false
     }
 
-    /// Clock for the ports.
     pub(crate) fn clock_ports() {
         RCC.gpioenr().modify(|w| {
             w.set_gpioaen(true);
@@ -238,7 +235,6 @@ mod chip {
             .write(|w| w.set_dmareq_id(USART2_TX));
     }
 
-    /// The SPI, of which there is one, as after a reset.
     pub(crate) fn reset_spi(_: Spi) {
         RCC.apbrstr2().modify(|w| w.set_spi1rst(true));
         RCC.apbrstr2().modify(|w| w.set_spi1rst(false));

@@ -36,13 +36,11 @@ pub(crate) fn is_internal() -> bool {
     PACE[2].load(Ordering::Relaxed) != 0
 }
 
-/// Ticks a second; 1 or more.
 #[inline]
 pub(crate) fn tick_hz() -> u32 {
     PACE[0].load(Ordering::Relaxed).max(1)
 }
 
-/// A tick, µs.
 pub(crate) fn period_us() -> u32 {
     1_000_000 / tick_hz()
 }

@@ -93,7 +93,6 @@ pub(crate) fn adapt(settings: &mut Settings, gate: Option<Number>) {
     }
 }
 
-/// By which model it decides.
 pub(crate) fn state(inner: &Inner) -> ModelState {
     let perception = inner.perception().filter(|_| Part::Classifier.is_built());
     perception.map_or(ModelState::NotHere, |perception| {
@@ -118,23 +117,19 @@ pub(crate) fn constants(inner: &Inner) -> [Span; 3] {
     found.unwrap_or([Span::NONE; 3])
 }
 
-/// The names of classes.
 pub(crate) struct Names(Option<Model<&'static [u32]>>);
 
 impl Names {
-    /// Of what a module decides for.
     pub(crate) fn of(inner: &Inner) -> Self {
         let perception = inner.perception().filter(|_| Part::Classifier.is_built());
         Self(perception.and_then(|perception| perception.classifier().model().copied()))
     }
 
-    /// The name of a class, if there is one.
     pub(crate) fn find(&self, class: usize) -> Option<&str> {
         let model = self.0.as_ref().filter(|_| Part::Classifier.is_built());
         model?.name(class)
     }
 
-    /// The name of a class.
     pub(crate) fn class(&self, class: usize) -> &str {
         self.find(class).unwrap_or("unknown")
     }

@@ -18,7 +18,6 @@ pub(crate) enum Mode {
     AlternateOpenDrain(AlternateFunction),
 }
 
-/// The resistor inside the chip.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Pull {
     /// None.
@@ -36,7 +35,6 @@ pub(crate) enum Speed {
     High,
 }
 
-/// Configuration of a pin.
 #[derive(Clone, Copy)]
 pub(crate) struct PinConfig {
     /// What it is connected to.

@@ -10,7 +10,6 @@ const LEVEL: u8 = 7;
 /// Its line in EXTI.
 pub(crate) const LINE: usize = 16;
 
-/// Switches the detector on.
 pub(crate) fn start() {
     RCC.apb1enr().modify(|w| w.set_pwren(true));
     PWR.cr().modify(|w| {

@@ -16,7 +16,6 @@ const BROWN_OUT_LEVEL_3: u8 = 0;
 /// Its line in EXTI.
 pub(crate) const LINE: usize = 16;
 
-/// Switches the detector on.
 pub(crate) fn start() {
     RCC.apb1enr().modify(|w| w.set_pwren(true));
     settle();
@@ -26,17 +25,14 @@ pub(crate) fn start() {
     });
 }
 
-/// Whether the supply is below the threshold.
 pub(crate) fn is_low() -> bool {
     PWR.csr1().read().pvdo()
 }
 
-/// Whether it has fallen below it since [`forget`].
 pub(crate) fn has_fallen() -> bool {
     EXTI.pr(0).read().line(LINE)
 }
 
-/// Forgets that it has fallen.
 pub(crate) fn forget() {
     EXTI.pr(0).write(|w| w.set_line(LINE, true));
 }

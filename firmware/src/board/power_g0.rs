@@ -13,7 +13,6 @@ const LEVEL: u8 = 6;
 /// Its line in EXTI.
 pub(crate) const LINE: usize = 16;
 
-/// Switches the detector on.
 pub(crate) fn start() {
     RCC.apbenr1().modify(|w| w.set_pwren(true));
     settle();
@@ -24,17 +23,14 @@ pub(crate) fn start() {
     });
 }
 
-/// Whether the supply is below the threshold.
 pub(crate) fn is_low() -> bool {
     PWR.sr2().read().pvdo()
 }
 
-/// Whether it has fallen below it since [`forget`].
 pub(crate) fn has_fallen() -> bool {
     EXTI.rpr(0).read().line(LINE)
 }
 
-/// Forgets that it has fallen.
 pub(crate) fn forget() {
     EXTI.rpr(0).write(|w| w.set_line(LINE, true));
 }

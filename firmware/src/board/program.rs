@@ -46,7 +46,6 @@ pub struct Queues {
 }
 
 impl Queues {
-    /// Empty.
     pub(crate) const fn new() -> Self {
         Self {
             events: heapless::spsc::Queue::new(),
@@ -253,7 +252,6 @@ fn stop(module: &mut Module, events: &mut Events, is_by_button: bool) {
     }
 }
 
-/// Arms the motors, as somebody has pressed the button.
 #[cold]
 #[inline(never)]
 fn arm(module: &mut Module) {
@@ -360,7 +358,6 @@ pub(crate) struct Idle {
 }
 
 impl Idle {
-    /// What is to be done between two sleeps.
     pub(crate) fn run(&mut self) {
         let now = TICKS.get();
         if now == self.fed {

@@ -20,7 +20,6 @@ const PWM_MODE_1: u8 = 6;
 /// Outputs in use.
 const OUTPUTS: usize = 3;
 
-/// The duty of an output.
 pub(crate) struct Channel {
     compare: Reg<Ccr1ch, RW>,
     /// Of a period.

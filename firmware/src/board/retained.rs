@@ -45,7 +45,6 @@ impl Retained {
 /// The two values of [`Started`], but for its flags.
 static STARTED: [AtomicU32; 2] = [const { AtomicU32::new(0) }; 2];
 
-/// How the board has started.
 pub(crate) fn started() -> Started {
     let found = Started::of(
         STARTED
@@ -59,7 +58,6 @@ pub(crate) fn started() -> Started {
     }
 }
 
-/// Counts this start.
 pub(crate) fn start(cause: StartCause) -> Startup {
     let (record, start) = Record::start(RETAINED.load(), cause);
     RETAINED.store(&record);

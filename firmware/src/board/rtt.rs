@@ -86,7 +86,6 @@ impl Ring {
         }
     }
 
-    /// Bytes that wait to be read.
     #[inline]
     pub(crate) fn waiting(&self) -> u32 {
         let ahead = self.writer().wrapping_sub(self.reader());
@@ -97,7 +96,6 @@ impl Ring {
         }
     }
 
-    /// All up to there was written.
     #[inline]
     pub(crate) fn has_written(&self, writer: u32) {
         // One core, and a probe that reads by the same bus: what is stored before is seen before.
@@ -105,7 +103,6 @@ impl Ring {
         self.writer.store(writer, Ordering::Relaxed);
     }
 
-    /// All up to there was read.
     #[inline]
     pub(crate) fn has_read(&self, reader: u32) {
         compiler_fence(Ordering::Release);
@@ -122,7 +119,6 @@ const UPS: usize = 1;
 #[cfg(not(feature = "rtt"))]
 const DOWNS: usize = 0;
 
-/// The control block.
 #[repr(C)]
 struct Block {
     id: [u8; 16],
@@ -153,7 +149,6 @@ static BLOCK: Block = Block {
     ],
 };
 
-/// The ring of the log.
 pub(crate) static LOG: &Ring = &BLOCK.ups[0];
 
 /// That of packets.

@@ -40,13 +40,11 @@ impl Pace {
 /// Where a scene lies.
 #[derive(Clone, Copy)]
 pub(crate) struct Deployed {
-    /// Its slot.
     pub(crate) slot: usize,
     /// The CRC of the model that it was deployed with; 0: none.
     pub(crate) model: u32,
     /// Its configuration.
     pub(crate) bytes: &'static [u8],
-    /// The CRC of that.
     pub(crate) crc: u32,
 }
 

@@ -77,7 +77,6 @@ pub(crate) fn end_of_frame(source: &mut Source) {
     source.end_of_frame();
 }
 
-/// A sensor's frames.
 pub(crate) struct Frames {
     port: &'static SensorPort,
     transfers: Transfers,

@@ -5,7 +5,6 @@ use stm32_metapac::DMA1;
 use stm32_metapac::bdma::Ch;
 use stm32_metapac::bdma::vals::Dir;
 
-/// Two channels of DMA1, counted from 0.
 pub(crate) struct SerialRoute {
     /// Requested by the USART's reception.
     pub(crate) rx: usize,

@@ -49,7 +49,6 @@ impl SerialTransfers {
         }
     }
 
-    /// How many bytes of a route's ring are left until it wraps.
     #[inline]
     pub(crate) fn left(route: &SerialRoute) -> u16 {
         let rx = route.dma.st(usize::from(route.rx.0 % 8));

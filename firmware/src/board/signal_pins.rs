@@ -9,7 +9,6 @@ use super::pace;
 use super::pin_config::PinConfig;
 use super::wiring::SIGNALS;
 
-/// The pins.
 pub(crate) struct SignalPins {
     pins: [Pin; 2],
     signals: Signals,

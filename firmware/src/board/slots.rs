@@ -44,12 +44,10 @@ fn contents(region: Region) -> &'static [u8] {
     }
 }
 
-/// The header of a slot, if it has one.
 pub(crate) fn header(slot: &Slot) -> Option<SlotHeader> {
     SlotHeader::of(contents(slot.head))
 }
 
-/// Those of both.
 pub(crate) fn headers() -> [Option<SlotHeader>; 2] {
     SLOTS.each_ref().map(header)
 }
@@ -68,7 +66,6 @@ pub(crate) fn no_header(slot: &Slot) -> ConfigError {
     }
 }
 
-/// The place of a slot's model.
 pub(crate) fn model(slot: &Slot) -> &'static [u8] {
     contents(slot.model)
 }

@@ -8,7 +8,6 @@ pub(crate) struct Span {
 }
 
 impl Span {
-    /// None.
     pub(crate) const NONE: Self = Self {
         address: 0,
         words: 0,

@@ -3,7 +3,6 @@
 use stm32_metapac::spi::Spi;
 use stm32_metapac::spi::vals::{Ds, Frxth};
 
-/// Bytes, each received one a request for the DMA.
 pub(crate) fn set_up_bytes(spi: Spi) {
     spi.cr2().write(|w| {
         w.set_ds(Ds::BITS8);
@@ -13,25 +12,21 @@ pub(crate) fn set_up_bytes(spi: Spi) {
     });
 }
 
-/// Where bytes go and come from.
 pub(crate) fn data_register(spi: Spi) -> u32 {
     // Pointers have 32 bits on these chips.
     spi.dr8().as_ptr() as u32
 }
 
-/// Sends a byte.
 #[inline]
 pub(crate) fn send(spi: Spi, byte: u8) {
     spi.dr8().write_value(byte);
 }
 
-/// The byte that was received.
 #[inline]
 pub(crate) fn receive(spi: Spi) -> u8 {
     spi.dr8().read()
 }
 
-/// Throws away bytes that were left over, at most the four of the queue.
 #[inline]
 pub(crate) fn drain(spi: Spi) {
     for _ in 0..4 {

@@ -15,7 +15,6 @@ pub(crate) struct SysTick {
 impl SysTick {
     const MASK: u32 = 0x00FF_FFFF;
 
-    /// Counts from now on.
     pub(crate) fn start(core: cortex_m::Peripherals) -> Self {
         let mut timer = core.SYST;
         timer.set_clock_source(SystClkSource::Core);

@@ -25,7 +25,6 @@ impl TickTimer {
         Self(())
     }
 
-    /// Acknowledges the interrupt.
     #[inline]
     pub(crate) fn acknowledge(&mut self) {
         acknowledge();

@@ -7,13 +7,11 @@ use super::motors::Motor;
 use super::sensor;
 use crate::here::{self, Counter};
 
-/// The number format of the tick.
 pub(crate) type Number = here::Number;
 
 /// What the tick reads.
 pub(crate) type Settings = firmware::Config<Number>;
 
-/// The module on this board.
 pub(crate) type Inner = firmware::Module<Number, Board>;
 
 /// A board's hardware.

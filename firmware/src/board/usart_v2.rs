@@ -2,7 +2,6 @@
 
 use stm32_metapac::usart::Usart;
 
-/// Where bytes come from, and where they go to.
 pub(crate) fn data_registers(usart: Usart) -> [u32; 2] {
     // Pointers have 32 bits on these chips.
     [usart.rdr().as_ptr() as u32, usart.tdr().as_ptr() as u32]

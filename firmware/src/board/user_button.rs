@@ -23,7 +23,6 @@ pub(crate) static HAS_STOPPED: Request = Request(AtomicBool::new(false));
 pub(crate) struct Request(AtomicBool);
 
 impl Request {
-    /// Asks for it.
     pub(crate) fn make(&self) {
         self.0.store(true, Ordering::Relaxed);
     }
@@ -46,7 +45,6 @@ pub(crate) fn is_down() -> bool {
     USER_BUTTON.is_low()
 }
 
-/// The button, low while it is pressed.
 pub(crate) struct UserButton {
     pin: Pin,
     button: Button,

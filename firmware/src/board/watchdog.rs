@@ -9,7 +9,6 @@ use crate::here::CLOCKS;
 /// Its counts while flash is erased and written, of 256 periods of its oscillator.
 const SLOW_COUNTS: u16 = (4 * CLOCKS.watchdog_hz[2] / 256) as u16;
 
-/// The running watchdog.
 pub(crate) struct Watchdog(());
 
 impl Watchdog {
@@ -38,7 +37,6 @@ impl Watchdog {
         dog
     }
 
-    /// Restarts its count.
     #[inline]
     pub(crate) fn feed(&mut self) {
         key(Key::RESET);

@@ -14,7 +14,6 @@ use crate::here::dma::Route;
 
 /// Everything that a whisker hangs on.
 pub(crate) struct Side {
-    /// Its sensor.
     pub(crate) sensor: SensorPort,
     /// Its motor, if that has brushes.
     pub(crate) bridge: BridgePort,
@@ -35,7 +34,6 @@ pub(crate) struct SensorPort {
     pub(crate) dma: Route,
     /// Where it puts what came.
     pub(crate) received: &'static Received,
-    /// Its pins.
     pub(crate) pins: SensorPins,
     /// Alternate function of the three that are the SPI's.
     pub(crate) function: AlternateFunction,
@@ -46,13 +44,11 @@ pub(crate) struct SensorPort {
 pub(crate) struct Received(pub(crate) [AtomicU32; FRAME_LEN / 4]);
 
 impl Received {
-    /// Of zeros.
     pub(crate) const fn new() -> Self {
         Self([const { AtomicU32::new(0) }; FRAME_LEN / 4])
     }
 }
 
-/// A sensor's wires.
 pub(crate) struct SensorPins {
     /// Clock.
     pub(crate) sck: PinName,
@@ -77,7 +73,6 @@ pub(crate) struct BridgePort {
     /// The output of the PWM's timer, and its pin.
     pub(crate) output: Output,
     pub(crate) pwm: PinName,
-    /// Direction.
     pub(crate) direction: PinName,
 }
 
@@ -88,7 +83,6 @@ pub(crate) struct EncoderPort {
     /// Its channels' pins.
     pub(crate) a: PinName,
     pub(crate) b: PinName,
-    /// Their alternate function.
     pub(crate) function: AlternateFunction,
 }
 
@@ -96,7 +90,6 @@ const fn pin(port: char, number: u8) -> PinName {
     PinName::new(port, number)
 }
 
-/// The left sensor.
 pub(crate) const LEFT_SENSOR: SensorPins = SensorPins {
     sck: pin('A', 5),
     miso: pin('A', 6),
@@ -104,7 +97,6 @@ pub(crate) const LEFT_SENSOR: SensorPins = SensorPins {
     select: pin('B', 6),
 };
 
-/// The left encoder.
 pub(crate) const LEFT_ENCODER: [PinName; 2] = [pin('A', 0), pin('A', 1)];
 
 /// The left H-bridge.

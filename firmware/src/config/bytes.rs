@@ -233,7 +233,6 @@ fn body<R: Real>(bytes: &[u8], board: BoardCode) -> Result<&[u8], ConfigError> {
     Ok(body)
 }
 
-/// Writes one part after the other.
 struct Writer<'b> {
     bytes: &'b mut [u8],
     length: usize,

@@ -60,7 +60,6 @@ impl Clock {
         self.said_us = at_us.wrapping_add_signed(self.offset_us);
     }
 
-    /// Number and time of the next one of this node.
     pub(super) const fn next(&mut self) -> (u8, u64) {
         let number = self.next;
         self.next = number.wrapping_add(1);

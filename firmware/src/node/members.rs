@@ -71,7 +71,6 @@ impl Members {
         own.into_iter().chain(other.map(|(number, _)| number)).min()
     }
 
-    /// Whether no lower node lives.
     pub(super) fn is_lowest(&self) -> bool {
         self.living().all(|(number, _)| number > self.number)
     }

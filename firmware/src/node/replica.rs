@@ -38,7 +38,6 @@ impl Replica {
         }
     }
 
-    /// Begins again.
     pub(super) const fn forget(&mut self) {
         self.kept = [None; KEPT];
         self.is_led = [false; MAX_SIDES];

@@ -69,7 +69,6 @@ impl Refusal {
         Self::ALL.iter().copied().find(|one| one.code() == code)
     }
 
-    /// Of what is wrong with a model.
     pub(super) const fn of_model(error: ModelError) -> Self {
         match error {
             ModelError::BadMagic => Self::Strange,

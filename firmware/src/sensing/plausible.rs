@@ -56,7 +56,6 @@ impl Course {
         Ok(())
     }
 
-    /// A tick without words.
     pub(super) const fn miss(&mut self) {
         self.missed = self.missed.saturating_add(1);
     }

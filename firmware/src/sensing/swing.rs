@@ -38,7 +38,6 @@ pub(crate) enum Lost {
 }
 
 impl Lost {
-    /// Its number in the table of limits.
     pub(crate) const fn number(self) -> u8 {
         match self {
             Self::Still => number::UNFELT,
@@ -47,7 +46,6 @@ impl Lost {
     }
 }
 
-/// The extremes of a look that is under way.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct Swing {
     ticks: u16,

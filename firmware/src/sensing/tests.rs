@@ -21,7 +21,6 @@ type Taken = Result<Option<[u8; FRAME_LEN]>, BusError>;
 
 const BAD: Taken = Ok(Some([0xFF; FRAME_LEN]));
 
-/// Frames for the taking, and the ticks in which the next was started.
 struct Script<I> {
     frames: I,
     last: Option<[u8; FRAME_LEN]>,
@@ -45,7 +44,6 @@ impl<I: Iterator<Item = Taken>> FrameSource for Script<I> {
     }
 }
 
-/// A good frame with x at this word.
 fn frame(x: u16) -> [u8; FRAME_LEN] {
     encode::alpha_beta(Word::new(x), Word::MID, Faults::NONE, SumRule::SumB1B6)
 }

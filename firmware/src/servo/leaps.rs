@@ -20,7 +20,6 @@ impl Leaps {
         stood && moved.unsigned_abs() >= least
     }
 
-    /// Counts one; whether they are too many, after which it begins again.
     pub(super) const fn are_too_many(&mut self) -> bool {
         self.seen = self.seen.saturating_add(1);
         if self.seen >= MOST {

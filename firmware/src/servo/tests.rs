@@ -6,7 +6,6 @@ use whisking::pd;
 use super::{Retry, Servo, ServoConfig, ServoState};
 use crate::{AngleInput, Event, Place};
 
-/// A motor that keeps what it is driven with.
 #[derive(Default)]
 struct Kept(Option<Duty>);
 
@@ -23,7 +22,6 @@ impl MotorDriver for Kept {
     fn clear(&mut self) {}
 }
 
-/// A whisker that stands at 300 counts.
 struct Still;
 
 impl AngleInput for Still {

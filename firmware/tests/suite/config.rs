@@ -51,7 +51,6 @@ const HOMING: HomingSettings = HomingSettings {
     calm: 0.05,
 };
 
-/// An active module that decides.
 fn config<R: Number>() -> Config<R> {
     let (_, mut config) = module::<R>();
     let servo = &mut config.motion.as_mut().unwrap().servo;
@@ -69,7 +68,6 @@ fn config<R: Number>() -> Config<R> {
     config
 }
 
-/// The same bytes with the sum that belongs to them.
 fn summed(mut bytes: Vec<u8>) -> Vec<u8> {
     let crc = crc::Crc::<u32>::new(&crc::CRC_32_ISO_HDLC);
     let mut digest = crc.digest();

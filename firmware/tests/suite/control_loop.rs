@@ -41,7 +41,6 @@ impl Clock for Microseconds {
     }
 }
 
-/// One tick as the wires see it.
 struct Tick {
     frame: [u8; 8],
     counts: i32,
@@ -49,7 +48,6 @@ struct Tick {
     direction: Option<State>,
 }
 
-/// A tick that only sets the duty.
 fn tick(frame: [u8; 8], counts: i32, duty: u16) -> Tick {
     let pulses = vec![Pulse::max_duty_cycle(1000), Pulse::set_duty_cycle(duty)];
     Tick {
@@ -60,7 +58,6 @@ fn tick(frame: [u8; 8], counts: i32, duty: u16) -> Tick {
     }
 }
 
-/// A tick that turns the bridge around first.
 fn turn(frame: [u8; 8], counts: i32, direction: State, duty: u16) -> Tick {
     let mut tick = tick(frame, counts, duty);
     tick.pulses.insert(0, Pulse::set_duty_cycle(0));
@@ -68,7 +65,6 @@ fn turn(frame: [u8; 8], counts: i32, direction: State, duty: u16) -> Tick {
     tick
 }
 
-/// A tick with the motor off.
 fn off(frame: [u8; 8], counts: i32) -> Tick {
     Tick {
         frame,
@@ -137,7 +133,6 @@ fn config() -> Config<f32> {
     }
 }
 
-/// Mocks of the wires.
 struct Wires;
 
 impl Hardware for Wires {

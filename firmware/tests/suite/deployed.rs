@@ -16,7 +16,6 @@ const LIMITS: ModelLimits = ModelLimits {
     tick_hz: 2000,
 };
 
-/// Flash for a model.
 #[derive(Clone, Copy)]
 struct Place(Aligned<[u8; 16_384]>);
 

@@ -60,7 +60,6 @@ impl<S: WordSource> Hardware for Toy<S> {
     type Clock = NoClock;
 }
 
-/// Decides nothing.
 pub(crate) struct NoClassifier;
 
 impl SampleClassifier for NoClassifier {
@@ -79,7 +78,6 @@ impl SampleClassifier for NoClassifier {
     fn set_rule(&mut self, _: &RuleSettings) {}
 }
 
-/// A sensor that always sends the same word.
 pub(crate) struct Bent(pub(crate) u16);
 
 impl FrameSource for Bent {
@@ -94,7 +92,6 @@ impl FrameSource for Bent {
     }
 }
 
-/// Time does not pass.
 pub(crate) struct NoClock;
 
 impl Clock for NoClock {

@@ -10,7 +10,6 @@ const ABOUT: About = About {
     model: ModelState::Refused(Refusal::Damaged),
 };
 
-/// What the module answers.
 fn ask(
     link: &mut Link,
     module: &mut Whiskers<f32>,
@@ -212,27 +211,6 @@ fn a_passive_module_streams_and_refuses_what_needs_a_motor() {
         let answer = link.carry_out(&mut module, &config, request, ABOUT, 0);
         assert_eq!(answer.status, CommandStatus::NoWhisker, "{command:?}");
     }
-}
-
-#[test]
-fn it_says_by_which_model_it_decides() {
-    let (mut module, config) = module::<f32>();
-    let mut link = Link::new();
-    let mut asked = |model| {
-        let request = TaggedCommand {
-            tag: 1,
-            command: Command::Model,
-        };
-        let about = About { model };
-        let answer = link.carry_out(&mut module, &config, request, about, 0);
-        (answer.status, answer.values)
-    };
-    let runs = ModelState::Runs {
-        crc: 0xFEDC_BA98,
-        classes: 4,
-    };
-    assert_eq!(asked(runs), (CommandStatus::Done, [-0x0123_4568, 4]));
-    assert_eq!(asked(ModelState::NotHere), (CommandStatus::NotHere, [0, 0]));
 }
 
 #[test]

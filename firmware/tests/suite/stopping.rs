@@ -14,7 +14,6 @@ use whisking::motor::{Duty, Fault, GuardSettings, MotorDriver};
 use crate::command;
 use crate::hardware::{Bent, NoClock, Toy};
 
-/// A whisker that turns by what drives it.
 #[derive(Debug, Default)]
 struct Turned {
     duty: f64,

@@ -19,7 +19,6 @@ pub(crate) struct Finding {
 }
 
 impl Finding {
-    /// Whether it needs a look; so does what is no number.
     pub(crate) fn is_off(&self) -> bool {
         self.found.abs() > self.most || !self.found.is_finite()
     }
@@ -164,7 +163,6 @@ fn swing(of: &Watched, axis: usize) -> f64 {
     })
 }
 
-/// The figures as a table in Markdown.
 pub(crate) fn table(findings: &[Finding]) -> String {
     let mut table = String::from(
         "| figure | unit | found | simulated | at most | |\n|---|---|---|---|---|---|\n",
@@ -185,7 +183,6 @@ pub(crate) fn table(findings: &[Finding]) -> String {
     table
 }
 
-/// To what a person reads.
 fn short(value: f64) -> String {
     let text = format!("{value:.2}");
     let text = text.trim_end_matches('0').trim_end_matches('.');

@@ -52,7 +52,6 @@ impl Channel {
         })
     }
 
-    /// From the middle of the range, as a share of the way to its end.
     pub(crate) fn offset(&self) -> f64 {
         (self.mean - MIDDLE) / HALF_RANGE
     }

@@ -88,7 +88,6 @@ impl Checks {
         .map(|what| format!("{}: {what}", self.label))
     }
 
-    /// A sample; says so once it is at the end of the sensor's range.
     pub(crate) fn sample(&mut self, sample: &Sampled) -> Option<String> {
         if sample.contact < GATE {
             return None;
@@ -161,40 +160,8 @@ impl Checks {
 
 #[cfg(test)]
 mod tests {
-    use wire::Flags;
 
-    use super::{Before, Checks, Sampled, Touches};
-    use crate::source::record;
-
-    #[test]
-    fn losses_and_faults_are_reported_once_and_counted() {
-        let mut checks = Checks::new("felt", 2000);
-        let good = |n| record(n, Flags::VALID);
-        assert_eq!(checks.record(&good(1), Before::Nothing), None);
-        let reported = checks.record(&good(5), Before::Lost(3)).unwrap();
-        assert!(
-            reported.starts_with("felt: records lost before tick 5: 3."),
-            "{reported}"
-        );
-        assert_eq!(checks.record(&good(9), Before::Lost(3)), None);
-        let bad = |n| record(n, Flags::default());
-        let reported = checks.record(&bad(10), Before::Nothing).unwrap();
-        assert!(
-            reported.contains("no valid reading at tick 10"),
-            "{reported}"
-        );
-        assert_eq!(checks.record(&bad(11), Before::Nothing), None);
-        assert_eq!(checks.record(&good(12), Before::Nothing), None);
-        assert_eq!(checks.record(&bad(13), Before::Nothing), None);
-        let end = checks.end(&Touches::new("felt", 0));
-        assert_eq!(
-            end,
-            [
-                "felt: records lost: 6",
-                "felt: spells without a valid reading: 2"
-            ]
-        );
-    }
+    use super::{Checks, Sampled};
 
     #[test]
     fn codes_at_their_ends_are_reported_where_there_is_contact() {

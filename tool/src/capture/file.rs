@@ -74,7 +74,6 @@ impl Recording {
         Ok(())
     }
 
-    /// Says when its first touch ended, if that is not said.
     pub(crate) fn begun_at(&mut self, when: Timestamp) {
         if self.origin.get(FIRST_TOUCH).is_none() {
             let origin = std::mem::take(&mut self.origin);
@@ -97,7 +96,6 @@ impl Recording {
         count(self.streams.iter())
     }
 
-    /// How many labels it has, and how many poses.
     pub(crate) fn labels_and_poses(&self) -> [usize; 2] {
         let labels: BTreeSet<_> = self.streams.iter().map(|stream| &stream.label).collect();
         let poses: BTreeSet<_> = self.streams.iter().map(|stream| &stream.pose).collect();
@@ -111,7 +109,6 @@ impl Recording {
         trials.max().map_or(0, |last: u64| last.saturating_add(1))
     }
 
-    /// Adds streams, and writes the file as it is by now.
     pub(crate) fn add(&mut self, streams: Vec<Stream>) -> Result<(), Error> {
         self.streams
             .extend(streams.into_iter().map(|stream| Stream {

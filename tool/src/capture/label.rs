@@ -38,22 +38,3 @@ pub(crate) fn token(text: &str) -> Result<String, String> {
         Err(reason) => Err(format!("{text:?} {reason}")),
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::Label;
-
-    #[test]
-    fn a_label_names_its_sample_or_is_its_name() {
-        let parts = |text: &str| {
-            let label: Label = text.parse().ok()?;
-            Some((label.name, label.sample))
-        };
-        let both = |a: &str, b: &str| Some((a.to_owned(), b.to_owned()));
-        assert_eq!(parts("felt"), both("felt", "felt"));
-        assert_eq!(parts("a = smooth"), both("a", "smooth"));
-        for text in ["", "=smooth", "a=", "unknown", "a\nb", "@a", "a=\u{1b}"] {
-            assert_eq!(parts(text), None, "{text:?}");
-        }
-    }
-}

@@ -49,7 +49,6 @@ pub(crate) struct Arguments {
 /// Bytes that wait for whoever has the terminal open, at most.
 const MOST_WAITING: usize = 1 << 20;
 
-/// The board's end of a pseudo-terminal.
 struct Terminal {
     master: OwnedFd,
     path: CString,

@@ -249,12 +249,10 @@ struct Capture {
     done: u64,
     /// When the first ended: by the module's clock, s, and by the PC's.
     first: Option<(f64, Timestamp)>,
-    /// Lines about what is wrong.
     warnings: usize,
 }
 
 impl Capture {
-    /// Listens until the sample that is being laid was touched so often.
     fn label(
         &mut self,
         label: &Label,

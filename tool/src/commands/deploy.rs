@@ -44,7 +44,6 @@ pub(crate) struct Arguments {
 type Chosen = (PathBuf, Loaded, Option<ModelBuf>);
 
 impl Arguments {
-    /// What is known of the scene before the module is asked; none: nothing.
     fn chosen(&self, model: Option<&(PathBuf, ModelBuf)>) -> Result<Option<Chosen>, Error> {
         let Some(file) = self.scene.as_deref().or(self.source.scene()) else {
             return Ok(None);
@@ -145,7 +144,6 @@ pub(crate) fn deploy(arguments: &Arguments) -> Result<(), Error> {
     module.print_log(arguments.seconds.unwrap_or(0.0))
 }
 
-/// When the first touch of a recording was, where it says so.
 fn first_touch(data: &Path) -> Result<Option<(String, Timestamp)>, Error> {
     let bytes = file::read(data, file::TABLE_BYTES).map_err(|error| Error::file(data, error))?;
     let (origin, ..) = origin::split(&bytes);

@@ -17,7 +17,6 @@ pub(crate) struct Arguments {
     board: BoardName,
 }
 
-/// Prints a line a check; fails if something is missing that is needed.
 pub(crate) fn doctor(arguments: &Arguments) -> Result<(), Error> {
     let facts = Facts::gather(arguments.board);
     let checks = checks(&facts, arguments.board, &arguments.purposes);

@@ -94,7 +94,6 @@ fn list() -> String {
     text
 }
 
-/// Lines of keys with the values of scene and module: of `keys`, or of all.
 pub(super) fn table(values: &[(&str, f64, f64)], keys: &[&str]) -> String {
     let mut text = format!("{:<26}{:>12}{:>12}", "key", "scene", "module");
     for (key, file, module) in values {

@@ -42,7 +42,6 @@ pub(crate) struct Arguments {
     script: Option<PathBuf>,
 }
 
-/// Writes a row a record, or looks at a table that was written before.
 pub(crate) fn records(arguments: &Arguments, verbosity: Verbosity) -> Result<(), Error> {
     if let Some(path) = &arguments.file {
         let bytes = file::read_piped(path, file::TABLE_BYTES);

@@ -26,7 +26,6 @@ pub(crate) struct Arguments {
     dry_run: bool,
 }
 
-/// Writes values into the scene file, whose comments and order stay.
 pub(crate) fn save(arguments: &Arguments) -> Result<(), Error> {
     let path = arguments.which.scene_file()?;
     output::check(path)?;
@@ -61,7 +60,6 @@ pub(crate) fn save(arguments: &Arguments) -> Result<(), Error> {
     Ok(())
 }
 
-/// Keys and values, from the arguments or from the module.
 fn values(arguments: &Arguments) -> Result<Vec<Override>, Error> {
     let given: Vec<Option<Override>> = arguments
         .keys

@@ -6,14 +6,12 @@ use firmware::boards::ALL;
 use host_sim::bench::config_of;
 use host_sim::classifier::Classifier;
 use host_sim::loaded::Loaded;
-use scene::{Override, Scene};
 use whisking::FormatCode;
 
 use super::Running;
 use crate::deployment::model_of;
 use crate::source::scene_file;
 
-/// The scenes of the workspace that are whole.
 fn scenes() -> Vec<(PathBuf, Loaded)> {
     let files = std::fs::read_dir(scene_file("")).unwrap();
     let files = files.map(|file| file.unwrap().path());
@@ -60,31 +58,4 @@ fn a_configuration_is_made_again_from_its_scene() {
         }
     }
     assert!(count > 20, "{count}");
-}
-
-#[test]
-fn what_differs_is_named() {
-    let text = std::fs::read_to_string(scene_file("textures.toml")).unwrap();
-    let of = |keys: &[&str]| {
-        let keys: Vec<Override> = keys.iter().map(|key| key.parse().unwrap()).collect();
-        let (scene, _) = Scene::from_str_with("textures.toml", &text, &keys).unwrap();
-        let target = Target {
-            runs_on: RunsOn::Board,
-            gate: None,
-            classes: None,
-            overrides: "",
-        };
-        Running::of_scene(&scene, BoardCode::NucleoF446re, target).unwrap()
-    };
-    let file = of(&[]);
-    assert!(file.differs_in(&file).is_empty());
-    for (key, names) in [
-        ("motor.kd=0.001", &["motion.servo.pd.kd"][..]),
-        ("rcp.gain=1.5", &["motion.whisking.rcp.gain"]),
-        ("sensor.zero_after_s=2", &["sensor.limits.zero"]),
-        ("telemetry.pins=true", &["links.has_pins"]),
-        ("whisking.numbers=fixed", &["whisking.numbers"]),
-    ] {
-        assert_eq!(file.differs_in(&of(&[key])), names, "{key}");
-    }
 }

@@ -23,7 +23,6 @@ pub(crate) enum Purpose {
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct Check {
     what: String,
-    /// What mends it, where it is missing.
     mend: Option<String>,
     is_needed: bool,
 }
@@ -57,7 +56,6 @@ const RULES: &str = "echo 'SUBSYSTEM==\"usb\", ATTR{idVendor}==\"0483\", MODE=\"
                      /etc/udev/rules.d/69-whisker.rules && sudo udevadm control --reload && \
                      sudo udevadm trigger";
 
-/// Checks so far, and whether the next ones are needed.
 struct List {
     checks: Vec<Check>,
     is_needed: bool,

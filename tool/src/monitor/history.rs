@@ -46,7 +46,6 @@ pub(crate) struct History {
     pub(crate) tally: Tally,
     pub(crate) sides: [VecDeque<Entry>; 2],
     pub(crate) lines: VecDeque<Said<String>>,
-    /// What has happened in the module, health apart.
     pub(crate) events: VecDeque<Said<EventRecord>>,
     pub(crate) module_classes: Vec<String>,
     pub(crate) beliefs: [VecDeque<Belief>; 2],
@@ -98,7 +97,6 @@ impl History {
         (seconds * f64::from(self.tick_hz)) as u64
     }
 
-    /// The names of the PC's classes; none without a model.
     pub(crate) fn classes(&self) -> &[String] {
         self.listener.as_ref().map_or(&[], Listener::classes)
     }
@@ -214,10 +212,10 @@ fn bound<T>(all: &mut VecDeque<T>, most: usize) {
 
 #[cfg(test)]
 mod tests {
-    use firmware::{Event, EventRecord, Health, Packet};
+    use firmware::Packet;
     use wire::Flags;
 
-    use super::{HELD_S, History, by};
+    use super::{HELD_S, History};
     use crate::source::{Incoming, record};
 
     fn incoming(sequence: u32, flags: Flags) -> Incoming {
@@ -238,26 +236,5 @@ mod tests {
         assert_eq!(found, [5990, 5991, 5992, 5993]);
         assert_eq!(history.between(0, 7, 3).count(), 0);
         assert_eq!(history.between(0, 9000, 8000).count(), 0);
-    }
-
-    #[test]
-    fn lines_have_the_tick_by_which_they_came() {
-        let mut history = History::new(1000, 1, None);
-        let mut next = incoming(40, Flags::default());
-        next.lines = vec!["0.040 INFO  health 10.0 1000 3 0 0".into()];
-        let missed = Health {
-            missed: 3,
-            ..Health::default()
-        };
-        next.packets.push(Packet::Event(EventRecord {
-            sequence: 40,
-            event: Event::Health(missed),
-        }));
-        history.take(&next);
-        history.take(&incoming(50, Flags::default()));
-        assert_eq!(history.health.unwrap().missed, 3);
-        assert_eq!(history.tally.lost, 9);
-        assert!(by(&history.lines, 39).is_none());
-        assert!(by(&history.lines, 40).is_some());
     }
 }

@@ -38,7 +38,6 @@ impl Held {
         }
     }
 
-    /// Writes it to a new file; returns which, and how many records are in it.
     pub(crate) fn write(&self, path: &Path, origin: &Origin) -> Result<(PathBuf, usize), Error> {
         let path = free(path);
         let mut file = RecordFile::create(&path, origin, self.tick_hz, &self.classes)?;
@@ -57,7 +56,6 @@ impl Held {
     }
 }
 
-/// The first name like this that no file has: with a number, if need be.
 fn free(path: &Path) -> PathBuf {
     let (stem, ending) = (path.file_stem(), path.extension());
     let [stem, ending] = [stem, ending].map(|part| part.unwrap_or_default().to_string_lossy());

@@ -29,7 +29,6 @@ pub(crate) struct Shown {
     pub(crate) behind_s: Option<f64>,
     pub(crate) has_help: bool,
     pub(crate) whiskers: Vec<Whisker>,
-    /// Touches and decisions, the newest last.
     pub(crate) events: Vec<String>,
     /// Faults, the newest first, and how many there were.
     pub(crate) faults: Vec<Fault>,
@@ -51,7 +50,6 @@ pub(crate) struct Whisker {
     pub(crate) posteriors: Vec<(String, f32)>,
 }
 
-/// Setpoint and measured angle, degrees; x and y, codes; contact, z, duty.
 pub(crate) fn signals(record: &TickRecord) -> [f64; SIGNALS] {
     let sample = Sample::new(record, 0.0);
     let [x, y] = sample.codes.map(f64::from);
@@ -207,7 +205,6 @@ impl History {
     }
 }
 
-/// Flags of a record that are shown, in their order.
 pub(crate) const STATES: [(&str, Flags); 6] = [
     ("armed", Flags::ARMED),
     ("running", Flags::RUNNING),

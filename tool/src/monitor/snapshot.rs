@@ -58,19 +58,3 @@ impl Snapshot {
         svg::svg(&self.0)
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::size;
-
-    #[test]
-    fn sizes_have_two_parts_within_their_ranges() {
-        let found = size("80x24").unwrap();
-        assert_eq!((found.columns, found.rows), (80, 24));
-        for text in [
-            "80", "x", "80x", "9x24", "80x2", "401x24", "80x201", "-80x24",
-        ] {
-            assert!(size(text).is_err(), "{text}");
-        }
-    }
-}

@@ -35,7 +35,6 @@ pub(crate) enum Deed {
     Save,
 }
 
-/// Every key, as the help has it.
 pub(crate) const KEYS: [(&str, &str); 10] = [
     ("x, space", "stop: motors off until they are armed"),
     ("a", "arm: motors may be driven"),
@@ -140,7 +139,6 @@ impl View {
         }
     }
 
-    /// Goes by so many pictures, if the picture is held.
     fn go(&mut self, extent: Extent, pictures: f64) {
         if self.held.is_none() {
             return;
@@ -155,7 +153,7 @@ impl View {
 
 #[cfg(test)]
 mod tests {
-    use super::{Deed, Extent, Key, Shows, View, deed};
+    use super::{Deed, Extent, Key, View, deed};
 
     const EXTENT: Extent = Extent {
         oldest: 1000,
@@ -198,40 +196,11 @@ mod tests {
     }
 
     #[test]
-    fn there_is_a_right_side_only_where_there_are_two() {
-        let mut view = View::new();
-        let one = Extent {
-            whiskers: 1,
-            ..EXTENT
-        };
-        view.press(Key::Tab, one);
-        assert_eq!(view.shows, Shows::Left);
-        let shown = [0; 3].map(|_| {
-            view.press(Key::Tab, EXTENT);
-            view.sides()
-        });
-        assert_eq!(shown, [&[1][..], &[0, 1], &[0]]);
-    }
-
-    #[test]
     fn motors_are_stopped_by_the_keys_that_say_so() {
         let stops = |key| deed(key) == Some(Deed::Stop);
         assert!(stops(Key::Letter('x')) && stops(Key::Letter(' ')));
         assert_eq!(deed(Key::Control('c')), Some(Deed::StopAndQuit));
         assert_eq!(deed(Key::Letter('c')), None);
         assert_eq!(deed(Key::Letter('q')), Some(Deed::Quit));
-    }
-
-    #[test]
-    fn the_time_that_is_shown_has_ends() {
-        let mut view = View::new();
-        for _ in 0..9 {
-            view.press(Key::Letter('-'), EXTENT);
-        }
-        assert_eq!(view.span_s(), 60.0);
-        for _ in 0..9 {
-            view.press(Key::Letter('+'), EXTENT);
-        }
-        assert_eq!(view.span_s(), 1.0);
     }
 }

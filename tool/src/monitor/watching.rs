@@ -50,9 +50,7 @@ pub(crate) fn joined(listener: JoinHandle<Result<(), Error>>) -> Result<(), Erro
 pub(crate) enum Wish {
     Arm,
     Stop,
-    /// Ends, the module going on.
     End,
-    /// Stops the motors, and ends.
     StopAndEnd,
 }
 
@@ -204,7 +202,6 @@ impl Watching {
         Ok(answers)
     }
 
-    /// Shows a line at the bottom.
     fn say(&self, line: String) {
         let mut shared = lock(&self.shared);
         let now = shared.history.now();

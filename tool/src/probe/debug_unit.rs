@@ -28,7 +28,6 @@ const fn freezes(board: BoardName) -> &'static [(u32, u32)] {
     }
 }
 
-/// The identity of a chip, where such a board's has it.
 pub(super) fn identity<R: Ram>(chip: &mut R, board: BoardName) -> Result<u16, R::Fault> {
     if board == BoardName::NucleoG071rb {
         set(chip, G071_CLOCKS, G071_DEBUG)?;

@@ -125,34 +125,3 @@ impl Bars {
         self.now = Some((step, before + size, progress));
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use std::time::Duration;
-
-    use super::{Bars, ProgressEvent, ProgressOperation, Verbosity};
-
-    #[test]
-    fn each_step_counts_its_own_bytes() {
-        let mut bars = Bars::new(Verbosity::Quiet);
-        let add = |operation, total| ProgressEvent::AddProgressBar {
-            operation,
-            total: Some(total),
-        };
-        let progress = |operation, size| ProgressEvent::Progress {
-            operation,
-            size,
-            time: Duration::ZERO,
-        };
-        bars.take(&add(ProgressOperation::Erase, 100));
-        bars.take(&add(ProgressOperation::Program, 40));
-        bars.take(&add(ProgressOperation::Program, 60));
-        assert_eq!(bars.totals, [100, 100, 0]);
-        bars.take(&progress(ProgressOperation::Erase, 50));
-        bars.take(&progress(ProgressOperation::Erase, 50));
-        let now = |bars: &Bars| bars.now.as_ref().map(|(step, done, _)| (*step, *done));
-        assert_eq!(now(&bars), Some((0, 100)));
-        bars.take(&progress(ProgressOperation::Program, 10));
-        assert_eq!(now(&bars), Some((1, 10)));
-    }
-}

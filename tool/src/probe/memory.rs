@@ -33,7 +33,6 @@ pub(super) struct MemoryPort {
 }
 
 impl MemoryPort {
-    /// Takes hold of the chip without stopping or resetting it.
     pub(super) fn of(mut probe: Probe) -> Result<Self, Error> {
         let silent = |error: String| {
             Error::Work(format!(
@@ -53,7 +52,6 @@ impl MemoryPort {
         Ok(Self { interface })
     }
 
-    /// The identity of the chip, where such a board's has it.
     pub(super) fn chip_id(&mut self, board: BoardName) -> Result<u16, Error> {
         debug_unit::identity(self, board)
     }
@@ -109,7 +107,6 @@ impl Ram for MemoryPort {
     }
 }
 
-/// An error with all its causes, in a line.
 pub(super) fn chain(error: &dyn std::error::Error) -> String {
     let causes = std::iter::successors(Some(error), |error| error.source());
     let causes: Vec<_> = causes.map(ToString::to_string).collect();

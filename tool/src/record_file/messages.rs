@@ -164,7 +164,6 @@ impl Messages {
         self.write(self.channels.log, message.to_string().as_bytes())
     }
 
-    /// The time of what came last, ns.
     fn now(&self) -> u64 {
         let hz = u64::from(self.tick_hz).max(1);
         // In two steps, lest it overflow.

@@ -5,13 +5,10 @@ use firmware::boards::{BoardFacts, NUCLEO_F103RB, NUCLEO_F446RE, NUCLEO_G071RB};
 use super::program::BoardName;
 
 pub(crate) struct Board {
-    /// Its name, as options and the firmware's features have it.
     pub(crate) name: &'static str,
-    /// Its program, and the target that it is built for.
     pub(crate) program: &'static str,
     pub(crate) target: &'static str,
     pub(crate) facts: &'static BoardFacts,
-    /// What probe-rs calls its chip.
     pub(crate) chip: &'static str,
     /// The identity of its chip (RM0390, RM0008 and RM0444, "Debug support", "MCU device ID
     /// code": DEV_ID).

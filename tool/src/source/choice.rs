@@ -73,7 +73,6 @@ pub(crate) struct SourceChoice {
 }
 
 impl SourceChoice {
-    /// The scene of the module's program, where it is named.
     pub(crate) fn scene(&self) -> Option<&Path> {
         self.sim.as_deref().or(self.emulated.as_deref())
     }
@@ -165,7 +164,6 @@ impl SourceChoice {
     }
 }
 
-/// A time in seconds, as an option has it.
 pub(crate) fn seconds(text: &str) -> Result<f64, String> {
     let seconds = text.parse().ok();
     let seconds = seconds.filter(|seconds: &f64| *seconds > 0.0 && *seconds <= 1e6);

@@ -58,7 +58,6 @@ impl Flash {
         self.path.is_some()
     }
 
-    /// What messages call it.
     pub(super) fn name(&self) -> &Path {
         self.path.as_deref().unwrap_or(Path::new("flash"))
     }

@@ -7,7 +7,6 @@ use host_sim::{Error, report};
 
 use super::person::Person;
 
-/// The sample's name, in the command's environment.
 const SAMPLE: &str = "SAMPLE";
 
 /// Who is asked for samples, one at a time.

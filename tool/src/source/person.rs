@@ -74,7 +74,7 @@ impl Person {
 
 #[cfg(test)]
 mod tests {
-    use std::io::{BufReader, Cursor, Read};
+    use std::io::{BufReader, Read};
     use std::sync::mpsc::{self, Receiver, Sender};
     use std::time::{Duration, Instant};
 
@@ -135,18 +135,5 @@ mod tests {
             person.lay("carpet");
             assert_eq!(person.is_laid().unwrap(), laid);
         }
-    }
-
-    #[test]
-    fn a_closed_input_is_reported_once_its_lines_are_used_up() {
-        let mut person = Person::new(|| Box::new(Cursor::new("\n")), false);
-        person.lay("felt");
-        assert_eq!(waited(&mut person), Ok(true));
-        person.lay("carpet");
-        let failure = waited(&mut person).unwrap_err();
-        assert!(
-            failure.starts_with("carpet: standard input was closed before"),
-            "{failure}"
-        );
     }
 }

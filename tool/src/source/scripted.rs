@@ -9,7 +9,6 @@ use wire::{Answer, Command, CommandStatus, Flags, TaggedCommand, TickRecord};
 
 use super::{Incoming, Source, SourceChoice};
 
-/// A record of this tick.
 pub(crate) fn record(sequence: u32, flags: Flags) -> TickRecord {
     TickRecord {
         sequence,
@@ -18,14 +17,12 @@ pub(crate) fn record(sequence: u32, flags: Flags) -> TickRecord {
     }
 }
 
-/// A file of the workspace's scenes.
 pub(crate) fn scene_file(name: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR"))
         .join("../scenes")
         .join(name)
 }
 
-/// The module that the words of a command line choose.
 pub(crate) fn chosen(words: &[&str]) -> SourceChoice {
     #[derive(clap::Parser)]
     struct Line {
@@ -37,7 +34,6 @@ pub(crate) fn chosen(words: &[&str]) -> SourceChoice {
 }
 
 impl Incoming {
-    /// These packets, and no line.
     pub(crate) fn of(packets: impl Into<Vec<Packet>>) -> Self {
         Self {
             packets: packets.into(),

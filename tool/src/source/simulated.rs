@@ -45,7 +45,6 @@ impl Simulated {
         })
     }
 
-    /// What a board would log of the last tick.
     fn lines(&self) -> Vec<String> {
         let t_s = self.now();
         let events = self.run.events().iter();
@@ -58,7 +57,6 @@ impl Simulated {
     }
 }
 
-/// What a board would log of an event.
 fn line(t_s: f64, event: &Event, classes: &[String]) -> Option<String> {
     let (level, said) = report::said(event, classes)?;
     // As defmt pads it.
@@ -66,7 +64,6 @@ fn line(t_s: f64, event: &Event, classes: &[String]) -> Option<String> {
     Some(format!("{t_s:.3} {level:<5} {said}"))
 }
 
-/// What a board would log of the model that it has found.
 fn of_model(found: &Result<ModelBuf, Refusal>) -> Vec<String> {
     match found {
         Ok(model) => {

@@ -3,7 +3,6 @@
 use host_sim::Error;
 use scene::{Scene, Texture};
 
-/// The texture of a simulated world by the name of a sample.
 pub(crate) fn texture(sample: &str, scene: &Scene) -> Result<Texture, Error> {
     let Some(textured) = &scene.plant.textured else {
         let fault = "the scene has no textures to lay before the whisker; allowed: plant.kind = \

@@ -93,7 +93,6 @@ fn contact_min(scene: &mut Scene) -> Option<&mut f64> {
     scene.classifier.as_mut()?.contact_min.as_mut()
 }
 
-/// The key that can be set.
 pub(crate) fn live_key(key: &str, scene: &Scene) -> Result<&'static LiveKey, String> {
     let needs = "it needs a restart: whisker deploy --scene FILE";
     let Some(live) = LIVE.iter().find(|live| live.key == key) else {

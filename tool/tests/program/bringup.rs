@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
 
-use crate::common::Place;
+use crate::common::{Place, scenes};
 
 /// The program of the bench's scene, which is built by the first that asks for it.
 fn program() -> &'static Path {
@@ -39,7 +39,6 @@ fn bringup(place: &Place, events: &[&str], steps: &str) -> String {
     )
 }
 
-/// What is found where this befalls the board, in these steps.
 fn finds(events: &[&str], steps: &str, found: &[&str]) {
     let place = Place::new();
     let ran = place.fails(&bringup(&place, events, &format!("--steps {steps}")));
@@ -165,6 +164,27 @@ fn an_encoder_and_a_motor_that_are_the_wrong_way_round_are_found() {
         "motor",
         &["the motor's supply and its emergency switch"],
     );
+}
+
+#[test]
+fn a_program_of_another_scene_is_refused() {
+    let place = Place::new();
+    let program = program().display();
+    let bench = std::fs::read_to_string(scenes("bench.toml")).unwrap();
+    for (from, to, why) in [
+        ("\"bench\"", "\"other\"", "allowed: that of \"other\""),
+        (
+            "tick_hz    = 2000",
+            "tick_hz = 1000",
+            "found tick_hz = 2000, allowed: 1000",
+        ),
+    ] {
+        place.write("other.toml", &bench.replace(from, to));
+        place.refuses(
+            &format!("log --emulated other.toml --program {program}"),
+            why,
+        );
+    }
 }
 
 #[test]

@@ -2,7 +2,6 @@
 
 use crate::common::Place;
 
-/// The number of a line `KEY = NUMBER`.
 fn number(text: &str, key: &str) -> f64 {
     let line = text.lines().find(|line| line.starts_with(key)).unwrap();
     line.split_once('=').unwrap().1.trim().parse().unwrap()

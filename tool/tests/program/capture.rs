@@ -11,7 +11,6 @@ fn recording(place: &Place, name: &str) -> Vec<Stream> {
     read_recording(&place.path(name), CHANNELS).unwrap()
 }
 
-/// Label, trial and touches of each stream.
 fn shape(streams: &[Stream]) -> Vec<(&str, &str, usize)> {
     let of = |stream: &Stream| {
         let mut touches: Vec<_> = stream

@@ -57,14 +57,12 @@ pub(crate) fn words(line: &str) -> Vec<String> {
     words.map(|word| word.replace('@', &folder)).collect()
 }
 
-/// A file of the workspace's scenes.
 pub(crate) fn scenes(name: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR"))
         .join("../scenes")
         .join(name)
 }
 
-/// A folder to work in; gone when dropped.
 pub(crate) struct Place(TempDir);
 
 /// How the program ended.
@@ -95,7 +93,6 @@ impl Place {
         std::fs::read_to_string(self.path(name)).unwrap()
     }
 
-    /// Runs the program with these [`words`] as arguments.
     pub(crate) fn run(&self, arguments: &str) -> Ran {
         let output = Command::new(env!("CARGO_BIN_EXE_whisker"))
             .args(words(arguments))
@@ -135,12 +132,10 @@ impl Place {
 }
 
 impl Ran {
-    /// Its standard output must have this in it.
     pub(crate) fn prints(&self, text: &str) {
         assert!(self.stdout.contains(text), "no {text:?}: {}", self.stdout);
     }
 
-    /// Its standard error must have this in it.
     pub(crate) fn warns(&self, text: &str) {
         assert!(self.stderr.contains(text), "no {text:?}: {}", self.stderr);
     }

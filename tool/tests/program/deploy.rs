@@ -5,7 +5,6 @@ use crate::common::{OTHER, Place, TWO_SIDES, bench_with, scenes};
 /// The bench in the world of the main job, and how its flash is kept.
 const IN_WORLD: &str = "--sim @bench.toml --world @textures.toml --flash board.flash";
 
-/// Deploys the main job's model there.
 const DEPLOY: &str = "deploy --sim @bench.toml --world @textures.toml --flash board.flash --model \
                       @models/textures.model";
 

@@ -21,7 +21,6 @@ fn main_scene() -> Scene {
     Scene::load(scenes("textures.toml")).unwrap()
 }
 
-/// Captures from the main scene.
 fn capture(place: &Place, more: &str) -> Vec<Stream> {
     place.done(&format!("capture --sim @textures.toml --out c.csv {more}"));
     let streams = read_recording(&place.path("c.csv"), CHANNELS).unwrap();
@@ -36,7 +35,6 @@ fn train(streams: Vec<Stream>) -> ModelBuf {
         .model
 }
 
-/// Hit rate on the main scene with another seed.
 fn hits(model: &ModelBuf, seed: u64) -> f64 {
     let scene = Scene {
         seed,

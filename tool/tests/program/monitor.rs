@@ -27,7 +27,6 @@ fn recorded(place: &Place, name: &str) -> (Vec<Value>, bool) {
     )
 }
 
-/// Whether nothing is missing among records.
 fn is_whole(records: &[Value]) -> bool {
     let number = |record: &Value| record["sequence"].as_u64().unwrap();
     records

@@ -27,7 +27,6 @@ impl Served {
         Self::with(place, "")
     }
 
-    /// With more on its command line.
     fn with(place: &Place, more: &str) -> Self {
         let mut board = Command::new(env!("CARGO_BIN_EXE_whisker"))
             .args(words(BOARD))

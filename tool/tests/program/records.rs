@@ -5,7 +5,6 @@ use scene::Scene;
 
 use crate::common::{BENCH, Place};
 
-/// The cells of a table below what stands above it.
 fn cells(text: &str) -> Vec<Vec<&str>> {
     let rows = text.lines().filter(|line| !line.starts_with('#'));
     rows.map(|row| row.split(',').collect()).collect()

@@ -2,7 +2,6 @@
 
 use crate::common::{BENCH, OTHER, Place, bench_with, scenes};
 
-/// The rows of a table from a time on.
 fn rows_from(table: &str, from_s: f64) -> Vec<&str> {
     let rows = table
         .lines()

@@ -85,7 +85,6 @@ fn missed(stages: &[Stage], figures: &[Figure]) -> Result<String, Fault> {
     }
 }
 
-/// The page.
 pub(super) fn page(figures: &[Figure], deadlines: &str, sizes: &[Figure]) -> Result<String, Fault> {
     let stages = stages()?;
     let rows = figures.iter().map(|figure| {
@@ -117,26 +116,4 @@ pub(super) fn page(figures: &[Figure], deadlines: &str, sizes: &[Figure]) -> Res
         limits = size::limits(),
         sizes = size::beside_goals(sizes)?,
     ))
-}
-
-#[cfg(test)]
-mod tests {
-    use super::{figures, met};
-
-    #[test]
-    fn a_goal_is_for_the_mean_and_a_second_one_for_the_worst() {
-        assert_eq!(met(&[24.0, 30.0], "24"), Some(true));
-        assert_eq!(met(&[24.1, 24.1], "24"), Some(false));
-        let both = "600 (worst 1000)";
-        assert_eq!(met(&[600.0, 1001.0], both), Some(false));
-        assert_eq!(met(&[600.0, 1000.0], both), Some(true));
-        assert_eq!(met(&[1.0, 1.0], ""), None);
-    }
-
-    #[test]
-    fn figures_are_found_by_their_name() {
-        let said = "ticks,,9\nwhole tick,10.5,20\n";
-        assert_eq!(figures(said, "whole tick"), Ok([10.5, 20.0]));
-        assert!(figures(said, "ticks").is_err() && figures(said, "idle").is_err());
-    }
 }

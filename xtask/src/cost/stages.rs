@@ -65,7 +65,6 @@ pub(super) struct Reason {
     pub(super) why: String,
 }
 
-/// All that is known.
 pub(super) fn reasons() -> Result<Vec<Reason>, Fault> {
     #[derive(Deserialize)]
     struct Reasons {

@@ -4,7 +4,6 @@ use firmware::FAULTS;
 use firmware::design_parameters::{RECOVER_S, RETRY_S, WINDOW_S};
 use firmware::faults::{Reaction, Recovery, TABLE};
 
-/// The page.
 pub(super) fn page() -> String {
     let rows = TABLE.iter().map(|row| {
         let (number, name, causes, check) = (row.number, row.name, row.causes, row.check);
@@ -40,20 +39,5 @@ const fn ends(recovery: Recovery) -> &'static str {
         Recovery::Armed => "armed",
         Recovery::Counted => "counted",
         Recovery::Deployed => "deployed",
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::{TABLE, at_once, ends, page};
-
-    #[test]
-    fn every_word_is_explained() {
-        let page = page();
-        for row in TABLE {
-            for word in [at_once(row.reaction), ends(row.recovery)] {
-                assert!(page.contains(&format!("- *{word}*: ")), "{word}");
-            }
-        }
     }
 }

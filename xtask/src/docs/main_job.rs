@@ -4,7 +4,6 @@ use serde::Deserialize;
 
 use crate::run::Fault;
 
-/// The figures of decisions, as `studies decisions` writes them.
 pub(super) const DECISIONS: &str = "docs/measured/decisions.csv";
 
 /// The main job over many runs.
@@ -21,7 +20,6 @@ struct ManyRuns {
 }
 
 impl ManyRuns {
-    /// From the table of decisions.
     fn read(table: &str) -> Result<Self, Fault> {
         let mut reader = csv::Reader::from_reader(table.as_bytes());
         let mut lines = reader.deserialize::<Self>().flatten();
@@ -47,21 +45,4 @@ pub(super) fn page(said: &str, decisions: &str) -> Result<String, Fault> {
         found = many.found,
         contact_ms = many.contact_ms,
     ))
-}
-
-#[cfg(test)]
-mod tests {
-    use super::page;
-
-    #[test]
-    fn the_main_jobs_page_quotes_the_mean_of_many_runs() {
-        let table = "part,runs,hit_rate,hit_rate_error,worst_run,stated,found,contact_ms\n\
-            goals,20,,,,,,\n\
-            main job,100,98.92,0.08,96.81,99.7,99.23,30.2\n";
-        let text = page("trace\n\nthe score\n", table).unwrap();
-        assert!(text.contains("```text\nthe score\n```"), "{text}");
-        assert!(text.contains("Over 100 runs"), "{text}");
-        assert!(text.contains("98.9 ± 0.1 %"), "{text}");
-        assert!(page("trace\n\nthe score\n", "part,runs\n").is_err());
-    }
 }

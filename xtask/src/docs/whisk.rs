@@ -32,7 +32,6 @@ struct Decision {
     t_s: f64,
 }
 
-/// Runs the scene and draws it.
 pub(super) fn picture() -> Result<String, Fault> {
     let path = top().join("scenes/textures.toml");
     let scene = scene::Scene::load(&path).map_err(|error| error.to_string())?;
@@ -190,7 +189,6 @@ fn x_of(t_s: f64) -> f64 {
     left + (right - left) * t_s / SECONDS
 }
 
-/// A dot for each decision, and the last one in words.
 fn named(decisions: &[Decision]) -> String {
     let [left, _, above, _] = CHART;
     let mut svg = String::new();

@@ -16,10 +16,8 @@ const CORE_VECTORS: usize = 16;
 /// The word of the reset.
 const RESET: usize = 1;
 
-/// A function of the program.
 pub(crate) struct Function {
     pub(crate) name: String,
-    /// Its addresses.
     pub(crate) range: Range<u64>,
     /// Bytes of stack that it takes itself.
     pub(crate) own: u64,
@@ -39,7 +37,6 @@ pub(crate) struct Calls {
 }
 
 impl Calls {
-    /// Of an ELF file.
     pub(crate) fn of(elf: &Path) -> Result<Self, Fault> {
         with_elf(elf, |file| {
             Ok::<_, object::Error>(Self {
@@ -59,13 +56,11 @@ impl Calls {
         }
     }
 
-    /// The function that begins there.
     pub(crate) fn at(&self, begin: u64) -> Result<&Function, Fault> {
         let unknown = || format!("{begin:#x} is called, and no function begins there");
         self.functions.get(&begin).ok_or_else(unknown)
     }
 
-    /// Where the program begins.
     pub(crate) fn reset(&self) -> Result<u64, Fault> {
         let reset = self.vectors.get(RESET).copied();
         reset.ok_or_else(|| "no vectors".to_owned())
@@ -101,7 +96,6 @@ fn vectors(file: &object::File<'_>) -> Result<Vec<u64>, object::Error> {
     Ok(words.iter().map(address).collect())
 }
 
-/// The functions, by where they begin.
 fn functions(file: &object::File<'_>) -> Result<BTreeMap<u64, Function>, object::Error> {
     let mut functions = BTreeMap::new();
     let Some(text) = file.section_by_name(".text") else {

@@ -41,7 +41,6 @@ pub(crate) fn inlined(elf: &Path, are_meant: impl Fn(&str) -> bool) -> Result<Ve
     Ok(found)
 }
 
-/// How often `bytes` stand in flash.
 pub(crate) fn occurrences(elf: &Path, bytes: &[u8]) -> Result<usize, Fault> {
     with_elf(elf, |file| {
         let mut found = 0;

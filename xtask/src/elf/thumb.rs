@@ -14,13 +14,10 @@ use jump::Jump;
 /// What an instruction does.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Step {
-    /// Takes bytes of stack.
     Push(u64),
-    /// Calls or branches to an address.
     Go(u64),
     /// Goes wherever a register or a word in memory says, or moves the stack by one.
     Open,
-    /// Stops the program.
     Trap,
 }
 
@@ -87,7 +84,6 @@ struct Instruction {
     second: Option<u16>,
 }
 
-/// What stands in `body`, without its constants.
 fn instructions(body: &[u8], begin: u64, is_instruction: impl Fn(u64) -> bool) -> Vec<Instruction> {
     let half = |address: u64| -> Option<u16> {
         let at = (address - begin) as usize;

@@ -37,7 +37,6 @@ pub(super) fn on_both_sides(path: &Path) -> Result<PathBuf, Fault> {
     })
 }
 
-/// The scene in fixed point.
 pub(super) fn in_fixed_point(path: &Path) -> Result<PathBuf, Fault> {
     variant(path, "fixed", |_, table| {
         set(table, "whisking", "numbers", "fixed");
@@ -68,14 +67,12 @@ pub(super) fn with_options(path: &Path) -> Result<PathBuf, Fault> {
     })
 }
 
-/// The scene without telemetry.
 pub(crate) fn without_telemetry(path: &Path) -> Result<PathBuf, Fault> {
     variant(path, "silent", |_, table| {
         replace(table, "telemetry", [("rtt", false.into())]);
     })
 }
 
-/// The scene with a serial port, and with pins where it classifies.
 pub(super) fn with_serial(path: &Path, baud: u32) -> Result<PathBuf, Fault> {
     variant(path, &format!("{baud}-baud"), |scene, table| {
         let pins = scene.classifier.is_some();
@@ -84,14 +81,12 @@ pub(super) fn with_serial(path: &Path, baud: u32) -> Result<PathBuf, Fault> {
     })
 }
 
-/// The scene with another seed.
 pub(crate) fn with_seed(path: &Path, seed: u32) -> Result<PathBuf, Fault> {
     variant(path, &format!("seed-{seed}"), |_, table| {
         table.insert("seed".to_owned(), seed.into());
     })
 }
 
-/// The scene with so many ticks.
 pub(crate) fn with_ticks(path: &Path, ticks: u32) -> Result<PathBuf, Fault> {
     variant(path, "long", |scene, table| {
         let duration_s = f64::from(ticks) / f64::from(scene.tick_hz);
@@ -129,7 +124,6 @@ pub(crate) fn with(path: &Path, keys: &[String]) -> Result<PathBuf, Fault> {
     })
 }
 
-/// The whiskers of the scene at `path`.
 pub(super) fn whiskers(path: &Path) -> Result<usize, Fault> {
     load(path).map(|scene| scene.whiskers())
 }

@@ -20,7 +20,6 @@ pub(super) struct Found {
 }
 
 impl Found {
-    /// From what libFuzzer says.
     pub(super) fn read(name: &str, said: &str) -> Result<Self, Fault> {
         let mut figures = [0; 6];
         for (figure, (_, label)) in figures.iter_mut().zip(FIGURES) {
@@ -32,7 +31,6 @@ impl Found {
         Ok(Self { name, figures })
     }
 
-    /// A line for a person to read.
     pub(super) fn text(&self) -> String {
         let figures = FIGURES.iter().zip(self.figures);
         let figures = figures.map(|((column, _), figure)| format!("{column} {figure}"));
@@ -40,7 +38,6 @@ impl Found {
         format!("{}: {figures}, no finding", self.name)
     }
 
-    /// A line of the page.
     pub(super) fn row(&self) -> String {
         let figures = self.figures.map(|figure| figure.to_string());
         format!("| {} | {} | 0 |", self.name, figures.join(" | "))
@@ -56,27 +53,4 @@ fn number(label: &str, said: &str) -> Option<u64> {
         .next()?
         .parse()
         .ok()
-}
-
-#[cfg(test)]
-mod tests {
-    use super::Found;
-
-    const SAID: &str = "\
-INFO: Loaded 1 modules   (61442 inline 8-bit counters): 61442 [0x5, 0x6), 
-#9\tNEW    cov: 160 ft: 161 corp: 2/13b lim: 4 exec/s: 0 rss: 43Mb
-#4194304\tDONE   cov: 177 ft: 356 corp: 22/1Kb lim: 4096 exec/s: 1398101 rss: 461Mb
-Done 4194304 runs in 3 second(s)
-stat::number_of_executed_units: 4194304
-stat::average_exec_per_sec:     1398101
-stat::peak_rss_mb:              461
-";
-
-    #[test]
-    fn the_last_figures_are_read() {
-        let found = Found::read("frame", SAID).unwrap();
-        let row = "| frame | 3 | 4194304 | 177 | 61442 | 22 | 461 | 0 |";
-        assert_eq!(found.row(), row);
-        assert!(Found::read("frame", "Done 3 runs").is_err());
-    }
 }

@@ -126,7 +126,6 @@ impl Channels {
         })
     }
 
-    /// Whether register and setting are modelled.
     pub(super) fn write(&mut self, offset: u32, value: u32) -> bool {
         if offset == IFCR {
             for channel in 0..self.channels.len() {

@@ -122,7 +122,6 @@ impl Streams {
         })
     }
 
-    /// Whether register and setting are modelled.
     pub(super) fn write(&mut self, offset: u32, value: u32) -> bool {
         match offset {
             LIFCR => self.clear(0, value),

@@ -46,7 +46,6 @@ impl Default for TwoRegisters {
 }
 
 impl TwoRegisters {
-    /// MODE and CNF of a pin.
     const fn of(&self, pin: u32) -> (u32, u32) {
         let bits = self.0[(pin / 8) as usize] >> (4 * (pin % 8));
         (bits & 3, (bits >> 2) & 3)
@@ -74,7 +73,6 @@ impl TwoRegisters {
         }
     }
 
-    /// Whether the register is modelled.
     pub(super) const fn write(&mut self, offset: u32, value: u32) -> bool {
         match offset {
             CRL => self.0[0] = value,

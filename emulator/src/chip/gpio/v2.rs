@@ -49,7 +49,6 @@ pub(super) struct Modes {
 }
 
 impl Modes {
-    /// MODER, OSPEEDR and PUPDR after a reset.
     pub(super) const fn new([moder, ospeedr, pupdr]: [u32; 3]) -> Self {
         Self {
             registers: [moder, 0, ospeedr, pupdr, 0, 0, 0, 0, 0, 0],
@@ -80,7 +79,6 @@ impl Modes {
         KEPT.contains(&offset).then(|| self.get(offset))
     }
 
-    /// Whether the register is modelled.
     pub(super) fn write(&mut self, offset: u32, value: u32) -> bool {
         let is_known = KEPT.contains(&offset);
         if is_known {

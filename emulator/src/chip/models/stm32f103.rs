@@ -18,7 +18,6 @@ use crate::chip::wiring::{
     Side, Wiring,
 };
 
-/// The places of the timers.
 const TIM2: usize = 0;
 const TIM3: usize = 1;
 const TIM4: usize = 2;
@@ -27,7 +26,6 @@ const TIM1: usize = 3;
 /// Requests are wired to the channels.
 const WIRED: u32 = 0;
 
-/// The chip.
 pub(crate) static F103: Model = Model {
     program: "nucleo_f103rb",
     core: CoreKind::M3,

@@ -18,7 +18,6 @@ use crate::chip::wiring::{
     SerialPort, Side, Wiring,
 };
 
-/// The places of the timers.
 const TIM2: usize = 0;
 const TIM3: usize = 1;
 const TIM5: usize = 2;
@@ -27,7 +26,6 @@ const TIM7: usize = 4;
 const TIM1: usize = 5;
 const TIM8: usize = 6;
 
-/// The chip.
 pub(crate) static F446: Model = Model {
     program: "nucleo_f446re",
     core: CoreKind::M4F,

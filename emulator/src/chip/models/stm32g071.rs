@@ -18,13 +18,11 @@ use crate::chip::wiring::{
     Side, Wiring,
 };
 
-/// The places of the timers.
 const TIM2: usize = 0;
 const TIM3: usize = 1;
 const TIM6: usize = 2;
 const TIM1: usize = 3;
 
-/// The chip.
 pub(crate) static G071: Model = Model {
     program: "nucleo_g071rb",
     core: CoreKind::M0Plus,

@@ -38,55 +38,6 @@ fn eight_bytes_reach_memory_without_the_core() {
 }
 
 #[test]
-fn the_core_can_fetch_eight_bytes_with_gaps_itself() {
-    for on in SIDES {
-        let mut rig = on.rig(on.divider);
-        // Bytes without DMA.
-        rig.write(on.spi + 0x04, 0);
-        rig.write(GPIOB + 0x18, 1 << (16 + on.select));
-        let read = [0; 8].map(|_: u8| {
-            rig.pass(SLOT - BYTE);
-            rig.write(on.spi + 0x0C, 0xFF);
-            rig.pass(BYTE);
-            assert_eq!(rig.read(on.spi + 0x08) & 0x81, 1, "received, and not busy");
-            rig.read(on.spi + 0x0C) as u8
-        });
-        rig.pass(3 * US);
-        on.raise_select(&mut rig);
-        rig.pass(0);
-        assert_eq!(read, ANSWERS);
-        let sensor = &rig.sensors[on.side];
-        let found = (sensor.latched, sensor.polled, sensor.released);
-        assert_eq!(found, (1, 1, 1));
-    }
-}
-
-#[test]
-fn frames_of_both_sides_run_at_once() {
-    let mut rig = LEFT.rig(LEFT.divider);
-    rig.sensors[1].answers = ANSWERS.map(|byte| !byte).to_vec();
-    RIGHT.raise_select(&mut rig);
-    for (address, value) in RIGHT.pins {
-        let before = rig.read(address);
-        rig.write(address, before | value);
-    }
-    RIGHT.set_up_spi(&mut rig, 1, RIGHT.divider);
-    LEFT.begin(&mut rig, SLOT);
-    rig.pass(2 * US);
-    RIGHT.begin(&mut rig, SLOT);
-    rig.pass(8 * SLOT + BYTE - 2 * US - 1);
-    let done = |rig: &Rig| [LEFT.is_done(rig), RIGHT.is_done(rig)];
-    assert_eq!(done(&rig), [false, false]);
-    rig.pass(1);
-    assert_eq!(done(&rig), [true, false]);
-    rig.pass(2 * US);
-    assert_eq!(done(&rig), [true, true]);
-    assert_eq!(LEFT.received(&rig), ANSWERS);
-    assert_eq!(RIGHT.received(&rig), ANSWERS.map(|byte| !byte));
-    assert_eq!(rig.sensors.map(|sensor| sensor.latched), [1, 1]);
-}
-
-#[test]
 fn a_byte_that_nobody_fetches_is_overrun_by_the_next() {
     for on in SIDES {
         let spi = on.spi;

@@ -1,8 +1,7 @@
 //! What reaches motors and comes from encoders, pin by pin.
 
-use super::{GPIOA, GPIOB, GPIOC, RCC, Rig, TIM1};
+use super::{GPIOA, GPIOC, RCC, Rig, TIM1};
 
-const TIM2: u32 = 0x4000_0000;
 const TIM3: u32 = 0x4000_0400;
 const SMCR: u32 = 0x08;
 const CNT: u32 = 0x24;
@@ -42,32 +41,6 @@ fn motor_pins_carry_the_duty_only_while_everything_says_so() {
     carries(&[(bdtr, 1 << 15), output], 0, "a plain output, low");
 }
 
-#[test]
-fn each_side_has_a_channel_and_a_direction_of_its_own() {
-    let mut rig = rig();
-    rig.write(GPIOA, DEBUGGER | 2 << 16 | 2 << 18);
-    rig.write(GPIOA + 0x24, 0x11);
-    rig.write(TIM1 + 0x34, 1_000);
-    rig.write(TIM1 + 0x38, 3_000);
-    rig.write(TIM1 + 0x3C, 5_000);
-    let duties = rig.chip.motor_duties().map(|(on, _)| on);
-    assert_eq!(duties, [1_000, 3_000, 0], "PA8, PA9; PA10 is an input");
-    rig.write(TIM1 + 0x44, 0);
-    assert_eq!(rig.chip.motor_duties().map(|(on, _)| on), [0; 3], "one MOE");
-
-    rig.write(GPIOB, 0x280 | 1 << 10);
-    rig.write(GPIOC, 1 << 16);
-    assert_eq!(rig.chip.motor_directions(), [false, false]);
-    rig.write(GPIOC + 0x18, 1 << 8);
-    assert_eq!(rig.chip.motor_directions(), [false, true], "PC8");
-    rig.write(GPIOB + 0x18, 1 << 5);
-    rig.write(GPIOC + 0x18, 1 << 24);
-    assert_eq!(rig.chip.motor_directions(), [true, false], "PB5");
-    rig.write(GPIOB, 0x280);
-    assert_eq!(rig.chip.motor_directions(), [false, false], "not driven");
-}
-
-/// Gives the pins of both encoders to their timers.
 fn connect_encoders(rig: &mut Rig) {
     rig.write(GPIOA, DEBUGGER | 0b1010);
     rig.write(GPIOA + 0x20, 0x11);
@@ -78,37 +51,6 @@ fn connect_encoders(rig: &mut Rig) {
 fn start_encoder(rig: &mut Rig, timer: u32) {
     rig.write(timer + SMCR, 3);
     rig.write(timer, 1);
-}
-
-#[test]
-fn the_encoder_counts_both_ways_and_through_zero() {
-    let mut rig = Rig::clocked();
-    connect_encoders(&mut rig);
-    rig.write(TIM2 + SMCR, 3);
-    rig.chip.set_encoder(0, 5);
-    assert_eq!(rig.read(TIM2 + CNT), 0, "not enabled");
-    rig.write(TIM2, 1);
-    rig.chip.set_encoder(0, 12);
-    assert_eq!(rig.read(TIM2 + CNT), 7);
-    rig.chip.set_encoder(0, -4);
-    assert_eq!(rig.read(TIM2 + CNT).cast_signed(), -9);
-    rig.pass(super::MS);
-    assert_eq!(rig.read(TIM2 + CNT).cast_signed(), -9, "time moves it not");
-}
-
-#[test]
-fn the_right_encoder_has_16_bits_and_leaves_the_left_alone() {
-    let mut rig = Rig::clocked();
-    connect_encoders(&mut rig);
-    start_encoder(&mut rig, TIM2);
-    start_encoder(&mut rig, TIM3);
-    rig.chip.set_encoder(1, -4);
-    assert_eq!(rig.read(TIM3 + CNT), 0xFFFC);
-    rig.chip.set_encoder(1, 0x1_0003);
-    assert_eq!(rig.read(TIM3 + CNT), 3);
-    assert_eq!(rig.read(TIM2 + CNT), 0);
-    rig.chip.set_encoder(0, 9);
-    assert_eq!((rig.read(TIM2 + CNT), rig.read(TIM3 + CNT)), (9, 3));
 }
 
 #[test]

@@ -7,7 +7,6 @@ use crate::chip::{Fault, Model, ResetCause};
 const PWR: u32 = 0x4000_7000;
 const LINE: u32 = 1 << 16;
 
-/// Whether the detector interrupts.
 fn interrupts(rig: &Rig) -> bool {
     let mut lines = rig.chip.interrupts();
     lines.any(|(irq, up)| irq == 1 && up)

@@ -10,18 +10,15 @@ pub(super) const SLOT: Ps = 50 * US;
 /// Eight bits at 312.5 kHz.
 pub(super) const BYTE: Ps = 25_600_000;
 
-/// Registers and settings, as the driver names them.
 pub(super) struct Registers {
     pub(super) side: usize,
     pub(super) spi: u32,
     pub(super) timer: u32,
-    /// A count of the timer.
     pub(super) count: Ps,
     pub(super) dma: u32,
     /// The streams of rx and tx, and their channels.
     pub(super) streams: [u32; 2],
     pub(super) channels: [u32; 2],
-    /// The divider of the SPI's clock.
     pub(super) divider: u32,
     /// The pin of /SS, on port B.
     pub(super) select: u32,

@@ -6,7 +6,6 @@ use crate::chip::wiring::ByteSignal;
 
 const TIM2: u32 = 0x4000_0000;
 const TIM7: u32 = 0x4000_1400;
-const TIM5: u32 = 0x4000_0C00;
 const IWDG: u32 = 0x4000_3000;
 const CR1: u32 = 0x00;
 const DIER: u32 = 0x0C;
@@ -47,32 +46,6 @@ fn the_tick_interrupts_every_half_millisecond_until_acknowledged() {
     assert!(ticks(&rig), "without drift");
 }
 
-#[test]
-fn a_prescaler_divides_from_the_next_update_on() {
-    let mut rig = Rig::clocked();
-    rig.run_fast();
-    rig.write(TIM7 + PSC, 9);
-    rig.write(TIM7 + CR1, 1);
-    rig.pass(US);
-    assert_eq!(rig.read(TIM7 + CNT), 80, "not yet");
-    rig.write(TIM7 + EGR, 1);
-    rig.pass(US);
-    assert_eq!(rig.read(TIM7 + CNT), 8);
-}
-
-#[test]
-fn the_free_counter_has_32_bits() {
-    let mut rig = Rig::clocked();
-    rig.run_fast();
-    rig.write(TIM5 + CR1, 1);
-    rig.pass(1_000 * MS);
-    assert_eq!(rig.read(TIM5 + CNT), 80_000_000);
-    rig.pass(60_000 * MS);
-    let expected = 80_000_000_u64 * 61 % (1 << 32);
-    assert_eq!(u64::from(rig.read(TIM5 + CNT)), expected);
-}
-
-/// Starts it as the board does: 160 counts of 8 kHz.
 fn start_watchdog(rig: &mut Rig) {
     for key in [0xCCCC, 0x5555] {
         rig.write(IWDG, key);

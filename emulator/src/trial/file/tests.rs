@@ -2,7 +2,6 @@
 
 use std::path::Path;
 
-use mlx90333::{ByteOrder, Mode, SumRule};
 use scene::Scene;
 
 use super::{Scenario, What};
@@ -34,29 +33,6 @@ fn an_event_is_read_with_its_times_side_and_value() {
     assert_eq!(hand.what, What::Hand { torque_nm: -0.002 });
     assert_eq!((hand.side, hand.until_s), (1, Some(1.5)));
     assert!(!hand.lasts(0.9995) && hand.lasts(1.0) && hand.lasts(1.4995) && !hand.lasts(1.5));
-}
-
-#[test]
-fn a_sensor_can_be_another_part_in_all_that_is_not_certain() {
-    let text = "[[event]]
-        at_s = 0.0
-        kind = 'sensor-part'
-        words = 'xyz'
-        sum_rule = 'not-b0-b6'
-        byte_order = 'high-first'
-        rest_us = 300
-        update_hz = 500
-        report = 128";
-    let scenario = Scenario::parse(text).unwrap();
-    let What::SensorPart { part } = scenario.events[0].what else {
-        panic!("{scenario:?}");
-    };
-    let decoder = part.decoder;
-    assert_eq!(decoder.mode, Mode::Xyz);
-    assert_eq!(decoder.sum_rule, SumRule::ComplementB0B6);
-    assert_eq!(decoder.byte_order, ByteOrder::Big);
-    assert_eq!((part.rest_us, part.update_hz), (300, Some(500)));
-    assert_eq!(part.report, 128);
 }
 
 #[test]

@@ -94,7 +94,6 @@ pub(super) fn within(name: &str, value: f64, allowed: RangeInclusive<f64>) -> Re
     Err(format!("{name}: found {value}, allowed: {least} to {most}"))
 }
 
-/// The name of a kind in the file.
 fn name_of(kind: Kind) -> String {
     let name = serde_json::to_value(kind).ok();
     name.and_then(|name| Some(name.as_str()?.to_owned()))
@@ -102,7 +101,6 @@ fn name_of(kind: Kind) -> String {
 }
 
 impl Written {
-    /// The name of its kind.
     pub(super) fn name(&self) -> String {
         name_of(self.kind)
     }
@@ -212,7 +210,6 @@ impl Written {
         })
     }
 
-    /// Refuses what belongs to other kinds.
     fn has_nothing_else(&self) -> Result<(), String> {
         let left = [
             ("counts", self.counts.is_some()),

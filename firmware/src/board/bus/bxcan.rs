@@ -27,7 +27,6 @@ const LATE_MS: u32 = 4;
 /// that disturbs all others does so for some milliseconds ten times a second.
 const OFF_MS: u32 = 100;
 
-/// The controller.
 pub(super) struct Controller {
     /// What each mailbox has, and for how many ticks.
     boxes: [Option<(Frame, u32)>; BOXES],
@@ -173,7 +172,6 @@ impl Controller {
         }
     }
 
-    /// The next frame that has come.
     pub(super) fn take() -> Option<Frame> {
         let queue = CAN.rfr(0).read();
         // The place of the last is being freed: the interrupt comes again for the next.

@@ -10,7 +10,6 @@ pub(crate) const fn number(_: &Settings) -> u8 {
     0
 }
 
-/// No head.
 pub(crate) struct Head;
 
 impl Head {

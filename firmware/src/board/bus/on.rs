@@ -68,7 +68,6 @@ const FOLLOWS_MOST: i32 = 1_024;
 /// microseconds, by messages that come between ticks.
 const FOLLOWS: i32 = 16;
 
-/// The board's own time.
 struct Time {
     clock: Counter,
     /// Counts in a microsecond.
@@ -128,7 +127,6 @@ impl Time {
         self.tick_us
     }
 
-    /// Now, µs.
     fn now(&mut self) -> u64 {
         let since = self.clock.now().wrapping_sub(self.tick);
         self.tick_us + u64::from(since.checked_div(self.per_us).unwrap_or(0))
@@ -186,7 +184,6 @@ impl Head {
         }
     }
 
-    /// Notes an event of this tick.
     #[inline]
     pub(crate) fn note(&mut self, event: &Event) {
         if let (Some(OnBus { decided, .. }), Event::Decision(_, decision)) = (&mut self.0, event) {
@@ -245,7 +242,6 @@ impl Head {
         }
     }
 
-    /// Arms them.
     pub(crate) fn arm(&mut self) {
         if let Some(OnBus { node, .. }) = &mut self.0 {
             node.arm();

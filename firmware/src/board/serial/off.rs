@@ -7,26 +7,20 @@ use crate::board::about::About;
 use crate::board::perception::Names;
 use crate::board::telemetry::Exchange;
 
-/// There is no line.
 pub(crate) fn started(_: StartCause, _: &Startup, _: &About) {}
 
-/// There is no line.
 pub(crate) fn not_armed(_: NotArmed, _: &About) {}
 
-/// No line is lost.
 pub(crate) fn lost() -> u32 {
     0
 }
 
-/// There is no line.
 pub(crate) fn send_event(_: &Frame) {}
 
-/// There is no room.
 pub(crate) fn send_record(_: &Frame) -> bool {
     false
 }
 
-/// No port.
 pub(crate) struct Serial;
 
 impl Serial {

@@ -36,7 +36,6 @@ const VERSION: &str = env!("CARGO_PKG_VERSION");
 /// Requests that may wait for others.
 const WAITING: usize = 4;
 
-/// What is asked for.
 #[derive(Clone, Copy)]
 struct Asked {
     request: Result<TaggedCommand, UnknownCommand>,
@@ -54,12 +53,10 @@ impl Asked {
     }
 }
 
-/// A line that begins now.
 fn line() -> Line {
     lines::at(TICKS.get(), pace::tick_hz())
 }
 
-/// The first lines after a reset.
 #[inline(never)]
 pub(crate) fn started(cause: StartCause, start: &Startup, about: &About) {
     if about.links.serial_baud.is_none() {
@@ -69,7 +66,6 @@ pub(crate) fn started(cause: StartCause, start: &Startup, about: &About) {
     lines::start(line, what, (start, cause), |said| sent::line(said.ended()));
 }
 
-/// The motors are off until they are armed.
 #[inline(never)]
 pub(crate) fn not_armed(reason: NotArmed, about: &About) {
     if about.links.serial_baud.is_none() {
@@ -85,12 +81,10 @@ pub(crate) fn lost() -> u32 {
     sent::LOST.get()
 }
 
-/// Sends the frame of an event, or counts it.
 pub(crate) fn send_event(frame: &Frame) {
     sent::line(frame);
 }
 
-/// Sends the frame of a record, if there is room.
 pub(crate) fn send_record(frame: &Frame) -> bool {
     sent::record(frame)
 }
@@ -101,7 +95,6 @@ pub(crate) fn writer() -> usize {
     received::writer(SerialTransfers::left(&SERIAL_ROUTE))
 }
 
-/// The port.
 pub(crate) struct Serial {
     transfers: SerialTransfers,
     received: Received,
@@ -153,7 +146,6 @@ impl Serial {
         })
     }
 
-    /// The line of an event. What the image was built without has none.
     pub(crate) fn say(&mut self, event: &Event, names: &Names) {
         let mut said = line();
         let context = Context {
@@ -190,7 +182,6 @@ impl Serial {
         }
     }
 
-    /// Takes what has come.
     #[inline(never)]
     fn receive(&mut self, now: u32) {
         while let Some(byte) = self.received.next() {
@@ -290,7 +281,6 @@ impl Serial {
         Some(self.waiting.pop_front()?.request)
     }
 
-    /// Sends an answer.
     pub(crate) fn reply(&mut self, answer: &Answer) {
         sent::answer(&wire::frame(&Packet::Answer(*answer)));
     }

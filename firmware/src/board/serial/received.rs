@@ -24,20 +24,17 @@ pub(crate) fn writer(left: u16) -> usize {
     RECEIVED_BYTES.saturating_sub(left.into()) % RECEIVED_BYTES
 }
 
-/// Where the ring is.
 pub(crate) fn address() -> u32 {
     // Pointers have 32 bits on these chips.
     RING.as_ptr() as u32
 }
 
-/// The reader of the ring.
 pub(crate) struct Received {
     /// The next byte.
     at: usize,
 }
 
 impl Received {
-    /// Before the first byte.
     pub(crate) const fn new() -> Self {
         Self { at: 0 }
     }
@@ -56,7 +53,6 @@ impl Received {
         Some(byte)
     }
 
-    /// Bytes that had come with the last one, since the start.
     pub(crate) fn count(&self) -> u32 {
         LOOKED.bytes_until(self.at, RECEIVED_BYTES)
     }

@@ -74,7 +74,6 @@ pub(crate) fn piece() -> Option<(u32, u16)> {
     Some((first.as_ptr() as u32, (end - reader) as u16))
 }
 
-/// So many bytes are sent.
 pub(crate) fn has_sent(bytes: u16) {
     let reader = (offset(&READER) + usize::from(bytes)) % BYTES;
     READER.store(reader as u32, Ordering::Relaxed);

@@ -15,14 +15,12 @@ use crate::here::FACTS;
 /// that it refuses: there is one place for settings more than the tick needs.
 pub(crate) type Spare = &'static mut Settings;
 
-/// A way for them.
 type Way = heapless::spsc::Queue<Spare, 2>;
 
 /// There and back.
 pub(crate) struct Queue([Way; 2]);
 
 impl Queue {
-    /// Empty.
     pub(crate) const fn new() -> Self {
         Self([Way::new(), Way::new()])
     }

@@ -17,7 +17,6 @@ use crate::board::{log, retained, serial};
 /// How something was asked for, and is answered.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Origin {
-    /// By a probe.
     Probe,
     /// By a frame on the serial line.
     Frame,
@@ -59,7 +58,6 @@ enum Reader {
     Serial,
 }
 
-/// Idle's end.
 pub(crate) struct Exchange {
     ends: IdleEnds,
     configs: Configs,
@@ -81,7 +79,6 @@ pub(crate) struct Exchange {
 }
 
 impl Exchange {
-    /// Nothing was asked for yet.
     pub(crate) fn new(ends: IdleEnds, configs: Configs, about: &About) -> Self {
         Self {
             ends,
@@ -118,7 +115,6 @@ impl Exchange {
         self.configs.log_changes(now);
     }
 
-    /// Takes what a probe asks for.
     pub(crate) fn take_from_probe(&mut self, names: &Names) {
         if self.is_free()
             && !self.is_serials_turn
@@ -181,7 +177,6 @@ impl Exchange {
         Some((self.pending?, self.answer?))
     }
 
-    /// The answer that is to be sent, and how it was asked for.
     pub(crate) fn answer(&mut self) -> Option<(Origin, Answer)> {
         let (pending, answer) = self.answered()?;
         // A loader has an answer of its own.
@@ -200,7 +195,6 @@ impl Exchange {
         Some((load, answer, pending.origin != Origin::Probe))
     }
 
-    /// That answer is sent.
     pub(crate) fn has_answered(&mut self) {
         let answer = self.answer.take();
         let is_done = answer.is_some_and(|answer| answer.status == CommandStatus::Done);
@@ -227,7 +221,6 @@ impl Exchange {
         }
     }
 
-    /// The same of one way.
     fn answer_stop(&mut self, way: usize, reply: impl Fn(&Answer) -> bool) {
         let (Some(owed), Some(paid)) = (OWED.get(way), self.paid.get_mut(way)) else {
             return;
@@ -260,7 +253,6 @@ impl Exchange {
             .all(|(owed, paid)| owed.get() == paid)
     }
 
-    /// Answers a probe.
     pub(crate) fn answer_probe(&mut self) {
         self.answer_stop(0, |answer| {
             ProbeLine::put(&wire::frame(&Packet::Answer(*answer)))
@@ -272,7 +264,6 @@ impl Exchange {
         }
     }
 
-    /// Sends an event to whoever reads records.
     pub(crate) fn send_event(&self, event: EventRecord) {
         let Some(reader) = self.reader else {
             return;

@@ -8,7 +8,6 @@ use crate::board::perception::Names;
 use crate::board::scene::Deployed;
 use crate::board::types::{Inner, Number, Settings};
 
-/// Nothing goes from idle to the tick.
 pub(crate) struct Queues;
 
 /// An end of nothing.
@@ -24,7 +23,6 @@ impl Queues {
     }
 }
 
-/// Nothing is asked about configurations.
 pub(crate) struct Configs;
 
 impl Configs {
@@ -37,7 +35,6 @@ impl Configs {
     }
 }
 
-/// No request comes.
 pub(crate) struct ProbeLine;
 
 impl ProbeLine {
@@ -52,7 +49,6 @@ impl ProbeLine {
     }
 }
 
-/// No requests come.
 pub(crate) struct Exchange {
     pub(crate) probe: ProbeLine,
 }
@@ -77,7 +73,6 @@ impl Exchange {
     pub(crate) fn send_records(&mut self) {}
 }
 
-/// No link.
 pub(crate) struct Telemetry;
 
 impl Telemetry {

@@ -56,7 +56,6 @@ pub(crate) struct Queues {
     settings: configs::Queue,
 }
 
-/// The tick's ends of them.
 pub(crate) struct TickEnds {
     records: Producer<'static, TickRecord>,
     requests: Consumer<'static, Asked>,
@@ -64,7 +63,6 @@ pub(crate) struct TickEnds {
     settings: Ways,
 }
 
-/// Idle's ends.
 pub(crate) struct IdleEnds {
     records: Consumer<'static, TickRecord>,
     requests: Producer<'static, Asked>,
@@ -72,7 +70,6 @@ pub(crate) struct IdleEnds {
 }
 
 impl Queues {
-    /// Empty.
     pub(crate) const fn new() -> Self {
         Self {
             records: heapless::spsc::Queue::new(),
@@ -171,7 +168,6 @@ impl Telemetry {
         self.link.send(module, settings, tick, put);
     }
 
-    /// Carries out what was asked for, and answers it.
     pub(crate) fn talk(&mut self, module: &mut Inner, settings: &mut Spare, tick: u32) {
         let Some(asked) = self.ends.requests.dequeue() else {
             return;

@@ -10,13 +10,11 @@ use crate::board::rtt::{DOWN, PACKETS, REQUESTS, UP};
 /// Bytes of the ring that records leave free, for events and answers.
 const KEPT: u32 = 128;
 
-/// The board's end of them.
 pub(crate) struct ProbeLine {
     splitter: Splitter<CONTENT_BYTES>,
 }
 
 impl ProbeLine {
-    /// Nothing has come yet.
     pub(crate) const fn new() -> Self {
         Self {
             splitter: Splitter::new(),
@@ -34,7 +32,6 @@ impl ProbeLine {
         DOWN.reader() as usize != PROBE.until(REQUESTS.len())
     }
 
-    /// The bytes that had come with the last one.
     pub(crate) fn count(&self) -> u32 {
         PROBE.bytes_until(DOWN.reader() as usize, REQUESTS.len())
     }
@@ -68,7 +65,6 @@ impl ProbeLine {
         has_room(KEPT + frame.len() as u32) && Self::put(frame)
     }
 
-    /// Puts a frame in, whole or not at all; whether there was room.
     pub(crate) fn put(frame: &Frame) -> bool {
         if !has_room(frame.len() as u32) {
             return false;
@@ -89,7 +85,6 @@ impl ProbeLine {
         Self::put(&wire::frame(&firmware::Packet::Answer(*answer)));
     }
 
-    /// Whether all was fetched.
     pub(crate) fn has_sent() -> bool {
         UP.waiting() == 0
     }

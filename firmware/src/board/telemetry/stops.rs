@@ -17,12 +17,10 @@ use crate::board::serial;
 pub(crate) struct Looked(AtomicU32);
 
 impl Looked {
-    /// None yet.
     pub(crate) const fn new() -> Self {
         Self(AtomicU32::new(0))
     }
 
-    /// How many.
     #[inline]
     pub(crate) fn bytes(&self) -> u32 {
         self.0.load(Ordering::Relaxed)
@@ -91,7 +89,6 @@ pub(crate) enum By {
     Serial,
 }
 
-/// The tick's look at the links.
 pub(crate) struct Stops {
     probe: Option<StopWatch>,
     #[cfg(feature = "serial")]
@@ -101,7 +98,6 @@ pub(crate) struct Stops {
 }
 
 impl Stops {
-    /// Of a module that has these links.
     pub(crate) fn new(links: firmware::Links) -> Self {
         Self {
             probe: links.has_rtt.then(StopWatch::new),
@@ -117,7 +113,6 @@ impl Stops {
         self.has_more() && self.look_at_links(tick)
     }
 
-    /// Whether anything has come by a link.
     #[inline]
     fn has_more(&self) -> bool {
         #[cfg(feature = "serial")]

@@ -12,7 +12,6 @@ const COUNT_DEG: f64 = 0.064;
 const RECORD_DEG: f64 = 100.0 / 8192.0;
 const STEPS: usize = 50;
 
-/// A whisker that follows steps of its setpoint.
 fn followed(motor: Motor, kp: f64, kd: f64) -> Vec<Sample> {
     let rounded = |value: f64, step: f64| (value / step).floor() * step;
     let acceleration = motor.speed_deg_s / motor.tau_s;

@@ -46,7 +46,6 @@ impl Bench {
         })
     }
 
-    /// Asks the module again what it is and runs by, once it has another scene.
     pub(super) fn ask_again(&mut self) -> Result<(), Error> {
         self.about = self.module.about()?;
         self.running = Running::ask(&mut self.module)?;
@@ -66,7 +65,6 @@ impl Bench {
         }
     }
 
-    /// Asks for something, and waits until it is done.
     pub(super) fn ask(&mut self, what: &str) -> Result<(), Error> {
         if self.typed.is_none() {
             report::warn(what);
@@ -107,7 +105,6 @@ impl Bench {
         }
     }
 
-    /// Why records of every tick cannot be had, where they cannot.
     pub(super) fn no_records(&mut self) -> Result<Option<String>, Error> {
         let status = self.module.answer(Command::Stream(true))?.status;
         Ok((status != CommandStatus::Done).then(|| {

@@ -43,7 +43,6 @@ pub(super) fn module(bench: &mut Bench) -> Result<Part, Error> {
     })
 }
 
-/// What a start says of clock and supply.
 fn of_start(started: Started, part: &mut Part) {
     let Started {
         number: starts,

@@ -108,7 +108,6 @@ pub(super) fn motor(bench: &mut Bench, side: u8) -> Result<Part, Error> {
     Ok(judged(turned?, bench.counts_up[usize::from(side)]))
 }
 
-/// Why a gentler motor cannot be had.
 fn refused(taken: &Taken) -> Option<String> {
     let why = match taken {
         Taken::Runs => return None,
@@ -141,7 +140,6 @@ fn tried(bench: &mut Bench, side: u8) -> Result<Turns, Error> {
     }
 }
 
-/// Waits until the whisker stands still, which arming takes for rest.
 fn stands_still(whisker: &mut Listening<'_>) -> Result<(), Error> {
     let still = (STILL_S / whisker.tick_s()) as u32;
     let (mut at, mut since) = (f64::NAN, 0);

@@ -81,12 +81,10 @@ impl Part {
         }
     }
 
-    /// Whether all is well.
     pub(super) fn is_well(&self) -> bool {
         self.findings.is_empty()
     }
 
-    /// The step, and the side where it has one.
     fn title(&self) -> String {
         let side = self.side.map(|side| format!(" {side}"));
         format!("{}{}", self.step, side.unwrap_or_default())
@@ -147,7 +145,6 @@ impl Report {
         text.map_err(|fault| Error::Work(fault.to_string()))
     }
 
-    /// Lists what was found; fails if anything was.
     pub(super) fn end(&self) -> Result<(), Error> {
         report::say(format_args!("findings: {}", self.findings.len()));
         if self.findings.is_empty() {

@@ -54,7 +54,6 @@ pub(super) fn find(bench: &mut Bench, scene: &Path) -> Result<Part, Error> {
     Ok(part.means("it is not the rest by which the sensor does not answer"))
 }
 
-/// Gives the module the scene with so many ticks a second.
 fn deploy(bench: &mut Bench, scene: &Path, tick_hz: u32) -> Result<(), Error> {
     let rate = Override::new("--find-rest".to_owned(), "tick_hz", &tick_hz.to_string());
     let loaded = Loaded::checked(scene, &[rate])?;
@@ -66,7 +65,6 @@ fn deploy(bench: &mut Bench, scene: &Path, tick_hz: u32) -> Result<(), Error> {
     bench.stop()
 }
 
-/// What a rate has come to.
 struct Tried {
     leaves: Leaves,
     /// Frames that were answered, of the side that answers least.

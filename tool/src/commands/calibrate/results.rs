@@ -19,7 +19,6 @@ pub(super) struct Results {
 }
 
 impl Results {
-    /// As TOML, below where it comes from.
     pub(super) fn toml(&self, origin: &Origin) -> String {
         let mut document = DocumentMut::new();
         let mut put = |key: &str, found: Item| document[key] = found;

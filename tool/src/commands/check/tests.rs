@@ -16,7 +16,6 @@ struct Line {
     arguments: Arguments,
 }
 
-/// The signs of what is found of such a module.
 fn signs(alter: Alter) -> Vec<&'static str> {
     let folder = tempfile::tempdir().unwrap();
     let scene: PathBuf = folder.path().join("scene.toml");
@@ -61,7 +60,6 @@ fn invalidate(record: &mut TickRecord) -> bool {
     true
 }
 
-/// A number between −1 and 1 that differs from tick to tick.
 fn noise(record: &TickRecord) -> f64 {
     let mixed = record.sequence.wrapping_mul(0x9E37_79B9).rotate_left(15);
     f64::from(mixed.wrapping_mul(0x85EB_CA6B)) / f64::from(u32::MAX) * 2.0 - 1.0
@@ -73,7 +71,6 @@ const ALONE: IsThere = |signs, sign| signs == [sign];
 const FIRST: IsThere = |signs, sign| signs[0] == sign;
 const AMONG: IsThere = |signs, sign| signs.contains(&sign);
 
-/// Codes that follow the angle.
 fn following(record: &TickRecord) -> f64 {
     2.0 * f64::from(wire::degrees(record.measured)) - 100.0
 }

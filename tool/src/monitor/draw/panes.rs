@@ -173,19 +173,3 @@ fn faults_pane(frame: &mut Frame<'_>, area: Rect, shown: &Shown, theme: Theme) {
         Paragraph::new(lines).wrap(Wrap { trim: true }),
     );
 }
-
-#[cfg(test)]
-mod tests {
-    use super::bar;
-
-    #[test]
-    fn a_bar_is_as_long_as_its_share() {
-        assert_eq!(bar(0.0, 4), "    ");
-        assert_eq!(bar(0.5, 4), "██  ");
-        assert_eq!(bar(0.28125, 4), "█▏  ");
-        assert_eq!(bar(1.0, 4), "████");
-        assert_eq!(bar(7.0, 2), "██");
-        assert_eq!(bar(f32::NAN, 2), "  ");
-        assert_eq!(bar(0.5, 0), "");
-    }
-}

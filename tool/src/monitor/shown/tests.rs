@@ -48,18 +48,6 @@ fn a_peak_of_one_tick_is_in_the_picture_where_it_was() {
 }
 
 #[test]
-fn a_held_picture_ends_where_it_was_held() {
-    let history = history();
-    let mut held = View::new();
-    held.held = Some(1500);
-    let shown = history.shown(&held, "t", String::new());
-    assert_eq!((shown.to_s, shown.behind_s), (1.5, Some(2.5)));
-    assert!(shown.faults.is_empty());
-    let last = shown.whiskers[0].curves[0].last().unwrap();
-    assert!((last.0 - 1.5).abs() < 0.03);
-}
-
-#[test]
 fn faults_come_with_cause_and_remedy() {
     let shown = history().shown(&View::new(), "t", String::new());
     let expected = Fault {

@@ -21,7 +21,6 @@ pub(super) const TERM: Signal = Signal::TERM;
 pub(super) const HANGUP: Signal = Signal::HUP;
 pub(super) const INTERRUPT: Signal = Signal::INT;
 
-/// For how long something is waited for.
 const PATIENCE: Duration = Duration::from_secs(30);
 
 /// The program in a terminal.
@@ -29,7 +28,6 @@ pub(super) struct Terminal {
     program: Child,
     keyboard: File,
     inside: OwnedFd,
-    /// As it was.
     modes: Termios,
     seen: Arc<Mutex<Parser>>,
     reads: Arc<AtomicBool>,
@@ -88,19 +86,16 @@ impl Terminal {
         }
     }
 
-    /// What is on it, a line each.
     pub(super) fn text(&self) -> String {
         format!("\n{}", self.seen.lock().unwrap().screen().contents())
     }
 
-    /// The line with a word in it.
     pub(super) fn line(&self, word: &str) -> String {
         let text = self.text();
         let line = text.lines().find(|line| line.contains(word));
         line.unwrap_or_else(|| panic!("{word}:\n{text}")).to_owned()
     }
 
-    /// Whether any of it has a colour.
     pub(super) fn has_colour(&self) -> bool {
         let seen = self.seen.lock().unwrap();
         let (rows, columns) = seen.screen().size();
@@ -128,12 +123,10 @@ impl Terminal {
         self.wait_until(|text| text.contains(word));
     }
 
-    /// Presses keys.
     pub(super) fn press(&mut self, keys: &[u8]) {
         self.keyboard.write_all(keys).unwrap();
     }
 
-    /// Gives it another size.
     pub(super) fn resize(&mut self, columns: u16, rows: u16) {
         self.seen
             .lock()
@@ -143,17 +136,14 @@ impl Terminal {
         size(&self.inside, columns, rows);
     }
 
-    /// Takes nothing more of what the program draws.
     pub(super) fn stop_reading(&mut self) {
         self.reads.store(false, Ordering::Relaxed);
     }
 
-    /// Sends a signal to the program.
     pub(super) fn signal(&mut self, signal: Signal) {
         kill_process(Pid::from_child(&self.program), signal).unwrap();
     }
 
-    /// Waits for the end of the program; its status.
     pub(super) fn ends(&mut self) -> Option<i32> {
         let begun = Instant::now();
         loop {
@@ -179,7 +169,6 @@ impl Terminal {
             .intersects(LocalModes::ECHO | LocalModes::ICANON | LocalModes::ISIG)
     }
 
-    /// Whether its modes are as they were.
     pub(super) fn is_restored(&self) -> bool {
         let (now, before) = (self.now(), &self.modes);
         now.local_modes == before.local_modes

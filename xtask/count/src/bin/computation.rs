@@ -82,7 +82,6 @@ struct Pipeline<R: Real> {
 }
 
 impl<R: Number> Pipeline<R> {
-    /// At its start.
     fn new(module: &Module<R>) -> Self {
         let state = State::new(&module.start, 1);
         Self {

@@ -43,7 +43,6 @@ fn integers() {
         codes, classifier(model!("joint4")));
 }
 
-/// A detector of touches that has learnt the air.
 fn learnt() -> TouchDetector {
     let mut detector = TouchDetector::new();
     for call in 0..2_000 {

@@ -25,7 +25,6 @@ impl Instruction {
         self.first & 0xFBFF == 0xF20F && self.second.is_some_and(to)
     }
 
-    /// Whether it loads this register with a constant.
     pub(super) fn is_load_of(self, register: u16) -> bool {
         match self.second {
             Some(second) => matches!(self.first, 0xF85F | 0xF8DF) && second >> 12 == register,
@@ -33,7 +32,6 @@ impl Instruction {
         }
     }
 
-    /// Whether it may write this register.
     pub(super) fn may_write(self, register: u16) -> bool {
         let writes = match self.second {
             Some(second) => wide(self.first, second),
