@@ -144,6 +144,9 @@ enum Command {
     /// Builds the firmware of a scene twice, from nothing and in folders of other names, and
     /// compares every byte
     Reproducible(Build),
+    /// Measures the time that host-sim takes for a tick of an elastic whisker, free
+    /// and in lasting contact, beside another host-sim if there is one
+    Speed(speed::Choice),
     /// Writes docs/registers.md, and holds its facts against the descriptions that others
     /// have made of the chips
     Descriptions,
@@ -379,6 +382,7 @@ fn main() -> ExitCode {
         } => fuzz::all(&targets, minutes, page),
         Command::Mutants => mutants::all(),
         Command::Reproducible(build) => reproducible::twice(build.board, &build.scene),
+        Command::Speed(choice) => speed::speed(&choice),
         Command::Descriptions => descriptions::page(false).and_then(|()| descriptions::compare()),
         Command::Dist(choice) => dist::all(&choice),
         Command::Mount => mount::all(),

@@ -88,7 +88,7 @@ pub(super) fn within_limits(found: &[Figure]) -> Result<(), Fault> {
 
 #[cfg(test)]
 mod tests {
-    use super::{FLASH, RAM, STACK, within_limits};
+    use super::{ANY_SCENE, FLASH, GOALS, RAM, STACK, beside_goals, within_limits};
     use crate::figures::Figure;
 
     #[test]
@@ -98,5 +98,17 @@ mod tests {
         assert_eq!(within_limits(&[program(0.0)]), Ok(()));
         let fault = within_limits(&[program(1.0)]).unwrap_err();
         assert_eq!(fault.matches("limit").count(), 3, "{fault}");
+    }
+
+    #[test]
+    fn a_page_says_which_goals_are_met() {
+        let (scene, board, goal) = GOALS[0];
+        let program = |scene, flash: u64| Figure::new(&[scene, board], &[flash as f64, 1.0, 2.0]);
+        let met = |flash| {
+            let lines = beside_goals(&[program(scene, flash), program(ANY_SCENE, 1)]);
+            lines.unwrap().contains("met")
+        };
+        assert!(met(goal) && !met(goal + 1));
+        assert!(beside_goals(&[program(scene, goal)]).is_err());
     }
 }
