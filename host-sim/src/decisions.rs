@@ -181,7 +181,7 @@ pub const COLUMNS: [Column; 11] = columns! {
         nearest";
     "touch", "", "number of the touch in which it fell, or of the last one; 0 before the first";
     "t_s", "s", "when it fell, as in the trace; not of a recording, which has no clock";
-    "side", "", "`left` or `right`; only where several whiskers are heard";
+    "side", "", "`left` or `right`; only where several whiskers decide";
     "whisker", "", "number of the whisker on its side, from 1; likewise";
     "reason", "",
         "why no class is named: `unknown` (what was felt is unlike all classes), `pose` (it was \

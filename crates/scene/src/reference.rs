@@ -17,12 +17,10 @@ pub fn reference() -> String {
     let mut page = String::from(
         "# Scene files\n\n\
          <!-- Generated from crates/scene/src/sections by `cargo xtask docs`; do not edit by hand. -->\n\n\
-         One TOML file says what a module is and what happens to it. The simulator runs it on a \
-         PC, and a board runs what `whisker deploy` or its program brings of the same file. What a \
-         scene does not name is not computed, and not linked into a program made for it.\n\n\
-         An unknown key, a missing one and a value out of range are errors. All errors of a file \
-         are listed, one a line: file, line, key, what was found, what is allowed. Whole numbers \
-         may stand for real ones; NaN and infinity are refused.\n\n\
+         One TOML file says what a module is and what happens to it, for the simulator and, by \
+         `whisker deploy` or its program, for a board. What a scene does not name is not computed.\n\n\
+         An unknown key, a missing one and a value out of range are errors. Whole numbers may \
+         stand for real ones; NaN and infinity are refused.\n\n\
          ## Example\n\n```toml\n",
     );
     page.push_str(EXAMPLE);

@@ -31,7 +31,7 @@ pub const FIRST: [Column; 17] = columns! {
     "y_right", "codes", "the same of the right side";
     "touch", "",
         "number of the touch of the left side's first whisker, from 1; 0 in the air, and where \
-        nothing hears it";
+        no classifier reads it";
     "decision", "",
         "class that a whisker of the left side decided for in this tick, or `unknown`; empty \
         where no decision fell";
@@ -39,7 +39,7 @@ pub const FIRST: [Column; 17] = columns! {
 
 /// Those that follow where whiskers of the right side are heard.
 pub const OF_RIGHT: [Column; 2] = columns! {
-    "touch_right", "", "`touch` of the right side; only where whiskers of the right side are heard";
+    "touch_right", "", "`touch` of the right side; only where whiskers of the right side decide";
     "decision_right", "", "`decision` of the right side; likewise";
 };
 

@@ -82,8 +82,7 @@ keys! {
         /// When a decision falls: once a posterior exceeds the threshold, or after each window.
         rule: Rule = rule(),
 
-        /// Likelihood model: from the scene's folder when it exists there, else from the current
-        /// directory.
+        /// Likelihood model, from the scene's folder or the current one.
         model: Option<String> = path().optional(
             "nothing is decided until `whisker deploy` brings one ([flashing.md](flashing.md))"
         ),
@@ -91,20 +90,19 @@ keys! {
         /// Posterior probability at which a class is decided on.
         (threshold): f64 = between(0.0, 1.0).required_if(THRESHOLD, "not used"),
 
-        /// Thresholds of classes in place of it, such as `{ p600 = 0.999 }`.
+        /// Thresholds of single classes, such as `{ p600 = 0.999 }`.
         thresholds: Option<Vec<(String, f64)>> = per_class(Range::open(0.5, 1.0))
             .only_if(SEQUENTIAL)
             .optional("`threshold` holds for every class"),
 
-        /// How frequent classes are where the module works, such as `{ smooth = 0.9 }`: the priors
-        /// P(T_k) of LEP12 eq. 4. Classes that are not named share what is left evenly.
+        /// How frequent classes are where the module works, such as `{ smooth = 0.9 }`: P(T_k) of
+        /// LEP12 eq. 4. The others share what is left evenly.
         prior: Option<Vec<(String, f64)>> = per_class(SHARE)
             .optional("all classes are equally frequent"),
 
-        /// Cost of a wrong decision, in any unit. With `cost_delay_per_s` it gives each class the
-        /// threshold that costs least on average
-        /// ([start.md](start.md#say-what-is-frequent-and-what-errors-cost)), in place of
-        /// `threshold` and `thresholds`.
+        /// Cost of a wrong decision, in any unit. With `cost_delay_per_s` it gives [each class its
+        /// threshold](start.md#say-what-is-frequent-and-what-errors-cost), in place of `threshold`
+        /// and `thresholds`.
         (cost_error): f64 = positive(1e9)
             .only_if(SEQUENTIAL)
             .required_if(&[Given("cost_delay_per_s")], "thresholds are given"),
@@ -117,8 +115,8 @@ keys! {
         /// Length of the window.
         (window): u32 = integer(1..=1_000_000).unit("samples").required_if(WINDOW, "not used"),
 
-        /// Contact signal below which samples are not classified. A model that knows touches
-        /// was trained from one on, its gate: no other is allowed.
+        /// Contact signal below which samples are not classified. A model that knows touches allows
+        /// its own gate alone.
         contact_min: Option<f64> = number(0.0..=1.0)
             .optional("the gate of the model; without one every sample is classified"),
 

@@ -35,11 +35,11 @@ keys! {
         /// Which sides are built; with `left`, lists that have one entry a side have one entry.
         sides: Sides = word().default("\"both\""),
 
-        /// Boards that share the whiskers, joined by a CAN bus: each carries as many as any
-        /// other, node 0 the first of the left side.
+        /// Boards that share the whiskers, joined by [a CAN bus](head.md): each carries as many as
+        /// any other, node 0 the first of the left side.
         nodes: Option<u8> = integer(2..=24).unit("boards").optional("one board has all whiskers"),
 
-        /// Bits a second of the bus, thousands.
+        /// Speed of the bus.
         bus_kbit_s: Option<u16> = integer(125..=1000)
             .unit("kbit/s")
             .only_if(BUS)

@@ -46,7 +46,7 @@ keys! {
         driver: Driver = word().default("\"h-bridge\""),
 
         /// Proportional gain of the position control. A board refuses gains under which the motor
-        /// would not settle after a step.
+        /// would not settle.
         kp: f64 = number(0.0..=10.0).unit("duty per degree").default("0.05"),
 
         /// Derivative gain of the position control.
@@ -84,57 +84,54 @@ keys! {
         /// without load at full duty, which follows from it. On a board 2,500 to 60,000.
         top_speed_deg_s: f64 = positive(1e6).unit("degrees/s").default("15000.0"),
 
-        /// Duty that friction of motor and gear takes, both ways together: where a duty beyond half
-        /// of it does not move the whisker as the motor should, that is tested by a short stroke,
-        /// and is a fault if it fails. Friction that is larger by up to four times costs such
-        /// strokes and is no fault. From 1.6 on nothing is expected of the motor. On a board at most
-        /// 0.5, if `duty_limit` is above 0.25.
+        /// Duty that friction of motor and gear takes, both ways together. Where a duty beyond half
+        /// of it does not move the whisker as the motor should, a short stroke tests it, and is a
+        /// fault if it fails; friction up to four times as large is none. From 1.6 on nothing is
+        /// expected of the motor. On a board at most 0.5, if `duty_limit` is above 0.25.
         unmoved_duty: f64 = number(0.0..=2.0).default("0.12"),
 
-        /// Time in which the motor comes to 63 % of its speed, with gear and whisker
-        /// (`whisker calibrate` measures it). On a board at most `top_speed_deg_s`/50,000.
+        /// Time in which the motor comes to 63 % of its speed, with gear and whisker (`whisker
+        /// calibrate` measures it). On a board at most `top_speed_deg_s`/50,000.
         time_constant_s: f64 = number(1e-3..=10.0).unit("s").default("0.048"),
 
         /// Duty that the winding bears for ever; above it, a fault by I²t over some 8 s. On a board
         /// at most 0.7.
         continuous_duty: f64 = number(ranges::pd::LIMIT).default("0.4"),
 
-        /// What a fault of a sensor or a motor switches off: the motor of its whisker, or
-        /// every motor until no whisker has a fault.
+        /// What a fault of a sensor or a motor switches off: the motor of its whisker, or every
+        /// motor until no whisker has a fault.
         on_fault: OnFault = word().default("\"stop-whisker\""),
 
-        /// When the motors are armed: when the supply comes for the first time since the scene was
-        /// deployed and the program starts, or by a command, on a board also by the user button.
-        /// After any other start the program waits for the command in either case.
+        /// When the motors are armed: as the supply first comes after the scene was deployed, or by
+        /// a command or the user button ([arming](build.md#arming)).
         arm: Option<Arm> = word()
             .optional("`\"at-start\"` in a simulated world (`[plant]`, `--world`), else `\"on-command\"`"),
 
-        /// Where a whisker is: at rest, 50 degrees, when its motor is first armed; or found by driving
-        /// it gently against its retracted stop, before it whisks and after every fault of
+        /// Where a whisker is: at rest, 50 degrees, when its motor is first armed; or found by
+        /// driving it gently against its retracted stop, before it whisks and after every fault of
         /// the motor. The first time it then goes through its whole range, with nothing in reach.
         /// Plant `ideal` has no stop to find.
         rest: Rest = word().default("\"at-start\""),
 
-        /// Duty with which the stop is looked for, at most half of `duty_limit`: more than
-        /// friction takes.
+        /// Duty with which the stop is looked for, more than friction takes, at most half of
+        /// `duty_limit`.
         homing_duty: f64 = number(ranges::pd::LIMIT).default("0.1"),
 
         /// Angle of the retracted stop.
         stop_deg: Option<f64> = number(-360.0..=whisking::REST_DEG).unit("degrees")
             .optional("`min_deg`, at most 50"),
 
-        /// Angle of the other stop. Where it is known, home is right if that stop is found in its
-        /// place, within 3 degrees; where it is not, if the whisker reaches `max_deg` and meets
-        /// nothing.
+        /// Angle of the other stop. Home is right if that stop is found within 3 degrees of it;
+        /// where it is not known, if the whisker reaches `max_deg` and meets nothing.
         far_stop_deg: Option<f64> = number(whisking::REST_DEG..=360.0).unit("degrees")
             .optional("not known"),
 
-        /// How often the stop is looked for again, while the whisker touches nothing, where it
-        /// is found: elsewhere by more than a degree is a fault.
+        /// How often the stop is looked for again, while the whisker touches nothing: elsewhere by
+        /// more than a degree is a fault.
         home_every_s: f64 = number(1.0..=86_400.0).unit("s").default("20.0"),
 
-        /// Soft start: how fast the setpoint comes from where the whisker is to where it should
-        /// be, whenever the motor has been off.
+        /// Soft start: how fast the setpoint comes from where the whisker is to where it should be,
+        /// whenever the motor has been off.
         approach_deg_s: f64 = positive(1e5).unit("degrees/s").default("400.0"),
     }
 }

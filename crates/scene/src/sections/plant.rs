@@ -122,28 +122,27 @@ keys! {
         /// `whisker`: the same with an elastic shaft that sticks, slips and bounces.
         kind: PlantKind = word(),
 
-        /// What the sensors of a side read at rest from the start on, x and y, left first: codes
-        /// from mid-scale, as of a magnet that is not in its place.
+        /// What the sensors of a side read at rest, x and y: codes from mid-scale, as of a magnet
+        /// that is not in its place.
         zero_codes: Option<Vec<[f64; 2]>> = pair_per_side(-4000.0..=4000.0)
             .unit("codes")
             .optional("mid-scale"),
 
-        /// By how much that changes every second, alike, as by a magnet that warms up.
+        /// By how much that changes every second, as by a magnet that warms up.
         zero_drift: Option<Vec<[f64; 2]>> = pair_per_side(-1000.0..=1000.0)
             .unit("codes/s")
             .optional("it stays"),
 
-        /// How sensitive sensors are to y, as a share of what they are to x.
+        /// Sensitivity of sensors to y, as a share of that to x.
         gain_y: f64 = number(0.01..=100.0).default("1.0"),
 
-        /// By how much sensors are turned about their shafts, anticlockwise: x and y mix.
+        /// By how much sensors are turned about their shafts, anticlockwise.
         misaligned_deg: f64 = number(-45.0..=45.0).unit("degrees").default("0.0"),
 
-        /// Share of the deflection of each neighbour on its side that a sensor reads too, as of
-        /// a magnet that is near.
+        /// Share of the deflection of each neighbour on its side that a sensor reads too.
         cross_talk: f64 = number(0.0..=0.5).default("0.0"),
 
-        /// Width of the sensors' hysteresis: so much a reading is behind when it turns round.
+        /// Width of the sensors' hysteresis.
         hysteresis_codes: f64 = number(0.0..=1000.0).unit("codes").default("0.0"),
 
         /// How plates stand to whiskers; there exactly when `kind` is [`PlantKind::Whisker`].
@@ -199,8 +198,7 @@ keys! {
 keys! {
     /// Textured surfaces, presented one after another.
     pub struct Presentation {
-        /// Surfaces, in the order in which they are presented; the first four are those that
-        /// `textured` knows.
+        /// Surfaces, in the order in which they are presented; `textured` knows the first four.
         textures: Vec<Texture> = words().required_if(TEXTURES, "no texture").only_if(TEXTURES),
 
         /// How long each texture is presented; at least one tick.
@@ -209,11 +207,11 @@ keys! {
             .required_if(TEXTURES, "no texture")
             .only_if(TEXTURES),
 
-        /// When the next texture is put in place: `air`, once its time has come and no
-        /// whisker has touched for 20 ms; `timed`, at its time, under a bent whisker too.
+        /// When the next texture is put in place: `air`, once its time has come and no whisker has
+        /// touched for 20 ms; `timed`, at its time, under a bent whisker too.
         exchange: Exchanged = word().default("\"air\"").only_if(TEXTURES),
 
-        /// Coefficient of friction of every texture against a sliding tip, in place of its own.
+        /// Coefficient of friction of every texture against a sliding tip.
         friction: Option<f64> = number(0.0..=8.0).optional("that of each texture").only_if(TEXTURES),
 
         /// The scene's own surfaces; there exactly when [`PlantKind::has_textures`].
@@ -251,19 +249,17 @@ keys! {
     /// How a whisker stands, and how a plate faces it where they touch.
     #[derive(Copy)]
     pub struct FacingChoice {
-        /// Angle between shaft and plate in the plane of whisking; what is above 0 draws the
-        /// tip along the plate.
+        /// Angle between shaft and plate in the plane of whisking; above 0 it draws the tip along
+        /// the plate.
         slant_deg: f64 = number(0.0..=80.0).unit("degrees").default("30.0").only_if(WHISKER),
 
         /// Inclination of the plate towards the motor's axis: its slope towards y.
         tilt_deg: f64 = number(-TILT_LIMIT_DEG..=TILT_LIMIT_DEG).unit("degrees").default("20.0").only_if(WHISKER),
 
-        /// By how much the shaft points out of the plane of whisking, along the motor's axis: it
-        /// sweeps a cone.
+        /// By how much the shaft points out of the plane of whisking, along the motor's axis.
         elevation_deg: f64 = number(-60.0..=60.0).unit("degrees").default("0.0").only_if(WHISKER),
 
-        /// Where on the straight shaft a plate touches it first, as a share of its length; 1: the
-        /// tip.
+        /// Where on the straight shaft a plate touches it first, as a share of its length.
         touches_at: f64 = number(0.2..=1.0).default("1.0").only_if(WHISKER),
 
         /// Where the plate begins, from the place of first touch and away from the motor.
@@ -283,16 +279,16 @@ keys! {
     #[derive(Copy)]
     pub struct PoseSpread {
         /// Each presentation's plate is tilted by up to this more or less than `tilt_deg`, drawn
-        /// evenly from the seed; `tilt_deg` and this stay within ±80 together.
+        /// evenly from the seed; within ±80 together.
         tilt_spread_deg: f64 = number(0.0..=TILT_LIMIT_DEG).unit("degrees").default("0.0").only_if(WHISKER),
 
         /// Each presentation's plate stands by up to this before or beyond `obstacle_deg`, drawn
         /// likewise; on both sides by the same.
         obstacle_spread_deg: f64 = number(0.0..=45.0).unit("degrees").default("0.0").only_if(WHISKER),
 
-        /// What sensors read, x and y alike, is multiplied in each presentation by a factor
-        /// within 1 ± this, drawn likewise. With any of the three spreads, a surface is put in
-        /// place only where no whisker has been in its way for 20 ms.
+        /// Readings are multiplied in each presentation by a factor within 1 ± this, drawn
+        /// likewise. With any of the three spreads, a surface is put in place only where no whisker
+        /// has been in its way for 20 ms.
         gain_spread: f64 = number(0.0..=0.9).default("0.0").only_if(WHISKER),
     }
 }

@@ -64,64 +64,59 @@ keys! {
     /// Which sensor a whisker has, and what its readings cannot do.
     #[derive(Copy)]
     pub struct SensorSection {
-        /// The sensor's own mode. In the slow one a board reads at half its clock, 125 to
-        /// 141 kHz, with 50 us between bytes, and a tick takes at least 1.03 ms; take 500 Hz,
-        /// as values are computed no faster. Times from drivers in the field and a sister
-        /// part: not confirmed.
+        /// The sensor's own mode. In the slow one a board reads at half its clock, 125 to 141 kHz,
+        /// with 50 us between bytes, and a tick takes at least 1.03 ms; take 500 Hz, as values are
+        /// computed no faster. Not confirmed on a part.
         mode: SensorMode = word().default("\"fast\""),
 
-        /// What the words of a frame of the MLX90333 are. With `"xyz"` x and y are the first two, and
-        /// the sensor cannot report its own faults.
+        /// What the words of a frame of the MLX90333 are. With `"xyz"` x and y are the first two,
+        /// and the sensor cannot report its own faults.
         words: SensorWords = word().default("\"alpha-beta\""),
 
-        /// How the last byte of a frame follows from the others. Which one a real part follows is
-        /// not certain: with another than its own every frame is fault 21.
+        /// How the last byte of a frame follows from the others, which is not certain for a real
+        /// part: with another than its own every frame is fault 21.
         sum_rule: SensorSum = word().default("\"b1-b6\""),
 
-        /// In which order the two bytes of a word come. One driver in five has the high one first.
+        /// Which byte of a word comes first. One driver in five has the high one first.
         byte_order: SensorBytes = word().default("\"low-first\""),
 
-        /// Least time for which the sensor is deselected between two frames. At 2 kHz a board
-        /// leaves it 64 us, at 1 kHz 300 us and more ([what each rate
-        /// leaves](boards.md#the-rest-of-a-sensor)); a sister part asks for 300 us in its fast mode.
-        /// A board refuses ticks that leave less.
+        /// Least time for which the sensor is deselected between two frames. A board refuses ticks
+        /// that [leave less](boards.md#the-rest-of-a-sensor).
         rest_us: u16 = integer(50..=4_000).unit("us").default("50"),
 
-        /// Longest time for which both words may repeat to the bit; longer: a fault. Nothing
-        /// is decided by a reading that has repeated for 7.5 ms.
+        /// Longest time for which both words may repeat to the bit without a fault. Nothing is
+        /// decided by a reading that has repeated for 7.5 ms.
         frozen_s: f64 = number(0.02..=30.0).unit("s").default("0.25"),
 
-        /// Fastest change of a deflection, of the deflection from mid-scale to full scale; a
-        /// frame beyond it is a bad one.
+        /// Fastest change of a deflection, in full scales; a frame beyond it is a bad one.
         jump_per_s: f64 = positive(1e6).unit("1/s").default("1500.0"),
 
-        /// Which sensor it is. The TMAG5170 has no `mode`, and a board reads it by a program
-        /// that was built for a scene with it.
+        /// Which sensor it is. The TMAG5170 has no `mode`, and needs a board's program that was
+        /// built for it.
         model: SensorModel = word().default("\"mlx90333\""),
 
-        /// How long a silence is, many whisks and at most 65,534 ticks. After it the module sets
-        /// the sensor's zero to the mean of its codes, if that differs by at least eight codes. A
-        /// reading is the difference from the zero.
+        /// How long a silence is, many whisks and at most 65,534 ticks, after which the module sets
+        /// the sensor's zero to the mean of its codes, if that differs by at least eight. A reading
+        /// is the difference from the zero.
         zero_after_s: Option<f64> = number(0.5..=30.0).unit("s")
             .optional("the zero is at mid-scale"),
 
         /// Contact signal that ends a silence: above what whisking in free air gives.
         zero_calm: f64 = number(0.0001..=1.0).default("0.05"),
 
-        /// How far from mid-scale the zero may be found. Beyond it the whisker leans against
-        /// something, or its magnet is not in its place: the last zero stays.
+        /// How far from mid-scale the zero may be found; beyond it the last zero stays.
         zero_most: u16 = integer(1..=8_191).unit("codes").default("160"),
 
-        /// Codes by which whisking alone moves x at least, whisks of 30 degrees or wider: where it
-        /// moves by less for 2 s the magnet or the whisker is gone, which is a limit, and no contact
-        /// is reported. `whisker calibrate` shows how many there are in the air; 0: not looked at.
+        /// Codes by which whisking alone moves x at least, whisks of 30 degrees or wider (`whisker
+        /// calibrate` shows it): where it moves by less for 2 s the magnet or the whisker is gone,
+        /// which is a limit, and no contact is reported. 0: not looked at.
         swing_codes: Option<u16> = integer(0..=8_191).unit("codes")
             .optional("50 from 1.25 Hz on; below, where noise moves it as far, 0"),
 
-        /// Time constant with which the module learns, in the air, what whisking alone makes x read
-        /// at each phase of a whisk. The contact signal is computed without that, so that a long
-        /// shaft does not suppress its own protraction; touches and decisions rest on readings as
-        /// they are. Needs `[whisking]`, and `[classifier]`, by whose touches learning stops.
+        /// Time constant with which the module learns in the air what whisking alone makes x read
+        /// at each phase, and takes it out of the contact signal, so that a long shaft does not
+        /// suppress its own protraction. Touches and decisions rest on readings as they are. Needs
+        /// `[whisking]`, and `[classifier]`, by whose touches learning stops.
         self_motion_s: Option<f64> = number(0.5..=30.0).unit("s")
             .optional("it counts as contact"),
     }

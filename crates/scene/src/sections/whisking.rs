@@ -44,9 +44,9 @@ keys! {
         /// Oscillator state ψ = [ψ₁, ψ₂] of each side at the start.
         start: Vec<[f64; 2]> = pair_per_side(ranges::PSI),
 
-        /// Number format of the tick. `auto` in a simulation: `f64` for `euler`, whose point is
-        /// to be the papers', `f32` for `exact`; `auto` on a board: `f32` with an FPU, else
-        /// `fixed`. No board has `f64`, and only one with an FPU `f32`.
+        /// Number format of the tick. `auto` in a simulation: `f64` for `euler`, as in the papers,
+        /// `f32` for `exact`; on a board: `f32` with an FPU, else `fixed`. No board has `f64`, and
+        /// only one with an FPU `f32`.
         numbers: Numbers = word().default("\"auto\""),
     }
 }

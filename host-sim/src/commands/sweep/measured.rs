@@ -97,7 +97,7 @@ pub(crate) const COLUMNS: [Column; 8] = columns! {
     "refused", "", "decisions that say `unknown` of what the model knows";
     "error_rate", "", "share of `wrong` in `right` and `wrong`; empty without either";
     "decision_time_s", "s", "mean time of contact of a right or wrong decision; empty without one";
-    "touches", "", "touches that began, of all whiskers that are heard";
+    "touches", "", "touches that began, of all whiskers that decide";
     "faults", "", "faults of sensors and motors that began";
     "tracking_rms_deg", "degrees",
         "root mean square of angle less setpoint, first whisker of each side; empty without \
