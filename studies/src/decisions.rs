@@ -24,8 +24,6 @@ mod main_job;
 mod placebo;
 mod run_time;
 mod terrain;
-#[cfg(test)]
-mod tests;
 mod unknown;
 
 use std::path::Path;

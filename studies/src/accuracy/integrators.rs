@@ -5,7 +5,7 @@ use whisking::Integrator;
 
 use super::counts::{Counts, Target, cell};
 use super::reference::{Case, Truth};
-use super::schemes::{Format, Pace, Scheme};
+use super::schemes::{Format, Scheme};
 use crate::chart::{Axis, Mark, Panel, Series, draw};
 use crate::page::{Page, row, short, verdict};
 
@@ -57,8 +57,7 @@ pub(super) fn measure(case: &Case) -> Result<Vec<Errors>> {
         let mut degrees = [[0.0; TICKS_HZ.len()]; FREQUENCIES_HZ.len()];
         for (row, frequency_hz) in degrees.iter_mut().zip(FREQUENCIES_HZ) {
             for (cell, tick_hz) in row.iter_mut().zip(TICKS_HZ) {
-                let pace = Pace::new(frequency_hz, tick_hz);
-                *cell = scheme.error(case, &truth, pace)?;
+                *cell = scheme.error(case, &truth, frequency_hz, tick_hz)?;
             }
         }
         Ok(Errors { scheme, degrees })

@@ -19,27 +19,27 @@ pub(crate) struct Extent {
 }
 
 impl Extent {
-    pub(crate) fn full() -> Self {
+    /// In full, or the short form.
+    pub(crate) fn new(is_quick: bool) -> Self {
+        if is_quick {
+            return Self {
+                is_quick,
+                trainings: vec![3],
+                scored: 600..602,
+                main_job: 600..603,
+                air_s: 10.0,
+                drives: 2,
+                values: 2,
+            };
+        }
         Self {
-            is_quick: false,
+            is_quick,
             trainings: [3].into_iter().chain(41..=49).collect(),
             scored: 600..620,
             main_job: 600..700,
             air_s: 600.0,
             drives: usize::MAX,
             values: usize::MAX,
-        }
-    }
-
-    pub(crate) fn quick() -> Self {
-        Self {
-            is_quick: true,
-            trainings: vec![3],
-            scored: 600..602,
-            main_job: 600..603,
-            air_s: 10.0,
-            drives: 2,
-            values: 2,
         }
     }
 }
