@@ -291,9 +291,4 @@ mod tests {
         assert!(!of([78.0, 82.0, 80.5, 81.0, 79.0]));
         assert!(!of(CHANCE));
     }
-
-    #[test]
-    fn a_claim_without_anything_to_draw_again_stands_alone() {
-        assert!(both(&[(Arm::MAIN, [1.0; 5], [90.0; 5])]).again.is_none());
-    }
 }
