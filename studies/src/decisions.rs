@@ -21,7 +21,7 @@ pub(crate) mod figures;
 mod goals;
 mod ground;
 mod main_job;
-mod placebo;
+pub(crate) mod placebo;
 mod run_time;
 mod terrain;
 mod unknown;

@@ -17,7 +17,6 @@ use runs::{Measured, TICKS_HZ};
 
 pub(super) use runs::{Against, measure};
 
-/// The section. `measured` is what [`measure`] returned.
 pub(super) fn section(page: &mut Page, measured: &[Against]) -> Result<()> {
     page.heading(2, "Contact");
     page.say(

@@ -9,7 +9,6 @@ use super::schemes::{Format, Scheme};
 use crate::chart::{Axis, Mark, Panel, Series, draw};
 use crate::page::{Page, row, short, verdict};
 
-/// Whisk frequencies, Hz.
 pub(super) const FREQUENCIES_HZ: [f64; 4] = [0.5, 2.0, 8.0, 25.0];
 /// Tick rates, Hz: 0.1, 0.25, 0.5, 1 and 2 ms.
 pub(super) const TICKS_HZ: [f64; 5] = [10_000.0, 4_000.0, 2_000.0, 1_000.0, 500.0];
@@ -50,7 +49,6 @@ pub(super) struct Errors {
     pub(super) degrees: [[f64; TICKS_HZ.len()]; FREQUENCIES_HZ.len()],
 }
 
-/// Measures every scheme from `case`.
 pub(super) fn measure(case: &Case) -> Result<Vec<Errors>> {
     let truth = Truth::solve(case);
     let of = |scheme: Scheme| {

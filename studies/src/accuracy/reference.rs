@@ -10,7 +10,6 @@ use std::f64::consts::TAU;
 /// Points of the solution a whisk: a multiple of the ticks of every row of the
 /// report.
 pub(super) const GRID: usize = 40_000;
-/// Whisks that are solved.
 pub(super) const WHISKS: usize = 10;
 /// 1.45 (BIOTACT eq. 8).
 const PEAK_GAIN: f64 = 1.45;
@@ -19,7 +18,6 @@ const STIFFNESS: f64 = 10.0;
 
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Case {
-    /// ψ of both sides.
     pub(super) psi: [[f64; 2]; 2],
     pub(super) gain: f64,
 }
@@ -71,7 +69,6 @@ impl State {
             .fold(*self, |sum, (weight, k)| sum.moved(weight * h / 6.0, k))
     }
 
-    /// θ of both sides.
     fn theta(&self) -> [f64; 2] {
         self.whisker.map(|[theta, _]| theta)
     }
@@ -101,7 +98,6 @@ impl Truth {
         Self(theta)
     }
 
-    /// θ after `point`/[`GRID`] whisks.
     pub(super) fn theta(&self, point: usize) -> Option<[f64; 2]> {
         self.0.get(point).copied()
     }

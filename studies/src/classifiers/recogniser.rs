@@ -28,9 +28,6 @@ pub(crate) trait Recogniser {
 
     /// The end of the segment: an outcome of those that wait for it. Then as new.
     fn finish(&mut self) -> Option<Outcome>;
-
-    /// Forgets all samples.
-    fn reset(&mut self);
 }
 
 /// All outcomes of a segment, its samples one after another, each of `channels` values; starts and
@@ -40,13 +37,11 @@ pub(crate) fn outcomes(
     segment: &[f64],
     channels: usize,
 ) -> Vec<Outcome> {
-    recogniser.reset();
     let mut found: Vec<Outcome> = segment
         .chunks_exact(channels)
         .filter_map(|sample| recogniser.push(sample))
         .collect();
     found.extend(recogniser.finish());
-    recogniser.reset();
     found
 }
 
@@ -76,7 +71,6 @@ impl<'m, R: DecisionRule> Bayes<'m, R> {
         })
     }
 
-    /// Posterior of each class after the last full block.
     pub(crate) fn posteriors(&self) -> Posteriors {
         self.classifier.posteriors()
     }
@@ -105,10 +99,6 @@ impl<R: DecisionRule> Recogniser for Bayes<'_, R> {
 
     fn finish(&mut self) -> Option<Outcome> {
         self.classifier.finish().map(Outcome::from)
-    }
-
-    fn reset(&mut self) {
-        self.classifier.reset();
     }
 }
 

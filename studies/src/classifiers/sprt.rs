@@ -92,20 +92,17 @@ impl Recogniser for Sprt {
             class: usize::from(self.ratio < 0.0),
             samples: self.samples,
         };
-        if is_decided {
-            self.reset();
+        if !is_decided {
+            return None;
         }
-        is_decided.then_some(outcome)
+        self.finish();
+        Some(outcome)
     }
 
     /// What is undecided stays so.
     fn finish(&mut self) -> Option<Outcome> {
-        self.reset();
-        None
-    }
-
-    fn reset(&mut self) {
         (self.ratio, self.sum, self.samples) = (self.prior, 0.0, 0);
+        None
     }
 }
 
@@ -114,8 +111,8 @@ mod tests {
     use super::super::recogniser::outcomes;
     use super::Sprt;
     use crate::rigs::Chance;
-    use tactile::train::{Options, Trainer};
     use tactile::ModelBuf;
+    use tactile::train::{Options, Trainer};
 
     /// A sample of standard deviation 100.
     fn sample(chance: &mut Chance, mean: f64) -> f64 {

@@ -5,7 +5,6 @@ use std::ops::Range;
 /// How much is measured. Training seeds are none of those scored.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Extent {
-    /// Whether this is the short form.
     pub(crate) is_quick: bool,
     /// Seeds of the runs that are trained on; the first is that of the shipped models.
     pub(crate) trainings: Vec<u64>,
@@ -19,7 +18,6 @@ pub(crate) struct Extent {
 }
 
 impl Extent {
-    /// In full, or the short form.
     pub(crate) fn new(is_quick: bool) -> Self {
         if is_quick {
             return Self {

@@ -25,7 +25,6 @@ pub(super) const CHANNELS: usize = 2;
 #[derive(Debug, Clone)]
 pub(super) struct Stream {
     pub(super) floor: usize,
-    /// x, y, x, y, …
     pub(super) samples: Vec<f64>,
 }
 
@@ -177,17 +176,14 @@ impl Tally {
         Ok(())
     }
 
-    /// Hit rate of each floor, percent.
     pub(super) fn hits(&self) -> [f64; 4] {
         core::array::from_fn(|floor| percent_of(&self.confusion, floor, floor))
     }
 
-    /// Mean hit rate over the floors, percent.
     pub(super) fn mean_hit(&self) -> f64 {
         self.hits().iter().sum::<f64>() / 4.0
     }
 
-    /// Mean samples of an outcome.
     pub(super) fn mean_samples(&self) -> f64 {
         self.samples as f64 / self.confusion.named().max(1) as f64
     }

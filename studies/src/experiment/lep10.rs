@@ -20,7 +20,6 @@ const CHANNELS: [(&str, &[usize]); 3] = [("x", &[0]), ("y", &[1]), ("x and y", &
 const SPOT: [RobotMotion; 2] = [RobotMotion::Anticlockwise, RobotMotion::Clockwise];
 const NATURAL: [RobotMotion; 1] = [RobotMotion::Autonomous];
 
-/// Chance of naming a floor, percent.
 const CHANCE: f64 = 100.0 / FLOORS.len() as f64;
 /// Vinyl, which falls the most in the paper.
 const VINYL: usize = 3;
@@ -87,7 +86,7 @@ pub(super) fn evaluate(page: &mut Page, request: &Request, recordings: &Recordin
     .into_iter()
     .zip(means)
     {
-        page.score(name, "four floors", mean, CHANCE);
+        page.score(name, "four floors", mean, (CHANCE, Some(CHANCE)));
     }
     claims(page, &means, &hits, knee);
     let of = (request, recordings);

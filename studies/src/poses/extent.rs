@@ -1,9 +1,7 @@
 //! How much is measured.
 
-/// How much is measured.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Extent {
-    /// Whether this is the short form.
     pub(crate) is_quick: bool,
     /// Trainings in one pose, and all others.
     pub(crate) trainings: [usize; 2],
@@ -16,7 +14,6 @@ pub(crate) struct Extent {
 }
 
 impl Extent {
-    /// In full, at least 400 presentations of 2.5 s in each cell, or the short form.
     pub(crate) const fn new(is_quick: bool) -> Self {
         if is_quick {
             return Self {

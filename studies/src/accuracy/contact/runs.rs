@@ -8,7 +8,6 @@ use physics::{
     TouchingWhisker,
 };
 
-/// Tick rates, Hz.
 pub(in crate::accuracy) const TICKS_HZ: [u32; 5] = [500, 1_000, 2_000, 4_000, 8_000];
 /// Steps of the reference a second, and how much finer it cuts them.
 const REFERENCE: (u32, u32) = (128_000, 2);
