@@ -14,14 +14,10 @@
 //! Each section is a module that measures and appends its text, tables and
 //! pictures. All of it is the same, byte for byte, in every run.
 
-mod boundaries;
 mod choice;
 mod contact;
-mod corners;
 pub(crate) mod counts;
-mod gates;
 mod integrators;
-mod long_run;
 mod reference;
 mod schemes;
 
@@ -30,53 +26,21 @@ use std::path::Path;
 
 use crate::page::{Files, Page};
 use counts::Counts;
-use long_run::{DAY, QUICK, Table};
 
-use host_sim::progress::Verbosity;
-
-/// What to do about the run of 24 hours.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum LongRun {
-    /// Show the results that are kept.
-    Kept,
-    /// Run ten minutes in its place.
-    Quick,
-    /// Run it and keep the results.
-    Measured,
-}
-
-/// Where results of the long run are kept, below the folder of documents.
-const LONG_RUN: &str = "accuracy/long-run.csv";
-
-/// Measures everything. `docs` is the folder whose tables of instructions and
-/// of the long run are read.
-pub(crate) fn report(docs: &Path, long_run: LongRun, verbosity: Verbosity) -> Result<Files> {
+/// Measures everything. `docs` is the folder whose table of instructions is read.
+pub(crate) fn report(docs: &Path) -> Result<Files> {
     let counts = Counts::read(&docs.join("instructions.csv"))?;
-    let (day, kept) = match long_run {
-        LongRun::Kept => (Table::read(&docs.join(LONG_RUN))?, None),
-        LongRun::Quick => (Table::measure(QUICK, verbosity)?, None),
-        LongRun::Measured => {
-            let table = Table::measure(DAY, verbosity)?;
-            let csv = table.csv()?;
-            (table, Some((LONG_RUN.to_owned(), csv)))
-        }
-    };
     let near = integrators::measure(&integrators::NEAR)?;
 
     let mut page = Page::new("accuracy");
     introduction(&mut page);
     choice::section(&mut page, &near, &counts)?;
     integrators::section(&mut page, &near, &counts)?;
-    gates::section(&mut page)?;
-    boundaries::section(&mut page)?;
-    corners::section(&mut page)?;
     contact::section(&mut page, &contact::measure()?)?;
-    long_run::section(&mut page, &day, long_run == LongRun::Quick);
 
     let text = format!("{}\n", page.text.trim_end());
     let mut files = vec![("accuracy.md".to_owned(), text)];
     files.extend(page.files);
-    files.extend(kept);
     Ok(files)
 }
 

@@ -156,7 +156,6 @@ pub(crate) fn percent(name: &'static str) -> Axis {
     linear(name, 0.0, 100.0)
 }
 
-/// A diagram of joined points.
 pub(crate) fn panel(title: &str, x: Axis, y: Axis, curves: &[Series], mark: Mark) -> Panel {
     // Grey is for what is beside the point.
     let colours = (1..COLOURS.len()).cycle();

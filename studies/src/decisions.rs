@@ -21,11 +21,9 @@ pub(crate) mod figures;
 mod goals;
 mod ground;
 mod main_job;
-mod placebo;
+pub(crate) mod placebo;
 mod run_time;
 mod terrain;
-#[cfg(test)]
-mod tests;
 mod unknown;
 
 use std::path::Path;

@@ -13,18 +13,19 @@ mod page;
 mod paper;
 mod poses;
 mod rigs;
+#[cfg(test)]
+mod tests;
 
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use anyhow::{Context, Result, bail};
-use clap::{Parser, Subcommand};
+use clap::{Args, Parser, Subcommand};
 use host_sim::Error;
 use host_sim::output::write_whole;
 use host_sim::progress::Verbosity;
 use host_sim::report::{program, say};
 
-use accuracy::LongRun;
 use decisions::Folders;
 use experiment::Asked;
 use page::Files;
@@ -51,49 +52,33 @@ enum Command {
     Experiment(Asked),
     /// Measures the accuracy of every integrator and number format and writes
     /// DIR/accuracy.md with its pictures
-    Report {
-        /// Where documents are: instructions.csv is read, the report written there
-        #[arg(long, value_name = "DIR", default_value = "docs/measured")]
-        out: PathBuf,
-        /// Run ten minutes in place of showing the kept 24 hours
-        #[arg(long)]
-        quick: bool,
-        /// Run the 24 hours and keep them (DIR/accuracy/long-run.csv)
-        #[arg(long, conflicts_with = "quick")]
-        long: bool,
-        /// Only say whether the report is up to date
-        #[arg(long, conflicts_with_all = ["quick", "long"])]
-        check: bool,
-    },
+    Report(Made),
     /// Measures what decisions are worth and writes DIR/decisions.md with its table and
     /// pictures
     Decisions {
-        /// Where documents are: instructions.csv is read, the page written there
-        #[arg(long, value_name = "DIR", default_value = "docs/measured")]
-        out: PathBuf,
+        #[command(flatten)]
+        made: Made,
         /// Where the recordings of terrain are
         #[arg(long, value_name = "DIR", default_value = "tests/data/terrain")]
         terrain: PathBuf,
-        /// Fewer runs, trainings and settings
-        #[arg(long)]
-        quick: bool,
-        /// Only say whether the page is up to date
-        #[arg(long, conflicts_with = "quick")]
-        check: bool,
     },
     /// Measures what decisions are worth where use differs from training and writes
     /// DIR/poses.md with its table
-    Poses {
-        /// Where documents are: the page is written there
-        #[arg(long, value_name = "DIR", default_value = "docs/measured")]
-        out: PathBuf,
-        /// Fewer trainings, conditions and presentations
-        #[arg(long)]
-        quick: bool,
-        /// Only say whether the page is up to date
-        #[arg(long, conflicts_with = "quick")]
-        check: bool,
-    },
+    Poses(Made),
+}
+
+/// How a page is made.
+#[derive(Args)]
+struct Made {
+    /// Where documents are: instructions.csv is read, the page written there
+    #[arg(long, value_name = "DIR", default_value = "docs/measured")]
+    out: PathBuf,
+    /// Fewer runs, trainings and settings; the accuracy report is short as it is
+    #[arg(long)]
+    quick: bool,
+    /// Only say whether the page is up to date
+    #[arg(long, conflicts_with = "quick")]
+    check: bool,
 }
 
 /// Runs experiments. Writes the page, its pictures and, where asked for, their data. Returns what
@@ -117,80 +102,50 @@ fn experiments(asked: &Asked, verbosity: Verbosity) -> Result<String> {
     Ok(asked.out.join(page).display().to_string())
 }
 
-/// Writes generated files into the folder `out`, or with `check` says whether those that are there
-/// are the same. `command` makes `what`. Returns what was done.
-fn keep(out: &Path, files: &Files, check: bool, what: &str, command: &str) -> Result<String> {
-    let folder = out.display();
-    if !check {
-        for (name, text) in files {
-            write_whole(&out.join(name), text.as_bytes())?;
+/// Writes generated files, or with `--check` says whether those that are there are the same.
+/// `command` makes `what`. Returns what was done.
+fn keep(made: &Made, files: Result<Files>, what: &str, command: &str) -> Result<String> {
+    let files = files.with_context(|| what.to_owned())?;
+    let folder = made.out.display();
+    if !made.check {
+        for (name, text) in &files {
+            write_whole(&made.out.join(name), text.as_bytes())?;
         }
         return Ok(format!("{folder}: {} files of {what}", files.len()));
     }
-    let differs = |(name, text): &&(String, String)| {
-        std::fs::read(out.join(name)).map_or(true, |found| found != text.as_bytes())
-    };
-    let stale = files.iter().filter(differs);
-    let stale: Vec<String> = stale
-        .map(|(name, _)| out.join(name).display().to_string())
-        .collect();
-    if stale.is_empty() {
-        Ok(format!("{folder}: {what} is up to date"))
-    } else {
-        let stale = stale.join(", ");
-        bail!("out of date: {stale}: run {command}")
+    let mut stale = Vec::new();
+    for (name, text) in &files {
+        let path = made.out.join(name);
+        if std::fs::read(&path).map_or(true, |found| found != text.as_bytes()) {
+            stale.push(path.display().to_string());
+        }
     }
+    if !stale.is_empty() {
+        bail!("out of date: {}: run studies {command}", stale.join(", "));
+    }
+    Ok(format!("{folder}: {what} is up to date"))
 }
 
 fn work(arguments: Arguments) -> Result<()> {
     let verbosity = Verbosity::of(arguments.quiet);
     say(match arguments.command {
         Command::Experiment(asked) => experiments(&asked, verbosity)?,
-        Command::Report {
-            out,
-            quick,
-            long,
-            check,
-        } => {
-            let long_run = match (long, quick) {
-                (true, _) => LongRun::Measured,
-                (false, true) => LongRun::Quick,
-                (false, false) => LongRun::Kept,
-            };
-            let what = "the accuracy report";
-            let files = accuracy::report(&out, long_run, verbosity);
-            let files = files.context(what)?;
-            keep(&out, &files, check, what, "studies report")?
+        Command::Report(made) => {
+            let files = accuracy::report(&made.out);
+            keep(&made, files, "the accuracy report", "report")?
         }
-        Command::Decisions {
-            out,
-            terrain,
-            quick,
-            check,
-        } => {
-            let extent = if quick {
-                decisions::Extent::quick()
-            } else {
-                decisions::Extent::full()
-            };
-            let what = "the page of decisions";
+        Command::Decisions { made, terrain } => {
             let folders = Folders {
-                docs: &out,
+                docs: &made.out,
                 terrain: &terrain,
             };
+            let extent = decisions::Extent::new(made.quick);
             let files = decisions::page(folders, &extent, verbosity);
-            let files = files.context(what)?;
-            keep(&out, &files, check, what, "studies decisions")?
+            keep(&made, files, "the page of decisions", "decisions")?
         }
-        Command::Poses { out, quick, check } => {
-            let extent = if quick {
-                poses::Extent::quick()
-            } else {
-                poses::Extent::full()
-            };
-            let what = "the page of poses";
-            let files = poses::page(&extent, verbosity).context(what)?;
-            keep(&out, &files, check, what, "studies poses")?
+        Command::Poses(made) => {
+            let files = poses::page(&poses::Extent::new(made.quick), verbosity);
+            keep(&made, files, "the page of poses", "poses")?
         }
     });
     Ok(())

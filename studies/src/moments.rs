@@ -1,13 +1,5 @@
 //! Moments and ranges of numbers, and what several seeds say together.
 
-/// Mean and standard deviation; zeros of none.
-pub(crate) fn moments(values: impl Iterator<Item = f64> + Clone) -> (f64, f64) {
-    let count = values.clone().count().max(1) as f64;
-    let mean = values.clone().sum::<f64>() / count;
-    let square = values.map(|x| (x - mean) * (x - mean)).sum::<f64>() / count;
-    (mean, square.sqrt())
-}
-
 /// The least and the most; infinity and its negative of none.
 pub(crate) fn range(values: impl Iterator<Item = f64>) -> (f64, f64) {
     values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| {
@@ -19,7 +11,6 @@ pub(crate) fn range(values: impl Iterator<Item = f64>) -> (f64, f64) {
 /// degrees of freedom; more have the last.
 pub(crate) struct Sureness([f64; 9]);
 
-/// 95 %.
 pub(crate) const SURE: Sureness = Sureness([
     12.706, 4.303, 3.182, 2.776, 2.571, 2.447, 2.365, 2.306, 2.262,
 ]);
@@ -38,10 +29,20 @@ pub(crate) struct Summary {
     pub(crate) count: usize,
 }
 
+impl Sureness {
+    /// The quantile for the mean of so many.
+    pub(crate) fn quantile(&self, count: usize) -> f64 {
+        self.0[count.saturating_sub(2).min(self.0.len() - 1)]
+    }
+}
+
 impl Summary {
     pub(crate) fn of(values: &[f64]) -> Self {
         let count = values.len();
-        let (mean, sd) = moments(values.iter().copied());
+        let of = count.max(1) as f64;
+        let mean = values.iter().sum::<f64>() / of;
+        let squares = values.iter().map(|x| (x - mean) * (x - mean));
+        let sd = (squares.sum::<f64>() / of).sqrt();
         // Of the sample, and of its mean.
         let freedom = count.saturating_sub(1).max(1) as f64;
         let error = if count > 1 { sd / freedom.sqrt() } else { 0.0 };
@@ -49,9 +50,8 @@ impl Summary {
     }
 
     /// Half of the interval about the mean in which the truth is.
-    pub(crate) fn half_interval(&self, Sureness(quantiles): &Sureness) -> f64 {
-        let place = self.count.saturating_sub(2).min(quantiles.len() - 1);
-        quantiles[place] * self.error
+    pub(crate) fn half_interval(&self, sureness: &Sureness) -> f64 {
+        sureness.quantile(self.count) * self.error
     }
 
     /// The mean and its error, with so many digits behind the point.

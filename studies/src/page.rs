@@ -26,7 +26,6 @@ pub(crate) struct Recognition {
 /// Something that must come out of one seed.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Claim {
-    /// What must come out.
     pub(crate) what: String,
     pub(crate) paper: String,
     pub(crate) ours: String,
@@ -40,11 +39,11 @@ pub(crate) struct Claim {
 impl Claim {
     /// Says on which rate of textures it rests, where chance has that.
     pub(crate) fn rests_on(&mut self, rate: f64, chance: f64) {
-        self.rests_on_both(rate, chance, Some(chance));
+        self.rests_on_both(rate, (chance, Some(chance)));
     }
 
     /// The same of textures and something else, of whose chance `of_textures` is the textures'.
-    pub(crate) fn rests_on_both(&mut self, rate: f64, chance: f64, of_textures: Option<f64>) {
+    pub(crate) fn rests_on_both(&mut self, rate: f64, (chance, of_textures): (f64, Option<f64>)) {
         self.recognition = Some(Recognition {
             rate,
             chance,
@@ -53,7 +52,6 @@ impl Claim {
     }
 }
 
-/// A classifier's hit rate.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Score {
     pub(crate) classifier: &'static str,
@@ -188,35 +186,27 @@ impl Page {
         &mut self.claims[last]
     }
 
-    /// Adds a classifier's score of textures: its hit rate in percent, and that of chance.
+    /// Adds a classifier's score: its hit rate and that of chance, percent, and the chance where
+    /// textures alone cannot be told.
     pub(crate) fn score(
         &mut self,
         classifier: &'static str,
         task: impl Display,
-        hit: f64,
-        chance: f64,
-    ) {
-        self.score_both(classifier, task, hit, (chance, Some(chance)));
-    }
-
-    /// The same of textures and something else, with the chance where textures alone cannot be told.
-    pub(crate) fn score_both(
-        &mut self,
-        classifier: &'static str,
-        task: impl Display,
-        hit: f64,
+        rate: f64,
         (chance, of_textures): (f64, Option<f64>),
-    ) {
+    ) -> &mut Score {
         self.scores.push(Score {
             classifier,
             task: task.to_string(),
             recognition: Recognition {
-                rate: hit,
+                rate,
                 chance,
                 of_textures,
             },
             decided: None,
         });
+        let last = self.scores.len() - 1;
+        &mut self.scores[last]
     }
 }
 

@@ -21,8 +21,6 @@ mod output;
 mod placebo;
 mod scenes;
 mod tally;
-#[cfg(test)]
-mod tests;
 mod trained;
 mod unknown;
 

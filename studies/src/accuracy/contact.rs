@@ -1,5 +1,4 @@
-//! Contact of an elastic whisker with plates: error against run time, and
-//! whether contact creates energy.
+//! Contact of an elastic whisker with plates: error against run time.
 //!
 //! # Glossary
 //!
@@ -8,7 +7,6 @@
 //! - **change**: of the rotation within 2 ms, what textures make of it.
 //! - **part**: ticks before a plate are cut into 1, 2, 4 … 32 parts.
 
-mod energy;
 mod runs;
 
 use anyhow::Result;
@@ -19,7 +17,6 @@ use runs::{Measured, TICKS_HZ};
 
 pub(super) use runs::{Against, measure};
 
-/// The section. `measured` is what [`measure`] returned.
 pub(super) fn section(page: &mut Page, measured: &[Against]) -> Result<()> {
     page.heading(2, "Contact");
     page.say(
@@ -57,20 +54,6 @@ pub(super) fn section(page: &mut Page, measured: &[Against]) -> Result<()> {
         "contact.svg",
         "error of the rotation against parts a second, and its vibration against the tick",
         picture(measured)?,
-    );
-    page.heading(3, "Energy");
-    page.say(
-        "The whisker is bent, let go over or under a plate, and rings and bounces for 0.2 s \
-         with its base at rest, at all five ticks. Kinetic and elastic energy together must \
-         not rise. The largest rise from a tick to the next is, as a share of the most energy \
-         there was (rounding is about 1e-16 of it). Where ground under the tip turns out higher \
-         than a part has taken it for, contact counts it as lower until what it dissipates has \
-         paid for the difference: the last column has the most that it did.",
-    );
-    let rows = energy::rises()?.into_iter();
-    page.table(
-        "plate | largest rise | ground lower by at most, m",
-        rows.map(|(name, [rise, lowered])| vec![name, short(rise), short(lowered)]),
     );
     Ok(())
 }

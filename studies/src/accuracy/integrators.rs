@@ -5,11 +5,10 @@ use whisking::Integrator;
 
 use super::counts::{Counts, Target, cell};
 use super::reference::{Case, Truth};
-use super::schemes::{Format, Pace, Scheme};
+use super::schemes::{Format, Scheme};
 use crate::chart::{Axis, Mark, Panel, Series, draw};
 use crate::page::{Page, row, short, verdict};
 
-/// Whisk frequencies, Hz.
 pub(super) const FREQUENCIES_HZ: [f64; 4] = [0.5, 2.0, 8.0, 25.0];
 /// Tick rates, Hz: 0.1, 0.25, 0.5, 1 and 2 ms.
 pub(super) const TICKS_HZ: [f64; 5] = [10_000.0, 4_000.0, 2_000.0, 1_000.0, 500.0];
@@ -50,15 +49,13 @@ pub(super) struct Errors {
     pub(super) degrees: [[f64; TICKS_HZ.len()]; FREQUENCIES_HZ.len()],
 }
 
-/// Measures every scheme from `case`.
 pub(super) fn measure(case: &Case) -> Result<Vec<Errors>> {
     let truth = Truth::solve(case);
     let of = |scheme: Scheme| {
         let mut degrees = [[0.0; TICKS_HZ.len()]; FREQUENCIES_HZ.len()];
         for (row, frequency_hz) in degrees.iter_mut().zip(FREQUENCIES_HZ) {
             for (cell, tick_hz) in row.iter_mut().zip(TICKS_HZ) {
-                let pace = Pace::new(frequency_hz, tick_hz);
-                *cell = scheme.error(case, &truth, pace)?;
+                *cell = scheme.error(case, &truth, frequency_hz, tick_hz)?;
             }
         }
         Ok(Errors { scheme, degrees })

@@ -10,16 +10,14 @@ use std::f64::consts::TAU;
 /// Points of the solution a whisk: a multiple of the ticks of every row of the
 /// report.
 pub(super) const GRID: usize = 40_000;
-/// Whisks that are solved.
 pub(super) const WHISKS: usize = 10;
 /// 1.45 (BIOTACT eq. 8).
-pub(super) const PEAK_GAIN: f64 = 1.45;
+const PEAK_GAIN: f64 = 1.45;
 /// ω_n/f_W, rad.
 const STIFFNESS: f64 = 10.0;
 
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Case {
-    /// ψ of both sides.
     pub(super) psi: [[f64; 2]; 2],
     pub(super) gain: f64,
 }
@@ -32,15 +30,7 @@ struct State {
 }
 
 impl State {
-    /// The start of `case`.
-    fn new(case: &Case) -> Self {
-        Self {
-            psi: case.psi,
-            whisker: [[0.0; 2]; 2],
-        }
-    }
-
-    /// Change a whisk under the gain `push` = 1.45 (1 − z) g.
+    /// Change a whisk under the gain `push` = 1.45 g.
     fn rate(&self, push: f64) -> Self {
         let side = |side: usize| {
             let [a, b] = self.psi[side];
@@ -68,19 +58,17 @@ impl State {
         }
     }
 
-    /// One step of `h` whisks by the classical Runge-Kutta method; `push` at
-    /// its begin, middle and end.
-    fn runge_kutta(&self, h: f64, push: [f64; 3]) -> Self {
-        let k1 = self.rate(push[0]);
-        let k2 = self.moved(h / 2.0, &k1).rate(push[1]);
-        let k3 = self.moved(h / 2.0, &k2).rate(push[1]);
-        let k4 = self.moved(h, &k3).rate(push[2]);
+    /// One step of `h` whisks by the classical Runge-Kutta method.
+    fn runge_kutta(&self, h: f64, push: f64) -> Self {
+        let k1 = self.rate(push);
+        let k2 = self.moved(h / 2.0, &k1).rate(push);
+        let k3 = self.moved(h / 2.0, &k2).rate(push);
+        let k4 = self.moved(h, &k3).rate(push);
         [(1.0, k1), (2.0, k2), (2.0, k3), (1.0, k4)]
             .iter()
             .fold(*self, |sum, (weight, k)| sum.moved(weight * h / 6.0, k))
     }
 
-    /// θ of both sides.
     fn theta(&self) -> [f64; 2] {
         self.whisker.map(|[theta, _]| theta)
     }
@@ -98,23 +86,18 @@ pub(super) struct Truth(Vec<[f64; 2]>);
 impl Truth {
     /// [`WHISKS`] whisks of `case`.
     pub(super) fn solve(case: &Case) -> Self {
-        let push = PEAK_GAIN * case.gain;
-        Self::gated(case, WHISKS, |_| [push; 3])
-    }
-
-    /// `whisks` whisks of `case` under a gain that changes: `push` gives it at
-    /// the begin, middle and end of the step from each point of the grid.
-    pub(super) fn gated(case: &Case, whisks: usize, push: impl Fn(usize) -> [f64; 3]) -> Self {
-        let mut state = State::new(case);
+        let mut state = State {
+            psi: case.psi,
+            whisker: [[0.0; 2]; 2],
+        };
         let mut theta = vec![state.theta()];
-        for n in 0..whisks * GRID {
-            state = state.runge_kutta(1.0 / GRID as f64, push(n));
+        for _ in 0..WHISKS * GRID {
+            state = state.runge_kutta(1.0 / GRID as f64, PEAK_GAIN * case.gain);
             theta.push(state.theta());
         }
         Self(theta)
     }
 
-    /// θ after `point`/[`GRID`] whisks.
     pub(super) fn theta(&self, point: usize) -> Option<[f64; 2]> {
         self.0.get(point).copied()
     }

@@ -9,7 +9,6 @@ pub(crate) struct Means {
 }
 
 impl Means {
-    /// Adds a vector of a class, all of the same length.
     pub(crate) fn add(&mut self, class: usize, vector: impl Iterator<Item = f64>) {
         if class >= self.sums.len() {
             self.sums.resize(class + 1, (Vec::new(), 0));
@@ -23,7 +22,6 @@ impl Means {
         }
     }
 
-    /// The mean of each class.
     pub(crate) fn means(&self) -> Vec<Vec<f64>> {
         let mean =
             |(sum, number): &(Vec<f64>, u32)| sum.iter().map(|x| x / f64::from(*number)).collect();

@@ -7,8 +7,7 @@
 //! - **segment**: the samples of one trial, whisk or window.
 //! - **outcome**: the class that a recogniser names, and after how many samples.
 //!
-//! [`Bayes`] wraps naive Bayes under any rule; [`Picked`] lets a recogniser
-//! take only some channels (x alone, y alone, one whisker).
+//! [`Bayes`] wraps naive Bayes under any rule.
 
 use anyhow::Result;
 use tactile::{Decision, DecisionRule, Model, NaiveBayes, Posteriors, Quantiser, SetupError};
@@ -29,9 +28,6 @@ pub(crate) trait Recogniser {
 
     /// The end of the segment: an outcome of those that wait for it. Then as new.
     fn finish(&mut self) -> Option<Outcome>;
-
-    /// Forgets all samples.
-    fn reset(&mut self);
 }
 
 /// All outcomes of a segment, its samples one after another, each of `channels` values; starts and
@@ -41,13 +37,11 @@ pub(crate) fn outcomes(
     segment: &[f64],
     channels: usize,
 ) -> Vec<Outcome> {
-    recogniser.reset();
     let mut found: Vec<Outcome> = segment
         .chunks_exact(channels)
         .filter_map(|sample| recogniser.push(sample))
         .collect();
     found.extend(recogniser.finish());
-    recogniser.reset();
     found
 }
 
@@ -77,7 +71,6 @@ impl<'m, R: DecisionRule> Bayes<'m, R> {
         })
     }
 
-    /// Posterior of each class after the last full block.
     pub(crate) fn posteriors(&self) -> Posteriors {
         self.classifier.posteriors()
     }
@@ -107,62 +100,11 @@ impl<R: DecisionRule> Recogniser for Bayes<'_, R> {
     fn finish(&mut self) -> Option<Outcome> {
         self.classifier.finish().map(Outcome::from)
     }
-
-    fn reset(&mut self) {
-        self.classifier.reset();
-    }
-}
-
-/// A recogniser that takes some channels of a sample: trained on x alone it
-/// can be asked with x and y. See [`pick`] for training.
-#[derive(Debug, Clone)]
-pub(crate) struct Picked<R> {
-    recogniser: R,
-    channels: Vec<usize>,
-    taken: Vec<f64>,
-}
-
-impl<R> Picked<R> {
-    /// Of each sample, the recogniser takes these channels, in this order.
-    pub(crate) fn new(recogniser: R, channels: &[usize]) -> Self {
-        Self {
-            recogniser,
-            channels: channels.to_vec(),
-            taken: Vec::with_capacity(channels.len()),
-        }
-    }
-}
-
-impl<R: Recogniser> Recogniser for Picked<R> {
-    fn push(&mut self, sample: &[f64]) -> Option<Outcome> {
-        self.taken.clear();
-        let taken = self.channels.iter().filter_map(|&c| sample.get(c));
-        self.taken.extend(taken);
-        // Where a channel is missing the recogniser refuses the sample.
-        self.recogniser.push(&self.taken)
-    }
-
-    fn finish(&mut self) -> Option<Outcome> {
-        self.recogniser.finish()
-    }
-
-    fn reset(&mut self) {
-        self.recogniser.reset();
-    }
-}
-
-/// Some channels of a segment, sample by sample in the given order: what a recogniser in
-/// [`Picked`] is trained on.
-pub(crate) fn pick(segment: &[f64], channels: usize, picked: &[usize]) -> Vec<f64> {
-    let samples = segment.chunks_exact(channels);
-    samples
-        .flat_map(|sample| picked.iter().map(|&channel| sample[channel]))
-        .collect()
 }
 
 #[cfg(test)]
 mod tests {
-    use super::{Bayes, Outcome, Picked, outcomes, pick};
+    use super::{Bayes, Outcome, outcomes};
     use crate::classifiers::stationary::StationaryRule;
     use tactile::train::{Options, Trainer};
     use tactile::{Sequential, SequentialRule, Threshold};
@@ -179,15 +121,12 @@ mod tests {
         let mut options = Options::default();
         (options.block, options.smooth) = (5, 1.0);
         let mut trainer = Trainer::new(2, options).unwrap();
-        let mut single = Trainer::new(1, options).unwrap();
         for class in 0..2 {
-            let (name, segment) = (class.to_string(), samples(class));
-            for (both, y) in segment.chunks_exact(2).zip(pick(&segment, 2, &[1])) {
-                trainer.add(&name, both).unwrap();
-                single.add(&name, &[y]).unwrap();
+            for both in samples(class).chunks_exact(2) {
+                trainer.add(&class.to_string(), both).unwrap();
             }
         }
-        let (buf, single) = (trainer.train().unwrap(), single.train().unwrap());
+        let buf = trainer.train().unwrap();
         let (model, threshold) = (buf.view(), Threshold::new(0.99).unwrap());
         let quantisers = [0, 1].map(|channel| model.quantiser(channel).unwrap());
         for class in 0..2 {
@@ -202,17 +141,12 @@ mod tests {
             assert!(expected.len() > 10 && expected.iter().all(|found| found.class == class));
             assert_eq!(outcomes(&mut sequential, &segment, 2), expected);
 
+            let mut stationary = Bayes::<StationaryRule>::new(model, ()).unwrap();
             let whole = [Outcome {
                 class,
                 samples: 600,
             }];
-            let mut stationary = Bayes::<StationaryRule>::new(model, ()).unwrap();
             assert_eq!(outcomes(&mut stationary, &segment, 2), whole);
-            let new = || Bayes::<StationaryRule>::new(single.view(), ()).unwrap();
-            let mut y = Picked::new(new(), &[1]);
-            assert_eq!(outcomes(&mut y, &segment, 2), whole);
-            let mut x = Picked::new(new(), &[0]);
-            assert_eq!(outcomes(&mut x, &segment, 2)[0].class, 0);
         }
     }
 }

@@ -107,7 +107,6 @@ impl Regression {
             .collect()
     }
 
-    /// The value estimated from features.
     pub(crate) fn value(&self, features: &[f64]) -> f64 {
         let scaled = self.scaled(features);
         let terms = self.terms.iter();

@@ -67,7 +67,6 @@ impl SpectralTrainer {
     }
 }
 
-/// Spectral templates as trained.
 pub(crate) struct SpectralTemplates {
     spectra: Spectra,
     means: Vec<Vec<f64>>,

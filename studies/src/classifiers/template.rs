@@ -44,7 +44,6 @@ impl TemplateTrainer {
     }
 }
 
-/// Templates as trained.
 #[derive(Debug, Clone)]
 pub(crate) struct Templates {
     means: Vec<Vec<f64>>,

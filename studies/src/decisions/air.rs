@@ -12,7 +12,6 @@ use super::ground::Ground;
 use crate::cores::each;
 use crate::page::{Page, verdict};
 
-/// Whisking frequencies tried, Hz.
 const FREQUENCIES_HZ: [f64; 2] = [2.0, 8.0];
 /// An obstacle out of reach, degrees.
 const OUT_OF_REACH_DEG: f64 = 300.0;

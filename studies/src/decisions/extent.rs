@@ -5,7 +5,6 @@ use std::ops::Range;
 /// How much is measured. Training seeds are none of those scored.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Extent {
-    /// Whether this is the short form.
     pub(crate) is_quick: bool,
     /// Seeds of the runs that are trained on; the first is that of the shipped models.
     pub(crate) trainings: Vec<u64>,
@@ -19,27 +18,26 @@ pub(crate) struct Extent {
 }
 
 impl Extent {
-    pub(crate) fn full() -> Self {
+    pub(crate) fn new(is_quick: bool) -> Self {
+        if is_quick {
+            return Self {
+                is_quick,
+                trainings: vec![3],
+                scored: 600..602,
+                main_job: 600..603,
+                air_s: 10.0,
+                drives: 2,
+                values: 2,
+            };
+        }
         Self {
-            is_quick: false,
+            is_quick,
             trainings: [3].into_iter().chain(41..=49).collect(),
             scored: 600..620,
             main_job: 600..700,
             air_s: 600.0,
             drives: usize::MAX,
             values: usize::MAX,
-        }
-    }
-
-    pub(crate) fn quick() -> Self {
-        Self {
-            is_quick: true,
-            trainings: vec![3],
-            scored: 600..602,
-            main_job: 600..603,
-            air_s: 10.0,
-            drives: 2,
-            values: 2,
         }
     }
 }

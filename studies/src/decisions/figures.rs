@@ -84,7 +84,6 @@ pub(super) fn over<'f>(
     mean_of(&models.map(figure).collect::<Vec<_>>())
 }
 
-/// Mean ± standard error, or a dash.
 pub(super) fn plus_minus((mean, error): (f64, f64), decimals: usize) -> String {
     if mean.is_nan() {
         "–".to_owned()
@@ -93,12 +92,20 @@ pub(super) fn plus_minus((mean, error): (f64, f64), decimals: usize) -> String {
     }
 }
 
-/// A number, or a dash.
 pub(crate) fn number(x: f64, decimals: usize) -> String {
     if x.is_nan() {
         "–".to_owned()
     } else {
         format!("{x:.decimals$}")
+    }
+}
+
+/// A number of a table in CSV; what is none is empty.
+pub(crate) fn cell(x: f64) -> String {
+    if x.is_finite() {
+        format!("{x:.3}")
+    } else {
+        String::new()
     }
 }
 
@@ -189,13 +196,6 @@ impl Table {
         } = figures.calibration.found;
         let (_, error) = mean_of(&figures.hits);
         let runs = figures.hits.len();
-        let cell = |x: f64| {
-            if x.is_finite() {
-                format!("{x:.3}")
-            } else {
-                String::new()
-            }
-        };
         let percent = |x: f64| cell(100.0 * x);
         let cells = [
             cell(figures.hit_rate()),

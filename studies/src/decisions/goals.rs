@@ -23,7 +23,6 @@ pub(super) struct Trained {
 }
 
 impl Trained {
-    /// At threshold 0.99.
     pub(super) fn usual(&self) -> &Figures {
         &self.at[USUAL]
     }

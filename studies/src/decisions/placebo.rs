@@ -84,8 +84,8 @@ fn count(figures: &Figures) -> f64 {
     figures.calibration.found.count as f64
 }
 
-/// The name of a trial of what is truly `label`.
-fn permuted(names: &[&str], label: &str, trial: u64) -> String {
+/// What a trial of what is truly `label` is called.
+pub(crate) fn permuted(names: &[&str], label: &str, trial: u64) -> String {
     let place = names.iter().position(|name| *name == label);
     let turned = place.map(|place| (place + trial as usize) % names.len());
     let name = turned.and_then(|place| names.get(place));

@@ -106,7 +106,6 @@ impl Asked {
         if self.quick { Arm::QUICK } else { Arm::ALL }
     }
 
-    /// The experiments, each once, in the order of the page.
     pub(super) fn names(&self) -> Vec<Name> {
         let is_meant = |name: &Name| self.which.iter().any(|named| named.contains(name));
         Name::ALL.iter().copied().filter(is_meant).collect()
@@ -186,7 +185,6 @@ impl Asked {
 }
 
 impl Part {
-    /// Whether both are run alike.
     fn alike(&self, other: &Self) -> bool {
         (self.extent, &self.seeds) == (other.extent, &other.seeds)
     }

@@ -132,7 +132,7 @@ pub(super) fn evaluate(page: &mut Page, request: &Request, recordings: &Recordin
             let name = method.score_name();
             let what = format!("{}, RCP7, {most} whisks", task.text());
             let hit = hits.at(method, task, 1, most);
-            page.score_both(name, what, hit, (task.chance(), task.chance_of_textures()));
+            page.score(name, what, hit, task.chance());
         }
     }
     claims(page, &hits, most);
@@ -182,7 +182,7 @@ fn claims(page: &mut Page, hits: &Hits, most: usize) {
                 ),
                 ((rcp7 - rcp9).min(rcp9 - plain), "points"),
             )
-            .rests_on_both(rcp7, Task::Both.chance(), Task::Both.chance_of_textures());
+            .rests_on_both(rcp7, Task::Both.chance());
         }
     }
     let bayes = |task, strategy, count| hits.at(Method::Bayes, task, strategy, count);
@@ -196,7 +196,7 @@ fn claims(page: &mut Page, hits: &Hits, most: usize) {
         format_args!("{} %", one(seven)),
         (seven - NEARLY_ALL, "points"),
     )
-    .rests_on_both(seven, Task::Both.chance(), Task::Both.chance_of_textures());
+    .rests_on_both(seven, Task::Both.chance());
     let [joint, texture, distance] = Task::ALL.map(|task| bayes(task, 0, most));
     let product = texture * distance / 100.0;
     page.claim(
@@ -214,7 +214,7 @@ fn claims(page: &mut Page, hits: &Hits, most: usize) {
         ),
         (NEARLY - (joint - product).abs(), "points"),
     )
-    .rests_on_both(joint, Task::Both.chance(), Task::Both.chance_of_textures());
+    .rests_on_both(joint, Task::Both.chance());
     let template = hits.at(Method::Template, Task::Texture, 0, most);
     page.claim(
         "BIOTACT: on texture alone naive Bayes beats the template (unmodulated)",
@@ -222,7 +222,7 @@ fn claims(page: &mut Page, hits: &Hits, most: usize) {
         format_args!("{} against {} %", one(texture), one(template)),
         (texture - template, "points"),
     )
-    .rests_on(texture, Task::Texture.chance());
+    .rests_on_both(texture, Task::Texture.chance());
     let [plain, rcp7, rcp9] = [0, 1, 2].map(|n| hits.at(Method::Template, Task::Distance, n, most));
     page.claim(
         format_args!(
@@ -238,5 +238,5 @@ fn claims(page: &mut Page, hits: &Hits, most: usize) {
         ),
         (plain - rcp7.max(rcp9), "points"),
     )
-    .rests_on_both(plain, Task::Distance.chance(), None);
+    .rests_on_both(plain, Task::Distance.chance());
 }

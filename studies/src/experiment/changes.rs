@@ -19,7 +19,6 @@ const fn change(name: &'static str, keys: &'static [&'static str]) -> Change {
     Change { name, keys }
 }
 
-/// As it is.
 const NONE: Change = change("as it is", &[]);
 
 /// LEP10 and LEP12.

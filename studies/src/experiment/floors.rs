@@ -10,7 +10,7 @@ use tactile::train::{Options, Trainer};
 use super::record::floor::{MOTIONS, number};
 use super::recording::{Dataset, Recording, Recordings, of_set};
 use super::request::{Extent, Request};
-use crate::classifiers::recogniser::{Outcome, Recogniser, outcomes, pick};
+use crate::classifiers::recogniser::{Outcome, Recogniser, outcomes};
 use crate::moments::range;
 use crate::page::percent_of;
 use crate::paper::lep10::FLOORS;
@@ -25,14 +25,17 @@ pub(super) const CHANNELS: usize = 2;
 #[derive(Debug, Clone)]
 pub(super) struct Stream {
     pub(super) floor: usize,
-    /// x, y, x, y, …
     pub(super) samples: Vec<f64>,
 }
 
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Half {
-    First,
-    Second,
+impl Stream {
+    /// Some of its channels, sample by sample.
+    fn picked(&self, channels: &[usize]) -> Vec<f64> {
+        let samples = self.samples.chunks_exact(CHANNELS);
+        samples
+            .flat_map(|sample| channels.iter().map(|&channel| sample[channel]))
+            .collect()
+    }
 }
 
 #[derive(Debug)]
@@ -64,9 +67,9 @@ impl<'a> Floors<'a> {
         }
     }
 
-    /// A half of every trial of the `motions`, floor by floor.
-    pub(super) fn half(&self, motions: &[RobotMotion], half: Half) -> Vec<Stream> {
-        let mut streams = Vec::new();
+    /// The halves of every trial of the `motions`, floor by floor.
+    pub(super) fn halves(&self, motions: &[RobotMotion]) -> [Vec<Stream>; 2] {
+        let mut halves = [Vec::new(), Vec::new()];
         for floor in 0..FLOORS.len() {
             for motion in MOTIONS.iter().filter(|motion| motions.contains(motion)) {
                 let trials = match motion {
@@ -78,16 +81,15 @@ impl<'a> Floors<'a> {
                     let Some(recording) = self.recordings.get(number) else {
                         continue;
                     };
-                    let middle = recording.len() / 2;
-                    let samples = match half {
-                        Half::First => recording.segment(0, middle),
-                        Half::Second => recording.segment(middle, recording.len()),
-                    };
-                    streams.push(Stream { floor, samples });
+                    let (middle, end) = (recording.len() / 2, recording.len());
+                    for (half, (from, to)) in halves.iter_mut().zip([(0, middle), (middle, end)]) {
+                        let samples = recording.segment(from, to);
+                        half.push(Stream { floor, samples });
+                    }
                 }
             }
         }
-        streams
+        halves
     }
 
     pub(super) fn samples(&self, seconds: f64) -> usize {
@@ -112,7 +114,7 @@ pub(super) fn train(streams: &[Stream], picked: &[usize], block: u32) -> Result<
     let mut trainer = Trainer::new(picked.len(), options)?;
     for stream in streams {
         let name = FLOORS.get(stream.floor).copied().unwrap_or_default();
-        for sample in pick(&stream.samples, CHANNELS, picked).chunks_exact(picked.len()) {
+        for sample in stream.picked(picked).chunks_exact(picked.len()) {
             trainer.add(name, sample)?;
         }
     }
@@ -136,16 +138,18 @@ pub(super) struct Tally {
 }
 
 impl Tally {
-    /// What a recogniser makes of all streams, each from its start.
+    /// What a recogniser makes of some channels of all streams, each from its start.
     pub(super) fn of<R: Recogniser>(
         streams: &[Stream],
+        channels: &[usize],
         new: impl Fn() -> Result<R> + Sync,
     ) -> Result<Self> {
         let found: Result<Vec<(usize, Vec<Outcome>)>> = streams
             .par_iter()
             .map(|stream| {
                 let mut recogniser = new()?;
-                let found = outcomes(&mut recogniser, &stream.samples, CHANNELS);
+                let samples = stream.picked(channels);
+                let found = outcomes(&mut recogniser, &samples, channels.len());
                 Ok((stream.floor, found))
             })
             .collect();
@@ -172,17 +176,14 @@ impl Tally {
         Ok(())
     }
 
-    /// Hit rate of each floor, percent.
     pub(super) fn hits(&self) -> [f64; 4] {
         core::array::from_fn(|floor| percent_of(&self.confusion, floor, floor))
     }
 
-    /// Mean hit rate over the floors, percent.
     pub(super) fn mean_hit(&self) -> f64 {
         self.hits().iter().sum::<f64>() / 4.0
     }
 
-    /// Mean samples of an outcome.
     pub(super) fn mean_samples(&self) -> f64 {
         self.samples as f64 / self.confusion.named().max(1) as f64
     }
@@ -191,7 +192,7 @@ impl Tally {
 #[cfg(test)]
 mod tests {
     use super::{Stream, Tally, train};
-    use crate::classifiers::recogniser::{Bayes, Picked};
+    use crate::classifiers::recogniser::Bayes;
     use tactile::WindowRule;
 
     /// Floors that differ in x by 500 codes and not in y.
@@ -212,10 +213,8 @@ mod tests {
             let buf = train(&streams, &picked, 1).unwrap();
             let model = buf.view();
             assert_eq!(model.bins(0), Some(49), "1596 codes in bins of 32.77");
-            let tally = Tally::of(&streams, || {
-                let bayes = Bayes::<WindowRule>::new(model, 100);
-                let bayes = bayes?;
-                Ok(Picked::new(bayes, &picked))
+            let tally = Tally::of(&streams, &picked, || {
+                Ok(Bayes::<WindowRule>::new(model, 100)?)
             });
             let tally = tally.unwrap();
             assert!((tally.mean_hit() - expected).abs() < 1e-9, "{tally:?}");

@@ -1,12 +1,12 @@
 //! LEP10: naive Bayes over fixed windows, on x, y and both; artificial motion
 //! (turning on the spot) against natural motion (autonomous).
 
-use super::floors::{Floors, Half, Stream, Tally, train};
+use super::floors::{Floors, Stream, Tally, train};
 use super::ranges;
 use super::recording::{Dataset, Recordings};
 use super::request::Request;
 use crate::chart::{Series, over_windows};
-use crate::classifiers::recogniser::{Bayes, Picked};
+use crate::classifiers::recogniser::Bayes;
 use crate::page::{Page, confusion, figure, row};
 use crate::paper::lep10::{FIG4_KNEE_S, FIG4_LONG, FLOORS, TABLES, WINDOW_S};
 use crate::rigs::RobotMotion;
@@ -20,7 +20,6 @@ const CHANNELS: [(&str, &[usize]); 3] = [("x", &[0]), ("y", &[1]), ("x and y", &
 const SPOT: [RobotMotion; 2] = [RobotMotion::Anticlockwise, RobotMotion::Clockwise];
 const NATURAL: [RobotMotion; 1] = [RobotMotion::Autonomous];
 
-/// Chance of naming a floor, percent.
 const CHANCE: f64 = 100.0 / FLOORS.len() as f64;
 /// Vinyl, which falls the most in the paper.
 const VINYL: usize = 3;
@@ -28,9 +27,8 @@ const VINYL: usize = 3;
 /// Hits over windows of so many samples.
 fn windows(buf: &ModelBuf, picked: &[usize], validation: &[Stream], window: u32) -> Result<Tally> {
     let model = buf.view();
-    Tally::of(validation, || {
-        let bayes = Bayes::<WindowRule>::new(model, window)?;
-        Ok(Picked::new(bayes, picked))
+    Tally::of(validation, picked, || {
+        Ok(Bayes::<WindowRule>::new(model, window)?)
     })
 }
 
@@ -45,12 +43,8 @@ pub(super) fn evaluate(page: &mut Page, request: &Request, recordings: &Recordin
     );
 
     let window = floors.samples(WINDOW_S) as u32;
-    let (training, validation) = (
-        floors.half(&SPOT, Half::First),
-        floors.half(&SPOT, Half::Second),
-    );
-    let natural = floors.half(&NATURAL, Half::First);
-    let natural_validation = floors.half(&NATURAL, Half::Second);
+    let [training, validation] = floors.halves(&SPOT);
+    let [natural, natural_validation] = floors.halves(&NATURAL);
     let mut hits = [[0.0; 4]; 5];
     let mut means = [0.0; 5];
     let mut models = Vec::new();
@@ -92,7 +86,7 @@ pub(super) fn evaluate(page: &mut Page, request: &Request, recordings: &Recordin
     .into_iter()
     .zip(means)
     {
-        page.score(name, "four floors", mean, CHANCE);
+        page.score(name, "four floors", mean, (CHANCE, Some(CHANCE)));
     }
     claims(page, &means, &hits, knee);
     let of = (request, recordings);

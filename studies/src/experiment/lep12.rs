@@ -16,7 +16,6 @@ use crate::paper::lep12::{KNEE_S, MOTIONS, SEQUENTIAL_GAIN, TABLES, TIME_S};
 use anyhow::{Context, Result};
 use groups::{Curves, Group, interpolate};
 
-/// Chance of naming a floor, percent.
 const CHANCE: f64 = 100.0 / FLOORS.len() as f64;
 
 pub(super) fn evaluate(page: &mut Page, request: &Request, recordings: &Recordings) -> Result<()> {
@@ -67,7 +66,7 @@ pub(super) fn evaluate(page: &mut Page, request: &Request, recordings: &Recordin
             name,
             "four floors, rotating",
             rows.get(2).map_or(0.0, |row| row[4]),
-            CHANCE,
+            (CHANCE, Some(CHANCE)),
         );
     }
     Ok(())

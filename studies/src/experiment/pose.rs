@@ -14,14 +14,14 @@ use super::request::Request;
 use crate::page::{Page, figure};
 use crate::paper::pose::{ANGLES_DEG, ROWS, SPEEDS_MM_S, TEXTURE_ALONE, TEXTURES};
 use anyhow::Result;
-use rules::{features, spectral, template};
+use rules::{Nearest, features};
 use scores::Scores;
 use sets::Sets;
 
 pub(super) fn evaluate(page: &mut Page, request: &Request, recordings: &Recordings) -> Result<()> {
     let sets = Sets::new(request, recordings)?;
-    let by_template = template(&sets)?;
-    let by_spectrum = spectral(&sets)?;
+    let by_template = Nearest::Signal.contacts(&sets)?;
+    let by_spectrum = Nearest::Spectrum.contacts(&sets)?;
     let by_features = features(&sets)?;
     page.heading(2, "POSE: one contact at an unknown angle and speed");
     page.say(format_args!(
@@ -38,8 +38,8 @@ pub(super) fn evaluate(page: &mut Page, request: &Request, recordings: &Recordin
     scores::matrices(page, &rows)?;
     scores::features(page, &by_features.textures);
     let alone = [
-        rules::template_of_textures(&sets)?,
-        rules::spectral_of_textures(&sets)?,
+        Nearest::Signal.textures(&sets)?,
+        Nearest::Spectrum.textures(&sets)?,
     ];
     page.say(format_args!(
         "κ of texture alone, whatever the pose (one template a texture): template {:.2} / \
@@ -65,13 +65,12 @@ pub(super) fn evaluate(page: &mut Page, request: &Request, recordings: &Recordin
         for ((property, classes), hit) in properties.zip(scores.hit()) {
             let chance = 100.0 / classes as f64;
             let of_textures = (property == "texture").then_some(chance);
-            page.score_both(name, property, hit, (chance, of_textures));
+            page.score(name, property, hit, (chance, of_textures));
         }
     }
     Ok(())
 }
 
-/// The product's own rule on textures, whatever the pose.
 fn product(page: &mut Page, sets: &Sets) -> Result<()> {
     let streams = |set: usize| -> Result<Vec<_>> {
         let all = sets.pairs[set].iter().enumerate();
@@ -103,6 +102,6 @@ fn claims(page: &mut Page, rows: &[&Scores; 3]) {
             format_args!("template {x}, spectral {y}, features {z}"),
             (ours[best] - others, "of κ"),
         )
-        .rests_on_both(ours[best], 0.0, (property == 2).then_some(0.0));
+        .rests_on_both(ours[best], (0.0, (property == 2).then_some(0.0)));
     }
 }

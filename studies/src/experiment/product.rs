@@ -7,7 +7,7 @@ use host_sim::recording::Stream;
 use host_sim::training::{How, Tables};
 use whisking::filter;
 
-use crate::page::{Page, Recognition, Score, figure, row};
+use crate::page::{Page, figure, row};
 
 const THRESHOLD: f64 = 0.99;
 
@@ -67,16 +67,9 @@ fn cells(
     let right = 100.0 * found.calibration.found.share;
     let decided = 100.0 * (1.0 - found.undecided.share);
     let bytes = model.as_bytes().len();
-    page.scores.push(Score {
-        classifier: NAME,
-        task: task.name.to_owned(),
-        recognition: Recognition {
-            rate: right,
-            chance: 100.0 / task.classes as f64,
-            of_textures: Some(100.0 / task.classes as f64),
-        },
-        decided: Some(decided),
-    });
+    let chance = 100.0 / task.classes as f64;
+    page.score(NAME, task.name, right, (chance, Some(chance)))
+        .decided = Some(decided);
     Ok([
         figure(right, 1),
         figure(100.0 * found.calibration.stated, 1),

@@ -20,7 +20,6 @@ use crate::paper::psik::{ARCS, FIG6_THREE_ARCS, TABLE_2, VIBRISSAE};
 use crate::rigs::seed_of;
 use sweeps::{NAMES, Sweeps, hit, hit_of_p40, mean_hit};
 
-/// Chance of naming a sandpaper, percent.
 const CHANCE: f64 = 100.0 / PAPERS as f64;
 /// What counts as the paper's 90 to 95 %.
 const ENOUGH: f64 = FIG6_THREE_ARCS.0;
@@ -77,7 +76,7 @@ pub(super) fn evaluate(page: &mut Page, request: &Request, recordings: &Recordin
     let most = 127.0 * 64.0;
     ranges::say(page, (request, recordings), (Dataset::Vibrissa, 2), most);
     let name = "IMP and network 33–33–8";
-    page.score(name, "eight sandpapers", hit(all), CHANCE);
+    page.score(name, "eight sandpapers", hit(all), (CHANCE, Some(CHANCE)));
     if request.depth >= Depth::Textures {
         corridor::section(page, request, recordings)?;
     }

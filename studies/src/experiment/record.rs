@@ -7,7 +7,7 @@ pub(crate) mod head;
 pub(crate) mod pad;
 pub(crate) mod pads;
 pub(crate) mod table;
-mod whiskers;
+pub(crate) mod whiskers;
 
 use super::recording::{Dataset, Job, Recording, Recordings};
 use super::request::{Depth, Extent, Request};

@@ -36,12 +36,9 @@ impl Dataset {
     }
 }
 
-/// A job of a data set: what one recording comes of.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) struct Job {
-    /// Of which set.
     pub(crate) dataset: Dataset,
-    /// Which of its jobs, from 0.
     pub(crate) number: usize,
 }
 
@@ -49,19 +46,15 @@ pub(crate) struct Job {
 /// another. Sensor codes of 14 bits are exact in single precision.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub(crate) struct Recording {
-    /// Numbers of a sample.
     pub(crate) channels: usize,
-    /// The samples.
     pub(crate) values: Vec<f32>,
 }
 
 impl Recording {
-    /// Of `channels` numbers a sample.
     pub(crate) fn new(channels: usize, values: Vec<f32>) -> Self {
         Self { channels, values }
     }
 
-    /// From sensor codes.
     pub(crate) fn from_codes(channels: usize, codes: &[i16]) -> Self {
         Self::new(
             channels,

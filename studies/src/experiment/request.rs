@@ -4,18 +4,14 @@
 use super::arm::{Arm, Placebo, Protocol};
 use super::recording::Dataset;
 use crate::rigs::{Chance, Rigs, seed_of};
+use physics::{Material, Surface};
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum Name {
-    /// LEP10: fixed windows.
     Lep10,
-    /// LEP12: sequential analysis.
     Lep12,
-    /// BIOTACT: active whisking.
     Biotact,
-    /// POSE: one contact at an unknown angle and speed.
     Pose,
-    /// PSIK: many vibrissae.
     Psikharpax,
 }
 
@@ -77,7 +73,6 @@ impl Extent {
         self.pick(12, 4)
     }
 
-    /// Trials of natural motion.
     pub(crate) const fn natural_trials(self) -> usize {
         2 * self.trials()
     }
@@ -126,13 +121,14 @@ pub(crate) enum Depth {
 }
 
 impl Request {
-    /// The texture that is felt for `texture`: itself, or that of all in a placebo.
-    pub(crate) fn texture(&self, texture: usize, of_placebo: usize) -> usize {
-        if self.arm.placebo.is_some() {
+    /// What is felt for a texture of some: itself, or that of all in a placebo.
+    pub(crate) fn surface(&self, all: &[Material], texture: usize, of_placebo: usize) -> Surface {
+        let felt = if self.arm.placebo.is_some() {
             of_placebo
         } else {
             texture
-        }
+        };
+        self.rigs.surfaces.of(all[felt])
     }
 
     /// The distance, angle or speed that is felt for `place`: itself, or that of all where labels
@@ -178,7 +174,7 @@ impl Request {
             names: names.to_vec(),
             extent: Extent::Quick,
             seed,
-            rigs: Rigs::load(None, &[]).unwrap(),
+            rigs: Rigs::with(&[]),
             arm: Arm::MAIN,
             depth: Depth::Whole,
         }

@@ -5,7 +5,6 @@ use super::verdicts::{Bodies, Recognised};
 use crate::moments::Summary;
 use crate::page::{Page, Score};
 
-/// The same score of every page, of those in which there is one.
 fn hits(pages: &[Page], n: usize) -> String {
     let scores = || pages.iter().filter_map(|page| page.scores.get(n));
     let hits = scores().map(|score| score.recognition.rate);
@@ -22,7 +21,6 @@ fn hits(pages: &[Page], n: usize) -> String {
     format!("{}{share}", Summary::of(&hits).text(1, false))
 }
 
-/// The rows of an experiment's classifiers.
 pub(super) fn rows(bodies: &Bodies) -> Vec<Vec<String>> {
     let of = |arm| bodies.of(arm);
     let scores = of(Arm::MAIN).first().map_or(&[][..], |page| &page.scores);

@@ -11,7 +11,6 @@ pub(super) const RANGE_DB: f64 = 60.0;
 #[derive(Debug, Clone)]
 pub(super) struct Spectrogram {
     pub(super) title: String,
-    /// Duration, s.
     pub(super) time_s: f64,
     /// The frequency at which the last row ends, Hz.
     pub(super) highest_hz: f64,

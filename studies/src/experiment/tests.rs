@@ -2,6 +2,7 @@
 //! the recordings alone: neither on the number of cores.
 
 use super::arm::Arm;
+use super::record::whiskers::TABLE;
 use super::record::{corridor, floor, head, pad, table};
 use super::record::{jobs, record};
 use super::recording::{Dataset, Recording};
@@ -94,76 +95,10 @@ fn a_class_keeps_its_spot_as_in_the_paper_and_none_where_things_are_drawn_again(
     assert_eq!(spot(Arm::LABELS, 2, 7), spot(Arm::LABELS, 3, 7));
     assert_ne!(spot(Arm::SPOTS, 2, 7), spot(Arm::SPOTS, 3, 7));
     let spots = of(Arm::SPOTS);
-    assert_eq!([2, 3].map(|texture| spots.texture(texture, 0)), [0, 0]);
+    let first = spots.surface(&TABLE, 0, 0);
+    assert_eq!(
+        [2, 3].map(|texture| spots.surface(&TABLE, texture, 0)),
+        [first; 2]
+    );
     assert_eq!([2, 3].map(|angle| spots.place(angle, 4)), [2, 3]);
-}
-
-/// The least and the most of x and y.
-type Fill = ([f32; 2], [f32; 2]);
-
-/// What each rig's file says of its full scale: signals fill the range, and few are clipped but
-/// on the head, whose front whiskers clip where eq. 11 does.
-#[test]
-fn signals_fill_the_range_of_every_sensor() {
-    let request = Request::quick(Name::ALL, 2);
-    let extent = request.extent;
-    let fast = table::jobs(extent) / 2 - 4;
-    let sweeps = pad::jobs(extent) / pad::PAPERS;
-    let floors = [0, 1, 2, 3].map(|of| floor::number(extent, of, RobotMotion::Clockwise, 0));
-    // The data set's record, its jobs, channels and largest code, and between what shares of the
-    // range the 99.9 % quantiles of x and y are.
-    let all: [(Record, Vec<usize>, usize, f32, Fill); 4] = [
-        (
-            floor::record,
-            floors.to_vec(),
-            2,
-            8191.0,
-            ([0.3, 0.6], [0.9, 0.99]),
-        ),
-        (
-            table::record,
-            vec![fast],
-            2,
-            8191.0,
-            ([0.5, 0.0], [0.99, 0.99]),
-        ),
-        (
-            head::record,
-            vec![head::number(1, 0, 1)],
-            2,
-            8191.0,
-            ([0.4, 0.0], [1.0, 0.5]),
-        ),
-        (
-            pad::record_one,
-            vec![7 * sweeps],
-            2,
-            127.0 * 64.0,
-            ([0.5, 0.0], [1.0, 1.0]),
-        ),
-    ];
-    for (n, (record, jobs, channels, most, (least, largest))) in all.into_iter().enumerate() {
-        let mut axes = [Vec::new(), Vec::new()];
-        for job in jobs {
-            let recording = record(&request, job, 9).unwrap();
-            for sample in recording.values.chunks_exact(recording.channels) {
-                for (code, axis) in sample.iter().take(channels).zip(&mut axes) {
-                    axis.push(code.abs() / most);
-                }
-            }
-        }
-        for (axis, codes) in axes.iter_mut().enumerate() {
-            codes.sort_by(f32::total_cmp);
-            let clipped = codes.iter().filter(|code| **code >= 1.0).count();
-            let share = codes[codes.len() * 999 / 1000];
-            println!(
-                "{n}, axis {axis}: {share}, {clipped} of {} clipped",
-                codes.len()
-            );
-            assert!(
-                (least[axis]..=largest[axis]).contains(&share),
-                "{n}, {axis}: {share}"
-            );
-        }
-    }
 }

@@ -98,14 +98,12 @@ impl Recognised {
     }
 }
 
-/// A claim by one protocol.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Judged {
     pub(super) ours: String,
     pub(super) margin: Summary,
     unit: &'static str,
     rate: Option<Recognised>,
-    /// The placebo of labels.
     pub(super) labels: Option<Recognised>,
 }
 
@@ -151,7 +149,6 @@ pub(super) fn digits(unit: &str) -> usize {
     }
 }
 
-/// A claim by both protocols.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Both {
     pub(super) what: String,
@@ -183,7 +180,6 @@ pub(super) fn claims_of<'p>(pages: &'p [Page], what: &'p str) -> impl Iterator<I
     pages.iter().filter_map(of)
 }
 
-/// The margin of a claim over the seeds.
 pub(super) fn margins(pages: &[Page], what: &str) -> Summary {
     let margins: Vec<f64> = claims_of(pages, what).map(|claim| claim.margin).collect();
     Summary::of(&margins)
@@ -290,10 +286,5 @@ mod tests {
         // Worse by two points, each seed beside its own.
         assert!(!of([78.0, 82.0, 80.5, 81.0, 79.0]));
         assert!(!of(CHANCE));
-    }
-
-    #[test]
-    fn a_claim_without_anything_to_draw_again_stands_alone() {
-        assert!(both(&[(Arm::MAIN, [1.0; 5], [90.0; 5])]).again.is_none());
     }
 }

@@ -219,7 +219,6 @@ fn table_of_claims(page: &mut Page, claims: &[Both]) {
     );
 }
 
-/// Every claim without what is chosen.
 fn without_choices(page: &mut Page, asked: &Asked, all: &[Done]) {
     let seeds = asked.seeds_of_changes();
     if seeds.is_empty() {

@@ -12,7 +12,6 @@ pub(crate) const FLOORS: [&str; 4] = ["rough carpet", "smooth carpet", "tarmac",
 /// Window of Tables I to V, s.
 pub(crate) const WINDOW_S: f64 = 0.5;
 
-/// One of Tables I to V.
 #[derive(Debug, Clone, Deserialize)]
 pub(crate) struct Table {
     pub(crate) number: String,

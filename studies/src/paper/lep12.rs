@@ -15,7 +15,6 @@ pub(crate) const TIME_S: f64 = 0.2;
 /// Segment of the spectral methods, s.
 pub(crate) const SEGMENT_S: f64 = 0.4;
 
-/// One of Tables 1 to 4.
 #[derive(Debug, Clone, Deserialize)]
 pub(crate) struct Table {
     pub(crate) number: u8,

@@ -25,7 +25,6 @@ pub(crate) struct Figure {
     pub(crate) spread: f64,
 }
 
-/// A classifier's row: angle, speed, texture.
 #[derive(Debug, Clone, Deserialize)]
 pub(crate) struct ClassifierRow {
     pub(crate) what: String,

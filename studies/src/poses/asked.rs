@@ -5,6 +5,7 @@ use tactile::score::{Interval, Statistics};
 
 use super::tally::Tally;
 use super::trained::TICK_HZ;
+use crate::moments::SURE;
 use crate::page::verdict;
 
 /// The most presentations with a name where nothing is asked of the names, percent.
@@ -69,19 +70,11 @@ pub(super) fn said(missed: &[&str]) -> String {
 
 /// A mean with its 95 % interval by Student: low, mean, high; all the mean if there is one value.
 pub(super) fn mean_within(values: &[f64]) -> [f64; 3] {
-    // Quantiles of 97.5 % of 1 to 9 degrees of freedom.
-    const STUDENT: [f64; 9] = [
-        12.706, 4.303, 3.182, 2.776, 2.571, 2.447, 2.365, 2.306, 2.262,
-    ];
     let values = values.iter().copied().filter(|x| !x.is_nan());
     let Some(found) = Statistics::of(values) else {
         return [f64::NAN; 3];
     };
-    let freedom = found.count.saturating_sub(1) as usize;
-    let half = match freedom.checked_sub(1) {
-        None => 0.0,
-        Some(n) => STUDENT.get(n).copied().unwrap_or(1.96) * found.sd / (found.count as f64).sqrt(),
-    };
+    let half = SURE.quantile(found.count as usize) * found.sd / (found.count as f64).sqrt();
     [found.mean - half, found.mean, found.mean + half]
 }
 
@@ -97,7 +90,7 @@ pub(super) fn at_most(share: Interval, goal: f64) -> bool {
 
 #[cfg(test)]
 mod tests {
-    use super::{mean_within, said};
+    use super::mean_within;
 
     #[test]
     fn an_interval_of_a_mean_is_students() {
@@ -106,11 +99,5 @@ mod tests {
         // 4.303 · 1/√3.
         assert!((high - mean - 2.484).abs() < 1e-3 && (mean - low - 2.484).abs() < 1e-3);
         assert_eq!(mean_within(&[5.0]), [5.0; 3]);
-    }
-
-    #[test]
-    fn a_verdict_names_what_is_missed() {
-        assert_eq!(said(&[]), "met");
-        assert_eq!(said(&["right", "gap"]), "**missed**: right, gap");
     }
 }

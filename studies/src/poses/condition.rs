@@ -80,7 +80,6 @@ impl Change {
     }
 }
 
-/// A scene file.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct File {
     pub(super) name: &'static str,
@@ -197,23 +196,6 @@ mod tests {
         assert_eq!(mixed, [8162.0, 9192.0]);
         assert_eq!(Change::ScaleX(2.0).sensed([16000.0, 1.0]), [16383.0, 1.0]);
         assert_eq!(Change::Tilt(18.0).sensed([1.0, 2.0]), [1.0, 2.0]);
-    }
-
-    #[test]
-    fn a_change_is_in_the_scene() {
-        let changes = [
-            Change::Tilt(18.0),
-            Change::Zero([200.0, -200.0]),
-            Change::NoRcp,
-        ];
-        let setting = Setting {
-            seconds: Some(20.0),
-            ..Setting::of(WHISKER, &changes)
-        };
-        let scene = setting.scene(9, None).unwrap();
-        assert_eq!(scene.plant.facing.unwrap().tilt_deg, 18.0);
-        assert_eq!(scene.plant.zero_codes, Some(vec![[200.0, -200.0]]));
-        assert_eq!((scene.seed, scene.duration_s), (9, 20.0));
     }
 
     #[test]

@@ -1,9 +1,7 @@
 //! How much is measured.
 
-/// How much is measured.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Extent {
-    /// Whether this is the short form.
     pub(crate) is_quick: bool,
     /// Trainings in one pose, and all others.
     pub(crate) trainings: [usize; 2],
@@ -16,24 +14,22 @@ pub(crate) struct Extent {
 }
 
 impl Extent {
-    /// At least 400 presentations of 2.5 s in each cell.
-    pub(crate) const fn full() -> Self {
+    pub(crate) const fn new(is_quick: bool) -> Self {
+        if is_quick {
+            return Self {
+                is_quick,
+                trainings: [2, 1],
+                test_s: [20.0, 20.0],
+                conditions: 3,
+                surfaces: 1,
+            };
+        }
         Self {
-            is_quick: false,
+            is_quick,
             trainings: [5, 3],
             test_s: [240.0, 340.0],
             conditions: usize::MAX,
             surfaces: usize::MAX,
-        }
-    }
-
-    pub(crate) const fn quick() -> Self {
-        Self {
-            is_quick: true,
-            trainings: [2, 1],
-            test_s: [20.0, 20.0],
-            conditions: 3,
-            surfaces: 1,
         }
     }
 }

@@ -8,7 +8,7 @@ use tactile::ModelBuf;
 use super::asked::{Asked, said};
 use super::condition::{Change, Setting, WHISKER};
 use super::extent::Extent;
-use super::output::{COLUMNS, Output, cells, found, words};
+use super::output::{COLUMNS, Output, cells, found};
 use super::tally::Tally;
 use super::trained::{THRESHOLD, Trained, as_felt};
 use crate::page::row;
@@ -65,10 +65,7 @@ impl Five {
     pub(super) fn new(extent: &Extent, verbosity: Verbosity) -> Result<Self> {
         let [_, trainings] = extent.trainings;
         let [_, test_s] = extent.test_s;
-        let test = Setting {
-            seconds: Some(test_s),
-            ..Setting::of(WHISKER, &[])
-        };
+        let test = (Setting::of(WHISKER, &[]), test_s);
         let poses = TILTS.each_ref().map(|tilt| Setting::of(WHISKER, tilt));
         let seeds = (SEED..).step_by(10).take(trainings);
         let trained = Trained::record(&poses, seeds, test, FRESH, verbosity)?;
@@ -90,10 +87,10 @@ impl Five {
              20° with another sensor, and outside.",
             self.trained.seeds.len()
         ));
-        let lists = conditions().map(|list| {
-            let list = list.into_iter().take(extent.conditions);
-            list.map(|change| vec![change]).collect::<Vec<_>>()
-        });
+        let mut lists = conditions();
+        for list in &mut lists {
+            list.truncate(extent.conditions);
+        }
         let changed = lists.concat();
         let kinds = [&self.models[..]];
         let found_of = self.trained.changed(&changed, &kinds, CHANGED, verbosity)?;
@@ -103,9 +100,9 @@ impl Five {
             self.trained.fresh(&self.models, THRESHOLD)?,
         )];
         let inside = lists[0].len() + lists[1].len();
-        for (n, (changes, mut of_kinds)) in changed.iter().zip(found_of).enumerate() {
+        for (n, (change, mut of_kinds)) in changed.iter().zip(found_of).enumerate() {
             let asked = if n < inside { BETWEEN } else { OUTSIDE };
-            all.push((words(changes), asked, of_kinds.swap_remove(0)));
+            all.push((change.to_string(), asked, of_kinds.swap_remove(0)));
         }
         let mut rows = Vec::new();
         for (name, asked, tallies) in &all {

@@ -10,7 +10,7 @@ use super::asked::{Asked, mean_within, said};
 use super::condition::{Change, Setting, WHISKER};
 use super::extent::Extent;
 use super::five::Five;
-use super::output::{COLUMNS, Output, cells, found, words};
+use super::output::{COLUMNS, Output, cells, found};
 use super::tally::Tally;
 use super::trained::{THRESHOLD, Trained, as_felt};
 use crate::decisions::figures::{number, percent};
@@ -65,10 +65,7 @@ impl One {
     pub(super) fn new(extent: &Extent, verbosity: Verbosity) -> Result<Self> {
         let [trainings, _] = extent.trainings;
         let [test_s, _] = extent.test_s;
-        let test = Setting {
-            seconds: Some(test_s),
-            ..Setting::of(WHISKER, &[])
-        };
+        let test = (Setting::of(WHISKER, &[]), test_s);
         let seeds = (SEED..).take(trainings);
         let poses = [Setting::of(WHISKER, &[])];
         let trained = Trained::record(&poses, seeds, test, FRESH, verbosity)?;
@@ -100,16 +97,14 @@ impl One {
             self.trained.fresh(&self.bench, THRESHOLD)?,
             self.trained.fresh(&self.same, THRESHOLD)?,
         ]];
-        let lists = conditions().map(|list| {
-            let list = list.into_iter().take(extent.conditions);
-            list.map(|change| vec![change]).collect::<Vec<_>>()
-        });
+        let mut lists = conditions();
+        for list in &mut lists {
+            list.truncate(extent.conditions);
+        }
         let changed = lists.concat();
         all.extend(self.trained.changed(&changed, &kinds, CHANGED, verbosity)?);
-        let names = changed.iter().map(|changes| words(changes));
-        let names: Vec<String> = std::iter::once("as trained".to_owned())
-            .chain(names)
-            .collect();
+        let mut names = vec!["as trained".to_owned()];
+        names.extend(changed.iter().map(ToString::to_string));
 
         let mut rows = Vec::new();
         for (n, (name, cell)) in names.iter().zip(&all).enumerate() {

@@ -2,10 +2,9 @@
 
 use std::fmt::Write;
 
-use super::condition::Change;
 use super::tally::{REASONS, Tally};
 use super::trained::TICK_HZ;
-use crate::decisions::figures::{number, percent};
+use crate::decisions::figures::{cell, number, percent};
 use crate::page::Page;
 
 /// What all sections add to.
@@ -42,13 +41,6 @@ impl Output {
         // As a cell: pages have commas and quotes.
         let condition = condition.replace(',', ";").replace('`', "");
         for (seed, tally) in seeds.iter().zip(tallies) {
-            let cell = |x: f64| {
-                if x.is_finite() {
-                    format!("{x:.3}")
-                } else {
-                    String::new()
-                }
-            };
             let silent = tally.silent.map(|count| count.to_string()).join(",");
             // Writing to a string does not fail.
             let _ = writeln!(
@@ -97,12 +89,6 @@ pub(super) fn found(tally: &Tally) -> String {
         percent(tally.decided_share()),
         number(tally.contact_ms(TICK_HZ), 0),
     )
-}
-
-/// Changes in words.
-pub(super) fn words(changes: &[Change]) -> String {
-    let words: Vec<String> = changes.iter().map(Change::to_string).collect();
-    words.join(", ")
 }
 
 const _: () = assert!(REASONS.len() == 3, "the heading names them");

@@ -16,6 +16,7 @@ use super::tally::Tally;
 use super::trained::{Relabel, THRESHOLD, judge, model};
 use crate::cores::each;
 use crate::decisions::figures::percent;
+use crate::decisions::placebo::permuted;
 use crate::page::row;
 use crate::rigs::Chance;
 
@@ -32,16 +33,11 @@ fn permute(streams: &mut [Stream], seed: u64) {
     }
 }
 
-/// Trial n of texture m is called by name n + m, counted around.
+/// Every texture under every name in turn.
 fn turn(streams: &mut [Stream]) {
+    let names = SURFACES.map(|(name, _)| name);
     for stream in streams {
-        let place = SURFACES.iter().position(|(name, _)| *name == stream.label);
-        let trial: usize = stream.trial.parse().unwrap_or(0);
-        if let Some(place) = place {
-            SURFACES[(place + trial) % SURFACES.len()]
-                .0
-                .clone_into(&mut stream.label);
-        }
+        stream.label = permuted(&names, &stream.label, stream.trial.parse().unwrap_or(0));
     }
 }
 
@@ -162,59 +158,4 @@ fn twins(
         });
         model(&recordings.collect::<Result<_>>()?, Expected::Bench)
     })
-}
-
-#[cfg(test)]
-mod tests {
-    use super::{SURFACES, name_twice, permute, turn};
-    use host_sim::recording::Stream;
-
-    fn streams() -> Vec<Stream> {
-        let stream = |n: usize| Stream {
-            label: SURFACES[n % 4].0.to_owned(),
-            trial: (n / 4).to_string(),
-            samples: Vec::new(),
-            contact: None,
-            touch: None,
-            pose: None,
-        };
-        (0..32).map(stream).collect()
-    }
-
-    fn labels(streams: &[Stream]) -> Vec<String> {
-        streams.iter().map(|stream| stream.label.clone()).collect()
-    }
-
-    #[test]
-    fn permuted_labels_are_a_permutation() {
-        let mut permuted = streams();
-        permute(&mut permuted, 7);
-        let [mut before, mut after] = [streams(), permuted].map(|streams| labels(&streams));
-        assert_ne!(before, after);
-        before.sort();
-        after.sort();
-        assert_eq!(before, after);
-    }
-
-    #[test]
-    fn turned_names_have_every_texture_equally_often() {
-        let mut turned = streams();
-        turn(&mut turned);
-        let (before, after) = (labels(&streams()), labels(&turned));
-        for (texture, _) in SURFACES {
-            for (name, _) in SURFACES {
-                let both = before.iter().zip(&after);
-                let count = both.filter(|(was, is)| (was.as_str(), is.as_str()) == (texture, name));
-                assert_eq!(count.count(), 2);
-            }
-        }
-    }
-
-    #[test]
-    fn every_second_presentation_has_a_second_name() {
-        let mut twins = streams();
-        twins.truncate(2);
-        name_twice(&mut twins);
-        assert_eq!(labels(&twins), ["smooth-a", "p600-b"]);
-    }
 }

@@ -54,12 +54,8 @@ pub(super) fn section(
     let mut rows = Vec::new();
     let mut last = None;
     for (setting, [seed, fresh], asked) in scenes {
-        let test = Setting {
-            seconds: Some(test_s),
-            ..setting
-        };
         let seeds = (seed..).take(trainings);
-        let trained = Trained::record(&[setting], seeds, test, fresh, verbosity)?;
+        let trained = Trained::record(&[setting], seeds, (setting, test_s), fresh, verbosity)?;
         let models = trained.models(Expected::Bench, &as_felt, verbosity)?;
         let tallies = trained.fresh(&models, THRESHOLD)?;
         let tally = Tally::sum(&tallies);

@@ -15,7 +15,6 @@ use crate::cores::each;
 pub(super) const THRESHOLD: f64 = 0.99;
 pub(super) const TICK_HZ: u32 = 2000;
 
-/// Recordings, each with its name.
 pub(super) type Recordings = Vec<(String, Vec<Stream>)>;
 
 /// Models for testing, a recording's labels changed by chance of this seed.
@@ -32,14 +31,18 @@ pub(super) struct Trained<'s> {
 }
 
 impl<'s> Trained<'s> {
-    /// Records `poses` for each of some trainings, and what they are tested with.
+    /// Records `poses` for each of some trainings, and so many seconds that they are tested with.
     pub(super) fn record(
         poses: &[Setting<'_>],
         seeds: impl Iterator<Item = u64>,
-        test: Setting<'s>,
+        (test, test_s): (Setting<'s>, f64),
         first_test: u64,
         verbosity: Verbosity,
     ) -> Result<Self> {
+        let test = Setting {
+            seconds: Some(test_s),
+            ..test
+        };
         let seeds: Vec<u64> = seeds.collect();
         let jobs: Vec<(&Setting<'_>, u64)> = seeds
             .iter()
@@ -78,7 +81,6 @@ impl<'s> Trained<'s> {
         })
     }
 
-    /// What a model of each training makes of its fresh presentations.
     pub(super) fn fresh(&self, models: &[ModelBuf], threshold: f64) -> Result<Vec<Tally>> {
         self.fresh_of(models, threshold, |_| true)
     }
@@ -98,11 +100,11 @@ impl<'s> Trained<'s> {
         Ok(tallies)
     }
 
-    /// What each kind of models, one of each training, makes of presentations with these
-    /// changes: by condition and kind a tally of each training.
+    /// What each kind of models, one of each training, makes of presentations with each
+    /// change: by condition and kind a tally of each training.
     pub(super) fn changed(
         &self,
-        conditions: &[Vec<Change>],
+        conditions: &[Change],
         kinds: &[&[ModelBuf]],
         first_test: u64,
         verbosity: Verbosity,
@@ -112,9 +114,8 @@ impl<'s> Trained<'s> {
             .flat_map(|condition| (0..trainings).map(move |training| (condition, training)))
             .collect();
         let found = each(verbosity, "conditions", &jobs, |&(condition, training)| {
-            let changes = &conditions[condition];
             let setting = Setting {
-                changes,
+                changes: &conditions[condition..=condition],
                 ..self.test
             };
             let seed = first_test + (condition * trainings + training) as u64;
@@ -132,7 +133,6 @@ impl<'s> Trained<'s> {
     }
 }
 
-/// A model by the defaults of `host-sim train`.
 pub(super) fn model(recordings: &Recordings, expect: Expected) -> Result<ModelBuf> {
     let how = How {
         expect,

@@ -13,8 +13,7 @@ use crate::rigs::frame::turn;
 use physics::Pose;
 
 keys! {
-    /// The robot and its corridor; see `studies/rigs/corridor.toml` for each key.
-    Corridor in "corridor.toml", rig:
+    Corridor, rig:
     width_m: f64 => 0.05..=10.0,
     length_m: f64 => 0.01..=100.0,
     speed_m_s: f64 => 1e-3..=10.0,
@@ -89,11 +88,11 @@ impl Corridor {
 #[cfg(test)]
 mod tests {
     use super::{Corridor, Robot};
-    use crate::rigs::load;
+    use crate::rigs::Rigs;
     use physics::vector::{add, cross, dot};
 
     fn rig() -> Corridor {
-        load(None, &[]).unwrap()
+        Rigs::with(&[]).corridor
     }
 
     const MIDDLE: Robot = Robot {

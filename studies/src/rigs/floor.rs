@@ -20,8 +20,7 @@ use physics::Pose;
 use physics::vector::{add, cross};
 
 keys! {
-    /// Geometry and motion of the robot; see `studies/rigs/floor.toml` for each key.
-    Floor in "floor.toml", rig:
+    Floor, rig:
     tick_hz: f64 => 200.0..=20_000.0,
     trial_s: f64 => 0.1..=3600.0,
     mount_radius_m: f64 => 0.0..=2.0,
@@ -49,9 +48,7 @@ keys! {
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum RobotMotion {
-    /// Turning on the spot, anticlockwise as seen from above.
     Anticlockwise,
-    /// Turning on the spot, clockwise.
     Clockwise,
     Autonomous,
 }
@@ -74,7 +71,6 @@ pub(crate) struct Drive<'r> {
 }
 
 impl Floor {
-    /// One tick, s.
     pub(crate) fn dt_s(&self) -> f64 {
         1.0 / self.tick_hz
     }
@@ -172,11 +168,11 @@ impl Drive<'_> {
 #[cfg(test)]
 mod tests {
     use super::{Floor, RobotMotion};
-    use crate::rigs::load;
+    use crate::rigs::Rigs;
     use physics::vector::{add, cross, dot};
 
     fn calm() -> Floor {
-        let mut rig: Floor = load(None, &[]).unwrap();
+        let mut rig = Rigs::with(&[]).floor;
         rig.press_sd_m = 0.0;
         rig.wobble_share = 0.0;
         rig.speed_share_sd = 0.0;

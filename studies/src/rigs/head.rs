@@ -20,8 +20,7 @@ use physics::{Outline, Plate, Pose, SensorSettings, Shaft, Surface, TouchingWhis
 pub(crate) const CHANNELS: usize = 2 * SIDES * EACH;
 
 keys! {
-    /// Geometry of the head; see `studies/rigs/head.toml` for each key.
-    WhiskingHead in "head.toml", rig:
+    WhiskingHead, rig:
     tick_hz: f64 => 200.0..=20_000.0,
     whisk_hz: f64 => 0.05..=25.0,
     noise: f64 => 0.0..=1.0,
@@ -176,12 +175,12 @@ impl WhiskingHead {
 mod tests {
     use super::{CHANNELS, Visit, WhiskingHead};
     use crate::paper::biotact::{DISTANCES_MM, WHISKERS};
-    use crate::rigs::{Chance, load};
+    use crate::rigs::{Chance, Rigs};
     use physics::vector::{add, cross, dot};
     use physics::{Biotact, Material, SensorSettings, Shaft, Surface};
 
     fn rig() -> WhiskingHead {
-        load(None, &[]).unwrap()
+        Rigs::with(&[]).head
     }
 
     #[test]

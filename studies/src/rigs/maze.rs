@@ -13,8 +13,7 @@ pub(super) type Place = [f64; 2];
 const ARC: usize = 8;
 
 keys! {
-    /// The maze; see `studies/rigs/maze.toml` for each key.
-    Maze in "maze.toml", rig:
+    Maze, rig:
     length_m: f64 => 0.5..=100.0,
     width_m: f64 => 0.5..=100.0,
     corner_m: f64 => 0.0..=rig.width_m.min(rig.length_m) / 2.0,
@@ -37,7 +36,6 @@ pub(crate) enum Made {
 pub(crate) struct Wall {
     pub(crate) from_m: Place,
     pub(crate) along: Place,
-    /// Its length, m.
     pub(crate) length_m: f64,
     pub(crate) made: Made,
 }
@@ -167,11 +165,10 @@ impl Maze {
 #[cfg(test)]
 mod tests {
     use super::{Made, Maze, Wall};
-    use crate::rigs::{Corridor, load};
+    use crate::rigs::{Corridor, Rigs};
 
     fn walls() -> (Maze, Corridor, Vec<Wall>) {
-        let (maze, corridor): (Maze, Corridor) =
-            (load(None, &[]).unwrap(), load(None, &[]).unwrap());
+        let Rigs { maze, corridor, .. } = Rigs::with(&[]);
         let walls = maze.walls(&corridor);
         (maze, corridor, walls)
     }

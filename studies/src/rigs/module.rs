@@ -23,7 +23,6 @@ pub(super) const SIDES: usize = 2;
 pub(super) const EACH: usize = 3;
 
 keys! {
-    /// Position control; see `studies/rigs/head.toml` for each key.
     #[derive(Copy)]
     PositionControl, rig:
     follows: bool,
@@ -51,7 +50,6 @@ const DUTY_LIMIT: f64 = 1.0;
 struct Frames([u8; FRAME_LEN]);
 
 impl Frames {
-    /// A sensor at rest.
     const REST: Self = Self(encode::alpha_beta(
         Word::MID,
         Word::MID,

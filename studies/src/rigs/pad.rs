@@ -36,18 +36,14 @@ keys! {
 
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Vibrissa {
-    /// Its arc, from 0.
     pub(crate) arc: usize,
-    /// Its row, 0 to 4.
     pub(crate) row: usize,
-    /// Its length, m.
     pub(crate) length_m: f64,
     /// Base and axes in the frame of the neck, for the left pad.
     pub(crate) pose: Pose,
 }
 
 impl Layout {
-    /// The vibrissae, arc by arc from the back.
     pub(crate) fn vibrissae(&self) -> Vec<Vibrissa> {
         let mut all = Vec::new();
         let middle = (ARCS.len() as f64 - 1.0) / 2.0;
@@ -77,7 +73,6 @@ impl Layout {
     }
 }
 
-/// The pose after a turn about the neck.
 pub(crate) fn panned(pose: &Pose, radians: f64) -> Pose {
     Pose {
         base_m: turn(pose.base_m, radians),
@@ -87,8 +82,7 @@ pub(crate) fn panned(pose: &Pose, radians: f64) -> Pose {
 }
 
 keys! {
-    /// The fixed head; see `studies/rigs/pad.toml` for each key.
-    Pad in "pad.toml", rig:
+    Pad, rig:
     distance_m: f64 => 0.01..=2.0,
     distance_spread_m: f64 => 0.0..=0.5,
     position_spread_m: f64 => 0.0..=5.0,
@@ -103,7 +97,6 @@ keys! {
 /// One sweep: how far the sheet is, and where along it the head is set up.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Sweep {
-    /// From the neck to the sheet, m.
     pub(crate) distance_m: f64,
     /// Origin of the sheet's texture, m, along it and upwards.
     pub(crate) origin_m: [f64; 2],
@@ -134,11 +127,11 @@ impl Pad {
 mod tests {
     use super::{Pad, panned};
     use crate::paper::psik::VIBRISSAE;
-    use crate::rigs::load;
+    use crate::rigs::Rigs;
     use physics::vector::{add, cross, dot};
 
     fn rig() -> Pad {
-        load(None, &[]).unwrap()
+        Rigs::with(&[]).pad
     }
 
     #[test]

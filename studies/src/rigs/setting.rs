@@ -40,7 +40,6 @@ impl Setting {
         self.path.first().map_or("", String::as_str)
     }
 
-    /// As a rig's file has it.
     pub(super) fn table(&self) -> Table {
         let keys = self.path.iter().skip(1).rev();
         let nested = keys.fold(self.value.clone(), |value, key| {
@@ -59,7 +58,6 @@ impl fmt::Display for Setting {
 #[cfg(test)]
 mod tests {
     use super::Setting;
-    use crate::rigs::{Floor, load};
 
     #[test]
     fn a_setting_that_is_none_is_refused() {
@@ -67,17 +65,5 @@ mod tests {
             let wrong = text.parse::<Setting>().unwrap_err();
             assert!(wrong.contains("allowed: RIG.KEY=VALUE"), "{wrong}");
         }
-        let unknown: Setting = "floor.depth=1".parse().unwrap();
-        let wrong = load::<Floor>(None, &[unknown]).unwrap_err().to_string();
-        assert!(wrong.starts_with("floor.depth: unknown key"), "{wrong}");
-    }
-
-    #[test]
-    fn settings_that_are_in_range_together_may_come_in_any_order() {
-        let both = ["floor.leg_least_s=5", "floor.leg_most_s=6"].map(|text| text.parse().unwrap());
-        let floor: Floor = load(None, &both).unwrap();
-        assert_eq!((floor.leg_least_s, floor.leg_most_s), (5.0, 6.0));
-        let wrong = load::<Floor>(None, &both[..1]).unwrap_err().to_string();
-        assert_eq!(wrong, "floor.leg_most_s: found 3, allowed 5 to 1000");
     }
 }

@@ -8,7 +8,7 @@ use physics::{Grit, Material, Surface};
 use serde::Deserialize;
 use toml::{Table, Value};
 
-use super::read::{Keys, OutOfRange, Rig, keys};
+use super::read::{Keys, OutOfRange, keys};
 
 keys! {
     /// A surface; see [`Surface`] for each key and [`Surface::of`] for sources and choices.
@@ -25,50 +25,37 @@ keys! {
 #[serde(transparent)]
 pub(crate) struct Surfaces(BTreeMap<String, Properties>);
 
-const ALL: [Material; 21] = [
-    Material::RoughCarpet,
-    Material::SmoothCarpet,
-    Material::Tarmac,
-    Material::Vinyl,
-    Material::SmoothPlastic,
-    Material::Aluminium,
-    Material::Sandpaper(Grit::P40),
-    Material::Sandpaper(Grit::P50),
-    Material::Sandpaper(Grit::P60),
-    Material::Sandpaper(Grit::P80),
-    Material::Sandpaper(Grit::P100),
-    Material::Sandpaper(Grit::P120),
-    Material::Sandpaper(Grit::P150),
-    Material::Sandpaper(Grit::P180),
-    Material::Sandpaper(Grit::P240),
-    Material::Sandpaper(Grit::P600),
-    Material::Relief(30),
-    Material::Relief(60),
-    Material::Relief(100),
-    Material::Relief(160),
-    Material::Flat,
+/// The names of materials' surfaces. That of a relief has its period in tenths of a millimetre.
+const ALL: [(&str, Material); 21] = [
+    ("rough_carpet", Material::RoughCarpet),
+    ("smooth_carpet", Material::SmoothCarpet),
+    ("tarmac", Material::Tarmac),
+    ("vinyl", Material::Vinyl),
+    ("smooth_plastic", Material::SmoothPlastic),
+    ("aluminium", Material::Aluminium),
+    ("p40", Material::Sandpaper(Grit::P40)),
+    ("p50", Material::Sandpaper(Grit::P50)),
+    ("p60", Material::Sandpaper(Grit::P60)),
+    ("p80", Material::Sandpaper(Grit::P80)),
+    ("p100", Material::Sandpaper(Grit::P100)),
+    ("p120", Material::Sandpaper(Grit::P120)),
+    ("p150", Material::Sandpaper(Grit::P150)),
+    ("p180", Material::Sandpaper(Grit::P180)),
+    ("p240", Material::Sandpaper(Grit::P240)),
+    ("p600", Material::Sandpaper(Grit::P600)),
+    ("relief_30", Material::Relief(30)),
+    ("relief_60", Material::Relief(60)),
+    ("relief_100", Material::Relief(100)),
+    ("relief_160", Material::Relief(160)),
+    ("flat", Material::Flat),
 ];
-
-/// The name of a material's surface. That of a relief has its period in tenths of a millimetre.
-fn name(material: Material) -> String {
-    match material {
-        Material::Flat => "flat".to_owned(),
-        Material::SmoothPlastic => "smooth_plastic".to_owned(),
-        Material::Aluminium => "aluminium".to_owned(),
-        Material::Sandpaper(grit) => format!("{grit:?}").to_lowercase(),
-        Material::RoughCarpet => "rough_carpet".to_owned(),
-        Material::SmoothCarpet => "smooth_carpet".to_owned(),
-        Material::Tarmac => "tarmac".to_owned(),
-        Material::Vinyl => "vinyl".to_owned(),
-        Material::Relief(tenths) => format!("relief_{tenths}"),
-    }
-}
 
 impl Surfaces {
     /// The surface of a material, with what is said of it.
     pub(crate) fn of(&self, material: Material) -> Surface {
         let usual = Surface::of(material);
-        let said = self.0.get(&name(material));
+        let name = ALL.iter().find(|(_, other)| *other == material);
+        let said = name.and_then(|(name, _)| self.0.get(*name));
         said.map_or(usual, |said| Surface {
             height_m: said.height_m,
             grain_m: said.grain_m,
@@ -87,41 +74,37 @@ impl Keys for Surfaces {
     }
 }
 
-impl Rig for Surfaces {
-    const FILE: &'static str = "surfaces.toml";
-
-    fn defaults() -> String {
-        let table = |material| {
-            let surface = Surface::of(material);
-            let properties = [
-                ("height_m", surface.height_m),
-                ("grain_m", surface.grain_m),
-                ("stiffness_n_m", surface.stiffness_n_m),
-                ("damping", surface.damping),
-                ("friction", surface.friction),
-                ("hold", surface.hold),
-            ];
-            let keys = properties.map(|(key, value)| (key.to_owned(), Value::Float(value)));
-            (name(material), Value::Table(Table::from_iter(keys)))
-        };
-        Table::from_iter(ALL.map(table)).to_string()
-    }
+/// What the physics has.
+pub(super) fn defaults() -> Table {
+    let table = |(name, material): (&str, Material)| {
+        let surface = Surface::of(material);
+        let properties = [
+            ("height_m", surface.height_m),
+            ("grain_m", surface.grain_m),
+            ("stiffness_n_m", surface.stiffness_n_m),
+            ("damping", surface.damping),
+            ("friction", surface.friction),
+            ("hold", surface.hold),
+        ];
+        let keys = properties.map(|(key, value)| (key.to_owned(), Value::Float(value)));
+        (name.to_owned(), Value::Table(Table::from_iter(keys)))
+    };
+    Table::from_iter(ALL.map(table))
 }
 
 #[cfg(test)]
 mod tests {
-    use super::{ALL, Surfaces};
-    use crate::rigs::{Setting, load};
+    use super::ALL;
+    use crate::rigs::Rigs;
     use physics::{Grit, Material, Surface};
 
     #[test]
     fn surfaces_are_those_of_the_physics_but_for_what_is_set() {
-        let usual: Surfaces = load(None, &[]).unwrap();
-        for material in ALL {
+        let usual = Rigs::with(&[]).surfaces;
+        for (_, material) in ALL {
             assert_eq!(usual.of(material), Surface::of(material));
         }
-        let setting: Setting = "surfaces.p80.grain_m=3e-4".parse().unwrap();
-        let other: Surfaces = load(None, &[setting]).unwrap();
+        let other = Rigs::with(&["surfaces.p80.grain_m=3e-4"]).surfaces;
         let p80 = Material::Sandpaper(Grit::P80);
         let expected = Surface {
             grain_m: 3e-4,

@@ -10,8 +10,7 @@
 use super::read::keys;
 
 keys! {
-    /// Settings of the table; see `studies/rigs/table.toml` for each key.
-    Table in "table.toml", rig:
+    Table, rig:
     tick_hz: f64 => 200.0..=20_000.0,
     gap_m: f64 => 0.0..=0.1,
     gap_sd_m: f64 => 0.0..=0.1,
@@ -32,9 +31,7 @@ keys! {
 /// The carriage: where the object is along its way, and how fast.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Carriage {
-    /// Place, m.
     pub(crate) x_m: f64,
-    /// Speed, m/s.
     pub(crate) v_m_s: f64,
 }
 

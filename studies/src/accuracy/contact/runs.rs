@@ -8,7 +8,6 @@ use physics::{
     TouchingWhisker,
 };
 
-/// Tick rates, Hz.
 pub(in crate::accuracy) const TICKS_HZ: [u32; 5] = [500, 1_000, 2_000, 4_000, 8_000];
 /// Steps of the reference a second, and how much finer it cuts them.
 const REFERENCE: (u32, u32) = (128_000, 2);
@@ -24,9 +23,9 @@ const WHISK: [f64; 3] = [2.0, 10.0, -3.0];
 /// Angle of first touch, rad.
 const TOUCH_RAD: f64 = 1.7;
 
-pub(in crate::accuracy) type Named = (&'static str, Surface);
+type Named = (&'static str, Surface);
 
-pub(in crate::accuracy) fn surfaces() -> [Named; 8] {
+fn surfaces() -> [Named; 8] {
     let of = Surface::of;
     [
         ("flat", of(Material::Flat)),
@@ -54,37 +53,33 @@ pub(in crate::accuracy) fn surfaces() -> [Named; 8] {
 }
 
 /// The whisker of all runs: the middle one of BIOTACT.
-pub(super) struct Subject {
+struct Subject {
     shaft: Shaft,
     modes: Modes,
 }
 
 impl Subject {
-    pub(super) fn new() -> Result<Self> {
+    fn new() -> Result<Self> {
         let shaft = Shaft::biotact(Biotact::Middle);
         let modes = shaft.modes(8)?;
         Ok(Self { shaft, modes })
     }
 
     /// Straight and at rest.
-    pub(super) fn whisker(&self, finer: u32) -> Result<TouchingWhisker> {
+    fn whisker(&self, finer: u32) -> Result<TouchingWhisker> {
         let sensor = SensorSettings::default();
         let whisker = TouchingWhisker::with_modes(&self.shaft, &self.modes, &sensor, 1);
         Ok(whisker?.finer(finer))
     }
 
     /// A plate that it touches at [`TOUCH_RAD`].
-    pub(super) fn plate(&self, surface: Surface) -> Plate {
+    fn plate(&self, surface: Surface) -> Plate {
         Plate::in_the_way(TOUCH_RAD, self.shaft.length_m, &Facing::USUAL, surface)
-    }
-
-    pub(super) fn length_m(&self) -> f64 {
-        self.shaft.length_m
     }
 }
 
 /// This many degrees beyond first touch.
-pub(super) fn pose(overlap_deg: f64) -> Pose {
+fn pose(overlap_deg: f64) -> Pose {
     Pose::swung(TOUCH_RAD + overlap_deg.to_radians())
 }
 

@@ -200,18 +200,6 @@ mod tests {
         rows.iter().filter(is_hit).count() as f64 / rows.len() as f64
     }
 
-    /// No network without a hidden layer can.
-    #[test]
-    fn exclusive_or_is_trained() {
-        let cases = [(0.0, 0.0), (1.0, 0.0), (0.0, 1.0), (1.0, 1.0)];
-        let rows = cases.map(|(a, b)| (usize::from(a != b), vec![a, b]));
-        let all = Options {
-            reliable: 0.9,
-            ..options(3)
-        };
-        assert_eq!(hits(&train(&rows, &all).unwrap(), &rows), 1.0);
-    }
-
     /// Two normal classes a distance of two standard deviations apart: no rule can hit more than
     /// Φ(1) = 84.13 %.
     #[test]

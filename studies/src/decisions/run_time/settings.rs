@@ -41,7 +41,6 @@ impl Setting {
         }
     }
 
-    /// The product's.
     pub(super) fn default(self, ground: &Ground) -> u32 {
         let options = &ground.shipped().joint.options;
         match self {
@@ -108,7 +107,6 @@ pub(super) struct Tried<'g> {
     pub(super) value: u32,
     pub(super) ground: &'g Ground,
     pub(super) figures: Vec<(u64, Figures)>,
-    /// Bytes of the first model.
     pub(super) bytes: usize,
 }
 
@@ -132,7 +130,6 @@ impl Tried<'_> {
     }
 }
 
-/// Presentations without a decision, percent.
 fn undecided(figures: &Figures) -> f64 {
     100.0 * figures.undecided.share
 }

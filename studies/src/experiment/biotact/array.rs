@@ -37,42 +37,21 @@ fn head(request: &Request) -> Result<Scene> {
     Ok(Scene::from_str("array.toml", &text)?)
 }
 
-/// What the head is put before, and whether it has CIA beside RCP.
-struct Case {
-    what: &'static str,
-    obstacles_deg: [f64; 2],
-    has_cia: bool,
-}
-
 /// Where no whisker comes, degrees.
 const NOTHING: f64 = 300.0;
 
+const LEFT_DEG: f64 = OBSTACLES_DEG[LEFT];
+
+/// What the head is put before, where that is on either side, degrees, and whether it has CIA
+/// beside RCP.
+type Case = (&'static str, [f64; 2], bool);
+
 const CASES: [Case; 5] = [
-    Case {
-        what: "nothing",
-        obstacles_deg: [NOTHING; 2],
-        has_cia: true,
-    },
-    Case {
-        what: "a body on the left, RCP",
-        obstacles_deg: [OBSTACLES_DEG[LEFT], NOTHING],
-        has_cia: false,
-    },
-    Case {
-        what: "a body on the left, RCP and CIA",
-        obstacles_deg: [OBSTACLES_DEG[LEFT], NOTHING],
-        has_cia: true,
-    },
-    Case {
-        what: "bodies on both sides, RCP",
-        obstacles_deg: OBSTACLES_DEG,
-        has_cia: false,
-    },
-    Case {
-        what: "bodies on both sides, RCP and CIA",
-        obstacles_deg: OBSTACLES_DEG,
-        has_cia: true,
-    },
+    ("nothing", [NOTHING; 2], true),
+    ("a body on the left, RCP", [LEFT_DEG, NOTHING], false),
+    ("a body on the left, RCP and CIA", [LEFT_DEG, NOTHING], true),
+    ("bodies on both sides, RCP", OBSTACLES_DEG, false),
+    ("bodies on both sides, RCP and CIA", OBSTACLES_DEG, true),
 ];
 
 struct Moved {
@@ -82,43 +61,41 @@ struct Moved {
     contacts: [f64; 2],
 }
 
-impl Case {
-    fn run(&self, scene: &Scene) -> Result<Moved> {
-        let mut scene = scene.clone();
-        let gate = |(gain, whisks): (f64, f64)| GateSettings {
-            gain,
-            tau_s: whisks / FREQUENCY_HZ,
-        };
-        scene.rcp = FIG9.rcp.map(gate);
-        scene.cia = FIG9.cia.filter(|_| self.has_cia).map(gate);
-        if let Some(obstacle) = &mut scene.plant.obstacle {
-            obstacle.obstacle_deg = self.obstacles_deg.to_vec();
-        }
-        let mut run = Run::new(&scene, None)?;
-        for _ in 0..LEAD * WHISK_TICKS {
-            run.tick();
-        }
-        let rows: Vec<Row> = (0..WHISKS * WHISK_TICKS)
-            .map(|_| run.tick().angle_deg)
-            .collect();
-        let whisks = rows.chunks(WHISK_TICKS);
-        let count = whisks.len().max(1) as f64;
-        Ok(Moved {
-            peak_deg: [LEFT, RIGHT].map(|side| {
-                whisks
-                    .clone()
-                    .map(|whisk| angles(whisk, side).1)
-                    .sum::<f64>()
-                    / count
-            }),
-            contacts: [LEFT, RIGHT].map(|side| contacts(&rows, side, WHISKS)),
-        })
+fn run((_, obstacles_deg, has_cia): Case, scene: &Scene) -> Result<Moved> {
+    let mut scene = scene.clone();
+    let gate = |(gain, whisks): (f64, f64)| GateSettings {
+        gain,
+        tau_s: whisks / FREQUENCY_HZ,
+    };
+    scene.rcp = FIG9.rcp.map(gate);
+    scene.cia = FIG9.cia.filter(|_| has_cia).map(gate);
+    if let Some(obstacle) = &mut scene.plant.obstacle {
+        obstacle.obstacle_deg = obstacles_deg.to_vec();
     }
+    let mut run = Run::new(&scene, None)?;
+    for _ in 0..LEAD * WHISK_TICKS {
+        run.tick();
+    }
+    let rows: Vec<Row> = (0..WHISKS * WHISK_TICKS)
+        .map(|_| run.tick().angle_deg)
+        .collect();
+    let whisks = rows.chunks(WHISK_TICKS);
+    let count = whisks.len().max(1) as f64;
+    Ok(Moved {
+        peak_deg: [LEFT, RIGHT].map(|side| {
+            whisks
+                .clone()
+                .map(|whisk| angles(whisk, side).1)
+                .sum::<f64>()
+                / count
+        }),
+        contacts: [LEFT, RIGHT].map(|side| contacts(&rows, side, WHISKS)),
+    })
 }
 
 pub(super) fn section(page: &mut Page, request: &Request) -> Result<()> {
     let scene = head(request)?;
-    let cases = CASES.par_iter().map(|case| case.run(&scene));
+    let cases = CASES.into_par_iter().map(|case| run(case, &scene));
     let moved = cases.collect::<Result<Vec<Moved>>>()?;
     page.say(format_args!(
         "**The whole head**: 24 whiskers, 12 a side, with the gains of Fig. 9, each with its motor \
@@ -126,14 +103,14 @@ pub(super) fn section(page: &mut Page, request: &Request) -> Result<()> {
          on the left and {} on the right. Mean of {WHISKS} whisks.",
         OBSTACLES_DEG[LEFT], OBSTACLES_DEG[RIGHT]
     ));
-    let line = |(case, moved): (&Case, &Moved)| {
+    let line = |((what, ..), moved): (&Case, &Moved)| {
         let cells = [
             figure(moved.peak_deg[LEFT], 1),
             figure(moved.peak_deg[RIGHT], 1),
             figure(moved.contacts[LEFT], 2),
             figure(moved.contacts[RIGHT], 2),
         ];
-        row(case.what, cells.map(|cell| format!("**{cell}**")))
+        row(*what, cells.map(|cell| format!("**{cell}**")))
     };
     let header = format!(
         "before | left up to, degrees | right up to, degrees | left past {} degrees, times a whisk | \

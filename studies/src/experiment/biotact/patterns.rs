@@ -17,7 +17,6 @@ pub(super) const RIGHT: usize = 1;
 /// A tick: θ' of both sides, degrees.
 pub(super) type Row = [f64; 2];
 
-/// The last whisks of a run.
 fn tail(figure: &Figure) -> Result<Vec<Row>> {
     let rows = run(figure)?;
     let from = rows.len().saturating_sub(WHISKS * WHISK);
@@ -49,7 +48,6 @@ pub(super) fn section(page: &mut Page) -> Result<()> {
     obstacles(page)
 }
 
-/// Fig. 6.
 fn gains(page: &mut Page) -> Result<()> {
     let (mut curves, mut said, mut highest) = (Vec::new(), Vec::new(), Vec::new());
     for gain in FIG6_GAINS {
@@ -81,7 +79,6 @@ fn gains(page: &mut Page) -> Result<()> {
     Ok(())
 }
 
-/// Figs. 7 to 9.
 fn obstacles(page: &mut Page) -> Result<()> {
     let free = tail(&Figure { gain: 1.0, ..FIG6 })?;
     let end = (WHISKS * WHISK) as f64 / TICK_HZ;

@@ -56,21 +56,15 @@ impl Task {
         }
     }
 
-    /// The hit rate of chance, percent.
-    pub(super) const fn chance(self) -> f64 {
-        let classes = match self {
-            Self::Both => TEXTURES.len() * DISTANCES_MM.len(),
-            Self::Texture => TEXTURES.len(),
-            Self::Distance => DISTANCES_MM.len(),
-        };
-        100.0 / classes as f64
-    }
-
-    /// The hit rate of chance where distances are told without error and textures are not.
-    pub(super) const fn chance_of_textures(self) -> Option<f64> {
+    /// The hit rate of chance, percent, and that where distances are told without error and
+    /// textures are not.
+    pub(super) const fn chance(self) -> (f64, Option<f64>) {
+        let of_textures = 100.0 / TEXTURES.len() as f64;
+        let both = TEXTURES.len() * DISTANCES_MM.len();
         match self {
-            Self::Both | Self::Texture => Some(100.0 / TEXTURES.len() as f64),
-            Self::Distance => None,
+            Self::Both => (100.0 / both as f64, Some(of_textures)),
+            Self::Texture => (of_textures, Some(of_textures)),
+            Self::Distance => (100.0 / DISTANCES_MM.len() as f64, None),
         }
     }
 

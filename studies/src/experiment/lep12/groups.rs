@@ -5,7 +5,7 @@ use anyhow::Result;
 use tactile::{ModelBuf, SequentialRule, Threshold, WindowRule};
 
 use crate::classifiers::recogniser::Bayes;
-use crate::experiment::floors::{Floors, Half, Stream, Tally, train};
+use crate::experiment::floors::{Floors, Stream, Tally, train};
 use crate::paper::lep12::{MOTIONS, TIME_S};
 use crate::rigs::RobotMotion;
 
@@ -46,10 +46,10 @@ impl Group {
             &[RobotMotion::Autonomous],
         ];
         let group = |(name, motions): (&&'static str, &[RobotMotion])| {
-            let training = floors.half(motions, Half::First);
+            let [training, validation] = floors.halves(motions);
             Ok(Self {
                 name,
-                validation: floors.half(motions, Half::Second),
+                validation,
                 model: train(&training, &BOTH, BLOCK)?,
                 training,
             })
@@ -60,8 +60,8 @@ impl Group {
     pub(super) fn sequential(&self, doubt: f64, rate_hz: f64) -> Result<Point> {
         let model = self.model.view();
         let threshold = Threshold::new(1.0 - doubt)?;
-        let tally = Tally::of(&self.validation, || {
-            Bayes::<SequentialRule>::new(model, threshold).map_err(anyhow::Error::new)
+        let tally = Tally::of(&self.validation, &BOTH, || {
+            Ok(Bayes::<SequentialRule>::new(model, threshold)?)
         })?;
         Ok(Point {
             parameter: 1.0 - doubt,
@@ -72,8 +72,8 @@ impl Group {
 
     pub(super) fn window(&self, window: u32, rate_hz: f64) -> Result<Point> {
         let model = self.model.view();
-        let tally = Tally::of(&self.validation, || {
-            Bayes::<WindowRule>::new(model, window).map_err(anyhow::Error::new)
+        let tally = Tally::of(&self.validation, &BOTH, || {
+            Ok(Bayes::<WindowRule>::new(model, window)?)
         })?;
         Ok(Point {
             parameter: f64::from(window),

@@ -25,7 +25,6 @@ const HIGHEST_HZ: f64 = 120.0;
 /// Length of the network's transform, s.
 const TRANSFORM_S: f64 = 0.5;
 
-/// Hit rates of the template, percent.
 pub(super) fn template(group: &Group, rate_hz: f64) -> Result<[f64; 4]> {
     let block = (SEGMENT_S * rate_hz).round() as usize;
     let bins = Bins::between(block, rate_hz, 1.0, HIGHEST_HZ)?;
@@ -51,7 +50,6 @@ pub(super) fn power(spectrum: &Spectrum, segment: &[f64], channel: usize) -> Res
     spectrum.of(line().map(|x| x - mean), Measure::Power)
 }
 
-/// The inputs of the network for every segment of a stream, with its floor.
 fn rows(stream: &Stream, rate_hz: f64) -> Result<Vec<Row>> {
     let block = (SEGMENT_S * rate_hz).round() as usize;
     let points = (TRANSFORM_S * rate_hz).round() as usize;

@@ -12,9 +12,9 @@ use crate::classifiers::features::{
 };
 use crate::classifiers::means::least;
 use crate::classifiers::regression::Regression;
-use crate::classifiers::spectral::{SpectralTemplates, SpectralTrainer};
+use crate::classifiers::spectral::SpectralTrainer;
 use crate::classifiers::spectrum::{Bins, Measure};
-use crate::classifiers::template::{TemplateTrainer, Templates};
+use crate::classifiers::template::TemplateTrainer;
 use crate::experiment::record::table::Contact;
 use crate::paper::pose::{ANGLES_DEG, SPEEDS_MM_S, TEXTURES};
 
@@ -25,76 +25,65 @@ fn length(sets: &Sets) -> usize {
     sets.training.first().map_or(0, |(_, x)| x.len())
 }
 
-/// The nearest of all training contacts, by the errors that `errors` gives;
-/// class n is the n-th training contact.
-fn nearest(sets: &Sets, errors: impl Fn(&[f64]) -> Result<Vec<f64>> + Sync) -> Result<Scores> {
-    let found: Result<Vec<usize>> = sets
-        .testing
-        .par_iter()
-        .map(|(_, x)| Ok(least(&errors(x)?)))
-        .collect();
-    let mut scores = Scores::new();
-    for ((truth, _), found) in sets.testing.iter().zip(found?) {
-        if let Some((named, _)) = sets.training.get(found) {
-            scores.add(truth, [named.angle, named.speed, named.texture])?;
+/// The errors of a signal under each class.
+type Errors = Box<dyn Fn(&[f64]) -> Result<Vec<f64>> + Sync>;
+
+/// Nearest templates, by the sum of squared errors of signals (eq. 1) or of |DFT| (eq. 2).
+#[derive(Clone, Copy)]
+pub(super) enum Nearest {
+    Signal,
+    Spectrum,
+}
+
+impl Nearest {
+    /// Templates of the training contacts, each of the class that `class` gives it.
+    fn templates(self, sets: &Sets, class: impl Fn(usize, &Contact) -> usize) -> Result<Errors> {
+        let length = length(sets);
+        let training = sets.training.iter().enumerate();
+        let mut training = training.map(|(n, (contact, x))| (class(n, contact), x));
+        Ok(match self {
+            Self::Signal => {
+                let mut trainer = TemplateTrainer::new(1, length);
+                training.try_for_each(|(class, x)| trainer.add(class, x))?;
+                let templates = trainer.train();
+                Box::new(move |x| Ok(templates.errors(x)))
+            }
+            Self::Spectrum => {
+                let bins = Bins::all(length);
+                let mut trainer = SpectralTrainer::new(1, bins, length, Measure::Magnitude);
+                training.try_for_each(|(class, x)| trainer.add(class, x))?;
+                let templates = trainer.train();
+                Box::new(move |x| templates.errors(x))
+            }
+        })
+    }
+
+    /// By the nearest of all training contacts; class n is the n-th training contact.
+    pub(super) fn contacts(self, sets: &Sets) -> Result<Scores> {
+        let errors = self.templates(sets, |n, _| n)?;
+        let found: Result<Vec<usize>> = sets
+            .testing
+            .par_iter()
+            .map(|(_, x)| Ok(least(&errors(x)?)))
+            .collect();
+        let mut scores = Scores::new();
+        for ((truth, _), found) in sets.testing.iter().zip(found?) {
+            if let Some((named, _)) = sets.training.get(found) {
+                scores.add(truth, [named.angle, named.speed, named.texture])?;
+            }
         }
+        Ok(scores)
     }
-    Ok(scores)
-}
 
-/// Templates of the training contacts, each of the class that `class` gives it.
-fn templates(sets: &Sets, class: impl Fn(usize, &Contact) -> usize) -> Result<Templates> {
-    let mut trainer = TemplateTrainer::new(1, length(sets));
-    for (n, (contact, x)) in sets.training.iter().enumerate() {
-        trainer.add(class(n, contact), x)?;
+    /// κ of texture by one template a texture.
+    pub(super) fn textures(self, sets: &Sets) -> Result<f64> {
+        let errors = self.templates(sets, |_, contact| contact.texture)?;
+        let mut score = Confusion::new(TEXTURES.len());
+        for (contact, x) in &sets.testing {
+            score.add(contact.texture, Some(least(&errors(x)?)))?;
+        }
+        Ok(score.kappa().unwrap_or(0.0))
     }
-    Ok(trainer.train())
-}
-
-/// The same on |DFT| (eq. 2).
-fn spectral_templates(
-    sets: &Sets,
-    class: impl Fn(usize, &Contact) -> usize,
-) -> Result<SpectralTemplates> {
-    let block = length(sets);
-    let mut trainer = SpectralTrainer::new(1, Bins::all(block), block, Measure::Magnitude);
-    for (n, (contact, x)) in sets.training.iter().enumerate() {
-        trainer.add(class(n, contact), x)?;
-    }
-    Ok(trainer.train())
-}
-
-/// Sum of squared errors (eq. 1) against every training contact.
-pub(super) fn template(sets: &Sets) -> Result<Scores> {
-    let templates = templates(sets, |n, _| n)?;
-    nearest(sets, |x| Ok(templates.errors(x)))
-}
-
-/// The same on |DFT|.
-pub(super) fn spectral(sets: &Sets) -> Result<Scores> {
-    let templates = spectral_templates(sets, |n, _| n)?;
-    nearest(sets, |x| templates.errors(x))
-}
-
-/// κ of texture by one template a texture.
-pub(super) fn template_of_textures(sets: &Sets) -> Result<f64> {
-    let templates = templates(sets, |_, contact| contact.texture)?;
-    textures(sets, |x| Ok(templates.errors(x)))
-}
-
-/// The same on |DFT|.
-pub(super) fn spectral_of_textures(sets: &Sets) -> Result<f64> {
-    let templates = spectral_templates(sets, |_, contact| contact.texture)?;
-    textures(sets, |x| templates.errors(x))
-}
-
-fn textures(sets: &Sets, errors: impl Fn(&[f64]) -> Result<Vec<f64>>) -> Result<f64> {
-    let mut score = Confusion::new(TEXTURES.len());
-    for (contact, x) in &sets.testing {
-        let named = least(&errors(x)?);
-        score.add(contact.texture, Some(named))?;
-    }
-    Ok(score.kappa().unwrap_or(0.0))
 }
 
 pub(super) struct ByFeatures {

@@ -27,12 +27,10 @@ impl Scores {
         Ok(())
     }
 
-    /// κ of each property.
     pub(super) fn kappa(&self) -> [f64; 3] {
         self.0.each_ref().map(|score| score.kappa().unwrap_or(0.0))
     }
 
-    /// Hit rate of each property, percent.
     pub(super) fn hit(&self) -> [f64; 3] {
         self.0
             .each_ref()
@@ -49,7 +47,6 @@ impl Scores {
     }
 }
 
-/// κ and errors of the three classifiers.
 pub(super) fn kappas(page: &mut Page, rows: &[&Scores; 3]) {
     let errors = |paper: Figure, ours: Option<Statistics>| {
         let ours = ours.map_or("none".to_owned(), |s| {

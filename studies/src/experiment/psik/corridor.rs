@@ -15,7 +15,6 @@ use crate::page::{Page, confusion, figure};
 use crate::paper::psik::{CORRIDORS, TABLE_3};
 use crate::rigs::seed_of;
 
-/// Chance of naming a corridor and its direction, percent.
 const CHANCE: f64 = 100.0 / CORRIDORS.len() as f64;
 /// What counts as telling them, percent (chosen).
 const ENOUGH: f64 = 75.0;
@@ -100,7 +99,7 @@ pub(super) fn section(page: &mut Page, request: &Request, recordings: &Recording
         "IMP and network 66–66–4, votes",
         "two corridors, both ways",
         hit,
-        CHANCE,
+        (CHANCE, Some(CHANCE)),
     );
     if request.depth == Depth::Whole {
         page.is_alone = true;

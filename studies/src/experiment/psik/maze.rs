@@ -29,6 +29,7 @@ enum Doing {
     Turning(f64, f64),
 }
 
+#[derive(Default)]
 struct Tour {
     /// Times around the maze in the direction of the start.
     laps: f64,
@@ -188,13 +189,7 @@ fn tour(request: &Request, network: &Network, heads_right: bool) -> Result<Tour>
         other_s: 0.0,
         inside_s: 0.0,
     };
-    let mut tour = Tour {
-        laps: 0.0,
-        passed: 0,
-        right: 0,
-        false_alarms: 0,
-        path: Vec::new(),
-    };
+    let mut tour = Tour::default();
     let dt_s = 1.0 / RATE_HZ;
     let body_m = rig.width_m / 2.0 - rig.slack_m;
     let mut turned_rad = 0.0;

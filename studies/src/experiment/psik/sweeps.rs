@@ -96,7 +96,6 @@ pub(super) fn hit(score: &Confusion) -> f64 {
     100.0 * own.sum::<f64>() / (PAPERS - 1) as f64
 }
 
-/// Hit rate of P40, percent.
 pub(super) fn hit_of_p40(score: &Confusion) -> f64 {
     100.0 * score.hit_rate_of(0).unwrap_or(0.0)
 }

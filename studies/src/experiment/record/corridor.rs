@@ -46,7 +46,7 @@ pub(crate) fn walls(case: usize) -> [usize; 2] {
 }
 
 pub(crate) fn relief(request: &Request, number: usize) -> physics::Surface {
-    whiskers::wall(&request.rigs.surfaces, request.texture(number, PLACEBO))
+    request.surface(&whiskers::WALLS, number, PLACEBO)
 }
 
 /// The wall of a side, and where its relief begins.

@@ -91,7 +91,7 @@ pub(crate) fn record(request: &Request, job: usize, seed: u64) -> Result<Recordi
         normal: [0.0, 0.0, 1.0],
         along: [1.0, 0.0, 0.0],
         outline: Outline::PLANE,
-        surface: whiskers::floor(&request.rigs.surfaces, request.texture(floor, PLACEBO)),
+        surface: request.surface(&whiskers::FLOORS, floor, PLACEBO),
     };
     let lead = (LEAD_S * rig.tick_hz).round() as usize;
     let each = rig.ticks() / rig.placements.max(1);
@@ -119,13 +119,13 @@ pub(crate) fn record(request: &Request, job: usize, seed: u64) -> Result<Recordi
 mod tests {
     use super::{Flaws, MOTIONS, jobs, number, place};
     use crate::experiment::request::Extent;
-    use crate::rigs::{Floor, RobotMotion, load};
+    use crate::rigs::{Rigs, RobotMotion};
 
     /// Of 800 dead zones the share is known to some 4 %, of 4000 pulses the rate to 1.6 %.
     #[test]
     fn dead_zones_and_missed_pulses_come_as_often_as_they_should() {
         let set = ["floor.dead_hz=0.5", "floor.dead_s=0.5", "floor.missed_hz=2"];
-        let rig: Floor = load(None, &set.map(|text| text.parse().unwrap())).unwrap();
+        let rig = Rigs::with(&set).floor;
         let (mut flaws, mut held, mut missed) = (Flaws::new(1), 0, 0);
         let count = 4_000_000;
         for n in 0..count {

@@ -57,8 +57,7 @@ pub(crate) fn record(request: &Request, job: usize, seed: u64) -> Result<Recordi
         Some((_, gain)) => (*gain, TAU_Z_PERIODS),
         None => STRONG,
     };
-    let felt = request.texture(texture, PLACEBO.0);
-    let surface = whiskers::abrasive(&request.rigs.surfaces, felt);
+    let surface = request.surface(&whiskers::ABRASIVES, texture, PLACEBO.0);
     let visit = Visit {
         distance_m,
         // The arm goes along its axis: one spot of a texture for all distances and strategies.

@@ -58,7 +58,7 @@ fn sheet(request: &Request, job: usize, seed: u64) -> Plate {
         normal: [-1.0, 0.0, 0.0],
         along: [0.0, 1.0, 0.0],
         outline: Outline::PLANE,
-        surface: whiskers::sandpaper(&request.rigs.surfaces, request.texture(paper, PLACEBO)),
+        surface: request.surface(&whiskers::SANDPAPERS, paper, PLACEBO),
     }
 }
 

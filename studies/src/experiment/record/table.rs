@@ -27,7 +27,6 @@ const PLACEBO: Contact = Contact {
     texture: 0,
 };
 
-/// The speeds, mm/s.
 pub(crate) fn speeds() -> Vec<f64> {
     let (least, most, count) = SPEEDS_MM_S;
     let step = (most - least) / (count - 1) as f64;
@@ -61,8 +60,7 @@ pub(crate) fn record(request: &Request, job: usize, seed: u64) -> Result<Recordi
     let speed = request.place(contact.speed, PLACEBO.speed);
     let speed_m_s = speeds().get(speed).copied().unwrap_or(0.0) / 1000.0;
     let angle_deg = ANGLES_DEG[request.place(contact.angle, PLACEBO.angle)];
-    let texture = request.texture(contact.texture, PLACEBO.texture);
-    let surface = whiskers::table_texture(&request.rigs.surfaces, texture);
+    let surface = request.surface(&whiskers::TABLE, contact.texture, PLACEBO.texture);
     let spot_m = request.spot_m(Dataset::Table, contact.texture, seed);
     let (codes, way) = approach(rig, (angle_deg, speed_m_s), (surface, spot_m), seed)?;
 

@@ -5,8 +5,8 @@ use std::collections::BTreeMap;
 use std::sync::{Arc, Mutex, PoisonError};
 
 use crate::paper::psik::ARCS;
-use crate::rigs::{Layout, Surfaces, Vibrissa, seed_of};
-use physics::{Biotact, Grit, Material, Modes, SensorSettings, Shaft, Surface, TouchingWhisker};
+use crate::rigs::{Layout, Vibrissa, seed_of};
+use physics::{Biotact, Grit, Material, Modes, SensorSettings, Shaft, TouchingWhisker};
 
 /// A sensor with a rig's gains of x and y.
 pub(crate) fn sensor(full_scale_rad: [f64; 2]) -> SensorSettings {
@@ -27,53 +27,48 @@ pub(crate) fn head(follicle: f64) -> [Shaft; 3] {
     Biotact::ALL.map(|length| held(Shaft::biotact(length), follicle))
 }
 
-/// A floor by its place in LEP10's tables.
-pub(crate) fn floor(surfaces: &Surfaces, floor: usize) -> Surface {
-    surfaces.of(match floor {
-        0 => Material::RoughCarpet,
-        1 => Material::SmoothCarpet,
-        2 => Material::Tarmac,
-        _ => Material::Vinyl,
-    })
-}
-
-/// A texture of the head's experiment by its place in the paper's list.
-pub(crate) fn abrasive(surfaces: &Surfaces, texture: usize) -> Surface {
-    surfaces.of(match texture {
-        0 => Material::Sandpaper(Grit::P240),
-        1 => Material::Sandpaper(Grit::P600),
-        _ => Material::SmoothPlastic,
-    })
-}
-
-/// A texture at the table by its place in the paper's list.
-pub(crate) fn table_texture(surfaces: &Surfaces, texture: usize) -> Surface {
-    surfaces.of(match texture {
-        0 => Material::Sandpaper(Grit::P80),
-        1 => Material::Sandpaper(Grit::P180),
-        2 => Material::Sandpaper(Grit::P600),
-        _ => Material::Aluminium,
-    })
-}
-
-/// Grades of the eight sandpapers of PSIK Table 2, from coarse to fine. The
-/// paper says "from P180 to P50" and eight of them; FEPA has seven grades in
-/// that range, so P40 is added.
-const GRADES: [Grit; 8] = [
-    Grit::P40,
-    Grit::P50,
-    Grit::P60,
-    Grit::P80,
-    Grit::P100,
-    Grit::P120,
-    Grit::P150,
-    Grit::P180,
+/// The floors of LEP10's tables.
+pub(crate) const FLOORS: [Material; 4] = [
+    Material::RoughCarpet,
+    Material::SmoothCarpet,
+    Material::Tarmac,
+    Material::Vinyl,
 ];
 
-pub(crate) fn sandpaper(surfaces: &Surfaces, number: usize) -> Surface {
-    let grade = GRADES.get(number).copied().unwrap_or(Grit::P180);
-    surfaces.of(Material::Sandpaper(grade))
-}
+/// The textures of the head's experiment, and those at the table, as the papers list them.
+pub(crate) const ABRASIVES: [Material; 3] = [
+    Material::Sandpaper(Grit::P240),
+    Material::Sandpaper(Grit::P600),
+    Material::SmoothPlastic,
+];
+pub(crate) const TABLE: [Material; 4] = [
+    Material::Sandpaper(Grit::P80),
+    Material::Sandpaper(Grit::P180),
+    Material::Sandpaper(Grit::P600),
+    Material::Aluminium,
+];
+
+/// The eight sandpapers of PSIK Table 2, from coarse to fine. The
+/// paper says "from P180 to P50" and eight of them; FEPA has seven grades in
+/// that range, so P40 is added.
+pub(crate) const SANDPAPERS: [Material; 8] = [
+    Material::Sandpaper(Grit::P40),
+    Material::Sandpaper(Grit::P50),
+    Material::Sandpaper(Grit::P60),
+    Material::Sandpaper(Grit::P80),
+    Material::Sandpaper(Grit::P100),
+    Material::Sandpaper(Grit::P120),
+    Material::Sandpaper(Grit::P150),
+    Material::Sandpaper(Grit::P180),
+];
+
+/// The four walls of relief plexiglass; their periods differ (chosen; PSIK Fig. 8 has no extent).
+pub(crate) const WALLS: [Material; 4] = [
+    Material::Relief(30),
+    Material::Relief(60),
+    Material::Relief(100),
+    Material::Relief(160),
+];
 
 type Arcs = Arc<Vec<(Shaft, Modes)>>;
 
@@ -112,7 +107,6 @@ fn vibrissa(shafts: &Arcs, arc: usize, full_scale_rad: f64, seed: u64) -> Result
     TouchingWhisker::with_modes(shaft, modes, &sensor, seed).map_err(anyhow::Error::new)
 }
 
-/// The vibrissae of a pad, arc by arc, each with a seed of its own.
 pub(crate) fn pad(
     layout: &Layout,
     (full_scale_rad, follicle): (f64, f64),
@@ -126,12 +120,4 @@ pub(crate) fn pad(
         Ok((of, whisker))
     };
     vibrissae.map(make).collect()
-}
-
-/// The four walls of relief plexiglass, by number: their periods differ.
-pub(crate) fn wall(surfaces: &Surfaces, number: usize) -> Surface {
-    /// Periods, tenths of a millimetre (chosen; PSIK Fig. 8 has no extent).
-    const PERIODS: [u16; 4] = [30, 60, 100, 160];
-    let period = PERIODS.get(number).copied().unwrap_or(30);
-    surfaces.of(Material::Relief(period))
 }
