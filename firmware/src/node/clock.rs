@@ -124,7 +124,7 @@ mod tests {
         clock.hear(1, 4, 900, 400);
         assert_eq!(clock.tick(400, 2000), None);
         clock.hear(1, 5, 10_400, 500);
-        // 10,600 µs, 21.2 ticks.
-        assert_eq!(clock.tick(500, 2000), Some((21, 100)));
+        // 10,600 µs by the head's clock, 21.2 ticks.
+        assert_eq!(clock.tick(600, 2000), Some((21, 100)));
     }
 }
