@@ -24,6 +24,7 @@ use whisking::{Fix, Number};
 
 /// A number format to be measured.
 pub trait Format: Number {
+    /// Its name in the table.
     const NAME: &'static str;
 }
 
