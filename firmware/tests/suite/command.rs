@@ -1,14 +1,15 @@
 //! Commands between ticks: the nominal gain and the setpoint of a whisker.
 
 use firmware::{
-    AngleInput, Command, Config, Driver, HeadConfig, Module, MotionConfig, Place, Servo,
-    ServoConfig, ServoState, Whisker, WhiskerParts, design_parameters,
+    AngleInput, Command, Config, Driver, HeadConfig, Module, MotionConfig, NoActiveWhisker, Place,
+    Servo, ServoConfig, ServoState, Whisker, WhiskerParts, design_parameters,
 };
 use whisking::motor::{Duty, Fault, GuardSettings, MotorDriver};
 use whisking::{Fix, GateSettings, Integrator, Number, Settings, filter, pd};
 
-use crate::hardware::{Bent, NoClock, Toy, feeling};
+use crate::hardware::{Bent, NoClock, Toy, feeling, passive};
 
+/// A motor that keeps what it is driven with.
 #[derive(Default)]
 pub(crate) struct Kept {
     duty: f64,
@@ -27,6 +28,7 @@ impl MotorDriver for Kept {
     fn clear(&mut self) {}
 }
 
+/// A whisker that does not turn.
 pub(crate) struct Still;
 
 impl AngleInput for Still {
@@ -98,14 +100,17 @@ pub(crate) fn module<R: Number>() -> (Whiskers<R>, Config<R>) {
 
 const SECOND: Place = Place::new(0, 1);
 
+/// The servo of the second whisker.
 pub(crate) fn servo<R: Number>(module: &Whiskers<R>) -> &Servo<R, Kept, Still> {
     module.whiskers().get(1).and_then(Whisker::servo).unwrap()
 }
 
+/// The nominal gain of a whisker.
 pub(crate) fn nominal<R: Number>(module: &Whiskers<R>, n: usize) -> R {
     module.motion().unwrap().state().whiskers[n].nominal()
 }
 
+/// Duties of both motors after a tick.
 pub(crate) fn tick<R: Number>(module: &mut Whiskers<R>, config: &Config<R>) -> [f64; 2] {
     module.tick(config, &mut |event| panic!("{event:?}"));
     let [first, second] = module.whiskers_mut() else {
@@ -165,4 +170,20 @@ fn gains_stay_within_0_and_2_whatever_is_commanded() {
     check::<f32>(&[f32::NAN, f32::INFINITY, f32::NEG_INFINITY]);
     check::<f64>(&[f64::NAN, f64::MAX]);
     check::<Fix>(&[Fix(i32::MAX), Fix(i32::MIN)]);
+}
+
+#[test]
+fn whiskers_that_are_not_there_or_passive_are_refused() {
+    let (mut module, _) = module::<f32>();
+    for (side, whisker) in [(0, 2), (1, 0), (255, 255)] {
+        let place = Place { side, whisker };
+        for command in [Command::Gain(1.0), Command::Setpoint(None)] {
+            assert_eq!(module.command(place, command), Err(NoActiveWhisker.into()));
+        }
+    }
+    let config = feeling::<f32>(None);
+    let mut passive = passive(&config, [Bent(0xC000)]);
+    let refused = passive.command(Place::new(0, 0), Command::Gain(1.0));
+    assert_eq!(refused, Err(NoActiveWhisker.into()));
+    passive.tick(&config, &mut |event| panic!("{event:?}"));
 }

@@ -5,7 +5,7 @@ use firmware::{ConfigError, Part, refusal_code};
 use tactile::train::{Options, Trainer};
 use wire::{Command, CommandStatus};
 
-use super::{BoardFacts, Deployment, Loaded, ModelBuf, Program, files};
+use super::{BoardFacts, Deployment, Loaded, ModelBuf, Program, Running, files};
 use crate::conversation::Conversation;
 use crate::source::{Scripted, scene_file};
 
@@ -15,6 +15,7 @@ fn textures() -> ModelBuf {
         .1
 }
 
+/// A scene of the workspace, with keys in place of its own.
 fn loaded(name: &str, keys: &[&str]) -> Loaded {
     let text = std::fs::read_to_string(scene_file(name)).unwrap();
     let keys: Vec<_> = keys.iter().map(|key| key.parse().unwrap()).collect();
@@ -58,6 +59,18 @@ fn a_model_alone_comes_to_the_same_as_with_its_scene() {
         let bytes = textures().as_bytes().len();
         assert_eq!(4 * model.len(), bytes.next_multiple_of(8));
     }
+}
+
+#[test]
+fn a_model_that_the_module_cannot_use_is_refused() {
+    let refused = |name: &str, keys: &[&str]| {
+        let config = on(&NUCLEO_F446RE, loaded(name, keys), None).unwrap().config;
+        let fault = Deployment::again(&config, textures()).unwrap_err();
+        fault.to_string()
+    };
+    assert!(refused("passive.toml", &[]).contains("it has no [classifier]"));
+    let least = refused("bench.toml", &["classifier.contact_min=0.2"]);
+    assert!(least.contains("contact_min is not the contact"), "{least}");
 }
 
 #[test]
@@ -162,4 +175,16 @@ fn a_part_that_the_image_has_not_is_refused_before_anything_is_written() {
         Ok(())
     );
     assert_eq!(tried((CommandStatus::Done, [0; 2])), Ok(()));
+}
+
+#[test]
+fn bytes_of_any_other_kind_are_no_configuration() {
+    assert!(Running::of(Vec::new()).is_err());
+    let whole = on(&NUCLEO_F446RE, loaded("bench.toml", &[]), None).unwrap();
+    let whole = whole.config.bytes().to_vec();
+    for at in [0, 4, 6, 7, 20, whole.len() - 1] {
+        let mut bytes = whole.clone();
+        bytes[at] ^= 0x40;
+        assert!(Running::of(bytes).is_err(), "byte {at}");
+    }
 }

@@ -124,3 +124,47 @@ impl Seen {
         seen.filter_map(|(part, both)| (*both != [true; 2]).then_some(part.as_str()))
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::{Named, Seen, parts};
+    use scene::Scene;
+    use std::collections::BTreeSet;
+
+    const PASSIVE: &str = "name=\"p\"\ntick_hz=2000\nduration_s=1\nseed=1\n\
+        [head]\nwhiskers_per_side=1\nsides=\"left\"\n[plant]\nkind=\"ideal\"\n";
+
+    #[test]
+    fn what_a_scene_leaves_out_must_be_absent() {
+        let scene = &Scene::from_str("p.toml", PASSIVE).unwrap();
+        let scene = Named { scene, model: None };
+        let mut seen = Seen::default();
+        let tests = "firmware::self_test::SelfTest::of".to_owned();
+        let sound = BTreeSet::from(["firmware::sensing::decode".to_owned(), tests.clone()]);
+        assert_eq!(seen.compare(&sound, scene, true), Ok(Vec::new()));
+        let gate = BTreeSet::from(["whisking::gate::Rcp<R>::step".to_owned(), tests]);
+        let wrong = seen.compare(&gate, scene, true).unwrap();
+        assert_eq!(
+            wrong,
+            ["RCP: not named, but linked: whisking::gate::Rcp<R>::step"]
+        );
+        let all = parts().unwrap().len();
+        assert_eq!(seen.unproven().count(), all - 1, "RCP was both");
+    }
+
+    #[test]
+    fn what_a_scene_names_must_be_there() {
+        let text = format!(
+            "{PASSIVE}{}",
+            "[whisking]\nfrequency_hz=2.0\nintegrator=\"exact\"\ncoupling=false\n\
+             noise=0.0\ngain=1.0\nstart=[[1.0,0.0]]\n"
+        );
+        let scene = &Scene::from_str("a.toml", &text).unwrap();
+        let scene = Named { scene, model: None };
+        let wrong = Seen::default()
+            .compare(&BTreeSet::new(), scene, true)
+            .unwrap();
+        assert!(wrong.contains(&"muscles: named, but not found".to_owned()));
+        assert!(wrong.contains(&"single precision: named, but not found".to_owned()));
+    }
+}

@@ -41,6 +41,38 @@ fn radius([a, b]: Psi<f64>) -> f64 {
     a.hypot(b)
 }
 
+#[test]
+fn the_limit_cycle_is_the_unit_circle_at_any_step_and_in_any_format() {
+    fn check<R: Real>(rounding: f64) {
+        for cycles in [1e-4, 1e-3, 1.25e-2, 0.1] {
+            let mut running = Running::<R, 2>::exact(cycles, [[1.0, 0.0]; 2]);
+            let whisk = (1.0 / cycles) as usize;
+            for _ in 0..8 {
+                for psi in running.run(whisk / 8 + 1) {
+                    assert!(
+                        (radius(psi) - 1.0).abs() < rounding,
+                        "{cycles}: {}",
+                        radius(psi)
+                    );
+                }
+            }
+        }
+    }
+    check::<f64>(1e-12);
+    check::<f32>(3e-7);
+    check::<Fix>(2e-6);
+}
+
+#[test]
+fn a_start_inside_or_outside_relaxes_with_two_whisk_periods() {
+    for start in [0.3, 1.4] {
+        let mut running = Running::<f64, 2>::exact(1e-3, [[start, 0.0]; 2]);
+        let [left, _] = running.run(2_000);
+        let expected = 1.0 + (start - 1.0) * (-1.0_f64).exp();
+        assert!((radius(left) - expected).abs() < 1e-7, "{start}");
+    }
+}
+
 /// Of one side and of two, half a tick of `cycles` behind where the integrator keeps that.
 #[test]
 fn the_phase_runs_with_the_angle_in_every_format() {
@@ -63,6 +95,16 @@ fn the_phase_runs_with_the_angle_in_every_format() {
     check(Running::<f64, 2>::euler(1e-3, starts), 1e-3);
 }
 
+#[test]
+fn protraction_comes_first_and_recovery_follows() {
+    let [left, _] = Running::<f64, 2>::exact(1e-3, [[1.0, 0.0]; 2]).run(125);
+    let eighth = core::f64::consts::FRAC_1_SQRT_2;
+    assert!(
+        (left[0] - eighth).abs() < 1e-12 && (left[1] - eighth).abs() < 1e-12,
+        "{left:?}"
+    );
+}
+
 /// The text's "time constant of one whisking period" is 2.0 T_W of the phase
 /// difference: 2.0042 over these two whisks by a fine Runge-Kutta solution.
 #[test]
@@ -74,6 +116,16 @@ fn phase_difference_decays_with_two_whisk_periods() {
         .map(|p| p[1].atan2(p[0]));
     let tau = -2.0 / ((r - l).abs() / offset).ln();
     assert!((tau - 2.0042).abs() < 1e-4, "{tau} whisk periods");
+}
+
+#[test]
+fn euler_sits_outside_the_circle() {
+    let [left, _] = Running::<f64, 2>::euler(5e-3, [[1.0, 0.0]; 2]).run(20_000);
+    assert!(
+        (radius(left) - 1.25).abs() < 0.01,
+        "10 Hz at 2 kHz: {}",
+        radius(left)
+    );
 }
 
 #[test]
@@ -93,6 +145,25 @@ fn the_origin_is_left_along_protraction_in_every_format() {
     check::<f64>();
     check::<f32>();
     check::<Fix>();
+}
+
+#[test]
+fn one_side_alone_is_the_same_oscillator() {
+    for (mut one, mut two) in [
+        (
+            Running::<f64, 1>::exact(1e-3, [[0.6, 0.2]]),
+            Running::<f64, 2>::exact(1e-3, [[0.6, 0.2]; 2]),
+        ),
+        (
+            Running::<f64, 1>::euler(1e-3, [[0.6, 0.2]]),
+            Running::<f64, 2>::euler(1e-3, [[0.6, 0.2]; 2]),
+        ),
+    ] {
+        let ([one], [two, _]) = (one.run(700), two.run(700));
+        for k in 0..2 {
+            assert!((one[k] - two[k]).abs() < 1e-12);
+        }
+    }
 }
 
 /// ψ of one side is what it was and the difference, that of the other what it was, however the

@@ -4,6 +4,22 @@ use proptest::prelude::*;
 use whisking::motor::{Duty, Fault};
 
 #[test]
+fn q15_is_symmetric() {
+    assert_eq!(Duty::from_q15(i16::MIN).q15(), -32_767);
+    assert_eq!(Duty::from_q15(i16::MIN).magnitude(), 32_767);
+    assert_eq!(Duty::from_q15(32_767), Duty::FULL);
+    assert_eq!(Duty::from_q15(0), Duty::ZERO);
+    assert_eq!(Duty::default(), Duty::ZERO);
+}
+
+#[test]
+fn only_signed_duties_have_a_direction() {
+    assert!(Duty::from_q15(1).is_forward() && !Duty::from_q15(1).is_reverse());
+    assert!(Duty::from_q15(-1).is_reverse() && !Duty::from_q15(-1).is_forward());
+    assert!(!Duty::ZERO.is_forward() && !Duty::ZERO.is_reverse());
+}
+
+#[test]
 fn floats_at_the_edges() {
     for (fraction, q15) in [
         (f32::NAN, 0),
@@ -54,17 +70,22 @@ fn fault_numbers_are_stable() {
     assert_eq!(Fault::from_code(14), None);
 }
 
-#[test]
-fn a_duty_is_none_that_there_is_not() {
-    let bytes = postcard::to_allocvec(&i16::MIN).unwrap();
-    assert!(postcard::from_bytes::<Duty>(&bytes).is_err());
-}
-
 proptest! {
     #[test]
     fn floats_round_to_nearest(fraction in -1.2_f32..1.2) {
         let exact = f64::from(fraction).clamp(-1.0, 1.0) * 32_767.0;
         let error = (f64::from(Duty::from_f32(fraction).q15()) - exact).abs();
         prop_assert!(error <= 0.504, "{error}");
+    }
+
+    #[test]
+    fn scaling_rounds_to_nearest_and_never_exceeds(q15: i16, max: u16) {
+        let duty = Duty::from_q15(q15);
+        let scaled = duty.scaled_to(max);
+        let exact = f64::from(q15).abs().min(32_767.0) / 32_767.0 * f64::from(max);
+        prop_assert!(scaled <= max);
+        prop_assert!((f64::from(scaled) - exact).abs() <= 0.5 + 1e-9);
+        prop_assert_eq!(Duty::FULL.scaled_to(max), max);
+        prop_assert_eq!(Duty::ZERO.scaled_to(max), 0);
     }
 }

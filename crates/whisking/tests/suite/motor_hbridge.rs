@@ -69,6 +69,31 @@ impl Bench {
 }
 
 #[test]
+fn starts_at_zero_and_writes_nothing_else() {
+    Bench::new().run(|bridge| assert_eq!(bridge.fault(), None));
+}
+
+#[test]
+fn forward_forward_reverse_zero_forward() {
+    let mut bench = Bench::new();
+    // Forward, half: direction first at zero.
+    bench.zero().dir(HIGH).pulse(1000, 500);
+    // Forward, full: no detour over zero.
+    bench.pulse(1000, 1000);
+    // Reverse, a quarter.
+    bench.zero().dir(LOW).pulse(1000, 250);
+    // Zero keeps the direction.
+    bench.pulse(1000, 0);
+    // Reverse again: still no change of direction.
+    bench.pulse(1000, 1000);
+    bench.run(|mut bridge| {
+        for q15 in [16_384, 32_767, -8_192, 0, i16::MIN] {
+            assert_eq!(bridge.drive(Duty::from_q15(q15)), Ok(()));
+        }
+    });
+}
+
+#[test]
 fn failing_pin_zeroes_the_pwm_and_holds_until_clear() {
     let mut bench = Bench::new();
     // First drive: zero, the pin fails, off.
@@ -150,4 +175,9 @@ fn a_failing_start_is_reported_by_the_first_drive() {
     let mut bench = Bench::new();
     bench.break_pwm().zero();
     bench.run(|mut bridge| assert_eq!(bridge.drive(Duty::FULL), Err(Fault::Pwm)));
+}
+
+#[test]
+fn release_switches_off() {
+    Bench::new().zero().run(|bridge| drop(bridge.release()));
 }

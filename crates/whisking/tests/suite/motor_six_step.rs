@@ -119,6 +119,28 @@ fn stall_after(ticks: u16) -> SixStepConfig {
     }
 }
 
+/// The table written out by hand: Hall code, high and low phase, both ways.
+#[test]
+fn each_code_drives_its_pair() {
+    for (code, high, low) in [
+        (1, 2, 3),
+        (3, 2, 1),
+        (2, 3, 1),
+        (6, 3, 2),
+        (4, 1, 2),
+        (5, 1, 3),
+    ] {
+        for (duty, high, low) in [(HALF, high, low), (Duty::from_q15(-16_384), low, high)] {
+            let mut bench = Bench::new();
+            bench.hall(code).first_step(high, low, 2000, 1000);
+            bench.run(SixStepConfig::DEFAULT, |motor| {
+                assert_eq!(motor.drive(duty), Ok(()));
+                assert_eq!(motor.counts(), 0);
+            });
+        }
+    }
+}
+
 #[test]
 fn each_channel_is_scaled_to_its_own_range() {
     let mut bench = Bench::new();
@@ -264,4 +286,11 @@ fn observing_counts_without_driving() {
         assert_eq!(motor.observe(), Err(Fault::InvalidHall(7)));
         assert_eq!(motor.counts(), 1);
     });
+}
+
+#[test]
+fn biotact_resolution() {
+    let config = SixStepConfig::DEFAULT;
+    assert_eq!(config.counts_per_turn() * 11, 66);
+    assert!((config.degrees_per_count(11.0) - 5.4545).abs() < 1e-4);
 }

@@ -87,6 +87,15 @@ fn a_fault_costs_its_touch_and_is_reported() {
 }
 
 #[test]
+fn another_rate_is_reported() {
+    let around = Around {
+        clock: 1.05,
+        ..GOOD
+    };
+    assert_eq!(captured(&[], around, |_, _| true).0, 1);
+}
+
+#[test]
 fn a_person_takes_their_time_and_the_touch_that_they_interrupt_does_not_count() {
     // In a touch, and after a longer time than may pass without one.
     let by_hand = |patience, laid_s| {
@@ -110,4 +119,24 @@ fn a_person_takes_their_time_and_the_touch_that_they_interrupt_does_not_count() 
     };
     let at = at(&first.samples).expect("the same world");
     assert!((4100..4700).contains(&at), "{at}");
+}
+
+#[test]
+fn what_comes_next_depends_on_what_is_there() {
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path().join("mine.csv");
+    let said = |there, is_simulated| super::next(&out, 2000, there, is_simulated);
+    assert!(said([1, 1], false).starts_with("next: another sample"));
+    let train = said([2, 3], false);
+    assert!(
+        train.contains("train --data") && !train.contains('\n'),
+        "{train}"
+    );
+    assert!(said([2, 1], false).contains("three to five are best, and there is 1"));
+    // Nobody holds a simulated sample.
+    assert!(!said([2, 1], true).contains("pose"));
+    let model = folder.path().join("mine.model");
+    std::fs::write(&model, b"").unwrap();
+    let evaluate = format!("evaluate --model {} --data", model.display());
+    assert!(said([2, 3], false).contains(&evaluate));
 }

@@ -10,7 +10,7 @@ use wire::{Flags, TickRecord};
 use super::{Theme, draw};
 use crate::monitor::history::History;
 use crate::monitor::shown::Shown;
-use crate::monitor::svg::svg;
+use crate::monitor::svg::{svg, text};
 use crate::monitor::view::{Key, View};
 use crate::source::Incoming;
 
@@ -56,6 +56,64 @@ fn drawn(shown: &Shown, theme: Theme, width: u16, height: u16) -> ratatui::buffe
     let mut terminal = Terminal::new(TestBackend::new(width, height)).unwrap();
     terminal.draw(|frame| draw(frame, shown, theme)).unwrap();
     terminal.backend().buffer().clone()
+}
+
+#[test]
+fn all_is_there_in_the_smallest_usual_window() {
+    let shown = history().shown(&View::new(), "bench, simulated", String::new());
+    let buffer = drawn(&shown, PLAIN, 80, 24);
+    let text = text(&buffer);
+    for word in [
+        "bench, simulated",
+        "6.00 s  live",
+        "[ARMED]",
+        "[TOUCHING]",
+        "  running ",
+        "measured",
+        "setpoint",
+        "contact",
+        "duty",
+        "no model: --model",
+        "touch 3",
+        "carpet 99.50 % 640",
+        "fault left 6 does not move",
+        "longest tick 43.5 us (4 %)",
+        "lost 0",
+        "x stop",
+        "q end",
+    ] {
+        assert!(text.contains(word), "{word}:\n{text}");
+    }
+    assert_eq!(text.lines().count(), 24);
+    // The line of the chart.
+    assert!(text.chars().any(|c| ('\u{2801}'..='\u{28FF}').contains(&c)));
+}
+
+#[test]
+fn a_decision_that_names_no_class_says_why() {
+    let mut history = history();
+    history.module_classes.push("p240".to_owned());
+    let unnamed = |(n, bits): (u32, u32)| {
+        let decision = Decision::from_memory(640, 165, bits << 16).unwrap();
+        let event = Event::Decision(Place::new(0, 0), decision);
+        let sequence = 6_000 + n;
+        Packet::Event(EventRecord { sequence, event })
+    };
+    // Unknown, outside the poses, and between carpet and class 1.
+    let reasons = [(1, 1), (2, 1 | 1 << 1), (3, 1 | 2 << 1 | 1 << 3)];
+    history.take(&Incoming::of(reasons.map(unnamed)));
+    let shown = history.shown(&View::new(), "t", String::new());
+    for words in [
+        "left unknown 640",
+        "left outside the poses of training 640",
+        "left between carpet and p240 640",
+    ] {
+        assert!(
+            shown.events.iter().any(|line| line.contains(words)),
+            "{words}: {:?}",
+            shown.events
+        );
+    }
 }
 
 #[test]

@@ -100,6 +100,23 @@ fn constants_keep_their_digits_at_any_scale() {
 }
 
 #[test]
+fn counts_become_numbers_and_saturate() {
+    // From the coarsest encoder to the finest: 4 counts per turn, BIOTACT's, and
+    // 65,536 with a gear of 1000.
+    for counts_per_turn in [4.0, 512.0 * 11.0, 65_536.0, 65_536.0 * 1_000.0] {
+        let per_count = 360.0 / counts_per_turn / 100.0;
+        let factor = Fix::coefficient(per_count);
+        let quarter = Fix::from_counts((counts_per_turn / 4.0) as i32, factor).to_f64();
+        assert!((quarter - 0.9).abs() < 3e-5, "{counts_per_turn}: {quarter}");
+        for (counts, end) in [(i32::MAX, 4.0), (i32::MIN, -4.0)] {
+            let found = Fix::from_counts(counts, factor).to_f64();
+            assert!((found - end).abs() < 4e-3 && found.abs() <= 4.0, "{found}");
+        }
+    }
+    assert!(Fix::from_counts(3, Fix::coefficient(1e9)).to_f64() > 3.99);
+}
+
+#[test]
 fn a_share_too_small_for_one_step_still_arrives() {
     let (mut z, mut carry) = (Fix::from_f64(0.25), 0);
     let approach = Fix::fine(2e-9);
