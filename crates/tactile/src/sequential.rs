@@ -412,6 +412,7 @@ mod tests {
         );
     }
 
+    #[cfg(feature = "std")]
     #[test]
     fn thresholds_of_units_are_those_of_their_odds() {
         use crate::class_setting::ClassSetting;
