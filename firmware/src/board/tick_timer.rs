@@ -21,6 +21,9 @@ impl TickTimer {
         TICK_TIMER.cr1().write(|w| w.set_urs(Urs::COUNTER_ONLY));
         TICK_TIMER.egr().write(|w| w.set_ug(true));
         TICK_TIMER.dier().write(|w| w.set_uie(true));
+        // A tick that has begun keeps its length: the count may be beyond a new one.
+        #[cfg(feature = "bus")]
+        TICK_TIMER.cr1().modify(|w| w.set_arpe(true));
         TICK_TIMER.cr1().modify(|w| w.set_cen(true));
         Self(())
     }
@@ -31,11 +34,10 @@ impl TickTimer {
     }
 }
 
-/// Makes the tick that has just begun, and those after it, so many counts of the timer long: it has
-/// counted less so far.
+/// Makes the next tick, and those after it, so many counts of the timer long.
 #[cfg(feature = "bus")]
 #[inline]
-pub(crate) fn last(counts: u16) {
+pub(crate) fn set_next(counts: u16) {
     TICK_TIMER
         .arr()
         .write(|w| w.set_arr(counts.wrapping_sub(1)));

@@ -83,6 +83,8 @@ struct Time {
     /// period and which are no microsecond yet.
     timer_per_us: i32,
     longer: i32,
+    /// By how many counts the next tick is longer.
+    next_longer: i32,
 }
 
 impl Time {
@@ -99,18 +101,20 @@ impl Time {
             period,
             timer_per_us: per_us(clocks.tick_timer_hz).cast_signed(),
             longer: 0,
+            next_longer: 0,
         }
     }
 
-    /// The tick that has begun is late by the clock of the head: it becomes shorter.
+    /// The tick that has begun is late by the clock of the head: the next becomes shorter.
     fn follow(&mut self, late_us: i32) {
         let TickPeriod { prescaler, period } = self.period;
         let (prescaler, period) = (i32::from(prescaler.max(1)), i32::from(period));
         let most = period / FOLLOWS_MOST;
         let late = late_us.saturating_mul(self.timer_per_us) / prescaler;
         let counts = (period - (late / FOLLOWS).clamp(-most, most)).min(u16::MAX.into());
-        tick_timer::last(counts as u16);
-        self.longer += (counts - period) * prescaler;
+        tick_timer::set_next(counts as u16);
+        self.longer += self.next_longer;
+        self.next_longer = (counts - period) * prescaler;
         let us = self.longer.checked_div_euclid(self.timer_per_us);
         let us = us.unwrap_or(0);
         self.longer -= us * self.timer_per_us;
