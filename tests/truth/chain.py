@@ -31,6 +31,7 @@ from scipy.linalg import eigh
 MG = 1e6            # Masses in milligrams, so forces in micronewtons: MuJoCo has a least mass.
 MOTOR = 1e3 * MG    # Inertia of the motor.
 RADIUS = 1e-4       # Of the spheres, m.
+TOUCHES = 0.6       # From where on the shaft they are, a share of its length.
 
 
 def integral(start, end, of):
@@ -93,7 +94,7 @@ def xml(links, axes, damping, step, integrator, contact, tendons=()):
                         f'damping="{float(damping[n])!r}"/>')
         text.append(f'<inertial pos="{vector([centre - s, 0, 0])}" mass="{float(mass)!r}" '
                     f'diaginertia="{vector([inertia / 1e3, inertia, inertia])}"/>')
-        if contact and s > 0.6 * LENGTH:
+        if contact and s > TOUCHES * LENGTH:
             text.append("<geom/>")
         before = s
     if contact:

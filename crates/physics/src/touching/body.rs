@@ -25,6 +25,8 @@ pub(super) struct Body {
     pub(super) ground: Ground,
     pub(super) outline: Outline,
     pub(super) touch: Touch,
+    /// Of another place that touches at once.
+    pub(super) other: Touch,
     pub(super) last: Option<Last>,
     /// Steps in contact are cut 2ⁿ times as finely as usual.
     pub(super) finer: u32,
@@ -84,9 +86,11 @@ impl Body {
     /// The plane that a shaft touches, where it is none for all places.
     pub(super) fn tangent(&self, curve: &Curve, pose: &PlatePose) -> Option<Tangent> {
         if self.outline.is_plane() {
-            None
-        } else {
-            self.nearest(curve, pose).1
+            return None;
+        }
+        match self.touch.place.filter(|_| self.other.is_contact()) {
+            Some(place) => Some(self.outline.tangent(pose.place(curve.at(&place)))),
+            None => self.nearest(curve, pose).1,
         }
     }
 
@@ -100,6 +104,7 @@ impl Body {
     fn leave(&mut self) {
         self.curve = None;
         self.touch = Touch::default();
+        self.other = Touch::default();
         self.last = None;
     }
 }

@@ -38,6 +38,7 @@ use crate::vector::{V3, add, dot, length2, scale};
 const LATEST: f64 = 1e-9;
 
 /// What is known of a part before its force is.
+#[derive(Clone)]
 pub(super) struct Part<'a> {
     /// The poses at its start and at its end.
     pub(super) old: &'a PlatePose,
@@ -55,6 +56,8 @@ pub(super) struct Part<'a> {
     pub(super) free: Amplitudes,
     /// Amplitude of each shape for a force of 1 on it.
     pub(super) responses: [f64; SHAPES],
+    /// Displacement of the tip by the modes for 1 N on it, m.
+    pub(super) response: f64,
     /// Stretch at the start, turned with the base.
     pub(super) stretch: V3,
     /// The foot at the start and the ground there.
@@ -67,6 +70,7 @@ pub(super) struct Part<'a> {
 }
 
 /// A part that has been solved on a plane.
+#[derive(Clone)]
 pub(super) struct Solved {
     pub(super) frame: Frame,
     pub(super) problem: Problem,
@@ -78,6 +82,7 @@ pub(super) struct Solved {
 }
 
 /// How the shapes move a place of the shaft, along x, y and z.
+#[derive(Clone)]
 pub(super) struct Moves {
     pub(super) ways: Ways,
     /// Displacement without a force.

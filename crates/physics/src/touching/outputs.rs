@@ -15,8 +15,8 @@ pub struct Bent {
     pub length_m: f64,
     /// Points at even arc lengths, the first the base and the last the tip, m.
     pub points_m: [[f64; 3]; POINTS],
-    /// Where it touches, while it does.
-    pub contact: Option<At>,
+    /// Where it touches, while it does, and where else at once.
+    pub contacts: [Option<At>; 2],
 }
 
 /// A place of contact.
@@ -37,7 +37,7 @@ impl Bent {
         Self {
             length_m,
             points_m: core::array::from_fn(|n| [0.0, 0.0, step_m * n as f64]),
-            contact: None,
+            contacts: [None; 2],
         }
     }
 }
@@ -71,11 +71,14 @@ impl TouchingWhisker {
         self.contact() && self.body.touch.stuck
     }
 
-    /// Normal and tangential force on the tip, N.
+    /// Normal and tangential force on the shaft, N; of two places that touch, the sums of sizes.
     pub fn force_n(&self) -> [f64; 2] {
-        let normal = self.body.touch.normal_n;
-        let square = dot(self.body.touch.force, self.body.touch.force) - normal * normal;
-        [normal, square.max(0.0).sqrt()]
+        let [one, two] = [&self.body.touch, &self.body.other].map(|touch| {
+            let normal = touch.normal_n;
+            let square = dot(touch.force, touch.force) - normal * normal;
+            [normal, square.max(0.0).sqrt()]
+        });
+        [one[0] + two[0], one[1] + two[1]]
     }
 
     /// By how much the ground was taken as lower than it is, m, where contact had no
@@ -92,7 +95,7 @@ impl TouchingWhisker {
         for point in bent.points_m.iter_mut().skip(1) {
             *point = curve.at(&shaft.grid.anywhere(point[2]));
         }
-        bent.contact = self.contact_at();
+        bent.contacts = self.contacts_at();
         bent
     }
 
@@ -103,16 +106,23 @@ impl TouchingWhisker {
         [x, y]
     }
 
-    /// Where the shaft touches, while it does.
+    /// Where the shaft touches, while it does; of two places the one that touched first.
     pub fn contact_at(&self) -> Option<At> {
+        let [first, _] = self.contacts_at();
+        first
+    }
+
+    /// Where the shaft touches, while it does, and where else at once.
+    pub fn contacts_at(&self) -> [Option<At>; 2] {
         let Body { shaft, state, .. } = &self.body;
-        let touch = &self.body.touch;
-        let place = touch.place.filter(|_| self.contact())?;
-        let curve = self.body.curve.unwrap_or_else(|| state.curve(shaft));
-        Some(At {
-            arc_m: place.at_m,
-            point_m: curve.at(&place),
-            plate_m: [touch.foot[0], touch.foot[1]],
+        [&self.body.touch, &self.body.other].map(|touch| {
+            let place = touch.place.filter(|_| touch.is_contact())?;
+            let curve = self.body.curve.unwrap_or_else(|| state.curve(shaft));
+            Some(At {
+                arc_m: place.at_m,
+                point_m: curve.at(&place),
+                plate_m: [touch.foot[0], touch.foot[1]],
+            })
         })
     }
 
@@ -124,6 +134,7 @@ impl TouchingWhisker {
     /// Kinetic and elastic energy of shaft, follicle and contact, J, in axes
     /// that move with the base.
     pub fn energy_j(&self) -> f64 {
-        self.body.state.energy_j(&self.body.shaft) + self.body.touch.spring_j
+        let springs_j = self.body.touch.spring_j + self.body.other.spring_j;
+        self.body.state.energy_j(&self.body.shaft) + springs_j
     }
 }

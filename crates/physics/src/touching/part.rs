@@ -45,6 +45,7 @@
 use super::body::{Body, Touch};
 use super::law::{Moves, Part, Solved};
 use super::secant::secant;
+use super::second::{DEEP, sum};
 use crate::contact::Frame;
 use crate::grid::Place;
 use crate::modal::{ModalStep, pushed};
@@ -79,23 +80,33 @@ const LEAST: f64 = 0.05;
 type Known = (V3, [f64; 3]);
 
 /// What a round has found.
-struct Round {
+#[derive(Clone)]
+pub(super) struct Round {
     /// Which place of the ground the foot feels at the end.
     felt: [f64; 2],
     /// Where the foot was expected, where it is, and how far that is apart on ground that it feels.
     there: V3,
-    next: V3,
+    pub(super) next: V3,
     miss: [f64; 2],
     /// How far the place is off where its ways bring it, m.
     off_m: f64,
     moves: Moves,
-    solved: Solved,
+    pub(super) solved: Solved,
     /// The force along x, y and z, and on each shape.
-    force: V3,
-    forces: Amplitudes,
+    pub(super) force: V3,
+    pub(super) forces: Amplitudes,
     /// The state at the end.
-    end: Amplitudes,
-    curve: Curve,
+    pub(super) end: Amplitudes,
+    pub(super) curve: Curve,
+}
+
+/// Where a contact has been found, and how it ends.
+#[derive(Clone)]
+pub(super) struct Found {
+    pub(super) place: Place,
+    pub(super) round: Round,
+    /// Where it is expected to touch at the end.
+    better_m: f64,
 }
 
 impl Body {
@@ -103,6 +114,7 @@ impl Body {
     pub(super) fn part(&mut self, old: &PlatePose, new: &PlatePose, step: &ModalStep, part_s: f64) {
         let before = self.curve.take();
         let before = before.unwrap_or_else(|| self.state.curve(&self.shaft));
+        self.join();
         let tangent = self.tangent(&before, old);
         let seen = tangent.map(|tangent| [tangent.see(old), tangent.see(new)]);
         let poses = seen.as_ref().map_or([old, new], |[old, new]| [old, new]);
@@ -110,10 +122,11 @@ impl Body {
             tangent,
             ..self.free_part(&before, poses, step, part_s)
         };
-        let (mut place, mut ground, mut end);
+        let (place, ground, end);
         if part.touching {
             // Forces change little from part to part.
-            end = pushed(&part.free, &part.responses, &self.touch.forces);
+            let forces = sum(&self.touch.forces, &self.other.forces);
+            end = pushed(&part.free, &part.responses, &forces);
             place = self.expected(&part.before, new);
             ground = None;
         } else {
@@ -123,36 +136,57 @@ impl Body {
             end = part.free;
             (place, ground) = (touched.0, Some(touched.1));
         }
+        let first = self.find(&mut part, place, end, ground);
+        let (first, other) = self.both([old, new], &mut part, first);
+        let forces = other.map_or(first.round.forces, |other| sum(&first.round.forces, &other));
+        self.state.push(step, &part.responses, &forces);
+        self.settle(&part, &first);
+        self.curve = Some(first.round.curve);
+        if self.other.is_contact() && !self.touch.is_contact() {
+            self.touch = core::mem::take(&mut self.other);
+        }
+        if !self.touch.is_contact() {
+            // In the air static shapes spring back, and a force that follows starts there.
+            self.state.keep(part.law.kept());
+            self.curve = None;
+        }
+        if self.state.limit(&self.shaft) {
+            self.touch = Touch::default();
+            self.other = Touch::default();
+            self.curve = None;
+        }
+    }
+
+    /// The force at a place and where it brings the foot, by rounds from where the shapes end
+    /// about.
+    pub(super) fn find(
+        &mut self,
+        part: &mut Part<'_>,
+        mut place: Place,
+        mut end: Amplitudes,
+        mut ground: Option<Known>,
+    ) -> Found {
         let length_m = self.shaft.length_m;
         let near = NEAR * self.finest_m();
         let (mut missed, mut relax, mut to) = (None, 1.0, None);
-        for n in 1..=ROUNDS {
-            let round = self.round(&mut part, &place, &end, to, ground.take());
+        let mut n = 0;
+        loop {
+            n += 1;
+            let round = self.round(part, &place, &end, to, ground.take());
             end = round.end;
             let miss = round.miss;
             if let Some(old) = missed.replace(miss) {
                 relax = relaxed(relax, old, miss);
             }
-            let small = OFF * step.response * length(round.force);
-            let better_m = self.better_m(&part, &place, &round);
+            let small = OFF * part.response * length(round.force);
+            let better_m = self.better_m(part, &place, &round);
             let still = n > 2 || (better_m.min(length_m) - place.at_m).abs() <= SHIFT * length_m;
             if n == ROUNDS || (round.off_m <= small && length2(miss) < near && still) {
-                self.state.push(step, &part.responses, &round.forces);
-                let went = place.at_m - self.touch.place.map_or(place.at_m, |last| last.at_m);
-                self.settle(&part, &round);
-                self.touch.place = Some(place);
-                self.touch.next_m = better_m + went;
-                self.curve = Some(round.curve);
-                if !self.touch.is_contact() {
-                    // In the air static shapes spring back, and a force that follows starts there.
-                    self.state.keep(part.law.kept());
-                    self.curve = None;
-                }
-                if self.state.limit(&self.shaft) {
-                    self.touch = Touch::default();
-                    self.curve = None;
-                }
-                return;
+                return Found {
+                    place,
+                    round,
+                    better_m,
+                };
             }
             if still {
                 to = Some([0, 1].map(|i| round.there[i] + relax * miss[i]));
@@ -191,6 +225,7 @@ impl Body {
             start,
             free: self.state.x,
             responses: step.responses(share),
+            response: step.response,
             stretch: new.vector(self.touch.stretch),
             foot: [0.0; 3],
             ground: [0.0; 3],
@@ -201,10 +236,17 @@ impl Body {
     }
 
     /// Where a shaft that touches is expected to touch at the end of the part.
-    fn expected(&self, before: &Curve, pose: &PlatePose) -> Place {
+    pub(super) fn expected(&self, before: &Curve, pose: &PlatePose) -> Place {
         let place = self.shaft.grid.place(self.touch.next_m);
         let (nearest, tangent) = self.nearest(before, pose);
-        let most = DEEPER * self.shaft.length_m;
+        let other = self.other.place.filter(|_| self.other.is_contact());
+        let way_m = |place: &Place| (nearest.at_m - place.at_m).abs();
+        if other.is_some_and(|other| way_m(&other) < way_m(&place)) {
+            // The other's.
+            return place;
+        }
+        let share = if other.is_some() { DEEP } else { DEEPER };
+        let most = share * self.shaft.length_m;
         let (deeper, most) = match tangent {
             None => {
                 let way = sub(before.at(&place), before.at(&nearest));
@@ -348,7 +390,12 @@ impl Body {
     }
 
     /// Brings the foot to the ground, as far as the energy allows.
-    fn settle(&mut self, part: &Part<'_>, round: &Round) {
+    pub(super) fn settle(&mut self, part: &Part<'_>, found: &Found) {
+        let Found {
+            place,
+            round,
+            better_m,
+        } = found;
         let Round {
             solved, felt, next, ..
         } = round;
@@ -363,7 +410,10 @@ impl Body {
         let deep = if normal_n > 0.0 { deep } else { deep.max(0.0) };
         let up = part.pose.components([0.0, 0.0, -deep]);
         let (stretch, paid) = part.law.compliance.within(left_j, body, up);
+        let went = place.at_m - self.touch.place.map_or(place.at_m, |last| last.at_m);
         self.touch = Touch {
+            place: Some(*place),
+            next_m: better_m + went,
             force: frame.plate(force.local),
             forces: round.forces,
             foot: *next,

@@ -23,6 +23,10 @@ const ROUGH_PHASE: f64 = 1.0;
 /// times as many, and errors the same.
 const SLIDES: f64 = 0.25;
 
+/// Largest way of the tip in a part of a shaft that touches, as a share of the length: one that
+/// whips about a place of contact is seen before it is far behind the plate.
+const WHIPS: f64 = 0.02;
+
 impl Body {
     /// A step before the ground to a pose in its coordinates. Returns into how
     /// many parts it was cut; none where the tip stays clear.
@@ -123,23 +127,25 @@ impl Body {
     }
 
     /// How far a place is below the ground, m.
-    fn deep(&mut self, curve: &Curve, place: &Place, pose: &PlatePose) -> f64 {
+    pub(super) fn deep(&mut self, curve: &Curve, place: &Place, pose: &PlatePose) -> f64 {
         let [x, y, height] = pose.place(curve.at(place));
         self.ground.relief.at([x, y])[0] - height
     }
 
     /// How many times a step is halved in which the base carries the tip this far.
     fn power(&self, way_m: f64, dt_s: f64) -> usize {
-        let far_m = if self.touch.is_contact() {
-            SLIDES * way_m + self.touch.slip_m_s * dt_s
+        let bends_m = self.state.speed(&self.shaft) * dt_s;
+        let (far_m, whips) = if self.touch.is_contact() {
+            let far_m = SLIDES * way_m + self.touch.slip_m_s * dt_s;
+            (far_m, bends_m / (WHIPS * self.shaft.length_m))
         } else {
-            way_m + self.state.speed(&self.shaft) * dt_s
+            (way_m + bends_m, 0.0)
         };
         let grains = far_m / (TRAVEL * self.finest_m());
         let flat = self.ground.relief.finest_m.is_infinite();
         let most = if flat { PHASE } else { ROUGH_PHASE };
         let phase = self.shaft.highest_rad_s * dt_s / most;
-        let wanted = grains.max(phase);
+        let wanted = grains.max(phase).max(whips);
         let enough = |power: &usize| wanted <= f64::from(1_u32 << power);
         let power = (0..POWERS - 1).find(enough).unwrap_or(POWERS - 1);
         (power + self.finer as usize).min(POWERS - 1)

@@ -6,6 +6,7 @@ mod closed_forms;
 mod elastica;
 mod energy;
 mod rough;
+mod whip;
 
 use super::TouchingWhisker;
 use crate::{Material, Outline, Plate, Pose, SensorSettings, Shaft, Surface};

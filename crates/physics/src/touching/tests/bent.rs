@@ -13,7 +13,7 @@ fn a_whisker_in_the_air_is_straight_and_touches_nothing() {
     for (found, expected) in points.iter().zip(straight) {
         assert!(length(sub(*found, expected)) < 1e-15, "{found:?}");
     }
-    assert_eq!(robot().bent().contact, None);
+    assert_eq!(robot().bent().contacts, [None; 2]);
 }
 
 #[test]
@@ -28,7 +28,7 @@ fn points_are_as_far_apart_as_on_the_straight_shaft_and_contact_is_between_them_
         whisker.step(&pose, Some(&plate), 5e-4);
     }
     let bent = whisker.bent();
-    let at = bent.contact.unwrap();
+    let at = bent.contacts[0].unwrap();
     assert!(at.arc_m < 0.97 * shaft.length_m, "{at:?}");
 
     // Up to a place between nodes the tangent is integrated as a parabola.

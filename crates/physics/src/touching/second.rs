@@ -1,0 +1,154 @@
+//! Another place of the shaft that touches at once, apart from the first: a tip that whips through
+//! while the shaft lies on the plate, a shaft along the plate.
+//!
+//! Each is a contact of its own, with its foot, friction and spring. They share the shapes: the
+//! force on one moves the other. So each is found in turn for shapes that the other's force has
+//! pushed, until the first force changes no more (Gauss–Seidel; it converges as the shapes give
+//! way less to a force elsewhere than where it acts). The work of each force is that of the whole
+//! change of the shapes, and the energy of each spring is at most what it was less that work: so
+//! the energy never grows, however far the iteration went. Where that leaves a spring less than
+//! nothing, the first touches alone.
+
+use super::body::{Body, Touch};
+use super::law::Part;
+use super::part::Found;
+use crate::grid::Place;
+use crate::modal::pushed;
+use crate::pose::PlatePose;
+use crate::shapes::Amplitudes;
+use crate::vector::{dot, sub};
+
+/// Another place touches where it is deeper in the ground than this share of the length: as
+/// deep as shapes bring a shaft that lies straight along the plate.
+pub(super) const DEEP: f64 = 5e-3;
+
+/// Places this share of the length apart can both touch, and are one below half of it.
+const APART: f64 = 0.1;
+
+/// Most exchanges of forces, and by what share of itself the first changes in the last one.
+const EXCHANGES: usize = 12;
+const SETTLED: f64 = 1e-6;
+
+impl Body {
+    /// Places that have come together are one.
+    pub(super) fn join(&mut self) {
+        let at = |touch: &Touch| touch.place.map(|place| place.at_m);
+        if let (Some(first), Some(second)) = (at(&self.touch), at(&self.other))
+            && self.is_one(first, second)
+        {
+            self.other = Touch::default();
+        }
+    }
+
+    fn is_one(&self, first_m: f64, second_m: f64) -> bool {
+        (first_m - second_m).abs() < 0.5 * APART * self.shaft.length_m
+    }
+
+    /// What a part comes to in which the first contact was found alone, if another place touches:
+    /// the first then, and the forces of the other on the shapes. The other is settled.
+    pub(super) fn both(
+        &mut self,
+        [old, new]: [&PlatePose; 2],
+        part: &mut Part<'_>,
+        alone: Found,
+    ) -> (Found, Option<Amplitudes>) {
+        let Some(mut place) = self.second_place(part, new, &alone) else {
+            self.other = Touch::default();
+            return (alone, None);
+        };
+        let tangent = (!self.outline.is_plane())
+            .then(|| self.outline.tangent(old.place(part.before.at(&place))));
+        let seen = tangent.map(|tangent| [tangent.see(old), tangent.see(new)]);
+        let [old, new] = seen.as_ref().map_or([old, new], |[old, new]| [old, new]);
+        let mut own = Part {
+            old,
+            pose: new,
+            touching: self.other.is_contact(),
+            friction: self.ground.surface.friction_at(self.other.slip_m_s),
+            stretch: new.vector(self.other.stretch),
+            tangent,
+            ..part.clone()
+        };
+        let free = part.free;
+        let mut first = alone.clone();
+        for n in 1..=EXCHANGES {
+            own.free = pushed(&free, &part.responses, &first.round.forces);
+            core::mem::swap(&mut self.touch, &mut self.other);
+            let mut second = self.find(&mut own, place, first.round.end, None);
+            core::mem::swap(&mut self.touch, &mut self.other);
+            place = second.place;
+            if self.is_one(first.place.at_m, place.at_m) {
+                break;
+            }
+            part.free = pushed(&free, &part.responses, &second.round.forces);
+            let again = self.find(part, first.place, second.round.end, None);
+            let change = sub(again.round.force, first.round.force);
+            let size = dot(again.round.force, again.round.force);
+            first = again;
+            if n < EXCHANGES && dot(change, change) > SETTLED * SETTLED * size {
+                continue;
+            }
+            // The last word was the first's.
+            let end = first.round.end;
+            second.round.next = sub(
+                new.place(first.round.curve.at(&place)),
+                second.round.solved.stretch,
+            );
+            let left_j = [(&self.touch, &*part, &first), (&self.other, &own, &second)]
+                .map(|(touch, part, found)| left_j(touch, part, found, &end));
+            let [first_j, second_j] = left_j;
+            if first_j < 0.0 || second_j < 0.0 {
+                break;
+            }
+            first.round.solved.left_j = first_j;
+            second.round.solved.left_j = second_j;
+            core::mem::swap(&mut self.touch, &mut self.other);
+            self.settle(&own, &second);
+            core::mem::swap(&mut self.touch, &mut self.other);
+            return (first, Some(second.round.forces));
+        }
+        part.free = free;
+        self.other = Touch::default();
+        (alone, None)
+    }
+
+    /// Where another place touches at the end of a part in which the first is alone.
+    fn second_place(&mut self, part: &Part<'_>, new: &PlatePose, alone: &Found) -> Option<Place> {
+        if self.other.is_contact() {
+            core::mem::swap(&mut self.touch, &mut self.other);
+            let place = self.expected(&part.before, new);
+            core::mem::swap(&mut self.touch, &mut self.other);
+            return Some(place);
+        }
+        let length_m = self.shaft.length_m;
+        let curve = &alone.round.curve;
+        let (place, tangent) = self.nearest(curve, new);
+        if (place.at_m - alone.place.at_m).abs() < APART * length_m {
+            return None;
+        }
+        let most_m = DEEP * length_m;
+        let most_m = tangent.map_or(most_m, |tangent| tangent.deeper_m(most_m));
+        let seen = tangent.map(|tangent| tangent.see(new));
+        let deep_m = self.deep(curve, &place, seen.as_ref().unwrap_or(new));
+        (deep_m > most_m).then_some(place)
+    }
+}
+
+/// Energy of a contact's spring at the start less the work of its force on the shapes and on the
+/// base, J.
+fn left_j(touch: &Touch, part: &Part<'_>, found: &Found, end: &Amplitudes) -> f64 {
+    let solved = &found.round.solved;
+    let of_base = dot(solved.frame.plate(solved.force.local), part.carried);
+    let forces = found.round.forces.iter().flatten();
+    let moved = end.iter().flatten().zip(part.start.iter().flatten());
+    let of_shapes: f64 = forces
+        .zip(moved)
+        .map(|(f, (end, start))| f * (end - start))
+        .sum();
+    touch.spring_j - of_base - of_shapes
+}
+
+/// Forces on the shapes together.
+pub(super) fn sum(one: &Amplitudes, two: &Amplitudes) -> Amplitudes {
+    core::array::from_fn(|k| [0, 1].map(|axis| one[k][axis] + two[k][axis]))
+}
