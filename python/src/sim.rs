@@ -348,8 +348,16 @@ impl Sim {
     /// trace has them of the first whiskers; None in the air.
     #[pyo3(signature = (whisker=0))]
     fn touch_at(&self, py: Python<'_>, whisker: usize) -> PyResult<Option<(f64, f64)>> {
-        let contact = self.bent(py, whisker)?.contact;
-        Ok(contact.map(|at| (at.arc_m, at.plate_m[0])))
+        let [first, _] = self.bent(py, whisker)?.contacts;
+        Ok(first.map(|at| (at.arc_m, at.plate_m[0])))
+    }
+
+    /// All places in which a whisker touches now, as [`Self::touch_at`] has them: none, one or two.
+    #[pyo3(signature = (whisker=0))]
+    fn touches_at(&self, py: Python<'_>, whisker: usize) -> PyResult<Vec<(f64, f64)>> {
+        let contacts = self.bent(py, whisker)?.contacts;
+        let places = contacts.iter().flatten();
+        Ok(places.map(|at| (at.arc_m, at.plate_m[0])).collect())
     }
 
     /// `trace.csv` from here to the scene's end, byte for byte as host-sim writes it.

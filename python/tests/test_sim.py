@@ -159,12 +159,20 @@ def test_an_elastic_whisker_has_a_bent_shaft_and_a_point_of_contact():
     row = next(row for row in (sim.step()[-1] for _ in range(4000)) if row["contact_left"] > 0.3)
     arc_m, place_m = sim.touch_at()
     assert (arc_m, place_m) == (row["touch_at_left_m"], row["place_left_m"])
+    assert sim.touches_at() == [(arc_m, place_m)]
     assert 0.5 < arc_m / straight[-1, 2] < 1.0 + 1e-9
     bent = sim.shaft()
     # As long as before, and pushed against protraction.
     lengths = [np.linalg.norm(np.diff(shaft, axis=0), axis=1).sum() for shaft in (straight, bent)]
     assert abs(lengths[1] / lengths[0] - 1.0) < 0.01
     assert bent[-1, 0] > 0.005
+    along = {"plant.slant_deg": 0.0, "plant.tilt_deg": 0.0, "whisking.frequency_hz": 8.0}
+    sim = vibrissa.Sim(vibrissa.SCENES["whisker"], set=along)
+    touches = []
+    while not sim.done and len(touches) < 2:
+        sim.step()
+        touches = sim.touches_at()
+    assert abs(touches[0][0] - touches[1][0]) > 0.005
     with pytest.raises(ValueError, match='whisker 1: scene "whisker" has none'):
         sim.shaft(1)
     with pytest.raises(ValueError, match='scene "still" has none that bends'):

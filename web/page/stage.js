@@ -4,13 +4,15 @@ import { drawCurve, now } from "./columns.js";
 import { paint } from "./surfaces.js";
 import { plain } from "./words.js";
 
-// Numbers of a body: angle, length, contact, the point where it touches, and its points.
-const POINTS = 13, BODY = 6 + 3 * POINTS;
+// Numbers of a body: angle, length, contact, the points where it touches, and its points.
+const POINTS = 13, TOUCHES = 2, FIRST = 3, BODY = FIRST + 3 * (TOUCHES + POINTS);
 // The angle that is drawn level, so that the picture is wide and low.
 const LEVEL_DEG = 84;
 // Half the length of a surface and its thickness, as shares of the hair's length.
 const HALF = 0.34, THICK = 0.17;
 const MOTOR = 24, LABEL = 18;
+// The least radius of a bar, in pixels.
+const LEAST_RADIUS = 4;
 // The height of the curve at the lower edge as a share, and the time that it shows.
 const FEEL = 0.18, FEEL_S = 1.5;
 
@@ -27,11 +29,11 @@ export function restage(player) {
 }
 
 // How far everything reaches outwards, up and down, in lengths of a hair.
-function extent(walls, slant) {
+function extent(walls, slant, reach) {
   const points = [[0, 0]];
   for (let angle = swing.low; angle <= swing.high + 4; angle += 5) points.push(along(turned(angle)));
   for (const wall of walls.filter(Number.isFinite)) {
-    const [tip, way] = [along(turned(wall)), along(turned(wall) - slant)];
+    const [tip, way] = [along(turned(wall)).map((c) => c * reach), along(turned(wall) - slant)];
     for (const half of [-HALF, HALF]) {
       for (const thick of [0, THICK]) {
         points.push([tip[0] + half * way[0] + thick * way[1], tip[1] + half * way[1] - thick * way[0]]);
@@ -46,6 +48,23 @@ function label(pen, w, text, x, y) {
   const half = pen.measureText(text).width / 2;
   pen.fillStyle = colours.ink;
   pen.fillText(text, Math.min(Math.max(x, half + 4), w - half - 4), y);
+}
+
+// A slab from where its body begins to where it ends, along x; what ends is round there.
+function drawBody(pen, shown, [begins, ends, radius], most) {
+  const isRound = Number.isFinite(begins) || Number.isFinite(ends);
+  const r = isRound ? Math.max(radius, LEAST_RADIUS) : 0;
+  const from = Math.max(begins - r, -most), to = Math.min(ends + r, most);
+  const thick = isRound ? 2 * r : most * THICK / HALF;
+  pen.translate(from, 0);
+  if (!isRound) return paint(pen, shown, to - from, thick, colours.ink);
+  const [left, right] = [begins, ends].map((end) => Number.isFinite(end) ? r : 0);
+  const shape = new Path2D();
+  shape.roundRect(0, 0, to - from, thick, [left, right, right, left]);
+  pen.clip(shape);
+  paint(pen, shown, to - from, thick, colours.ink);
+  pen.lineWidth = 2;
+  pen.stroke(shape);
 }
 
 // A smooth curve through the points, a Catmull-Rom spline, thinner towards the tip.
@@ -113,7 +132,8 @@ export function drawStage(canvas, player, shown) {
   }
   const longest = Math.max(...bodies.filter((_, n) => n % BODY === 1));
   const [slant, tilt] = Array.from(player.facing_deg(), (angle) => angle * Math.PI / 180);
-  const { out, up, down } = extent(walls, slant);
+  const [touchesAt, ...outline] = player.outline();
+  const { out, up, down } = extent(walls, slant, touchesAt);
   // A hair's length, in pixels.
   const apart = sides > 1 ? 2 * MOTOR + 6 : 0;
   const wide = (w - 2 * MOTOR - apart - 12) / (sides * out);
@@ -133,15 +153,15 @@ export function drawStage(canvas, player, shown) {
       // aside.
       const limit = turned(walls[side]);
       const first = bodies.subarray(BODY * side * each, BODY * (side * each + 1));
-      const aside = Number.isNaN(first[4]) ? first[BODY - 2] : first[4];
+      const aside = Number.isNaN(first[FIRST + 1]) ? first[BODY - 2] : first[FIRST + 1];
       const back = aside * Math.tan(tilt) * reach;
       const [dx, dy] = along(limit - slant);
-      let [x, y] = at(limit, longest);
+      let [x, y] = at(limit, touchesAt * longest);
       x -= way * back * dy;
       y += back * dx;
       pen.save();
-      pen.transform(way * dx, dy, way * dy, -dx, x - way * HALF * size * dx, y - HALF * size * dy);
-      paint(pen, shown, 2 * HALF * size, THICK * size, colours.ink);
+      pen.transform(way * dx, dy, way * dy, -dx, x, y);
+      drawBody(pen, shown, outline.map((far) => far * reach), HALF * size);
       pen.restore();
       if (side === 0) {
         const name = shown === "hidden" ? "surface: ?" : `surface: ${plain(shown)}`;
@@ -156,12 +176,13 @@ export function drawStage(canvas, player, shown) {
       const body = bodies.subarray(BODY * n, BODY * (n + 1));
       const theta = turned(body[0]);
       ways.push([way * Math.sin(theta), Math.cos(theta)]);
-      // Point 0 is that of contact, the shaft's are 1 to 13.
-      const point = (k) => at(theta, body[5 + 3 * k], body[3 + 3 * k]);
-      drawShaft(pen, Array.from({ length: POINTS }, (_, k) => point(k + 1)));
-      if (!Number.isNaN(body[3])) {
+      // First those of contact, then the shaft's.
+      const point = (k) => at(theta, body[FIRST + 2 + 3 * k], body[FIRST + 3 * k]);
+      drawShaft(pen, Array.from({ length: POINTS }, (_, k) => point(TOUCHES + k)));
+      for (let k = 0; k < TOUCHES; k++) {
+        if (Number.isNaN(body[FIRST + 3 * k])) continue;
         pen.beginPath();
-        pen.arc(...point(0), 4 + 10 * Math.min(body[2], 1), 0, 2 * Math.PI);
+        pen.arc(...point(k), 4 + 10 * Math.min(body[2], 1), 0, 2 * Math.PI);
         pen.lineWidth = 2;
         pen.stroke();
       }

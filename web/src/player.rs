@@ -98,8 +98,8 @@ impl Player {
         points
     }
 
-    /// What every whisker looks like: angle (degrees), length (m), contact, the point where it
-    /// touches (m; not a number in the air), and 13 points from its base to its tip (m). Of a
+    /// What every whisker looks like: angle (degrees), length (m), contact, the two points where it
+    /// touches (m; not a number where it does not), and 13 points from its base to its tip (m). Of a
     /// point x is against protraction, y across it, and z along the shaft as it is without a bend.
     pub fn bodies(&mut self) -> Vec<f64> {
         self.run.look_at_whiskers(&mut self.whiskers);
@@ -108,7 +108,10 @@ impl Player {
             let bent = self.run.bent(n);
             let bent = bent.unwrap_or_else(|| self.held(n, w.angle_deg));
             bodies.extend([w.angle_deg, bent.length_m, w.contact]);
-            bodies.extend(bent.contact.map_or([f64::NAN; 3], |at| at.point_m));
+            let points = bent
+                .contacts
+                .map(|at| at.map_or([f64::NAN; 3], |at| at.point_m));
+            bodies.extend(points.as_flattened());
             bodies.extend(bent.points_m.as_flattened());
         }
         bodies
@@ -129,7 +132,7 @@ impl Player {
             *z = far_m * turned.cos();
         }
         if over > 0.0 {
-            bent.contact = bent.points_m.last().map(|tip| At {
+            bent.contacts[0] = bent.points_m.last().map(|tip| At {
                 arc_m: LENGTH_M,
                 point_m: *tip,
                 plate_m: [0.0; 2],
@@ -149,6 +152,21 @@ impl Player {
     pub fn obstacles(&self) -> Vec<f64> {
         let sides = 0..self.scene.head.sides.count();
         sides.map(|side| self.obstacle_deg(side)).collect()
+    }
+
+    /// Where on a straight hair a surface touches, as a share of its length; where the surface begins
+    /// and ends along itself, from there (m; infinite: nowhere), and the radius of its ends (m).
+    pub fn outline(&self) -> Vec<f64> {
+        let (low, high) = (f64::NEG_INFINITY, f64::INFINITY);
+        match (self.scene.plant.kind, self.scene.plant.facing) {
+            (PlantKind::Whisker, Some(facing)) => vec![
+                facing.touches_at,
+                facing.begins_m.unwrap_or(low),
+                facing.ends_m.unwrap_or(high),
+                facing.edge_radius_m,
+            ],
+            _ => vec![1.0, low, high, 0.0],
+        }
     }
 
     /// How surfaces stand: angle to the shaft in the plane of whisking, and inclination towards

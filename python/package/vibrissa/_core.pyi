@@ -121,6 +121,10 @@ class Sim:
         """Where a whisker touches now: arc length from the base and place on the surface, m, as the
         trace has them of the first whiskers; None in the air.
         """
+    def touches_at(self, whisker: int = 0) -> list[tuple[float, float]]:
+        """All places in which a whisker touches now, as `touch_at` has them: none, one or two. The
+        second is where the rest of the shaft whips onto a plate that lies nearly along it.
+        """
     def trace_csv(self) -> bytes:
         """`trace.csv` from here to the scene's end, byte for byte as host-sim writes it."""
     @property
