@@ -45,7 +45,7 @@ const CHIPS: [Chip; 3] = [
         program: "nucleo_f103rb",
         title: "NUCLEO-F103RB: STM32F103RB (RM0008)",
         pins: "stm32f1xx-hal `src/afio.rs`, in place 0",
-        requests: "stm32f1xx-hal `src/spi/dma.rs` of SPI1, `src/serial.rs` of USART2, nobody of TIM4",
+        requests: "stm32f1xx-hal `src/spi/dma.rs` of SPI1, `src/serial.rs` of USART2, none of TIM4",
     },
     Chip {
         program: "nucleo_g071rb",

@@ -40,7 +40,7 @@ enum Command {
     /// a picture of them
     #[command(allow_negative_numbers = true)]
     Run(run::Arguments),
-    /// Runs one scene and records what its first whisker feels, or each that decides, to train on
+    /// Runs one scene and records, to train on, what its first whisker feels, or each that decides
     #[command(allow_negative_numbers = true)]
     Record {
         #[command(flatten)]
@@ -55,7 +55,7 @@ enum Command {
     /// Trains a likelihood model from a recording, and says what it is worth
     #[command(allow_negative_numbers = true)]
     Train(train::Arguments),
-    /// What a model is worth on a recording: hit rate, decision time, calibration,
+    /// Says what a model is worth on a recording: hit rate, decision time, calibration,
     /// confusion, refused; suggests a threshold
     #[command(allow_negative_numbers = true)]
     Evaluate(evaluate::Arguments),
@@ -67,11 +67,11 @@ enum Command {
     /// table with decisions, decision time, touches, faults and errors of each run
     #[command(allow_negative_numbers = true)]
     Sweep(sweep::Arguments),
-    /// How a tapered whisker bends that is pressed slowly against a plate, solved exactly: base
-    /// moment, forces and contact at each push of the motor
+    /// Presses a tapered whisker slowly against a plate, solved exactly: base moment, forces and
+    /// place of contact at each push of the motor
     #[command(allow_negative_numbers = true)]
     Press(press::Arguments),
-    /// What the columns of all these files are, as docs/files.md has it
+    /// Prints what the columns of all these files mean: docs/files.md
     Columns,
     /// Streams a recording through the fixed-point classifier, exactly the code
     /// that runs on the board

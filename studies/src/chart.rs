@@ -106,6 +106,7 @@ pub(crate) enum Mark {
     Nothing,
     Dot,
     Ring,
+    Cross,
 }
 
 #[derive(Debug, Clone)]
@@ -269,8 +270,8 @@ fn draw_legend(legend: &[&Series], below: &Area<'_>) -> Result<(), Fault> {
             let line = [(x, y), (x + 28, y)];
             below.draw(&PathElement::new(line, series.colour.stroke_width(2)))?;
         }
-        if let Some(style) = style(series) {
-            below.draw(&Circle::new((x + 14, y), 4, style))?;
+        if let Some(mark) = mark(series, (x + 14, y)) {
+            below.draw(&mark)?;
         }
         let font = ("sans-serif", 14).into_font();
         below.draw(&Text::new(series.name.clone(), (x + 36, y - 7), font))?;
@@ -278,12 +279,18 @@ fn draw_legend(legend: &[&Series], below: &Area<'_>) -> Result<(), Fault> {
     Ok(())
 }
 
-fn style(series: &Series) -> Option<ShapeStyle> {
-    match series.mark {
-        Mark::Nothing => None,
-        Mark::Dot => Some(series.colour.filled()),
-        Mark::Ring => Some(series.colour.stroke_width(2)),
-    }
+/// A series' mark at a place.
+fn mark<'b, C: Clone + 'static>(
+    series: &Series,
+    at: C,
+) -> Option<DynElement<'static, SVGBackend<'b>, C>> {
+    let colour = series.colour;
+    Some(match series.mark {
+        Mark::Nothing => return None,
+        Mark::Dot => Circle::new(at, 4, colour.filled()).into_dyn(),
+        Mark::Ring => Circle::new(at, 4, colour.stroke_width(2)).into_dyn(),
+        Mark::Cross => Cross::new(at, 4, colour.stroke_width(2)).into_dyn(),
+    })
 }
 
 fn draw_panel(panel: &Panel, area: &Area<'_>) -> Result<(), Fault> {
@@ -305,10 +312,8 @@ fn draw_panel(panel: &Panel, area: &Area<'_>) -> Result<(), Fault> {
             let line = series.points.iter().copied();
             chart.draw_series(LineSeries::new(line, series.colour.stroke_width(2)))?;
         }
-        if let Some(style) = style(series) {
-            let points = series.points.iter();
-            chart.draw_series(points.map(|point| Circle::new(*point, 4, style)))?;
-        }
+        let points = series.points.iter();
+        chart.draw_series(points.filter_map(|point| mark(series, *point)))?;
     }
     Ok(())
 }

@@ -3,7 +3,7 @@
 //! # Glossary
 //!
 //! - *source*: a module that can be talked with, wherever it runs;
-//! - *record*: what a module tells of one whisker in one tick;
+//! - *record*: what a module reports of one whisker in one tick;
 //! - *recording*: samples with labels, which `host-sim train` reads;
 //! - *sample* of a texture: the piece that is laid before the whisker.
 
@@ -38,7 +38,8 @@ use clap::{Parser, Subcommand};
 use host_sim::progress::Verbosity;
 use host_sim::{Error, report};
 
-/// Reads the log and the records of a whisker module, and captures textures for it to learn.
+/// The program for the bench: brings a whisker module up, calibrates it, captures textures, deploys
+/// scenes and models, and shows what the module does.
 ///
 /// The module is a simulated one (--sim), the program of a board on an emulated chip
 /// (--emulated), a board behind its debug probe (--probe), or one on a serial port (--port).
@@ -59,7 +60,7 @@ struct Arguments {
 enum Command {
     /// Prints the lines that the module logs: touches, decisions, faults
     Log(commands::log::Arguments),
-    /// Writes what the module tells of every tick to a table, and counts what was lost
+    /// Writes what the module reports of every tick to a table, and counts what was lost
     Records(commands::records::Arguments),
     /// Opens a window on the module: angles, deflection, posteriors, decisions, faults
     Monitor(Box<commands::monitor::Arguments>),
@@ -68,19 +69,19 @@ enum Command {
     /// Finds a whisker's zero, range and stops, its motor's direction and friction, and gains that
     /// fit; moves it, gently
     Calibrate(commands::calibrate::Arguments),
-    /// Watches a whisker for a minute and writes a report: what is not as its simulation has it,
+    /// Watches a whisker for a minute and writes a report: where it differs from its simulation,
     /// and what that is a sign of
     Check(commands::check::Arguments),
-    /// Brings a module up, step by step, with what was seen and what to do: its start, its sensors'
-    /// frames as they come, the encoder by hand; the motor last, if somebody says yes
+    /// Brings a module up step by step, and says what it saw and what to do: start, sensors'
+    /// frames, encoder turned by hand; the motor last, if somebody types yes
     Bringup(commands::bringup::Arguments),
     /// Programs a board through its debug probe with a scene
     Flash(commands::flash::Arguments),
     /// Says what this PC lacks to work with a board, and the command that mends it
     Doctor(commands::doctor::Arguments),
-    /// Drives the motors of a module
+    /// Arms a module: its motors may be driven
     Arm(commands::order::ToAll),
-    /// Drives no motor of a module until it is armed
+    /// Stops a module: its motors are off until it is armed
     Stop(commands::order::ToAll),
     /// Runs a motor again that is off after faults, or was given up
     Clear(commands::order::ToSide),

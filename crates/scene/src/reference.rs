@@ -83,7 +83,11 @@ fn meaning(key: &Row) -> String {
     if key.only.is_empty() {
         return key.meaning.to_owned();
     }
-    let only: Vec<String> = key.only.iter().map(|c| in_code(*c)).collect();
+    let only = key.only.iter().map(|condition| match condition {
+        Condition::Given(key) => format!("`{key}`"),
+        other => in_code(*other),
+    });
+    let only: Vec<String> = only.collect();
     format!("{} Only with {}.", key.meaning, only.join(" or "))
 }
 

@@ -31,7 +31,7 @@ refusals! {
     /// Something else lies there.
     Strange = 2: "what lies in its place is no model";
     /// The format has another version.
-    Version = 3: "it is of another version of the format: train it anew";
+    Version = 3: "it is of another version of the format: train it again";
     /// Its place ends before it.
     TooLong = 4: "it is longer than its place";
     /// The checksum is another.

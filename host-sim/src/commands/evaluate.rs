@@ -33,10 +33,10 @@ pub struct Arguments {
     /// Decide when a posterior probability exceeds this
     #[arg(long, value_name = "P", default_value_t = 0.99)]
     threshold: f64,
-    /// Suggests the lowest threshold from which on no larger share of decisions is wrong
+    /// Suggests the lowest threshold from which on at most this share of decisions is wrong
     #[arg(long, value_name = "E")]
     error_rate: Option<f64>,
-    /// Suggests the highest threshold up to which a decision takes no more seconds of
+    /// Suggests the highest threshold up to which decisions take at most this many seconds of
     /// contact in the mean
     #[arg(long, value_name = "S")]
     time: Option<f64>,

@@ -27,7 +27,7 @@ pub struct Arguments {
     /// The seeds to score: from A to below B
     #[arg(long, value_name = "A..B", value_parser = seeds)]
     seeds: Range<u64>,
-    /// The seed of the run to train on, none of those scored [default: the scene's and 1]
+    /// The seed of the run to train on, none of those scored [default: the scene's plus 1]
     #[arg(long, value_name = "N")]
     train_seed: Option<u64>,
     /// Decide when a posterior probability exceeds this [default: as the scene says]

@@ -24,7 +24,7 @@ use crate::training::{How, Tables};
 #[derive(Debug, Args)]
 pub struct Arguments {
     /// The recording: label,trial,x,y, and contact where samples are of the air too; given
-    /// several times, each is held out to tell what is to be expected of another one
+    /// several times, each is held out in turn, to say what to expect of another one
     #[arg(long, value_name = "FILE.csv", required = true)]
     pub data: Vec<PathBuf>,
     /// Two other columns in place of x,y

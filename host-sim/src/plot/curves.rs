@@ -22,8 +22,20 @@ pub(super) fn envelope(rows: &[Row], value: impl Fn(&Row) -> f64) -> Vec<(f64, f
         .collect()
 }
 
-/// Name, colour and points of a curve.
-pub(super) type Curve = (&'static str, RGBColor, Vec<(f64, f64)>);
+/// A line, in a colour.
+#[derive(Debug, Clone, Copy)]
+pub(super) enum Stroke {
+    /// Unbroken.
+    Whole(RGBColor),
+    /// In dashes.
+    Dashed(RGBColor),
+}
+
+/// Name, stroke and points of a curve; one that is not a number leaves a gap.
+pub(super) type Curve = (&'static str, Stroke, Vec<(f64, f64)>);
+
+/// A dash and the gap behind it, pixels.
+const DASH: (u32, u32) = (7, 4);
 
 /// What stands along the axes: quantity and unit.
 #[derive(Debug, Clone, Copy)]
@@ -55,7 +67,7 @@ pub(super) fn plain(value: f64) -> String {
 #[derive(Debug, Clone, Copy)]
 pub(super) enum Sign {
     /// A line.
-    Line(RGBColor),
+    Line(Stroke),
     /// A square.
     Square(RGBColor),
     /// A filled dot.
@@ -70,7 +82,7 @@ pub(super) enum Sign {
 
 /// The legend of curves.
 pub(super) fn entries(curves: &[Curve]) -> Vec<(Sign, &'static str)> {
-    let line = |(name, colour, _): &Curve| (Sign::Line(*colour), *name);
+    let line = |(name, stroke, _): &Curve| (Sign::Line(*stroke), *name);
     curves.iter().map(line).collect()
 }
 
@@ -86,9 +98,15 @@ where
     let (panel, legend) = area.split_horizontally(width);
     for (y, (sign, name)) in (16..).step_by(18).zip(entries) {
         match *sign {
-            Sign::Line(colour) => {
-                let line = vec![(4, y), (22, y)];
-                legend.draw(&PathElement::new(line, colour.stroke_width(2)))?;
+            Sign::Line(stroke) => {
+                let (dashes, colour) = match stroke {
+                    Stroke::Whole(colour) => (vec![(4, 22)], colour),
+                    Stroke::Dashed(colour) => (vec![(4, 11), (15, 22)], colour),
+                };
+                for (from, to) in dashes {
+                    let line = vec![(from, y), (to, y)];
+                    legend.draw(&PathElement::new(line, colour.stroke_width(2)))?;
+                }
             }
             Sign::Square(colour) => {
                 let corners = [(6, y - 6), (20, y + 6)];
@@ -124,7 +142,8 @@ pub(super) fn range(curves: &[Curve], least: f64) -> (f64, f64) {
         return (0.0, least);
     }
     let span = (high - low).max(least);
-    (low - 0.06 * span, low + 1.06 * span)
+    let middle = f64::midpoint(low, high);
+    (middle - 0.56 * span, middle + 0.56 * span)
 }
 
 /// Draws curves in a panel, with axes.
@@ -152,8 +171,19 @@ where
         mesh.x_desc(x);
     }
     mesh.draw()?;
-    for (_, colour, points) in curves {
-        chart.draw_series(LineSeries::new(points, colour.stroke_width(1)))?;
+    for (_, stroke, points) in curves {
+        for piece in points.split(|(_, y)| y.is_nan()) {
+            let piece = piece.to_vec();
+            match stroke {
+                Stroke::Whole(colour) => {
+                    chart.draw_series(LineSeries::new(piece, colour.stroke_width(1)))?;
+                }
+                Stroke::Dashed(colour) => {
+                    let style = colour.stroke_width(1);
+                    chart.draw_series(DashedLineSeries::new(piece, DASH.0, DASH.1, style))?;
+                }
+            }
+        }
     }
     Ok(())
 }

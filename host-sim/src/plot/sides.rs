@@ -3,14 +3,14 @@
 use plotters::coord::Shift;
 use plotters::prelude::*;
 
-use super::curves::{Axes, Curve, curves, entries, envelope, with_legend};
-use super::{Fault, MEASURED, OTHER, SETPOINT};
+use super::curves::{Axes, Curve, Stroke, curves, entries, envelope, with_legend};
+use super::{Fault, MEASURED, OTHER};
 use crate::Error;
 use crate::trace::Row;
 
-/// Colours of the sides, and of what is in their way.
-const SIDES: [RGBColor; 2] = [MEASURED, OTHER];
-const OBSTACLES: [RGBColor; 2] = [RGBColor(150, 185, 215), RGBColor(235, 190, 150)];
+/// How the sides are drawn, and what is in their way.
+const SIDES: [Stroke; 2] = [Stroke::Whole(MEASURED), Stroke::Whole(OTHER)];
+const OBSTACLES: [Stroke; 2] = [Stroke::Dashed(MEASURED), Stroke::Dashed(OTHER)];
 /// Height of a panel, and width of the picture, pixels.
 const PANEL: (u32, u32) = (1000, 230);
 
@@ -25,8 +25,8 @@ pub struct Panel {
     pub obstacle_deg: [f64; 2],
 }
 
-/// Both sides of each run as an SVG document: measured angles, and obstacles as lines in the
-/// colour of their side.
+/// Both sides of each run as an SVG document: true angles, and obstacles as dashed lines
+/// in the colour of their side.
 ///
 /// # Errors
 /// [`Error::Work`] if the drawing library fails.
@@ -61,11 +61,10 @@ fn draw(area: &DrawingArea<SVGBackend<'_>, Shift>, panel: &Panel) -> Result<(), 
         ("left", SIDES[0], envelope(rows, |row| row.angle_deg[0])),
         ("right", SIDES[1], envelope(rows, |row| row.angle_deg[1])),
     ];
-    let style = ("sans-serif", 18).into_font().color(&SETPOINT);
-    let area = area.titled(&panel.title, style)?;
+    let area = area.titled(&panel.title, ("sans-serif", 18))?;
     let axes = Axes {
         x: Some("time, s"),
-        y: "angle, degrees",
+        y: "angle θ′, degrees",
         room: (64, 6),
     };
     let area = with_legend(&area, &entries(&shown))?;

@@ -3,9 +3,9 @@
 use plotters::coord::Shift;
 use plotters::prelude::*;
 
-use super::curves::{Axes, Curve, curves, entries, range, with_legend};
+use super::curves::{Axes, Curve, Stroke, curves, entries, range, with_legend};
 use super::pixels::Pixels;
-use super::{Fault, MEASURED, OTHER, SETPOINT, failed};
+use super::{Fault, MEASURED, SETPOINT, failed};
 use crate::Error;
 
 /// Width of the picture, and height of a strip, pixels.
@@ -21,8 +21,6 @@ pub enum Ink {
     Wanted,
     /// As what is.
     Found,
-    /// As another that is.
-    Other,
 }
 
 /// A quantity, or some of the same unit.
@@ -36,7 +34,7 @@ pub struct Strip {
     pub curves: Vec<(&'static str, Ink, Points)>,
 }
 
-/// Points of a curve: s, and the unit of its strip.
+/// Points of a curve: s, and the unit of its strip; not a number: a gap.
 pub type Points = Vec<(f64, f64)>;
 
 /// Strips with one time.
@@ -98,7 +96,7 @@ impl Strips {
             let shown: Vec<Curve> = strip
                 .curves
                 .iter()
-                .map(|(name, ink, points)| (*name, ink.colour(), thinned(points)))
+                .map(|(name, ink, points)| (*name, Stroke::Whole(ink.colour()), thinned(points)))
                 .collect();
             let area = with_legend(area, &entries(&shown))?;
             let is_last = n + 1 == self.strips.len();
@@ -119,12 +117,28 @@ impl Ink {
         match self {
             Self::Wanted => SETPOINT,
             Self::Found => MEASURED,
-            Self::Other => OTHER,
         }
     }
 }
 
+/// The lowest and the highest point of each stretch, so that no peak is lost; gaps stay.
 fn thinned(points: &[(f64, f64)]) -> Points {
-    let each = points.len().div_ceil(POINTS).max(1);
-    points.iter().copied().step_by(each).collect()
+    let stretch = 2 * points.len().div_ceil(POINTS).max(1);
+    if stretch == 2 {
+        return points.to_vec();
+    }
+    let ends = |points: &[(f64, f64)]| {
+        let by_height = |a: &&(f64, f64), b: &&(f64, f64)| a.1.total_cmp(&b.1);
+        let (low, high) = (
+            points.iter().min_by(by_height),
+            points.iter().max_by(by_height),
+        );
+        let mut ends: Points = low.into_iter().chain(high).copied().collect();
+        ends.sort_by(|a, b| a.0.total_cmp(&b.0));
+        ends
+    };
+    let gap = (f64::NAN, f64::NAN);
+    let pieces = points.split(|(_, y)| y.is_nan());
+    let thin = pieces.map(|piece| piece.chunks(stretch).flat_map(ends).collect::<Points>());
+    thin.collect::<Vec<_>>().join(&gap)
 }

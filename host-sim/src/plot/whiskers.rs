@@ -1,10 +1,10 @@
-//! The first whiskers of a run: setpoint and measured angle, what the sensors felt, contact
+//! The first whiskers of a run: setpoint and true angle, what the sensors felt, contact
 //! and suppression, and each decision against what was presented.
 
 use plotters::coord::Shift;
 use plotters::prelude::*;
 
-use super::curves::{Axes, Curve, curves, entries, envelope, range, with_legend};
+use super::curves::{Axes, Curve, Stroke, curves, entries, envelope, range, with_legend};
 use super::decided::{decisions, names_width};
 use super::pixels::Pixels;
 use super::{Fault, MEASURED, OTHER, Picture, SETPOINT, SIZE, failed};
@@ -101,7 +101,7 @@ const ANGLES: [Quantity; 2] = [
         of: |row| row.theta_deg,
     },
     Quantity {
-        names: ["measured", "measured, right"],
+        names: ["angle", "angle, right"],
         colours: [MEASURED, OTHER],
         of: |row| row.angle_deg,
     },
@@ -140,7 +140,8 @@ fn of_sides(rows: &[Row], quantities: &[Quantity]) -> Vec<Curve> {
     let curve = |side: usize| {
         quantities.iter().map(move |quantity| {
             let points = envelope(rows, |row| (quantity.of)(row)[side]);
-            (quantity.names[side], quantity.colours[side], points)
+            let stroke = Stroke::Whole(quantity.colours[side]);
+            (quantity.names[side], stroke, points)
         })
     };
     sides.flat_map(curve).collect()

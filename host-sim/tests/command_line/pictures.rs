@@ -34,7 +34,6 @@ fn a_run_leaves_its_picture_with_axes_and_legend() {
         "contact π, z",
         "class",
         "setpoint",
-        "measured",
         "suppression z",
         "presented",
         "decision: right",
@@ -45,7 +44,7 @@ fn a_run_leaves_its_picture_with_axes_and_legend() {
     assert!(!svg.contains("right side"), "there is none");
     place.done("run ideal.toml --out out");
     let both = place.text("out/trace.svg");
-    assert!(both.contains("measured, right") && !both.contains("presented"));
+    assert!(both.contains("angle, right") && !both.contains("presented"));
 }
 
 /// What reached beyond the edge would leave ink on it.

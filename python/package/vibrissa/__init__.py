@@ -1,7 +1,7 @@
 """Simulator and classifier of an active artificial whisker.
 
 Names, units and shapes are those of the files that ``host-sim`` writes; ``columns("trace")``
-tells them.
+returns them.
 
 >>> import vibrissa
 >>> sim = vibrissa.Sim("textures", seed=7)

@@ -19,8 +19,8 @@ pub(super) fn section(page: &mut Page, grounds: &[Ground]) -> Result<()> {
     page.say(
         "Decisions of all trainings by their posterior, at three thresholds. The picture shows \
          the share of errors: stated 99 % is 1e-2. On the grey line a posterior is what it says; \
-         below it decisions are righter than they say, above it they say too much. Bars are 95 % \
-         intervals; where none was wrong only the bar is drawn, from the bottom.",
+         below it decisions are right more often than they say, above it less often. Bars are \
+         95 % intervals; where none was wrong only the bar is drawn, from the bottom.",
     );
     let panels: Vec<Panel> = grounds
         .iter()
@@ -80,13 +80,14 @@ fn panel(name: &str, trained: &[Trained]) -> Panel {
         Mark::Nothing,
         vec![(FOUND, FOUND), (HIGH, HIGH)],
     )];
-    for (at, (threshold, _)) in THRESHOLDS.iter().enumerate() {
+    let marks = [Mark::Dot, Mark::Ring, Mark::Cross];
+    for (at, ((threshold, _), mark)) in THRESHOLDS.iter().zip(marks).enumerate() {
         let bins = pooled(trained, at);
         let place = |bin: &CalibrationBin| (1.0 - bin.stated).clamp(STATED, HIGH);
         let wrong = bins.iter().filter(|bin| bin.found.share < 1.0);
         let points = wrong.map(|bin| (place(bin), inside(1.0 - bin.found.share)));
         let name = format!("threshold {threshold}");
-        series.push(Series::new(&name, at + 1, Mark::Dot, points.collect()).unjoined());
+        series.push(Series::new(&name, at + 1, mark, points.collect()).unjoined());
         for bin in &bins {
             let bar = [bin.found.high, bin.found.low].map(|x| (place(bin), inside(1.0 - x)));
             series.push(Series::new("", at + 1, Mark::Nothing, bar.to_vec()));

@@ -19,8 +19,15 @@ pub(crate) const ANGLE: Panel<'static> = (
     ],
 );
 
+/// Samples that are further apart are not joined by a line, s.
+const GAP_S: f64 = 0.05;
+
 pub(crate) fn picture(title: String, samples: &[Sample], panels: &[Panel<'_>]) -> Strips {
-    let points = |of: fn(&Sample) -> f64| samples.iter().map(|s| (s.t_s, of(s))).collect();
+    let points = |of: fn(&Sample) -> f64| {
+        let pieces = samples.chunk_by(|a, b| b.t_s - a.t_s < GAP_S);
+        let points = pieces.map(|piece| piece.iter().map(|s| (s.t_s, of(s))).collect::<Vec<_>>());
+        points.collect::<Vec<_>>().join(&(f64::NAN, f64::NAN))
+    };
     let strip = |(y, least, curves): &Panel<'_>| Strip {
         y,
         least: *least,

@@ -302,7 +302,7 @@ fn table(samples: &[Sample]) -> String {
 
 /// The pictures of the steps, below that of the angle.
 const ERROR: Panel<'_> = (
-    "error, degrees",
+    "error, degrees (cut at 3)",
     4.0,
     &[("setpoint − measured", Ink::Found, |s| {
         (s.setpoint_deg - s.measured_deg).clamp(-3.0, 3.0)

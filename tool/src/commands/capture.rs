@@ -37,7 +37,7 @@ pub(crate) struct Arguments {
     #[arg(long, value_enum, default_value = "left")]
     side: SideName,
     /// Goes on with a recording: captures what is missing of each label. Simulated worlds get
-    /// another seed then, lest they repeat themselves
+    /// another seed then, so that they do not repeat themselves
     #[arg(long)]
     resume: bool,
     /// What this pose of the samples is called; with --resume others can follow in one file
@@ -46,7 +46,7 @@ pub(crate) struct Arguments {
     /// For how long nothing may be touched
     #[arg(long, value_name = "S", default_value = "10", value_parser = seconds)]
     patience: f64,
-    /// What whisker calibrate wrote of this whisker: stands in the recording's header then
+    /// What whisker calibrate wrote of this whisker; copied into the recording's header
     #[arg(long, value_name = "FILE.toml")]
     calibration: Option<PathBuf>,
     /// The recording to write; an existing file is not overwritten

@@ -60,7 +60,7 @@ pub(crate) fn check(arguments: &Arguments) -> Result<(), Error> {
     let text = seen.report(&origin, &found);
     md.whole(text.as_bytes())?;
     let title = "check: at rest, whisking, at rest".to_owned();
-    let picture = picture(title, &seen.watched.samples, &[CODES, ANGLE]);
+    let picture = picture(title, &seen.watched.samples, &[X, Y, ANGLE]);
     svg.whole(picture.svg()?.as_bytes())?;
     png.whole(&picture.png()?)?;
     for finding in &off {
@@ -127,13 +127,16 @@ impl Seen {
     }
 }
 
-const CODES: Panel<'_> = (
-    "sensor, codes",
+/// Apart, as one would hide the other.
+const X: Panel<'_> = (
+    "x, codes",
     100.0,
-    &[
-        ("x", Ink::Found, |s| f64::from(s.codes[0])),
-        ("y", Ink::Other, |s| f64::from(s.codes[1])),
-    ],
+    &[("x", Ink::Found, |s| f64::from(s.codes[0]))],
+);
+const Y: Panel<'_> = (
+    "y, codes",
+    100.0,
+    &[("y", Ink::Found, |s| f64::from(s.codes[1]))],
 );
 
 #[cfg(test)]

@@ -9,7 +9,7 @@ use crate::source::BoardName;
 /// For what.
 #[derive(Debug, Args)]
 pub(crate) struct Arguments {
-    /// What is needed; give it once for each, without it everything is
+    /// What the PC is to be ready for; may be given several times; left out: everything
     #[arg(long = "for", value_name = "PURPOSE", value_enum)]
     purposes: Vec<Purpose>,
     /// The board that is behind the probe

@@ -1,4 +1,4 @@
-//! `whisker records`: what a module tells of every tick.
+//! `whisker records`: what a module reports of every tick.
 
 use std::path::PathBuf;
 
@@ -21,7 +21,7 @@ use crate::tally::{Tally, side};
 pub(crate) struct Arguments {
     #[command(flatten)]
     source: SourceChoice,
-    /// Records that were written before: tells what is in them
+    /// Records that were written before: says what is in them
     #[arg(long, value_name = "FILE.csv", group = "source", conflicts_with_all = ["out", "seconds", "seed", "program", "board"])]
     file: Option<PathBuf>,
     /// For how long; without it as long as the scene lasts

@@ -37,9 +37,8 @@ pub(crate) struct SourceChoice {
         conflicts_with = "seed"
     )]
     probe: Option<String>,
-    /// The program's file. Of --emulated it has the scene with it; without it it is built
-    /// (minutes, the first time). Of --probe it is what the board runs; without it the log
-    /// cannot be read
+    /// The program's file. For --emulated it brings the scene; left out, it is built (minutes,
+    /// the first time). For --probe it is what the board runs; left out, the log cannot be read
     #[arg(long, value_name = "ELF", conflicts_with = "sim")]
     program: Option<PathBuf>,
     /// The board whose program is built, or that is behind the probe [default: nucleo-f446re, or
@@ -53,8 +52,8 @@ pub(crate) struct SourceChoice {
     /// What befalls the board of --emulated: a file of events, as docs/boards.md lists them
     #[arg(long, value_name = "FILE", conflicts_with_all = ["sim", "probe", "port"])]
     scenario: Option<PathBuf>,
-    /// The file that keeps the flash which is deployed to from one command to the next, as a
-    /// board does: scene and model of --emulated, the model of --sim; made where there is none
+    /// A file that keeps what is deployed from one command to the next, as a board's flash does:
+    /// scene and model of --emulated, the model of --sim; made where there is none
     #[arg(long, value_name = "FILE", conflicts_with = "probe")]
     flash: Option<PathBuf>,
     /// A board on this serial port, of a scene whose telemetry has a serial_baud

@@ -55,7 +55,7 @@ keys! {
         /// Largest magnitude of the duty.
         duty_limit: f64 = number(ranges::pd::LIMIT).default("1.0"),
 
-        /// Fastest change of the duty. As `kp`.
+        /// Fastest change of the duty. A board may refuse it as it does `kp`.
         slew_per_s: f64 = positive(1e5).unit("duty per second").default("400.0"),
 
         /// Lower limit of the setpoint; below `max_deg`. On a board at least -90.
@@ -94,7 +94,7 @@ keys! {
         /// calibrate` measures it). On a board at most `top_speed_deg_s`/50,000.
         time_constant_s: f64 = number(1e-3..=10.0).unit("s").default("0.048"),
 
-        /// Duty that the winding bears for ever; above it, a fault by I²t over some 8 s. On a board
+        /// Duty that the winding tolerates for ever; above it, a fault by I²t over some 8 s. On a board
         /// at most 0.7.
         continuous_duty: f64 = number(ranges::pd::LIMIT).default("0.4"),
 

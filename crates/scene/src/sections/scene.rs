@@ -42,7 +42,7 @@ keys! {
         /// The array of whiskers.
         [head]: HeadSection = required::<HeadSection>(),
 
-        /// What the readings of the whiskers' sensors cannot do.
+        /// How the whiskers' sensors are read, and what their readings cannot do.
         [sensor]: SensorSection = by_default::<SensorSection>("the defaults below hold"),
 
         /// Active whisking: oscillators, their coupling, and muscle (BIOTACT section III).

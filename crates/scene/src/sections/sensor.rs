@@ -107,9 +107,9 @@ keys! {
         /// How far from mid-scale the zero may be found; beyond it the last zero stays.
         zero_most: u16 = integer(1..=8_191).unit("codes").default("160"),
 
-        /// Codes by which whisking alone moves x at least, whisks of 30 degrees or wider (`whisker
-        /// calibrate` shows it): where it moves by less for 2 s the magnet or the whisker is gone,
-        /// which is a limit, and no contact is reported. 0: not looked at.
+        /// Least codes by which a whisk of 30 degrees or more moves x in the air (`whisker
+        /// calibrate` shows it). Where x moves by less for 2 s, the magnet or the whisker is gone:
+        /// a limit, and no contact is reported. 0: not checked.
         swing_codes: Option<u16> = integer(0..=8_191).unit("codes")
             .optional("50 from 1.25 Hz on; below, where noise moves it as far, 0"),
 

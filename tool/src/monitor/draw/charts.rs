@@ -13,7 +13,7 @@ use super::theme::Theme;
 struct Kind {
     quantity: &'static str,
     curves: &'static [Curve],
-    /// Least range that is shown; the middle follows the signals.
+    /// Least range that is shown.
     least: f64,
     fixed: Option<[f64; 2]>,
     decimals: usize,
@@ -143,7 +143,7 @@ fn chart(
             .data(points)
     });
     let range = range(kind, whisker);
-    let labels = range.map(|end| format!("{end:6.*}", kind.decimals.min(1)));
+    let labels = range.map(|end| format!("{end:6.0}"));
     let mut times = Axis::default().bounds([shown.from_s, shown.to_s]);
     if is_last {
         times = times.labels([
@@ -174,7 +174,12 @@ fn range(kind: &Kind, whisker: &Whisker) -> [f64; 2] {
     if least > most {
         return [0.0, kind.least];
     }
-    let middle = f64::midpoint(least, most);
-    let half = ((most - least) * 0.55).max(kind.least / 2.0);
-    [middle - half, middle + half]
+    // 1, 2 or 5 times a power of ten, so that the ends are numbers as people write them.
+    let rough = (most - least).max(kind.least) / 5.0;
+    let power = 10_f64.powf(rough.log10().floor());
+    let steps = [1.0, 2.0, 5.0].map(|factor| factor * power);
+    let step = steps.into_iter().find(|step| *step >= rough);
+    let step = step.unwrap_or(10.0 * power);
+    let low = (least / step).floor() * step;
+    [low, ((most / step).ceil() * step).max(low + kind.least)]
 }
