@@ -352,7 +352,8 @@ impl Sim {
         Ok(first.map(|at| (at.arc_m, at.plate_m[0])))
     }
 
-    /// All places in which a whisker touches now, as [`Self::touch_at`] has them: none, one or two.
+    /// All places in which a whisker touches now, as `touch_at` has them: none, one or two. The
+    /// second is where the rest of the shaft whips onto a plate that lies nearly along it.
     #[pyo3(signature = (whisker=0))]
     fn touches_at(&self, py: Python<'_>, whisker: usize) -> PyResult<Vec<(f64, f64)>> {
         let contacts = self.bent(py, whisker)?.contacts;
