@@ -67,13 +67,19 @@ impl Grid {
                 *node = pair[0] + (0.5 + off) * long;
             }
         }
+        let mut weights = [0.0; NODES];
+        for (inside, pair) in weights.chunks_mut(POINTS).zip(edges.windows(2)) {
+            for (weight, [area, ..]) in inside.iter_mut().zip(parabolas(1.0)) {
+                *weight = (pair[1] - pair[0]) * area;
+            }
+        }
         let mut grid = Self {
             length_m,
             edges,
             nodes,
             tip: Place {
                 at_m: length_m,
-                weights: [0.0; NODES],
+                weights,
                 first: 0,
                 along: [0.0; POINTS],
                 bend: [0.0; POINTS],
@@ -96,31 +102,25 @@ impl Grid {
 
     /// The place at an arc length of the shaft.
     pub(crate) fn anywhere(&self, at_m: f64) -> Place {
-        let at_m = at_m.min(self.length_m);
-        let mut place = Place {
-            at_m,
-            weights: [0.0; NODES],
-            ..self.tip
-        };
-        for (n, pair) in self.edges.windows(2).enumerate() {
-            let long = pair[1] - pair[0];
-            let share = (at_m - pair[0]) / long;
-            if share <= 0.0 {
-                break;
-            }
-            let first = n * POINTS;
-            let parabolas = parabolas(share.min(1.0));
-            let weights = place.weights.iter_mut().skip(first);
-            for (weight, [area, ..]) in weights.zip(parabolas) {
-                *weight = long * area;
-            }
-            if share <= 1.0 {
-                place.first = first;
-                place.along = parabolas.map(|[_, height, _]| height);
-                place.bend = parabolas.map(|[_, _, slope]| slope / long);
-            }
+        let at_m = at_m.max(0.0).min(self.length_m);
+        let edges = &self.edges[1..SEGMENTS];
+        let segment = edges.iter().filter(|edge| **edge < at_m).count();
+        let first = segment * POINTS;
+        let long = self.edges[segment + 1] - self.edges[segment];
+        let parabolas = parabolas((at_m - self.edges[segment]) / long);
+        // Segments before count whole.
+        let mut weights = [0.0; NODES];
+        weights[..first].copy_from_slice(&self.tip.weights[..first]);
+        for (weight, [area, ..]) in weights.iter_mut().skip(first).zip(parabolas) {
+            *weight = long * area;
         }
-        place
+        Place {
+            at_m,
+            weights,
+            first,
+            along: parabolas.map(|[_, height, _]| height),
+            bend: parabolas.map(|[_, _, slope]| slope / long),
+        }
     }
 
     /// The place where a shaft stands lowest, by the rates at which it rises along
