@@ -52,6 +52,14 @@ pub(crate) struct Place {
     pub(crate) bend: [f64; POINTS],
 }
 
+impl Place {
+    /// How many nodes count: no later one does in its integral.
+    #[inline]
+    pub(crate) fn nodes(&self) -> usize {
+        self.first + POINTS
+    }
+}
+
 impl Grid {
     /// For a shaft of this length.
     pub(crate) fn new(length_m: f64) -> Self {

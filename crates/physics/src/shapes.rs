@@ -19,8 +19,8 @@
 //! which lets it turn where it touches away from the tip. So that the energy of each is ½ a², its
 //! unit is √J.
 
-use crate::grid::{Grid, NODES, POINTS, Place};
-use crate::vector::V3;
+use crate::grid::{Grid, NODES, Place};
+use crate::vector::{V3, add, dot};
 
 /// Modes that are kept. For a shaft of taper 8 the fourth rings at ten times the
 /// first's frequency, beyond what a sensor of 2 to 4 kHz resolves.
@@ -35,8 +35,28 @@ pub(crate) const SHAPES: usize = MODES + STATIC;
 /// Amplitudes of all shapes, in x and y.
 pub(crate) type Amplitudes = [[f64; 2]; SHAPES];
 
-/// Ways of a place, x, y and z for each shape and axis.
-pub(crate) type Ways = [[V3; 2]; SHAPES];
+/// Ways of a place for each shape: along x for a unit more along x, along x for y and the reverse,
+/// along y for y, along z for x and for y.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Ways([[f64; SHAPES]; 5]);
+
+impl Ways {
+    /// The ways of a shape for its two axes.
+    #[inline]
+    pub(crate) fn of(&self, k: usize) -> [V3; 2] {
+        let [xx, xy, yy, xz, yz] = [0, 1, 2, 3, 4].map(|row| self.0[row][k]);
+        [[xx, xy, xz], [xy, yy, yz]]
+    }
+
+    /// How far each goes in a direction.
+    #[inline]
+    pub(crate) fn towards(&self, direction: V3) -> Amplitudes {
+        core::array::from_fn(|k| {
+            let [x, y] = self.of(k);
+            [dot(x, direction), dot(y, direction)]
+        })
+    }
+}
 
 /// Largest square of ψ at which directions are computed, rad²: at four radians the shaft
 /// points back and on.
@@ -53,17 +73,21 @@ pub(crate) struct Shapes {
     pub(crate) tip: [f64; SHAPES],
 }
 
-/// Directions of a bent shaft at its nodes.
+/// How far a bent shaft is turned at its nodes.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Curve {
+pub(crate) struct Angles {
     psi: [[f64; NODES]; 2],
+    /// |ψ|², limited.
+    square: [f64; NODES],
     /// sin|ψ|/|ψ|.
     sinc: [f64; NODES],
     /// (cos|ψ| − sin|ψ|/|ψ|)/|ψ|².
     bend: [f64; NODES],
-    /// x, y and z of the tangent.
-    tangent: [[f64; NODES]; 3],
 }
+
+/// Directions of a bent shaft at its nodes: x, y and z of the tangent.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Curve([[f64; NODES]; 3]);
 
 impl Shapes {
     /// Takes a shape away.
@@ -82,19 +106,14 @@ impl Shapes {
 
     /// The bent shaft with these amplitudes.
     #[inline]
+    pub(crate) fn angles(&self, amplitudes: &Amplitudes) -> Angles {
+        Angles::new(|n| weighted(&self.slope[n], amplitudes))
+    }
+
+    /// Where it points.
+    #[inline]
     pub(crate) fn curve(&self, amplitudes: &Amplitudes) -> Curve {
-        let mut psi = [[0.0; NODES]; 2];
-        for (n, slopes) in self.slope.iter().enumerate() {
-            let mut turned = [0.0; 2];
-            for (slope, amplitude) in slopes.iter().zip(amplitudes) {
-                for (turned, amplitude) in turned.iter_mut().zip(amplitude) {
-                    *turned += slope * amplitude;
-                }
-            }
-            psi[0][n] = turned[0];
-            psi[1][n] = turned[1];
-        }
-        Curve::new(&psi)
+        self.angles(amplitudes).curve()
     }
 
     /// Rotation of the base, rad.
@@ -112,33 +131,36 @@ impl Shapes {
 
     /// Ways of a place of the shaft that is bent so.
     #[inline]
-    pub(crate) fn ways(&self, curve: &Curve, place: &Place) -> Ways {
-        let weights = &place.weights;
-        let turns: [_; NODES] = core::array::from_fn(|n| curve.turn(n, weights[n]));
-        self.sums(turns, 0)
+    pub(crate) fn ways(&self, angles: &Angles, place: &Place) -> Ways {
+        self.sums(angles, 0, &place.weights[..place.nodes()])
     }
 
     /// How the tangent at a place turns for a unit more of each shape.
     #[inline]
-    pub(crate) fn turns(&self, curve: &Curve, place: &Place) -> Ways {
-        let (first, along) = (place.first, &place.along);
-        let turns: [_; POINTS] = core::array::from_fn(|n| curve.turn(first + n, along[n]));
-        self.sums(turns, first)
+    pub(crate) fn turns(&self, angles: &Angles, place: &Place) -> Ways {
+        self.sums(angles, place.first, &place.along)
     }
 
-    /// Turns of some nodes, by the slopes of each shape there.
+    /// How a weighted sum of the tangents from a node on turns for a unit more of each shape.
     #[inline]
-    fn sums<const N: usize>(&self, turns: [[f64; 5]; N], first: usize) -> Ways {
-        let mut sums = [[0.0; SHAPES]; 5];
-        for (j, sums) in sums.iter_mut().enumerate() {
-            for (turn, slopes) in turns.iter().zip(self.slope.iter().skip(first)) {
-                for (sum, slope) in sums.iter_mut().zip(slopes) {
-                    *sum += turn[j] * slope;
-                }
+    fn sums(&self, angles: &Angles, first: usize, weights: &[f64]) -> Ways {
+        let mut turns = [[0.0; NODES]; 5];
+        for (n, weight) in weights.iter().enumerate() {
+            for (turns, turn) in turns.iter_mut().zip(angles.turn(first + n, *weight)) {
+                turns[n] = turn;
             }
         }
-        let [xx, xy, yy, xz, yz] = sums;
-        core::array::from_fn(|k| [[xx[k], xy[k], xz[k]], [xy[k], yy[k], yz[k]]])
+        let slopes = &self.slope[first..];
+        let sums = [0, 1, 2, 3, 4].map(|row| {
+            let mut sums = [0.0; SHAPES];
+            for (turn, slopes) in turns[row][..weights.len()].iter().zip(slopes) {
+                for (sum, slope) in sums.iter_mut().zip(slopes) {
+                    *sum += turn * slope;
+                }
+            }
+            sums
+        });
+        Ways(sums)
     }
 }
 
@@ -151,65 +173,41 @@ fn weighted(weights: &[f64; SHAPES], values: &Amplitudes) -> [f64; 2] {
     })
 }
 
-impl Curve {
+impl Angles {
+    /// Of a shaft that is turned so at each node.
     #[inline]
-    fn new(psi: &[[f64; NODES]; 2]) -> Self {
+    fn new(turned: impl Fn(usize) -> [f64; 2]) -> Self {
+        let mut psi = [[0.0; NODES]; 2];
         let mut square = [0.0; NODES];
-        for ((square, x), y) in square.iter_mut().zip(&psi[0]).zip(&psi[1]) {
+        for (n, square) in square.iter_mut().enumerate() {
+            let [x, y] = turned(n);
+            (psi[0][n], psi[1][n]) = (x, y);
             *square = (x * x + y * y).min(LARGEST);
         }
-        let sinc = polynomial(&SINC, &square);
-        let bend = polynomial(&BEND, &square);
+        Self {
+            psi,
+            square,
+            sinc: polynomial(&SINC, &square),
+            bend: polynomial(&BEND, &square),
+        }
+    }
+
+    /// Where the shaft points.
+    #[inline]
+    pub(crate) fn curve(&self) -> Curve {
+        let Self {
+            psi,
+            square,
+            sinc,
+            bend,
+        } = self;
         let mut tangent = [[0.0; NODES]; 3];
         for n in 0..NODES {
             tangent[0][n] = sinc[n] * psi[0][n];
             tangent[1][n] = sinc[n] * psi[1][n];
             tangent[2][n] = sinc[n] + square[n] * bend[n];
         }
-        Self {
-            psi: *psi,
-            sinc,
-            bend,
-            tangent,
-        }
-    }
-
-    /// Where a place is, from the base, in its axes, m.
-    #[inline]
-    pub(crate) fn at(&self, place: &Place) -> V3 {
-        self.tangent
-            .map(|part| part.iter().zip(&place.weights).map(|(t, w)| t * w).sum())
-    }
-
-    /// The lowest place, for heights along `up`, in the axes of the base.
-    #[inline]
-    pub(crate) fn lowest(&self, grid: &Grid, up: V3) -> Place {
-        let [x, y, z] = &self.tangent;
-        let rise = |n: usize| up[0] * x[n] + up[1] * y[n] + up[2] * z[n];
-        grid.lowest(&core::array::from_fn(rise))
-    }
-
-    /// The tangent at a place, in the axes of the base.
-    #[inline]
-    pub(crate) fn along(&self, place: &Place) -> V3 {
-        self.tangent.map(|part| {
-            let nodes = part.iter().skip(place.first).zip(&place.along);
-            nodes.map(|(part, along)| part * along).sum()
-        })
-    }
-
-    /// How steeply the shaft rises at a place for heights along `up`, and how that changes
-    /// along it, 1/m.
-    #[inline]
-    pub(crate) fn rise(&self, place: &Place, up: V3) -> [f64; 2] {
-        let [x, y, z] = &self.tangent;
-        let mut rise = [0.0; 2];
-        for (n, (along, bend)) in (place.first..).zip(place.along.iter().zip(&place.bend)) {
-            let part = up[0] * x[n] + up[1] * y[n] + up[2] * z[n];
-            rise[0] += along * part;
-            rise[1] += bend * part;
-        }
-        rise
+        Curve(tangent)
     }
 
     /// Change of a weighted tangent for a change of ψ at a node: along x for x, along x for y
@@ -226,6 +224,65 @@ impl Curve {
             -own * x,
             -own * y,
         ]
+    }
+}
+
+impl Curve {
+    /// Where a place is, from the base, in its axes, m.
+    #[inline]
+    pub(crate) fn at(&self, place: &Place) -> V3 {
+        let [x, y, z] = &self.0;
+        let mut at = [0.0; 3];
+        for (n, weight) in place.weights.iter().enumerate() {
+            at = add(at, *weight, [x[n], y[n], z[n]]);
+        }
+        at
+    }
+
+    /// How steeply the shaft rises at its nodes, for heights along `up`, in the axes of the base.
+    #[inline]
+    fn rises(&self, up: V3) -> [f64; NODES] {
+        let [x, y, z] = &self.0;
+        core::array::from_fn(|n| up[0] * x[n] + up[1] * y[n] + up[2] * z[n])
+    }
+
+    /// The lowest place, for such heights.
+    #[inline]
+    pub(crate) fn lowest(&self, grid: &Grid, up: V3) -> Place {
+        grid.lowest(&self.rises(up))
+    }
+
+    /// How much lower another place is, for such heights, m.
+    #[inline]
+    pub(crate) fn deeper_m(&self, place: &Place, other: &Place, up: V3) -> f64 {
+        let weights = place.weights.iter().zip(&other.weights);
+        let terms = weights
+            .zip(self.rises(up))
+            .map(|((here, there), rise)| (here - there) * rise);
+        terms.sum()
+    }
+
+    /// The tangent at a place, in the axes of the base.
+    #[inline]
+    pub(crate) fn along(&self, place: &Place) -> V3 {
+        [0, 1, 2].map(|axis| {
+            let nodes = self.0[axis].iter().skip(place.first).zip(&place.along);
+            nodes.map(|(part, along)| part * along).sum()
+        })
+    }
+
+    /// How steeply the shaft rises at a place for heights along `up`, and how that changes
+    /// along it, 1/m.
+    #[inline]
+    pub(crate) fn rise(&self, place: &Place, up: V3) -> [f64; 2] {
+        let [x, y, z] = &self.0;
+        let mut rise = [0.0; 2];
+        for (n, (along, bend)) in (place.first..).zip(place.along.iter().zip(&place.bend)) {
+            let part = up[0] * x[n] + up[1] * y[n] + up[2] * z[n];
+            rise[0] += along * part;
+            rise[1] += bend * part;
+        }
+        rise
     }
 }
 
@@ -277,37 +334,37 @@ const BEND: [f64; TERMS] = [
 
 #[cfg(test)]
 mod tests {
-    use super::{Curve, NODES};
+    use super::{Angles, NODES};
     use crate::grid::Grid;
 
     /// A shaft that is turned by the same angle everywhere, in a direction.
-    fn turned(x: f64, y: f64) -> Curve {
-        Curve::new(&[[x; NODES], [y; NODES]])
+    fn turned(x: f64, y: f64) -> Angles {
+        Angles::new(|_| [x, y])
     }
 
     #[test]
     fn a_turned_shaft_points_where_it_is_turned() {
         let grid = Grid::new(2.0);
         for angle in [0.0, 1e-9, 0.3, 1.5, 3.0, 3.99_f64] {
-            let [x, y, z] = turned(0.6 * angle, -0.8 * angle).at(grid.tip());
+            let [x, y, z] = turned(0.6 * angle, -0.8 * angle).curve().at(grid.tip());
             let (sine, cosine) = angle.sin_cos();
             assert!((x - 1.2 * sine).abs() < 4e-15, "{angle} {x}");
             assert!((y + 1.6 * sine).abs() < 4e-15, "{angle} {y}");
             assert!((z - 2.0 * cosine).abs() < 4e-15, "{angle} {z}");
         }
         // Beyond the range: finite.
-        assert!(turned(1e200, 1e9).at(grid.tip())[2].is_finite());
+        assert!(turned(1e200, 1e9).curve().at(grid.tip())[2].is_finite());
     }
 
     #[test]
     fn turns_are_the_derivatives_of_the_tangent() {
         let grid = Grid::new(1.0);
-        let at = |x: f64, y: f64| turned(x, y).at(grid.tip());
+        let at = |x: f64, y: f64| turned(x, y).curve().at(grid.tip());
         let (x, y, step) = (0.9, -0.4, 1e-6);
-        let curve = turned(x, y);
+        let angles = turned(x, y);
         let sum = |i: usize| -> f64 {
             let turns = grid.tip().weights.iter().enumerate();
-            turns.map(|(n, weight)| curve.turn(n, *weight)[i]).sum()
+            turns.map(|(n, weight)| angles.turn(n, *weight)[i]).sum()
         };
         let slope = |i: usize, dx: f64, dy: f64| {
             (at(x + dx, y + dy)[i] - at(x - dx, y - dy)[i]) / (2.0 * step)

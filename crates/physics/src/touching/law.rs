@@ -44,7 +44,7 @@ pub(super) struct Part<'a> {
     pub(super) old: &'a PlatePose,
     pub(super) pose: &'a PlatePose,
     /// How the shaft is bent at its start.
-    pub(super) before: Curve,
+    pub(super) before: &'a Curve,
     pub(super) dt_s: f64,
     pub(super) law: Law,
     /// In contact at the start; `friction` is the coefficient that then holds, from
@@ -94,16 +94,16 @@ pub(super) struct Moves {
 impl Moves {
     /// Of a place with these ways.
     #[inline]
-    pub(super) fn new(ways: &Ways, part: &Part<'_>) -> Self {
+    pub(super) fn new(ways: Ways, part: &Part<'_>) -> Self {
         let mut free = [0.0; 3];
         let (mut xx, mut xy, mut xz) = (0.0, 0.0, 0.0);
         let (mut yy, mut yz, mut zz) = (0.0, 0.0, 0.0);
-        let ends = part.free.iter().zip(&part.start).zip(&part.responses);
-        for (pair, ((end, start), own)) in ways.iter().zip(ends) {
-            for (way, (end, start)) in pair.iter().zip(end.iter().zip(start)) {
-                free = add(free, end - start, *way);
-                let [x, y, z] = *way;
-                let pushed = scale(*own, *way);
+        for k in 0..SHAPES {
+            let (end, start, own) = (&part.free[k], &part.start[k], part.responses[k]);
+            for (axis, way) in ways.of(k).into_iter().enumerate() {
+                free = add(free, end[axis] - start[axis], way);
+                let [x, y, z] = way;
+                let pushed = scale(own, way);
                 xx += x * pushed[0];
                 xy += x * pushed[1];
                 xz += x * pushed[2];
@@ -113,7 +113,7 @@ impl Moves {
             }
         }
         Self {
-            ways: *ways,
+            ways,
             free,
             response: [[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]],
         }
@@ -123,12 +123,18 @@ impl Moves {
     #[inline]
     pub(super) fn between(&self, start: &Amplitudes, end: &Amplitudes) -> V3 {
         let mut moved = [0.0; 3];
-        for (pair, (end, start)) in self.ways.iter().zip(end.iter().zip(start)) {
-            for (way, (end, start)) in pair.iter().zip(end.iter().zip(start)) {
-                moved = add(moved, end - start, *way);
+        for k in 0..SHAPES {
+            for (axis, way) in self.ways.of(k).into_iter().enumerate() {
+                moved = add(moved, end[k][axis] - start[k][axis], way);
             }
         }
         moved
+    }
+
+    /// Displacement under a force along x, y and z.
+    #[inline]
+    pub(super) fn under(&self, force: V3) -> V3 {
+        core::array::from_fn(|i| self.free[i] + dot(self.response[i], force))
     }
 
     /// How much more a shaft rises at the place per metre that a force of 1 N along `up` moves
@@ -136,10 +142,10 @@ impl Moves {
     /// tangent's turn, less what the force decreases by.
     #[inline]
     pub(super) fn turned(&self, turns: &Ways, up: V3, responses: &[f64; SHAPES]) -> f64 {
+        let (ways, turns) = (self.ways.towards(up), turns.towards(up));
         let (mut far, mut both, mut steep) = (0.0, 0.0, 0.0);
-        for ((ways, turns), response) in self.ways.iter().zip(turns).zip(responses) {
+        for ((ways, turns), response) in ways.iter().zip(turns).zip(responses) {
             for (way, turn) in ways.iter().zip(turns) {
-                let (way, turn) = (dot(*way, up), dot(*turn, up));
                 far += response * way * way;
                 both += response * way * turn;
                 steep += response * turn * turn;
@@ -155,7 +161,7 @@ impl Moves {
     /// What a force along x, y and z is on each shape.
     #[inline]
     pub(super) fn forces(&self, force: V3) -> Amplitudes {
-        self.ways.map(|pair| pair.map(|way| dot(way, force)))
+        self.ways.towards(force)
     }
 }
 

@@ -51,7 +51,7 @@ use crate::grid::Place;
 use crate::modal::{ModalStep, pushed};
 use crate::outline::Tangent;
 use crate::pose::PlatePose;
-use crate::shapes::{Amplitudes, Curve};
+use crate::shapes::{Amplitudes, Angles, Curve};
 use crate::vector::{V3, add, dot, length, length2, scale, sub};
 
 /// Most rounds of the iteration for the end of a part; mostly one or two.
@@ -90,7 +90,8 @@ pub(super) struct Round {
     miss: [f64; 2],
     /// How far the place is off where its ways bring it, m.
     off_m: f64,
-    moves: Moves,
+    /// Where on the shaft it would rather be, m from the base.
+    better_m: f64,
     pub(super) solved: Solved,
     /// The force along x, y and z, and on each shape.
     pub(super) force: V3,
@@ -105,8 +106,6 @@ pub(super) struct Round {
 pub(super) struct Found {
     pub(super) place: Place,
     pub(super) round: Round,
-    /// Where it is expected to touch at the end.
-    better_m: f64,
 }
 
 impl Body {
@@ -118,16 +117,13 @@ impl Body {
         let tangent = self.tangent(&before, old);
         let seen = tangent.map(|tangent| [tangent.see(old), tangent.see(new)]);
         let poses = seen.as_ref().map_or([old, new], |[old, new]| [old, new]);
-        let mut part = Part {
-            tangent,
-            ..self.free_part(&before, poses, step, part_s)
-        };
+        let mut part = self.free_part(&before, tangent, poses, step, part_s);
         let (place, ground, end);
         if part.touching {
             // Forces change little from part to part.
             let forces = sum(&self.touch.forces, &self.other.forces);
             end = pushed(&part.free, &part.responses, &forces);
-            place = self.expected(&part.before, new);
+            place = self.expected(part.before, new);
             ground = None;
         } else {
             let Some(touched) = self.touched(&part, new) else {
@@ -179,14 +175,10 @@ impl Body {
                 relax = relaxed(relax, old, miss);
             }
             let small = OFF * part.response * length(round.force);
-            let better_m = self.better_m(part, &place, &round);
+            let better_m = round.better_m;
             let still = n > 2 || (better_m.min(length_m) - place.at_m).abs() <= SHIFT * length_m;
             if n == ROUNDS || (round.off_m <= small && length2(miss) < near && still) {
-                return Found {
-                    place,
-                    round,
-                    better_m,
-                };
+                return Found { place, round };
             }
             if still {
                 to = Some([0, 1].map(|i| round.there[i] + relax * miss[i]));
@@ -200,7 +192,8 @@ impl Body {
     /// Moves on without a force, and says what is known of the part then.
     fn free_part<'a>(
         &mut self,
-        before: &Curve,
+        before: &'a Curve,
+        tangent: Option<Tangent>,
         [old, new]: [&'a PlatePose; 2],
         step: &ModalStep,
         part_s: f64,
@@ -218,7 +211,7 @@ impl Body {
         Part {
             old,
             pose: new,
-            before: *before,
+            before,
             dt_s: part_s,
             touching,
             friction: self.ground.surface.friction_at(self.touch.slip_m_s),
@@ -230,7 +223,7 @@ impl Body {
             foot: [0.0; 3],
             ground: [0.0; 3],
             carried: [0.0; 3],
-            tangent: None,
+            tangent,
             law,
         }
     }
@@ -248,10 +241,7 @@ impl Body {
         let share = if other.is_some() { DEEP } else { DEEPER };
         let most = share * self.shaft.length_m;
         let (deeper, most) = match tangent {
-            None => {
-                let way = sub(before.at(&place), before.at(&nearest));
-                (dot(way, pose.up()), most)
-            }
+            None => (before.deeper_m(&place, &nearest, pose.up()), most),
             Some(tangent) => {
                 let here = self.outline.tangent(pose.place(before.at(&place)));
                 (here.above_m - tangent.above_m, tangent.deeper_m(most))
@@ -307,9 +297,9 @@ impl Body {
         let at = part.before.at(place);
         let foot = self.foot(part, at);
         let felt = self.touch.felt.unwrap_or([foot[0], foot[1]]);
-        let middle = shapes.curve(&between(&part.start, end));
+        let middle = shapes.angles(&between(&part.start, end));
         let lengthwise = part.touching && place.at_m < self.shaft.length_m;
-        let along = lengthwise.then(|| level(new.vector(middle.along(place))));
+        let along = lengthwise.then(|| level(new.vector(middle.curve().along(place))));
         let relief = &mut self.ground.relief;
         let tangent = part.tangent;
         let mut ground_at = |at: V3| {
@@ -324,7 +314,7 @@ impl Body {
         part.foot = foot;
         part.ground = ground;
         part.carried = sub(sub(new.place(at), part.stretch), foot);
-        let moves = Moves::new(&shapes.ways(&middle, place), part);
+        let moves = Moves::new(shapes.ways(&middle, place), part);
         let (there, ground) = known.unwrap_or_else(|| {
             let there = match to {
                 Some([x, y]) => [x, y, 0.0],
@@ -342,8 +332,9 @@ impl Body {
         let force = new.components(solved.frame.plate(solved.force.local));
         let forces = moves.forces(force);
         let end = pushed(&part.free, &part.responses, &forces);
-        let straight = add(at, 1.0, moves.between(&part.start, &end));
-        let curve = self.shaft.shapes.curve(&end);
+        let straight = add(at, 1.0, moves.under(force));
+        let angles = shapes.angles(&end);
+        let curve = angles.curve();
         let bent = curve.at(place);
         let next = sub(new.place(bent), solved.stretch);
         let went = [0, 1].map(|i| next[i] - foot[i]);
@@ -354,7 +345,7 @@ impl Body {
             there,
             next,
             off_m: length(sub(bent, straight)),
-            moves,
+            better_m: self.better_m(part, place, force, &moves, &angles, &curve),
             solved,
             force,
             forces,
@@ -365,13 +356,21 @@ impl Body {
 
     /// Where the shaft would run along the plane if it were pressed there, m from the base, by
     /// Newton's method; beyond the length where the tip points at the plane.
-    fn better_m(&self, part: &Part<'_>, place: &Place, round: &Round) -> f64 {
+    fn better_m(
+        &self,
+        part: &Part<'_>,
+        place: &Place,
+        force: V3,
+        moves: &Moves,
+        angles: &Angles,
+        curve: &Curve,
+    ) -> f64 {
         let up = part.pose.up();
-        let [mut rise, mut bend] = round.curve.rise(place, up);
+        let [mut rise, mut bend] = curve.rise(place, up);
         let along = part.tangent.as_ref().map(|tangent| {
             // Along the surface, which falls away from the plane.
-            let at_m = part.pose.place(round.curve.at(place))[0];
-            let along = part.pose.vector(round.curve.along(place))[0];
+            let at_m = part.pose.place(curve.at(place))[0];
+            let along = part.pose.vector(curve.along(place))[0];
             let [slope, change] = tangent.falls(at_m);
             rise -= slope * along;
             bend -= change * along * along;
@@ -380,8 +379,8 @@ impl Body {
         if place.at_m == self.shaft.length_m && rise <= 0.0 {
             return place.at_m;
         }
-        let turns = self.shaft.shapes.turns(&round.curve, place);
-        let steep = bend + dot(round.force, up) * round.moves.turned(&turns, up, &part.responses);
+        let turns = self.shaft.shapes.turns(angles, place);
+        let steep = bend + dot(force, up) * moves.turned(&turns, up, &part.responses);
         let mut shift = if steep > 0.0 { -rise / steep } else { 0.0 };
         if let Some((tangent, at_m, along)) = along.filter(|(.., along)| *along != 0.0) {
             shift = (tangent.on(at_m + shift * along) - at_m) / along;
@@ -391,13 +390,13 @@ impl Body {
 
     /// Brings the foot to the ground, as far as the energy allows.
     pub(super) fn settle(&mut self, part: &Part<'_>, found: &Found) {
-        let Found {
-            place,
-            round,
-            better_m,
-        } = found;
+        let Found { place, round } = found;
         let Round {
-            solved, felt, next, ..
+            solved,
+            felt,
+            next,
+            better_m,
+            ..
         } = round;
         let Solved { frame, force, .. } = solved;
         // Straight up or down: the ground is known there.

@@ -116,7 +116,7 @@ impl Body {
     fn second_place(&mut self, part: &Part<'_>, new: &PlatePose, alone: &Found) -> Option<Place> {
         if self.other.is_contact() {
             core::mem::swap(&mut self.touch, &mut self.other);
-            let place = self.expected(&part.before, new);
+            let place = self.expected(part.before, new);
             core::mem::swap(&mut self.touch, &mut self.other);
             return Some(place);
         }

@@ -95,7 +95,8 @@ impl Body {
     /// depth is left presses the ground in.
     fn bend_clear(&mut self, pose: &PlatePose) {
         for _ in 0..8 {
-            let curve = self.state.curve(&self.shaft);
+            let angles = self.shaft.shapes.angles(&self.state.x);
+            let curve = angles.curve();
             let (place, tangent) = self.nearest(&curve, pose);
             let seen = tangent.map(|tangent| tangent.see(pose));
             let pose = seen.as_ref().unwrap_or(pose);
@@ -103,8 +104,8 @@ impl Body {
             if deep <= 0.0 {
                 return;
             }
-            let ways = self.shaft.shapes.ways(&curve, &place);
-            let up = ways.map(|way| way.map(|way| dot(way, pose.up())));
+            let ways = self.shaft.shapes.ways(&angles, &place);
+            let up = ways.towards(pose.up());
             // A tenth of the length at a time.
             let far = deep.min(0.1 * self.shaft.length_m);
             self.state.lean(&self.shaft, &up, far);
