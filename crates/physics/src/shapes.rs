@@ -104,8 +104,9 @@ impl Shapes {
         self.tip[k] = tip;
     }
 
-    /// The bent shaft with these amplitudes.
-    #[inline]
+    /// The bent shaft with these amplitudes. A round takes it twice: code that is there once stays
+    /// in the processor's cache.
+    #[inline(never)]
     pub(crate) fn angles(&self, amplitudes: &Amplitudes) -> Angles {
         Angles::new(|n| weighted(&self.slope[n], amplitudes))
     }
@@ -195,19 +196,29 @@ impl Angles {
     /// Where the shaft points.
     #[inline]
     pub(crate) fn curve(&self) -> Curve {
-        let Self {
-            psi,
-            square,
-            sinc,
-            bend,
-        } = self;
-        let mut tangent = [[0.0; NODES]; 3];
+        let mut tangents = [[0.0; NODES]; 3];
         for n in 0..NODES {
-            tangent[0][n] = sinc[n] * psi[0][n];
-            tangent[1][n] = sinc[n] * psi[1][n];
-            tangent[2][n] = sinc[n] + square[n] * bend[n];
+            [tangents[0][n], tangents[1][n], tangents[2][n]] = self.tangent(n);
         }
-        Curve(tangent)
+        Curve(tangents)
+    }
+
+    /// The tangent at a node.
+    #[inline]
+    fn tangent(&self, n: usize) -> V3 {
+        let sinc = self.sinc[n];
+        [
+            sinc * self.psi[0][n],
+            sinc * self.psi[1][n],
+            sinc + self.square[n] * self.bend[n],
+        ]
+    }
+
+    /// The tangent at a place, in the axes of the base.
+    #[inline]
+    pub(crate) fn along(&self, place: &Place) -> V3 {
+        let nodes = (place.first..).zip(place.along);
+        nodes.fold([0.0; 3], |sum, (n, along)| add(sum, along, self.tangent(n)))
     }
 
     /// Change of a weighted tangent for a change of ψ at a node: along x for x, along x for y

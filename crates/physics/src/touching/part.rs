@@ -299,7 +299,7 @@ impl Body {
         let felt = self.touch.felt.unwrap_or([foot[0], foot[1]]);
         let middle = shapes.angles(&between(&part.start, end));
         let lengthwise = part.touching && place.at_m < self.shaft.length_m;
-        let along = lengthwise.then(|| level(new.vector(middle.curve().along(place))));
+        let along = lengthwise.then(|| level(new.vector(middle.along(place))));
         let relief = &mut self.ground.relief;
         let tangent = part.tangent;
         let mut ground_at = |at: V3| {
