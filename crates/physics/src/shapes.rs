@@ -244,7 +244,7 @@ impl Curve {
     pub(crate) fn at(&self, place: &Place) -> V3 {
         let [x, y, z] = &self.0;
         let mut at = [0.0; 3];
-        for (n, weight) in place.weights.iter().enumerate() {
+        for (n, weight) in place.weights[..place.nodes()].iter().enumerate() {
             at = add(at, *weight, [x[n], y[n], z[n]]);
         }
         at
