@@ -196,11 +196,8 @@ impl Angles {
     /// Where the shaft points.
     #[inline]
     pub(crate) fn curve(&self) -> Curve {
-        let mut tangents = [[0.0; NODES]; 3];
-        for n in 0..NODES {
-            [tangents[0][n], tangents[1][n], tangents[2][n]] = self.tangent(n);
-        }
-        Curve(tangents)
+        let along = |axis: usize| core::array::from_fn(|n| self.tangent(n)[axis]);
+        Curve([along(0), along(1), along(2)])
     }
 
     /// The tangent at a node.
@@ -345,7 +342,7 @@ const BEND: [f64; TERMS] = [
 
 #[cfg(test)]
 mod tests {
-    use super::{Angles, NODES};
+    use super::Angles;
     use crate::grid::Grid;
 
     /// A shaft that is turned by the same angle everywhere, in a direction.

@@ -94,7 +94,7 @@ pub(super) struct Moves {
 impl Moves {
     /// Of a place with these ways.
     #[inline]
-    pub(super) fn new(ways: Ways, part: &Part<'_>) -> Self {
+    pub(super) fn new(ways: &Ways, part: &Part<'_>) -> Self {
         let mut free = [0.0; 3];
         let (mut xx, mut xy, mut xz) = (0.0, 0.0, 0.0);
         let (mut yy, mut yz, mut zz) = (0.0, 0.0, 0.0);
@@ -113,7 +113,7 @@ impl Moves {
             }
         }
         Self {
-            ways,
+            ways: *ways,
             free,
             response: [[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]],
         }

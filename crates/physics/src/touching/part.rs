@@ -314,7 +314,7 @@ impl Body {
         part.foot = foot;
         part.ground = ground;
         part.carried = sub(sub(new.place(at), part.stretch), foot);
-        let moves = Moves::new(shapes.ways(&middle, place), part);
+        let moves = Moves::new(&shapes.ways(&middle, place), part);
         let (there, ground) = known.unwrap_or_else(|| {
             let there = match to {
                 Some([x, y]) => [x, y, 0.0],
