@@ -260,6 +260,19 @@ impl Curve {
         grid.lowest(&self.rises(up))
     }
 
+    /// Whether it falls up to an arc length and rises from there on, for such heights.
+    #[inline]
+    pub(crate) fn has_one_valley(&self, grid: &Grid, at_m: f64, up: V3) -> bool {
+        let nodes = grid.nodes.iter().zip(self.rises(up));
+        nodes.fold(true, |has, (node_m, rise)| {
+            has & if *node_m < at_m {
+                rise <= 0.0
+            } else {
+                rise >= 0.0
+            }
+        })
+    }
+
     /// How much lower another place is, for such heights, m.
     #[inline]
     pub(crate) fn deeper_m(&self, place: &Place, other: &Place, up: V3) -> f64 {

@@ -132,9 +132,16 @@ impl Body {
             end = part.free;
             (place, ground) = (touched.0, Some(touched.1));
         }
-        let first = self.find(&mut part, place, end, ground);
-        let (first, other) = self.both([old, new], &mut part, first);
-        let forces = other.map_or(first.round.forces, |other| sum(&first.round.forces, &other));
+        let mut first = self.find(&mut part, place, end, ground);
+        let mut forces = first.round.forces;
+        if !self.is_alone(new, &first) {
+            if let Some(both) = self.both([old, new], &mut part, &first) {
+                forces = sum(&both.0.round.forces, &both.1);
+                first = both.0;
+            } else {
+                self.other = Touch::default();
+            }
+        }
         self.state.push(step, &part.responses, &forces);
         self.settle(&part, &first);
         self.curve = Some(first.round.curve);

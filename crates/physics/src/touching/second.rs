@@ -15,7 +15,7 @@ use super::part::Found;
 use crate::grid::Place;
 use crate::modal::pushed;
 use crate::pose::PlatePose;
-use crate::shapes::Amplitudes;
+use crate::shapes::{Amplitudes, Curve};
 use crate::vector::{dot, sub};
 
 /// Another place touches where it is deeper in the ground than this share of the length: as
@@ -44,18 +44,16 @@ impl Body {
         (first_m - second_m).abs() < 0.5 * APART * self.shaft.length_m
     }
 
-    /// What a part comes to in which the first contact was found alone, if another place touches:
+    /// What a part comes to in which the first contact was found alone and another place touches:
     /// the first then, and the forces of the other on the shapes. The other is settled.
+    #[cold]
     pub(super) fn both(
         &mut self,
         [old, new]: [&PlatePose; 2],
         part: &mut Part<'_>,
-        alone: Found,
-    ) -> (Found, Option<Amplitudes>) {
-        let Some(mut place) = self.second_place(part, new, &alone) else {
-            self.other = Touch::default();
-            return (alone, None);
-        };
+        alone: &Found,
+    ) -> Option<(Found, Amplitudes)> {
+        let mut place = self.second_place(part.before, new, alone)?;
         let tangent = (!self.outline.is_plane())
             .then(|| self.outline.tangent(old.place(part.before.at(&place))));
         let seen = tangent.map(|tangent| [tangent.see(old), tangent.see(new)]);
@@ -105,18 +103,27 @@ impl Body {
             core::mem::swap(&mut self.touch, &mut self.other);
             self.settle(&own, &second);
             core::mem::swap(&mut self.touch, &mut self.other);
-            return (first, Some(second.round.forces));
+            return Some((first, second.round.forces));
         }
         part.free = free;
-        self.other = Touch::default();
-        (alone, None)
+        None
+    }
+
+    /// Whether it is soon seen that no other place touches at the end of a part in which the first is
+    /// alone.
+    #[inline]
+    pub(super) fn is_alone(&self, new: &PlatePose, first: &Found) -> bool {
+        let (grid, curve) = (&self.shaft.grid, &first.round.curve);
+        !self.other.is_contact()
+            && self.outline.is_plane()
+            && curve.has_one_valley(grid, first.place.at_m, new.up())
     }
 
     /// Where another place touches at the end of a part in which the first is alone.
-    fn second_place(&mut self, part: &Part<'_>, new: &PlatePose, alone: &Found) -> Option<Place> {
+    fn second_place(&mut self, before: &Curve, new: &PlatePose, alone: &Found) -> Option<Place> {
         if self.other.is_contact() {
             core::mem::swap(&mut self.touch, &mut self.other);
-            let place = self.expected(part.before, new);
+            let place = self.expected(before, new);
             core::mem::swap(&mut self.touch, &mut self.other);
             return Some(place);
         }
