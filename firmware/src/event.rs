@@ -35,6 +35,14 @@ impl Place {
     }
 }
 
+/// As people count: `left whisker 2`, from 1 on each side.
+impl fmt::Display for Place {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let number = u16::from(self.whisker) + 1;
+        write!(f, "{} whisker {number}", self.side_name())
+    }
+}
+
 /// Why a whisker's readings cannot be used.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum SensorFault {

@@ -106,8 +106,7 @@ pub fn limits_and_faults(t_s: f64, event: &Event) {
         return;
     };
     if let Some((_, said)) = said(event, &[]) {
-        let number = place.whisker + 1;
-        warn(format_args!("{t_s:.4} s: whisker {number}: {said}"));
+        warn(format_args!("{t_s:.4} s: {place}: {said}"));
     }
 }
 

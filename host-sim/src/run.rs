@@ -125,7 +125,11 @@ impl Run {
 
     fn command(&mut self, n: usize, command: Command<f64>) -> Result<(), Error> {
         let done = self.bench.command(n, command);
-        done.map_err(|error| Error::Input(format!("whisker {n}: {error}")))
+        done.map_err(|error| {
+            Error::Input(format!(
+                "whisker {n}, counted from 0, left side first: {error}"
+            ))
+        })
     }
 
     /// What the classifier got of the first whisker in the last tick, or would have got:

@@ -223,7 +223,7 @@ impl Sim {
         let bent = py.detach(|| self.state().run.bent(whisker));
         bent.ok_or_else(|| {
             let fault = format!(
-                "whisker {whisker}: scene {:?} has none that bends",
+                "whisker {whisker}, counted from 0, left side first: scene {:?} has none that bends",
                 self.name
             );
             PyValueError::new_err(fault)

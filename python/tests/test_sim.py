@@ -135,7 +135,7 @@ def test_setpoint_and_gain_move_the_whisker():
     sim.reset()
     sim.gain(0.0)
     assert np.ptp(sim.step(4000)["angle_left_deg"][2000:]) < 5.0
-    with pytest.raises(ValueError, match="whisker 3"):
+    with pytest.raises(ValueError, match="whisker 3, counted from 0, left side first"):
         sim.gain(1.0, whisker=3)
     with pytest.raises(ValueError, match="setpoint: found"):
         sim.setpoint(float("nan"))
@@ -173,7 +173,7 @@ def test_an_elastic_whisker_has_a_bent_shaft_and_a_point_of_contact():
         sim.step()
         touches = sim.touches_at()
     assert abs(touches[0][0] - touches[1][0]) > 0.005
-    with pytest.raises(ValueError, match='whisker 1: scene "whisker" has none'):
+    with pytest.raises(ValueError, match='whisker 1, counted from 0, left side first: scene "whisker" has none'):
         sim.shaft(1)
     with pytest.raises(ValueError, match='scene "still" has none that bends'):
         vibrissa.Sim(STILL).touch_at()

@@ -4,6 +4,8 @@
 #[cfg(feature = "probe")]
 mod behind;
 #[cfg(feature = "probe")]
+mod brown_out;
+#[cfg(feature = "probe")]
 mod debug_unit;
 #[cfg(feature = "probe")]
 mod find;

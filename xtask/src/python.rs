@@ -12,6 +12,9 @@ const OLDEST: u32 = 10;
 /// The first that there is not.
 const NEWEST: u32 = 16;
 
+/// What builds it: a release is the same whenever it is made.
+const MATURIN: &str = "maturin==1.16.0";
+
 /// How it is built.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Profile {
@@ -79,7 +82,7 @@ fn newest() -> Result<PathBuf, Fault> {
 }
 
 fn wheel(python: &Path, profile: Profile) -> Result<PathBuf, Fault> {
-    let tools = environment(python, "tools", &["maturin>=1.9,<2"])?;
+    let tools = environment(python, "tools", &[MATURIN])?;
     let wheels = place("wheels");
     remove(&wheels)?;
     let mut build = Command::new(tools);
@@ -134,7 +137,7 @@ pub(crate) fn test() -> Result<(), Fault> {
 pub(crate) fn whole() -> Result<(), Fault> {
     let pythons = pythons();
     let (_, python) = pythons.last().ok_or("no Python")?;
-    let tools = environment(python, "tools", &["maturin>=1.9,<2"])?;
+    let tools = environment(python, "tools", &[MATURIN])?;
     let sources = place("sources");
     remove(&sources)?;
     let mut pack = Command::new(tools);
@@ -172,6 +175,21 @@ pub(crate) fn whole() -> Result<(), Fault> {
 
 pub(crate) fn release() -> Result<PathBuf, Fault> {
     wheel(&newest()?, Profile::Release)
+}
+
+/// Installs the wheel of this folder into a clean environment of the oldest Python of this
+/// machine, and runs a scene by it.
+pub(crate) fn try_wheel(folder: &Path) -> Result<(), Fault> {
+    const LINE: &str = "import vibrissa; sim = vibrissa.Sim(vibrissa.SCENES['rcp']); \
+                        print('by the wheel: whisked to', sim.step(1000)['angle_left_deg'].max())";
+    let pythons = pythons();
+    let (_, oldest) = pythons.first().ok_or("no Python")?;
+    let inside = environment(oldest, "tried", &[])?;
+    let wheels = listing(folder, "whl")?;
+    let wheel = wheels.first().ok_or("no wheel in the archive")?;
+    run(pip(&inside).arg(wheel))?;
+    // Of the wheel, not of a folder that has the package, too.
+    run(Command::new(inside).args(["-I", "-c", LINE]))
 }
 
 /// The figures of the wheel that `pip install` would make, as JSON.

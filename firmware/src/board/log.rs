@@ -145,7 +145,7 @@ pub(crate) fn waits_for_supply() {
 
 /// A fast dip may take the supply below what the clock needs.
 pub(crate) fn brown_out_is_low() {
-    defmt::warn!("brown-out level below what the clock needs: set BOR_LEV to level 3");
+    defmt::warn!("brown-out level below what the clock needs: whisker flash sets it");
 }
 
 /// By which model it decides, or why by none.

@@ -154,7 +154,7 @@ fn a_fault_stands_in_the_trace_by_its_number() {
         .position(|fault| *fault != "0")
         .expect("a fault");
     let t_s: f64 = column(&rows, "t_s")[first].parse().unwrap();
-    let expected = format!("{t_s:.4} s: whisker 1: fault left {} ", faults[first]);
+    let expected = format!("{t_s:.4} s: left whisker 1: fault left {} ", faults[first]);
     assert!(
         ran.stderr.starts_with(&expected),
         "{expected}: {}",
@@ -167,4 +167,15 @@ fn a_fault_stands_in_the_trace_by_its_number() {
             .unwrap(),
         0.0
     );
+    // Of more whiskers, that one's: its number from 1 on its side, as in the column's name.
+    let several = "--set head.whiskers_per_side=2 --set motor.duty_limit=0.01";
+    let ran = place.run(&format!("run s.toml {several} --set duration_s=3 --out ."));
+    let text = place.text("trace.csv");
+    let rows = cells(&text);
+    let faults = column(&rows, "fault_left_2");
+    let first = faults.iter().position(|fault| *fault != "0");
+    let first = first.expect("a fault of the second");
+    let t_s: f64 = column(&rows, "t_s")[first].parse().unwrap();
+    let expected = format!("{t_s:.4} s: left whisker 2: fault left {} ", faults[first]);
+    assert!(ran.stderr.contains(&expected), "{expected}: {}", ran.stderr);
 }

@@ -25,6 +25,9 @@ pub(crate) struct Arguments {
     /// Where there are several probes, the one whose serial number begins so
     #[arg(long, value_name = "SERIAL", default_value = "")]
     probe: String,
+    /// Leaves an F446's brown-out level as it is; otherwise it is set to level 3, where it is lower
+    #[arg(long)]
+    keep_brown_out: bool,
     /// Prints the board's log afterwards, until interrupted
     #[arg(long)]
     log: bool,
@@ -42,7 +45,7 @@ pub(crate) fn flash(arguments: &Arguments, verbosity: Verbosity) -> Result<(), E
         (None, Some(scene)) => build(*board, scene)?,
         (None, None) => return Err(Error::Input("SCENE is missing".to_owned())),
     };
-    probe::flash(probe, *board, &elf, verbosity)?;
+    probe::flash(probe, *board, &elf, arguments.keep_brown_out, verbosity)?;
     if arguments.log {
         let mut module =
             Conversation::new(probe::open(probe, *board, Some(&elf), Laying::by(None))?);

@@ -41,7 +41,7 @@ pub(super) fn freeze<R: Ram>(chip: &mut R, board: BoardName) -> Result<(), R::Fa
     freezes.try_for_each(|(offset, bits)| set(chip, begin(board) + offset, *bits))
 }
 
-fn word<R: Ram>(chip: &mut R, at: u32) -> Result<u32, R::Fault> {
+pub(super) fn word<R: Ram>(chip: &mut R, at: u32) -> Result<u32, R::Fault> {
     let mut bytes = [0; 4];
     chip.read(at, &mut bytes)?;
     Ok(u32::from_le_bytes(bytes))

@@ -1,27 +1,36 @@
 //! Programming a board's flash.
 
 use std::path::Path;
+use std::time::{Duration, Instant};
 
 use host_sim::progress::{Progress, Verbosity};
 use host_sim::{Error, report};
-use probe_rs::Permissions;
 use probe_rs::flashing::{
     DownloadOptions, ElfLoader, ElfOptions, FlashProgress, ProgressEvent, ProgressOperation,
     build_loader,
 };
+use probe_rs::{Core, MemoryInterface, Permissions, Session};
 use wire::Command;
 
 use super::behind::Behind;
+use super::brown_out::{Level, OPTIONS, Words, is_loaded, raise};
 use super::find;
 use super::memory::{MemoryPort, chain};
 use crate::conversation::Conversation;
 use crate::source::{BoardName, Laying};
 
-/// Stops the motors of what runs there, programs the ELF file, compares it, and resets the chip.
+/// For how long a core may take to halt, and the flash for its option bytes: a few times what it
+/// takes to erase a sector of 16 KiB, at most 0.5 s (DS10693, flash memory programming).
+const HALT: Duration = Duration::from_millis(100);
+const OPTION_BYTES: Duration = Duration::from_secs(3);
+
+/// Stops the motors of what runs there, programs the ELF file, compares it, and resets the chip;
+/// before that it raises an F446's brown-out level, unless that is kept.
 pub(crate) fn flash(
     selector: &str,
     board: BoardName,
     elf: &Path,
+    keeps_brown_out: bool,
     verbosity: Verbosity,
 ) -> Result<(), Error> {
     MemoryPort::of(find::open(selector)?)?.check(board)?;
@@ -34,9 +43,26 @@ pub(crate) fn flash(
             "no module has stopped its motors ({error}); they are off once the chip is reset"
         )),
     }
-    program(selector, board, elf, verbosity)?;
+    let mut session = program(selector, board, elf, verbosity)?;
+    let level = if keeps_brown_out || board != BoardName::NucleoF446re {
+        None
+    } else {
+        Some(brown_out(&mut session)?)
+    };
     // Last, and by the memory port: letting go of the core halts it once more.
-    MemoryPort::of(find::open(selector)?)?.reset()?;
+    drop(session);
+    let mut memory = MemoryPort::of(find::open(selector)?)?;
+    memory.reset()?;
+    match level {
+        Some(Level::Raised(wanted)) => {
+            is_loaded(memory.word(OPTIONS)?, wanted)?;
+            report::say("the brown-out level was below what the clock needs, and is level 3 now");
+        }
+        Some(Level::Kept(why)) => report::warn(format_args!(
+            "the brown-out level is below what the clock needs, and stays so: {why}"
+        )),
+        Some(Level::WasHigh) | None => {}
+    }
     report::say(format_args!(
         "{}: programmed, compared and started",
         elf.display()
@@ -44,12 +70,13 @@ pub(crate) fn flash(
     Ok(())
 }
 
+/// The session by which it was programmed.
 fn program(
     selector: &str,
     board: BoardName,
     elf: &Path,
     verbosity: Verbosity,
-) -> Result<(), Error> {
+) -> Result<Session, Error> {
     let failed = |what: &str, error: &dyn std::error::Error| {
         let cause = chain(error);
         Error::Work(format!(
@@ -66,7 +93,35 @@ fn program(
     options.verify = true;
     options.progress = FlashProgress::new(|event| bars.take(&event));
     let done = loader.commit(&mut session, options);
-    done.map_err(|error| failed("programming", &error))
+    done.map_err(|error| failed("programming", &error))?;
+    Ok(session)
+}
+
+fn brown_out(session: &mut Session) -> Result<Level, Error> {
+    let mut core = session.core(0).map_err(|error| lost(&error))?;
+    core.halt(HALT).map_err(|error| lost(&error))?;
+    let since = Instant::now();
+    raise(&mut core, || since.elapsed() < OPTION_BYTES)
+}
+
+fn lost(error: &probe_rs::Error) -> Error {
+    let cause = chain(error);
+    Error::Work(format!(
+        "the brown-out level may be as it was: {cause}; flash again"
+    ))
+}
+
+impl Words for Core<'_> {
+    fn read_word(&mut self, at: u32) -> Result<u32, Error> {
+        self.read_word_32(at.into()).map_err(|error| lost(&error))
+    }
+
+    fn write_word(&mut self, at: u32, word: u32) -> Result<(), Error> {
+        let written = self.write_word_32(at.into(), word);
+        written
+            .and_then(|()| self.flush())
+            .map_err(|error| lost(&error))
+    }
 }
 
 struct Bars {

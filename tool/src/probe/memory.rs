@@ -69,6 +69,10 @@ impl MemoryPort {
         )))
     }
 
+    pub(super) fn word(&mut self, at: u32) -> Result<u32, Error> {
+        debug_unit::word(self, at)
+    }
+
     pub(super) fn reset(&mut self) -> Result<(), Error> {
         self.write(RESET_CONTROL, &RESET.to_le_bytes())
     }

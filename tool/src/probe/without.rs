@@ -24,7 +24,7 @@ pub(crate) fn open(
     without()
 }
 
-pub(crate) fn flash(_: &str, _: BoardName, _: &Path, _: Verbosity) -> Result<(), Error> {
+pub(crate) fn flash(_: &str, _: BoardName, _: &Path, _: bool, _: Verbosity) -> Result<(), Error> {
     without()
 }
 

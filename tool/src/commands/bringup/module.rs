@@ -12,7 +12,7 @@ use crate::faults::plain;
 
 /// What helps the F446 with faster dips of the supply.
 const BROWN_OUT: &str = "the brown-out level is below what the clock needs, as it is delivered: \
-                         STM32_Programmer_CLI -c port=SWD -ob BOR_LEV=0";
+                         whisker flash sets it";
 
 pub(super) fn module(bench: &mut Bench) -> Result<Part, Error> {
     let mut part = Part::new("stopped its motors, and asked what it is and how it started");
