@@ -263,8 +263,10 @@ impl Curve {
     /// Whether it falls up to an arc length and rises from there on, for such heights.
     #[inline]
     pub(crate) fn has_one_valley(&self, grid: &Grid, at_m: f64, up: V3) -> bool {
-        let nodes = grid.nodes.iter().zip(self.rises(up));
-        nodes.fold(true, |has, (node_m, rise)| {
+        let [x, y, z] = &self.0;
+        let nodes = grid.nodes.iter().zip(x.iter().zip(y.iter().zip(z)));
+        nodes.fold(true, |has, (node_m, (x, (y, z)))| {
+            let rise = up[0] * x + up[1] * y + up[2] * z;
             has & if *node_m < at_m {
                 rise <= 0.0
             } else {

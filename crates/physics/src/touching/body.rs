@@ -37,7 +37,9 @@ impl Body {
     pub(super) fn free(&mut self, steps: &Steps) {
         self.state.free(&steps.parts[0]);
         self.state.keep(0.0);
-        self.leave();
+        if self.last.is_some() {
+            self.leave();
+        }
     }
 
     /// The place of a shaft that is nearest to the body, and the plane there where it is none for

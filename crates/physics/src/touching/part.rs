@@ -80,32 +80,37 @@ const LEAST: f64 = 0.05;
 type Known = (V3, [f64; 3]);
 
 /// What a round has found.
-#[derive(Clone)]
-pub(super) struct Round {
+struct Round {
     /// Which place of the ground the foot feels at the end.
     felt: [f64; 2],
     /// Where the foot was expected, where it is, and how far that is apart on ground that it feels.
     there: V3,
-    pub(super) next: V3,
+    next: V3,
     miss: [f64; 2],
     /// How far the place is off where its ways bring it, m.
     off_m: f64,
     /// Where on the shaft it would rather be, m from the base.
     better_m: f64,
-    pub(super) solved: Solved,
+    solved: Solved,
     /// The force along x, y and z, and on each shape.
-    pub(super) force: V3,
-    pub(super) forces: Amplitudes,
+    force: V3,
+    forces: Amplitudes,
     /// The state at the end.
-    pub(super) end: Amplitudes,
-    pub(super) curve: Curve,
+    end: Amplitudes,
+    curve: Curve,
 }
 
-/// Where a contact has been found, and how it ends.
+/// Where a contact has been found, and how it ends: what the last round has found of it.
 #[derive(Clone)]
 pub(super) struct Found {
     pub(super) place: Place,
-    pub(super) round: Round,
+    felt: [f64; 2],
+    better_m: f64,
+    pub(super) next: V3,
+    pub(super) solved: Solved,
+    pub(super) force: V3,
+    pub(super) forces: Amplitudes,
+    pub(super) end: Amplitudes,
 }
 
 impl Body {
@@ -133,10 +138,10 @@ impl Body {
             (place, ground) = (touched.0, Some(touched.1));
         }
         let mut first = self.find(&mut part, place, end, ground);
-        let mut forces = first.round.forces;
+        let mut forces = first.forces;
         if !self.is_alone(new, &first) {
             if let Some(both) = self.both([old, new], &mut part, &first) {
-                forces = sum(&both.0.round.forces, &both.1);
+                forces = sum(&both.0.forces, &both.1);
                 first = both.0;
             } else {
                 self.other = Touch::default();
@@ -144,7 +149,6 @@ impl Body {
         }
         self.state.push(step, &part.responses, &forces);
         self.settle(&part, &first);
-        self.curve = Some(first.round.curve);
         if self.other.is_contact() && !self.touch.is_contact() {
             self.touch = core::mem::take(&mut self.other);
         }
@@ -161,7 +165,7 @@ impl Body {
     }
 
     /// The force at a place and where it brings the foot, by rounds from where the shapes end
-    /// about.
+    /// about. Keeps how the shaft is then bent.
     pub(super) fn find(
         &mut self,
         part: &mut Part<'_>,
@@ -185,7 +189,17 @@ impl Body {
             let better_m = round.better_m;
             let still = n > 2 || (better_m.min(length_m) - place.at_m).abs() <= SHIFT * length_m;
             if n == ROUNDS || (round.off_m <= small && length2(miss) < near && still) {
-                return Found { place, round };
+                self.curve = Some(round.curve);
+                return Found {
+                    place,
+                    felt: round.felt,
+                    better_m,
+                    next: round.next,
+                    solved: round.solved,
+                    force: round.force,
+                    forces: round.forces,
+                    end,
+                };
             }
             if still {
                 to = Some([0, 1].map(|i| round.there[i] + relax * miss[i]));
@@ -397,14 +411,14 @@ impl Body {
 
     /// Brings the foot to the ground, as far as the energy allows.
     pub(super) fn settle(&mut self, part: &Part<'_>, found: &Found) {
-        let Found { place, round } = found;
-        let Round {
+        let Found {
+            place,
             solved,
             felt,
             next,
             better_m,
             ..
-        } = round;
+        } = found;
         let Solved { frame, force, .. } = solved;
         // Straight up or down: the ground is known there.
         let ground = self.ground.relief.at(*felt);
@@ -421,7 +435,7 @@ impl Body {
             place: Some(*place),
             next_m: better_m + went,
             force: frame.plate(force.local),
-            forces: round.forces,
+            forces: found.forces,
             foot: *next,
             felt: Some(*felt),
             ground: Some(ground),

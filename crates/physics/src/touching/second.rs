@@ -70,42 +70,41 @@ impl Body {
         let free = part.free;
         let mut first = alone.clone();
         for n in 1..=EXCHANGES {
-            own.free = pushed(&free, &part.responses, &first.round.forces);
+            own.free = pushed(&free, &part.responses, &first.forces);
             core::mem::swap(&mut self.touch, &mut self.other);
-            let mut second = self.find(&mut own, place, first.round.end, None);
+            let mut second = self.find(&mut own, place, first.end, None);
             core::mem::swap(&mut self.touch, &mut self.other);
             place = second.place;
             if self.is_one(first.place.at_m, place.at_m) {
                 break;
             }
-            part.free = pushed(&free, &part.responses, &second.round.forces);
-            let again = self.find(part, first.place, second.round.end, None);
-            let change = sub(again.round.force, first.round.force);
-            let size = dot(again.round.force, again.round.force);
+            part.free = pushed(&free, &part.responses, &second.forces);
+            let again = self.find(part, first.place, second.end, None);
+            let change = sub(again.force, first.force);
+            let size = dot(again.force, again.force);
             first = again;
             if n < EXCHANGES && dot(change, change) > SETTLED * SETTLED * size {
                 continue;
             }
             // The last word was the first's.
-            let end = first.round.end;
-            second.round.next = sub(
-                new.place(first.round.curve.at(&place)),
-                second.round.solved.stretch,
-            );
+            let end = first.end;
+            second.next = sub(new.place(self.curve?.at(&place)), second.solved.stretch);
             let left_j = [(&self.touch, &*part, &first), (&self.other, &own, &second)]
                 .map(|(touch, part, found)| left_j(touch, part, found, &end));
             let [first_j, second_j] = left_j;
             if first_j < 0.0 || second_j < 0.0 {
                 break;
             }
-            first.round.solved.left_j = first_j;
-            second.round.solved.left_j = second_j;
+            first.solved.left_j = first_j;
+            second.solved.left_j = second_j;
             core::mem::swap(&mut self.touch, &mut self.other);
             self.settle(&own, &second);
             core::mem::swap(&mut self.touch, &mut self.other);
-            return Some((first, second.round.forces));
+            return Some((first, second.forces));
         }
         part.free = free;
+        // That of the first alone.
+        self.curve = None;
         None
     }
 
@@ -113,10 +112,11 @@ impl Body {
     /// alone.
     #[inline]
     pub(super) fn is_alone(&self, new: &PlatePose, first: &Found) -> bool {
-        let (grid, curve) = (&self.shaft.grid, &first.round.curve);
+        let (grid, at_m) = (&self.shaft.grid, first.place.at_m);
+        let mut curve = self.curve.iter();
         !self.other.is_contact()
             && self.outline.is_plane()
-            && curve.has_one_valley(grid, first.place.at_m, new.up())
+            && curve.all(|curve| curve.has_one_valley(grid, at_m, new.up()))
     }
 
     /// Where another place touches at the end of a part in which the first is alone.
@@ -128,15 +128,15 @@ impl Body {
             return Some(place);
         }
         let length_m = self.shaft.length_m;
-        let curve = &alone.round.curve;
-        let (place, tangent) = self.nearest(curve, new);
+        let curve = self.curve?;
+        let (place, tangent) = self.nearest(&curve, new);
         if (place.at_m - alone.place.at_m).abs() < APART * length_m {
             return None;
         }
         let most_m = DEEP * length_m;
         let most_m = tangent.map_or(most_m, |tangent| tangent.deeper_m(most_m));
         let seen = tangent.map(|tangent| tangent.see(new));
-        let deep_m = self.deep(curve, &place, seen.as_ref().unwrap_or(new));
+        let deep_m = self.deep(&curve, &place, seen.as_ref().unwrap_or(new));
         (deep_m > most_m).then_some(place)
     }
 }
@@ -144,9 +144,9 @@ impl Body {
 /// Energy of a contact's spring at the start less the work of its force on the shapes and on the
 /// base, J.
 fn left_j(touch: &Touch, part: &Part<'_>, found: &Found, end: &Amplitudes) -> f64 {
-    let solved = &found.round.solved;
+    let solved = &found.solved;
     let of_base = dot(solved.frame.plate(solved.force.local), part.carried);
-    let forces = found.round.forces.iter().flatten();
+    let forces = found.forces.iter().flatten();
     let moved = end.iter().flatten().zip(part.start.iter().flatten());
     let of_shapes: f64 = forces
         .zip(moved)
