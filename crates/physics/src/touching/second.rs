@@ -11,7 +11,7 @@
 
 use super::body::{Body, Touch};
 use super::law::Part;
-use super::part::Found;
+use super::rounds::Found;
 use crate::grid::Place;
 use crate::modal::pushed;
 use crate::pose::PlatePose;
@@ -38,6 +38,14 @@ impl Body {
         {
             self.other = Touch::default();
         }
+    }
+
+    /// What is done with the other contact as if it were the first.
+    fn as_other<T>(&mut self, done: impl FnOnce(&mut Self) -> T) -> T {
+        core::mem::swap(&mut self.touch, &mut self.other);
+        let result = done(self);
+        core::mem::swap(&mut self.touch, &mut self.other);
+        result
     }
 
     fn is_one(&self, first_m: f64, second_m: f64) -> bool {
@@ -71,9 +79,7 @@ impl Body {
         let mut first = alone.clone();
         for n in 1..=EXCHANGES {
             own.free = pushed(&free, &part.responses, &first.forces);
-            core::mem::swap(&mut self.touch, &mut self.other);
-            let mut second = self.find(&mut own, place, first.end, None);
-            core::mem::swap(&mut self.touch, &mut self.other);
+            let mut second = self.as_other(|body| body.find(&mut own, place, first.end, None));
             place = second.place;
             if self.is_one(first.place.at_m, place.at_m) {
                 break;
@@ -97,9 +103,7 @@ impl Body {
             }
             first.solved.left_j = first_j;
             second.solved.left_j = second_j;
-            core::mem::swap(&mut self.touch, &mut self.other);
-            self.settle(&own, &second);
-            core::mem::swap(&mut self.touch, &mut self.other);
+            self.as_other(|body| body.settle(&own, &second));
             return Some((first, second.forces));
         }
         part.free = free;
@@ -113,19 +117,15 @@ impl Body {
     #[inline]
     pub(super) fn is_alone(&self, new: &PlatePose, first: &Found) -> bool {
         let (grid, at_m) = (&self.shaft.grid, first.place.at_m);
-        let mut curve = self.curve.iter();
-        !self.other.is_contact()
-            && self.outline.is_plane()
-            && curve.all(|curve| curve.has_one_valley(grid, at_m, new.up()))
+        let has_one = |curve: &Curve| curve.has_one_valley(grid, at_m, new.up());
+        let is_plane = self.outline.is_plane();
+        !self.other.is_contact() && is_plane && self.curve.as_ref().is_none_or(has_one)
     }
 
     /// Where another place touches at the end of a part in which the first is alone.
     fn second_place(&mut self, before: &Curve, new: &PlatePose, alone: &Found) -> Option<Place> {
         if self.other.is_contact() {
-            core::mem::swap(&mut self.touch, &mut self.other);
-            let place = self.expected(before, new);
-            core::mem::swap(&mut self.touch, &mut self.other);
-            return Some(place);
+            return Some(self.as_other(|body| body.expected(before, new)));
         }
         let length_m = self.shaft.length_m;
         let curve = self.curve?;
