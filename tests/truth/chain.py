@@ -25,7 +25,7 @@ import mujoco
 import numpy as np
 import rod
 from mujoco import rollout
-from rod import BEFORE, DENSITY, FOLLICLE, LENGTH, PUSH_S, SLANT, TAPER, YOUNG, ZETA
+from rod import BEFORE, DENSITY, FOLLICLE, LENGTH, TAPER, YOUNG, ZETA
 from scipy.linalg import eigh
 
 MG = 1e6            # Masses in milligrams, so forces in micronewtons: MuJoCo has a least mass.
@@ -70,7 +70,7 @@ def chain(links):
 
 def xml(links, axes, damping, step, integrator, contact, tendons=()):
     at, stiff = chain(links)
-    normal = np.array([-np.sin(SLANT), -np.cos(SLANT), 0])
+    normal = np.array([-np.sin(rod.SLANT), -np.cos(rod.SLANT), 0])
     vector = lambda v: " ".join(repr(float(c)) for c in v)
     text = [f'<mujoco><option timestep="{step!r}" integrator="{integrator}" gravity="0 0 0" '
             'solver="Newton" tolerance="1e-10"/>'
@@ -137,7 +137,7 @@ def model_of(links, axes, step, integrator, contact, damped=1):
 def run(model, push_deg):
     """Moments at the base every 0.5 ms, or step, N m, and thread seconds a simulated second."""
     step, push = model.opt.timestep, np.radians(push_deg)
-    angle = rod.motor(np.arange(round(PUSH_S / step) + 1) * step, push)[0]
+    angle = rod.motor(np.arange(round(rod.PUSH_S / step) + 1) * step, push)[0]
     torque = np.diff(np.diff(angle, prepend=angle[0]) / step, append=0)[:-1] / step
     data = mujoco.MjData(model)
     data.qpos[0] = -BEFORE
@@ -154,4 +154,4 @@ def run(model, push_deg):
         seconds += time.thread_time() - start
         state, warm = states[-1].copy(), data.qacc_warmstart.copy()[None]
         turned.append(states[every - 1::every, 2])
-    return -FOLLICLE * np.concatenate(turned), seconds / PUSH_S
+    return -FOLLICLE * np.concatenate(turned), seconds / rod.PUSH_S
