@@ -1,7 +1,8 @@
 //! The brown-out level of an STM32F446, which its option bytes hold: raised to where the chip is
 //! reset before its supply falls below what its clock needs (RM0390, "Embedded flash memory
 //! interface": "Programming user option bytes" and the registers FLASH_OPTKEYR, FLASH_SR,
-//! FLASH_OPTCR).
+//! FLASH_OPTCR). Registers and bits are those of stm32-metapac 21 for this chip, keys and addresses
+//! those of ARM's flash algorithm for its option bytes (STM32F4xx_OPT).
 
 use host_sim::Error;
 

@@ -11,6 +11,7 @@ sed 's/^serial_baud = .*/serial_baud = 115200/' scenes/bench.toml > "$there/benc
 bin/whisker board "$there/bench.toml" --world scenes/textures.toml \
     --program "boards/${1:-nucleo-f446re}.elf" --link "$there/tty" < /dev/null &
 board=$!
+# It may have ended by itself: then there is nothing to end.
 trap 'kill "$board" 2> /dev/null || true; rm -r "$there"' EXIT
 # Where it has ended there is no port to come.
 until [ -e "$there/tty" ]; do kill -0 "$board"; sleep 0.1; done
