@@ -26,6 +26,7 @@ impl Notice {
             Event::MotorRetry(place) => Some((place, Self::MotorRetry)),
             Event::MotorGivenUp(place) => Some((place, Self::MotorGivenUp)),
             Event::Decision(..)
+            | Event::Pose(..)
             | Event::Touch { .. }
             | Event::TouchEnd { .. }
             | Event::ZeroMoved(..)

@@ -7,7 +7,7 @@ mod tilt_fault;
 use core::fmt;
 
 use mlx90333::{FRAME_LEN, FrameError};
-use tactile::Decision;
+use tactile::{Decision, Pose};
 use whisking::motor;
 
 use crate::faults::{name, number};
@@ -129,6 +129,8 @@ pub enum Event {
     /// A decision fell, by the samples of this whisker, or of all together: then by a
     /// block of this one.
     Decision(Place, Decision),
+    /// How what was named stands, after its decision.
+    Pose(Place, Pose),
     /// Readings of a whisker have been bad for longer than they may be: its
     /// motor is off (fault) and it touches nothing.
     SensorLost(Place, SensorFault),

@@ -53,6 +53,25 @@ macro_rules! say_event {
                     of_rival
                 );
             }
+            $crate::Event::Pose(place, pose) if $crate::Part::Pose.is_built() => {
+                let [tilt, depth] = [pose.tilt, pose.depth].map($crate::lines::estimate);
+                $say!(
+                    info,
+                    "pose {=str} {=str}{=u16}.{=u16:02} {=u16}.{=u16:02} \
+                     {=str}{=u16}.{=u16:02} {=u16}.{=u16:02}",
+                    place.side_name(),
+                    tilt.0,
+                    tilt.1 / 100,
+                    tilt.1 % 100,
+                    tilt.2 / 100,
+                    tilt.2 % 100,
+                    depth.0,
+                    depth.1 / 100,
+                    depth.1 % 100,
+                    depth.2 / 100,
+                    depth.2 % 100
+                );
+            }
             $crate::Event::SensorLost(place, why) => {
                 let [name, causes] = $texts(why.code());
                 $crate::say_fault!($say, place, why.code(), name, causes);
@@ -202,6 +221,13 @@ macro_rules! say_not_armed {
 /// The posterior of a decision in units of 0.0001 %, rounded down: at most 99.9999 %.
 pub fn percent(decision: tactile::Decision) -> u32 {
     ((u64::from(decision.posterior().q32()) * 1_000_000) >> 32) as u32
+}
+
+/// Sign, size and error of an estimate, in hundredths.
+pub const fn estimate(estimate: tactile::Estimate) -> (&'static str, u16, u16) {
+    let sign = if estimate.hundredths < 0 { "-" } else { "" };
+    let size = estimate.hundredths.unsigned_abs();
+    (sign, size, estimate.error_hundredths)
 }
 
 /// The bytes of a frame, the first in the highest place.

@@ -466,6 +466,7 @@ impl<R: Number, H: Hardware> Module<R, H> {
                     reading: whisker.reading,
                     contact: whisker.felt,
                     least: config.contact_min,
+                    says_pose: config.says_pose,
                 };
                 perception.step(n, heard, events);
             }

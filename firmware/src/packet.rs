@@ -6,7 +6,7 @@
 use mlx90333::{Faults, FrameError};
 use serde::de::Error;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
-use tactile::Decision;
+use tactile::{Decision, Pose};
 use whisking::motor;
 use wire::{Answer, TickRecord};
 
@@ -83,6 +83,7 @@ mod kind {
     pub(super) const LIMIT: u8 = 11;
     pub(super) const STOPPED: u8 = 12;
     pub(super) const FRAME: u8 = 13;
+    pub(super) const POSE: u8 = 14;
 }
 
 impl EventRecord {
@@ -96,6 +97,10 @@ impl EventRecord {
             Event::TouchEnd { place, number } => (kind::TOUCH_END, place, 0, [number.into(), 0, 0]),
             Event::Decision(place, decision) if Part::Classifier.is_built() => {
                 (kind::DECISION, place, 0, decision.words())
+            }
+            Event::Pose(place, pose) if Part::Pose.is_built() => {
+                let [tilt, depth] = pose.words();
+                (kind::POSE, place, 0, [tilt, depth, 0])
             }
             Event::SensorLost(place, fault) => {
                 (kind::SENSOR_LOST, place, fault.code(), details(fault))
@@ -126,7 +131,9 @@ impl EventRecord {
                 (kind::HEALTH, nowhere, 0, values)
             }
             Event::Limit(number) => (kind::LIMIT, nowhere, number, NONE),
-            Event::Decision(..) | Event::MotorFault(..) => (u8::MAX, nowhere, 0, NONE),
+            Event::Decision(..) | Event::Pose(..) | Event::MotorFault(..) => {
+                (u8::MAX, nowhere, 0, NONE)
+            }
         };
         let what = u32::from_le_bytes([kind, place.side, place.whisker, number]);
         let [a, b, c] = values;
@@ -147,6 +154,7 @@ impl EventRecord {
                 number: a as u16,
             },
             kind::DECISION => Event::Decision(place, Decision::from_memory(a, b, c)?),
+            kind::POSE => Event::Pose(place, Pose::from_words([a, b])),
             kind::SENSOR_LOST => Event::SensorLost(place, sensor_fault(number, [a, b])?),
             kind::FRAME => {
                 let bytes = u64::from(a) << 32 | u64::from(b);

@@ -74,7 +74,8 @@ impl Link {
                 self.said = self.said | Flags::FAULT;
             }
             Event::ZeroMoved(..) => self.said = self.said | Flags::ZEROED,
-            Event::SensorBack(_)
+            Event::Pose(..)
+            | Event::SensorBack(_)
             | Event::Frame(..)
             | Event::MotorRetry(_)
             | Event::Armed

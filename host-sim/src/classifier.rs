@@ -7,7 +7,7 @@ use firmware::{CodeClassifier, ModelLimits, ModelState, Refusal, Sample, SampleC
 use scene::{Deciding, Rule, Scene};
 use tactile::{
     AnyRule, Behind, ClassList, ClassSettings, Decision, MAX_STREAMS, Model, ModelBuf, NaiveBayes,
-    Posteriors, Quantiser, RuleSettings, Threshold, TouchRule,
+    Pose, Posteriors, Quantiser, RuleSettings, Threshold, TouchRule,
 };
 use zerocopy::IntoBytes;
 
@@ -142,6 +142,10 @@ impl SampleClassifier for Classifier {
         self.codes.push(whisker, sample)
     }
 
+    fn pose(&self, whisker: usize, class: usize) -> Option<Pose> {
+        self.codes.pose(whisker, class)
+    }
+
     fn knows_touches(&self) -> bool {
         self.codes.knows_touches()
     }
@@ -235,6 +239,10 @@ impl SampleClassifier for Tap {
     fn push(&mut self, whisker: usize, sample: Sample) -> Option<Decision> {
         *self.samples.get_mut(whisker)? = Some(sample);
         self.classifier.as_mut()?.push(whisker, sample)
+    }
+
+    fn pose(&self, whisker: usize, class: usize) -> Option<Pose> {
+        self.classifier.as_ref()?.pose(whisker, class)
     }
 
     fn knows_touches(&self) -> bool {

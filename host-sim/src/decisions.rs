@@ -6,9 +6,11 @@ use std::fmt;
 use std::io::{self, Write};
 
 use firmware::{Place, lines};
+use scene::Scene;
 use tactile::score::{Confusion, Statistics};
-use tactile::{Decision, Reason};
+use tactile::{Decision, Pose, Reason};
 
+use crate::bench;
 use crate::columns::{Column, columns};
 pub use reasons::Reasons;
 
@@ -99,6 +101,8 @@ pub struct Decided {
     pub posterior: f64,
     /// The number of the touch in which it fell, or of the last one; 0 before the first.
     pub touch: u16,
+    /// How what it names stands, where that is estimated.
+    pub pose: Option<Pose>,
 }
 
 impl Decided {
@@ -115,6 +119,7 @@ impl Decided {
             samples: decision.samples(),
             posterior: decision.posterior().to_f64(),
             touch: decision.touch(),
+            pose: None,
         }
     }
 
@@ -128,6 +133,13 @@ impl Decided {
         let reason = self.reason.map_or("", Reason::name);
         let among = self.among.as_ref().map(|among| among.join("|"));
         [reason.to_owned(), among.unwrap_or_default()]
+    }
+
+    /// Its pose: tilt and its error, depth and its error; not numbers where it has none.
+    pub fn stands(&self) -> [f64; 4] {
+        self.pose.map_or([f64::NAN; 4], |Pose { tilt, depth }| {
+            [tilt.value(), tilt.error(), depth.value(), depth.error()]
+        })
     }
 
     /// Whether it named the true class.
@@ -146,32 +158,65 @@ impl Decided {
     }
 }
 
+/// What decisions were made on.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Source {
+    /// A recording, which has no clock.
+    Recording,
+    /// A scene: the time of the tick, as in the trace.
+    Scene,
+    /// One of several whiskers that are heard: also the whisker, by its side and its number from 1.
+    Whiskers,
+}
+
 /// Which columns a table of decisions has.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Columns {
-    /// Those of a recording, which has no clock.
-    OfRecording,
-    /// And the time of the tick, as in the trace.
-    OfScene,
-    /// And then the whisker, by its side and its number from 1: where several are heard.
-    OfSeveral,
+pub struct Columns {
+    /// What they were made on.
+    pub source: Source,
+    /// Whether poses are estimated.
+    pub has_pose: bool,
 }
 
 impl Columns {
+    /// Of a recording, and a model that estimates poses or not.
+    pub const fn of_recording(has_pose: bool) -> Self {
+        Self {
+            source: Source::Recording,
+            has_pose,
+        }
+    }
+
+    /// Of a scene.
+    pub fn of_scene(scene: &Scene) -> Self {
+        Self {
+            source: match bench::heard(scene) {
+                1 => Source::Scene,
+                _ => Source::Whiskers,
+            },
+            has_pose: scene.classifier.as_ref().is_some_and(|of| of.pose),
+        }
+    }
+
     /// Which of [`COLUMNS`].
     pub fn indices(self) -> impl Iterator<Item = usize> {
-        let count = match self {
-            Self::OfRecording => OF_RECORDING,
-            Self::OfScene => OF_SCENE,
-            Self::OfSeveral => OF_SEVERAL,
+        let count = match self.source {
+            Source::Recording => OF_RECORDING,
+            Source::Scene => OF_SCENE,
+            Source::Whiskers => OF_SEVERAL,
         };
-        (0..count).chain(OF_SEVERAL..COLUMNS.len())
+        let end = if self.has_pose {
+            COLUMNS.len()
+        } else {
+            OF_POSE
+        };
+        (0..count).chain(OF_SEVERAL..end)
     }
 }
 
 /// The columns in order: those of a recording, of a scene, of several whiskers, and why no class
 /// is named.
-pub const COLUMNS: [Column; 11] = columns! {
+pub const COLUMNS: [Column; 15] = columns! {
     "label", "", "the truth: what was touched";
     "trial", "", "which stream of that label";
     "decision", "", "class decided for, or `unknown`";
@@ -190,6 +235,13 @@ pub const COLUMNS: [Column; 11] = columns! {
     "among", "",
         "the two classes of `between`, the likelier one first, with `|` between them; otherwise \
         empty";
+    "tilt_deg", "degrees, or any",
+        "estimated tilt of the class that is named, as in recordings; this and the next three only \
+        where a model has estimated poses, with `classifier.pose`; empty where no class is named";
+    "tilt_error_deg", "degrees, or any",
+        "root mean square of its error, in poses that training held out";
+    "depth_deg", "degrees, or any", "estimated depth of contact, as in recordings";
+    "depth_error_deg", "degrees, or any", "the same of it";
 };
 
 /// How many of them a recording has, a scene with one whisker that is heard, and with several,
@@ -197,6 +249,8 @@ pub const COLUMNS: [Column; 11] = columns! {
 const OF_RECORDING: usize = 6;
 const OF_SCENE: usize = 7;
 const OF_SEVERAL: usize = 9;
+/// How many there are before those of a pose.
+const OF_POSE: usize = 11;
 
 /// Writes `decisions.csv`.
 ///
@@ -207,6 +261,11 @@ pub fn write(table: impl Write, decisions: &[Decided], columns: Columns) -> io::
     table.write_record(columns.indices().map(|index| COLUMNS[index].name))?;
     for d in decisions {
         let [reason, among] = d.why();
+        let cell = |value: f64| match value.is_nan() {
+            true => String::new(),
+            false => format!("{value:.2}"),
+        };
+        let [tilt, tilt_error, depth, depth_error] = d.stands().map(cell);
         let cells = [
             d.label.clone(),
             d.trial.clone(),
@@ -221,6 +280,10 @@ pub fn write(table: impl Write, decisions: &[Decided], columns: Columns) -> io::
                 .map_or_else(String::new, |place| (place.whisker + 1).to_string()),
             reason,
             among,
+            tilt,
+            tilt_error,
+            depth,
+            depth_error,
         ];
         table.write_record(columns.indices().map(|index| &cells[index]))?;
     }
@@ -369,7 +432,10 @@ impl fmt::Display for Score {
 
 #[cfg(test)]
 mod tests {
-    use super::{Columns, Decided, Decision, Place, Reason, Score, UNKNOWN, Verdict, words, write};
+    use super::{
+        Columns, Decided, Decision, Estimate, Place, Pose, Reason, Score, Source, UNKNOWN, Verdict,
+        words, write,
+    };
 
     fn decided(label: &str, decision: &str, samples: u32) -> Decided {
         Decided {
@@ -429,23 +495,27 @@ mod tests {
     #[test]
     fn names_with_commas_survive_the_file_and_a_scene_tells_the_time() {
         let decisions = [decided("sand, wet", "ice", 20)];
+        let of = |source| Columns {
+            source,
+            has_pose: false,
+        };
         let written = |columns| {
             let mut table = Vec::new();
             write(&mut table, &decisions, columns).unwrap();
             String::from_utf8(table).unwrap()
         };
         assert_eq!(
-            written(Columns::OfRecording),
+            written(Columns::of_recording(false)),
             "label,trial,decision,samples,posterior,touch,reason,among\n\
              \"sand, wet\",1,ice,20,0.995000000,3,,\n"
         );
         assert_eq!(
-            written(Columns::OfScene),
+            written(of(Source::Scene)),
             "label,trial,decision,samples,posterior,touch,t_s,reason,among\n\
              \"sand, wet\",1,ice,20,0.995000000,3,0.250000000,,\n"
         );
         assert_eq!(
-            written(Columns::OfSeveral),
+            written(of(Source::Whiskers)),
             "label,trial,decision,samples,posterior,touch,t_s,side,whisker,reason,among\n\
              \"sand, wet\",1,ice,20,0.995000000,3,0.250000000,right,1,,\n"
         );
@@ -471,7 +541,7 @@ mod tests {
         ];
         assert_eq!(said, expected);
         let mut table = Vec::new();
-        write(&mut table, &rows, Columns::OfRecording).unwrap();
+        write(&mut table, &rows, Columns::of_recording(false)).unwrap();
         let table = String::from_utf8(table).unwrap();
         let mut cells = table.lines().skip(1).map(|row| {
             let [decision, why] = [2, 6].map(|n| row.splitn(n + 1, ',').last().unwrap());

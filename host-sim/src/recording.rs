@@ -33,6 +33,8 @@ pub struct Stream {
     pub touch: Option<Vec<u16>>,
     /// The pose in which it was presented; none: all poses are alike, or nothing is known of it.
     pub pose: Option<String>,
+    /// How what was touched stood: its tilt, and how deep it reached; none: nothing is known of it.
+    pub stands: Option<[f64; 2]>,
 }
 
 /// A recording as it is read.
@@ -45,7 +47,7 @@ pub struct Recording {
 }
 
 /// The columns of a recording, in the order in which one is written.
-pub const COLUMNS: [Column; 7] = columns! {
+pub const COLUMNS: [Column; 9] = columns! {
     "label", "",
         "what was touched: the name of a class. Neither it nor a trial or a pose may have a control \
         character, or begin as a formula of a spreadsheet does: with `=` or `@`, or with `+` or \
@@ -64,6 +66,13 @@ pub const COLUMNS: [Column; 7] = columns! {
         left out: then a file is a pose. `host-sim record` writes it of a scene with \
         `plant.tilt_spread_deg`, `plant.obstacle_spread_deg` or `plant.gain_spread`: a number from \
         0, each presentation another";
+    "tilt_deg", "degrees, or any",
+        "tilt of what was touched; with `depth_deg` a model learns to estimate both. May be left \
+        out, or empty. `host-sim record` writes both where poses differ, as `pose`, and with \
+        `classifier.pose`";
+    "depth_deg", "degrees, or any",
+        "how deep it reached; of a simulated whisker how far its whisk would go beyond where it \
+        meets the surface";
 };
 
 /// What stands in the name of a trial before the number of a whisker beside the first.
@@ -129,6 +138,7 @@ impl Recorder {
         let felt = run.felt();
         let (label, trial) = run.presented();
         let pose = run.pose().map(|pose| pose.to_string());
+        let stands = run.stands();
         let samples = run.samples();
         self.streams.resize_with(samples.len(), Vec::new);
         for (n, (streams, sample)) in self.streams.iter_mut().zip(samples).enumerate() {
@@ -147,6 +157,7 @@ impl Recorder {
             append(streams, label, &trial, cells);
             if let Some(stream) = streams.last_mut() {
                 stream.pose.clone_from(&pose);
+                stream.stands = stands.get(n).copied();
             }
         }
     }
@@ -215,6 +226,7 @@ fn append(streams: &mut Vec<Stream>, label: &str, trial: &str, sample: Option<Ce
             contact: None,
             touch: None,
             pose: None,
+            stands: None,
         });
     }
     if let (Some(stream), Some(cells)) = (streams.last_mut(), sample) {
@@ -273,9 +285,13 @@ pub fn write_from(mut table: impl Write, origin: &Origin, streams: &[Stream]) ->
     let has_pose = streams.iter().any(|stream| stream.pose.is_some());
     let mut header = columns::names(&COLUMNS[..count]);
     header.extend(has_pose.then_some(COLUMNS[6].name));
+    let stands = streams.iter().any(|stream| stream.stands.is_some());
+    header.extend(COLUMNS[7..].iter().filter(|_| stands).map(|of| of.name));
     table.write_record(header)?;
     for stream in streams {
         let pose = stream.pose.as_deref().unwrap_or_default();
+        let stood = stream.stands.map(|stands| stands.map(|of| of.to_string()));
+        let stood = stood.unwrap_or_default();
         for (n, [x, y]) in stream.samples.iter().enumerate() {
             let contact = stream.contact.as_ref().and_then(|contact| contact.get(n));
             let contact = contact.map_or(1.0, |contact| *contact) as f32;
@@ -285,7 +301,8 @@ pub fn write_from(mut table: impl Write, origin: &Origin, streams: &[Stream]) ->
             let numbers = numbers.iter().map(String::as_str);
             let cells = [stream.label.as_str(), &stream.trial];
             let cells = cells.into_iter().chain(numbers).take(count);
-            table.write_record(cells.chain(has_pose.then_some(pose)))?;
+            let cells = cells.chain(has_pose.then_some(pose));
+            table.write_record(cells.chain(stood.iter().map(String::as_str).filter(|_| stands)))?;
         }
     }
     table.flush()
@@ -378,6 +395,8 @@ fn parse(file: &[u8], channels: [&str; 2]) -> Result<Recording, String> {
     let contact = optional("contact")?;
     let touch = optional("touch")?;
     let pose = optional("pose")?;
+    let stands = COLUMNS[7..].iter().map(|column| optional(column.name));
+    let stands: Vec<Option<usize>> = stands.collect::<Result<_, _>>()?;
 
     let mut streams: Vec<Stream> = Vec::new();
     let mut labels = HashSet::new();
@@ -436,6 +455,13 @@ fn parse(file: &[u8], channels: [&str; 2]) -> Result<Recording, String> {
             (streams.len() > before, pose, streams.last_mut())
         {
             stream.pose = Some(cell(place).to_owned()).filter(|pose| !pose.is_empty());
+        }
+        if let (true, [Some(tilt), Some(depth)], Some(stream)) =
+            (streams.len() > before, &stands[..], streams.last_mut())
+            && !(cell(*tilt).is_empty() || cell(*depth).is_empty())
+        {
+            let [of_tilt, of_depth] = [COLUMNS[7].name, COLUMNS[8].name];
+            stream.stands = Some([number(of_tilt, *tilt)?, number(of_depth, *depth)?]);
         }
     }
     if streams.is_empty() {

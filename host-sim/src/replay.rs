@@ -77,7 +77,11 @@ impl Replay {
                 continue;
             };
             let Stream { label, trial, .. } = stream;
-            decided.push(Decided::new(decision, &self.classes, label, trial));
+            let pose = decision.class().and_then(|class| self.bayes.pose(class));
+            decided.push(Decided {
+                pose,
+                ..Decided::new(decision, &self.classes, label, trial)
+            });
         }
         Ok(decided)
     }

@@ -12,6 +12,7 @@ use std::process::ExitCode;
 
 use firmware::Event;
 use firmware::lines::{self, Context};
+use tactile::Pose;
 use tactile::name::{self, Shown};
 use wire::Line;
 
@@ -126,8 +127,15 @@ pub fn decision(decided: &Decided, classes: &[String]) {
         None => format!("{:.2} %", 100.0 * posterior),
     };
     let said = decided.words();
+    let stands = decided
+        .pose
+        .map_or_else(String::new, |Pose { tilt, depth }| {
+            let [tilt, depth] =
+                [tilt, depth].map(|of| format!("{:.1} ± {:.1}", of.value(), of.error()));
+            format!("  tilt {tilt}, depth {depth}")
+        });
     say(format_args!(
-        "{t_s:8.3} s  {said:<8} {sure:>8}  {samples:5} samples  {verdict} ({label})"
+        "{t_s:8.3} s  {said:<8} {sure:>8}  {samples:5} samples  {verdict} ({label}){stands}"
     ));
 }
 

@@ -252,6 +252,13 @@ impl<B: Bench + ?Sized> Run<B> {
         self.poses.number()
     }
 
+    /// How what stands before each whisker does, left side first: its tilt, and how far the whisk
+    /// would go beyond where the shaft meets it, degrees; empty unless the scene
+    /// has `classifier.pose` or a spread of poses.
+    pub fn stands(&self) -> Vec<[f64; 2]> {
+        self.poses.stands()
+    }
+
     /// Has a texture laid in place of the present one, as soon as that is not touched, and left
     /// there: as a person would who exchanges samples, instead of in the scene's order.
     pub const fn lay(&mut self, texture: Texture) {
@@ -460,6 +467,10 @@ impl<B: Bench + ?Sized> Run<B> {
             Some(Decided {
                 place: Some(*place),
                 t_s: Some(self.t_s()),
+                pose: self.events.iter().find_map(|event| match event {
+                    Event::Pose(of, pose) if of == place => Some(*pose),
+                    _ => None,
+                }),
                 ..Decided::new(*decision, &self.classes, self.presented.label, &trial)
             })
         })

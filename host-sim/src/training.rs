@@ -247,6 +247,7 @@ pub fn joint(
             label: stream.label.clone(),
             recording: recording.clone(),
             pose: stream.pose.clone(),
+            stands: stream.stands,
             samples: stream.samples.clone(),
             touches: stream.touches(options.gate, options.gap).collect(),
         })

@@ -155,7 +155,9 @@ pub(crate) fn classify<'py>(
     } else {
         "threshold"
     };
-    let replay = Replay::new(model::given(model)?, rule);
+    let model = model::given(model)?;
+    let has_pose = model.has_pose();
+    let replay = Replay::new(model, rule);
     let mut replay = replay.map_err(|fault| match fault {
         Fault::Model(fault) => wrong(format!("model: {fault}")),
         Fault::Rule(fault) => wrong(format!("{name}: {fault}")),
@@ -166,7 +168,8 @@ pub(crate) fn classify<'py>(
         each.collect::<Result<Vec<Vec<Decided>>, _>>()
     });
     let decided = decided.map_err(wrong)?.concat();
-    table::decisions(py, &[(None, &decided)], Columns::OfRecording)
+    let columns = Columns::of_recording(has_pose);
+    table::decisions(py, &[(None, &decided)], columns)
 }
 
 /// The model's classes, what else was presented, and "unknown"; and how often each of them, a row,

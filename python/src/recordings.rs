@@ -76,6 +76,7 @@ impl Prepared<'_> {
                 contact: contact.map(|all| all.get(rows.clone()).unwrap_or_default().to_vec()),
                 touch: touch.map(|all| all.get(rows.clone()).unwrap_or_default().to_vec()),
                 pose: pose.clone(),
+                stands: None,
             })
         };
         let mut streams = self

@@ -2,7 +2,7 @@
 //! lie.
 
 use host_sim::bench;
-use host_sim::decisions::{COLUMNS, Columns, Decided};
+use host_sim::decisions::{COLUMNS, Columns, Decided, Source};
 use host_sim::trace::{TraceLine, TraceShape, WhiskerRow};
 use numpy::IntoPyArray;
 use pyo3::prelude::*;
@@ -166,10 +166,7 @@ impl RunTables {
             trace: Layout {
                 columns: columns.collect(),
             },
-            decisions: match bench::heard(scene) {
-                1 => Columns::OfScene,
-                _ => Columns::OfSeveral,
-            },
+            decisions: Columns::of_scene(scene),
         }
     }
 
@@ -247,6 +244,10 @@ pub(crate) fn decisions<'py>(
         Kind::Whole,
         reason,
         among,
+        Kind::Number,
+        Kind::Number,
+        Kind::Number,
+        Kind::Number,
     ];
     let indices = columns.indices();
     let mut layout = Layout::new(indices.map(|index| (COLUMNS[index].name, kinds[index])));
@@ -265,16 +266,19 @@ pub(crate) fn decisions<'py>(
             rows.whole(d.samples.into());
             rows.number(d.posterior);
             rows.whole(d.touch.into());
-            if columns != Columns::OfRecording {
+            if columns.source != Source::Recording {
                 rows.number(d.t_s.unwrap_or(f64::NAN));
             }
-            if columns == Columns::OfSeveral {
+            if columns.source == Source::Whiskers {
                 rows.text(d.place.map_or("", |place| place.side_name()), side);
                 rows.whole(d.place.map_or(0, |place| i64::from(place.whisker) + 1));
             }
             let [why, pair] = d.why();
             rows.text(&why, reason);
             rows.text(&pair, among);
+            if columns.has_pose {
+                rows.numbers(d.stands());
+            }
         }
     }
     layout.array(py, rows.bytes)

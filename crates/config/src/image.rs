@@ -71,6 +71,7 @@ fn parts<R: Real>(config: &Config<R>) -> Vec<Part> {
             (!is_window, Part::Sequential),
             (classifier.deciding != Deciding::First, Part::Several),
             (!config.classes.is_empty(), Part::Priors),
+            (classifier.says_pose, Part::Pose),
         ]);
     }
     let needed = parts.into_iter().filter(|(is_needed, _)| *is_needed);

@@ -97,6 +97,12 @@ pub enum Mismatch {
         /// Whiskers that are heard.
         heard: usize,
     },
+    /// It asks for poses of a model that does not estimate them.
+    #[error(
+        "classifier.pose: found true; allowed with this model: false, because it was not trained \
+         from poses (tilt_deg and depth_deg of recordings)"
+    )]
+    Pose,
     /// It ticks otherwise than its classifier's model was trained.
     #[error(
         "classifier.model: found one that was trained at {trained} samples a second; the scene has \
@@ -169,7 +175,7 @@ pub fn whisks_as(scene: &Scene, trained: Whisked) -> Result<(), Mismatch> {
 ///
 /// # Errors
 /// [`Mismatch::Whiskers`]: there are tables of others; [`Mismatch::Whisked`]; [`Mismatch::Rate`]:
-/// blocks, gaps and roughness would be of other times.
+/// blocks, gaps and roughness would be of other times; [`Mismatch::Pose`].
 pub fn suits(scene: &Scene, model: &ModelBuf) -> Result<(), Mismatch> {
     whisks_as(scene, model.whisked())?;
     let heard = scene.classifier.as_ref();
@@ -179,6 +185,9 @@ pub fn suits(scene: &Scene, model: &ModelBuf) -> Result<(), Mismatch> {
             found: model.channels(),
             heard,
         });
+    }
+    if scene.classifier.as_ref().is_some_and(|of| of.pose) && !model.has_pose() {
+        return Err(Mismatch::Pose);
     }
     let scene = scene.tick_hz;
     match model.rate_hz() {

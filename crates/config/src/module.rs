@@ -95,6 +95,7 @@ pub fn build<R: Real>(scene: &Scene, target: Target<'_>) -> Result<Config<R>, Mi
                     rule: rule.transpose()?,
                     deciding: classifier.map_or(Deciding::First, |classifier| classifier.whiskers),
                     contact_min: contact_min.map(R::from_f64),
+                    says_pose: classifier.is_some_and(|classifier| classifier.pose),
                 })
             })
             .transpose()?,

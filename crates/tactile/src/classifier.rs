@@ -12,6 +12,7 @@ use crate::error::SetupError;
 use crate::format::MAX_STREAMS;
 use crate::model::Model;
 use crate::naive_bayes::{Posteriors, posteriors};
+use crate::opinion::Pose;
 use crate::rule::DecisionRule;
 use crate::sequential::{SequentialEvidence, SequentialRule};
 use crate::stream::{StreamState, WrongChannels, heard, reason};
@@ -162,6 +163,13 @@ impl<W: Words> StreamClassifier<W> {
         let model = &self.constants.model;
         let one = self.streams.get_mut(stream);
         one.map_or(Ok(()), |one| one.pass(model, codes, Some(stream)))
+    }
+
+    /// How what a stream touches stands, if it is of this class, by the blocks of its touch so far;
+    /// none where the model does not say, or not yet. Of a decision it is asked at once.
+    pub fn pose(&self, stream: usize, class: usize) -> Option<Pose> {
+        let Constants { model, rule } = &self.constants;
+        self.streams.get(stream)?.pose(heard(model, rule)?, class)
     }
 
     /// The number of the touch of a stream, or of its last one.

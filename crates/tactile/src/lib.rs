@@ -127,7 +127,7 @@ pub use model::{Aligned, Floors, Model};
 #[cfg(feature = "std")]
 pub use model_buf::{Axis, ModelBuf, ModelParts, TableParts, TableSource};
 pub use naive_bayes::{NaiveBayes, Posteriors};
-pub use opinion::Whisked;
+pub use opinion::{Estimate, Pose, Whisked};
 pub use quantiser::Quantiser;
 pub use roughness::Roughness;
 pub use rule::DecisionRule;

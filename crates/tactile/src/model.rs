@@ -160,6 +160,11 @@ impl<W: Words> Model<W> {
         self.layout.opinion < self.layout.end
     }
 
+    /// Whether poses are estimated of what is named.
+    pub fn has_pose(&self) -> bool {
+        self.opinion().is_some_and(Section::has_pose)
+    }
+
     /// How it was whisked in training, where that is known.
     pub fn whisked(&self) -> Whisked {
         self.opinion().map(Section::whisked).unwrap_or_default()

@@ -6,8 +6,9 @@ use crate::decision::Decision;
 use crate::error::SetupError;
 use crate::format::MAX_CLASSES;
 use crate::model::Model;
+use crate::opinion::Pose;
 use crate::rule::DecisionRule;
-use crate::stream::{StreamState, WrongChannels};
+use crate::stream::{StreamState, WrongChannels, heard};
 use crate::words::Words;
 
 /// A likelihood model under a rule, with the evidence so far. Reads how many
@@ -83,6 +84,12 @@ impl<R: DecisionRule, W: Words> NaiveBayes<R, W> {
     /// begin again.
     pub const fn interrupt(&mut self) {
         self.stream.interrupt();
+    }
+
+    /// As [`StreamClassifier::pose`](crate::StreamClassifier::pose).
+    pub fn pose(&self, class: usize) -> Option<Pose> {
+        let Constants { model, rule } = &self.constants;
+        self.stream.pose(heard(model, rule)?, class)
     }
 
     /// The end of a whisk or of a recording: rules that wait for it decide here

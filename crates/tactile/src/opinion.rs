@@ -16,9 +16,12 @@
 //! *names* by itself, once a touch at most, and there are no tables. Either way nothing is decided
 //! in the first blocks of a touch, in which all ways are alike ([`Section::least`]).
 //!
+//! Of what is named the [pose] may be estimated too.
+//!
 //! What is refused has a [`Reason`](crate::Reason): 1 the pose, 2 unknown, 3 between two classes.
 
 pub(crate) mod differences;
+pub(crate) mod pose;
 pub(crate) mod section;
 
 use crate::decision::{Decision, Reason};
@@ -26,6 +29,7 @@ use crate::evidence::{EvidenceScale, MAX_DEFICIT};
 use crate::format::MAX_CLASSES;
 use crate::rule::DecisionRule;
 pub(crate) use differences::{Differences, Narrow};
+pub use pose::{Estimate, Pose};
 pub(crate) use section::Section;
 use section::{STATE_WORDS, halves};
 
@@ -200,6 +204,12 @@ impl Opinion {
         }
         self.rival(section.most_odds(), classes, class)
             .map(Reason::Between)
+    }
+
+    /// How what is touched stands, if it is of this class; none where the model does not say.
+    pub(crate) fn pose(&self, section: Section<'_>, class: usize) -> Option<Pose> {
+        let (limits, stage, words) = section.pose(class, self.blocks)?;
+        pose::estimate(self.path.get(..stage)?, words, limits)
     }
 
     /// The class that stands against this one, by the scores, if the odds against it are more.

@@ -7,7 +7,7 @@ use core::fmt;
 use crate::decision::{Decision, Reason};
 use crate::format::{MAX_CLASSES, MAX_STREAMS};
 use crate::model::Model;
-use crate::opinion::{Judge, Section};
+use crate::opinion::{Judge, Pose, Section};
 use crate::rule::DecisionRule;
 use crate::sums::Sums;
 use crate::words::{JOINT, OPINION, Words};
@@ -271,6 +271,11 @@ impl<E> StreamState<E> {
     ) -> Option<Reason> {
         let judge = self.judges.first()?;
         judge.opinion.objection(section?, classes, class)
+    }
+
+    /// How what it last touched stands, if it is of this class.
+    pub(crate) fn pose(&self, section: Section<'_>, class: usize) -> Option<Pose> {
+        self.judges.first()?.opinion.pose(section, class)
     }
 
     /// The streams together have decided: this touch says no more by itself.

@@ -13,7 +13,7 @@ use super::{Config, ConfigError, MotionConfig, Part};
 use crate::servo::ServoConfig;
 
 /// The version of the layout.
-pub const VERSION: u16 = 7;
+pub const VERSION: u16 = 8;
 
 /// Most bytes of a configuration with its header, of two whiskers; a simulation's may be longer.
 pub const CONFIG_BYTES: usize = if cfg!(target_os = "none") { 1536 } else { 4096 };

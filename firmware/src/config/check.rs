@@ -249,6 +249,9 @@ fn classifier<R: Real>(classifier: &ClassifierConfig<R>) -> Checked {
     if classifier.deciding != Deciding::First {
         built(Part::Several)?;
     }
+    if classifier.says_pose {
+        built(Part::Pose)?;
+    }
     within(Field::ContactMin, classifier.contact_min.as_slice(), SHARE)
 }
 

@@ -72,6 +72,7 @@ parts! {
     SelfMotion "self-motion" = 25: "self-motion of the sensor";
     Priors "priors" = 26: "priors or thresholds of classes";
     Bus "bus" = 27: "bus";
+    Pose "pose" = 28: "pose of what is named";
 }
 
 impl Part {

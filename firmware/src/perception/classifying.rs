@@ -2,11 +2,11 @@
 
 use heapless::Vec;
 use serde::{Deserialize, Serialize};
-use tactile::{Behind, Deciding, Decision, RuleSettings, TouchDetector, Touching};
+use tactile::{Behind, Deciding, Decision, Pose, RuleSettings, TouchDetector, Touching};
 use whisking::{MAX_WHISKERS, Real};
 
 use crate::sensing::Reading;
-use crate::{Event, Place};
+use crate::{Event, Part, Place};
 
 /// Constants of a classifier.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
@@ -19,6 +19,8 @@ pub struct ClassifierConfig<R: Real> {
     pub deciding: Deciding,
     /// Contact π of a whisker from which its samples count; none: all do.
     pub contact_min: Option<R>,
+    /// Whether it is said how what is named stands ([`Event::Pose`]), where the model knows.
+    pub says_pose: bool,
 }
 
 /// A sample of one whisker.
@@ -44,6 +46,13 @@ pub trait SampleClassifier {
     /// Takes the sample of a whisker in every tick with a valid reading; a decision may
     /// fall.
     fn push(&mut self, whisker: usize, sample: Sample) -> Option<Decision>;
+
+    /// How what a whisker touches stands, if it is of this class, right after a decision; none where
+    /// its model does not say
+    /// ([`StreamClassifier::pose`](tactile::StreamClassifier::pose)).
+    fn pose(&self, _whisker: usize, _class: usize) -> Option<Pose> {
+        None
+    }
 
     /// Whether touches mean anything to it; otherwise all is of the air.
     fn knows_touches(&self) -> bool;
@@ -93,6 +102,8 @@ pub struct Sensed<R> {
     pub contact: R,
     /// The contact from which its sample counts; none: it does.
     pub least: Option<R>,
+    /// Whether it is said how what it names stands.
+    pub says_pose: bool,
 }
 
 /// What a module makes of its readings: touches, samples and decisions, of each whisker by
@@ -179,6 +190,7 @@ impl<C: SampleClassifier> Perception<C> {
             reading,
             contact,
             least,
+            says_pose,
         } = heard;
         let Some(touches) = self.touches.get_mut(n) else {
             return;
@@ -191,6 +203,7 @@ impl<C: SampleClassifier> Perception<C> {
             touches,
             whisker: n,
             place,
+            says_pose,
         };
         if reading.valid && reading.current {
             let codes = [reading.x.code14(), reading.y.code14()];
@@ -208,6 +221,7 @@ struct Listener<'a, C> {
     touches: &'a mut TouchDetector,
     whisker: usize,
     place: Place,
+    says_pose: bool,
 }
 
 impl<C: SampleClassifier> Listener<'_, C> {
@@ -236,6 +250,13 @@ impl<C: SampleClassifier> Listener<'_, C> {
         };
         if let Some(decision) = self.classifier.push(self.whisker, sample) {
             events(Event::Decision(place, decision));
+            if Part::Pose.is_built()
+                && self.says_pose
+                && let Some(class) = decision.class()
+                && let Some(pose) = self.classifier.pose(self.whisker, class)
+            {
+                events(Event::Pose(place, pose));
+            }
         }
     }
 

@@ -3,7 +3,7 @@
 
 use tactile::{
     AnyRule, ClassSetting, ClassSettings, Constants, Deciding, Decision, JOINT, MAX_STREAMS, Model,
-    RuleSettings, StreamClassifier, Whisked, Words,
+    Pose, RuleSettings, StreamClassifier, Whisked, Words,
 };
 
 #[cfg(feature = "bus")]
@@ -237,6 +237,10 @@ impl<W: Words> SampleClassifier for CodeClassifier<W> {
         }
         let _ = classifier.pass_to(whisker, &codes);
         None
+    }
+
+    fn pose(&self, whisker: usize, class: usize) -> Option<Pose> {
+        self.classifier()?.pose(whisker, class)
     }
 
     #[inline]

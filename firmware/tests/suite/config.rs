@@ -61,6 +61,7 @@ fn config<R: Number>() -> Config<R> {
         rule: Some(RuleSettings::Sequential(Threshold::new(0.99).unwrap())),
         deciding: Deciding::Each,
         contact_min: Some(R::from_f64(0.05)),
+        says_pose: false,
     });
     let classes = [(0.25, Some(0.999)), (1.0, None), (0.5, Some(0.6))];
     let classes = classes.map(|(share, threshold)| ClassSetting::new(share, threshold));

@@ -39,6 +39,7 @@ pub fn classify(
     let recording = files::whole_recording(data, channels)?;
     let trained = (path.display().to_string(), model.rate_hz());
     rate::agreed([trained, files::rate_of(data, &recording)]).map_err(Error::Input)?;
+    let has_pose = model.has_pose();
     let streams = recording.streams;
     let mut misfits = misfits(data, channels, &model, &streams);
     let named = [(data.display().to_string(), streams)];
@@ -59,7 +60,7 @@ pub fn classify(
     files::write_decisions(
         Output::create_or_stdout(out)?,
         &decided,
-        Columns::OfRecording,
+        Columns::of_recording(has_pose),
     )?;
     let score = Score::new(replay.classes(), &decided);
     let mut lines = vec![Summary(&score, None).to_string()];

@@ -8,7 +8,7 @@ use scene::{Override, Scene};
 
 use super::choice::{SceneChoice, seed};
 use super::{ahead, any_picture, ends_in};
-use crate::bench::{self, Bench};
+use crate::bench::Bench;
 use crate::decisions::{Columns, Decided, Score};
 use crate::files::{self, TraceFile};
 use crate::loaded::Loaded;
@@ -253,11 +253,7 @@ pub fn play<B: Bench + ?Sized>(
 
     let classifies = table.is_some();
     if let Some(table) = table {
-        let columns = match bench::heard(scene) {
-            1 => Columns::OfScene,
-            _ => Columns::OfSeveral,
-        };
-        files::write_decisions(table, &decided, columns)?;
+        files::write_decisions(table, &decided, Columns::of_scene(scene))?;
     }
     trace.finish()?;
     Ok(Played {

@@ -65,6 +65,15 @@ impl fmt::Display for InWords<'_> {
                 "no second opinion: too few touches of {name}: {touches}, needs {least}; in \
                  another pose than that of training it may be wrong"
             ),
+            Warning::NoPose {
+                name,
+                values,
+                least,
+            } => write!(
+                f,
+                "no poses are estimated: of {name} there are {values} values of tilt_deg or \
+                 depth_deg that it can be learnt from, and it needs {least} of each"
+            ),
             Warning::Alike { names, mistaken } => write!(
                 f,
                 "{} and {} cannot be distinguished: in {:.0} % the other one wins",

@@ -266,6 +266,7 @@ pub(crate) fn decisions(text: &str) -> Vec<Decided> {
             samples: row[3].parse().unwrap(),
             posterior: row[4].parse().unwrap(),
             touch: row[5].parse().unwrap(),
+            pose: None,
         }
     })
     .collect()

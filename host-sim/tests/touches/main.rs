@@ -194,6 +194,7 @@ fn nothing_is_decided_in_the_air() {
         label: stream.label,
         recording: "run".to_owned(),
         pose: None,
+        stands: None,
         samples: stream.samples,
     };
     let trials: Vec<_> = recorder.into_streams().into_iter().map(trial).collect();

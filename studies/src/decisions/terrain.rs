@@ -214,6 +214,7 @@ mod tests {
             contact: None,
             touch: None,
             pose: None,
+            stands: None,
         };
         let lengths = |length| {
             let windows = windows(&drive(length));

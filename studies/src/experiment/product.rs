@@ -44,6 +44,7 @@ pub(super) fn stream(
         contact: contact.transpose()?,
         touch: None,
         pose: None,
+        stands: None,
     })
 }
 

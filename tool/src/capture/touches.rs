@@ -50,6 +50,7 @@ impl Touches {
             contact: Some(Vec::new()),
             touch: Some(Vec::new()),
             pose: None,
+            stands: None,
         });
         self.trial += 1;
         self.of_trial = 0;

@@ -184,6 +184,7 @@ impl Listener {
                 reading,
                 contact,
                 least: self.least,
+                says_pose: false,
             };
             perception.step(n, sensed, &mut |event| {
                 if let Event::Decision(place, decision) = event {

@@ -4,7 +4,7 @@ use tactile::Deciding;
 
 use crate::choice::choice;
 use crate::key::Condition::{self, Given, Is, IsWithout};
-use crate::key::{Key, between, integer, number, path, per_class, positive, word};
+use crate::key::{Key, between, integer, number, path, per_class, positive, word, yes_or_no};
 use crate::keys::keys;
 use crate::kind::Range;
 use crate::values::{Part, Read};
@@ -119,6 +119,11 @@ keys! {
         /// its own gate alone.
         contact_min: Option<f64> = number(0.0..=1.0)
             .optional("the gate of the model; without one every sample is classified"),
+
+        /// Whether the tilt of what is named and the depth of its contact are estimated, each with
+        /// its error. The model must have learnt it
+        /// ([textures.md](textures.md#how-what-is-touched-stands)).
+        pose: bool = yes_or_no().default("false"),
 
         /// Which whiskers decide: the first of the left side; each by its own evidence; or
         /// all together, their evidence added, with rule `sequential`.

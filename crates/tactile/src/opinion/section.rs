@@ -2,18 +2,20 @@
 //!
 //! | words | content |
 //! |---|---|
-//! | 1 | kind u8 (bit 0: names, otherwise it objects; bit 1: touches longer than nine blocks begin again), poses of paths P u8 (1 to 12), stages u8 (1 to 8), patience u8 (1 to 9) |
+//! | 1 | kind u8 (bit 0: names, otherwise it objects; bit 1: touches longer than nine blocks begin again; bit 2: poses are estimated), poses of paths P u8 (1 to 12), stages u8 (1 to 8), patience u8 (1 to 9) |
 //! | 1 | most odds against the leader by the opinion, 2⁻²⁶ |
 //! | 1, 1 | code that becomes zero i32; bits that are left off a code |
 //! | 2 | rest of x and y where no air was felt yet, i32, 1/256 narrow codes |
 //! | 2 | frequency of the whisk, 1/1000 Hz, 0: not known; 1 without RCP, 2 with, 0: not known |
 //! | per stage | shift; K × bias i32, 1/1024 bit; K × weights i16, ten a state begun |
+//! | only with poses: 2 | least and most tilt, then depth, i16, 1/100 |
+//! | per class and stage from the first that decides | errors of tilt and depth u16, 1/100; shifts u16; for each bias i32, 1/100, and [weights](super::pose) i32 |
 //! | per class | per state: 10 means i16, 1/256; shift; 55 of a triangle i16, and a zero; then 8 limits u32 |
 //! | per class | 9 × inverse deviation of x and y u16, 2⁻¹⁶; P × 9 × x and y i16; limit u32 |
 
 use zerocopy::{FromBytes, IntoBytes};
 
-use super::{BLOCKS, FEATURES, STAGES, STATES, Whisked};
+use super::{BLOCKS, FEATURES, STAGES, STATES, Whisked, pose};
 use crate::error::ModelError;
 
 /// Most poses between which a path may lie.
@@ -59,7 +61,7 @@ impl<'m> Section<'m> {
     /// Whether one of so many words that begins with `head` can be read.
     pub(crate) fn check(head: &[u32], words: usize, classes: usize) -> Result<(), ModelError> {
         let section = Section::new(head, classes);
-        let fits = section.byte(0) <= 3
+        let fits = section.byte(0) <= 7
             && (1..=MAX_POSES).contains(&section.poses())
             && (1..=STAGES).contains(&section.stages())
             && (1..=BLOCKS).contains(&section.patience())
@@ -69,10 +71,53 @@ impl<'m> Section<'m> {
 
     /// Words that the counts in its head ask for.
     pub(crate) fn length(self) -> usize {
-        let stages: usize = (1..=self.stages())
-            .map(|stage| stage_words(stage, self.classes))
-            .sum();
-        HEAD_WORDS + stages + self.classes * (TYPICAL_WORDS + path_words(self.poses()))
+        let of_classes = self.classes * (TYPICAL_WORDS + path_words(self.poses()));
+        self.before_stage(self.stages() + 1) + self.pose_words() + of_classes
+    }
+
+    /// Words before the weights of a stage (from 1).
+    fn before_stage(self, stage: usize) -> usize {
+        let before: usize = (1..stage).map(|s| stage_words(s, self.classes)).sum();
+        HEAD_WORDS + before
+    }
+
+    /// Words by which poses are estimated.
+    fn pose_words(self) -> usize {
+        if !self.has_pose() {
+            return 0;
+        }
+        let of_class: usize = self.pose_stages().map(pose::stage_words).sum();
+        pose::LIMIT_WORDS + self.classes * of_class
+    }
+
+    /// Whether poses are estimated.
+    pub(crate) fn has_pose(self) -> bool {
+        self.byte(0) & 4 != 0
+    }
+
+    /// The stages after which a pose is estimated: those in which a decision may fall.
+    pub(crate) fn pose_stages(self) -> core::ops::RangeInclusive<usize> {
+        self.least().min(self.stages())..=self.stages()
+    }
+
+    /// By what the pose of a class is estimated after so many blocks: the limits, the stage, and
+    /// its words.
+    pub(crate) fn pose(
+        self,
+        class: usize,
+        blocks: usize,
+    ) -> Option<([u32; pose::LIMIT_WORDS], usize, &'m [u32])> {
+        let stages = self.pose_stages();
+        let stage = blocks.min(*stages.end());
+        if !self.has_pose() || !stages.contains(&stage) || class >= self.classes {
+            return None;
+        }
+        let words = self.words.get(self.before_stage(self.stages() + 1)..)?;
+        let (limits, words) = words.split_first_chunk()?;
+        let of_class: usize = stages.clone().map(pose::stage_words).sum();
+        let before: usize = (*stages.start()..stage).map(pose::stage_words).sum();
+        let words = words.get(class * of_class + before..)?;
+        Some((*limits, stage, words.get(..pose::stage_words(stage))?))
     }
 
     fn byte(self, at: usize) -> u8 {
@@ -154,8 +199,8 @@ impl<'m> Section<'m> {
 
     /// Of a stage (from 1): shift, biases and weights of all classes.
     pub(crate) fn stage(self, stage: usize) -> (u32, &'m [u32], &'m [u32]) {
-        let before: usize = (1..stage).map(|s| stage_words(s, self.classes)).sum();
-        let words = self.words.get(HEAD_WORDS + before..).unwrap_or_default();
+        let words = self.words.get(self.before_stage(stage)..);
+        let words = words.unwrap_or_default();
         let words = words.get(..stage_words(stage, self.classes));
         let Some((shift, rest)) = words.and_then(<[u32]>::split_first) else {
             return (0, &[], &[]);

@@ -26,6 +26,7 @@ fn trial(label: &str, recording: &str, mean: [f64; 2], length: usize, seed: u64)
         label: label.to_owned(),
         recording: recording.to_owned(),
         pose: None,
+        stands: None,
         samples: samples.collect(),
         touches: vec![1; length],
     }

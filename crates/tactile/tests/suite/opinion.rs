@@ -49,6 +49,7 @@ fn trial(label: &str, amplitude: f64, pose: f64, seed: u64) -> Trial {
         label: label.to_owned(),
         recording: format!("pose {pose}"),
         pose: None,
+        stands: None,
         samples,
         touches,
     }

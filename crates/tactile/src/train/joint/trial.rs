@@ -91,6 +91,8 @@ pub struct Trial {
     pub recording: String,
     /// The pose in which it was felt, where a recording has several and says so.
     pub pose: Option<String>,
+    /// How what was felt stood, where the recording says it: its tilt, and how deep it reached.
+    pub stands: Option<[f64; 2]>,
     /// x and y, in any unit, in time order; those in the air among them.
     pub samples: Vec<[f64; CHANNELS]>,
     /// Of each sample that counts the number of its touch, 0 of others: in the air, or

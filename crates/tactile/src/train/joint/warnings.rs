@@ -62,6 +62,15 @@ pub enum Warning {
         /// How many it needs.
         least: usize,
     },
+    /// So few values of tilt or depth of a class that no poses are estimated.
+    NoPose {
+        /// The class.
+        name: String,
+        /// How many.
+        values: usize,
+        /// How many it needs.
+        least: usize,
+    },
     /// Two classes are taken for one another.
     Alike {
         /// Their names.

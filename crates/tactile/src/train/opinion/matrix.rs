@@ -36,6 +36,12 @@ impl Matrix {
         }
     }
 
+    /// Adds to the diagonal.
+    pub(super) fn raise(&mut self, by: f64) {
+        let diagonal = self.values.iter_mut().step_by(self.size + 1);
+        diagonal.for_each(|value| *value += by);
+    }
+
     /// Times a number.
     pub(super) fn scale(&mut self, share: f64) {
         self.values.iter_mut().for_each(|value| *value *= share);
