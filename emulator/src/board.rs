@@ -459,6 +459,7 @@ impl Board {
         for (place, said) in self.watch.said(memories)? {
             match said {
                 Said::Decision(decision) => events.push(Event::Decision(place, decision)),
+                Said::Pose(pose) => events.push(Event::Pose(place, pose)),
                 Said::Notice(notice) => self.notices.push((place, notice)),
             }
         }

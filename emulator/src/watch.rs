@@ -8,7 +8,7 @@ mod servos;
 use firmware::Place as Whisker;
 use host_sim::bench::Snapshot;
 use scene::Scene;
-use tactile::Decision;
+use tactile::{Decision, Estimate, Pose};
 use whisking::{Fix, Real};
 
 use crate::chip::Fault;
@@ -54,6 +54,10 @@ mod name {
     pub(super) const SAMPLES: &str = "samples";
     pub(super) const PACKED: &str = "packed";
     pub(super) const TOUCH: &str = "touch";
+    /// The event of a pose, and in it each estimate and what stands in that.
+    pub(super) const POSE: &str = "Pose";
+    pub(super) const ESTIMATES: [&str; 2] = ["tilt", "depth"];
+    pub(super) const ESTIMATE: [&str; 2] = ["hundredths", "error_hundredths"];
     /// Events that are faults, or their ends.
     pub(super) const NOTICES: [(&str, Notice); 5] = [
         ("SensorLost", Notice::SensorLost),
@@ -113,6 +117,8 @@ struct Queue {
     words: [u32; 3],
     /// Where side and number of the whisker stand.
     whisker: [u32; 2],
+    /// Of a pose likewise: its tag, and where value and error of tilt and depth stand.
+    pose: (u8, [u32; 4]),
     /// The tags of faults and their ends.
     notices: Vec<(u8, Notice)>,
     /// The place of the first that was not seen.
@@ -123,6 +129,7 @@ struct Queue {
 #[derive(Debug, Clone, Copy)]
 pub(crate) enum Said {
     Decision(Decision),
+    Pose(Pose),
     Notice(Notice),
 }
 
@@ -233,6 +240,15 @@ impl Queue {
         let (tag, value, event) = of_first.variant(name::DECISION)?;
         let [whisker, decision] = name::PLACED.map(|part| event.member(part));
         let (whisker, decision) = (whisker?, decision?);
+        let (_, posed, event) = of_first.variant(name::POSE)?;
+        let pose = event.member(name::PLACED[1])?;
+        let mut numbers = Vec::new();
+        for estimate in name::ESTIMATES {
+            for part in name::ESTIMATE {
+                let number = pose.member(estimate)?.member(part)?;
+                numbers.push(number.address - first.address);
+            }
+        }
         let notices = name::NOTICES.into_iter();
         let notices = notices.map(|(name, notice)| Ok((of_first.variant(name)?.1, notice)));
         let offset =
@@ -252,6 +268,7 @@ impl Queue {
                 whisker.member(name::SIDE)?.address - first.address,
                 whisker.member(name::WHISKER)?.address - first.address,
             ],
+            pose: (posed, std::array::from_fn(|n| numbers[n])),
             notices: notices.collect::<Result<_, Fault>>()?,
             seen: 0,
         })
@@ -281,6 +298,24 @@ impl Queue {
                         ram.word(event + touch)?,
                     );
                     decision.map(Said::Decision)
+                }
+                None if tag == [self.pose.0] => {
+                    let half = |offset: u32| -> Result<u16, Fault> {
+                        let mut bytes = [0; 2];
+                        ram.read(event + offset, &mut bytes)?;
+                        Ok(u16::from_le_bytes(bytes))
+                    };
+                    let [tilt, tilt_error, depth, depth_error] = self.pose.1;
+                    let estimate = |value, error| -> Result<Estimate, Fault> {
+                        Ok(Estimate {
+                            hundredths: half(value)?.cast_signed(),
+                            error_hundredths: half(error)?,
+                        })
+                    };
+                    Some(Said::Pose(Pose {
+                        tilt: estimate(tilt, tilt_error)?,
+                        depth: estimate(depth, depth_error)?,
+                    }))
                 }
                 None => None,
             };

@@ -54,22 +54,24 @@ macro_rules! say_event {
                 );
             }
             $crate::Event::Pose(place, pose) if $crate::Part::Pose.is_built() => {
-                let [tilt, depth] = [pose.tilt, pose.depth].map($crate::lines::estimate);
+                let [of_tilt, of_depth] = [pose.tilt, pose.depth].map($crate::lines::estimate);
+                let (tilt_sign, [tilt, tilt_part, tilt_error, tilt_error_part]) = of_tilt;
+                let (depth_sign, [depth, depth_part, depth_error, depth_error_part]) = of_depth;
                 $say!(
                     info,
                     "pose {=str} {=str}{=u16}.{=u16:02} {=u16}.{=u16:02} \
                      {=str}{=u16}.{=u16:02} {=u16}.{=u16:02}",
                     place.side_name(),
-                    tilt.0,
-                    tilt.1 / 100,
-                    tilt.1 % 100,
-                    tilt.2 / 100,
-                    tilt.2 % 100,
-                    depth.0,
-                    depth.1 / 100,
-                    depth.1 % 100,
-                    depth.2 / 100,
-                    depth.2 % 100
+                    tilt_sign,
+                    tilt,
+                    tilt_part,
+                    tilt_error,
+                    tilt_error_part,
+                    depth_sign,
+                    depth,
+                    depth_part,
+                    depth_error,
+                    depth_error_part
                 );
             }
             $crate::Event::SensorLost(place, why) => {
@@ -223,11 +225,17 @@ pub fn percent(decision: tactile::Decision) -> u32 {
     ((u64::from(decision.posterior().q32()) * 1_000_000) >> 32) as u32
 }
 
-/// Sign, size and error of an estimate, in hundredths.
-pub const fn estimate(estimate: tactile::Estimate) -> (&'static str, u16, u16) {
+/// The sign of an estimate; its size and its error, each as whole units and hundredths.
+// Before what is said: where a number is divided between two words of a line, a compiler for size
+// makes one function of several such places, which goes on by a pointer.
+#[inline(never)]
+pub fn estimate(estimate: tactile::Estimate) -> (&'static str, [u16; 4]) {
     let sign = if estimate.hundredths < 0 { "-" } else { "" };
-    let size = estimate.hundredths.unsigned_abs();
-    (sign, size, estimate.error_hundredths)
+    let (size, error) = (
+        estimate.hundredths.unsigned_abs(),
+        estimate.error_hundredths,
+    );
+    (sign, [size / 100, size % 100, error / 100, error % 100])
 }
 
 /// The bytes of a frame, the first in the highest place.
