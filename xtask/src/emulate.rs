@@ -214,6 +214,9 @@ const MODEL: &str = "scenes/models/textures.model";
 /// Both sides, where contact on one excites the other.
 pub(crate) const CIA: &str = "scenes/cia.toml";
 
+/// One whose model has a second opinion, for the board that has time for it.
+pub(crate) const JUDGED: &str = "scenes/bench-textures.toml";
+
 /// The main job with TMAG5170s.
 pub(crate) const TILT: &str = "scenes/tmag5170.toml";
 
@@ -247,10 +250,15 @@ pub(crate) fn compare_with_slow_sensors(on: &Emulated) -> Result<(), Fault> {
     emulate(on, &slow, COMPARE)
 }
 
-/// Compares [`noisiest`] with host-sim where it asks for more than any scene of `scenes/`.
+/// Compares the start of [`JUDGED`] on both sides with host-sim where it asks for more than any
+/// scene of `scenes/`.
 pub(crate) fn compare_with_options(on: &Emulated) -> Result<(), Fault> {
-    let options = variants::with_options(&noisiest()?)?;
-    emulate(on, &options, COMPARE)
+    let both = variants::on_both_sides(&top().join(JUDGED))?;
+    emulate(
+        on,
+        &variants::with_options(&both)?,
+        &["compare --duration 6"],
+    )
 }
 
 /// Compares [`CIA`] on a board a side, which a bus joins, with the simulated head.

@@ -33,7 +33,7 @@ const TWO_SIDES: &str = "scenes/both.toml";
 /// One with the other sensor, for the board that has least room.
 const TILT: &str = crate::emulate::TILT;
 /// One whose model has a second opinion, for the board that has time for it.
-const JUDGED: &str = "scenes/bench-textures.toml";
+const JUDGED: &str = crate::emulate::JUDGED;
 
 /// Measures everything; prints it and writes the table to `csv` (or to the
 /// committed one; `-`: prints the table alone), or checks that no program has

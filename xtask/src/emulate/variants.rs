@@ -53,13 +53,14 @@ pub(super) fn with_slow_sensors(path: &Path) -> Result<PathBuf, Fault> {
 }
 
 /// The scene with what no scene of `scenes/` asks for: sensors that find their zeros, which are not
-/// at mid-scale, contact without self-motion, and priors and thresholds of the model's classes.
+/// at mid-scale, contact without self-motion, priors and thresholds of the model's classes, and poses.
 pub(super) fn with_options(path: &Path) -> Result<PathBuf, Fault> {
     variant(path, "options", |_, table| {
         let keys = [("zero_after_s", 0.5.into()), ("self_motion_s", 1.0.into())];
         replace(table, "sensor", keys);
         let pairs = [[40.0, -60.0], [-90.0, 30.0]].map(|codes| Value::from(codes.to_vec()));
         set(table, "plant", "zero_codes", pairs.to_vec());
+        set(table, "classifier", "pose", true);
         for (key, class, value) in [("prior", "smooth", 0.6), ("thresholds", "carpet", 0.999)] {
             let of_class = Table::from_iter([(class.to_owned(), value.into())]);
             set(table, "classifier", key, of_class);
