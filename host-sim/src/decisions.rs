@@ -432,9 +432,11 @@ impl fmt::Display for Score {
 
 #[cfg(test)]
 mod tests {
+    use tactile::Estimate;
+
     use super::{
-        Columns, Decided, Decision, Estimate, Place, Pose, Reason, Score, Source, UNKNOWN, Verdict,
-        words, write,
+        Columns, Decided, Decision, Place, Pose, Reason, Score, Source, UNKNOWN, Verdict, words,
+        write,
     };
 
     fn decided(label: &str, decision: &str, samples: u32) -> Decided {
@@ -449,6 +451,16 @@ mod tests {
             samples,
             posterior: 0.995,
             touch: 3,
+            pose: Some(Pose {
+                tilt: Estimate {
+                    hundredths: -150,
+                    error_hundredths: 20,
+                },
+                depth: Estimate {
+                    hundredths: 2204,
+                    error_hundredths: 7,
+                },
+            }),
         }
     }
 
@@ -508,6 +520,12 @@ mod tests {
             written(Columns::of_recording(false)),
             "label,trial,decision,samples,posterior,touch,reason,among\n\
              \"sand, wet\",1,ice,20,0.995000000,3,,\n"
+        );
+        assert_eq!(
+            written(Columns::of_recording(true)),
+            "label,trial,decision,samples,posterior,touch,reason,among,tilt_deg,tilt_error_deg,\
+             depth_deg,depth_error_deg\n\
+             \"sand, wet\",1,ice,20,0.995000000,3,,,-1.50,0.20,22.04,0.07\n"
         );
         assert_eq!(
             written(of(Source::Scene)),

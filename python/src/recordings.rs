@@ -24,8 +24,15 @@ pub(crate) struct Prepared<'py> {
     touch: Option<PyReadonlyArray1<'py, u16>>,
 }
 
-/// Label, trial, first row, the one after the last, and the pose.
-type Rows = (String, String, usize, usize, Option<String>);
+/// Label, trial, first row, the one after the last, the pose, and how what was touched stood.
+type Rows = (
+    String,
+    String,
+    usize,
+    usize,
+    Option<String>,
+    Option<[f64; 2]>,
+);
 
 impl Prepared<'_> {
     /// Its name and its streams.
@@ -61,13 +68,19 @@ impl Prepared<'_> {
         if samples.is_empty() {
             return Err(PyValueError::new_err(format!("{}: no samples", self.name)));
         }
-        let stream = |(label, trial, first, end, pose): &Rows| {
+        let stream = |(label, trial, first, end, pose, stands): &Rows| {
             let tokens = Tokens {
                 label,
                 trial,
                 pose: pose.as_deref(),
             };
             tokens.check().map_err(|fault| wrong(*first, &fault))?;
+            if stands.is_some_and(|stands| !stands.iter().all(|of| of.is_finite())) {
+                return Err(wrong(
+                    *first,
+                    "tilt_deg or depth_deg is not a finite number",
+                ));
+            }
             let rows = *first..*end;
             Ok(Stream {
                 label: label.clone(),
@@ -76,7 +89,7 @@ impl Prepared<'_> {
                 contact: contact.map(|all| all.get(rows.clone()).unwrap_or_default().to_vec()),
                 touch: touch.map(|all| all.get(rows.clone()).unwrap_or_default().to_vec()),
                 pose: pose.clone(),
-                stands: None,
+                stands: *stands,
             })
         };
         let mut streams = self
@@ -130,6 +143,7 @@ pub(crate) fn array<'py>(
     let trial = Kind::text(streams.iter().map(|stream| stream.trial.as_str()));
     let poses = || streams.iter().filter_map(|stream| stream.pose.as_deref());
     let pose = Kind::text(poses());
+    let stands = has(streams, |stream| stream.stands.is_some()).then_some(Kind::Number);
     let kinds = [
         Some(label),
         Some(trial),
@@ -138,6 +152,8 @@ pub(crate) fn array<'py>(
         has(streams, |stream| stream.contact.is_some()).then_some(Kind::Number),
         has(streams, |stream| stream.touch.is_some()).then_some(Kind::Whole),
         has(streams, |stream| stream.pose.is_some()).then_some(pose),
+        stands,
+        stands,
     ];
     let mut names = COLUMNS.map(|column| column.name);
     names[2..4].copy_from_slice(&channels);
@@ -161,6 +177,9 @@ pub(crate) fn array<'py>(
             if kinds[6].is_some() {
                 rows.text(stream.pose.as_deref().unwrap_or_default(), pose);
             }
+            if stands.is_some() {
+                rows.numbers(stream.stands.unwrap_or([f64::NAN; 2]));
+            }
         }
     }
     layout.array(py, rows.bytes)
@@ -171,8 +190,7 @@ fn has(streams: &[Stream], column: impl Fn(&Stream) -> bool) -> bool {
 }
 
 /// Reads a recording's file, as `host-sim record` and `whisker capture` write it: its rows, as
-/// `record` returns them, with `contact`, `touch` and `pose` where the file has them, and with its
-/// rate. `channels` are the columns that are read as the two channels.
+/// `record` returns them, with the columns that the file has, and with its rate. `channels` are the columns that are read as the two channels.
 #[pyfunction]
 #[pyo3(signature = (path, *, channels=["x".to_owned(), "y".to_owned()]))]
 #[pyo3(text_signature = "(path, *, channels=(\"x\", \"y\"))")]

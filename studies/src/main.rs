@@ -65,6 +65,9 @@ enum Command {
     /// Measures what decisions are worth where use differs from training and writes
     /// DIR/poses.md with its table
     Poses(Made),
+    /// Measures by how much estimates of tilt and depth are wrong and writes DIR/standing.md with
+    /// its table and picture
+    Standing(Made),
 }
 
 /// How a page is made.
@@ -146,6 +149,10 @@ fn work(arguments: Arguments) -> Result<()> {
         Command::Poses(made) => {
             let files = poses::page(&poses::Extent::new(made.quick), verbosity);
             keep(&made, files, "the page of poses", "poses")?
+        }
+        Command::Standing(made) => {
+            let files = poses::standing::page(&poses::Extent::new(made.quick), verbosity);
+            keep(&made, files, "the page of estimated poses", "standing")?
         }
     });
     Ok(())

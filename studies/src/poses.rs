@@ -20,6 +20,7 @@ mod one;
 mod output;
 mod placebo;
 mod scenes;
+pub(crate) mod standing;
 mod tally;
 mod trained;
 mod unknown;

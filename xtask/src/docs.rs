@@ -33,11 +33,12 @@ pub(crate) fn all(check: bool) -> Result<(), Fault> {
     studies::page("decisions", check)?;
     of_runs(check)?;
     studies::page("poses", check)?;
+    studies::page("standing", check)?;
     studies::page("report", check)
 }
 
 /// Checks that generated documents are up to date: all but the picture that a board's program is
-/// built for ([`asymmetry_is_current`]) and the three pages of the studies, which take longer than
+/// built for ([`asymmetry_is_current`]) and the pages of the studies, which take longer than
 /// all others. Those are only made, in short; the nightly run checks them.
 pub(crate) fn short() -> Result<(), Fault> {
     from_tables(true)?;

@@ -46,19 +46,19 @@ pub(crate) fn experiments() -> Result<(), Fault> {
     run(experiments.arg(target().join("nightly")))
 }
 
-/// Makes a page, `decisions`, `poses` or `report`, or checks that it is up to date. They show
+/// Makes a page, `decisions`, `poses`, `standing` or `report`, or checks that it is up to date. They show
 /// docs/measured/instructions.csv, which `cargo xtask count` writes.
 pub(crate) fn page(page: &str, check: bool) -> Result<(), Fault> {
     run(program().arg(page).args(check.then_some("--check")))
 }
 
-/// Makes the three pages in short, in a folder of their own.
+/// Makes the pages in short, in a folder of their own.
 pub(crate) fn pages_in_short() -> Result<(), Fault> {
     let folder = target().join("studies");
     let counted = "instructions.csv";
     let there = read_bytes(&top().join("docs/measured").join(counted))?;
     write(&folder.join(counted), &there)?;
-    for page in ["decisions", "poses", "report"] {
+    for page in ["decisions", "poses", "standing", "report"] {
         let quick = ["--quiet", page, "--quick", "--out"];
         run(program().args(quick).arg(&folder))?;
     }

@@ -211,6 +211,7 @@ fn nothing_is_decided_in_the_air() {
             thresholds: None,
             prior: None,
             contact_min: None,
+            pose: false,
             whiskers: Deciding::First,
         });
         let classifier = Classifier::new(model.clone(), rule).unwrap();

@@ -237,8 +237,7 @@ def read(
     path: str | PathLike[str], *, channels: tuple[str, str] = ("x", "y")
 ) -> NDArray[np.void]:
     """Reads a recording's file, as `host-sim record` and `whisker capture` write it: its rows, as
-    `record` returns them, with `contact`, `touch` and `pose` where the file has them, and with its
-    rate. `channels` are the columns that are read as the two channels.
+    `record` returns them, with the columns that the file has, and with its rate. `channels` are the columns that are read as the two channels.
     """
 def record(
     scene: _Scene, *, seed: int | None = None, set: Mapping[str, Any] | None = None

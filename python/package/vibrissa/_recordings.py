@@ -16,7 +16,7 @@ class Prepared(NamedTuple):
     """What the core takes of a recording."""
 
     name: str
-    streams: list[tuple[str, str, int, int, str | None]]
+    streams: list[tuple[str, str, int, int, str | None, tuple[float, float] | None]]
     samples: np.ndarray
     contact: np.ndarray | None
     touch: np.ndarray | None
@@ -65,6 +65,15 @@ def _pose(poses: np.ndarray | None, row: int) -> str | None:
     return str(poses[row])
 
 
+def _stands(of_row: list[np.ndarray | None], row: int) -> tuple[float, float] | None:
+    """Tilt and depth, where both are there."""
+    values = [values[row] for values in of_row if values is not None]
+    if len(values) < len(of_row) or any(map(_is_missing, values)):
+        return None
+    tilt, depth = map(float, values)
+    return tilt, depth
+
+
 def _touches(name: str, values: np.ndarray) -> np.ndarray:
     """Numbers of touches, or truths."""
     for row, value in enumerate(values if values.dtype.kind in "Of" else ()):
@@ -87,7 +96,8 @@ def prepared(name: str, recording: Any, channels: tuple[str, str]) -> Prepared:
     label, trial = _tokens(name, "label", label), _tokens(name, "trial", trial)
     contact, touch = _column(recording, "contact"), _column(recording, "touch")
     pose = _column(recording, "pose")
-    columns = {**found, "contact": contact, "touch": touch, "pose": pose}
+    stands = {column: _column(recording, column) for column in ("tilt_deg", "depth_deg")}
+    columns = {**found, "contact": contact, "touch": touch, "pose": pose, **stands}
     for column, values in columns.items():
         if values is not None and values.shape != label.shape:
             raise ValueError(f"{name}: {column} has the shape {values.shape}, not {label.shape}")
@@ -96,7 +106,7 @@ def prepared(name: str, recording: Any, channels: tuple[str, str]) -> Prepared:
     changes = np.flatnonzero((label[1:] != label[:-1]) | (trial[1:] != trial[:-1])) + 1
     ends = [0, *changes.tolist(), len(label)]
     streams = [
-        (str(label[a]), str(trial[a]), a, b, _pose(pose, a))
+        (str(label[a]), str(trial[a]), a, b, _pose(pose, a), _stands(list(stands.values()), a))
         for a, b in zip(ends, ends[1:])
         if b > a
     ]

@@ -106,7 +106,8 @@ def train(
     """Trains a model; its bytes are what a board runs.
 
     A recording is a path, as of a file that ``read`` reads, or has the columns ``label``, ``trial``, ``x``, ``y`` and, where samples are of the
-    air too, ``contact`` and ``touch``, and where the surface was held in several ways, ``pose``: a
+    air too, ``contact`` and ``touch``, where the surface was held in several ways, ``pose``, and where
+    it is known how, ``tilt_deg`` and ``depth_deg``, which the model then learns to estimate: a
     structured array as ``record`` returns it, a dictionary of arrays, or a table of pandas. Where
     all of ``touch`` that is not 0 is the same, each rise begins a touch. Several, as a list or by
     their names in a dictionary, are each held out to tell what is to be expected of another one.

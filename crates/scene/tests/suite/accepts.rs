@@ -109,6 +109,7 @@ fn every_key_reaches_its_field() {
             thresholds: None,
             prior: None,
             contact_min: None,
+            pose: false,
             whiskers: Deciding::First,
         }),
     };

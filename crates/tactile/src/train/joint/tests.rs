@@ -35,6 +35,7 @@ fn blocks(samples: Vec<[f64; 2]>, touches: Vec<u16>, block: u32) -> Blocks {
         label: String::from("a"),
         recording: String::new(),
         pose: None,
+        stands: None,
         samples,
         touches,
     };
