@@ -68,9 +68,9 @@ mod tests {
                 defaults += 1;
             }
         }
-        // Nineteen of the motor, fourteen of the plant, ten of the sensor, two of telemetry, one of
-        // the head, of whisking and of the classifier.
-        assert_eq!(defaults, 49);
+        // Twenty of the motor, fourteen of the plant, ten of the sensor, two of telemetry, one of
+        // the head and of whisking, two of the classifier.
+        assert_eq!(defaults, 50);
     }
 
     #[test]

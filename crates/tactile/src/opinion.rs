@@ -114,7 +114,8 @@ impl Opinion {
     }
 
     /// Takes a sample of a model's codes.
-    #[inline]
+    // As fast as this crate is built, which a board's program for size is not.
+    #[inline(never)]
     pub(crate) fn push(&mut self, narrow: Narrow, codes: &[i32], counts: bool) {
         if let [x, y, ..] = *codes {
             self.differences.push([narrow.of(x), narrow.of(y)], counts);

@@ -34,10 +34,13 @@ fn a_recording_has_the_number_of_the_pose_where_poses_differ() {
     }
     let header = |file: &str| place.text(file).lines().next().unwrap().to_owned();
     assert_eq!(header("alike.csv"), "label,trial,x,y,contact,touch");
-    assert_eq!(header("differ.csv"), "label,trial,x,y,contact,touch,pose");
+    let differ = "label,trial,x,y,contact,touch,pose,tilt_deg,depth_deg";
+    assert_eq!(header("differ.csv"), differ);
 
     let text = place.text("differ.csv");
     let rows = cells(&text);
+    // The scene's own: only readings differ.
+    assert!(rows[1..].iter().all(|row| row[7] == "20" && row[8] == rows[1][8]));
     let of_row: Vec<[&str; 3]> = rows[1..]
         .iter()
         .map(|row| [row[0], row[1], row[6]])

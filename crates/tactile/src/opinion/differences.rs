@@ -79,7 +79,6 @@ impl Differences {
     }
 
     /// Takes a narrow sample. One that does not count is of the air: rest follows it by 1/256.
-    #[inline]
     pub(crate) fn push(&mut self, sample: [i16; 2], counts: bool) {
         if counts {
             self.add(sample);
@@ -94,7 +93,6 @@ impl Differences {
     }
 
     /// Adds a sample that is not yet kept.
-    #[inline]
     fn add(&mut self, sample: [i16; 2]) {
         self.counted = self.counted.wrapping_add(1);
         for (total, code) in self.totals.iter_mut().zip(sample) {
