@@ -86,8 +86,35 @@ impl fmt::Display for TrainingReport<'_> {
             };
             write!(f, "\n{held_out}")?;
         }
+        write!(f, "{}", Standing(self.0))?;
         for warning in &report.warnings {
             write!(f, "\nwarning: {}", InWords(warning))?;
+        }
+        Ok(())
+    }
+}
+
+/// By how much estimates of tilt and depth were wrong; nothing where none were learnt.
+struct Standing<'a>(&'a JointModel);
+
+impl fmt::Display for Standing<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let opinion = self.0.opinion.as_ref();
+        let classes = opinion.map_or(&[][..], |opinion| &opinion.pose_errors);
+        let errors = self.0.names.iter().zip(classes);
+        let errors = errors.filter_map(|(name, stages)| Some((name, stages.last()?, stages.len())));
+        for (n, (name, [tilt, depth], blocks)) in errors.enumerate() {
+            if n == 0 {
+                let samples = blocks * self.0.options.block as usize;
+                write!(
+                    f,
+                    "\nErrors of tilt and depth after {samples} samples, in poses that were held out:"
+                )?;
+            }
+            write!(f, " {name} {tilt:.2}, {depth:.2};")?;
+        }
+        if !classes.is_empty() {
+            writeln!(f, " for this sensor and these surfaces")?;
         }
         Ok(())
     }

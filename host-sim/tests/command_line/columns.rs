@@ -40,7 +40,11 @@ fn a_recording_has_the_number_of_the_pose_where_poses_differ() {
     let text = place.text("differ.csv");
     let rows = cells(&text);
     // The scene's own: only readings differ.
-    assert!(rows[1..].iter().all(|row| row[7] == "20" && row[8] == rows[1][8]));
+    assert!(
+        rows[1..]
+            .iter()
+            .all(|row| row[7] == "20" && row[8] == rows[1][8])
+    );
     let of_row: Vec<[&str; 3]> = rows[1..]
         .iter()
         .map(|row| [row[0], row[1], row[6]])

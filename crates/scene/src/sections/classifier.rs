@@ -121,7 +121,7 @@ keys! {
             .optional("the gate of the model; without one every sample is classified"),
 
         /// Whether the tilt of what is named and the depth of its contact are estimated, each with
-        /// its error. The model must have learnt it
+        /// its error for the sensor and the surfaces of training. The model must have learnt it
         /// ([textures.md](textures.md#how-what-is-touched-stands)).
         pose: bool = yes_or_no().default("false"),
 

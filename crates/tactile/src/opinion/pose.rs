@@ -8,7 +8,9 @@
 //! with weights of their own for each class and k, as friction turns a deflection as a tilt does:
 //! of a surface whose friction is not known the tilt cannot be. The error beside an estimate is the
 //! root mean square over touches of poses that its weights have not seen; an estimate stays within
-//! the poses of training.
+//! the poses of training. Both hold for the sensor and the surfaces of training: another scale, a
+//! turn about the shaft and another friction bend a whisker as another pose does, and the error
+//! knows of them only what differed between the recordings.
 
 use super::STATES;
 use super::section::begun;
