@@ -34,7 +34,9 @@ const SEED: &str = "1";
 
 /// What runs on this PC: the main job, whose output and files are what the generated documents must
 /// hold, and all that is built beside the product.
-const ON_THE_PC: [Step; 7] = [
+const ON_THE_PC: [Step; 8] = [
+    // One target after the other for a few seconds by the clock.
+    ("untrusted input", fuzz::short),
     ("main job and documents", docs::short),
     ("chips as described", descriptions::compare),
     ("the book", the_book),
@@ -71,7 +73,6 @@ fn in_order(steps: &Steps) -> Result<(), Fault> {
     steps.run("lints", lints)?;
     steps.run("tests", tests)?;
     steps.run("dependencies", dependencies::check)?;
-    steps.run("untrusted input", fuzz::short)?;
     steps.beside(&[&ON_THE_BOARDS, &ON_THE_PC])?;
     // With the processors to itself.
     steps.run("page, frames counted", || page::count_frames(None))

@@ -30,7 +30,7 @@ impl Emulated {
 
     /// Builds the program to which any scene is deployed.
     pub(crate) fn deployed(board: Board) -> Result<Self, Fault> {
-        let any_scene = firmware::kept(|| firmware::build_any_scene(board))?;
+        let any_scene = firmware::build_any_scene(board)?;
         Ok(Self {
             board,
             any_scene: Some(any_scene),
@@ -40,7 +40,7 @@ impl Emulated {
     fn program(&self, scene: &Path) -> Result<PathBuf, Fault> {
         match &self.any_scene {
             Some(program) => Ok(program.clone()),
-            None => firmware::build_kept(self.board, scene),
+            None => firmware::build(self.board, scene),
         }
     }
 }
@@ -157,7 +157,7 @@ pub(crate) fn picture(board: Board, scenes: &[PathBuf], out: &Path) -> Result<()
     let mut command = workspace_program("emulator");
     command.arg("picture");
     for scene in scenes {
-        let program = firmware::build_kept(board, scene)?;
+        let program = firmware::build(board, scene)?;
         command.arg(absolute(scene)?).arg("--program").arg(program);
     }
     run(command.arg("--out").arg(absolute(out)?))

@@ -132,7 +132,6 @@ fn on_boards(boards: &[Board], scenes: &[PathBuf], hours: f64) -> Result<Vec<Sha
             board: Some((*board, program.clone())),
         };
         if !shard.file().exists() {
-            // The next build takes the place of the last.
             write(&program, read_bytes(&firmware::build(*board, &scene)?)?)?;
         }
         shards.push(shard);

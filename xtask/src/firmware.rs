@@ -1,5 +1,7 @@
 //! The firmware of a scene: building and measuring it.
 
+use std::collections::BTreeMap;
+use std::ffi::{OsStr, OsString};
 use std::fmt::Display;
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -84,57 +86,59 @@ pub(crate) fn every_part(board: Board) -> &'static [&'static str] {
 }
 
 /// Builds the firmware of `scene` with warnings as errors, the scene linked and of the parts that
-/// it needs; gives the ELF file.
+/// it needs; gives the ELF file, as all that build here do: a copy, as the next program is built in
+/// the place of the last. What was built before is not built again. Several threads may ask for
+/// programs, which are built one after the other.
 pub(crate) fn build(board: Board, scene: &Path) -> Result<PathBuf, Fault> {
-    built(board, scene, &[])
-}
-
-pub(crate) fn build_any_scene(board: Board) -> Result<PathBuf, Fault> {
-    run(&mut compiler(board, every_part(board)))?;
-    Ok(elf(board))
-}
-
-fn built(board: Board, scene: &Path, more: &[&str]) -> Result<PathBuf, Fault> {
-    let scene = find(scene)?;
-    let linked = linked(board, &scene)?;
-    let linked = linked.map_err(|reason| format!("{}: {reason}", scene.display()))?;
-    run(linked.compiler(board).args(more))?;
-    Ok(elf(board))
-}
-
-/// The same, kept apart: the next program is built in the place of the last. Several threads
-/// may ask for programs, which are built one after the other.
-pub(crate) fn build_kept(board: Board, scene: &Path) -> Result<PathBuf, Fault> {
-    kept(|| build(board, scene))
-}
-
-pub(crate) fn kept(build: impl FnOnce() -> Result<PathBuf, Fault>) -> Result<PathBuf, Fault> {
-    static BUILT: Mutex<u32> = Mutex::new(0);
-    // A build that has panicked has left nothing that another needs.
-    let mut built = BUILT.lock().unwrap_or_else(PoisonError::into_inner);
-    let program = read_bytes(&build()?)?;
-    *built += 1;
-    let kept = target().join(format!("kept/{}.elf", *built));
-    write(&kept, program)?;
-    Ok(kept)
-}
-
-/// As [`build`], with checks of overflow, which panic.
-pub(crate) fn build_checked(board: Board, scene: &Path) -> Result<PathBuf, Fault> {
-    let checks = ["--config", "profile.firmware.overflow-checks=true"];
-    built(board, scene, &checks)
+    try_build(board, scene)?
 }
 
 /// As [`build`], or why the board does not take the scene.
 pub(crate) fn try_build(board: Board, scene: &Path) -> Result<Result<PathBuf, String>, Fault> {
+    try_built(board, scene, &[])
+}
+
+/// As [`build`], with checks of overflow, which panic, in the crate of the module: with checks in
+/// all of them, its dependencies and what writes code at compile time would be compiled again.
+pub(crate) fn build_checked(board: Board, scene: &Path) -> Result<PathBuf, Fault> {
+    let checks = "profile.firmware.package.firmware.overflow-checks=true";
+    try_built(board, scene, &["--config", checks])?
+}
+
+pub(crate) fn build_any_scene(board: Board) -> Result<PathBuf, Fault> {
+    kept(board, compiler(board, every_part(board)), Vec::new())
+}
+
+fn try_built(board: Board, scene: &Path, more: &[&str]) -> Result<Result<PathBuf, String>, Fault> {
     let scene = find(scene)?;
-    match linked(board, &scene)? {
-        Ok(linked) => {
-            run(&mut linked.compiler(board))?;
-            Ok(Ok(elf(board)))
-        }
-        Err(reason) => Ok(Err(format!("{}: {reason}", scene.display()))),
+    let linked = match linked(board, &scene)? {
+        Ok(linked) => linked,
+        Err(reason) => return Ok(Err(format!("{}: {reason}", scene.display()))),
+    };
+    let mut compiler = linked.compiler(board);
+    compiler.args(more);
+    let model = linked.model.as_deref().map(read_bytes).transpose()?;
+    let data = vec![linked.image.bytes.to_vec(), model.unwrap_or_default()];
+    kept(board, compiler, data).map(Ok)
+}
+
+/// Programs by the arguments of their compiler and what they link.
+type Built = BTreeMap<(Vec<OsString>, Vec<Vec<u8>>), PathBuf>;
+
+fn kept(board: Board, mut compiler: Command, linked: Vec<Vec<u8>>) -> Result<PathBuf, Fault> {
+    static BUILT: Mutex<Built> = Mutex::new(Built::new());
+    // A build that has panicked has left nothing that another needs.
+    let mut built = BUILT.lock().unwrap_or_else(PoisonError::into_inner);
+    let arguments = compiler.get_args().map(OsStr::to_owned).collect();
+    let made_of = (arguments, linked);
+    if let Some(kept) = built.get(&made_of) {
+        return Ok(kept.clone());
     }
+    run(&mut compiler)?;
+    let kept = target().join(format!("kept/{}.elf", built.len() + 1));
+    write(&kept, read_bytes(&elf(board))?)?;
+    built.insert(made_of, kept.clone());
+    Ok(kept)
 }
 
 /// Flashes a program onto a NUCLEO-F446RE and shows its log.
@@ -213,7 +217,8 @@ fn compiler(board: Board, parts: &[&str]) -> Command {
     command
 }
 
-fn elf(board: Board) -> PathBuf {
+/// Where cargo puts a board's program.
+pub(crate) fn elf(board: Board) -> PathBuf {
     elf_in(board, &target())
 }
 

@@ -2,9 +2,10 @@
 
 use std::path::{Path, PathBuf};
 use std::process::Command;
+use std::sync::Mutex;
 use std::{env, fs};
 
-use crate::run::{Fault, cargo, listing, output, read, remove, run, target, top};
+use crate::run::{Fault, cargo, listing, once, output, read, remove, run, target, top};
 use crate::traces;
 
 /// The oldest Python that the wheel is for.
@@ -227,11 +228,9 @@ pub(crate) fn to_write(name: &str) -> PathBuf {
     place(name)
 }
 
-/// The program that runs the page's tests, with Selenium.
+/// The program that runs the page's tests, with Selenium, in an environment that is made once.
 pub(crate) fn with_browser() -> Result<PathBuf, Fault> {
-    environment(
-        &newest()?,
-        "browser",
-        &["pytest", "pytest-xdist", "selenium"],
-    )
+    static MADE: Mutex<Option<PathBuf>> = Mutex::new(None);
+    let packages = ["pytest", "pytest-xdist", "selenium"];
+    once(&MADE, || environment(&newest()?, "browser", &packages))
 }

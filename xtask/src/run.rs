@@ -4,7 +4,7 @@ use std::fs;
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 use std::process::Command;
-use std::sync::{Mutex, OnceLock};
+use std::sync::{Mutex, OnceLock, PoisonError};
 use std::thread;
 
 use scene::file;
@@ -188,6 +188,20 @@ pub(crate) fn each<T: Send>(
         }
     });
     no_faults(&faults.into_inner().unwrap_or_default())
+}
+
+/// What `make` made when it was done first: several steps use it.
+pub(crate) fn once(
+    made: &Mutex<Option<PathBuf>>,
+    make: impl FnOnce() -> Result<PathBuf, Fault>,
+) -> Result<PathBuf, Fault> {
+    // Making that has panicked has left none.
+    let mut made = made.lock().unwrap_or_else(PoisonError::into_inner);
+    if let Some(path) = &*made {
+        return Ok(path.clone());
+    }
+    let path = make()?;
+    Ok(made.insert(path).clone())
 }
 
 /// Installs a subcommand of cargo, unless it is there.

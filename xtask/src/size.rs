@@ -73,7 +73,9 @@ pub(crate) fn all(csv: Option<&Path>, check: bool) -> Result<(), Fault> {
     }
 }
 
-pub(crate) fn print(board: Board, scene: &str, elf: &Path) -> Result<(), Fault> {
+/// Prints what the program takes that was built last, and where it is.
+pub(crate) fn print(board: Board, scene: &str) -> Result<(), Fault> {
+    let elf = &firmware::elf(board);
     let Size { flash, ram } = Size::of(elf)?;
     println!(
         "{scene} on {}: flash {flash} bytes, scene and model {} bytes more, static RAM {ram} bytes, \

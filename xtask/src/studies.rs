@@ -23,7 +23,8 @@ pub(crate) fn format() -> Result<(), Fault> {
     run(&mut cargo(&["fmt", "--manifest-path", MANIFEST, "--check"]))
 }
 
-/// Lints and tests; with a seed, properties are tried on the same cases in each run.
+/// Lints and tests, which make two of the pages in short; with a seed, properties are tried on the
+/// same cases in each run.
 pub(crate) fn check(seed: Option<&str>) -> Result<(), Fault> {
     let lints = ["--all-targets", "--", "-D", "warnings"];
     run(in_workspace("clippy").args(lints))?;
@@ -52,15 +53,12 @@ pub(crate) fn page(page: &str, check: bool) -> Result<(), Fault> {
     run(program().arg(page).args(check.then_some("--check")))
 }
 
-/// Makes the pages in short, in a folder of their own.
-pub(crate) fn pages_in_short() -> Result<(), Fault> {
+/// Makes the accuracy report, in a folder of its own. The tests make the other pages in short.
+pub(crate) fn report_in_short() -> Result<(), Fault> {
     let folder = target().join("studies");
     let counted = "instructions.csv";
     let there = read_bytes(&top().join("docs/measured").join(counted))?;
     write(&folder.join(counted), &there)?;
-    for page in ["decisions", "poses", "standing", "report"] {
-        let quick = ["--quiet", page, "--quick", "--out"];
-        run(program().args(quick).arg(&folder))?;
-    }
-    Ok(())
+    let quick = ["--quiet", "report", "--quick", "--out"];
+    run(program().args(quick).arg(&folder))
 }
