@@ -261,9 +261,11 @@ pub fn write(table: impl Write, decisions: &[Decided], columns: Columns) -> io::
     table.write_record(columns.indices().map(|index| COLUMNS[index].name))?;
     for d in decisions {
         let [reason, among] = d.why();
-        let cell = |value: f64| match value.is_nan() {
-            true => String::new(),
-            false => format!("{value:.2}"),
+        let cell = |value: f64| {
+            if value.is_nan() {
+                return String::new();
+            }
+            format!("{value:.2}")
         };
         let [tilt, tilt_error, depth, depth_error] = d.stands().map(cell);
         let cells = [

@@ -360,6 +360,19 @@ pub fn broken(error: &csv::Error, table: &[u8], above: u64) -> String {
     }
 }
 
+/// The number of a cell in a line.
+fn finite(text: &str, name: &str, line: u64) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(value) if value.is_finite() => Ok(value),
+        _ if text.contains(',') => Err(format!(
+            "line {line}: {name} is {text:?}, not a finite number; a point is needed, no comma"
+        )),
+        _ => Err(format!(
+            "line {line}: {name} is {text:?}, not a finite number"
+        )),
+    }
+}
+
 fn parse(file: &[u8], channels: [&str; 2]) -> Result<Recording, String> {
     if let Some(fault) = origin::foreign(file) {
         return Err(fault);
@@ -404,19 +417,7 @@ fn parse(file: &[u8], channels: [&str; 2]) -> Result<Recording, String> {
     while table.read_record(&mut record).map_err(broken)? {
         let line = line_of(rows, above, record.position());
         let cell = |place: usize| record.get(place).unwrap_or_default();
-        let number = |name: &str, place: usize| -> Result<f64, String> {
-            let text = cell(place);
-            match text.parse::<f64>() {
-                Ok(value) if value.is_finite() => Ok(value),
-                _ if text.contains(',') => Err(format!(
-                    "line {line}: {name} is {text:?}, not a finite number; a point is needed, no \
-                     comma"
-                )),
-                _ => Err(format!(
-                    "line {line}: {name} is {text:?}, not a finite number"
-                )),
-            }
-        };
+        let number = |name: &str, place: usize| finite(cell(place), name, line);
         // As wide as it is written.
         let contact_at = |place: usize| match number("contact", place)? {
             contact if (contact as f32).is_finite() => Ok(contact),

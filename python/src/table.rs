@@ -1,7 +1,6 @@
 //! Tables as numpy's structured arrays: rows are packed here, and numpy sees the bytes as they
 //! lie.
 
-use host_sim::bench;
 use host_sim::decisions::{COLUMNS, Columns, Decided, Source};
 use host_sim::trace::{TraceLine, TraceShape, WhiskerRow};
 use numpy::IntoPyArray;

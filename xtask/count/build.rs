@@ -70,6 +70,7 @@ fn joint_model(classes: u32) -> Result<Vec<u8>, Box<dyn Error>> {
                 label: format!("class {class}"),
                 recording: String::new(),
                 pose: None,
+                stands: None,
                 touches: vec![1; samples.len()],
                 samples,
             });

@@ -201,7 +201,9 @@ fn fitted(rows: &[&(&Row<'_>, Vec<f64>)], ridge: f64) -> [Weights; TARGETS] {
         }
     }
     // Codes are whole.
-    scale.iter_mut().for_each(|of| *of = of.sqrt().max(1.0));
+    for of in &mut scale {
+        *of = of.sqrt().max(1.0);
+    }
     let whole = |inputs: &[f64]| -> Vec<f64> {
         let from = inputs.iter().zip(&centre).zip(&scale);
         from.map(|((input, centre), scale)| (input - centre) / scale)
