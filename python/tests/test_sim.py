@@ -88,7 +88,7 @@ def test_decisions_and_posteriors():
     rows = sim.run()
     decisions, posteriors = sim.decisions, sim.posteriors
     names = list(vibrissa.columns("decisions"))
-    assert list(decisions.dtype.names) == names[:7] + names[9:]
+    assert list(decisions.dtype.names) == names[:7] + names[9:11]
     fell = rows["decision"] != ""
     assert np.array_equal(rows["decision"][fell], decisions["decision"])
     assert np.array_equal(rows["t_s"][fell], decisions["t_s"])
@@ -102,6 +102,27 @@ def test_decisions_and_posteriors():
     named = decisions[decisions["decision"] != "unknown"]
     assert np.mean(named["decision"] == named["label"]) > 0.9
     assert all(vibrissa.why(decision) == (None, None) for decision in named)
+
+
+def test_what_is_named_stands_as_it_was_presented():
+    scene = vibrissa.SCENES["bench-textures"]
+    poses = {"classifier.pose": True}
+    heard = vibrissa.record(scene, seed=2, set={"duration_s": 40.0})
+    table = {name: heard[name] for name in heard.dtype.names}
+    columns = ("label", "trial", "tilt_deg")
+    truth = {(str(a), str(b)): c for a, b, c in zip(*(table[name] for name in columns))}
+    sim = vibrissa.Sim(scene, seed=2, set={"duration_s": 40.0, **poses})
+    sim.run(every=1000)
+    named = sim.decisions[sim.decisions["decision"] == "smooth"]
+    errors = [row["tilt_deg"] - truth[row["label"], row["trial"]] for row in named]
+    assert len(errors) > 10 and max(map(abs, errors)) < 0.6
+    assert np.all(named["tilt_error_deg"] < 0.3)
+    refused = sim.decisions[sim.decisions["decision"] == "unknown"]
+    assert np.all(np.isnan(refused["depth_deg"]))
+    # A table of columns teaches as a file does; too few poses do not.
+    assert vibrissa.train(table).classes == sim.classes
+    with pytest.raises(ValueError, match="classifier.pose: found true"):
+        vibrissa.Sim(scene, set=poses, model=vibrissa.train(heard[list(columns[:2]) + ["x", "y"]]))
 
 
 def test_a_decision_that_names_no_class_says_why():

@@ -13,6 +13,10 @@ fn read(text: &str) -> Scene {
     Scene::from_str("s.toml", text).unwrap_or_else(|problems| panic!("{problems}"))
 }
 
+const fn gate(gain: f64) -> GateSettings {
+    GateSettings { gain, tau_s: 0.125 }
+}
+
 #[test]
 fn every_key_reaches_its_field() {
     let text = with(FULL, "[plant]\n", "[motor]\n\n[plant]\n");
@@ -20,8 +24,12 @@ fn every_key_reaches_its_field() {
     let text = with(&text, "duration_s  = 6.0", "duration_s = 6");
     let text = with(&text, "seed        = 1 ", "seed = 0x7fff_ffff_ffff_ffff");
     let text = with(&text, "gain         = 1.0", "gain = [0.5, 2]");
-    let psi = "[[1, -1.5], [0.25, 0.5]]";
-    let text = with(&text, "[[1.0, 0.0], [1.0, 0.0]]", psi);
+    let text = with(
+        &text,
+        "[[1.0, 0.0], [1.0, 0.0]]",
+        "[[1, -1.5], [0.25, 0.5]]",
+    );
+    let text = with(&text, "[classifier]\n", "[classifier]\npose = true\n");
     let expected = Scene {
         name: "A-z_0.9".to_owned(),
         tick_hz: 2000,
@@ -62,14 +70,8 @@ fn every_key_reaches_its_field() {
             start: vec![[1.0, -1.5], [0.25, 0.5]],
             numbers: Numbers::Auto,
         }),
-        rcp: Some(GateSettings {
-            gain: 0.7,
-            tau_s: 0.125,
-        }),
-        cia: Some(GateSettings {
-            gain: 0.5,
-            tau_s: 0.125,
-        }),
+        rcp: Some(gate(0.7)),
+        cia: Some(gate(0.5)),
         motor: Some(MotorSection {
             driver: Driver::HBridge,
             kp: 0.05,
@@ -109,13 +111,12 @@ fn every_key_reaches_its_field() {
             thresholds: None,
             prior: None,
             contact_min: None,
-            pose: false,
+            pose: true,
             whiskers: Deciding::First,
         }),
     };
     assert_eq!(read(&text), expected);
-    assert_eq!(expected.ticks(), 12_000);
-    assert_eq!(expected.whiskers(), 2);
+    assert_eq!((expected.ticks(), expected.whiskers()), (12_000, 2));
 }
 
 #[test]
