@@ -240,6 +240,14 @@ fn root(errors: &[[f64; 2]]) -> [f64; 2] {
     [0, 1].map(|n| Statistics::of(errors.iter().map(|of| of[n])).map_or(f64::NAN, |s| s.rms))
 }
 
+/// A cell of the table; empty where there were no decisions.
+fn figure(value: f64) -> String {
+    if value.is_finite() {
+        return format!("{value:.4}");
+    }
+    String::new()
+}
+
 fn at_decisions(
     page: &mut Page,
     table: &mut String,
@@ -279,17 +287,15 @@ fn at_decisions(
                     continue;
                 }
                 for (seed, cell) in seeds.iter().zip(cells) {
-                    let [tilt, depth] = cell.errors[class].each_ref().map(|of| root(of));
+                    let roots = cell.errors[class].each_ref().map(|of| root(of)).concat();
+                    let figures: Vec<String> = roots.into_iter().map(figure).collect();
                     let count = cell.errors[class][0].len();
                     // Writing to a string does not fail.
                     let _ = writeln!(
                         table,
-                        "{},{texture},{seed},{count},{:.4},{:.4},{:.4},{:.4}",
+                        "{},{texture},{seed},{count},{}",
                         name.replace(',', ";"),
-                        tilt[0],
-                        tilt[1],
-                        depth[0],
-                        depth[1]
+                        figures.join(",")
                     );
                 }
             }
