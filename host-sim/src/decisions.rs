@@ -48,6 +48,12 @@ pub fn stated(decision: Decision, classes: &[String]) -> String {
     }
 }
 
+/// How what was named stands, to people.
+pub fn stands(Pose { tilt, depth }: Pose) -> String {
+    let [tilt, depth] = [tilt, depth].map(|of| format!("{:.1} ± {:.1}", of.value(), of.error()));
+    format!("tilt {tilt}, depth {depth}")
+}
+
 fn in_words(name: &str, reason: Option<Reason>, among: Option<&[String; 2]>) -> String {
     let among = among.map_or([""; 2], |among| among.each_ref().map(String::as_str));
     match lines::why(reason, among).concat().trim_start() {

@@ -12,12 +12,11 @@ use std::process::ExitCode;
 
 use firmware::Event;
 use firmware::lines::{self, Context};
-use tactile::Pose;
 use tactile::name::{self, Shown};
 use wire::Line;
 
 use crate::Error;
-use crate::decisions::{Decided, Score, UNKNOWN};
+use crate::decisions::{self, Decided, Score, UNKNOWN};
 use crate::output::remove_on_interrupt;
 use evaluation::Over;
 pub use evaluation::{Doubts, Figures, Thresholds};
@@ -129,11 +128,7 @@ pub fn decision(decided: &Decided, classes: &[String]) {
     let said = decided.words();
     let stands = decided
         .pose
-        .map_or_else(String::new, |Pose { tilt, depth }| {
-            let [tilt, depth] =
-                [tilt, depth].map(|of| format!("{:.1} ± {:.1}", of.value(), of.error()));
-            format!("  tilt {tilt}, depth {depth}")
-        });
+        .map_or_else(String::new, |pose| format!("  {}", decisions::stands(pose)));
     say(format_args!(
         "{t_s:8.3} s  {said:<8} {sure:>8}  {samples:5} samples  {verdict} ({label}){stands}"
     ));

@@ -9,6 +9,6 @@ mod touches;
 
 pub(crate) use checks::Checks;
 pub(crate) use file::{FIRST_TOUCH, Recording};
-pub(crate) use label::{Label, token};
+pub(crate) use label::{Label, Stands, stands, token};
 pub(crate) use samples::Sampler;
 pub(crate) use touches::Touches;

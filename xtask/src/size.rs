@@ -6,13 +6,13 @@ mod parts;
 mod stack;
 mod table;
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use scene::Scene;
 
 use crate::elf::contents;
 use crate::emulate::head_of_two;
-use crate::emulate::variants::without_telemetry;
+use crate::emulate::variants::{with, without_telemetry};
 use crate::figures::Figure;
 use crate::firmware::{self, Board, Size};
 use crate::run::{Fault, listing, no_faults, read_bytes, top};
@@ -58,6 +58,7 @@ pub(crate) fn all(csv: Option<&Path>, check: bool) -> Result<(), Fault> {
             // A board that does not take it has no line.
             measured.take(board, &scene, None)?;
         }
+        measured.take(board, &judging_poses()?, None)?;
         measured.control(board, Path::new(CONTROL))?;
         if board.facts.has_bus {
             measured.control(board, &head_of_two()?)?;
@@ -88,8 +89,13 @@ pub(crate) fn print(board: Board, scene: &str) -> Result<(), Fault> {
     Ok(())
 }
 
-/// Checks [`SHORT`] on every board, [`TWO_SIDES`], [`JUDGED`] and [`TILT`] on one, and what a
-/// program holds.
+/// [`JUDGED`] where it asks for poses too.
+fn judging_poses() -> Result<PathBuf, Fault> {
+    with(&top().join(JUDGED), &["classifier.pose=true".to_owned()])
+}
+
+/// Checks [`SHORT`] on every board, [`TWO_SIDES`], [`judging_poses`] and [`TILT`] on one, and what
+/// a program holds.
 pub(crate) fn short() -> Result<(), Fault> {
     let mut measured = Measured::default();
     for scene in SHORT {
@@ -100,8 +106,8 @@ pub(crate) fn short() -> Result<(), Fault> {
         }
     }
     let [board, ..] = Board::ALL;
-    for scene in [TWO_SIDES, JUDGED] {
-        if let Some(reason) = measured.take(board, Path::new(scene), None)? {
+    for scene in [top().join(TWO_SIDES), judging_poses()?] {
+        if let Some(reason) = measured.take(board, &scene, None)? {
             return Err(reason);
         }
     }

@@ -11,6 +11,7 @@ use host_sim::recording::{self, CHANNELS, Stream};
 use jiff::Timestamp;
 use scene::file;
 
+use super::label::Stands;
 use super::touches::count;
 
 /// Parts of the origin that must stay the same in one recording.
@@ -25,13 +26,19 @@ pub(crate) struct Recording {
     path: PathBuf,
     /// The pose that is captured.
     pose: Option<String>,
+    /// How samples stand in it.
+    stands: Option<Stands>,
     origin: Origin,
     streams: Vec<Stream>,
 }
 
 impl Recording {
     /// A new recording, or with `resumes` the one that is there.
-    pub(crate) fn open(path: &Path, resumes: bool, pose: Option<&str>) -> Result<Self, Error> {
+    pub(crate) fn open(
+        path: &Path,
+        resumes: bool,
+        (pose, stands): (Option<&str>, Option<Stands>),
+    ) -> Result<Self, Error> {
         output::check(path)?;
         let is_there = path.exists();
         if is_there && !resumes {
@@ -49,6 +56,7 @@ impl Recording {
         Ok(Self {
             path: path.to_owned(),
             pose: pose.map(str::to_owned),
+            stands,
             origin,
             streams,
         })
@@ -113,6 +121,7 @@ impl Recording {
         self.streams
             .extend(streams.into_iter().map(|stream| Stream {
                 pose: self.pose.clone(),
+                stands: self.stands,
                 ..stream
             }));
         let mut output = Output::create(&self.path)?;

@@ -28,6 +28,18 @@ impl FromStr for Label {
     }
 }
 
+/// Tilt and depth.
+pub(crate) type Stands = [f64; 2];
+
+/// How samples stand, as `TILT,DEPTH`.
+pub(crate) fn stands(text: &str) -> Result<Stands, String> {
+    let number = |text: &str| text.trim().parse().ok().filter(|of: &f64| of.is_finite());
+    let read = text
+        .split_once(',')
+        .and_then(|(tilt, depth)| Some([number(tilt)?, number(depth)?]));
+    read.ok_or_else(|| "allowed: two numbers with a comma between them".to_owned())
+}
+
 /// What may stand in a recording: a label, or a pose.
 pub(crate) fn token(text: &str) -> Result<String, String> {
     if text.trim().is_empty() {

@@ -12,7 +12,7 @@ use toml_edit::DocumentMut;
 use wire::Command;
 
 use super::order::SideName;
-use crate::capture::{Checks, Label, Recording, Sampler, Touches, token};
+use crate::capture::{Checks, Label, Recording, Sampler, Stands, Touches, stands, token};
 use crate::conversation::Conversation;
 use crate::source::{Source, SourceChoice, seconds};
 use crate::tally::{Before, Tally, side};
@@ -43,6 +43,10 @@ pub(crate) struct Arguments {
     /// What this pose of the samples is called; with --resume others can follow in one file
     #[arg(long, value_name = "NAME", value_parser = token)]
     pose: Option<String>,
+    /// How the samples stand in this pose: their tilt and how deep they reach, in any units; from six
+    /// values of each on a model estimates them
+    #[arg(long, value_name = "TILT,DEPTH", requires = "pose", allow_hyphen_values = true, value_parser = stands)]
+    stands: Option<Stands>,
     /// For how long nothing may be touched
     #[arg(long, value_name = "S", default_value = "10", value_parser = seconds)]
     patience: f64,
@@ -65,8 +69,8 @@ pub(crate) fn capture(arguments: &Arguments, verbosity: Verbosity) -> Result<(),
         let fault = format!("--label: found {:?} twice, allowed: once", labels[n].name);
         return Err(Error::Input(fault));
     }
-    let pose = arguments.pose.as_deref();
-    let recording = Recording::open(&arguments.out, arguments.resume, pose)?;
+    let held = (arguments.pose.as_deref(), arguments.stands);
+    let recording = Recording::open(&arguments.out, arguments.resume, held)?;
     let missing = |label: &&Label| recording.touches(&label.name) < wanted;
     let missing: Vec<&Label> = labels.iter().filter(missing).collect();
     if missing.is_empty() {

@@ -119,6 +119,9 @@ impl History {
                 let said = decisions::stated(*decision, &self.module_classes);
                 format!("{t_s:8.3} {}{said} {}", of(place), decision.samples())
             }
+            Event::Pose(place, pose) => {
+                format!("{t_s:8.3} {}  {}", of(place), decisions::stands(*pose))
+            }
             _ => return None,
         })
     }

@@ -12,7 +12,7 @@ use mcap::records::{MessageHeader, Metadata};
 use mcap::write::NoSeek;
 use mcap::{McapError, WriteOptions, Writer};
 use serde_json::{Value, json};
-use tactile::Reason;
+use tactile::{Pose, Reason};
 use wire::{Answer, TickRecord};
 
 use crate::faults::number;
@@ -37,6 +37,7 @@ struct Channels {
     records: [u16; 2],
     answers: u16,
     decisions: u16,
+    poses: u16,
     events: u16,
     log: u16,
 }
@@ -76,6 +77,7 @@ impl Messages {
                 ],
                 answers: channel("/answers", "whisker.Answer", answer_schema())?,
                 decisions: channel("/decisions", "whisker.Decision", decision_schema())?,
+                poses: channel("/poses", "whisker.Pose", pose_schema())?,
                 events: channel("/events", "whisker.Event", event_schema())?,
                 // The one that Foxglove's panel of logs reads.
                 log: channel("/log", "foxglove.Log", log_schema())?,
@@ -120,6 +122,17 @@ impl Messages {
                     "among": among.as_ref().map_or(&[][..], |among| among),
                 });
                 (self.channels.decisions, message)
+            }
+            Event::Pose(place, Pose { tilt, depth }) => {
+                let message = json!({
+                    "t_s": t_s,
+                    "side": place.side_name(),
+                    "tilt_deg": tilt.value(),
+                    "tilt_error_deg": tilt.error(),
+                    "depth_deg": depth.value(),
+                    "depth_error_deg": depth.error(),
+                });
+                (self.channels.poses, message)
             }
             event => {
                 let Some((_, said)) = report::said(event, &self.classes) else {
@@ -237,6 +250,17 @@ fn decision_schema() -> Value {
             "items": {"type": "string"},
             "description": "the two classes of between, the likelier one first; otherwise empty",
         },
+    })
+}
+
+fn pose_schema() -> Value {
+    json!({
+        "t_s": {"type": "number", "description": "when its decision fell, s"},
+        "side": {"type": "string"},
+        "tilt_deg": {"type": "number", "description": "tilt of what was named"},
+        "tilt_error_deg": {"type": "number", "description": "root mean square of its error"},
+        "depth_deg": {"type": "number", "description": "depth of contact"},
+        "depth_error_deg": {"type": "number", "description": "root mean square of its error"},
     })
 }
 

@@ -96,7 +96,7 @@ fn a_file_is_not_overwritten_but_gone_on_with() {
 fn a_file_has_several_poses() {
     let place = Place::new();
     let capture = "capture --sim bench.toml --out c.csv --label smooth --touches 2";
-    let ran = place.done(&format!("{capture} --pose flat"));
+    let ran = place.done(&format!("{capture} --pose flat --stands -1.5,20"));
     ran.prints("\nnext: another sample, as a model tells samples apart");
     place.done(&format!("{capture} --pose tilted --resume"));
     let streams = recording(&place, "c.csv");
@@ -106,6 +106,13 @@ fn a_file_has_several_poses() {
         .map(|stream| stream.pose.as_deref())
         .collect();
     assert_eq!(poses, [Some("flat"), Some("tilted")]);
+    let stands: Vec<_> = streams.iter().map(|stream| stream.stands).collect();
+    assert_eq!(stands, [Some([-1.5, 20.0]), None]);
+    let other = format!("{capture} --pose other --resume --stands");
+    place.refuses(
+        &format!("{other} 3"),
+        "allowed: two numbers with a comma between them",
+    );
     let ran = place.done(&format!("{capture} --pose flat --resume"));
     ran.prints("2 touches of each label already");
 }

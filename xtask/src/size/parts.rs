@@ -64,6 +64,7 @@ fn is_named(part: &str, named: Named<'_>, has_fpu: bool) -> Result<bool, Fault> 
             let may = awaits || model.is_some_and(ModelBuf::has_opinion);
             has_fpu && classifier.is_some() && may
         }
+        "poses" => has_fpu && classifier.is_some_and(|classifier| classifier.pose),
         "sequential rule" => matches!(rule, Some(Rule::Sequential { .. } | Rule::Costs { .. })),
         "window rule" => matches!(rule, Some(Rule::Window { .. })),
         // What a model says of touches is in single precision, and read at the start.

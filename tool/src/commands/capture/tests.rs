@@ -51,7 +51,7 @@ fn streams(more: &[&str], around: Around, alter: Alter) -> (usize, Vec<Stream>) 
         alter,
         around,
     };
-    let recording = Recording::open(&out, false, None).unwrap();
+    let recording = Recording::open(&out, false, (None, None)).unwrap();
     let labels: Vec<&Label> = arguments.labels.iter().collect();
     let source = Box::new(source);
     let warnings = complete(recording, &labels, source, &arguments, Verbosity::Quiet).unwrap();
