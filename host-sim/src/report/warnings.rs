@@ -67,12 +67,17 @@ impl fmt::Display for InWords<'_> {
             ),
             Warning::NoPose {
                 name,
-                values,
+                what,
+                found,
                 least,
             } => write!(
                 f,
-                "no poses are estimated: of {name} there are {values} values of tilt_deg or \
-                 depth_deg that it can be learnt from, and it needs {least} of each"
+                "no poses are estimated: too few {what} of {name}: {found}, needs {least}"
+            ),
+            Warning::WidePose { found, most } => write!(
+                f,
+                "no poses are estimated: tilt_deg or depth_deg is {found}, allowed: -{most} to \
+                 {most}; take another unit, or another zero"
             ),
             Warning::Alike { names, mistaken } => write!(
                 f,

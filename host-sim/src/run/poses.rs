@@ -123,7 +123,7 @@ fn own(scene: &Scene) -> Vec<[f64; 2]> {
     whiskers.filter_map(own).collect()
 }
 
-/// The farthest θ′ of a whisk that meets nothing, without noise, degrees: BIOTACT eqs. 6 to 8 on
+/// The farthest θ′ of a whisk that meets nothing, without noise and RCP, degrees: BIOTACT eqs. 6 to 8 on
 /// the limit cycle, the whisks after the first being alike to a thousandth of a degree.
 fn farthest_deg(gain: f64) -> f64 {
     /// Of a whisk, whose frequency does not matter: ω_n T = 10.

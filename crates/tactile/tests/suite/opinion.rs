@@ -236,6 +236,41 @@ fn poses_are_estimated_of_the_class_that_is_named() {
     }
 }
 
+/// A placebo: of poses that belong to other presentations nothing is learnt, and the errors are
+/// those of guessing the middle of ±5 and ±2 of even chance.
+#[test]
+fn poses_of_others_are_only_guessed() {
+    let all: Vec<Trial> = (0..48)
+        .map(|n| standing(["smooth", "rough"][n as usize % 2], 0.0, n))
+        .collect();
+    let permuted = (0..all.len()).map(|n| Trial {
+        stands: all[(n + 18) % all.len()].stands,
+        ..all[n].clone()
+    });
+    let trained = train(&permuted.collect::<Vec<_>>(), &Options::default()).unwrap();
+    for stages in &trained.opinion.unwrap().pose_errors {
+        for [tilt, depth] in stages {
+            assert!((2.2..4.0).contains(tilt), "{tilt}");
+            assert!((0.85..1.6).contains(depth), "{depth}");
+        }
+    }
+}
+
+#[test]
+fn a_depth_that_cannot_be_said_is_not_learnt() {
+    let trials: Vec<Trial> = (0..48)
+        .map(|n| {
+            let trial = standing(["smooth", "rough"][n as usize % 2], 0.0, n);
+            let stands = trial.stands.map(|[tilt, depth]| [tilt, 320.0 + depth]);
+            Trial { stands, ..trial }
+        })
+        .collect();
+    let trained = train(&trials, &Options::default()).unwrap();
+    let is_wide = |warning: &Warning| matches!(warning, Warning::WidePose { .. });
+    assert!(trained.report.warnings.iter().any(is_wide));
+    assert!(!trained.model().unwrap().has_pose());
+}
+
 #[test]
 fn few_values_of_a_pose_are_said_to_be_too_few() {
     let trials: Vec<Trial> = (0..48)
@@ -250,7 +285,8 @@ fn few_values_of_a_pose_are_said_to_be_too_few() {
     let warned = trained.report.warnings.iter();
     let lacks = Warning::NoPose {
         name: "smooth".to_owned(),
-        values: 1,
+        what: "values of tilt_deg or depth_deg",
+        found: 1,
         least: 6,
     };
     assert_eq!(warned.filter(|warning| **warning == lacks).count(), 1);

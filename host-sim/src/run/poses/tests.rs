@@ -24,6 +24,30 @@ fn drawn(poses: &mut Poses, count: usize) -> Vec<[f64; 3]> {
     (0..count).map(pose).collect()
 }
 
+/// By the module's own whisk in the air, whose exact integrator shares no code with it.
+#[test]
+fn depth_is_how_far_the_free_whisk_goes_beyond_the_surface() {
+    let scene = scene(ALL);
+    let mut poses = Poses::new(&scene);
+    let pose = poses.take().unwrap();
+    let mut free = scene.clone();
+    free.duration_s = 2.0;
+    free.plant.spread = None;
+    // A shaft that bends by its own inertia is contact to RCP, which takes a degree.
+    free.rcp = None;
+    free.whisking.as_mut().unwrap().noise = 0.0;
+    free.plant.obstacle.as_mut().unwrap().obstacle_deg = vec![200.0];
+    let mut run = Run::new(&free, None).unwrap();
+    let angle = (0..run.ticks()).map(|_| run.tick().theta_deg[0]);
+    let farthest = angle.fold(0.0, f64::max);
+    let [[tilt, depth]] = poses.stands()[..] else {
+        panic!("one whisker")
+    };
+    assert!((tilt - 20.0 - pose.tilt_deg).abs() < 1e-4, "{tilt}");
+    let expected = farthest - 100.0 - pose.obstacle_deg;
+    assert!((depth - expected).abs() < 0.05, "{depth} {expected}");
+}
+
 #[test]
 fn they_are_even_within_the_spread_and_each_part_by_itself() {
     let count = 40_000;

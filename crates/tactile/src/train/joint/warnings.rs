@@ -62,14 +62,23 @@ pub enum Warning {
         /// How many it needs.
         least: usize,
     },
-    /// So few values of tilt or depth of a class that no poses are estimated.
+    /// So little of a class that no poses are estimated.
     NoPose {
         /// The class.
         name: String,
+        /// Of what there is too little.
+        what: &'static str,
         /// How many.
-        values: usize,
+        found: usize,
         /// How many it needs.
         least: usize,
+    },
+    /// A tilt or depth too large to be said in hundredths: no poses are estimated.
+    WidePose {
+        /// The value.
+        found: f64,
+        /// The largest size.
+        most: f64,
     },
     /// Two classes are taken for one another.
     Alike {

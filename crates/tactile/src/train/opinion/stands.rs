@@ -12,6 +12,8 @@ use crate::train::joint::{Trial, Warning};
 
 /// Values of tilt and of depth, of each class, of which at least it is trained.
 const LEAST_VALUES: usize = 6;
+/// The largest size of a value: hundredths have 16 bits.
+const MOST: f64 = 327.0;
 /// Touches of a class that reach a stage, for each input.
 const LEAST_TOUCHES_AN_INPUT: usize = 3;
 /// Parts in which poses are held out.
@@ -80,15 +82,31 @@ impl Stands {
         let of_class = |class: usize| -> Vec<&Row<'_>> {
             rows.iter().filter(|row| row.touch.class == class).collect()
         };
+        let wide = known.iter().flatten().find(|value| value.abs() > MOST);
+        if let Some(found) = wide {
+            let (found, most) = (*found, MOST);
+            return (None, Some(Warning::WidePose { found, most }));
+        }
+        let touches = |class: usize| {
+            let long = |row: &&&Row<'_>| row.touch.len() >= stages;
+            of_class(class).iter().filter(long).count()
+        };
         for (class, name) in names.iter().enumerate() {
             let values = values(&of_class(class));
-            if values < LEAST_VALUES {
-                let warning = Warning::NoPose {
-                    name: name.clone(),
-                    values,
-                    least: LEAST_VALUES,
-                };
-                return (None, Some(warning));
+            for (what, found, least) in [
+                ("values of tilt_deg or depth_deg", values, LEAST_VALUES),
+                ("long touches", touches(class), least_touches(stages)),
+            ] {
+                if found < least {
+                    let name = name.clone();
+                    let warning = Warning::NoPose {
+                        name,
+                        what,
+                        found,
+                        least,
+                    };
+                    return (None, Some(warning));
+                }
             }
         }
         let limits = core::array::from_fn(|target| {
@@ -100,8 +118,8 @@ impl Stands {
         });
         let fit = |class: usize, stage: usize| Fit::of(&of_class(class), stage, &limits);
         let of_stages = |class| (1..=stages).map(|stage| fit(class, stage)).collect();
-        let classes: Option<Vec<Vec<Fit>>> = (0..names.len()).map(of_stages).collect();
-        (classes.map(|classes| Self { limits, classes }), None)
+        let classes = (0..names.len()).map(of_stages).collect();
+        (Some(Self { limits, classes }), None)
     }
 
     /// Errors of each class after each stage.
@@ -109,6 +127,11 @@ impl Stands {
         let of = |stages: &Vec<Fit>| stages.iter().map(|fit| fit.errors).collect();
         self.classes.iter().map(of).collect()
     }
+}
+
+/// Touches of a class that are needed to learn a stage.
+fn least_touches(stage: usize) -> usize {
+    LEAST_TOUCHES_AN_INPUT * inputs_of(stage)
 }
 
 /// How many values that target has which has fewer.
@@ -134,14 +157,11 @@ fn weighed(touch: &Touch, stage: usize) -> Vec<f64> {
 }
 
 impl Fit {
-    /// Of the touches of a class; none where they are too few.
-    fn of(rows: &[&Row<'_>], stage: usize, limits: &[[f64; 2]; TARGETS]) -> Option<Self> {
+    /// Of the touches of a class.
+    fn of(rows: &[&Row<'_>], stage: usize, limits: &[[f64; 2]; TARGETS]) -> Self {
         let long = rows.iter().filter(|row| row.touch.len() >= stage);
         let long: Vec<(&Row<'_>, Vec<f64>)> =
             long.map(|row| (*row, weighed(row.touch, stage))).collect();
-        if long.len() < LEAST_TOUCHES_AN_INPUT * inputs_of(stage) {
-            return None;
-        }
         let errors = RIDGES.map(|ridge| held_out(&long, ridge, limits));
         let all: Vec<_> = long.iter().collect();
         let mut fit = Self {
@@ -156,7 +176,7 @@ impl Fit {
                 }
             }
         }
-        Some(fit)
+        fit
     }
 }
 
