@@ -17,6 +17,7 @@ mod bytes;
 mod check;
 mod parts;
 mod protects;
+mod reader;
 mod shape;
 
 use mlx90333::Decoder;

@@ -4,11 +4,10 @@
 //! then the parts in their order, each by postcard. The sum covers everything behind it. Integers
 //! of the header are little-endian.
 
-use postcard::Deserializer;
-use postcard::de_flavors::Slice;
 use serde::{Deserialize, Serialize};
 use whisking::{Real, Start};
 
+use super::reader::Reader;
 use super::{Config, ConfigError, MotionConfig, Part};
 use crate::servo::ServoConfig;
 
@@ -108,25 +107,39 @@ pub type ConfigBytes = heapless::Vec<u8, CONFIG_BYTES>;
 
 /// Reads values one after the other, by pieces: a whole configuration by value is more than the
 /// stack of a board.
-struct Parts<'b>(Deserializer<'b, Slice<'b>>);
+struct Parts<'b> {
+    reader: Reader<'b>,
+    refused: ConfigError,
+}
+
+/// Why stands in [`Parts`], so that what is asked after each piece is small.
+struct Refused;
 
 impl<'b> Parts<'b> {
     /// The next value, of a part.
     #[inline(never)]
-    fn take<T: Deserialize<'b>>(&mut self, part: Part) -> Result<T, ConfigError> {
-        T::deserialize(&mut self.0).map_err(|_| ConfigError::Unreadable(part))
+    fn take<T: Deserialize<'b>>(&mut self, part: Part) -> Result<T, Refused> {
+        match T::deserialize(&mut self.reader) {
+            Ok(value) if self.reader.is_good() => Ok(value),
+            _ => {
+                self.refused = ConfigError::Unreadable(part);
+                Err(Refused)
+            }
+        }
     }
 
     /// Whether a part is there that may be absent. An image that was built without it has no
     /// code to read it.
-    fn has(&mut self, part: Part) -> Result<bool, ConfigError> {
-        match self.take(part) {
-            Ok(true) if !part.is_built() => Err(ConfigError::NotBuilt(part)),
-            is_there => is_there,
+    fn has(&mut self, part: Part) -> Result<bool, Refused> {
+        let is_there = self.take(part)?;
+        if is_there && !part.is_built() {
+            self.refused = ConfigError::NotBuilt(part);
+            return Err(Refused);
         }
+        Ok(is_there)
     }
 
-    fn optional<T: Deserialize<'b>>(&mut self, part: Part) -> Result<Option<T>, ConfigError> {
+    fn optional<T: Deserialize<'b>>(&mut self, part: Part) -> Result<Option<T>, Refused> {
         if self.has(part)? && part.is_built() {
             self.take(part).map(Some)
         } else {
@@ -134,8 +147,29 @@ impl<'b> Parts<'b> {
         }
     }
 
+    fn all<R: Real>(&mut self, config: &mut Config<R>) -> Result<(), Refused> {
+        let head = &mut config.head;
+        head.name = self.take(Part::Head)?;
+        head.overrides = self.take(Part::Head)?;
+        head.tick_hz = self.take(Part::Head)?;
+        head.sides = self.take(Part::Head)?;
+        head.whiskers_per_side = self.take(Part::Head)?;
+        head.bus = self.optional(Part::Bus)?;
+        config.sensor = self.take(Part::Sensor)?;
+        config.links = self.take(Part::Links)?;
+        config.contact = self.optional(Part::Contact)?;
+        config.motion = if self.has(Part::Motion)? && Part::Motion.is_built() {
+            Some(self.motion()?)
+        } else {
+            None
+        };
+        config.classifier = self.optional(Part::Classifier)?;
+        config.classes = self.optional(Part::Priors)?.unwrap_or_default();
+        Ok(())
+    }
+
     /// How whiskers move, in the order of its fields.
-    fn motion<R: Real>(&mut self) -> Result<MotionConfig<R>, ConfigError> {
+    fn motion<R: Real>(&mut self) -> Result<MotionConfig<R>, Refused> {
         let part = Part::Motion;
         Ok(MotionConfig {
             whisking: whisking::Config {
@@ -186,24 +220,13 @@ pub fn decode_into<R: Real>(
     bytes: &[u8],
     board: BoardCode,
 ) -> Result<(), ConfigError> {
-    let mut parts = Parts(Deserializer::from_bytes(body::<R>(bytes, board)?));
-    let head = &mut config.head;
-    head.name = parts.take(Part::Head)?;
-    head.overrides = parts.take(Part::Head)?;
-    head.tick_hz = parts.take(Part::Head)?;
-    head.sides = parts.take(Part::Head)?;
-    head.whiskers_per_side = parts.take(Part::Head)?;
-    head.bus = parts.optional(Part::Bus)?;
-    config.sensor = parts.take(Part::Sensor)?;
-    config.links = parts.take(Part::Links)?;
-    config.contact = parts.optional(Part::Contact)?;
-    config.motion = if parts.has(Part::Motion)? && Part::Motion.is_built() {
-        Some(parts.motion()?)
-    } else {
-        None
+    let mut parts = Parts {
+        reader: Reader::new(body::<R>(bytes, board)?),
+        refused: ConfigError::Strange,
     };
-    config.classifier = parts.optional(Part::Classifier)?;
-    config.classes = parts.optional(Part::Priors)?.unwrap_or_default();
+    if parts.all(config).is_err() {
+        return Err(parts.refused);
+    }
     config.check()?;
     // What is simulated cannot be harmed.
     if board == BoardCode::Simulation {
