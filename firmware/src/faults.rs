@@ -4,6 +4,8 @@
 
 mod table;
 
+use crate::Part;
+
 /// What a fault or limit does at once.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Reaction {
@@ -68,7 +70,7 @@ macro_rules! rows {
         #[inline(never)]
         pub const fn texts(number: u8) -> [&'static str; 2] {
             match number {
-                $($number => [$name, $causes],)*
+                $($number if can_occur($number) => [$name, $causes],)*
                 _ => ["not in the table", "an older table"],
             }
         }
@@ -87,6 +89,18 @@ macro_rules! rows {
     };
 }
 crate::fault_table!(rows);
+
+/// Whether something with this number can occur in an image of these parts: what cannot has no
+/// text there.
+pub const fn can_occur(number: u8) -> bool {
+    match number {
+        number::HALL_LOW..=number::SKIPPED_SECTOR => Part::SixStep.is_built(),
+        ..=number::LOST_COUNTS | number::UNFELT => Part::Motion.is_built(),
+        number::TILT_NO_SENSOR..=number::TILT_NO_MAGNET => Part::Tmag5170.is_built(),
+        number::NO_MODEL | number::MODEL => Part::Classifier.is_built(),
+        _ => true,
+    }
+}
 
 /// The name of the fault or limit with this number; empty if there is none.
 pub fn name(number: u8) -> &'static str {

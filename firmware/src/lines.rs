@@ -349,7 +349,7 @@ mod tests {
     use wire::Line;
 
     use super::{Context, at, event, not_armed, start};
-    use crate::faults::{TABLE, number};
+    use crate::faults::{TABLE, can_occur, number};
     use crate::{Event, Health, NotArmed, Place, Record, SensorFault, StartCause};
 
     fn said(line: &mut Line) -> String {
@@ -458,7 +458,7 @@ mod tests {
 
     #[test]
     fn every_fault_fits_whole() {
-        for row in TABLE {
+        for row in TABLE.iter().filter(|row| can_occur(row.number)) {
             let whole = format!(" {} {} ({}?)", row.number, row.name, row.causes);
             let limit = line_of(&Event::Limit(row.number));
             assert!(limit.ends_with(&format!("limit{whole}")), "{limit}");

@@ -9,12 +9,13 @@
     reason = "arms differ in their texts, which clippy does not see within a macro"
 )]
 
+use defmt::intern;
 #[cfg(feature = "tmag5170")]
 use firmware::TiltFault;
-use firmware::faults::number;
+use firmware::faults::{can_occur, number};
 use firmware::{
-    ConfigError, Event, ModelState, NotArmed, Part, Place, SelfTest, SensorFault, StartCause,
-    Startup,
+    ConfigError, Event, Field, ModelState, NotArmed, Part, Place, SelfTest, SensorFault,
+    StartCause, Startup,
 };
 use mlx90333::{Faults, FrameError};
 #[cfg(feature = "tmag5170")]
@@ -87,56 +88,68 @@ const fn slot_name(slot: usize) -> &'static str {
 
 /// Why the scene of a slot does not count.
 fn slot_refused(slot: &str, error: ConfigError) {
+    let numbered = |text: defmt::Str, number: u16| {
+        defmt::warn!("slot {=str}: {=istr} {=u16}", slot, text, number);
+    };
+    let named = |name: defmt::Str, text: defmt::Str| {
+        defmt::warn!("slot {=str}: {=istr}: {=istr}", slot, name, text);
+    };
+    let scene = intern!("its scene");
     match error {
-        ConfigError::Absent => defmt::warn!(
-            "slot {=str}: there is none: none was deployed, or writing it was interrupted",
-            slot
-        ),
-        ConfigError::Strange => {
-            defmt::warn!("slot {=str}: what lies there is no configuration", slot);
-        }
-        ConfigError::Version(found) => defmt::warn!(
-            "slot {=str}: its layout has version {=u16}, which this program does not read",
-            slot,
-            found
-        ),
-        ConfigError::Board(found) => defmt::warn!(
-            "slot {=str}: it was made for another board ({=u8})",
-            slot,
-            found
-        ),
-        ConfigError::Format(found) => defmt::warn!(
-            "slot {=str}: it has another number format ({=u8}) than this program",
-            slot,
-            found
-        ),
-        ConfigError::TooLong => defmt::warn!("slot {=str}: it is longer than its place", slot),
-        ConfigError::Damaged => {
-            defmt::warn!(
-                "slot {=str}: it is damaged: its checksum does not match",
-                slot
+        ConfigError::Version(found) => {
+            numbered(
+                intern!("its layout has a version that this program does not read:"),
+                found,
             );
         }
-        ConfigError::Unreadable(part) => {
-            defmt::warn!("slot {=str}: {=str}: it cannot be read", slot, part.text());
+        ConfigError::Board(found) => {
+            numbered(intern!("it was made for another board:"), found.into());
         }
-        ConfigError::NotBuilt(part) => defmt::warn!(
-            "slot {=str}: {=str}: this image was built without it",
-            slot,
-            part.text()
-        ),
-        ConfigError::Range(field) => {
-            defmt::warn!("slot {=str}: {=str}: out of range", slot, field.text());
+        ConfigError::Format(found) => {
+            numbered(intern!("it has another number format:"), found.into());
         }
-        ConfigError::Room(field) => defmt::warn!(
-            "slot {=str}: {=str}: more than this board has",
-            slot,
-            field.text()
+        ConfigError::Absent => named(
+            scene,
+            intern!("none was deployed, or writing it was interrupted"),
         ),
+        ConfigError::Strange => named(scene, intern!("what lies there is no configuration")),
+        ConfigError::TooLong => named(scene, intern!("it is longer than its place")),
+        ConfigError::Damaged => named(scene, intern!("its checksum does not match")),
+        ConfigError::Unreadable(part) => named(part_text(part), intern!("it cannot be read")),
+        ConfigError::NotBuilt(part) => {
+            named(part_text(part), intern!("this image was built without it"));
+        }
+        ConfigError::Range(field) => named(field_text(field), intern!("out of range")),
+        ConfigError::Room(field) => named(field_text(field), intern!("more than this board has")),
         // Of a configuration for a module that runs.
         ConfigError::Shape(_) | ConfigError::Armed(_) => {}
     }
 }
+
+macro_rules! field_text {
+    ($($name:ident = $code:literal: $text:literal;)*) => {
+        #[inline(never)]
+        fn field_text(field: Field) -> defmt::Str {
+            match field {
+                $(Field::$name if Field::$name.can_be_refused() => intern!($text),)*
+                _ => intern!("what this program does not check"),
+            }
+        }
+    };
+}
+firmware::config_fields!(field_text);
+
+macro_rules! part_text {
+    ($($name:ident $feature:tt = $code:literal: $text:literal;)*) => {
+        #[inline(never)]
+        fn part_text(part: Part) -> defmt::Str {
+            match part {
+                $(Part::$name => intern!($text),)*
+            }
+        }
+    };
+}
+firmware::config_parts!(part_text);
 
 /// The start goes on once the supply is high enough.
 pub(crate) fn waits_for_supply() {
@@ -221,8 +234,8 @@ macro_rules! texts {
         #[inline(never)]
         fn texts(number: u8) -> [defmt::Str; 2] {
             match number {
-                $($number => [defmt::intern!($name), defmt::intern!($causes)],)*
-                _ => [defmt::intern!("not in the table"), defmt::intern!("an older table")],
+                $($number if can_occur($number) => [intern!($name), intern!($causes)],)*
+                _ => [intern!("not in the table"), intern!("an older table")],
             }
         }
     };

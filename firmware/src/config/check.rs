@@ -41,54 +41,63 @@ macro_rules! fields {
     };
 }
 
-fields! {
-    Name = 1: "name";
-    TickHz = 2: "tick_hz";
-    Sides = 3: "head.sides";
-    Whiskers = 4: "head.whiskers_per_side";
-    SensorMode = 5: "sensor.model, sensor.mode";
-    SensorLimits = 6: "sensor limits";
-    Zero = 7: "zero of the sensor";
-    Contact = 8: "contact filter";
-    Motion = 9: "motion";
-    Integrator = 10: "integrator";
-    Oscillators = 11: "oscillators";
-    Muscles = 12: "muscles";
-    Rcp = 13: "rcp";
-    Cia = 14: "cia";
-    Noise = 15: "noise";
-    Start = 16: "start";
-    Seed = 17: "seed";
-    Driver = 18: "motor.driver";
-    OnFault = 19: "motor.on_fault";
-    Arm = 20: "motor.arm";
-    Kp = 21: "motor.kp";
-    Kd = 22: "motor.kd";
-    Angles = 23: "motor.min_deg, motor.max_deg";
-    DutyLimit = 24: "motor.duty_limit";
-    Slew = 25: "motor.slew_per_s";
-    Encoder = 26: "motor.gear, motor.counts_per_rev";
-    Guards = 27: "guards of the motor";
-    Approach = 28: "motor.approach_deg_s";
-    Homing = 29: "homing";
-    Retry = 30: "retry after a fault";
-    Classifier = 31: "classifier";
-    Rule = 32: "classifier.rule";
-    Window = 33: "classifier.window";
-    Deciding = 34: "classifier.whiskers";
-    ContactMin = 35: "classifier.contact_min";
-    SerialBaud = 36: "telemetry.serial_baud";
-    Links = 37: "telemetry";
-    Following = 38: "motor.following_limit_deg";
-    Travel = 39: "motor.travel_margin_deg";
-    TopSpeed = 40: "motor.top_speed_deg_s";
-    Friction = 41: "motor.unmoved_duty";
-    TimeConstant = 42: "motor.time_constant_s";
-    Heat = 43: "motor.continuous_duty";
-    SelfMotion = 44: "sensor.self_motion_s";
-    Classes = 45: "priors or thresholds of classes";
-    Bus = 46: "head.nodes";
+/// Hands every [`Field`], `Name = number: "text";`, to the macro `$then`. (A logger wants texts as
+/// literals.)
+#[doc(hidden)]
+#[macro_export]
+macro_rules! config_fields {
+    ($then:ident) => {
+        $then! {
+            Name = 1: "name";
+            TickHz = 2: "tick_hz";
+            Sides = 3: "head.sides";
+            Whiskers = 4: "head.whiskers_per_side";
+            SensorMode = 5: "sensor.model, sensor.mode";
+            SensorLimits = 6: "sensor limits";
+            Zero = 7: "zero of the sensor";
+            Contact = 8: "contact filter";
+            Motion = 9: "motion";
+            Integrator = 10: "integrator";
+            Oscillators = 11: "oscillators";
+            Muscles = 12: "muscles";
+            Rcp = 13: "rcp";
+            Cia = 14: "cia";
+            Noise = 15: "noise";
+            Start = 16: "start";
+            Seed = 17: "seed";
+            Driver = 18: "motor.driver";
+            OnFault = 19: "motor.on_fault";
+            Arm = 20: "motor.arm";
+            Kp = 21: "motor.kp";
+            Kd = 22: "motor.kd";
+            Angles = 23: "motor.min_deg, motor.max_deg";
+            DutyLimit = 24: "motor.duty_limit";
+            Slew = 25: "motor.slew_per_s";
+            Encoder = 26: "motor.gear, motor.counts_per_rev";
+            Guards = 27: "guards of the motor";
+            Approach = 28: "motor.approach_deg_s";
+            Homing = 29: "homing";
+            Retry = 30: "retry after a fault";
+            Classifier = 31: "classifier";
+            Rule = 32: "classifier.rule";
+            Window = 33: "classifier.window";
+            Deciding = 34: "classifier.whiskers";
+            ContactMin = 35: "classifier.contact_min";
+            SerialBaud = 36: "telemetry.serial_baud";
+            Links = 37: "telemetry";
+            Following = 38: "motor.following_limit_deg";
+            Travel = 39: "motor.travel_margin_deg";
+            TopSpeed = 40: "motor.top_speed_deg_s";
+            Friction = 41: "motor.unmoved_duty";
+            TimeConstant = 42: "motor.time_constant_s";
+            Heat = 43: "motor.continuous_duty";
+            SelfMotion = 44: "sensor.self_motion_s";
+            Classes = 45: "priors or thresholds of classes";
+            Bus = 46: "head.nodes";
+        }
+    };
 }
+config_fields!(fields);
 
 impl Field {
     /// Its number.
@@ -99,6 +108,29 @@ impl Field {
     /// That of a number.
     pub fn from_code(code: u8) -> Option<Self> {
         Self::ALL.iter().copied().find(|field| field.code() == code)
+    }
+
+    /// Whether an image of these parts may refuse it: where it cannot, it needs no text.
+    pub const fn can_be_refused(self) -> bool {
+        const LAST_OF_MOTION: u8 = Field::Retry.code();
+        match self {
+            Self::Classifier
+            | Self::Rule
+            | Self::Window
+            | Self::Deciding
+            | Self::ContactMin
+            | Self::Classes => Part::Classifier.is_built(),
+            Self::Following
+            | Self::Travel
+            | Self::TopSpeed
+            | Self::Friction
+            | Self::TimeConstant
+            | Self::Heat => Part::Motion.is_built(),
+            _ if self.code() > Self::Contact.code() && self.code() <= LAST_OF_MOTION => {
+                Part::Motion.is_built()
+            }
+            _ => true,
+        }
     }
 }
 
