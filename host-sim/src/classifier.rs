@@ -67,9 +67,7 @@ impl Classifier {
         settings: ClassList,
     ) -> Result<Self, Fault> {
         // A model of more channels has two for each whisker, which the scene is held against.
-        if model.channels() % 2 == 1 {
-            quantisers(&model)?;
-        }
+        quantisers(&model)?;
         let classes = names(&model);
         // Whiskers that a module does not have say nothing.
         let classifier = tactile::StreamClassifier::new(model, rule, deciding, MAX_STREAMS);
@@ -297,14 +295,14 @@ impl SampleClassifier for Tap {
     }
 }
 
-/// How the two channels of a whisker are quantised.
-pub(crate) fn quantisers(model: &ModelBuf) -> Result<[Quantiser; 2], Fault> {
-    match (model.quantiser(0), model.quantiser(1), model.channels()) {
-        (Some(x), Some(y), 2) => Ok([x, y]),
-        (_, _, count) => Err(Fault::Model(format!(
-            "the model has {count} channels, not x and y"
-        ))),
-    }
+/// How the two channels of each whisker that has tables of its own are quantised, or of all.
+pub(crate) fn quantisers(model: &ModelBuf) -> Result<Vec<[Quantiser; 2]>, Fault> {
+    let of_whisker = |first| Some([model.quantiser(first)?, model.quantiser(first + 1)?]);
+    let all = (0..model.channels()).step_by(2).map(of_whisker);
+    all.collect::<Option<_>>().ok_or_else(|| {
+        let count = model.channels();
+        Fault::Model(format!("the model has {count} channels, not x and y"))
+    })
 }
 
 /// A model under a rule.
@@ -386,6 +384,6 @@ fn of_rule(error: impl Display) -> Fault {
     Fault::Rule(error.to_string())
 }
 
-fn of_model(error: impl Display) -> Fault {
+pub(crate) fn of_model(error: impl Display) -> Fault {
     Fault::Model(error.to_string())
 }

@@ -135,7 +135,7 @@ fn undecided<'p>(presentations: impl Iterator<Item = &'p Shown> + Clone) -> Inte
 /// What a model does with a recording by the sequential rule, a presentation a stream.
 ///
 /// # Errors
-/// As [`Replay::new`].
+/// As [`Replay::new`] and [`Replay::stream`].
 pub fn presentations(
     model: &ModelBuf,
     threshold: f64,
@@ -143,10 +143,9 @@ pub fn presentations(
 ) -> Result<Vec<Shown>, Fault> {
     let mut replay = Replay::new(model.clone(), Rule::Sequential { threshold })?;
     let presentation = |stream: &Stream| {
-        let decided = replay.stream(stream);
         Ok(Shown {
             label: stream.label.clone(),
-            decided: decided.map_err(|fault| Fault::Model(fault.to_string()))?,
+            decided: replay.stream(stream)?,
         })
     };
     streams.iter().map(presentation).collect()
@@ -165,14 +164,24 @@ pub struct Outside {
 /// channels.
 pub fn outside(model: &ModelBuf, streams: &[Stream]) -> Outside {
     let gate = model.touch_rule().map_or(GATE, |touch| touch.gate.into());
+    // Two channels of all whiskers, or two of each.
+    let has_own = model.channels() > 2;
     let samples = streams.iter().flat_map(|stream| {
-        let counts = stream.counts(gate);
-        stream.samples.iter().zip(counts)
+        let of_whisker = if has_own {
+            2 * (stream.whisker() - 1)
+        } else {
+            0
+        };
+        let samples = stream
+            .samples
+            .iter()
+            .map(move |sample| (of_whisker, sample));
+        samples.zip(stream.counts(gate))
     });
     let (mut first, mut count, mut all) = (None, 0_u64, 0_u64);
-    for (n, (sample, _)) in samples.enumerate().filter(|(_, (_, counts))| *counts) {
+    for (n, ((of_whisker, sample), _)) in samples.enumerate().filter(|(_, (_, counts))| *counts) {
         let channel = sample.iter().enumerate().position(|(channel, x)| {
-            let quantiser = model.quantiser(channel);
+            let quantiser = model.quantiser(of_whisker + channel);
             quantiser
                 .is_some_and(|q| q.low < q.high && !(q.low..=q.high).contains(&q.code_from_f64(*x)))
         });

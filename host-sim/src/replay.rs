@@ -2,7 +2,7 @@
 //! recorded samples instead of a sensor's.
 
 use scene::Rule;
-use tactile::{AnyRule, ModelBuf, NaiveBayes, Quantiser, WrongChannels};
+use tactile::{AnyRule, ModelBuf, NaiveBayes, Quantiser};
 
 use crate::classifier::{self, Fault};
 use crate::decisions::Decided;
@@ -13,7 +13,8 @@ use crate::recording::{GATE, Stream};
 #[derive(Debug, Clone)]
 pub struct Replay {
     bayes: NaiveBayes<AnyRule, Box<[u32]>>,
-    quantisers: [Quantiser; 2],
+    /// Of each whisker that has tables of its own, or one for all.
+    quantisers: Vec<[Quantiser; 2]>,
     classes: Vec<String>,
     /// Contact from which a sample counts, and samples without it that end a touch.
     gate: f64,
@@ -30,7 +31,7 @@ impl Replay {
     /// A classifier by a rule.
     ///
     /// # Errors
-    /// [`Fault::Model`] for other than two channels, [`Fault::Rule`] for a window
+    /// [`Fault::Model`] for other than two channels a whisker, [`Fault::Rule`] for a window
     /// that is no multiple of the model's block or a threshold too near to 1.
     pub fn new(model: ModelBuf, rule: Rule) -> Result<Self, Fault> {
         let quantisers = classifier::quantisers(&model)?;
@@ -54,10 +55,18 @@ impl Replay {
     /// The decisions of one stream; evidence is dropped at its end.
     ///
     /// # Errors
-    /// None: the model has the two channels of a recording.
-    pub fn stream(&mut self, stream: &Stream) -> Result<Vec<Decided>, WrongChannels> {
+    /// [`Fault::Model`] for a whisker of which the model has no tables.
+    pub fn stream(&mut self, stream: &Stream) -> Result<Vec<Decided>, Fault> {
         self.bayes.reset();
-        let [x, y] = &self.quantisers;
+        let whisker = (self.quantisers.len() > 1).then(|| stream.whisker() - 1);
+        self.bayes.set_whisker(whisker);
+        let [x, y] = self.quantisers.get(whisker.unwrap_or(0)).ok_or_else(|| {
+            let (found, allowed) = (stream.whisker(), self.quantisers.len());
+            Fault::Model(format!(
+                "trial {}: whisker {found}; the model has tables of {allowed}",
+                stream.trial
+            ))
+        })?;
         let (mut decided, mut last) = (Vec::new(), 0);
         let needs_touch = self.bayes.model().touch_rule().is_some();
         let touches = stream.touches(self.gate, self.gap);
@@ -70,10 +79,10 @@ impl Replay {
                 self.bayes.touch(self.touch);
             }
             if !counts || (needs_touch && touch == 0) {
-                self.bayes.pass(&codes)?;
+                self.bayes.pass(&codes).map_err(classifier::of_model)?;
                 continue;
             }
-            let Some(decision) = self.bayes.push(&codes)? else {
+            let Some(decision) = self.bayes.push(&codes).map_err(classifier::of_model)? else {
                 continue;
             };
             let Stream { label, trial, .. } = stream;
@@ -84,5 +93,58 @@ impl Replay {
             });
         }
         Ok(decided)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use scene::Rule;
+    use tactile::train::{Options, Trainer};
+
+    use super::{Decided, Replay};
+    use crate::recording::Stream;
+    use crate::training;
+
+    /// Samples about `x`, of a whisker.
+    fn stream(label: &str, whisker: usize, x: f64) -> Stream {
+        let samples = (0..400).map(|n| [x + f64::from(n % 7), f64::from(n % 5)]);
+        Stream {
+            label: label.to_owned(),
+            trial: format!("1 whisker {whisker}"),
+            samples: samples.collect(),
+            contact: None,
+            touch: None,
+            pose: None,
+            stands: None,
+        }
+    }
+
+    #[test]
+    fn whiskers_that_feel_the_opposite_are_each_judged_by_their_own() {
+        let streams = [
+            ("a", 1, 100.0),
+            ("a", 2, -100.0),
+            ("b", 1, -100.0),
+            ("b", 2, 100.0),
+        ];
+        let streams = streams.map(|(label, whisker, x)| stream(label, whisker, x));
+        let trainer = Trainer::new(4, Options::default()).unwrap();
+        let model = training::single(trainer, &streams, 0.0, true).unwrap();
+        let mut replay = Replay::new(model, Rule::Sequential { threshold: 0.99 }).unwrap();
+        for stream in &streams {
+            let decided = replay.stream(stream).unwrap();
+            assert!(!decided.is_empty());
+            assert!(
+                decided.iter().all(Decided::is_right),
+                "{} {}",
+                stream.label,
+                stream.trial
+            );
+        }
+        let third = replay.stream(&stream("a", 3, 0.0)).unwrap_err();
+        assert_eq!(
+            third.to_string(),
+            "trial 1 whisker 3: whisker 3; the model has tables of 2"
+        );
     }
 }

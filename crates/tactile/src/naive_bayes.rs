@@ -18,6 +18,8 @@ use crate::words::Words;
 pub struct NaiveBayes<R: DecisionRule, W = &'static [u32]> {
     constants: Constants<R, W>,
     stream: StreamState<R::Evidence>,
+    /// Whose tables, where each whisker has its own.
+    whisker: Option<usize>,
 }
 
 impl<R: DecisionRule, W: Words> NaiveBayes<R, W> {
@@ -31,7 +33,14 @@ impl<R: DecisionRule, W: Words> NaiveBayes<R, W> {
         Ok(Self {
             stream: StreamState::new(&constants.model, &constants.rule),
             constants,
+            whisker: None,
         })
+    }
+
+    /// Whose samples come next, from 0, where each whisker has tables of its own: a sample then has
+    /// that one's two channels. `None`: it has those of all.
+    pub const fn set_whisker(&mut self, whisker: Option<usize>) {
+        self.whisker = whisker;
     }
 
     /// Priors and thresholds of classes take effect; all evidence is forgotten.
@@ -55,7 +64,10 @@ impl<R: DecisionRule, W: Words> NaiveBayes<R, W> {
     #[inline]
     pub fn push(&mut self, codes: &[i32]) -> Result<Option<Decision>, WrongChannels> {
         let Constants { model, rule } = &self.constants;
-        if self.stream.push(model, codes, None, rule.interval())? {
+        if self
+            .stream
+            .push(model, codes, self.whisker, rule.interval())?
+        {
             return Ok(self.stream.end_of_block(model, rule));
         }
         Ok(None)
@@ -69,7 +81,8 @@ impl<R: DecisionRule, W: Words> NaiveBayes<R, W> {
     /// As [`Self::push`].
     #[inline]
     pub fn pass(&mut self, codes: &[i32]) -> Result<(), WrongChannels> {
-        self.stream.pass(&self.constants.model, codes, None)
+        let whisker = self.whisker;
+        self.stream.pass(&self.constants.model, codes, whisker)
     }
 
     /// A touch begins, whose `number` its decisions bear. Where the model has a
