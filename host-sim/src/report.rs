@@ -20,7 +20,7 @@ use crate::decisions::{self, Decided, Score, UNKNOWN};
 use crate::output::remove_on_interrupt;
 use evaluation::Over;
 pub use evaluation::{Doubts, Figures, Thresholds};
-pub use poses::of_model;
+pub use poses::{SecondOpinion, of_model};
 pub use runs::{OverRuns, SeedRange};
 pub use training::TrainingReport;
 

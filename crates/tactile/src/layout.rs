@@ -215,7 +215,7 @@ impl Layout {
 
 impl Header {
     /// Words of the opinion.
-    fn opinion_words(&self) -> usize {
+    pub(crate) fn opinion_words(&self) -> usize {
         (self.floors.get() >> 8) as usize
     }
 }

@@ -5,7 +5,7 @@ use std::boxed::Box;
 use std::string::String;
 use std::vec::Vec;
 
-use zerocopy::IntoBytes;
+use zerocopy::{FromBytes, IntoBytes};
 
 use crate::error::ModelError;
 use crate::format::{
@@ -224,6 +224,11 @@ impl ModelBuf {
         };
         let mut bytes = header.as_bytes().to_vec();
         bytes.append(&mut body);
+        Self::summed(bytes)
+    }
+
+    /// From all bytes but the sum over them.
+    fn summed(mut bytes: Vec<u8>) -> Result<Self, ModelError> {
         let crc = checksum(&bytes);
         bytes.extend_from_slice(&crc.to_le_bytes());
         Self::from_bytes(&bytes)
@@ -244,9 +249,25 @@ impl ModelBuf {
             place.copy_from_slice(&rate_hz);
         }
         bytes.truncate(sum_at);
-        let crc = checksum(&bytes);
-        bytes.extend_from_slice(&crc.to_le_bytes());
-        Self::from_bytes(&bytes)
+        Self::summed(bytes)
+    }
+
+    /// The same model without its second opinion: as training makes it where nothing is expected
+    /// to differ ([`Expect::Same`](crate::train::Expect::Same)). `None` where it has none, or
+    /// names by that alone.
+    pub fn without_opinion(&self) -> Option<Self> {
+        let mut bytes = self.as_bytes().to_vec();
+        let (header, _) = Header::mut_from_prefix(&mut bytes).ok()?;
+        let words = header.opinion_words();
+        if words == 0 || header.sample_tables == 0 {
+            return None;
+        }
+        let length = header.length.get() - 4 * words as u32;
+        header.length = length.into();
+        header.floors = (header.floors.get() & 1).into();
+        header.version = WITHOUT_OPINION.into();
+        bytes.truncate(length as usize - CRC_BYTES);
+        Self::summed(bytes).ok()
     }
 
     /// Copies and checks the content of a model file, however it is aligned.

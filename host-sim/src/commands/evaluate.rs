@@ -15,7 +15,7 @@ use crate::output::{self, write_whole};
 use crate::plot;
 use crate::progress::{Progress, Verbosity};
 use crate::rate::{self, Said};
-use crate::report::{self, Doubts, Figures, Thresholds};
+use crate::report::{self, Doubts, Figures, SecondOpinion, Thresholds};
 
 /// What to evaluate.
 #[derive(Debug, Args)]
@@ -93,7 +93,13 @@ pub fn evaluate(arguments: &Arguments, verbosity: Verbosity) -> Result<String, E
         misfits: [misfits(data, channels, &model, &streams), odd].concat(),
     };
     let figures = Figures(&evaluation, tick_hz);
-    let mut sections = vec![format!("{figures}\n{}\n{doubts}", report::of_model(&model))];
+    let mut sections = vec![format!("{figures}\n{}", report::of_model(&model))];
+    if let Some(same) = model.without_opinion() {
+        let presented = evaluation::presentations(&same, *threshold, &streams).map_err(wrong)?;
+        let same = Evaluation::new(&classes, &presented);
+        sections.push(format!("\n{}", SecondOpinion(&evaluation, &same)));
+    }
+    sections.push(format!("\n{doubts}"));
     sections.extend(otherwise.map(|note| format!("\nnote: {note}")));
     if error_rate.is_none() && time.is_none() {
         return Ok(sections.concat());

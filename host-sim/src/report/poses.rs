@@ -6,6 +6,7 @@ use tactile::ModelBuf;
 use tactile::train::joint::{JointModel, PoseReport};
 
 use super::evaluation::Percent;
+use crate::evaluation::Evaluation;
 
 /// So many poses.
 fn poses(count: usize) -> String {
@@ -56,6 +57,26 @@ pub fn of_model(model: &ModelBuf) -> String {
 
 fn names_between(poses: &str) -> String {
     format!("trained in {poses}: names by itself between them")
+}
+
+/// What a second opinion costs and gains on a recording: figures with it, and without.
+pub struct SecondOpinion<'a>(pub &'a Evaluation, pub &'a Evaluation);
+
+impl fmt::Display for SecondOpinion<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let of = |evaluation: &Evaluation| {
+            let stated = 100.0 * evaluation.calibration.stated;
+            let [found, undecided] =
+                [evaluation.calibration.found, evaluation.undecided].map(Percent);
+            format!("right {found}, stated {stated:.1} %; without a decision {undecided}")
+        };
+        writeln!(f, "second opinion     with:    {}", of(self.0))?;
+        write!(
+            f,
+            "                   without: {} (`train --expect same`)",
+            of(self.1)
+        )
+    }
 }
 
 /// Share of presentations from which on a class was decided often enough.

@@ -115,7 +115,15 @@ fn one_pose_is_said_to_be_one() {
     let said = trained(&place, &["long.csv"], "");
     has(&said, "trained in 1 pose: honest in it, silent elsewhere");
     let line = "trained in one pose or two: honest there, silent elsewhere";
-    has(&evaluated(&place, "the.model"), line);
+    let said = evaluated(&place, "the.model");
+    has(&said, line);
+    // What the second opinion costs: beside it stands what is without.
+    trained(&place, &["long.csv"], "--expect same");
+    let same = evaluated(&place, "the.model");
+    let found = same.lines().find_map(|line| line.strip_prefix("found"));
+    let without = format!("without: right {}, stated", found.unwrap().trim());
+    assert!(said.contains(&without), "no {without:?} in {said}");
+    assert!(!same.contains("second opinion"), "{same}");
 }
 
 #[test]

@@ -3,6 +3,7 @@
 use std::sync::LazyLock;
 
 use proptest::prelude::*;
+use tactile::train::Expect;
 use tactile::train::joint::{Options, Trial, Warning, train};
 use tactile::{
     CRC_BYTES, Deciding, ModelBuf, ModelError, RuleSettings, SetupError, StreamClassifier,
@@ -57,6 +58,11 @@ fn trial(label: &str, amplitude: f64, [x_bend, y_bend]: [f64; 2], seed: u64) -> 
 
 /// Trained in these poses.
 fn trained(poses: &[f64]) -> ModelBuf {
+    expecting(Expect::default(), poses)
+}
+
+/// The same, where so much is expected to differ.
+fn expecting(expect: Expect, poses: &[f64]) -> ModelBuf {
     let trials = poses.iter().flat_map(|pose| {
         (0..8).flat_map(|n| {
             let seed = 2 * n + pose.to_bits();
@@ -66,6 +72,7 @@ fn trained(poses: &[f64]) -> ModelBuf {
     });
     let options = Options {
         whisked: WHISKED,
+        expect,
         ..Options::default()
     };
     let trained = train(&trials.collect::<Vec<_>>(), &options).unwrap();
@@ -177,6 +184,12 @@ fn models_of_one_pose_object_and_of_several_name() {
     for model in &*MODELS {
         streams(model, 1);
     }
+    // What remains is what training makes where nothing differs.
+    assert!(names.without_opinion().is_none());
+    let without = objects.without_opinion().unwrap();
+    let same = expecting(Expect::Same, &[-300.0]);
+    assert_eq!(without.as_bytes(), same.as_bytes());
+    assert!(same.without_opinion().is_none());
 }
 
 /// Of poses that were not trained: as near as is said, and that is a tenth of their spread at most,
