@@ -4,7 +4,7 @@
 use std::path::Path;
 
 use crate::emulate::Emulated;
-use crate::firmware::{Board, every_part};
+use crate::firmware::Board;
 use crate::run::{Fault, cargo, run, take_built_programs};
 use crate::steps::{Step, Steps};
 use crate::{
@@ -111,7 +111,8 @@ fn web() -> Result<(), Fault> {
 fn lints() -> Result<(), Fault> {
     let all = ["clippy", "--workspace", "--all-targets"];
     run(cargo(&all).args(["--features", LINTED]).args(DENY))?;
-    let board = Board::ALL[0].build_arguments(every_part(Board::ALL[0]));
+    let [board, ..] = Board::ALL;
+    let board = board.build_arguments(board.every_part);
     run(cargo(&["clippy"]).args(board).args(DENY))
 }
 
@@ -194,6 +195,7 @@ fn other_boards() -> Result<(), Fault> {
     emulate::compare_with_options(&board)?;
     let in_short = ["compare --probe pulled", "sensor-loss"];
     let [small, smallest] = [Emulated::deployed(small)?, Emulated::deployed(smallest)?];
-    emulate::emulate(&small, Path::new(emulate::FULL), &in_short)?;
-    emulate::emulate(&smallest, Path::new(emulate::FULL), &in_short)
+    let [likely, learning] = emulate::full_with_options()?;
+    emulate::emulate(&small, &likely, &in_short)?;
+    emulate::emulate(&smallest, &learning, &in_short)
 }

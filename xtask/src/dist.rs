@@ -6,7 +6,7 @@ use std::process::Command;
 use std::time::Instant;
 use std::{env, fs};
 
-use crate::firmware::{self, Board, every_part};
+use crate::firmware::{self, Board};
 use crate::run::{Fault, cargo, listing, output, read, remove, run, target, top, write};
 use crate::{book, mount, page, python};
 
@@ -125,7 +125,7 @@ fn fill(folder: &Path) -> Result<(), Fault> {
     }
     for board in Board::ALL {
         run(cargo(&["build"])
-            .args(board.build_arguments(every_part(board)))
+            .args(board.build_arguments(board.every_part))
             .env_remove("WHISKER_CONFIG")
             .env_remove("WHISKER_MODEL"))?;
         let elf = firmware::elf_in(board, &target());

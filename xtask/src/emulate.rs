@@ -267,6 +267,16 @@ pub(crate) fn compare_head(board: Board, options: &str) -> Result<(), Fault> {
     emulate(&Emulated::linked(board), &head_of_two()?, &[&scenario])
 }
 
+/// [`FULL`] with priors, and besides without self-motion in its contact: what not every board has
+/// room for. Writes them and returns their paths.
+pub(crate) fn full_with_options() -> Result<[PathBuf; 2], Fault> {
+    let keys = ["classifier.prior.smooth=0.6", "sensor.self_motion_s=0.5"].map(str::to_owned);
+    let [prior, ..] = &keys;
+    let full = &top().join(FULL);
+    let likely = variants::with(full, std::slice::from_ref(prior))?;
+    Ok([likely, variants::with(full, &keys)?])
+}
+
 /// [`CIA`] on two boards. Writes it and returns its path.
 pub(crate) fn head_of_two() -> Result<PathBuf, Fault> {
     variants::with(&top().join(CIA), &["head.nodes=2".to_owned()])

@@ -22,6 +22,9 @@ pub(crate) struct Board {
     pub(crate) target: &'static str,
     /// What its program and a PC know of it.
     pub(crate) facts: &'static BoardFacts,
+    /// The parts of a program that takes any scene, features of the crate `firmware`: all that the
+    /// board has time, room and a driver for.
+    pub(crate) every_part: &'static [&'static str],
 }
 
 impl Board {
@@ -30,16 +33,20 @@ impl Board {
             name: "nucleo-f446re",
             target: "thumbv7em-none-eabihf",
             facts: &boards::NUCLEO_F446RE,
+            every_part: &["default", "bus"],
         },
         Self {
             name: "nucleo-f103rb",
             target: "thumbv7m-none-eabi",
             facts: &boards::NUCLEO_F103RB,
+            // What self-motion learns does not fit its RAM.
+            every_part: &["without-opinion"],
         },
         Self {
             name: "nucleo-g071rb",
             target: "thumbv6m-none-eabi",
             facts: &boards::NUCLEO_G071RB,
+            every_part: &["without-opinion", "self-motion"],
         },
     ];
 
@@ -74,17 +81,6 @@ impl Board {
     }
 }
 
-/// The parts of a program that takes any scene: the default features of the crate `firmware`, but
-/// for what the board has no time for, and the bus where it has one.
-pub(crate) fn every_part(board: Board) -> &'static [&'static str] {
-    match (board.facts.takes_opinion, board.facts.has_bus) {
-        (true, true) => &["default", "bus"],
-        (true, false) => &["default"],
-        (false, true) => &["without-opinion", "bus"],
-        (false, false) => &["without-opinion"],
-    }
-}
-
 /// Builds the firmware of `scene` with warnings as errors, the scene linked and of the parts that
 /// it needs; gives the ELF file, as all that build here do: a copy, as the next program is built in
 /// the place of the last. What was built before is not built again. Several threads may ask for
@@ -106,7 +102,7 @@ pub(crate) fn build_checked(board: Board, scene: &Path) -> Result<PathBuf, Fault
 }
 
 pub(crate) fn build_any_scene(board: Board) -> Result<PathBuf, Fault> {
-    kept(board, compiler(board, every_part(board)), Vec::new())
+    kept(board, compiler(board, board.every_part), Vec::new())
 }
 
 fn try_built(board: Board, scene: &Path, more: &[&str]) -> Result<Result<PathBuf, String>, Fault> {

@@ -6,7 +6,7 @@ use std::process::Command;
 use std::time::{SystemTime, UNIX_EPOCH};
 
 use crate::emulate::Emulated;
-use crate::firmware::{self, Board, every_part};
+use crate::firmware::{self, Board};
 use crate::run::{Fault, cargo, installed, run, target, top};
 use crate::steps::Steps;
 use crate::{
@@ -64,7 +64,7 @@ fn lints() -> Result<(), Fault> {
     for board in Board::ALL {
         let deny = ["--", "-D", "warnings"];
         run(cargo(&["clippy"])
-            .args(board.build_arguments(every_part(board)))
+            .args(board.build_arguments(board.every_part))
             .args(deny))?;
         // What reads the other sensor.
         let tilt = firmware::linked(board, &top().join(emulate::TILT))??

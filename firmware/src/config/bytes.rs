@@ -158,20 +158,21 @@ impl<'b> Parts<'b> {
         config.sensor = self.take(Part::Sensor)?;
         config.links = self.take(Part::Links)?;
         config.contact = self.optional(Part::Contact)?;
-        config.motion = if self.has(Part::Motion)? && Part::Motion.is_built() {
-            Some(self.motion()?)
-        } else {
-            None
-        };
+        config.motion = None;
+        if self.has(Part::Motion)? && Part::Motion.is_built() {
+            self.motion(&mut config.motion)?;
+        }
         config.classifier = self.optional(Part::Classifier)?;
         config.classes = self.optional(Part::Priors)?.unwrap_or_default();
         Ok(())
     }
 
     /// How whiskers move, in the order of its fields.
-    fn motion<R: Real>(&mut self) -> Result<MotionConfig<R>, Refused> {
+    // Apart, so that little else is on the stack meanwhile.
+    #[inline(never)]
+    fn motion<R: Real>(&mut self, place: &mut Option<MotionConfig<R>>) -> Result<(), Refused> {
         let part = Part::Motion;
-        Ok(MotionConfig {
+        *place = Some(MotionConfig {
             whisking: whisking::Config {
                 oscillators: self.take(part)?,
                 muscle: self.take(part)?,
@@ -195,7 +196,8 @@ impl<'b> Parts<'b> {
             driver: self.take(part)?,
             stops_all: self.take(part)?,
             arms_at_start: self.take(part)?,
-        })
+        });
+        Ok(())
     }
 }
 

@@ -95,7 +95,7 @@ pub(crate) fn with_ticks(path: &Path, ticks: u32) -> Result<PathBuf, Fault> {
     })
 }
 
-/// The scene with other values, each `KEY=VALUE`: a key with its section, and TOML or a word.
+/// The scene with other values, each `KEY=VALUE`: a key with its sections, and TOML or a word.
 pub(crate) fn with(path: &Path, keys: &[String]) -> Result<PathBuf, Fault> {
     if keys.is_empty() {
         return Ok(path.to_owned());
@@ -113,13 +113,14 @@ pub(crate) fn with(path: &Path, keys: &[String]) -> Result<PathBuf, Fault> {
         .replace(|c: char| !c.is_ascii_alphanumeric(), "-");
     variant(path, &name, |_, table| {
         for (key, value) in values {
-            let Some((part, key)) = key.split_once('.') else {
-                table.insert(key.to_owned(), value);
-                continue;
-            };
-            let part = table.entry(part).or_insert_with(|| Table::new().into());
-            if let Some(part) = part.as_table_mut() {
-                part.insert(key.to_owned(), value);
+            let (parts, key) = key.rsplit_once('.').unwrap_or(("", key));
+            let mut parts = parts.split('.').filter(|part| !part.is_empty());
+            let place = parts.try_fold(&mut *table, |place, part| {
+                let inner = place.entry(part).or_insert_with(|| Table::new().into());
+                inner.as_table_mut()
+            });
+            if let Some(place) = place {
+                place.insert(key.to_owned(), value);
             }
         }
     })
