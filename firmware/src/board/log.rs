@@ -86,41 +86,55 @@ const fn slot_name(slot: usize) -> &'static str {
     if slot == 0 { "A" } else { "B" }
 }
 
-/// Why the scene of a slot does not count.
+/// Why the scene of a slot does not count, in the words of [`ConfigError`].
 fn slot_refused(slot: &str, error: ConfigError) {
-    let numbered = |text: defmt::Str, number: u16| {
-        defmt::warn!("slot {=str}: {=istr} {=u16}", slot, text, number);
+    let numbered = |before: defmt::Str, number: u16, behind: defmt::Str| {
+        defmt::warn!(
+            "slot {=str}: {=istr}{=u16}{=istr}",
+            slot,
+            before,
+            number,
+            behind
+        );
     };
-    let named = |name: defmt::Str, text: defmt::Str| {
-        defmt::warn!("slot {=str}: {=istr}: {=istr}", slot, name, text);
+    let named = |name: defmt::Str, behind: defmt::Str| {
+        defmt::warn!("slot {=str}: {=istr}{=istr}", slot, name, behind);
     };
-    let scene = intern!("its scene");
     match error {
-        ConfigError::Version(found) => {
-            numbered(
-                intern!("its layout has a version that this program does not read:"),
-                found,
-            );
-        }
-        ConfigError::Board(found) => {
-            numbered(intern!("it was made for another board:"), found.into());
-        }
-        ConfigError::Format(found) => {
-            numbered(intern!("it has another number format:"), found.into());
-        }
-        ConfigError::Absent => named(
-            scene,
-            intern!("none was deployed, or writing it was interrupted"),
+        ConfigError::Version(found) => numbered(
+            intern!("its layout has version "),
+            found,
+            intern!(", which this program does not read"),
         ),
-        ConfigError::Strange => named(scene, intern!("what lies there is no configuration")),
-        ConfigError::TooLong => named(scene, intern!("it is longer than its place")),
-        ConfigError::Damaged => named(scene, intern!("its checksum does not match")),
-        ConfigError::Unreadable(part) => named(part_text(part), intern!("it cannot be read")),
-        ConfigError::NotBuilt(part) => {
-            named(part_text(part), intern!("this image was built without it"));
+        ConfigError::Board(found) => numbered(
+            intern!("it was made for another board ("),
+            found.into(),
+            intern!(")"),
+        ),
+        ConfigError::Format(found) => numbered(
+            intern!("it has another number format ("),
+            found.into(),
+            intern!(") than this program"),
+        ),
+        ConfigError::Absent => named(
+            intern!("there is none"),
+            intern!(": none was deployed, or writing it was interrupted"),
+        ),
+        ConfigError::Strange => named(intern!("what lies there"), intern!(" is no configuration")),
+        ConfigError::TooLong => named(intern!("it is longer"), intern!(" than its place")),
+        ConfigError::Damaged => named(
+            intern!("it is damaged"),
+            intern!(": its checksum does not match"),
+        ),
+        ConfigError::Unreadable(part) => named(part_text(part), intern!(": it cannot be read")),
+        ConfigError::NotBuilt(part) => named(
+            part_text(part),
+            intern!(": this image was built without it"),
+        ),
+        ConfigError::Range(field) => named(field_text(field), intern!(": out of range")),
+        ConfigError::Room(field) => {
+            named(field_text(field), intern!(": more than this board has"));
         }
-        ConfigError::Range(field) => named(field_text(field), intern!("out of range")),
-        ConfigError::Room(field) => named(field_text(field), intern!("more than this board has")),
         // Of a configuration for a module that runs.
         ConfigError::Shape(_) | ConfigError::Armed(_) => {}
     }
