@@ -3,6 +3,7 @@
 //!
 //! Boards run in turn, for less time than the shortest frame takes: so what one sends cannot come
 //! to another before that has been there. All begin at the same moment, by clocks that may differ.
+//! A board whose cable is cut has a bus of its own, on which nobody hears it.
 
 mod compare;
 
@@ -17,6 +18,7 @@ use host_sim::bus::tmag5170::TmagSlave;
 use host_sim::motor::Pins;
 use host_sim::run::Run;
 use host_sim::world::World;
+use physics::Noise;
 use scene::Scene;
 
 use crate::board::Board;
@@ -31,6 +33,8 @@ const US: f64 = 1e6;
 
 /// Bits of the shortest frame, with the space behind it.
 const LEAST_BITS: Ps = 47;
+/// So many recessive bits are a silence that a controller counts which comes back to the bus.
+const SILENCE_BITS: Ps = 11;
 
 /// By how much the clock of a board is faster than that of the bus, millionths.
 #[derive(Debug, Clone, Copy)]
@@ -60,22 +64,34 @@ fn scaled(time: Ps, by: u128, of: u128) -> Ps {
 
 /// One of the boards.
 #[derive(Debug)]
-struct Node {
-    board: Board,
+pub(crate) struct Node {
+    pub(crate) board: Board,
     crystal: Crystal,
     own: Range<usize>,
-    snapshot: Snapshot,
+    pub(crate) snapshot: Snapshot,
+    /// Its controller takes part in what its bus does.
+    is_on: bool,
+    /// The bus that it has while its cable is cut.
+    alone: Can,
+    is_cut: bool,
+    /// The share of the frames that it sends which are destroyed.
+    noise: f64,
+    /// Ticks that have ended since it was looked at.
+    pub(crate) ended: u32,
 }
 
 /// A head of boards.
 #[derive(Debug)]
 pub(crate) struct Head {
-    nodes: Vec<Node>,
+    pub(crate) nodes: Vec<Node>,
     can: Can,
     bit: Ps,
-    now: Ps,
+    pub(crate) now: Ps,
     period: Ps,
     each: usize,
+    /// When the world moves on, whatever boards do; none: it waits for all of them.
+    moves_at: Option<Ps>,
+    random: Noise,
     fault: Option<Fault>,
 }
 
@@ -106,6 +122,11 @@ impl Head {
                     contact: [0, 1].map(|side| if side < sides { 0.0 } else { f64::NAN }),
                     touch: [0; 2],
                 },
+                is_on: false,
+                alone: Can::new(usize::from(nodes), kbit_s),
+                is_cut: false,
+                noise: 0.0,
+                ended: 0,
             })
         };
         let nodes = (0..nodes).map(board).collect::<Result<Vec<_>, _>>()?;
@@ -119,10 +140,13 @@ impl Head {
             bit: 1_000_000_000 / Ps::from(kbit_s),
             period: 1_000_000_000_000 / Ps::from(scene.tick_hz),
             each: scene.head.whiskers_per_side,
+            moves_at: None,
+            random: Noise::new(scene.seed),
             fault: None,
         };
         for node in &mut head.nodes {
             node.board.run_until(node.crystal.own(head.now))?;
+            node.is_on = node.board.machine.with_chip(|chip| chip.is_on_bus());
         }
         Ok(head)
     }
@@ -135,32 +159,161 @@ impl Head {
         self.fault.clone().map_or(Ok(()), Err)
     }
 
-    /// Lets all run on; how many ticks of each have ended.
-    fn run_on(&mut self, ended: &mut [u32]) -> Result<(), Fault> {
-        let until = self.now + (LEAST_BITS - 1) * self.bit;
-        while let Some(sent) = self.can.next(until as f64 / US) {
-            let at = (sent.at_us * US).round() as Ps;
-            for (n, node) in self.nodes.iter_mut().enumerate() {
-                let what = if n == sent.from {
-                    Arrival::Sent(sent.frame)
-                } else {
-                    Arrival::Heard(sent.frame)
+    /// From now on boards may be reset, and the world moves on once a period, in the middle between
+    /// two ticks of the first.
+    pub(crate) fn bear(&mut self) {
+        for node in &mut self.nodes {
+            node.board.bears_resets = true;
+        }
+        self.moves_at = Some(self.now + self.period / 2);
+    }
+
+    /// Resets a board, or lets it lose its supply, which the next call may bring back.
+    pub(crate) fn strike(
+        &mut self,
+        n: usize,
+        strike: impl FnOnce(&mut Board) -> Result<(), Fault>,
+    ) -> Result<(), Fault> {
+        let Some(node) = self.nodes.get_mut(n) else {
+            return Ok(());
+        };
+        strike(&mut node.board)?;
+        node.is_on = false;
+        for can in [&mut self.can, &mut node.alone] {
+            can.clear(n);
+        }
+        Ok(())
+    }
+
+    /// Takes a board off the bus, or puts it on again.
+    pub(crate) fn cut(&mut self, n: usize, is_cut: bool) {
+        let now_us = self.now as f64 / US;
+        let Some(node) = self.nodes.get_mut(n).filter(|node| node.is_cut != is_cut) else {
+            return;
+        };
+        node.is_cut = is_cut;
+        let (from, to) = if is_cut {
+            (&mut self.can, &mut node.alone)
+        } else {
+            (&mut node.alone, &mut self.can)
+        };
+        from.clear(n);
+        if node.is_on {
+            for frame in node.board.machine.with_chip(|chip| chip.pending()) {
+                to.queue(n, frame, now_us);
+            }
+        }
+    }
+
+    /// From now on this share of the frames that a board sends is destroyed.
+    pub(crate) fn disturb(&mut self, n: usize, share: f64) {
+        if let Some(node) = self.nodes.get_mut(n) {
+            node.noise = share;
+        }
+    }
+
+    /// What passes on the bus, or, of a board that is cut off, on its own, until then.
+    fn carry(&mut self, until: Ps, alone: Option<usize>) {
+        let Self {
+            nodes,
+            can,
+            random,
+            now,
+            bit,
+            ..
+        } = self;
+        let is_there = |n: usize, node: &Node| alone.map_or(!node.is_cut, |one| one == n);
+        let there = nodes.iter().enumerate().map(|(n, node)| is_there(n, node));
+        let there: Vec<bool> = there.collect();
+        let of = nodes.iter().zip(&there);
+        let on: Vec<bool> = of.map(|(node, is_there)| *is_there && node.is_on).collect();
+        let is_heard = on.iter().filter(|is_on| **is_on).count() > 1;
+        let noises: Vec<f64> = nodes.iter().map(|node| node.noise).collect();
+        let mut own = None;
+        if let Some(node) = alone.and_then(|n| nodes.get_mut(n)) {
+            own = Some(std::mem::replace(&mut node.alone, Can::new(0, 1)));
+        }
+        let wire = own.as_mut().unwrap_or(can);
+        let mut is_destroyed = |from: usize| {
+            let share = noises.get(from).copied().unwrap_or(0.0);
+            !is_heard || share > 0.0 && random.uniform() < share
+        };
+        let (was_idle, mut passed) = (wire.is_idle(*now as f64 / US), 0);
+        while let Some((sent, is_lost)) = wire.pass(until as f64 / US, &mut is_destroyed) {
+            passed += 1;
+            let (at, frame) = ((sent.at_us * US).round() as Ps, sent.frame);
+            for ((n, node), _) in nodes.iter_mut().enumerate().zip(&on).filter(|(_, on)| **on) {
+                let what = match (n == sent.from, is_lost) {
+                    (true, false) => Arrival::Sent(frame),
+                    (false, false) => Arrival::Heard(frame),
+                    (true, true) => Arrival::Failed {
+                        frame,
+                        is_unheard: !is_heard,
+                    },
+                    (false, true) => Arrival::Missed,
                 };
                 let at = node.crystal.own(at);
                 node.board.machine.disturb(|chip| chip.expect(at, what));
             }
         }
-        for ((n, node), ended) in self.nodes.iter_mut().enumerate().zip(ended) {
-            *ended += node.board.run_until(node.crystal.own(until))?;
-            let requests = node
-                .board
-                .machine
-                .with_chip(|chip| chip.take_requests(self.bit))?;
+        // Behind each frame there is one; a whole span without any has more.
+        if passed == 0 && was_idle && wire.is_idle(until as f64 / US) {
+            passed = ((until - *now) / *bit / SILENCE_BITS) as u32;
+        }
+        let off = nodes.iter_mut().zip(there).filter(|(_, there)| *there);
+        for (node, _) in off.filter(|(node, _)| !node.is_on && passed > 0) {
+            let at = node.crystal.own(until);
+            let machine = &mut node.board.machine;
+            machine.disturb(|chip| chip.expect(at, Arrival::Silent(passed)));
+        }
+        if let (Some(own), Some(node)) = (own, alone.and_then(|n| nodes.get_mut(n))) {
+            node.alone = own;
+        }
+    }
+
+    /// Lets all run on.
+    fn run_on(&mut self) -> Result<(), Fault> {
+        let until = self.now + (LEAST_BITS - 1) * self.bit;
+        self.carry(until, None);
+        for n in 0..self.nodes.len() {
+            if self.nodes.get(n).is_some_and(|node| node.is_cut) {
+                self.carry(until, Some(n));
+            }
+        }
+        for (n, node) in self.nodes.iter_mut().enumerate() {
+            node.ended += node.board.run_until(node.crystal.own(until))?;
+            let (requests, is_on, pending) = node.board.machine.with_chip(|chip| {
+                let requests = chip.take_requests(self.bit)?;
+                Ok::<_, Fault>((requests, chip.is_on_bus(), chip.pending()))
+            })?;
+            let wire = if node.is_cut {
+                &mut node.alone
+            } else {
+                &mut self.can
+            };
+            let was_on = std::mem::replace(&mut node.is_on, is_on);
+            if !is_on {
+                wire.clear(n);
+                continue;
+            }
+            if !was_on {
+                for frame in pending {
+                    wire.queue(n, frame, until as f64 / US);
+                }
+                continue;
+            }
             for (at, request) in requests {
                 let at_us = node.crystal.of_bus(at) as f64 / US;
                 match request {
-                    Request::Send(frame) => self.can.queue(n, frame, at_us),
-                    Request::Withdraw(frame) => self.can.withdraw(n, &frame),
+                    Request::Send(frame) => wire.queue(n, frame, at_us),
+                    Request::Withdraw(frame) if !wire.is_under_way(n, &frame, at_us) => {
+                        wire.withdraw(n, &frame);
+                        let at = node.crystal.own(until);
+                        let machine = &mut node.board.machine;
+                        machine.disturb(|chip| chip.expect(at, Arrival::Withdrawn(frame)));
+                    }
+                    Request::Withdraw(_) => {}
+                    Request::Drop(frame) => wire.withdraw(n, &frame),
                 }
             }
         }
@@ -168,20 +321,28 @@ impl Head {
         Ok(())
     }
 
-    /// One tick of all: until the last has ended.
+    /// One tick of all: until the last has ended, or the world moves on.
     fn pass_tick(&mut self, events: &mut Vec<Event>) -> Result<(), Fault> {
         for node in &mut self.nodes {
             node.board.begin()?;
+            node.ended = 0;
         }
-        let mut ended = vec![0; self.nodes.len()];
-        let limit = self.now + 2 * self.period;
-        while ended.contains(&0) && self.now < limit {
-            self.run_on(&mut ended)?;
+        if let Some(moves_at) = self.moves_at {
+            let until = moves_at + self.period;
+            while self.now < until {
+                self.run_on()?;
+            }
+            self.moves_at = Some(until);
+        } else {
+            let limit = self.now + 2 * self.period;
+            while self.nodes.iter().any(|node| node.ended == 0) && self.now < limit {
+                self.run_on()?;
+            }
+            if self.nodes.iter().any(|node| node.ended != 1) {
+                return Err(Fault::Unequal);
+            }
         }
-        if ended.iter().any(|ended| *ended != 1) {
-            return Err(Fault::Unequal);
-        }
-        for node in &mut self.nodes {
+        for node in self.nodes.iter_mut().filter(|node| node.ended > 0) {
             node.board.end(events, &mut node.snapshot)?;
         }
         Ok(())
