@@ -6,6 +6,7 @@
 //! A board whose cable is cut has a bus of its own, on which nobody hears it.
 
 mod compare;
+mod disturbed;
 
 use std::ops::Range;
 
@@ -33,8 +34,6 @@ const US: f64 = 1e6;
 
 /// Bits of the shortest frame, with the space behind it.
 const LEAST_BITS: Ps = 47;
-/// So many recessive bits are a silence that a controller counts which comes back to the bus.
-const SILENCE_BITS: Ps = 11;
 
 /// By how much the clock of a board is faster than that of the bus, millionths.
 #[derive(Debug, Clone, Copy)]
@@ -71,9 +70,8 @@ pub(crate) struct Node {
     pub(crate) snapshot: Snapshot,
     /// Its controller takes part in what its bus does.
     is_on: bool,
-    /// The bus that it has while its cable is cut.
-    alone: Can,
-    is_cut: bool,
+    /// Which of the head's wires it hangs on.
+    wire: usize,
     /// The share of the frames that it sends which are destroyed.
     noise: f64,
     /// Ticks that have ended since it was looked at.
@@ -84,7 +82,8 @@ pub(crate) struct Node {
 #[derive(Debug)]
 pub(crate) struct Head {
     pub(crate) nodes: Vec<Node>,
-    can: Can,
+    /// The bus, and one for each board that hangs on it while its cable is cut.
+    wires: Vec<Can>,
     bit: Ps,
     pub(crate) now: Ps,
     period: Ps,
@@ -123,8 +122,7 @@ impl Head {
                     touch: [0; 2],
                 },
                 is_on: false,
-                alone: Can::new(usize::from(nodes), kbit_s),
-                is_cut: false,
+                wire: 0,
                 noise: 0.0,
                 ended: 0,
             })
@@ -135,7 +133,7 @@ impl Head {
             .map(|node| node.crystal.of_bus(node.board.machine.now));
         let mut head = Self {
             now: started.max().unwrap_or_default(),
-            can: Can::new(nodes.len(), kbit_s),
+            wires: vec![Can::new(nodes.len(), kbit_s); nodes.len() + 1],
             nodes,
             bit: 1_000_000_000 / Ps::from(kbit_s),
             period: 1_000_000_000_000 / Ps::from(scene.tick_hz),
@@ -151,145 +149,26 @@ impl Head {
         Ok(head)
     }
 
-    pub(crate) const fn load(&self) -> Load {
-        self.can.load()
+    pub(crate) fn load(&self) -> Load {
+        self.wires.first().map(Can::load).unwrap_or_default()
     }
 
     pub(crate) fn check(&self) -> Result<(), Fault> {
         self.fault.clone().map_or(Ok(()), Err)
     }
 
-    /// From now on boards may be reset, and the world moves on once a period, in the middle between
-    /// two ticks of the first.
-    pub(crate) fn bear(&mut self) {
-        for node in &mut self.nodes {
-            node.board.bears_resets = true;
-        }
-        self.moves_at = Some(self.now + self.period / 2);
-    }
-
-    /// Resets a board, or lets it lose its supply, which the next call may bring back.
-    pub(crate) fn strike(
-        &mut self,
-        n: usize,
-        strike: impl FnOnce(&mut Board) -> Result<(), Fault>,
-    ) -> Result<(), Fault> {
-        let Some(node) = self.nodes.get_mut(n) else {
-            return Ok(());
-        };
-        strike(&mut node.board)?;
-        node.is_on = false;
-        for can in [&mut self.can, &mut node.alone] {
-            can.clear(n);
-        }
-        Ok(())
-    }
-
-    /// Takes a board off the bus, or puts it on again.
-    pub(crate) fn cut(&mut self, n: usize, is_cut: bool) {
-        let now_us = self.now as f64 / US;
-        let Some(node) = self.nodes.get_mut(n).filter(|node| node.is_cut != is_cut) else {
-            return;
-        };
-        node.is_cut = is_cut;
-        let (from, to) = if is_cut {
-            (&mut self.can, &mut node.alone)
-        } else {
-            (&mut node.alone, &mut self.can)
-        };
-        from.clear(n);
-        if node.is_on {
-            for frame in node.board.machine.with_chip(|chip| chip.pending()) {
-                to.queue(n, frame, now_us);
-            }
-        }
-    }
-
-    /// From now on this share of the frames that a board sends is destroyed.
-    pub(crate) fn disturb(&mut self, n: usize, share: f64) {
-        if let Some(node) = self.nodes.get_mut(n) {
-            node.noise = share;
-        }
-    }
-
-    /// What passes on the bus, or, of a board that is cut off, on its own, until then.
-    fn carry(&mut self, until: Ps, alone: Option<usize>) {
-        let Self {
-            nodes,
-            can,
-            random,
-            now,
-            bit,
-            ..
-        } = self;
-        let is_there = |n: usize, node: &Node| alone.map_or(!node.is_cut, |one| one == n);
-        let there = nodes.iter().enumerate().map(|(n, node)| is_there(n, node));
-        let there: Vec<bool> = there.collect();
-        let of = nodes.iter().zip(&there);
-        let on: Vec<bool> = of.map(|(node, is_there)| *is_there && node.is_on).collect();
-        let is_heard = on.iter().filter(|is_on| **is_on).count() > 1;
-        let noises: Vec<f64> = nodes.iter().map(|node| node.noise).collect();
-        let mut own = None;
-        if let Some(node) = alone.and_then(|n| nodes.get_mut(n)) {
-            own = Some(std::mem::replace(&mut node.alone, Can::new(0, 1)));
-        }
-        let wire = own.as_mut().unwrap_or(can);
-        let mut is_destroyed = |from: usize| {
-            let share = noises.get(from).copied().unwrap_or(0.0);
-            !is_heard || share > 0.0 && random.uniform() < share
-        };
-        let (was_idle, mut passed) = (wire.is_idle(*now as f64 / US), 0);
-        while let Some((sent, is_lost)) = wire.pass(until as f64 / US, &mut is_destroyed) {
-            passed += 1;
-            let (at, frame) = ((sent.at_us * US).round() as Ps, sent.frame);
-            for ((n, node), _) in nodes.iter_mut().enumerate().zip(&on).filter(|(_, on)| **on) {
-                let what = match (n == sent.from, is_lost) {
-                    (true, false) => Arrival::Sent(frame),
-                    (false, false) => Arrival::Heard(frame),
-                    (true, true) => Arrival::Failed {
-                        frame,
-                        is_unheard: !is_heard,
-                    },
-                    (false, true) => Arrival::Missed,
-                };
-                let at = node.crystal.own(at);
-                node.board.machine.disturb(|chip| chip.expect(at, what));
-            }
-        }
-        // Behind each frame there is one; a whole span without any has more.
-        if passed == 0 && was_idle && wire.is_idle(until as f64 / US) {
-            passed = ((until - *now) / *bit / SILENCE_BITS) as u32;
-        }
-        let off = nodes.iter_mut().zip(there).filter(|(_, there)| *there);
-        for (node, _) in off.filter(|(node, _)| !node.is_on && passed > 0) {
-            let at = node.crystal.own(until);
-            let machine = &mut node.board.machine;
-            machine.disturb(|chip| chip.expect(at, Arrival::Silent(passed)));
-        }
-        if let (Some(own), Some(node)) = (own, alone.and_then(|n| nodes.get_mut(n))) {
-            node.alone = own;
-        }
-    }
-
     /// Lets all run on.
     fn run_on(&mut self) -> Result<(), Fault> {
         let until = self.now + (LEAST_BITS - 1) * self.bit;
-        self.carry(until, None);
-        for n in 0..self.nodes.len() {
-            if self.nodes.get(n).is_some_and(|node| node.is_cut) {
-                self.carry(until, Some(n));
-            }
-        }
+        (0..self.wires.len()).for_each(|wire| self.carry(wire, until));
         for (n, node) in self.nodes.iter_mut().enumerate() {
             node.ended += node.board.run_until(node.crystal.own(until))?;
             let (requests, is_on, pending) = node.board.machine.with_chip(|chip| {
                 let requests = chip.take_requests(self.bit)?;
                 Ok::<_, Fault>((requests, chip.is_on_bus(), chip.pending()))
             })?;
-            let wire = if node.is_cut {
-                &mut node.alone
-            } else {
-                &mut self.can
+            let Some(wire) = self.wires.get_mut(node.wire) else {
+                continue;
             };
             let was_on = std::mem::replace(&mut node.is_on, is_on);
             if !is_on {
@@ -308,9 +187,7 @@ impl Head {
                     Request::Send(frame) => wire.queue(n, frame, at_us),
                     Request::Withdraw(frame) if !wire.is_under_way(n, &frame, at_us) => {
                         wire.withdraw(n, &frame);
-                        let at = node.crystal.own(until);
-                        let machine = &mut node.board.machine;
-                        machine.disturb(|chip| chip.expect(at, Arrival::Withdrawn(frame)));
+                        node.expect(until, Arrival::Withdrawn(frame));
                     }
                     Request::Withdraw(_) => {}
                     Request::Drop(frame) => wire.withdraw(n, &frame),

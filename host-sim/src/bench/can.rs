@@ -52,7 +52,7 @@ impl fmt::Display for Load {
 }
 
 /// A bus.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub struct Can {
     bit_us: f64,
     /// Of each node, with the time of its queueing, µs.
