@@ -10,6 +10,7 @@
 
 mod can;
 mod can_bus;
+mod can_errors;
 mod dma;
 mod facts;
 mod fault;

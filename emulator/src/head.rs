@@ -3,8 +3,10 @@
 //!
 //! Boards run in turn, for less time than the shortest frame takes: so what one sends cannot come
 //! to another before that has been there. All begin at the same moment, by clocks that may differ.
+//! A board whose cable is cut has a bus of its own, on which nobody hears it.
 
 mod compare;
+mod disturbed;
 
 use std::ops::Range;
 
@@ -17,6 +19,7 @@ use host_sim::bus::tmag5170::TmagSlave;
 use host_sim::motor::Pins;
 use host_sim::run::Run;
 use host_sim::world::World;
+use physics::Noise;
 use scene::Scene;
 
 use crate::board::Board;
@@ -60,22 +63,34 @@ fn scaled(time: Ps, by: u128, of: u128) -> Ps {
 
 /// One of the boards.
 #[derive(Debug)]
-struct Node {
-    board: Board,
+pub(crate) struct Node {
+    pub(crate) board: Board,
     crystal: Crystal,
     own: Range<usize>,
-    snapshot: Snapshot,
+    pub(crate) snapshot: Snapshot,
+    /// Its controller takes part in what its bus does.
+    is_on: bool,
+    /// Which of the head's wires it hangs on.
+    wire: usize,
+    /// The share of the frames that it sends which are destroyed.
+    noise: f64,
+    /// Ticks that have ended since it was looked at.
+    pub(crate) ended: u32,
 }
 
 /// A head of boards.
 #[derive(Debug)]
 pub(crate) struct Head {
-    nodes: Vec<Node>,
-    can: Can,
+    pub(crate) nodes: Vec<Node>,
+    /// The bus, and one for each board that hangs on it while its cable is cut.
+    wires: Vec<Can>,
     bit: Ps,
-    now: Ps,
+    pub(crate) now: Ps,
     period: Ps,
     each: usize,
+    /// When the world moves on, whatever boards do; none: it waits for all of them.
+    moves_at: Option<Ps>,
+    random: Noise,
     fault: Option<Fault>,
 }
 
@@ -106,6 +121,10 @@ impl Head {
                     contact: [0, 1].map(|side| if side < sides { 0.0 } else { f64::NAN }),
                     touch: [0; 2],
                 },
+                is_on: false,
+                wire: 0,
+                noise: 0.0,
+                ended: 0,
             })
         };
         let nodes = (0..nodes).map(board).collect::<Result<Vec<_>, _>>()?;
@@ -114,53 +133,64 @@ impl Head {
             .map(|node| node.crystal.of_bus(node.board.machine.now));
         let mut head = Self {
             now: started.max().unwrap_or_default(),
-            can: Can::new(nodes.len(), kbit_s),
+            wires: vec![Can::new(nodes.len(), kbit_s); nodes.len() + 1],
             nodes,
             bit: 1_000_000_000 / Ps::from(kbit_s),
             period: 1_000_000_000_000 / Ps::from(scene.tick_hz),
             each: scene.head.whiskers_per_side,
+            moves_at: None,
+            random: Noise::new(scene.seed),
             fault: None,
         };
         for node in &mut head.nodes {
             node.board.run_until(node.crystal.own(head.now))?;
+            node.is_on = node.board.machine.with_chip(|chip| chip.is_on_bus());
         }
         Ok(head)
     }
 
-    pub(crate) const fn load(&self) -> Load {
-        self.can.load()
+    pub(crate) fn load(&self) -> Load {
+        self.wires.first().map(Can::load).unwrap_or_default()
     }
 
     pub(crate) fn check(&self) -> Result<(), Fault> {
         self.fault.clone().map_or(Ok(()), Err)
     }
 
-    /// Lets all run on; how many ticks of each have ended.
-    fn run_on(&mut self, ended: &mut [u32]) -> Result<(), Fault> {
+    /// Lets all run on.
+    fn run_on(&mut self) -> Result<(), Fault> {
         let until = self.now + (LEAST_BITS - 1) * self.bit;
-        while let Some(sent) = self.can.next(until as f64 / US) {
-            let at = (sent.at_us * US).round() as Ps;
-            for (n, node) in self.nodes.iter_mut().enumerate() {
-                let what = if n == sent.from {
-                    Arrival::Sent(sent.frame)
-                } else {
-                    Arrival::Heard(sent.frame)
-                };
-                let at = node.crystal.own(at);
-                node.board.machine.disturb(|chip| chip.expect(at, what));
+        (0..self.wires.len()).for_each(|wire| self.carry(wire, until));
+        for (n, node) in self.nodes.iter_mut().enumerate() {
+            node.ended += node.board.run_until(node.crystal.own(until))?;
+            let (requests, is_on, pending) = node.board.machine.with_chip(|chip| {
+                let requests = chip.take_requests(self.bit)?;
+                Ok::<_, Fault>((requests, chip.is_on_bus(), chip.pending()))
+            })?;
+            let Some(wire) = self.wires.get_mut(node.wire) else {
+                continue;
+            };
+            let was_on = std::mem::replace(&mut node.is_on, is_on);
+            if !is_on {
+                wire.clear(n);
+                continue;
             }
-        }
-        for ((n, node), ended) in self.nodes.iter_mut().enumerate().zip(ended) {
-            *ended += node.board.run_until(node.crystal.own(until))?;
-            let requests = node
-                .board
-                .machine
-                .with_chip(|chip| chip.take_requests(self.bit))?;
+            if !was_on {
+                for frame in pending {
+                    wire.queue(n, frame, until as f64 / US);
+                }
+                continue;
+            }
             for (at, request) in requests {
                 let at_us = node.crystal.of_bus(at) as f64 / US;
                 match request {
-                    Request::Send(frame) => self.can.queue(n, frame, at_us),
-                    Request::Withdraw(frame) => self.can.withdraw(n, &frame),
+                    Request::Send(frame) => wire.queue(n, frame, at_us),
+                    Request::Withdraw(frame) if !wire.is_under_way(n, &frame, at_us) => {
+                        wire.withdraw(n, &frame);
+                        node.expect(until, Arrival::Withdrawn(frame));
+                    }
+                    Request::Withdraw(_) => {}
+                    Request::Drop(frame) => wire.withdraw(n, &frame),
                 }
             }
         }
@@ -168,20 +198,28 @@ impl Head {
         Ok(())
     }
 
-    /// One tick of all: until the last has ended.
+    /// One tick of all: until the last has ended, or the world moves on.
     fn pass_tick(&mut self, events: &mut Vec<Event>) -> Result<(), Fault> {
         for node in &mut self.nodes {
             node.board.begin()?;
+            node.ended = 0;
         }
-        let mut ended = vec![0; self.nodes.len()];
-        let limit = self.now + 2 * self.period;
-        while ended.contains(&0) && self.now < limit {
-            self.run_on(&mut ended)?;
+        if let Some(moves_at) = self.moves_at {
+            let until = moves_at + self.period;
+            while self.now < until {
+                self.run_on()?;
+            }
+            self.moves_at = Some(until);
+        } else {
+            let limit = self.now + 2 * self.period;
+            while self.nodes.iter().any(|node| node.ended == 0) && self.now < limit {
+                self.run_on()?;
+            }
+            if self.nodes.iter().any(|node| node.ended != 1) {
+                return Err(Fault::Unequal);
+            }
         }
-        if ended.iter().any(|ended| *ended != 1) {
-            return Err(Fault::Unequal);
-        }
-        for node in &mut self.nodes {
+        for node in self.nodes.iter_mut().filter(|node| node.ended > 0) {
             node.board.end(events, &mut node.snapshot)?;
         }
         Ok(())

@@ -4,6 +4,7 @@
 mod figures;
 mod file;
 mod hands;
+mod head;
 mod links;
 mod said;
 mod staging;
@@ -61,6 +62,11 @@ impl Choice {
         let (loaded, program) = flashed(&self.scene, program)?;
         let loaded = self.placed(loaded, &scenario)?;
         scenario.fits(&self.scenario, &loaded.scene)?;
+        if let Some(bus) = config::bus(&loaded.scene) {
+            let json = head::run(&loaded, bus, &program, &scenario)?;
+            write_whole(&self.json, json.as_bytes())?;
+            return Ok(());
+        }
         let session = Session::running(&loaded.scene, loaded.classes()?, &program)?;
         let servos = Servos::new(&program, &loaded.scene)?;
         let facts = program.model()?.facts;

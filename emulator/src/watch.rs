@@ -43,6 +43,12 @@ mod name {
     /// What contact adds to its nominal gain, and that.
     pub(super) const LIFT: &str = "lift";
     pub(super) const NOMINAL: [&str; 2] = ["nominal", "first"];
+    /// In the state: the oscillator of the left side, as its integrator keeps it.
+    pub(super) const KEPT: [&str; 2] = ["oscillators", "kept"];
+    /// A board of a head on its bus: whether it has joined, and messages that it could not use.
+    pub(super) const ON_BUS: &str = "ON_BUS";
+    pub(super) const JOINED: [&str; 2] = ["node", "is_joined"];
+    pub(super) const LOST: [&str; 2] = ["node", "lost"];
     /// Ticks that did not happen in time.
     pub(super) const MISSED: [&str; 2] = ["timing", "missed"];
     /// What tells the touches of the whiskers.

@@ -31,7 +31,7 @@ use times::Times;
 /// Most messages that have come and have not taken effect yet.
 const MOST_DUE: usize = 64;
 
-/// So many times a stop is said.
+/// So many times a stop comes through: it is said until it has.
 const STOPS: u8 = 3;
 
 /// By how much contact π rises before that is said at once, Q15: 1/64.
@@ -87,7 +87,7 @@ pub struct Node {
     alone: u16,
     is_joined: bool,
     motors: Motors,
-    /// Stops that are still to be said.
+    /// Stops that have still to come through; one more where none was said.
     stops: u8,
     /// An arm to be said after the next tick.
     arms: bool,
@@ -158,7 +158,7 @@ impl Node {
 
     /// Stops all motors of the head, its own before the next tick.
     pub fn stop(&mut self) {
-        self.stops = STOPS;
+        self.stops = STOPS + 1;
         self.hear_stop();
     }
 
@@ -206,6 +206,10 @@ impl Node {
             && self.members.heard(from, contact.is_joined)
         {
             events(NodeEvent::Heard(from));
+            // It was off the bus as the stop was said.
+            if contact.is_armed && self.motors == Motors::Stopped {
+                self.stops = self.stops.max(1);
+            }
         }
         // One, where this node has done the same tick as the one that says it.
         let late = (self.tick as u8).wrapping_sub(stamp);
@@ -221,8 +225,10 @@ impl Node {
 
     /// A frame of this node has come through; `at_us`: when it ended, by the node's own clock.
     pub fn said(&mut self, frame: &Frame, at_us: u64) {
-        if let Ok((_, _, Message::Time { .. })) = Message::of(frame) {
-            self.clock.said(at_us);
+        match Message::of(frame) {
+            Ok((_, _, Message::Time { .. })) => self.clock.said(at_us),
+            Ok((_, _, Message::Stop)) => self.stops = self.stops.saturating_sub(1),
+            _ => {}
         }
     }
 
@@ -379,8 +385,8 @@ impl Node {
         let Times { psi, contact, .. } = self.times;
         let of_turn = |count: u32| count.checked_rem(contact.into());
         let is_turn = of_turn(tick) == of_turn(number.into());
-        if self.stops > 0 && (self.stops == STOPS || is_turn) {
-            self.stops -= 1;
+        if self.stops > STOPS || self.stops > 0 && is_turn {
+            self.stops = self.stops.min(STOPS);
             say(Message::Stop);
         }
         if core::mem::take(&mut self.arms) {

@@ -214,6 +214,33 @@ fn a_board_that_returns_takes_the_phase_of_the_others() {
     );
 }
 
+/// A stop that a board was to say or to hear while it was off the bus stops the head once it is back.
+#[test]
+fn a_stop_reaches_boards_that_were_cut_off() {
+    for stopped_by in [0, 2] {
+        let mut run = Run::new(&whole(3, 2.0, &[]), None).unwrap();
+        for tick in 0..2_000 {
+            let bus = run.bus().unwrap();
+            match tick {
+                1_000 => bus.cut(2, true),
+                1_200 => bus.arm(stopped_by, false),
+                1_500 => bus.cut(2, false),
+                _ => {}
+            }
+            if tick == 1_500 {
+                assert_eq!(
+                    [0, 2].map(|node| bus.is_armed(node)),
+                    [stopped_by == 2, stopped_by == 0]
+                );
+            }
+            if tick > 1_560 {
+                assert!(!(0..3).any(|node| bus.is_armed(node)), "{tick}");
+            }
+            run.tick();
+        }
+    }
+}
+
 /// Ten thousand disturbances: boards that are reset, cut off and joined again, frames missed and
 /// destroyed. Setpoints never step, and in the end all whisk together again.
 #[test]

@@ -77,6 +77,25 @@ const fn tilt(file: &'static str, bounds: &'static [Bound]) -> Row {
     row(file, TILT, bounds)
 }
 
+/// Two boards, a whisker each.
+const HEAD: &[&str] = &[
+    "head.nodes=2",
+    "head.sides=both",
+    "whisking.coupling=true",
+    "whisking.start=[[1.0, 0.0], [1.0, 0.0]]",
+    "plant.obstacle_deg=[300.0, 300.0]",
+];
+/// A setpoint moves a quarter more a tick than the 0.3046 degrees of whiskers that nothing befalls.
+const NO_STEP: Bound = Most("largest_step_deg", 0.381);
+/// Phases are the same again within two whisks.
+const RELOCKS: Bound = Most("relocked_s", 1.0);
+/// A board waits for 100 ms and for 128 times eleven bits, which a bus that is half busy has in ten.
+const COMES_BACK: Bound = Most("nodes/1/longest_off_s", 0.12);
+
+const fn head(file: &'static str, bounds: &'static [Bound]) -> Row {
+    row(file, HEAD, bounds)
+}
+
 const ROWS: &[Row] = &[
     row("whisking", &[], WHISKS_ON),
     row("whisking", &["whisking.frequency_hz=0.2"], WHISKS_ON),
@@ -265,6 +284,54 @@ const ROWS: &[Row] = &[
         "magnet-near",
         &[Numbered("limit", 36), Faults(false), INSIDE],
     ),
+    head(
+        "head-reset",
+        &[
+            NO_STEP,
+            RELOCKS,
+            Least("nodes/1/resets", 1.0),
+            Least("nodes/0/driven_s", 2.95),
+            // Of the first 1.3 s and the last 0.7.
+            Least("nodes/1/driven_s", 1.95),
+            Most("nodes/1/driven_s", 2.0),
+        ],
+    ),
+    head(
+        "head-cut",
+        &[
+            NO_STEP,
+            RELOCKS,
+            Least("nodes/1/most_transmit_errors", 128.0),
+            Most("nodes/1/bus_offs", 0.0),
+            Most("nodes/0/unused_messages", 4.0),
+            Least("nodes/0/driven_s", 2.55),
+            Least("nodes/1/driven_s", 2.55),
+        ],
+    ),
+    head(
+        "head-noise",
+        &[
+            NO_STEP,
+            RELOCKS,
+            COMES_BACK,
+            Least("nodes/1/bus_offs", 2.0),
+            Most("nodes/1/errors_at_end/0", 8.0),
+            Most("nodes/0/unused_messages", 4.0),
+            Least("nodes/0/driven_s", 2.55),
+            Least("nodes/1/driven_s", 2.55),
+        ],
+    ),
+    head(
+        "head-stop",
+        &[
+            Least("nodes/0/driven_s", 0.95),
+            Most("stop_to_off_ticks", 4.0),
+            Off,
+        ],
+    ),
+    // For 600 ticks it is cut off, and a stop is said again every 20.
+    head("head-stop-cut", &[Most("stop_to_off_ticks", 624.0), Off]),
+    head("head-lost", &[NO_STEP, Least("nodes/1/driven_s", 2.45)]),
     row("two-faults", &[], &[Faults(true), INSIDE, STAYS_OFF]),
 ];
 
@@ -311,6 +378,9 @@ impl Bound {
 
 impl Row {
     fn name(&self) -> String {
+        if self.set == HEAD {
+            return self.file.to_owned();
+        }
         [&[self.file], self.set].concat().join(" ")
     }
 
@@ -362,6 +432,8 @@ const SHORT: &[&str] = &[
     "magnet-near sensor.model=tmag5170",
     "sensor-garbled sensor.model=tmag5170",
     "sensor-restart sensor.model=tmag5170",
+    "head-stop-cut",
+    "head-noise",
 ];
 
 pub(crate) fn short() -> Result<(), Fault> {

@@ -1,13 +1,13 @@
 //! A bxCAN with the wires of its transceiver (RM0390, chapter 30): initialisation, three transmit
 //! mailboxes, one filter of 32 bits with a mask, and the first receive FIFO. What else it has is
 //! not modelled: other filters, the second FIFO, interrupts of status and errors, time stamps,
-//! loop-back. A frame is sent or heard by whoever joins several chips, as a whole; errors on the
-//! bus are not the chip's, but for the state in which they have switched it off.
+//! loop-back. A frame is sent, heard or destroyed by whoever joins several chips, as a whole.
 
 use std::collections::VecDeque;
 
 use can::Frame;
 
+use super::can_errors::{BOFF, ErrorCounts, REC, TEC};
 use super::fields::{Field, field, whole};
 use super::time::Ps;
 
@@ -53,8 +53,6 @@ const RFOM: u32 = 1 << 5;
 const TMEIE: u32 = 1 << 0;
 const FMPIE0: u32 = 1 << 1;
 
-const BOFF: u32 = 1 << 2;
-
 /// Of an identifier's register.
 const TXRQ: u32 = 1 << 0;
 const RTR: u32 = 1 << 1;
@@ -93,6 +91,8 @@ pub(super) fn fields() -> Vec<Field> {
         field("IER", IER, "TMEIE", TMEIE),
         field("IER", IER, "FMPIE0", FMPIE0),
         field("ESR", ESR, "BOFF", BOFF),
+        field("ESR", ESR, "TEC", TEC),
+        field("ESR", ESR, "REC", REC),
         field("BTR", BTR, "BRP", BRP),
         field("BTR", BTR, "TS1", TS1),
         field("BTR", BTR, "TS2", TS2),
@@ -124,6 +124,8 @@ struct Mailbox {
     words: [u32; 4],
     is_completed: bool,
     is_sent: bool,
+    /// It is to be given up, and is on the bus as far as is known.
+    is_aborted: bool,
 }
 
 impl Mailbox {
@@ -142,6 +144,7 @@ impl Mailbox {
     const fn complete(&mut self, is_sent: bool) {
         self.words[0] &= !TXRQ;
         (self.is_completed, self.is_sent) = (true, is_sent);
+        self.is_aborted = false;
     }
 }
 
@@ -152,14 +155,24 @@ pub(crate) enum Arrival {
     Heard(Frame),
     /// A frame of this one has come through.
     Sent(Frame),
+    /// One was destroyed, or `is_unheard`: no other has acknowledged it.
+    Failed { frame: Frame, is_unheard: bool },
+    /// One of another chip was destroyed.
+    Missed,
+    /// A frame of this one was not on the bus as it was to be withdrawn.
+    Withdrawn(Frame),
+    /// So often eleven recessive bits, for a chip that is off.
+    Silent(u32),
 }
 
 /// What its mailboxes have asked for.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Request {
     Send(Frame),
-    /// Not to send it any more.
+    /// Not to send it, unless it is on the bus.
     Withdraw(Frame),
+    /// Not to send it again.
+    Drop(Frame),
 }
 
 #[derive(Debug, Clone)]
@@ -167,7 +180,7 @@ pub(super) struct BxCan {
     mcr: u32,
     ier: u32,
     btr: u32,
-    is_off: bool,
+    errors: ErrorCounts,
     mailboxes: [Mailbox; MAILBOXES],
     received: VecDeque<Frame>,
     overrun: bool,
@@ -184,7 +197,7 @@ impl Default for BxCan {
             mcr: MCR_RESET,
             ier: 0,
             btr: BTR_RESET,
-            is_off: false,
+            errors: ErrorCounts::default(),
             mailboxes: [Mailbox::default(); MAILBOXES],
             received: VecDeque::new(),
             overrun: false,
@@ -213,8 +226,27 @@ impl BxCan {
     }
 
     /// Whether it takes part in what the bus does.
-    const fn is_on(&self) -> bool {
-        self.mcr & (INRQ | SLEEP) == 0 && !self.is_off
+    pub(super) const fn is_on(&self) -> bool {
+        self.mcr & (INRQ | SLEEP) == 0 && !self.errors.is_off
+    }
+
+    pub(super) const fn errors(&self) -> ErrorCounts {
+        self.errors
+    }
+
+    pub(super) const fn has_overrun(&self) -> bool {
+        self.overrun
+    }
+
+    /// What waits to be sent.
+    pub(super) fn pending(&self) -> impl Iterator<Item = Frame> {
+        let pending = self.mailboxes.iter().filter(|one| one.is_pending());
+        pending.map(Mailbox::frame)
+    }
+
+    fn mailbox(&mut self, frame: Frame) -> Option<&mut Mailbox> {
+        let mut all = self.mailboxes.iter_mut();
+        all.find(|one| one.is_pending() && one.frame() == frame)
     }
 
     pub(super) const fn bit(&self, bus: Ps) -> Ps {
@@ -237,28 +269,57 @@ impl BxCan {
 
     pub(super) fn advance(&mut self, now: Ps) {
         while let Some((_, what)) = self.arriving.pop_front_if(|(at, _)| *at <= now) {
+            if let Arrival::Silent(times) = what
+                && self.mcr & INRQ == 0
+            {
+                self.errors.silent(times);
+            }
             if !self.is_on() {
                 continue;
             }
             match what {
-                Arrival::Heard(frame) if self.accepts(&frame) => {
-                    if self.received.len() == DEPTH {
-                        // Not locked: the last is overwritten (RFLM).
-                        self.received.pop_back();
-                        self.overrun = true;
-                    }
-                    self.received.push_back(frame);
+                Arrival::Heard(frame) => {
+                    self.errors.heard();
+                    self.receive(frame);
                 }
-                Arrival::Heard(_) => {}
+                Arrival::Missed => self.errors.missed(),
                 Arrival::Sent(frame) => {
-                    let mut all = self.mailboxes.iter_mut();
-                    let of_frame = |one: &&mut Mailbox| one.is_pending() && one.frame() == frame;
-                    if let Some(one) = all.find(of_frame) {
+                    self.errors.sent();
+                    if let Some(one) = self.mailbox(frame) {
                         one.complete(true);
                     }
                 }
+                Arrival::Failed { frame, is_unheard } => {
+                    self.errors.failed(is_unheard);
+                    let is_off = self.errors.is_off;
+                    for one in self.mailboxes.iter_mut().filter(|one| one.is_aborted) {
+                        if is_off || one.frame() == frame {
+                            one.complete(false);
+                            let frame = one.frame();
+                            self.requests.push((now, Request::Drop(frame)));
+                        }
+                    }
+                }
+                Arrival::Withdrawn(frame) => {
+                    if let Some(one) = self.mailbox(frame) {
+                        one.complete(false);
+                    }
+                }
+                Arrival::Silent(_) => {}
             }
         }
+    }
+
+    fn receive(&mut self, frame: Frame) {
+        if !self.accepts(&frame) {
+            return;
+        }
+        if self.received.len() == DEPTH {
+            // Not locked: the last is overwritten (RFLM).
+            self.received.pop_back();
+            self.overrun = true;
+        }
+        self.received.push_back(frame);
     }
 
     const fn accepts(&self, frame: &Frame) -> bool {
@@ -293,7 +354,7 @@ impl BxCan {
                 count as u32 | flag(count == DEPTH, FULL) | flag(self.overrun, FOVR)
             }
             IER => self.ier,
-            ESR => flag(self.is_off, BOFF),
+            ESR => self.errors.status(),
             BTR => self.btr,
             FMR => self.filter_mode,
             _ if FILTERS.contains(&offset) => self.filter[place(offset)],
@@ -326,18 +387,25 @@ impl BxCan {
             MCR if value & !(INRQ | SLEEP) == 0 => {
                 let was_starting = self.mcr & INRQ != 0;
                 self.mcr = value;
-                // 128 times eleven bits are not waited for.
-                self.is_off &= !(was_starting && value & INRQ == 0);
+                if was_starting && value & INRQ == 0 {
+                    self.errors.restart();
+                }
             }
             TSR => {
+                let is_on = self.is_on();
                 for (n, one) in (0..).zip(&mut self.mailboxes) {
                     let of_one = value >> (8 * n);
                     if of_one & RQCP != 0 {
                         (one.is_completed, one.is_sent) = (false, false);
                     }
-                    if of_one & ABRQ != 0 && one.is_pending() {
-                        self.requests.push((now, Request::Withdraw(one.frame())));
-                        one.complete(false);
+                    // One that is on the bus is given up as it ends, unless it comes through.
+                    if of_one & ABRQ != 0 && one.is_pending() && !one.is_aborted {
+                        one.is_aborted = is_on;
+                        if is_on {
+                            self.requests.push((now, Request::Withdraw(one.frame())));
+                        } else {
+                            one.complete(false);
+                        }
                     }
                 }
             }

@@ -1,6 +1,9 @@
 //! A chip on the bus of a head: what comes, and what it sends; and its number.
 
+use can::Frame;
+
 use super::can::{Arrival, Request};
+use super::can_errors::ErrorCounts;
 use super::map::Unit;
 use super::time::Ps;
 use super::wiring::NUMBER;
@@ -20,6 +23,25 @@ impl Chip {
         if self.is_clocked(Unit::Can) {
             self.can.expect(at, what);
         }
+    }
+
+    /// Whether it takes part in what the bus does.
+    pub(crate) fn is_on_bus(&self) -> bool {
+        self.is_clocked(Unit::Can) && self.can.is_on()
+    }
+
+    pub(crate) const fn bus_errors(&self) -> ErrorCounts {
+        self.can.errors()
+    }
+
+    /// Whether a frame came for which its queue had no room.
+    pub(crate) const fn has_overrun(&self) -> bool {
+        self.can.has_overrun()
+    }
+
+    /// What its mailboxes hold.
+    pub(crate) fn pending(&self) -> Vec<Frame> {
+        self.can.pending().collect()
     }
 
     /// What it has asked of a bus with such bits since the last call, and when.

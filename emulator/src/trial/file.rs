@@ -49,6 +49,9 @@ pub(super) enum What {
     Button,
     PowerOff,
     ClockLate,
+    Reset,
+    BusCut,
+    BusNoise { share: f64 },
 }
 
 /// A sensor that is another part, or programmed otherwise, than the scene has it.
@@ -83,6 +86,8 @@ pub(super) struct Event {
     pub(super) until_s: Option<f64>,
     /// 0: left.
     pub(super) side: usize,
+    /// Which board of a head it befalls; none: of a scene that is one, the first.
+    pub(super) node: Option<u8>,
     pub(super) what: What,
     pub(super) repeat_hz: Option<f64>,
 }
@@ -141,6 +146,17 @@ impl Scenario {
         for event in &self.events {
             let what = &event.what;
             let missing = match what {
+                What::Reset | What::BusCut | What::BusNoise { .. }
+                    if scene.head.nodes.is_none() =>
+                {
+                    "an event of a head, but the scene has no head.nodes"
+                }
+                _ if event.node.unwrap_or(0) >= scene.head.nodes.unwrap_or(1) => {
+                    "an event of a node that the scene has not"
+                }
+                _ if scene.head.nodes.is_some() && !what.is_of_head() => {
+                    "an event that befalls no board of a head"
+                }
                 What::Serial { .. } | What::Configuration { .. }
                     if scene.telemetry.serial_baud.is_none() =>
                 {
@@ -189,6 +205,19 @@ fn read(path: &Path) -> Result<String, String> {
 }
 
 impl What {
+    /// Whether it can befall a board of a head.
+    const fn is_of_head(&self) -> bool {
+        matches!(
+            self,
+            Self::Serial { .. }
+                | Self::Probe { .. }
+                | Self::PowerOff
+                | Self::Reset
+                | Self::BusCut
+                | Self::BusNoise { .. }
+        )
+    }
+
     const fn is_at_motor(&self) -> bool {
         matches!(
             self,

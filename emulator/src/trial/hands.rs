@@ -118,7 +118,10 @@ impl Around {
             | What::Configuration { .. }
             | What::Button
             | What::PowerOff
-            | What::ClockLate => {}
+            | What::ClockLate
+            | What::Reset
+            | What::BusCut
+            | What::BusNoise { .. } => {}
         }
     }
 }

@@ -8,6 +8,7 @@ use host_sim::received::{Received, Receiver};
 use serde::Serialize;
 use wire::{Answer, Command, CommandStatus, Load, WhiskerId};
 
+use crate::board::Board;
 use crate::session::Session;
 
 /// More events than so many are counted, and not listed.
@@ -100,12 +101,22 @@ fn in_words(answer: &Answer) -> String {
 
 impl Lister {
     pub(super) fn listen(&mut self, session: &mut Session) -> Result<(), Error> {
-        let t_s = session.run.t_s();
-        for line in session.log() {
-            self.list(of_log(t_s, &line));
+        let (t_s, lines) = (session.run.t_s(), session.log());
+        self.hear(t_s, &lines, session.board_mut())
+    }
+
+    /// The same of a board that has logged these lines.
+    pub(super) fn hear(
+        &mut self,
+        t_s: f64,
+        lines: &[String],
+        board: &mut Board,
+    ) -> Result<(), Error> {
+        for line in lines {
+            self.list(of_log(t_s, line));
         }
-        let by_probe = session.board_mut().heard()?.into_iter();
-        let bytes = session.serial_read();
+        let by_probe = board.heard()?.into_iter();
+        let bytes = board.serial_read();
         for seen in by_probe.chain(self.line.take(&bytes)) {
             match seen {
                 Received::Packet(Packet::Answer(answer)) => self.answered(t_s, in_words(&answer)),

@@ -66,8 +66,10 @@ fn within<'d>(from: Place<'d>, names: &[&str], variant: &str) -> Option<(Tag, Pl
 /// The position controls of all motors, left side first.
 #[derive(Debug)]
 pub(crate) struct Servos {
-    servos: Vec<Servo>,
+    motors: Vec<Servo>,
     armed: Option<u32>,
+    oscillator: Option<[Variable; 2]>,
+    on_bus: Option<[u32; 2]>,
 }
 
 impl Servos {
@@ -81,9 +83,18 @@ impl Servos {
             Some(Servo::at(servo))
         });
         let armed = along(module, &name::ARMED).ok();
+        let kept = along(module, &name::STATE).and_then(|state| along(state, &name::KEPT));
+        let kept = kept.and_then(|kept| kept.element(0));
+        let part = |n| Variable::at(kept.as_ref().ok()?.element(n).ok()?).ok();
+        let on_bus = info.variable(name::ON_BUS).ok().and_then(|on_bus| {
+            let at = |names| Some(along(on_bus, names).ok()?.address);
+            at(&name::JOINED).zip(at(&name::LOST))
+        });
         Ok(Self {
-            servos: servos.collect(),
+            motors: servos.collect(),
             armed: armed.map(|armed| armed.address),
+            on_bus: on_bus.map(|(joined, lost)| [joined, lost]),
+            oscillator: part(0).zip(part(1)).map(|(x, y)| [x, y]),
         })
     }
 
@@ -96,9 +107,28 @@ impl Servos {
         self.armed.map(read).transpose()
     }
 
+    /// Whether a board of a head has joined it, and messages that it could not use; none: it is no
+    /// such board.
+    pub(crate) fn on_bus(&self, ram: &Memories) -> Result<Option<(bool, u32)>, Fault> {
+        let Some([joined, lost]) = self.on_bus else {
+            return Ok(None);
+        };
+        let (address, value) = (joined, 1);
+        Ok(Some((Tag { address, value }.is_so(ram)?, ram.word(lost)?)))
+    }
+
+    /// Where the oscillator of the left side, or the mean of both, is in its circle, degrees; none:
+    /// it is not known.
+    pub(crate) fn phase_deg(&self, ram: &Memories) -> Result<Option<f64>, Fault> {
+        let Some([x, y]) = self.oscillator else {
+            return Ok(None);
+        };
+        Ok(Some(y.read(ram)?.atan2(x.read(ram)?).to_degrees()))
+    }
+
     pub(crate) fn wants(&self, side: usize, ram: &Memories) -> Result<Wants, Fault> {
         let mut wants = Wants::default();
-        let Some(servo) = self.servos.get(side) else {
+        let Some(servo) = self.motors.get(side) else {
             return Ok(wants);
         };
         if let Some(homing) = servo.homing {

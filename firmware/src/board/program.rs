@@ -301,9 +301,8 @@ fn talk(module: &mut Module) {
         settings,
         ..
     } = module;
-    let was_armed = Part::Bus.is_built() && inner.is_armed();
-    telemetry.talk(inner, settings, TICKS.get());
-    if Part::Bus.is_built() && !was_armed && inner.is_armed() {
+    // Other boards of a head may be off where this one is not.
+    if telemetry.talk(inner, settings, TICKS.get()) && Part::Bus.is_built() {
         head.arm();
     }
 }

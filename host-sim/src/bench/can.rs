@@ -52,7 +52,7 @@ impl fmt::Display for Load {
 }
 
 /// A bus.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub struct Can {
     bit_us: f64,
     /// Of each node, with the time of its queueing, µs.
@@ -114,47 +114,82 @@ impl Can {
         }
     }
 
-    /// The next frame that ends by `until_us`: of those that are there when the bus is free, the
-    /// one with the lowest identifier.
-    pub fn next(&mut self, until_us: f64) -> Option<Sent> {
-        loop {
-            let all = self.queues.iter().flatten();
-            let first_us = all.map(|(at_us, _)| *at_us).min_by(f64::total_cmp)?;
-            let begin_us = self.free_us.max(first_us);
-            let mut found: Option<(usize, usize, u16)> = None;
-            for (from, queue) in self.queues.iter().enumerate() {
-                for (place, (at_us, frame)) in queue.iter().enumerate() {
-                    let wins = found.is_none_or(|(_, _, id)| frame.id() < id);
-                    if *at_us <= begin_us && wins {
-                        found = Some((from, place, frame.id()));
-                    }
+    /// Whether nothing is on it at `at_us`, nor waits for it.
+    pub fn is_idle(&self, at_us: f64) -> bool {
+        let mut all = self.queues.iter().flatten();
+        self.free_us <= at_us && all.all(|(queued_us, _)| *queued_us > at_us)
+    }
+
+    /// Whether this frame of a node is on the bus at `at_us`.
+    pub fn is_under_way(&self, node: usize, frame: &Frame, at_us: f64) -> bool {
+        self.first().is_some_and(|(begin_us, from, place)| {
+            let found = self.queues.get(from).and_then(|queue| queue.get(place));
+            begin_us <= at_us && from == node && found.is_some_and(|(_, one)| one == frame)
+        })
+    }
+
+    /// The frame that is sent next, by its node and its place there, and when it begins: of those
+    /// that are there when the bus is free, the one with the lowest identifier.
+    fn first(&self) -> Option<(f64, usize, usize)> {
+        let all = self.queues.iter().flatten();
+        let first_us = all.map(|(at_us, _)| *at_us).min_by(f64::total_cmp)?;
+        let begin_us = self.free_us.max(first_us);
+        let mut found: Option<(usize, usize, u16)> = None;
+        for (from, queue) in self.queues.iter().enumerate() {
+            for (place, (at_us, frame)) in queue.iter().enumerate() {
+                let wins = found.is_none_or(|(_, _, id)| frame.id() < id);
+                if *at_us <= begin_us && wins {
+                    found = Some((from, place, frame.id()));
                 }
             }
-            let (from, place, _) = found?;
-            let queue = self.queues.get_mut(from)?;
-            let (queued_us, frame) = *queue.get(place)?;
-            let bits = frame.bits();
-            let end_us = begin_us + f64::from(bits) * self.bit_us;
-            if end_us > until_us {
-                return None;
-            }
-            if self.corrupted > 0.0 && self.random.uniform() < self.corrupted {
-                let lost = f64::from(bits / 2 + ERROR_BITS) * self.bit_us;
-                self.free_us = begin_us + lost;
-                self.load.busy_s += lost * 1e-6;
-                continue;
-            }
-            queue.remove(place);
-            self.free_us = end_us;
-            self.load.frames += 1;
-            self.load.busy_s += f64::from(bits) * self.bit_us * 1e-6;
-            self.load.worst_s = self.load.worst_s.max((end_us - queued_us) * 1e-6);
-            return Some(Sent {
-                at_us: end_us,
-                from,
-                frame,
-            });
         }
+        found.map(|(from, place, _)| (begin_us, from, place))
+    }
+
+    /// The next frame that comes through by `until_us`.
+    pub fn next(&mut self, until_us: f64) -> Option<Sent> {
+        let share = self.corrupted;
+        let mut random = std::mem::replace(&mut self.random, Noise::new(0));
+        let mut is_destroyed = |_| share > 0.0 && random.uniform() < share;
+        let through = loop {
+            match self.pass(until_us, &mut is_destroyed) {
+                Some((_, true)) => {}
+                through => break through,
+            }
+        };
+        self.random = random;
+        through.map(|(sent, _)| sent)
+    }
+
+    /// The next frame that ends by `until_us`, and whether an error has destroyed it, as
+    /// `is_destroyed` says of one from a node: then it is sent again.
+    pub fn pass(
+        &mut self,
+        until_us: f64,
+        mut is_destroyed: impl FnMut(usize) -> bool,
+    ) -> Option<(Sent, bool)> {
+        let (begin_us, from, place) = self.first()?;
+        let queue = self.queues.get_mut(from)?;
+        let (queued_us, frame) = *queue.get(place)?;
+        let bits = frame.bits();
+        let end_us = begin_us + f64::from(bits) * self.bit_us;
+        if end_us > until_us {
+            return None;
+        }
+        let is_destroyed = is_destroyed(from);
+        let bits = if is_destroyed {
+            bits / 2 + ERROR_BITS
+        } else {
+            queue.remove(place);
+            self.load.frames += 1;
+            self.load.worst_s = self.load.worst_s.max((end_us - queued_us) * 1e-6);
+            bits
+        };
+        let took_us = f64::from(bits) * self.bit_us;
+        self.free_us = begin_us + took_us;
+        self.load.busy_s += took_us * 1e-6;
+        let at_us = self.free_us;
+        Some((Sent { at_us, from, frame }, is_destroyed))
     }
 }
 

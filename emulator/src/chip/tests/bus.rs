@@ -10,6 +10,7 @@ const MCR: u32 = CAN;
 const MSR: u32 = CAN + 0x04;
 const TSR: u32 = CAN + 0x08;
 const RF0R: u32 = CAN + 0x0C;
+const ESR: u32 = CAN + 0x18;
 const IER: u32 = CAN + 0x14;
 const BTR: u32 = CAN + 0x1C;
 const TI0R: u32 = CAN + 0x180;
@@ -45,14 +46,59 @@ fn it_starts_as_the_manual_says() {
     assert!(rig.try_write(BTR, BITS).is_err());
 }
 
+/// What is aborted before it is on the bus, or fails there, was not sent; what comes through all the
+/// same was (RM0390, 30.7.1).
 #[test]
-fn a_request_that_is_aborted_was_not_sent() {
+fn a_request_that_is_aborted_was_sent_if_it_came_through() {
+    let frame = Frame::new(0x123, &[]);
+    let failed = Arrival::Failed {
+        frame,
+        is_unheard: false,
+    };
+    for (then, status) in [
+        (Arrival::Withdrawn(frame), 0x1C00_0001),
+        (failed, 0x1C00_0001),
+        (Arrival::Sent(frame), 0x1C00_0003),
+    ] {
+        let mut rig = on_bus();
+        rig.write(TI0R, 0x123 << 21 | 1);
+        rig.write(TSR, 1 << 7);
+        let asked = rig.chip.can.take_requests();
+        assert!(matches!(asked[..], [_, (_, Request::Withdraw(_))]));
+        assert_eq!(rig.read(TSR), 0x1800_0000, "pending");
+        rig.chip.can.expect(US, then);
+        rig.chip.can.advance(US);
+        assert_eq!(rig.read(TSR), status, "{then:?}");
+    }
+}
+
+/// Off the bus it hears nothing, and what is aborted is so at once; it is back after 128 silences once the
+/// program has set and cleared INRQ.
+#[test]
+fn errors_switch_it_off_until_the_program_lets_it_back() {
     let mut rig = on_bus();
+    let frame = Frame::new(0x123, &[]);
     rig.write(TI0R, 0x123 << 21 | 1);
+    let failed = Arrival::Failed {
+        frame,
+        is_unheard: false,
+    };
+    (0..32).for_each(|_| rig.chip.can.expect(US, failed));
+    rig.chip.can.expect(US, Arrival::Heard(frame));
+    rig.chip.can.expect(US, Arrival::Silent(200));
+    rig.chip.can.advance(US);
+    assert_eq!((rig.read(ESR) & 7, rig.read(RF0R)), (7, 0));
     rig.write(TSR, 1 << 7);
-    let asked = rig.chip.can.take_requests();
-    assert!(matches!(asked[..], [_, (_, Request::Withdraw(_))]));
-    assert_eq!(rig.read(TSR), 0x1C00_0001, "completed, but not sent");
+    assert_eq!(rig.read(TSR), 0x1C00_0001);
+    for inrq in [1, 0] {
+        rig.write(MCR, inrq);
+        assert_eq!(rig.read(ESR) & 4, 4);
+    }
+    for (silences, is_off) in [(127, 4), (1, 0)] {
+        rig.chip.can.expect(2 * US, Arrival::Silent(silences));
+        rig.chip.can.advance(2 * US);
+        assert_eq!(rig.read(ESR) & 4, is_off);
+    }
 }
 
 /// Three frames wait, the first is at hand; of a fourth the last is overwritten.

@@ -7,6 +7,7 @@ use scene::Scene;
 use super::{Scenario, What};
 
 const BENCH: &str = include_str!("../../../../scenes/bench.toml");
+const CIA: &str = include_str!("../../../../scenes/cia.toml");
 
 fn refused(text: &str) -> String {
     Scenario::parse(text).unwrap_err()
@@ -50,6 +51,18 @@ fn what_befalls_what_a_scene_lacks_is_refused() {
         assert_eq!(fits(kind, &own), Ok(()), "{kind}");
         let refused = fits(kind, &other).unwrap_err();
         assert!(refused.contains("an event of an MLX90333"), "{refused}");
+    }
+    let head = CIA.replace("[head]", "[head]\nnodes = 2");
+    let head = Scene::from_str("cia.toml", &head).unwrap();
+    assert_eq!(fits("bus-cut", &head), Ok(()));
+    assert!(fits("bus-cut", &own).unwrap_err().contains("head.nodes"));
+    assert!(
+        fits("held", &head)
+            .unwrap_err()
+            .contains("no board of a head")
+    );
+    for (scene, is_there) in [(&head, true), (&own, false)] {
+        assert_eq!(fits("power-off'\nnode = 1\n#'", scene).is_ok(), is_there);
     }
     for kind in ["motor-reversed", "clock-late"] {
         assert_eq!(fits(kind, &own), Ok(()), "{kind}");

@@ -43,6 +43,9 @@ pub(super) enum Kind {
     Button,
     PowerOff,
     ClockLate,
+    Reset,
+    BusCut,
+    BusNoise,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, Serialize)]
@@ -59,6 +62,7 @@ pub(super) struct Written {
     at_s: f64,
     for_s: Option<f64>,
     side: Option<Side>,
+    node: Option<u8>,
     kind: Kind,
     counts: Option<u16>,
     share: Option<f64>,
@@ -127,6 +131,7 @@ impl Written {
             at_s,
             until_s: for_s.map(|for_s| at_s + for_s),
             side: usize::from(self.side == Some(Side::Right)),
+            node: self.node,
             what,
             repeat_hz,
         })
@@ -184,6 +189,11 @@ impl Written {
             Kind::Button => What::Button,
             Kind::PowerOff => What::PowerOff,
             Kind::ClockLate => What::ClockLate,
+            Kind::Reset => What::Reset,
+            Kind::BusCut => What::BusCut,
+            Kind::BusNoise => What::BusNoise {
+                share: number("share", self.share.take(), 0.0..=1.0)?,
+            },
         })
     }
 

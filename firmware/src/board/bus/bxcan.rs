@@ -19,8 +19,7 @@ const BOXES: usize = 3;
 /// Most frames that wait: more than a tick says, of as many classes as a model can have.
 const MOST_WAITING: usize = 16;
 
-/// For how long a frame waits in its mailbox before it is given up, ms: whoever hears it later
-/// has no use for it.
+/// For how long a frame waits before it is given up, ms: whoever hears it later has no use for it.
 const LATE_MS: u32 = 4;
 
 /// After so long a controller that errors have switched off is let onto the bus again, ms: one
@@ -28,9 +27,9 @@ const LATE_MS: u32 = 4;
 const OFF_MS: u32 = 100;
 
 pub(super) struct Controller {
-    /// What each mailbox has, and for how many ticks.
+    /// What each mailbox has, and for how many ticks it has waited in all.
     boxes: [Option<(Frame, u32)>; BOXES],
-    waiting: Vec<Frame, MOST_WAITING>,
+    waiting: Vec<(Frame, u32), MOST_WAITING>,
     /// Ticks for which errors have switched it off.
     off: u32,
 }
@@ -94,7 +93,7 @@ impl Controller {
     /// Sends a frame, in the order of identifiers. One for which there is no room is dropped: it
     /// would come too late.
     pub(super) fn say(&mut self, frame: Frame) {
-        let _ = self.waiting.push(frame);
+        let _ = self.waiting.push((frame, 0));
         self.fill();
     }
 
@@ -109,17 +108,22 @@ impl Controller {
                 }
             }
         }
+        // While the bus carries nothing they would keep out what is said later.
+        self.waiting.retain_mut(|(_, ticks)| {
+            *ticks = ticks.saturating_add(1);
+            *ticks <= late
+        });
         let wait = OFF_MS * tick_hz / 1_000;
         if self.off < wait && !CAN.esr().read().boff() {
             self.off = 0;
             return;
         }
         self.off += 1;
-        // It recovers once it has gone into its start and out of it again, and the bus has been
-        // silent for 128 times eleven bits.
+        // It recovers once it has gone into its start, which it acknowledges, and out of it again,
+        // and the bus has been silent for 128 times eleven bits.
         if self.off == wait {
             CAN.mcr().modify(|w| w.set_inrq(true));
-        } else if self.off > wait {
+        } else if self.off > wait && CAN.msr().read().inak() {
             self.off = 0;
             CAN.mcr().modify(|w| w.set_inrq(false));
         }
@@ -155,9 +159,9 @@ impl Controller {
                 boxes.any(|(other, _)| other.id() == frame.id())
             };
             let waiting = self.waiting.iter().enumerate();
-            let waiting = waiting.filter(|(_, frame)| !is_under_way(frame));
-            let first = waiting.min_by_key(|(_, frame)| frame.id());
-            let Some((first, frame)) = first.map(|(first, frame)| (first, *frame)) else {
+            let waiting = waiting.filter(|(_, (frame, _))| !is_under_way(frame));
+            let first = waiting.min_by_key(|(_, (frame, _))| frame.id());
+            let Some((first, (frame, ticks))) = first.map(|(first, one)| (first, *one)) else {
                 return;
             };
             let mut place = 0;
@@ -167,7 +171,7 @@ impl Controller {
             });
             load(n, &frame);
             if let Some(place) = self.boxes.get_mut(n) {
-                *place = Some((frame, 0));
+                *place = Some((frame, ticks));
             }
         }
     }

@@ -101,5 +101,7 @@ impl Telemetry {
 
     pub(crate) fn send(&mut self, _: &Inner, _: &Settings, _: u32) {}
 
-    pub(crate) fn talk(&mut self, _: &mut Inner, _: &Settings, _: u32) {}
+    pub(crate) fn talk(&mut self, _: &mut Inner, _: &Settings, _: u32) -> bool {
+        false
+    }
 }

@@ -168,19 +168,20 @@ impl Telemetry {
         self.link.send(module, settings, tick, put);
     }
 
-    pub(crate) fn talk(&mut self, module: &mut Inner, settings: &mut Spare, tick: u32) {
+    /// Carries out what was asked for; whether that was to arm the motors.
+    pub(crate) fn talk(&mut self, module: &mut Inner, settings: &mut Spare, tick: u32) -> bool {
         let Some(asked) = self.ends.requests.dequeue() else {
-            return;
+            return false;
         };
         if asked.number != self.next {
-            return;
+            return false;
         }
         self.next = self.next.wrapping_add(1);
         let request = asked.request;
         let answer = match request.command {
             _ if asked.takes_over && Part::Set.is_built() => {
                 let Some(answer) = self.take_over(module, settings, request, tick) else {
-                    return;
+                    return false;
                 };
                 answer
             }
@@ -195,11 +196,13 @@ impl Telemetry {
                 .link
                 .carry_out(module, settings, request, self.about, tick),
         };
-        if request.command == Command::Arm && answer.status == CommandStatus::Done {
+        let arms = request.command == Command::Arm && answer.status == CommandStatus::Done;
+        if arms {
             retained::set_stopped(false);
         }
         // Idle asks for no more before it has this.
         let _ = self.ends.answers.enqueue(answer);
+        arms
     }
 
     /// Has the module go on by the settings that idle has prepared.
