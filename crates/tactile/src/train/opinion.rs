@@ -11,6 +11,7 @@
 
 mod linear;
 mod matrix;
+mod named;
 mod paths;
 pub(super) mod poses;
 mod stands;
@@ -21,7 +22,7 @@ use std::string::String;
 use std::vec;
 use std::vec::Vec;
 
-use self::linear::{Covariance, Linear};
+use self::linear::{Covariance, HeldOut, Linear, temperature};
 use self::matrix::quantile;
 use self::paths::Paths;
 use self::poses::Poses;
@@ -168,15 +169,25 @@ fn of_felt(
             shrink: 0.1,
         }
     };
-    let stages: Vec<Linear> = (1..=felt.stages)
-        .map(|stage| Linear::of(&felt.with_copies, stage, felt.classes, how))
+    let recordings = felt.with_copies.iter().map(|touch| touch.recording + 1);
+    let apart = if names {
+        material.poses.count()
+    } else {
+        recordings.max()?
+    };
+    let fits: Vec<(Linear, Vec<HeldOut<'_>>)> = (1..=felt.stages)
+        .map(|stage| Linear::of(&felt.with_copies, (stage, felt.classes, apart), how))
         .collect();
-    let classes: Vec<(Typical, Paths)> = (0..felt.classes)
-        .map(|class| felt.class(class, names))
-        .collect();
+    let classes = felt.of_classes(names);
     let mut words = felt.head(names, material.whisked, classes.first()?.1.means.len());
-    for (stage, linear) in stages.iter().enumerate() {
-        write_stage(&mut words, stage + 1, linear);
+    let of_all = names.then(|| {
+        let first = *Section::new(&words, 0).pose_stages().start();
+        let held_out = fits.iter().skip(first - 1).flat_map(|(_, of)| of);
+        temperature(&felt.named(held_out.cloned().collect(), apart))
+    });
+    for (n, (linear, held_out)) in fits.into_iter().enumerate() {
+        let of_stage = of_all.unwrap_or_else(|| temperature(&held_out));
+        write_stage(&mut words, n + 1, &linear.at(of_stage));
     }
     if let Some(stands) = stands {
         write_stands(&mut words, stands);
@@ -295,6 +306,12 @@ impl Felt {
             }
         }
         warnings
+    }
+
+    fn of_classes(&self, names: bool) -> Vec<(Typical, Paths)> {
+        (0..self.classes)
+            .map(|class| self.class(class, names))
+            .collect()
     }
 
     /// What is typical of a class, and its paths.

@@ -3,7 +3,9 @@
 //! class, all classes together; its correlations times 1 − s.
 //!
 //! Scores are T (w_c f + b_c), w_c = S⁻¹ μ_c, b_c = −½ μ_c S⁻¹ μ_c. The T ≤ 1 minimises the log
-//! loss where each recording, or copy of one, is left out in turn.
+//! loss of touches that were held out: where it objects, with their recording, or copy of one, and
+//! each stage has its T; where it names, with their pose and its copies, and one T is that of all
+//! stages that decide, by the touches that [would be named](super::Felt::named).
 
 use std::vec;
 use std::vec::Vec;
@@ -26,10 +28,27 @@ pub(super) struct Covariance {
 /// A stage.
 #[derive(Debug, Clone)]
 pub(super) struct Linear {
-    /// T w_c of each class, bits an octave.
+    /// T w_c of each class, an octave.
     pub(super) weights: Vec<Vec<f64>>,
-    /// T b_c, bits.
+    /// T b_c.
     pub(super) biases: Vec<f64>,
+}
+
+/// A touch after so many blocks, and its scores by a fit without its recording.
+#[derive(Debug, Clone)]
+pub(super) struct HeldOut<'t> {
+    pub(super) touch: &'t Touch,
+    pub(super) blocks: usize,
+    scores: Vec<f64>,
+}
+
+impl HeldOut<'_> {
+    /// The class of the largest score.
+    pub(super) fn leader(&self) -> usize {
+        let scores = self.scores.iter().enumerate();
+        let best = scores.max_by(|(_, a), (_, b)| a.total_cmp(b));
+        best.map_or(0, |(class, _)| class)
+    }
 }
 
 /// Touches of one stage.
@@ -39,8 +58,13 @@ struct Row<'t> {
 }
 
 impl Linear {
-    /// After so many blocks, of so many classes.
-    pub(super) fn of(touches: &[Touch], blocks: usize, classes: usize, how: Covariance) -> Self {
+    /// After so many blocks, of so many classes, T being 1; and what comes of the first `apart`
+    /// recordings, each held out with those that are a multiple of so many behind it: its copies.
+    pub(super) fn of(
+        touches: &[Touch],
+        (blocks, classes, apart): (usize, usize, usize),
+        how: Covariance,
+    ) -> (Self, Vec<HeldOut<'_>>) {
         let long = touches.iter().filter(|touch| touch.len() >= blocks);
         let rows: Vec<Row<'_>> = long
             .map(|touch| Row {
@@ -51,30 +75,35 @@ impl Linear {
         let recordings = touches.iter().map(|touch| touch.recording + 1).max();
         let recordings = recordings.unwrap_or(0);
         let mut held_out = Vec::new();
-        for recording in 0..recordings {
+        for recording in 0..apart {
             let kept: Vec<&Row<'_>> = rows
                 .iter()
-                .filter(|row| recordings == 1 || row.touch.recording != recording)
+                .filter(|row| recordings == 1 || row.touch.recording % apart != recording)
                 .collect();
             let Some(fit) = Self::fit(&kept, recordings, classes, how) else {
                 continue;
             };
             let left_out = rows.iter().filter(|row| row.touch.recording == recording);
-            held_out.extend(left_out.map(|row| (row.touch.class, fit.scores(&row.means))));
+            held_out.extend(left_out.map(|row| HeldOut {
+                touch: row.touch,
+                blocks,
+                scores: fit.scores(&row.means),
+            }));
         }
         let all: Vec<&Row<'_>> = rows.iter().collect();
-        let Some(mut linear) = Self::fit(&all, recordings, classes, how) else {
-            return Self {
-                weights: vec![Vec::new(); classes],
-                biases: vec![0.0; classes],
-            };
-        };
-        let temperature = temperature(&held_out);
-        // To bits.
+        let linear = Self::fit(&all, recordings, classes, how).unwrap_or_else(|| Self {
+            weights: vec![Vec::new(); classes],
+            biases: vec![0.0; classes],
+        });
+        (linear, held_out)
+    }
+
+    /// With this T, in bits.
+    pub(super) fn at(mut self, temperature: f64) -> Self {
         let unit = temperature / core::f64::consts::LN_2;
-        linear.weights.iter_mut().flatten().for_each(|w| *w *= unit);
-        linear.biases.iter_mut().for_each(|b| *b *= unit);
-        linear
+        self.weights.iter_mut().flatten().for_each(|w| *w *= unit);
+        self.biases.iter_mut().for_each(|b| *b *= unit);
+        self
     }
 
     /// None where a class is missing.
@@ -133,18 +162,18 @@ impl Linear {
     }
 }
 
-/// The T of e⁻⁴ to 1 of least mean log loss over classes and scores.
-fn temperature(held_out: &[(usize, Vec<f64>)]) -> f64 {
+/// The T of e⁻⁴ to 1 of least mean log loss.
+pub(super) fn temperature(held_out: &[HeldOut<'_>]) -> f64 {
     let loss = |log: f64| -> f64 {
         let temperature = log.exp();
-        let of = |(class, scores): &(usize, Vec<f64>)| {
+        let of = |HeldOut { touch, scores, .. }: &HeldOut<'_>| {
             let most = scores.iter().copied().fold(f64::NEG_INFINITY, f64::max);
             let sum: f64 = scores
                 .iter()
                 .map(|z| (temperature * (z - most)).exp())
                 .sum();
             // As an outlier weighs at most.
-            -((temperature * (scores[*class] - most)).exp() / sum + 1e-12).ln()
+            -((temperature * (scores[touch.class] - most)).exp() / sum + 1e-12).ln()
         };
         held_out.iter().map(of).sum()
     };
@@ -161,4 +190,36 @@ fn temperature(held_out: &[(usize, Vec<f64>)]) -> f64 {
         }
     }
     f64::midpoint(low, high).exp()
+}
+
+#[cfg(test)]
+mod tests {
+    use approx::assert_relative_eq;
+
+    use super::*;
+
+    #[test]
+    fn posteriors_are_the_share_that_is_right() {
+        let touch = |class| Touch {
+            class,
+            recording: 0,
+            goes_on: false,
+            trial: 0,
+            features: Vec::new(),
+            path: Vec::new(),
+        };
+        let [right, wrong] = [touch(0), touch(1)];
+        let held_out = |touch| HeldOut {
+            touch,
+            blocks: 1,
+            scores: vec![4.0, 0.0],
+        };
+        // A lead of 4 T is odds of 9.
+        let all: Vec<_> = (0..10)
+            .map(|n| held_out(if n == 0 { &wrong } else { &right }))
+            .collect();
+        assert_relative_eq!(temperature(&all), 9_f64.ln() / 4.0, epsilon = 1e-6);
+        // Never surer than Gaussians are.
+        assert_relative_eq!(temperature(&all[1..]), 1.0, epsilon = 1e-6);
+    }
 }

@@ -47,7 +47,7 @@ impl Paths {
             distances.extend(
                 pick(true)
                     .iter()
-                    .map(|touch| others.distance(touch, BEYOND[0])),
+                    .map(|touch| others.distance(&touch.path, BEYOND[0])),
             );
         }
         let mut paths = Self::pooled(&[touches.to_vec()]);
@@ -72,10 +72,15 @@ impl Paths {
             let mut others = paths.clone();
             others.means.remove(held_out);
             let of = poses[held_out].iter();
-            distances.extend(of.map(|touch| others.distance(touch, BEYOND[1])));
+            distances.extend(of.map(|touch| others.distance(&touch.path, BEYOND[1])));
         }
         paths.limit = quantile(&mut distances, SHARE[1]).unwrap_or(0.0);
         paths
+    }
+
+    /// Whether a touch lies near after so many blocks, which it has.
+    pub(super) fn has(&self, touch: &Touch, blocks: usize) -> bool {
+        self.distance(&touch.path[..blocks], BEYOND[0]) <= self.limit
     }
 
     /// Means of poses, and deviations within them.
@@ -128,14 +133,14 @@ impl Paths {
             .collect()
     }
 
-    /// The mean square deviation of a touch from the nearest place between two poses.
-    fn distance(&self, touch: &Touch, beyond: f64) -> f64 {
-        let numbers = touch.path.len() * CHANNELS;
+    /// The mean square deviation of a way from the nearest place between two poses.
+    fn distance(&self, path: &[[f64; CHANNELS]], beyond: f64) -> f64 {
+        let numbers = path.len() * CHANNELS;
         let last = self.means.len().max(2) - 2;
         let from = |pose: usize| {
             let own = &self.means[pose];
             let next = self.means.get(pose + 1).unwrap_or(own);
-            let felt = self.whitened(own, touch.path.iter().flatten().copied());
+            let felt = self.whitened(own, path.iter().flatten().copied());
             let step = self.whitened(own, next.iter().copied());
             let step = &step[..numbers];
             let both: f64 = felt.iter().zip(step).map(|(a, b)| a * b).sum();

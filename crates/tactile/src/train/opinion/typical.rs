@@ -64,6 +64,11 @@ impl Typical {
             limits,
         }
     }
+
+    /// Whether a touch is typical after so many blocks, at most as many as there are stages.
+    pub(super) fn has(&self, touch: &Touch, blocks: usize) -> bool {
+        distance(touch, &self.states, blocks) <= self.limits[blocks - 1]
+    }
 }
 
 impl State {
