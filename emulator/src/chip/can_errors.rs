@@ -1,5 +1,6 @@
-//! The error counters of a CAN controller: fault confinement (CAN 2.0, part B, chapter 8) as a
-//! bxCAN has it (RM0390, 30.7.6).
+//! The error counters of a CAN controller: fault confinement by the rules of CAN 2.0, and the
+//! register in which a bxCAN shows them. Thresholds are from secondary pages: neither manual was at
+//! hand.
 
 /// A node whose counter is beyond this no longer destroys the frames of others.
 const MOST_ACTIVE: u16 = 127;

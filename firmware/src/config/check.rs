@@ -112,23 +112,10 @@ impl Field {
 
     /// Whether an image of these parts may refuse it: where it cannot, it needs no text.
     pub const fn can_be_refused(self) -> bool {
-        const LAST_OF_MOTION: u8 = Field::Retry.code();
-        match self {
-            Self::Classifier
-            | Self::Rule
-            | Self::Window
-            | Self::Deciding
-            | Self::ContactMin
-            | Self::Classes => Part::Classifier.is_built(),
-            Self::Following
-            | Self::Travel
-            | Self::TopSpeed
-            | Self::Friction
-            | Self::TimeConstant
-            | Self::Heat => Part::Motion.is_built(),
-            _ if self.code() > Self::Contact.code() && self.code() <= LAST_OF_MOTION => {
-                Part::Motion.is_built()
-            }
+        // Numbers keep their meanings.
+        match self.code() {
+            9..=30 | 38..=43 => Part::Motion.is_built(),
+            31..=35 | 45 => Part::Classifier.is_built(),
             _ => true,
         }
     }

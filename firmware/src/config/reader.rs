@@ -136,7 +136,6 @@ impl<'de> Deserializer<'de> for &mut Reader<'de> {
         deserialize_u16 visit_u16 u16: |reader| reader.below(1 << 16) as u16;
         deserialize_u32 visit_u32 u32: Reader::word;
         deserialize_u64 visit_u64 u64: Reader::long;
-        deserialize_i8 visit_i8 i8: |reader| reader.byte().cast_signed();
         deserialize_i16 visit_i16 i16: |reader| signed(reader.below(1 << 16).into()) as i16;
         deserialize_i32 visit_i32 i32: |reader| signed(reader.word().into()) as i32;
         deserialize_i64 visit_i64 i64: |reader| signed(reader.long());
@@ -152,28 +151,12 @@ impl<'de> Deserializer<'de> for &mut Reader<'de> {
         visitor.visit_borrowed_str(text)
     }
 
-    fn deserialize_string<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Unreadable> {
-        self.deserialize_str(visitor)
-    }
-
     fn deserialize_option<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Unreadable> {
         if self.flag() {
             visitor.visit_some(self)
         } else {
             visitor.visit_none()
         }
-    }
-
-    fn deserialize_unit<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Unreadable> {
-        visitor.visit_unit()
-    }
-
-    fn deserialize_unit_struct<V: Visitor<'de>>(
-        self,
-        _: &'static str,
-        visitor: V,
-    ) -> Result<V::Value, Unreadable> {
-        visitor.visit_unit()
     }
 
     fn deserialize_newtype_struct<V: Visitor<'de>>(
@@ -225,8 +208,10 @@ impl<'de> Deserializer<'de> for &mut Reader<'de> {
         visitor.visit_enum(Variant(self, index))
     }
 
-    // What the format does not say.
-    serde::forward_to_deserialize_any! { char bytes byte_buf map identifier ignored_any }
+    // What no configuration has, or the format does not say.
+    serde::forward_to_deserialize_any! {
+        i8 char string bytes byte_buf unit unit_struct map identifier ignored_any
+    }
 
     fn deserialize_any<V: Visitor<'de>>(self, _: V) -> Result<V::Value, Unreadable> {
         Err(Unreadable)
@@ -335,7 +320,7 @@ mod tests {
         kinds: [Option<Kind>; 2],
         seed: u64,
         wide: (f64, i64),
-        small: (bool, i8, u32),
+        small: (bool, u8, u32),
     }
 
     fn read(bytes: &[u8]) -> Option<(Whole, usize)> {
@@ -363,7 +348,7 @@ mod tests {
             name in "[a-z]{0,8}",
             list in proptest::collection::vec(any::<(u8, i16)>(), 0..4),
             kinds in [kinds(), kinds()],
-            (seed, wide, small) in any::<(u64, (f64, i64), (bool, i8, u32))>(),
+            (seed, wide, small) in any::<(u64, (f64, i64), (bool, u8, u32))>(),
         ) {
             let name = name.as_str().try_into().unwrap();
             let list = list.into_iter().collect();
