@@ -19,7 +19,7 @@ use crate::session::Session;
 use case::{Case, Flashed, Way, missing, pass, running, says, stop};
 
 /// How long PC and board are compared, s, and how long after what changes nothing.
-const COMPARED_S: f64 = 8.0;
+const COMPARED_S: f64 = 4.0;
 const SHORT_S: f64 = 1.0;
 /// How long a board that was deployed to is watched, s: it whisks and may touch.
 const WATCHED_S: f64 = 2.0;

@@ -9,7 +9,7 @@ use crate::run::{Fault, cargo, run, take_built_programs};
 use crate::steps::{Step, Steps};
 use crate::{
     book, cost, count, dependencies, descriptions, docs, emulate, endurance, faults, fuzz, page,
-    panics, python, scenarios, size, studies, walk,
+    python, scenarios, size, studies, walk,
 };
 
 /// What a warning becomes.
@@ -32,9 +32,10 @@ const LINTED: &str = "fuzz/engine,mlx90333/defmt,tmag5170/defmt,whisker/probe";
 /// Of the properties' cases.
 const SEED: &str = "1";
 
-/// What runs on this PC: the main job, whose output and files are what the generated documents must
-/// hold, and all that is built beside the product.
-const ON_THE_PC: [Step; 8] = [
+/// What runs on this PC: tests, the main job, whose output and files are what the generated documents
+/// must hold, and all that is built beside the product.
+const ON_THE_PC: [Step; 9] = [
+    ("tests", tests),
     // One target after the other for a few seconds by the clock.
     ("untrusted input", fuzz::short),
     ("main job and documents", docs::short),
@@ -47,9 +48,8 @@ const ON_THE_PC: [Step; 8] = [
 ];
 
 /// What builds programs of boards, all in one place and therefore one after the other.
-const ON_THE_BOARDS: [Step; 10] = [
-    ("firmware, three scenes", size::short),
-    ("a panic would be found", a_panic),
+const ON_THE_BOARDS: [Step; 9] = [
+    ("firmware of some scenes", size::short),
     ("picture of the emulated board", docs::asymmetry_is_current),
     ("the walk through the book", walk::short),
     ("emulated boards, one side and two", board),
@@ -69,9 +69,8 @@ pub(crate) fn all(only: Vec<String>) -> Result<(), Fault> {
 
 fn in_order(steps: &Steps) -> Result<(), Fault> {
     steps.run("format", format)?;
-    steps.run("core for WebAssembly", web)?;
     steps.run("lints", lints)?;
-    steps.run("tests", tests)?;
+    steps.run("programs and tests, built", build)?;
     steps.run("dependencies", dependencies::check)?;
     steps.beside(&[&ON_THE_BOARDS, &ON_THE_PC])?;
     // With the processors to itself.
@@ -92,20 +91,9 @@ fn page() -> Result<(), Fault> {
     page::test()
 }
 
-fn a_panic() -> Result<(), Fault> {
-    panics::control(Board::ALL[0])
-}
-
 fn format() -> Result<(), Fault> {
     run(&mut cargo(&["fmt", "--all", "--check"]))?;
     studies::format()
-}
-
-/// host-sim without its command line, where there are no files, threads or clocks.
-fn web() -> Result<(), Fault> {
-    let core = ["check", "--locked", "-p", "host-sim", "--lib"];
-    let web = ["--target", "wasm32-unknown-unknown"];
-    run(cargo(&core).arg("--no-default-features").args(web))
 }
 
 fn lints() -> Result<(), Fault> {
@@ -116,26 +104,22 @@ fn lints() -> Result<(), Fault> {
     run(cargo(&["clippy"]).args(board).args(DENY))
 }
 
+/// With the tests' features, which programs alone have not.
+fn build() -> Result<(), Fault> {
+    run(cargo(&["build", "--locked", "--bins", "--tests"]).args(ALL))?;
+    take_built_programs()
+}
+
 /// Properties are tried on the same cases in each run, so that a change passes or fails by what
 /// it changes; the nightly run tries others.
 fn tests() -> Result<(), Fault> {
-    let test = |arguments: &[&str]| {
-        let mut command = cargo(&["test", "--locked"]);
-        run(command.args(arguments).env("PROPTEST_RNG_SEED", SEED))
-    };
-    // With the tests' features, which programs alone have not.
-    run(cargo(&["build", "--locked", "--bins", "--tests"]).args(ALL))?;
-    take_built_programs()?;
-    test(&ALL)?;
-    // What a newcomer's `cargo test` leaves out: it builds the program of another board.
-    let ignored = ["--test", "program", "--", "--ignored"];
-    test(&[&ALL[..], &ignored].concat())?;
-    test(&["-p", "count", "--lib"])
+    let mut test = cargo(&["test", "--locked"]);
+    run(test.args(ALL).env("PROPTEST_RNG_SEED", SEED))
 }
 
 /// A board's own program on the emulated chip: PC and board agree, in single precision
 /// and in fixed point, with one side and with two, the scene linked and deployed; contact on one
-/// side excites the other in time; no tick is missed, and ticks that are too long and a sensor
+/// side excites the other in time; ticks that are too long and a sensor
 /// that is lost, on either side, are noticed, no unwanted start drives a motor, and
 /// a supply that dips switches it off; a PC reads and asks, at its price.
 /// The boards that carry one side run its scene as the PC does, and notice a sensor that is
@@ -155,11 +139,9 @@ fn board() -> Result<(), Fault> {
 fn first_board() -> Result<(), Fault> {
     let one_side = [
         "compare",
-        "deadlines --minutes 0.05",
         "overload",
         "starting",
         "supply",
-        "telemetry",
         "damage",
         "sensor-loss",
     ];
@@ -176,18 +158,18 @@ fn first_board() -> Result<(), Fault> {
 
 /// What it does with two, and in other ways; and the others: a program a board, to which scenes
 /// are deployed, but in fixed point, as two boards of a head and with TMAG5170s on the first; the
-/// night has these on each.
+/// night has these on each, and every scene.
 fn other_boards() -> Result<(), Fault> {
     let [board, small, smallest] = Board::ALL;
     emulate::compare_with_tilt(board)?;
-    emulate::compare_in_fixed_point(board)?;
+    emulate::compare_noisiest_in_fixed_point(board)?;
     emulate::compare_head(board, " --duration 2 --ppm 300")?;
     let board = Emulated::deployed(board)?;
     // The scene in which records cost most.
     emulate::emulate(&board, Path::new(emulate::WORLD), &["telemetry"])?;
     let coupled = ["compare --probe absent", "latency"];
     emulate::emulate(&board, Path::new(emulate::CIA), &coupled)?;
-    let both_sides = ["deadlines --minutes 0.05", "sensor-loss", "telemetry"];
+    let both_sides = ["deadlines --minutes 0.05", "sensor-loss"];
     emulate::emulate(&board, &emulate::noisiest()?, &both_sides)?;
     let talks = ["serial", "stopping --stops 10"];
     emulate::emulate(&board, Path::new(emulate::FULL), &talks)?;

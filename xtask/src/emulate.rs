@@ -152,13 +152,14 @@ fn serial(on: &Emulated, scene: &Path, without: &Path, to: &mut Command) -> Resu
     Ok(())
 }
 
-/// Draws what both sides do in `scenes`, on the board, to the SVG file `out`.
+/// Draws what both sides do in `scenes`, deployed to the board one after the other, to the SVG file
+/// `out`.
 pub(crate) fn picture(board: Board, scenes: &[PathBuf], out: &Path) -> Result<(), Fault> {
     let mut command = workspace_program("emulator");
     command.arg("picture");
+    let program = firmware::build_any_scene(board)?;
     for scene in scenes {
-        let program = firmware::build(board, scene)?;
-        command.arg(absolute(scene)?).arg("--program").arg(program);
+        command.arg(absolute(scene)?).arg("--program").arg(&program);
     }
     run(command.arg("--out").arg(absolute(out)?))
 }
@@ -232,15 +233,33 @@ pub(crate) fn compare_in_fixed_point(board: Board) -> Result<(), Fault> {
     Ok(())
 }
 
+/// Compares the noisiest scene with host-sim in fixed point: one program for one side and two.
+pub(crate) fn compare_noisiest_in_fixed_point(board: Board) -> Result<(), Fault> {
+    let fixed = variants::in_fixed_point(&noisiest()?)?;
+    emulate(&Emulated::linked(board), &fixed, COMPARE)
+}
+
 /// Compares the start of [`TILT`] with host-sim, on every side of the board, by a program that reads
 /// its sensors, and breaks these.
 pub(crate) fn compare_with_tilt(board: Board) -> Result<(), Fault> {
-    let mut scene = top().join(TILT);
-    if board.facts.max_sides > 1 {
-        scene = variants::on_both_sides(&scene)?;
-    }
     let in_short = ["compare --duration 4", "sensor-loss"];
-    emulate(&Emulated::linked(board), &scene, &in_short)
+    emulate(&Emulated::linked(board), &tilt(board)?, &in_short)
+}
+
+/// [`TILT`] on every side of the board.
+pub(crate) fn tilt(board: Board) -> Result<PathBuf, Fault> {
+    let scene = top().join(TILT);
+    if board.facts.max_sides > 1 {
+        variants::on_both_sides(&scene)
+    } else {
+        Ok(scene)
+    }
+}
+
+/// [`JUDGED`] on both sides, where it asks for more than any scene of `scenes/`.
+pub(crate) fn judged_with_options() -> Result<PathBuf, Fault> {
+    let both = variants::on_both_sides(&top().join(JUDGED))?;
+    variants::with_options(&both)
 }
 
 /// Compares [`FULL`] with host-sim where its sensors are in their slow mode, and the board at
@@ -250,15 +269,9 @@ pub(crate) fn compare_with_slow_sensors(on: &Emulated) -> Result<(), Fault> {
     emulate(on, &slow, COMPARE)
 }
 
-/// Compares the start of [`JUDGED`] on both sides with host-sim where it asks for more than any
-/// scene of `scenes/`.
+/// Compares the start of [`judged_with_options`] with host-sim.
 pub(crate) fn compare_with_options(on: &Emulated) -> Result<(), Fault> {
-    let both = variants::on_both_sides(&top().join(JUDGED))?;
-    emulate(
-        on,
-        &variants::with_options(&both)?,
-        &["compare --duration 6"],
-    )
+    emulate(on, &judged_with_options()?, &["compare --duration 6"])
 }
 
 /// Compares [`CIA`] on a board a side, which a bus joins, with the simulated head.

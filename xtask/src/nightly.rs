@@ -20,10 +20,13 @@ const NIGHTS: u64 = 7;
 /// Everything, or the steps whose names contain one of `only`.
 pub(crate) fn all(only: Vec<String>) -> Result<(), Fault> {
     let mut steps = Steps::new(only);
-    steps.try_run("lints of every board", lints);
+    steps.try_run("lints of every board and of the studies", lints);
     steps.try_run("the bench's program with debug probes", with_probes);
     steps.try_run("properties on other cases", || {
         run(cargo(&["test", "--locked"]).args(ci::ALL))?;
+        // What a newcomer's `cargo test` leaves out: it builds the program of another board.
+        let ignored = ["--test", "program", "--", "--ignored"];
+        run(cargo(&["test", "--locked"]).args([&ci::ALL[..], &ignored].concat()))?;
         studies::check(None)
     });
     steps.try_run("size of every scene on every board", || {
@@ -74,7 +77,7 @@ fn lints() -> Result<(), Fault> {
             .args(board.build_arguments(&tilt))
             .args(deny))?;
     }
-    Ok(())
+    studies::lints()
 }
 
 /// PC and board agree, every scene linked and deployed, with a probe at the log and without, over

@@ -78,7 +78,8 @@ fn pythons() -> Vec<(u32, PathBuf)> {
 }
 
 fn newest() -> Result<PathBuf, Fault> {
-    let (_, python) = pythons().pop().ok_or("no Python")?;
+    let none = || format!("no Python from 3.{OLDEST} on");
+    let (_, python) = pythons().pop().ok_or_else(none)?;
     Ok(python)
 }
 
@@ -94,9 +95,11 @@ fn wheel(python: &Path, profile: Profile) -> Result<PathBuf, Fault> {
         .arg("--interpreter")
         .arg(python)
         .current_dir(top().join("python"));
-    if profile == Profile::Release {
-        build.arg("--release");
-    }
+    match profile {
+        Profile::Release => build.arg("--release"),
+        // What is there already.
+        Profile::Dev => build.args(["--features", "united"]),
+    };
     run(&mut build)?;
     let built = listing(&wheels, "whl")?;
     built
@@ -105,32 +108,23 @@ fn wheel(python: &Path, profile: Profile) -> Result<PathBuf, Fault> {
         .ok_or_else(|| "no wheel was built".to_owned())
 }
 
-/// The wheel in a clean environment of the oldest and of the newest Python of this machine, where
-/// its tests are run.
+/// The wheel in a clean environment of the newest Python of this machine, where its tests are run,
+/// and in one of the oldest, where it runs a scene; the night runs the tests there too.
 pub(crate) fn test() -> Result<(), Fault> {
-    let pythons = pythons();
-    let (Some(oldest), Some(newest)) = (pythons.first(), pythons.last()) else {
-        return Err(format!("no Python from 3.{OLDEST} on"));
-    };
-    let wheel = wheel(&newest.1, Profile::Dev)?;
-    let traces = traces::written()?;
-    let mut ends = vec![oldest, newest];
-    ends.dedup();
-    for (minor, python) in ends {
-        println!("Python 3.{minor}, of {} here", pythons.len());
-        let packages = ["gymnasium", "mypy", "pandas", "pytest"];
-        let inside = environment(python, &format!("3.{minor}"), &packages)?;
-        run(pip(&inside).arg(&wheel))?;
-        // The stubs say what is there.
-        let mut stubs = Command::new(&inside);
-        run(stubs.args(["-m", "mypy.stubtest", "vibrissa._core"]))?;
-        let mut tests = Command::new(inside);
-        tests
-            .args(["-m", "pytest", "--quiet"])
-            .env("WHISKER_TRACES", &traces);
-        run(tests.current_dir(top().join("python")))?;
-    }
-    Ok(())
+    let python = newest()?;
+    let wheel = wheel(&python, Profile::Dev)?;
+    let packages = ["gymnasium", "mypy", "pandas", "pytest"];
+    let inside = environment(&python, "newest", &packages)?;
+    run(pip(&inside).arg(&wheel))?;
+    // The stubs say what is there.
+    let mut stubs = Command::new(&inside);
+    run(stubs.args(["-m", "mypy.stubtest", "vibrissa._core"]))?;
+    let mut tests = Command::new(inside);
+    tests
+        .args(["-m", "pytest", "--quiet"])
+        .env("WHISKER_TRACES", traces::written()?);
+    run(tests.current_dir(top().join("python")))?;
+    try_wheel(&place("wheels"))
 }
 
 /// What takes long: the source distribution, built outside the checkout; sweeps on Dask and Ray;

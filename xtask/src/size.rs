@@ -11,8 +11,8 @@ use std::path::{Path, PathBuf};
 use scene::Scene;
 
 use crate::elf::contents;
-use crate::emulate::head_of_two;
 use crate::emulate::variants::{with, without_telemetry};
+use crate::emulate::{head_of_two, judged_with_options, tilt};
 use crate::figures::Figure;
 use crate::firmware::{self, Board, Size};
 use crate::run::{Fault, listing, no_faults, read_bytes, top};
@@ -24,14 +24,10 @@ use tactile::ModelBuf;
 /// Names between them, on one board, what no scene names: not in the table.
 const CONTROL: &str = "xtask/src/size/control.toml";
 
-/// Of the scenes, those that are built where time is short: all parts and none.
+/// Of the scenes, those that are built where time is short: nearly all parts, and none.
 const SHORT: [&str; 2] = ["scenes/full.toml", "scenes/passive.toml"];
 /// Those that are built without a link too, so that the table says what the link costs.
 const SILENT: [&str; 2] = ["scenes/passive.toml", "scenes/rcp.toml"];
-/// One with two sides, for the board that carries them.
-const TWO_SIDES: &str = "scenes/both.toml";
-/// One with the other sensor, for the board that has least room.
-const TILT: &str = crate::emulate::TILT;
 /// One whose model has a second opinion, for the board that has time for it.
 const JUDGED: &str = crate::emulate::JUDGED;
 
@@ -94,30 +90,29 @@ fn judging_poses() -> Result<PathBuf, Fault> {
     with(&top().join(JUDGED), &["classifier.pose=true".to_owned()])
 }
 
-/// Checks [`SHORT`] on every board, [`TWO_SIDES`], [`judging_poses`] and [`TILT`] on one, and what
-/// a program holds.
+/// Checks what most of CI's other steps run, and a few programs beside it that show of each part
+/// that it is found where it is.
 pub(crate) fn short() -> Result<(), Fault> {
     let mut measured = Measured::default();
-    for scene in SHORT {
-        for board in Board::ALL {
-            if let Some(reason) = measured.take(board, Path::new(scene), None)? {
-                return Err(reason);
-            }
-        }
-    }
-    let [board, ..] = Board::ALL;
-    for scene in [top().join(TWO_SIDES), judging_poses()?] {
-        if let Some(reason) = measured.take(board, &scene, None)? {
+    let [board, _, smallest] = Board::ALL;
+    let [most, least] = SHORT.map(Path::new);
+    for (board, scene) in [(board, most), (board, least), (smallest, least)] {
+        if let Some(reason) = measured.take(board, scene, None)? {
             return Err(reason);
         }
     }
-    measured.control(board, Path::new(CONTROL))?;
-    measured.control(board, &head_of_two()?)?;
-    let [.., smallest] = Board::ALL;
-    if let Some(reason) = measured.take(smallest, Path::new(TILT), None)? {
-        return Err(reason);
+    let together = ["classifier.whiskers=together".to_owned()];
+    for scene in [
+        PathBuf::from(CONTROL),
+        with(&judged_with_options()?, &together)?,
+        head_of_two()?,
+        tilt(board)?,
+    ] {
+        measured.control(board, &scene)?;
     }
-    measured.any_scene(smallest)?;
+    for board in Board::ALL {
+        measured.any_scene(board)?;
+    }
     let found = measured.proven()?;
     TABLE.check_part(&found)?;
     table::within_limits(&found)

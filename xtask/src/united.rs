@@ -1,34 +1,35 @@
-//! That the bench's program takes what was built for host-sim: cargo compiles a dependency again
+//! That what is built after host-sim takes what was built for it: cargo compiles a dependency again
 //! where its features are others.
 
 use std::collections::BTreeSet;
 
+use crate::ci::ALL;
 use crate::run::{cargo, output};
 
-/// What a package depends on, each with its features.
-fn dependencies(package: &str) -> BTreeSet<String> {
-    let what = [
-        "tree",
-        "--locked",
-        "--offline",
-        "-e",
-        "normal,build",
-        "-p",
-        package,
-    ];
-    let how = ["--no-dedupe", "--prefix", "none", "-f", "{p} {f}"];
-    let said = output(cargo(&what).args(how)).unwrap();
+/// What is built by a choice of packages, each with its features.
+fn built(choice: &[&str], edges: &str) -> BTreeSet<String> {
+    let mut tree = cargo(&["tree", "--locked", "--offline", "-e", edges]);
+    tree.args(["--no-dedupe", "--prefix", "none", "-f", "{p} {f}"]);
+    let said = output(tree.args(choice)).unwrap();
     said.lines().map(|line| line.trim().to_owned()).collect()
 }
 
 #[test]
-fn the_bench_takes_what_was_built_for_the_simulator() {
-    let (simulator, bench) = (dependencies("host-sim"), dependencies("whisker"));
-    let of_others = |line: &&String| !line.starts_with("host-sim ");
-    let again: Vec<&String> = simulator.difference(&bench).filter(of_others).collect();
+fn what_was_built_for_the_simulator_is_taken_by_tests_bench_and_python() {
+    let simulator = built(&["-p", "host-sim"], "normal,build");
     assert!(simulator.len() > 50, "{}", simulator.len());
-    assert!(
-        again.is_empty(),
-        "compiled twice: {again:#?}\nname their features in crates/united"
-    );
+    let python = ["-p", "whisker-python", "--features", "united"];
+    for (choice, edges) in [
+        (&["-p", "whisker"][..], "normal,build"),
+        (&python, "normal,build"),
+        (&ALL, "normal,build,dev"),
+    ] {
+        let after = built(choice, edges);
+        let of_others = |line: &&String| !line.starts_with("host-sim ");
+        let again: Vec<&String> = simulator.difference(&after).filter(of_others).collect();
+        assert!(
+            again.is_empty(),
+            "compiled again with {choice:?}: {again:#?}\nname their features in crates/united"
+        );
+    }
 }

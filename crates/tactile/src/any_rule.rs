@@ -91,8 +91,10 @@ impl DecisionRule for AnyRule {
 
     fn set_classes(&mut self, classes: &ClassSettings) {
         match self {
-            Self::Sequential(rule) => rule.set_classes(classes),
-            Self::Window(rule) => rule.set_classes(classes),
+            Self::Sequential(rule) if SEQUENTIAL => rule.set_classes(classes),
+            Self::Window(rule) if WINDOW => rule.set_classes(classes),
+            // There is no rule that is not built.
+            _ => {}
         }
     }
 

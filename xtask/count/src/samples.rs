@@ -71,28 +71,3 @@ pub fn felt(call: u32) -> Two<u16> {
     let code = |call| (8_192.0 + spread(call, -5.0, 5.0)) as u16;
     Two(code(call) + deflection as u16, code(call.wrapping_mul(7)))
 }
-
-#[cfg(test)]
-mod tests {
-    use super::{Two, codes, frame};
-    use mlx90333::Decoder;
-
-    #[test]
-    fn frames_are_good_and_differ() {
-        let good: Vec<_> = (0..128)
-            .map(|call| Decoder::new().decode(frame(call)).unwrap().first().raw())
-            .collect();
-        assert!(good.windows(2).all(|pair| pair[0] != pair[1]));
-    }
-
-    #[test]
-    fn codes_reach_beyond_both_ends_of_the_models() {
-        let xs = (0..1000).map(|call| codes(call).0);
-        let (low, high) = xs.fold((i32::MAX, 0), |(l, h), x| (x.min(l), x.max(h)));
-        assert!(low < 2_000 && high > 13_400, "{low} {high}");
-        assert!((0..1000).any(|call| {
-            let Two(x, y) = codes(call);
-            (x - y).abs() > 5_000
-        }));
-    }
-}

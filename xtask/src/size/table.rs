@@ -1,6 +1,7 @@
 //! The table of sizes, its limits and its goals.
 
 use crate::figures::{Figure, Table};
+use crate::firmware::Board;
 use crate::run::{Fault, no_faults};
 
 pub(crate) const TABLE: Table = Table {
@@ -40,8 +41,8 @@ const STACK: u64 = 5632;
 
 pub(crate) fn limits() -> String {
     format!(
-        "No program takes more than {FLASH} of flash, scene and model apart, {RAM} of static RAM\n\
-         and {STACK} of stack, nor more than 2 % above what is committed: CI fails otherwise."
+        "No program but that for any scene on the NUCLEO-F446RE takes more than {FLASH} of flash, scene\n\
+         and model apart, {RAM} of static RAM and {STACK} of stack, nor more than 2 % above what is committed: CI fails otherwise."
     )
 }
 
@@ -75,7 +76,10 @@ pub(crate) fn beside_goals(figures: &[Figure]) -> Result<String, Fault> {
 pub(super) fn within_limits(found: &[Figure]) -> Result<(), Fault> {
     let limits = [("flash", FLASH), ("static RAM", RAM), ("stack", STACK)];
     let mut faults = Vec::new();
-    for Figure { key, numbers, .. } in found {
+    // What only the board with 512 KiB takes.
+    let largest = [ANY_SCENE, Board::ALL[0].name];
+    let small = found.iter().filter(|figure| *figure.key != largest);
+    for Figure { key, numbers, .. } in small {
         for ((what, limit), number) in limits.iter().zip(numbers) {
             if *number > *limit as f64 {
                 let place = key.join(" on ");
