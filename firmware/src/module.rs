@@ -212,8 +212,7 @@ impl<R: Real, H: Hardware> Module<R, H> {
         }
     }
 
-    /// Follows the zeros of sensors, where they are found. A whisker that is inhibited, as its
-    /// motor is being homed, may lean against its stop.
+    /// A whisker that is inhibited, as its motor is being homed, may lean against its stop.
     #[inline]
     fn follow_zeros(&mut self, limits: ZeroLimits, events: &mut impl FnMut(Event)) {
         for whisker in &mut self.whiskers {

@@ -58,7 +58,6 @@ pub struct Motion<R: Real> {
 }
 
 impl<R: Real> Motion<R> {
-    /// At its start, its motors not armed: of these whiskers of the head.
     pub(crate) fn new(config: &MotionConfig<R>, own: Range<usize>) -> Self {
         Self {
             state: if Part::Bus.is_built() {

@@ -54,7 +54,6 @@ pub enum NodeEvent {
     Decided(Decision),
 }
 
-/// A message that has come in time.
 #[derive(Debug, Clone, Copy)]
 struct Due {
     /// The tick before which it takes effect.
@@ -63,7 +62,6 @@ struct Due {
     message: Message,
 }
 
-/// Whether motors may run.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Motors {
     May,

@@ -34,7 +34,6 @@ pub struct EventRecord {
     pub event: Event,
 }
 
-/// What a packet is.
 const RECORD: u8 = 0;
 const ANSWER: u8 = 1;
 const EVENT: u8 = 2;
@@ -67,7 +66,6 @@ impl<'de> Deserialize<'de> for Packet {
     }
 }
 
-/// The numbers of events.
 mod kind {
     pub(super) const TOUCH: u8 = 0;
     pub(super) const TOUCH_END: u8 = 1;

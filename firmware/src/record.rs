@@ -32,7 +32,7 @@ pub enum StartCause {
 }
 
 impl StartCause {
-    /// All of them, in the order of their numbers.
+    /// In the order of their numbers.
     const ALL: [Self; 6] = [
         Self::Watchdog,
         Self::Software,
@@ -265,7 +265,6 @@ mod tests {
     use super::{NotArmed, Record, StartCause, Started, Startup};
     use crate::faults::number;
 
-    /// A start after `found` seconds of running.
     fn after(record: Record, seconds: u8, cause: StartCause) -> (Record, Startup) {
         let mut record = Record::load(record.words()).expect("its sum is right");
         for _ in 0..seconds {

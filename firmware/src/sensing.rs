@@ -41,7 +41,6 @@ impl Reading {
         valid: true,
     };
 
-    /// Of a whisker with a fault.
     pub(crate) const FAULT: Self = Self {
         valid: false,
         ..Self::REST
@@ -170,7 +169,6 @@ impl<F: WordSource> Sensor<F> {
         read
     }
 
-    /// A good frame of a trusted sensor.
     #[inline]
     fn accept(&mut self, limits: &SensorLimits) {
         self.health = SensorHealth::Ok { bad: 0 };

@@ -169,7 +169,6 @@ impl<R: Real, M: MotorDriver, A: AngleInput> Servo<R, M, A> {
         (&mut self.motor, &mut self.angle)
     }
 
-    /// Counts of its angle input in the last tick, while it follows its setpoint.
     #[inline]
     pub(crate) const fn running_at(&self) -> Option<i32> {
         match self.state {
@@ -178,7 +177,6 @@ impl<R: Real, M: MotorDriver, A: AngleInput> Servo<R, M, A> {
         }
     }
 
-    /// Whether it follows the pattern generator.
     #[inline]
     pub(crate) fn is_whisking(&self) -> bool {
         matches!(self.state, ServoState::Running { .. }) && self.setpoint().is_none()
@@ -467,13 +465,11 @@ impl<R: Real, M: MotorDriver, A: AngleInput> Servo<R, M, A> {
         }
     }
 
-    /// One tick of a motor that is off, whose winding cools.
     fn cool(&mut self, guards: &GuardConfig<R>) {
         let _ = self.heat.check(guards, Duty::ZERO);
     }
 }
 
-/// `value` nearer to zero by `step`, and zero where it is not farther away.
 #[inline]
 fn toward_zero<R: Real>(value: R, step: R) -> R {
     if value > step {

@@ -30,7 +30,6 @@ const VERSION: [i32; 2] = {
     [number(major) << 16 | number(minor), number(patch)]
 };
 
-/// The number that a part of the version is.
 const fn number(digits: &str) -> i32 {
     match u16::from_str_radix(digits, 10) {
         Ok(number) => number as i32,
@@ -218,7 +217,6 @@ impl Link {
         }
     }
 
-    /// Sends the record of a whisker, which has this number.
     // Apart: the loop would load all that whiskers have alike ahead, for which there are not
     // registers enough.
     #[inline(never)]
@@ -255,7 +253,6 @@ pub const fn may_load(load: Load, room: Load, is_armed: bool) -> Result<(), Comm
     }
 }
 
-/// A whisker's bit.
 const fn bit(place: Place) -> u32 {
     1 << ((place.side as u32 * 16 + place.whisker as u32) % u32::BITS)
 }
@@ -272,7 +269,6 @@ pub fn letters(name: &str, from: u8) -> [i32; 2] {
     })
 }
 
-/// A tick whose records are sent.
 struct Tick<'a, R: Real, H: Hardware> {
     module: &'a Module<R, H>,
     config: &'a Config<R>,

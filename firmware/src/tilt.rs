@@ -48,7 +48,6 @@ impl TiltScale {
         Self::of_ranges(config.sensor.ranges, full_scale)
     }
 
-    /// The same for these ranges.
     const fn of_ranges([x, y, z]: [Range; 3], full_scale: f32) -> Option<Self> {
         match (slope(x, z, full_scale), slope(y, z, full_scale)) {
             (Some(x), Some(y)) => Some(Self { slopes: [x, y] }),

@@ -181,7 +181,7 @@ impl<B: AsRef<[u8]>> Tuning<B> {
         Some(Prepared::Done(status, values))
     }
 
-    /// Puts the next word aside. The last one may come again, from whoever missed the answer.
+    /// The last one may come again, from whoever missed the answer.
     fn stage(&mut self, number: u8, word: u32) -> (CommandStatus, [i32; 2]) {
         let count = self.staged.len() / 4;
         let is_last = count > 0 && number == (count - 1) as u8;

@@ -64,7 +64,7 @@ impl Frame {
         head.chain(self.bytes().iter().flat_map(bits))
     }
 
-    /// The sum of its content (CRC-15 of CAN).
+    /// CRC-15 of CAN.
     fn sum(&self) -> u16 {
         self.content().fold(0, |sum, bit| {
             let is_out = (sum >> 14 & 1 == 1) != bit;

@@ -40,10 +40,6 @@ pub struct Unbearable {
     pub most: f64,
 }
 
-/// Whether a motor bears whisking for six seconds.
-///
-/// # Errors
-/// [`Unbearable`].
 pub(crate) fn check(whisking: &WhiskingSection, motor: &MotorSection) -> Result<(), Unbearable> {
     let gain = whisking.gain.iter().copied().fold(0.0, f64::max);
     let bears = |frequency_hz| {
@@ -73,7 +69,6 @@ pub(crate) fn check(whisking: &WhiskingSection, motor: &MotorSection) -> Result<
     })
 }
 
-/// How long a winding bears a duty, s.
 fn bears_s(duty: f64, continuous: f64) -> f64 {
     let share = (continuous / duty).powi(2);
     if share < 1.0 {

@@ -33,7 +33,6 @@ pub fn classes(scene: &Scene, model: &ModelBuf) -> Result<ClassList, Mismatch> {
     Ok(settings.collect())
 }
 
-/// Whether it has keys that hold for classes.
 pub(crate) const fn names_classes(classifier: &ClassifierSection) -> bool {
     classifier.prior.is_some()
         || classifier.thresholds.is_some()

@@ -27,7 +27,6 @@ pub enum Unfit {
     Scene(#[from] Mismatch),
 }
 
-/// Whether a board can run a scene that decides by `model`.
 pub(crate) fn fits(
     scene: &Scene,
     model: Option<&ModelBuf>,
@@ -44,7 +43,6 @@ pub(crate) fn fits(
     model.map_or(Ok(()), |model| model_fits(scene, model, board))
 }
 
-/// What a scene needs of a board.
 fn needs(scene: &Scene) -> boards::Needs {
     boards::Needs {
         tick_hz: scene.tick_hz,

@@ -29,7 +29,6 @@ pub struct Image {
     pub features: Vec<&'static str>,
 }
 
-/// The parts that a program needs for a configuration.
 fn parts<R: Real>(config: &Config<R>) -> Vec<Part> {
     let links = &config.links;
     let is_linked = links.has_rtt || links.serial_baud.is_some();
@@ -78,7 +77,7 @@ fn parts<R: Real>(config: &Config<R>) -> Vec<Part> {
     needed.map(|(_, part)| part).collect()
 }
 
-/// The features of a program for a configuration whose model is this one, or any.
+/// `None`: for any model.
 fn features<R: Real>(
     config: &Config<R>,
     model: Option<&ModelBuf>,

@@ -137,7 +137,6 @@ pub enum Mismatch {
     Config(#[from] firmware::ConfigError),
 }
 
-/// How it is whisked, in words.
 fn words(whisked: &Whisked) -> String {
     let frequency = whisked.frequency_mhz;
     let frequency = frequency.map(|mhz| format!("at {} Hz", f64::from(mhz) / 1000.0));

@@ -108,7 +108,6 @@ pub fn build<R: Real>(scene: &Scene, target: Target<'_>) -> Result<Config<R>, Mi
     })
 }
 
-/// Bits a second of a bus, thousands, unless the scene says otherwise.
 const KBIT_S: u16 = 1000;
 
 /// The bus of a scene's head; none: one board has all whiskers.
@@ -165,7 +164,6 @@ const fn kind(scene: &Scene) -> SensorKind {
     }
 }
 
-/// What is tolerated of a scene's sensors.
 fn sensor(scene: &Scene, is_ideal: bool) -> SensorLimits {
     let sensor = &scene.sensor;
     let plausible = Plausible {
@@ -192,7 +190,6 @@ fn sensor(scene: &Scene, is_ideal: bool) -> SensorLimits {
 const SWING_CODES: u16 = 50;
 const SWING_HZ: f64 = 1.25;
 
-/// What whisking must do to the readings of a scene, if that is known.
 fn swing(scene: &Scene) -> Option<SwingLimits> {
     let (whisking, motor) = (scene.whisking.as_ref()?, scene.motor.as_ref()?);
     let is_known = whisking.frequency_hz >= SWING_HZ;
@@ -202,7 +199,6 @@ fn swing(scene: &Scene) -> Option<SwingLimits> {
     (codes > 0).then_some(limits)
 }
 
-/// Degrees of the whisker a count of its encoder.
 fn degrees_per_count(motor: &MotorSection) -> f64 {
     360.0 / (f64::from(motor.counts_per_rev) * motor.gear)
 }
@@ -236,7 +232,7 @@ pub fn rule_settings(
     })
 }
 
-/// How the whiskers of a scene move; `None`: they are passive.
+/// `None`: they are passive.
 fn motion<R: Real>(scene: &Scene, runs_on: RunsOn) -> Result<Option<MotionConfig<R>>, Mismatch> {
     let is_board = runs_on == RunsOn::Board;
     let is_ideal = !is_board && scene.plant.kind == PlantKind::Ideal;
@@ -328,7 +324,6 @@ fn guards(motor: &MotorSection, degrees_per_count: f64) -> GuardSettings {
     }
 }
 
-/// How a whisker finds where it is.
 fn homing(motor: &MotorSection, degrees_per_count: f64, calm: f64) -> HomingSettings {
     HomingSettings {
         degrees_per_count,

@@ -72,7 +72,7 @@ pub fn on_board(scene: &Scene, board: &str, has_fpu: bool) -> Result<NumberForma
     }
 }
 
-/// What the file says; a passive scene says nothing.
+/// A passive scene says nothing.
 fn given(scene: &Scene) -> Numbers {
     let whisking = scene.whisking.as_ref();
     whisking.map_or(Numbers::Auto, |whisking| whisking.numbers)

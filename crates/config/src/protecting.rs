@@ -19,10 +19,6 @@ pub struct Unprotected {
     pub allowed: String,
 }
 
-/// Whether the limits of a motor protect it.
-///
-/// # Errors
-/// [`Unprotected`] for the first that does not.
 pub(crate) fn check(motor: &MotorSection, degrees_per_count: f64) -> Result<(), Unprotected> {
     let within = |key, found: f64, range: RangeInclusive<f64>| {
         if range.contains(&found) {

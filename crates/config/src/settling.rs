@@ -35,10 +35,10 @@ impl fmt::Display for Unsettled {
             "motor.{key}: found kp {kp}, kd {kd}, slew_per_s {slew_per_s}; after a step the motor \
              would overshoot by far, or not come to rest; allowed: "
         )?;
-        let most = rounded(self.kp);
+        let most = rounded_down(self.kp);
         let kp = (most > 0.0).then(|| format!("kp at most {most}"));
         let kd = self.kd.map(|[least, most]| {
-            let (least, most) = (rounded_up(least), rounded(most));
+            let (least, most) = (rounded_up(least), rounded_down(most));
             format!("kd from {least} to {most}")
         });
         let each: Vec<String> = [kp, kd].into_iter().flatten().collect();
@@ -50,16 +50,15 @@ impl fmt::Display for Unsettled {
     }
 }
 
-/// Down to two digits.
-fn rounded(value: f64) -> f64 {
-    to_digits(value, f64::floor)
+fn rounded_down(value: f64) -> f64 {
+    to_two_digits(value, f64::floor)
 }
 
 fn rounded_up(value: f64) -> f64 {
-    to_digits(value, f64::ceil)
+    to_two_digits(value, f64::ceil)
 }
 
-fn to_digits(value: f64, round: fn(f64) -> f64) -> f64 {
+fn to_two_digits(value: f64, round: fn(f64) -> f64) -> f64 {
     if value <= 0.0 {
         return 0.0;
     }
@@ -73,10 +72,6 @@ fn to_digits(value: f64, round: fn(f64) -> f64) -> f64 {
     }
 }
 
-/// Whether a motor settles.
-///
-/// # Errors
-/// [`Unsettled`].
 pub(crate) fn check(
     found: &pd::Settings,
     guards: &GuardSettings,

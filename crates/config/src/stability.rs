@@ -136,11 +136,7 @@ impl fmt::Display for Instability {
     }
 }
 
-/// What the integrator of `settings` cannot carry (`fatal`), or carries badly,
-/// if anything.
-///
-/// # Errors
-/// What [`Settings::build`] refuses.
+/// What the integrator of `settings` cannot carry (`fatal`), or carries badly.
 pub(crate) fn check(settings: &Settings, fatal: bool) -> Result<Option<Unstable>, Error> {
     let config = settings.build::<f64>()?;
     let oscillators = match &config.oscillators {

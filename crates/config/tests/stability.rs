@@ -21,18 +21,15 @@ fn scene(frequency_hz: f64, tick_hz: u32, integrator: &str, tau_s: [f64; 2]) -> 
     Scene::from_str("s.toml", &text).unwrap()
 }
 
-/// What a scene that is not refused is cautioned about.
 fn cautioned(scene: &Scene) -> Unstable {
     assert_eq!(check(scene), Ok(()));
     cautions(scene).expect("a caution")
 }
 
-/// Nothing is refused, and there is no caution.
 fn is_clean(scene: &Scene) -> bool {
     check(scene).is_ok() && cautions(scene).is_none()
 }
 
-/// The configuration of a board.
 fn built(scene: &Scene) -> Result<Config<f64>, Mismatch> {
     let target = Target {
         runs_on: RunsOn::Board,
@@ -229,7 +226,6 @@ fn a_gate_may_last_a_tick_but_not_less() {
     }
 }
 
-/// Whatever tick rate is suggested is enough, and one less is not.
 #[test]
 fn what_is_suggested_is_the_least() {
     let mut suggested = 0;

@@ -57,7 +57,7 @@ impl Faults {
     /// programmed transfer curve.
     pub const DEAD_ZONE_BETA: Faults = Faults(0x8000);
 
-    /// The known bits with their names, in the order of the bits.
+    /// In the order of the bits.
     const KNOWN: [(Faults, &'static str); 10] = [
         (Faults::ADC_MONITOR, "ADC monitor"),
         (Faults::ADC_SATURATED, "ADC saturated"),
@@ -71,7 +71,6 @@ impl Faults {
         (Faults::DEAD_ZONE_BETA, "dead zone beta"),
     ];
 
-    /// All bits that have a name.
     const KNOWN_BITS: u16 = {
         let mut bits = 0;
         let mut i = 0;

@@ -47,7 +47,6 @@ const BLOCK_IF_FULL: u32 = 2;
 /// Longer than any ring of a module: before a program has set it up, a ring is what was in RAM.
 const LONGEST: u32 = 1 << 16;
 
-/// The word at an offset.
 pub(crate) fn word(bytes: &[u8], at: u32) -> u32 {
     let found = bytes.get(at as usize..).and_then(<[u8]>::first_chunk);
     found.copied().map_or(0, u32::from_le_bytes)
@@ -59,7 +58,6 @@ pub struct Ring {
     at: u32,
 }
 
-/// What its description says.
 #[derive(Debug, Clone, Copy)]
 struct Described {
     buffer: u32,

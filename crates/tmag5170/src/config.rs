@@ -11,7 +11,6 @@ pub use fields::{
     Range, SleepTime, Trigger, Version,
 };
 
-/// A bit of a register, counted from the lowest.
 const fn bit(is_set: bool, place: u32) -> u16 {
     (is_set as u16) << place
 }

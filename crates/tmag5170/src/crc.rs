@@ -44,13 +44,11 @@ pub const fn crc4(frame: &[u8; FRAME_LEN]) -> u8 {
     take(take(register, b3 >> 4), 0)
 }
 
-/// The frame with its check bits put in.
 pub(crate) const fn sealed(mut frame: [u8; FRAME_LEN]) -> [u8; FRAME_LEN] {
     frame[FRAME_LEN - 1] = (frame[FRAME_LEN - 1] & !CRC_BITS) | crc4(&frame);
     frame
 }
 
-/// The check bits that a frame has.
 pub(crate) const fn found(frame: [u8; FRAME_LEN]) -> u8 {
     frame[FRAME_LEN - 1] & CRC_BITS
 }

@@ -146,7 +146,6 @@ impl<SPI: SpiDevice> Tmag5170<SPI> {
         Ok(before)
     }
 
-    /// Writes a setting and reads it back.
     fn set(&mut self, register: Register, value: u16) -> Result<(), Error<SPI::Error>> {
         self.write(register, value)?;
         if self.read(register)?.value == value {

@@ -28,7 +28,6 @@ pub struct Fault {
     pub cause: &'static str,
 }
 
-/// A constant for each bit that has a name, and the table of them.
 macro_rules! faults {
     ($($(#[$about:meta])* $bit:ident = $bits:literal, $name:literal, $cause:literal;)+) => {
         impl StatusFaults {

@@ -16,7 +16,6 @@ const ADDED: usize = 3;
 /// Most bytes of a frame.
 pub const FRAME_BYTES: usize = CONTENT_BYTES + ADDED;
 
-/// Bytes of the sum.
 const SUM_BYTES: usize = size_of::<u32>();
 
 /// Bytes of the frame of a record, which are always as many: 20, and one that says what it is.
@@ -50,7 +49,6 @@ fn enclose<T: Serialize>(value: &T) -> Option<Frame> {
     Some(frame)
 }
 
-/// What a frame carries, if its sum is right.
 pub(crate) fn summed(content: &[u8]) -> Option<&[u8]> {
     let (value, sum) = content.split_last_chunk::<SUM_BYTES>()?;
     (CRC.checksum(value).to_le_bytes() == *sum).then_some(value)
@@ -70,7 +68,6 @@ mod tests {
     use super::{CRC, FRAME_BYTES, frame, open};
     use crate::{Piece, Splitter};
 
-    /// What a reader of a line makes of a frame.
     fn content(frame: &[u8]) -> Vec<u8> {
         let mut splitter = Splitter::<FRAME_BYTES>::new();
         let pieces = frame.iter().filter_map(|byte| match splitter.push(*byte)? {
@@ -86,7 +83,6 @@ mod tests {
         assert_eq!(CRC.checksum(&[7, 5]), PYTHON);
     }
 
-    /// See the test.
     const PYTHON: u32 = 0x7EF2_70B7;
 
     #[test]

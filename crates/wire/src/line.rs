@@ -126,7 +126,6 @@ impl Line {
         self
     }
 
-    /// Appends a field, a number with at least so many digits, if that is a number of digits.
     fn fill_in(&mut self, field: Option<&Field<'_>>, least: usize, base: u32) {
         match field {
             Some(Field::Text(text)) => self.text(text),

@@ -64,12 +64,10 @@ impl TickRecord {
     }
 }
 
-/// The halves of a word, the lower one first.
 const fn halves(word: u32) -> [u16; 2] {
     [word as u16, (word >> 16) as u16]
 }
 
-/// The word of two halves, the lower one first.
 const fn word(low: u16, high: u16) -> u32 {
     low as u32 | (high as u32) << 16
 }

@@ -244,7 +244,6 @@ mod tests {
         })
     }
 
-    /// What a module makes of a frame.
     fn read(frame: &[u8]) -> Option<Result<TaggedCommand, UnknownCommand>> {
         let mut splitter = Splitter::<FRAME_BYTES>::new();
         frame.iter().find_map(|byte| match splitter.push(*byte)? {

@@ -29,7 +29,6 @@ pub enum Garbled {
     Frame,
 }
 
-/// Where in the line the next byte is.
 #[derive(Debug)]
 enum Within {
     /// Behind a zero.
@@ -96,7 +95,6 @@ impl<const N: usize> Splitter<N> {
         None
     }
 
-    /// Keeps a byte if there is room.
     fn keep(&mut self, byte: u8, what: Garbled) {
         if let Some(place) = self.bytes.get_mut(self.length) {
             *place = byte;
@@ -147,7 +145,6 @@ mod tests {
     use super::{Garbled, Piece, Splitter};
     use crate::{Frame, TaggedCommand, frame};
 
-    /// What comes of some bytes, as text.
     fn pieces<const N: usize>(splitter: &mut Splitter<N>, bytes: &[u8]) -> Vec<(char, Vec<u8>)> {
         let mut found = Vec::new();
         for byte in bytes {
@@ -161,7 +158,6 @@ mod tests {
         found
     }
 
-    /// What a frame carries.
     fn content(frame: &Frame) -> Vec<u8> {
         let found = pieces(&mut Splitter::<30>::new(), frame);
         found.last().expect("a frame").1.clone()

@@ -30,19 +30,14 @@ pub enum Stop {
 /// What the line says up to the last byte.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Said {
-    /// Nothing: it is empty so far.
     Nothing,
     S,
     St,
     Sto,
     Stop,
-    /// That, and a space.
-    StopAlone,
-    /// That, and a remark.
+    StopBlank,
     StopRemark,
-    /// A remark on something else.
-    Remark,
-    /// Something else.
+    OtherRemark,
     Other,
 }
 
@@ -52,8 +47,7 @@ pub struct StopWatch {
     said: Said,
     /// The line has more bytes than a command, or such as are no text.
     is_garbled: bool,
-    /// Bytes of the line.
-    line: u8,
+    line_length: u8,
     /// The bytes since the last zero, and how many came.
     frame: [u8; MOST],
     length: u8,
@@ -65,7 +59,7 @@ impl StopWatch {
         Self {
             said: Said::Nothing,
             is_garbled: false,
-            line: 0,
+            line_length: 0,
             frame: [0; MOST],
             length: 0,
         }
@@ -84,18 +78,18 @@ impl StopWatch {
         if byte == b'\n' {
             return self.end_of_line();
         }
-        self.line = self.line.saturating_add(1);
+        self.line_length = self.line_length.saturating_add(1);
         self.said = self.said.and(byte, self.is_garbled);
         let is_text = matches!(byte, b' '..=b'~' | b'\t' | b'\r' | 12);
-        let is_remark = matches!(self.said, Said::Remark | Said::StopRemark);
-        if !(is_text || is_remark) || usize::from(self.line) > COMMAND_BYTES {
+        let is_remark = matches!(self.said, Said::OtherRemark | Said::StopRemark);
+        if !(is_text || is_remark) || usize::from(self.line_length) > COMMAND_BYTES {
             self.is_garbled = true;
         }
         None
     }
 
     fn end_of_line(&mut self) -> Option<Stop> {
-        let is_stop = matches!(self.said, Said::Stop | Said::StopAlone | Said::StopRemark);
+        let is_stop = matches!(self.said, Said::Stop | Said::StopBlank | Said::StopRemark);
         self.begin_line();
         is_stop.then_some(Stop::Line)
     }
@@ -103,7 +97,7 @@ impl StopWatch {
     const fn begin_line(&mut self) {
         self.said = Said::Nothing;
         self.is_garbled = false;
-        self.line = 0;
+        self.line_length = 0;
     }
 
     /// A zero ends a frame, and cuts a line short.
@@ -131,22 +125,21 @@ impl Said {
         match (self, byte) {
             // The splitter leaves a CR out.
             (_, b'\r') | (Self::StopRemark, _) => self,
-            (Self::Remark, _) if !is_garbled => self,
+            (Self::OtherRemark, _) if !is_garbled => self,
             (Self::Nothing, b' ' | b'\t' | 12) => Self::Nothing,
             (Self::Nothing, b's') => Self::S,
             (Self::S, b't') => Self::St,
             (Self::St, b'o') => Self::Sto,
             (Self::Sto, b'p') => Self::Stop,
-            (Self::Stop | Self::StopAlone, b' ' | b'\t' | 12) => Self::StopAlone,
-            (Self::Stop | Self::StopAlone, b'#') => Self::StopRemark,
+            (Self::Stop | Self::StopBlank, b' ' | b'\t' | 12) => Self::StopBlank,
+            (Self::Stop | Self::StopBlank, b'#') => Self::StopRemark,
             (_, b's') if is_garbled => Self::S,
-            (_, b'#') if !is_garbled => Self::Remark,
+            (_, b'#') if !is_garbled => Self::OtherRemark,
             _ => Self::Other,
         }
     }
 }
 
-/// The tag of a stop, where what lies between two zeros is one.
 // Apart, as it is rare.
 #[cold]
 #[inline(never)]

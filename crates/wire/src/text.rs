@@ -112,7 +112,6 @@ fn spoken<'l>(
     Ok(Spoken::Command(command))
 }
 
-/// The first whisker of a side.
 fn side<'l>(words: &mut impl Iterator<Item = &'l [u8]>) -> Result<WhiskerId, NotSpoken> {
     let side = match words.next() {
         Some(b"left") => 0,

@@ -4,7 +4,6 @@ use firmware::{Links, NAME_BYTES};
 
 use super::types::Settings;
 
-/// The name of none.
 pub(crate) const NO_SCENE: &str = "no-scene";
 
 /// It does not change while the module runs.
@@ -12,14 +11,11 @@ pub(crate) struct About {
     name: heapless::String<NAME_BYTES>,
     tick_hz: u32,
     whiskers: u32,
-    /// By what the module can be talked to.
     pub(crate) links: Links,
-    /// It has motors, which the button arms.
     pub(crate) has_motors: bool,
 }
 
 impl About {
-    /// Of these settings, and of the node of a head.
     pub(crate) fn new(settings: &Settings, node: u8) -> Self {
         Self {
             name: settings.head.name.clone(),

@@ -12,7 +12,7 @@ use super::pace;
 use super::wiring::SensorPort;
 use crate::here::{CLOCKS, reset_spi, spi};
 
-/// What a sensor asks of its wires. Rounds are those of `cortex_m::asm::delay`.
+/// Rounds are those of `cortex_m::asm::delay`.
 pub(crate) struct Wires {
     /// Whether data is taken at the first edge of the clock, which is low at rest, or the second.
     pub(crate) phase: Cpha,
@@ -51,7 +51,6 @@ pub(crate) fn set_up(port: &SensorPort, wires: &Wires, has_dma: bool) {
     });
 }
 
-/// An SPI with one sensor on it.
 pub(crate) struct Device {
     port: &'static SensorPort,
     wires: &'static Wires,
@@ -98,7 +97,6 @@ impl Device {
     #[cold]
     #[inline(never)]
     fn transfer(&self, read: &mut [u8], sent: &[u8]) -> Result<(), Stuck> {
-        /// What is sent where nothing is given.
         const FILLER: u8 = 0;
         (0..read.len().max(sent.len())).try_for_each(|n| {
             let byte = self.byte(sent.get(n).copied().unwrap_or(FILLER))?;
@@ -109,7 +107,7 @@ impl Device {
         })
     }
 
-    /// What a transaction asks for, /SS low.
+    /// With /SS low.
     #[inline]
     fn carry_out(&self, operation: &mut Operation<'_, u8>) -> Result<(), Stuck> {
         match operation {
@@ -148,7 +146,6 @@ impl SpiDevice for Device {
     }
 }
 
-/// The core, which waits.
 pub(crate) struct Wait;
 
 impl DelayNs for Wait {

@@ -13,7 +13,6 @@ pub(crate) struct Route {
     pub(crate) tx: usize,
 }
 
-/// The transfers on a route.
 pub(crate) struct Transfers {
     rx: Channel,
     tx: Channel,
@@ -57,8 +56,6 @@ impl Transfers {
         Self { rx, tx }
     }
 
-    /// Sets the addresses of both.
-    ///
     /// `received` must have room for as many bytes as each [`start`](Self::start) moves, and
     /// both must be static.
     pub(crate) fn set_up(&self, data_register: u32, received: u32, sent: u32) {
@@ -99,7 +96,6 @@ impl Transfers {
         self.rx.has(DMA1.isr().read(), flag::COMPLETE | flag::ERROR)
     }
 
-    /// Whether the rx DMA has moved all bytes, and neither met an error.
     #[inline]
     pub(crate) fn is_complete(&self) -> bool {
         let flags = DMA1.isr().read();

@@ -61,8 +61,6 @@ impl Transfers {
         Self { dma, rx, tx }
     }
 
-    /// Sets the addresses of both.
-    ///
     /// `received` must have room for as many bytes as each [`start`](Self::start) moves, and
     /// both must be static.
     pub(crate) fn set_up(&self, data_register: u32, received: u32, sent: u32) {

@@ -16,7 +16,6 @@ const ERRORS: u32 = 0x14;
 
 pub(crate) struct Writer(());
 
-/// Waits until it is ready; whether all went well.
 fn is_done() -> bool {
     // BSY is set a cycle after what it is set for.
     cortex_m::asm::dsb();
@@ -25,14 +24,12 @@ fn is_done() -> bool {
 }
 
 impl Writer {
-    /// Ready to write, until it is [closed](Self::close) or the next reset.
     pub(crate) fn new() -> Self {
         flash_lock::open();
         FLASH.sr().write_value(Sr(ERRORS));
         Self(())
     }
 
-    /// Nothing is written any more.
     pub(crate) fn close(self) {
         FLASH.cr().write(|w| w.set_lock(true));
     }

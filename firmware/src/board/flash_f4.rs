@@ -14,7 +14,6 @@ use crate::board::flash_lock;
 const SECTOR_BYTES: u32 = 128 * 1024;
 const SECTORS_BEFORE: u32 = 4;
 
-/// Where the flash begins.
 const FLASH_BASE: u32 = 0x0800_0000;
 
 /// 32 bits at a time, for which the supply must be 2.7 V or more, and is 3.3 V (RM0390, "Program

@@ -8,10 +8,8 @@ use stm32_metapac::flash::regs::Sr;
 
 use crate::board::flash_lock;
 
-/// Bytes that are erased at once.
 const PAGE: u32 = 2048;
 
-/// Where the flash begins.
 const FLASH_BASE: u32 = 0x0800_0000;
 
 /// What went wrong: OPERR, PROGERR, WRPERR, PGAERR, SIZERR, PGSERR, MISERR and FASTERR, cleared

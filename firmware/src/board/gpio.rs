@@ -19,8 +19,7 @@ pub(crate) struct PinName {
 }
 
 impl PinName {
-    /// Pin `number` of the port with this letter. For constants: does not compile for a
-    /// pin that no board brings out.
+    /// For constants: does not compile for a pin that no board brings out.
     pub(crate) const fn new(port: char, number: u8) -> Self {
         assert!(number < 16);
         let port = match port {
@@ -48,7 +47,6 @@ impl PinName {
 }
 
 impl PinName {
-    /// Whether the level of an input is low.
     #[inline]
     pub(crate) fn is_low(self) -> bool {
         self.port.idr().read().0 & 1 << self.number == 0
@@ -58,14 +56,13 @@ impl PinName {
 pub(crate) struct Pin(PinName);
 
 impl Pin {
-    /// Configured from now on; an output starts low.
+    /// An output starts low.
     pub(crate) fn new(name: PinName, config: PinConfig) -> Self {
         name.low();
         name.configure(config);
         Self(name)
     }
 
-    /// An output that starts high.
     pub(crate) fn new_high(name: PinName) -> Self {
         name.high();
         name.configure(PinConfig::OUTPUT);

@@ -11,7 +11,6 @@ use super::types::{Inner, Number, Settings};
 use super::{pace, perception, pwm};
 use crate::here::{self, Counter, SIDES};
 
-/// Where the module lies.
 static INNER: StaticCell<Inner> = StaticCell::new();
 
 /// A module at its start, whose whiskers are at rest now, once the clocks are as its sensors
@@ -58,7 +57,6 @@ pub(crate) fn test_sensors(inner: &mut Inner, settings: &Settings, pace: &Pace) 
     }
 }
 
-/// Starts what all motors have in common.
 fn start_motors(motion: &MotionConfig<Number>, sides: u8) -> MotorStart {
     let pwm_counts = pace::clocks().pwm_counts();
     here::clock_motors(sides);

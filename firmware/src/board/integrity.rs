@@ -52,7 +52,7 @@ impl Region {
         })
     }
 
-    /// Looks at some words more, after so many [`CHANGES`]. Does not come back from a fault.
+    /// After so many [`CHANGES`]. Does not come back from a fault.
     fn step(&mut self, changes: u32) {
         let end = self.span.words.min(self.next.saturating_add(WORDS));
         self.so_far = self.add(self.so_far, self.next..end);
@@ -69,12 +69,10 @@ impl Region {
         }
     }
 
-    /// Whether all of it is as it was, at once.
     fn holds(&self) -> bool {
         self.add(0, 0..self.span.words) == self.sum
     }
 
-    /// Begins again with another sum.
     const fn renew(&mut self, sum: u32) {
         self.sum = sum;
         self.next = 0;
@@ -89,7 +87,6 @@ static CHANGES: AtomicU32 = AtomicU32::new(0);
 static SETTINGS_AT: AtomicUsize = AtomicUsize::new(0);
 static SUMS: [AtomicU32; 2] = [const { AtomicU32::new(0) }; 2];
 
-/// How often settings were changed by command.
 pub(crate) fn changes() -> u32 {
     CHANGES.load(Ordering::Relaxed)
 }
@@ -98,7 +95,6 @@ pub(crate) fn changes() -> u32 {
 pub(crate) struct Changed([Region; 2]);
 
 impl Changed {
-    /// Their sums as they are at the start.
     pub(crate) fn new(settings: &Settings, inner: &Inner) -> Self {
         let [_, classifier, _] = perception::constants(inner);
         Self([
@@ -127,7 +123,6 @@ impl Changed {
     }
 }
 
-/// The word that memory has at an address.
 #[allow(
     unsafe_code,
     reason = "what is padding to the compiler is looked at too"
@@ -172,7 +167,7 @@ impl Integrity {
         }
     }
 
-    /// Looks at some words more of each. Does not come back from a fault.
+    /// Does not come back from a fault.
     pub(crate) fn step(&mut self) {
         let changes = CHANGES.load(Ordering::Acquire);
         if changes != self.changes {

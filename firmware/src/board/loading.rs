@@ -24,16 +24,12 @@ use crate::here::flash::Writer;
 /// baud.
 const LAST_BYTES_PART: u32 = 250;
 
-/// By which requests come, and answers go.
 pub(crate) enum Line<'s> {
-    /// The serial port.
     Serial(&'s mut Serial),
-    /// What a probe reads and writes.
     Probe(&'s mut ProbeLine),
 }
 
 impl Line<'_> {
-    /// The next request.
     // Apart, as are words: together they are a function whose jumps the stack's check cannot
     // follow.
     #[inline(never)]
@@ -45,7 +41,7 @@ impl Line<'_> {
         request?.ok()
     }
 
-    /// Sends an answer. Whoever asks waits for it before they ask again: there is room.
+    /// Whoever asks waits for it before they ask again: there is room.
     fn reply(&mut self, answer: &Answer) {
         match self {
             Self::Serial(serial) => serial.reply(answer),
@@ -62,7 +58,6 @@ impl Line<'_> {
     }
 }
 
-/// A scene that comes, and how many of its words are written.
 struct Loading {
     writer: Writer,
     slot: Slot,
@@ -77,7 +72,6 @@ struct Loading {
 pub(crate) struct Order {
     pub(crate) load: Load,
     pub(crate) in_use: Option<usize>,
-    /// The answer to the request for it.
     pub(crate) answer: Answer,
 }
 
@@ -193,7 +187,7 @@ impl Loading {
         is_well && (needs_no_more || self.writer.erase(slot.model))
     }
 
-    /// Writes the next word. The last one may be asked for again, by whoever missed the answer.
+    /// The last one may be asked for again, by whoever missed the answer.
     #[inline(never)]
     fn word(&mut self, number: u8, word: u32) -> CommandStatus {
         if number == self.written as u8

@@ -45,7 +45,6 @@ macro_rules! say {
     };
 }
 
-/// The first lines after a reset.
 #[inline(never)]
 pub(crate) fn start(cause: StartCause, start: &Startup, found: &Scene) {
     let name = &found.settings.head.name;
@@ -165,17 +164,14 @@ macro_rules! part_text {
 }
 firmware::config_parts!(part_text);
 
-/// The start goes on once the supply is high enough.
 pub(crate) fn waits_for_supply() {
     defmt::warn!("waiting for the supply");
 }
 
-/// A fast dip may take the supply below what the clock needs.
 pub(crate) fn brown_out_is_low() {
     defmt::warn!("brown-out level below what the clock needs: whisker flash sets it");
 }
 
-/// By which model it decides, or why by none.
 pub(crate) fn model(state: ModelState, names: &Names) {
     match state {
         ModelState::Runs { crc, classes } if Part::Classifier.is_built() => {
@@ -214,7 +210,6 @@ pub(crate) fn self_test(place: Place, found: &SelfTest) {
     }
 }
 
-/// The motors are off until they are armed.
 pub(crate) fn not_armed(reason: NotArmed) {
     firmware::say_not_armed!(say, texts, reason);
 }
@@ -231,7 +226,6 @@ pub(crate) fn requested(command: wire::Command) {
     }
 }
 
-/// Settings were changed by command, or were some time ago.
 pub(crate) fn tuned(differ: bool) {
     if differ {
         defmt::warn!("settings differ from the scene's: whisker get says which");
@@ -256,17 +250,14 @@ macro_rules! texts {
 }
 firmware::fault_table!(texts);
 
-/// The line of a fault of the board; lines with details may follow.
 pub(crate) fn fatal(number: u8) {
     firmware::say_board_fault!(say, texts, number);
 }
 
-/// The last lines where a clock did not start.
 pub(crate) fn no_clock() {
     defmt::error!("- the PLL does not run");
 }
 
-/// The line of an event, and of what is known besides.
 pub(crate) fn event(event: &Event, names: &Names) {
     firmware::say_event!(
         say,
@@ -284,7 +275,6 @@ pub(crate) fn event(event: &Event, names: &Names) {
     }
 }
 
-/// What is known of a sensor's fault.
 fn sensor_lost(of: SensorFault) {
     match of {
         SensorFault::Frame(FrameError::BadStart(found)) => {
@@ -312,7 +302,6 @@ fn sensor_lost(of: SensorFault) {
     }
 }
 
-/// What is known of a TMAG5170's fault.
 #[cfg(feature = "tmag5170")]
 fn tilt_lost(of: TiltFault) {
     match of {
@@ -343,7 +332,6 @@ fn tilt_lost(of: TiltFault) {
     }
 }
 
-/// One line for each bit set of the sensor's error word.
 fn sensor_reports(faults: Faults) {
     macro_rules! lines {
         ($($bit:ident: $text:literal;)*) => {

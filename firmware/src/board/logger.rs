@@ -15,13 +15,11 @@ use super::rtt::{LOG, LOG_BYTES};
 struct Line {
     encoder: Encoder,
     staged: Staged,
-    /// It was begun and has not ended.
     is_open: bool,
 }
 
 /// The bytes of a line behind the writer's offset.
 struct Staged {
-    /// Where the next goes.
     at: usize,
     room: u32,
     /// One found none.

@@ -9,10 +9,8 @@ use super::pwm::Channel;
 use super::wiring::{ENABLES, HALLS, Output, PWMS, Side};
 use crate::here::{PWM_FUNCTION, free_hall_pins};
 
-/// A pin as output of the PWM timer.
 const PWM_PIN: PinConfig = PinConfig::new(Mode::AlternateOutput(PWM_FUNCTION));
 
-/// A brushed motor on an H-bridge.
 type Brushed = HBridge<Channel, Pin>;
 
 /// A brushless motor with Hall sensors on three half-bridges (L6230).
@@ -24,16 +22,12 @@ type Brushless = SixStep<(Channel, Channel, Channel), (Pin, Pin, Pin), (Pin, Pin
     reason = "memory has room for it, and nothing else to put it in"
 )]
 pub(crate) enum Motor {
-    /// Of [`Driver::HBridge`].
     Brushed(Brushed),
-    /// Of [`Driver::SixStep`].
     Brushless(Brushless),
 }
 
-/// What a motor is started with.
 #[derive(Clone, Copy)]
 pub(crate) struct MotorStart {
-    /// Its power stage.
     pub(crate) driver: Driver,
     /// What a stall is to the power stage of a brushless one.
     pub(crate) stall: StallConfig,
@@ -52,7 +46,6 @@ impl Motor {
     }
 }
 
-/// A brushed motor that is off.
 fn brushed(side: &Side, with: &MotorStart) -> Brushed {
     let bridge = &side.bridge;
     let direction = Pin::new(bridge.direction, PinConfig::OUTPUT);
@@ -82,7 +75,6 @@ fn brushless(with: &MotorStart) -> Brushless {
     motor
 }
 
-/// Drives a brushless motor.
 // Apart, so that a tick of a brushed one keeps its registers.
 #[inline(never)]
 fn commutate(motor: &mut Brushless, duty: Duty) -> Result<(), Fault> {

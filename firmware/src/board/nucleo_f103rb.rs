@@ -10,12 +10,10 @@ use firmware::boards::{self, BoardFacts, Clocks, REST_US};
 pub(crate) const FACTS: BoardFacts = boards::NUCLEO_F103RB;
 /// Its clocks, before they are halved for slow sensors.
 pub(crate) const CLOCKS: Clocks = FACTS.clocks;
-/// The number format of the tick.
 pub(crate) type Number = whisking::Fix;
 
 /// The clock that the ST-LINK puts on the HSE input, Hz.
 const HSE_HZ: u32 = 8_000_000;
-/// PLL multiplier.
 const PLL_MUL: u8 = 9;
 /// Core clock, Hz: the chip's highest. The fast bus APB2 has it too.
 const CORE_HZ: u32 = HSE_HZ * PLL_MUL as u32;
@@ -87,7 +85,6 @@ mod chip {
         EncoderPort, LEFT_BRIDGE, LEFT_ENCODER, LEFT_SENSOR, Received, SensorPort, Side,
     };
 
-    /// Interrupts once a tick.
     pub(crate) const TICK_TIMER: TimGp16 = TIM3;
     pub(crate) const TICK_INTERRUPT: Interrupt = Interrupt::TIM3;
 
@@ -100,7 +97,6 @@ mod chip {
     pub(crate) const SERIAL_USART: Usart = USART2;
     /// Channels 6 and 7: USART2_RX, USART2_TX (RM0008, table 78).
     pub(crate) const SERIAL_ROUTE: SerialRoute = SerialRoute { rx: 5, tx: 6 };
-    /// Alternate function of its pins.
     pub(crate) const SERIAL_FUNCTION: AlternateFunction = ONLY;
 
     /// The whisker: SPI1 by TIM4 and DMA1, PWM 1, TIM2.
@@ -131,7 +127,6 @@ mod chip {
         },
     };
 
-    /// What it carries.
     pub(crate) static SIDES: &[&Side] = &[&LEFT];
 
     /// Reads why the chip started and forgets it, so that the next start tells its own.
@@ -149,9 +144,6 @@ mod chip {
     /// Goes from the internal 8 MHz to [`super::CLOCKS`] by the ST-LINK's clock where that comes,
     /// and has the chip raise the non-maskable interrupt should that stop; to 64 MHz, the most
     /// that the PLL makes of the internal ones, where it does not. Lets the timer of the tick run.
-    ///
-    /// # Errors
-    /// The PLL did not come.
     pub(crate) fn start_clocks() -> Result<ClockSource, NoClock> {
         RCC.cr().modify(|w| w.set_hsebyp(true));
         RCC.cr().modify(|w| w.set_hseon(true));

@@ -114,7 +114,6 @@ mod chip {
         SensorPins, SensorPort, Side,
     };
 
-    /// Interrupts once a tick.
     pub(crate) const TICK_TIMER: TimBasic = TIM7;
     pub(crate) const TICK_INTERRUPT: Interrupt = Interrupt::TIM7;
     /// Alternate function of the PWM's pins, TIM1.
@@ -128,7 +127,6 @@ mod chip {
         rx: (5, 4),
         tx: (6, 4),
     };
-    /// Alternate function of its pins.
     pub(crate) const SERIAL_FUNCTION: AlternateFunction = 7;
 
     /// The left whisker: SPI1 by TIM8 and DMA2, PWM 1, TIM2.
@@ -245,9 +243,6 @@ mod chip {
     /// Goes from the internal 16 MHz to [`super::CLOCKS`], by the ST-LINK's clock where that comes;
     /// then it has the chip raise the non-maskable interrupt should that stop. Lets the timers of
     /// the tick run.
-    ///
-    /// # Errors
-    /// The PLL did not come.
     pub(crate) fn start_clocks() -> Result<ClockSource, NoClock> {
         RCC.cr().modify(|w| w.set_hsebyp(true));
         RCC.cr().modify(|w| w.set_hseon(true));
@@ -316,10 +311,9 @@ mod chip {
         settle();
     }
 
-    /// What it carries, left first.
+    /// Left first.
     #[cfg(feature = "both-sides")]
     pub(crate) static SIDES: &[&Side] = &[&LEFT, &RIGHT];
-    /// What this image has of it.
     #[cfg(not(feature = "both-sides"))]
     pub(crate) static SIDES: &[&Side] = &[&LEFT];
 
@@ -328,7 +322,6 @@ mod chip {
         cfg!(feature = "both-sides") && sides > 1
     }
 
-    /// Clock for what reads the sensors of the scene's sides, of which there are so many.
     pub(crate) fn clock_sensors(sides: u8) {
         RCC.ahb1enr().modify(|w| w.set_dma2en(true));
         RCC.apb2enr().modify(|w| {
@@ -375,7 +368,6 @@ mod chip {
         }
     }
 
-    /// Clock for motors and encoders of the scene's sides, of which there are so many.
     pub(crate) fn clock_motors(sides: u8) {
         RCC.apb1enr().modify(|w| {
             w.set_tim2en(true);

@@ -86,7 +86,6 @@ mod chip {
         EncoderPort, LEFT_BRIDGE, LEFT_ENCODER, LEFT_SENSOR, Received, SensorPort, Side,
     };
 
-    /// Interrupts once a tick.
     pub(crate) const TICK_TIMER: TimGp16 = TIM3;
     pub(crate) const TICK_INTERRUPT: Interrupt = Interrupt::TIM3;
 
@@ -94,13 +93,10 @@ mod chip {
     const RX_DMA: usize = 0;
     /// DMA1 channel 2.
     const TX_DMA: usize = 1;
-    /// Number of the request SPI1_RX (RM0444, table of the DMAMUX inputs).
+    /// Numbers of requests (RM0444, table of the DMAMUX inputs).
     const SPI1_RX: u8 = 16;
-    /// Of TIM6_UP.
     const TIM6_UP: u8 = 38;
-    /// Of USART2_RX.
     const USART2_RX: u8 = 52;
-    /// Of USART2_TX.
     const USART2_TX: u8 = 53;
     /// Alternate function of the PWM's pins, TIM1.
     pub(crate) const PWM_FUNCTION: AlternateFunction = 2;
@@ -109,7 +105,6 @@ mod chip {
     pub(crate) const SERIAL_USART: Usart = USART2;
     /// DMA1 channels 3 and 4.
     pub(crate) const SERIAL_ROUTE: SerialRoute = SerialRoute { rx: 2, tx: 3 };
-    /// Alternate function of its pins.
     pub(crate) const SERIAL_FUNCTION: AlternateFunction = 1;
 
     /// The whisker: SPI1 by TIM6 and DMA1, PWM 1, TIM2.
@@ -142,7 +137,6 @@ mod chip {
         },
     };
 
-    /// What it carries.
     pub(crate) static SIDES: &[&Side] = &[&LEFT];
 
     /// Reads why the chip started and forgets it, so that the next start tells its own.
@@ -159,9 +153,6 @@ mod chip {
 
     /// Goes from the internal 16 MHz to [`super::CLOCKS`], and lets the timer
     /// of the tick run.
-    ///
-    /// # Errors
-    /// The clock that did not come.
     pub(crate) fn start_clocks() -> Result<ClockSource, NoClock> {
         const { assert!(PLL_N == 8 && PLL_R == 2) };
         RCC.pllcfgr().write(|w| {
@@ -211,7 +202,6 @@ mod chip {
         settle();
     }
 
-    /// Clock for what reads the sensor, and the routes of its DMA requests.
     pub(crate) fn clock_sensors(_: u8) {
         RCC.ahbenr().modify(|w| w.set_dma1en(true));
         RCC.apbenr1().modify(|w| w.set_tim6en(true));
@@ -221,8 +211,7 @@ mod chip {
         DMAMUX1.ccr(TX_DMA).write(|w| w.set_dmareq_id(TIM6_UP));
     }
 
-    /// Clock for the serial port, and the routes of its DMA requests. Its USART has the
-    /// bus's clock after a reset.
+    /// Its USART has the bus's clock after a reset.
     pub(crate) fn clock_serial() {
         RCC.ahbenr().modify(|w| w.set_dma1en(true));
         RCC.apbenr1().modify(|w| w.set_usart2en(true));
@@ -240,10 +229,9 @@ mod chip {
         RCC.apbrstr2().modify(|w| w.set_spi1rst(false));
     }
 
-    /// Clock for motor and encoder. From the reset on PA8 and PB15 are pulled down, as the
-    /// pins of a USB-C socket with an empty battery are, until the strobe of their controller,
-    /// which is never switched on, lets go of them (RM0444, section 8.1.1; embassy-stm32's
-    /// `ucpd::init` does the same).
+    /// From the reset on PA8 and PB15 are pulled down, as the pins of a USB-C socket with an
+    /// empty battery are, until the strobe of their controller, which is never switched on, lets
+    /// go of them (RM0444, section 8.1.1; embassy-stm32's `ucpd::init` does the same).
     pub(crate) fn clock_motors(_: u8) {
         RCC.apbenr1().modify(|w| w.set_tim2en(true));
         RCC.apbenr2().modify(|w| {

@@ -53,7 +53,6 @@ pub(crate) fn tenths(counts: u32) -> u16 {
     tenths.min(u16::MAX.into()) as u16
 }
 
-/// The clocks as they run once the start has halved them or not.
 pub(crate) fn clocks() -> &'static Clocks {
     let [[own, halved], [internal, internal_halved]] = &CLOCKS;
     match (PACE[1].load(Ordering::Relaxed) != 0, is_internal()) {
@@ -64,7 +63,6 @@ pub(crate) fn clocks() -> &'static Clocks {
     }
 }
 
-/// What stays as it is from the start on.
 pub(crate) const fn constants() -> &'static [AtomicU32; 3] {
     &PACE
 }

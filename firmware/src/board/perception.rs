@@ -10,7 +10,6 @@ use super::span::Span;
 use super::types::{Inner, Number, Settings};
 use crate::here::FACTS;
 
-/// A classifier of what the whiskers feel.
 type Classifier = CodeClassifier<&'static [u32]>;
 
 /// The classifier of a scene that has one, before a model was [found](find) for it.
@@ -80,7 +79,6 @@ fn gate(classifier: &Classifier) -> Option<Number> {
     Some(Number::from_f32(gate))
 }
 
-/// The same of a module.
 pub(crate) fn gate_of(inner: &Inner) -> Option<Number> {
     gate(inner.perception()?.classifier())
 }

@@ -3,24 +3,19 @@
 /// Number of a pin's alternate function; chips with one a pin ignore it.
 pub(crate) type AlternateFunction = u8;
 
-/// What a pin is connected to.
 #[derive(Clone, Copy)]
 pub(crate) enum Mode {
-    /// Input, read by the program.
     Input,
-    /// Push-pull output, written by the program.
+    /// Push-pull.
     Output,
-    /// Input of a peripheral.
     AlternateInput(AlternateFunction),
-    /// Push-pull output of a peripheral.
+    /// Push-pull.
     AlternateOutput(AlternateFunction),
-    /// Open-drain output of a peripheral.
     AlternateOpenDrain(AlternateFunction),
 }
 
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Pull {
-    /// None.
     Floating,
     /// To the supply; for inputs.
     Up,
@@ -37,21 +32,15 @@ pub(crate) enum Speed {
 
 #[derive(Clone, Copy)]
 pub(crate) struct PinConfig {
-    /// What it is connected to.
     pub(crate) mode: Mode,
-    /// Its resistor.
     pub(crate) pull: Pull,
-    /// Its edges.
     pub(crate) speed: Speed,
 }
 
 impl PinConfig {
-    /// A push-pull output of the program.
     pub(crate) const OUTPUT: Self = Self::new(Mode::Output);
-    /// An input of the program.
     pub(crate) const INPUT: Self = Self::new(Mode::Input);
 
-    /// `mode`, without a pull, with slow edges.
     pub(crate) const fn new(mode: Mode) -> Self {
         Self {
             mode,
@@ -60,13 +49,11 @@ impl PinConfig {
         }
     }
 
-    /// The same with a pull-up.
     pub(crate) const fn pulled_up(self) -> Self {
         let pull = Pull::Up;
         Self { pull, ..self }
     }
 
-    /// The same with fast edges.
     pub(crate) const fn fast(self) -> Self {
         let speed = Speed::High;
         Self { speed, ..self }

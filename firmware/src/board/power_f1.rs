@@ -18,17 +18,14 @@ pub(crate) fn start() {
     });
 }
 
-/// Whether the supply is below the threshold.
 pub(crate) fn is_low() -> bool {
     PWR.csr().read().pvdo()
 }
 
-/// Whether it has fallen below it since [`forget`].
 pub(crate) fn has_fallen() -> bool {
     EXTI.pr(0).read().line(LINE)
 }
 
-/// Forgets that it has fallen.
 pub(crate) fn forget() {
     EXTI.pr(0).write(|w| w.set_line(LINE, true));
 }

@@ -72,7 +72,6 @@ static DROPPED: WrappingCounter = WrappingCounter::new();
 /// Of events, the tick's end of the queue.
 pub type Events = Producer<'static, EventRecord>;
 
-/// What the start has made.
 pub(crate) struct Started {
     pub(crate) module: Module,
     pub(crate) tick: TickPeriod,
@@ -80,10 +79,8 @@ pub(crate) struct Started {
     pub(crate) idle: &'static mut Idle,
 }
 
-/// Where the state of idle lies.
 static IDLE: StaticCell<Idle> = StaticCell::new();
 
-/// From the reset to a module that is ready for its first tick.
 pub(crate) fn start(core: cortex_m::Peripherals, queues: &'static mut Queues) -> Started {
     outputs::off();
     here::prepare_for_debuggers();
@@ -189,7 +186,6 @@ fn no_scene(found: &Scene) -> ConfigError {
     wrong.copied().unwrap_or(ConfigError::Absent)
 }
 
-/// One tick of the module.
 #[inline]
 pub(crate) fn tick(module: &mut Module, events: &mut Events) {
     obey(module, events);
@@ -316,7 +312,6 @@ fn tell_timing(module: &mut Module) {
     MISSED.set(timing.missed());
 }
 
-/// The frame of a side's sensor has ended.
 #[inline]
 pub(crate) fn end_of_frame(module: &mut Module, side: usize) {
     // There is one on each side.
@@ -325,7 +320,6 @@ pub(crate) fn end_of_frame(module: &mut Module, side: usize) {
     }
 }
 
-/// Frames have come by the bus.
 #[cfg(feature = "bus")]
 pub(crate) fn hear(module: &mut Module) {
     module.head.hear();
@@ -337,7 +331,6 @@ pub(crate) fn said(module: &mut Module) {
     module.head.said();
 }
 
-/// The state of the idle task.
 pub(crate) struct Idle {
     integrity: Integrity,
     names: Names,
@@ -397,7 +390,6 @@ impl Idle {
         }
     }
 
-    /// Reports what has happened by log, port and link.
     fn report(&mut self, event: EventRecord) {
         log::event(&event.event, &self.names);
         if let Some(serial) = &mut self.serial {
@@ -406,13 +398,11 @@ impl Idle {
         self.exchange.send_event(event);
     }
 
-    /// The same of what idle has found.
     fn report_now(&mut self, event: Event) {
         let sequence = TICKS.get();
         self.report(EventRecord { sequence, event });
     }
 
-    /// Has the loader take over, if that was asked for.
     fn load(&mut self) {
         if !Part::Deploy.is_built() {
             return;

@@ -17,7 +17,6 @@ use super::wiring::Output;
 /// PWM mode 1: high while the count is below the compare value. As a number,
 /// because its type has another name in each version of the timer.
 const PWM_MODE_1: u8 = 6;
-/// Outputs in use.
 const OUTPUTS: usize = 3;
 
 pub(crate) struct Channel {
@@ -26,8 +25,7 @@ pub(crate) struct Channel {
     counts: u16,
 }
 
-/// Starts the timer with all duties zero, and so many counts a period. The pins are the
-/// caller's.
+/// With all duties zero; the pins are the caller's.
 pub(crate) fn start(counts: u16) {
     TIM1.arr().write(|w| w.set_arr(counts.saturating_sub(1)));
     for pair in 0..OUTPUTS.div_ceil(2) {

@@ -6,7 +6,6 @@ use firmware::boards::CLOCK_WAIT_LOOPS;
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(crate) struct NoClock;
 
-/// By what a board runs.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(crate) enum ClockSource {
     /// By the clock that it is made for.
@@ -17,21 +16,15 @@ pub(crate) enum ClockSource {
 }
 
 impl ClockSource {
-    /// Of a board whose clock from outside came, or did not.
     pub(crate) const fn of(is_fed: bool) -> Self {
         if is_fed { Self::Own } else { Self::Internal }
     }
 }
 
-/// Whether something is `ready` within [`CLOCK_WAIT_LOOPS`].
 pub(crate) fn comes(ready: impl Fn() -> bool) -> bool {
     (0..CLOCK_WAIT_LOOPS).any(|_| ready())
 }
 
-/// Waits for what a board cannot run without.
-///
-/// # Errors
-/// It did not come.
 pub(crate) fn wait(ready: impl Fn() -> bool) -> Result<(), NoClock> {
     if comes(ready) { Ok(()) } else { Err(NoClock) }
 }

@@ -74,14 +74,13 @@ pub(crate) fn start(cause: StartCause) -> Startup {
     start
 }
 
-/// Notes the fault with this number, which is about to end in a reset.
 pub(crate) fn note(fault: u8) {
     let mut record = RETAINED.load().unwrap_or_default();
     record.note(fault);
     RETAINED.store(&record);
 }
 
-/// Notes that motors were stopped, or armed. For the tick, and a loader in its place.
+/// For the tick, and a loader in its place.
 #[cold]
 #[inline(never)]
 pub(crate) fn set_stopped(is_stopped: bool) {
@@ -90,7 +89,7 @@ pub(crate) fn set_stopped(is_stopped: bool) {
     RETAINED.store(&record);
 }
 
-/// Notes that a second has passed. For the tick.
+/// For the tick.
 pub(crate) fn second() {
     let mut record = RETAINED.load().unwrap_or_default();
     record.second();

@@ -48,7 +48,6 @@ unsafe impl Sync for Ring {}
 const NON_BLOCKING_SKIP: u32 = 0;
 
 impl Ring {
-    /// An empty ring in `bytes`, called `name`, which ends with a zero.
     const fn new<T, const N: usize>(name: &'static [u8], bytes: &'static [T; N]) -> Self {
         Self {
             name: name.as_ptr(),

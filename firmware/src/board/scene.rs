@@ -8,22 +8,18 @@ use super::slots::{self, SLOTS};
 use super::types::Settings;
 use crate::here::{FACTS, SIDES};
 
-/// The baud of a serial port without a scene.
 const BAUD_WITHOUT_SCENE: u32 = 115_200;
 
-/// How timers make the ticks of a scene.
 #[derive(Clone, Copy)]
 pub(crate) struct Pace {
-    /// The tick timer.
     pub(crate) tick: TickPeriod,
     /// Counts of the byte timers from the start of a byte to that of the next.
     pub(crate) slot_counts: u16,
-    /// Bits of the bus of a head.
     pub(crate) bus: Option<CanTiming>,
 }
 
 impl Pace {
-    /// That of a scene by these clocks; `None`: its rate is none of theirs.
+    /// `None`: the rate of the scene is none of theirs.
     pub(crate) fn of(clocks: &Clocks, settings: &Settings) -> Option<Self> {
         let tick_hz = settings.head.tick_hz;
         Some(Self {
@@ -37,7 +33,6 @@ impl Pace {
     }
 }
 
-/// Where a scene lies.
 #[derive(Clone, Copy)]
 pub(crate) struct Deployed {
     pub(crate) slot: usize,
@@ -48,7 +43,6 @@ pub(crate) struct Deployed {
     pub(crate) crc: u32,
 }
 
-/// What a start has found.
 pub(crate) struct Scene {
     pub(crate) settings: &'static mut Settings,
     /// Where it lies; `None`: there is none, and nothing moves.
@@ -57,10 +51,9 @@ pub(crate) struct Scene {
     pub(crate) refused: [Option<ConfigError>; 2],
 }
 
-/// Where settings lie, in RAM, where they can be changed.
 static SETTINGS: StaticCell<Settings> = StaticCell::new();
 
-/// Finds the scene. It can be done once.
+/// It can be done once.
 #[inline(never)]
 pub(crate) fn find() -> Option<Scene> {
     let settings = SETTINGS.try_init_with(Settings::still)?;
@@ -97,7 +90,6 @@ fn still(settings: &mut Settings) {
     };
 }
 
-/// Reads the scene of a slot into `settings`.
 fn read(slot: usize, settings: &mut Settings) -> Result<Deployed, ConfigError> {
     let place = SLOTS.get(slot).ok_or(ConfigError::Absent)?;
     let header = slots::header(place).ok_or_else(|| slots::no_header(place))?;
@@ -113,7 +105,6 @@ fn read(slot: usize, settings: &mut Settings) -> Result<Deployed, ConfigError> {
     })
 }
 
-/// Whether this board, as the image was built, can do it.
 fn fits(settings: &Settings) -> Result<(), ConfigError> {
     FACTS.fits(&Needs::of(settings)).map_err(Misfit::error)?;
     // As many as any board of a head, the first.

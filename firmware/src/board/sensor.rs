@@ -42,10 +42,9 @@ use crate::here::{byte_request, dma::Transfers, spi};
 /// What every tx DMA sends.
 static SENT: AtomicU8 = AtomicU8::new(MASTER_BYTE);
 
-/// A side's sensor.
 pub(crate) type Source = Frames;
 
-/// Sets everything up, once the sensors' clocks run.
+/// Once the sensors' clocks run.
 pub(crate) fn start(port: &'static SensorPort, pace: FramePace) -> Source {
     Frames::new(port, pace)
 }
@@ -71,7 +70,6 @@ pub(crate) fn self_test(frames: &mut Frames, decoder: Decoder, pacing: Pacing) -
     found
 }
 
-/// The rx DMA's interrupt of a side.
 #[inline]
 pub(crate) fn end_of_frame(source: &mut Source) {
     source.end_of_frame();
@@ -87,7 +85,6 @@ pub(crate) struct Frames {
     lag: u32,
 }
 
-/// How a frame is paced.
 #[derive(Clone, Copy)]
 pub(crate) struct FramePace {
     /// Counts of the byte timer from the start of a byte to that of the next.
@@ -158,14 +155,12 @@ impl Frames {
         self.transfers.acknowledge();
     }
 
-    /// Whether all eight bytes were moved and none was lost.
     #[inline]
     fn is_complete(&self) -> bool {
         let wire = self.port.spi.sr().read();
         self.transfers.is_complete() && !wire.ovr() && !wire.modf()
     }
 
-    /// Ends a frame that went wrong and makes ready for another one.
     #[cold]
     fn abort(&mut self) {
         self.stop();

@@ -12,7 +12,6 @@ pub(crate) struct SerialRoute {
     pub(crate) tx: usize,
 }
 
-/// The transfers of a serial port.
 pub(crate) struct SerialTransfers {
     tx: Ch,
 }

@@ -15,7 +15,6 @@ pub(crate) struct SerialRoute {
     pub(crate) tx: (u8, u8),
 }
 
-/// The transfers of a serial port.
 pub(crate) struct SerialTransfers {
     dma: Dma,
     tx: St,

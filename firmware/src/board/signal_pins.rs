@@ -28,7 +28,6 @@ impl SignalPins {
         })
     }
 
-    /// Notes an event of the tick that is the `now`-th.
     pub(crate) fn note(&mut self, event: &Event, now: u32) {
         self.signals.note(event, now);
     }

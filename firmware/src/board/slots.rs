@@ -8,7 +8,6 @@ use wire::Load;
 use crate::here::FACTS;
 use crate::here::flash::Writer;
 
-/// Both slots.
 pub(crate) const SLOTS: [Slot; 2] = FACTS.flash.slots;
 
 /// The most that a slot has room for; models, where the image has a use for them.
@@ -57,7 +56,6 @@ pub(crate) fn config(slot: &Slot) -> &'static [u8] {
     contents(slot.config())
 }
 
-/// Why a slot without a header has none.
 pub(crate) fn no_header(slot: &Slot) -> ConfigError {
     let is_erased = |bytes: &[u8]| bytes.iter().all(|byte| *byte == u8::MAX);
     match contents(slot.head).get(..HEADER_BYTES) {

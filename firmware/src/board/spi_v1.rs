@@ -7,25 +7,21 @@ pub(crate) fn set_up_bytes(spi: Spi) {
     spi.cr2().write(|w| w.set_rxdmaen(true));
 }
 
-/// Where bytes go and come from.
 pub(crate) fn data_register(spi: Spi) -> u32 {
     // Pointers have 32 bits on these chips.
     spi.dr().as_ptr() as u32
 }
 
-/// Sends a byte.
 #[inline]
 pub(crate) fn send(spi: Spi, byte: u8) {
     spi.dr().write(|w| w.set_dr(byte.into()));
 }
 
-/// The byte that was received.
 #[inline]
 pub(crate) fn receive(spi: Spi) -> u8 {
     spi.dr().read().dr() as u8
 }
 
-/// Throws away a byte that was left over.
 #[inline]
 pub(crate) fn drain(spi: Spi) {
     let _ = spi.dr().read();

@@ -5,7 +5,6 @@ use stm32_metapac::timer::vals::Urs;
 
 use crate::here::TICK_TIMER;
 
-/// The timer that interrupts once a tick.
 pub(crate) struct TickTimer(());
 
 impl TickTimer {

@@ -16,7 +16,6 @@ use super::pin_config::{Mode, PinConfig};
 use super::wiring::SensorPort;
 use crate::here::CLOCKS;
 
-/// A side's sensor.
 pub(crate) type Source = TiltSource<Device>;
 
 /// How a frame is paced: by the clock alone.
@@ -41,7 +40,7 @@ const WIRES: Wires = Wires {
 };
 const _: () = assert!(CLOCKS.spi_hz << WIRES.faster <= CLOCK_MAX_HZ);
 
-/// Sets everything up, once the sensors' clocks run.
+/// Once the sensors' clocks run.
 pub(crate) fn start(port: &'static SensorPort, _: FramePace) -> Source {
     let pins = &port.pins;
     Pin::new_high(pins.select);

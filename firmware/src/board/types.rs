@@ -9,12 +9,10 @@ use crate::here::{self, Counter};
 
 pub(crate) type Number = here::Number;
 
-/// What the tick reads.
 pub(crate) type Settings = firmware::Config<Number>;
 
 pub(crate) type Inner = firmware::Module<Number, Board>;
 
-/// A board's hardware.
 pub(crate) struct Board;
 
 impl Hardware for Board {

@@ -52,7 +52,6 @@ pub(crate) struct UserButton {
 }
 
 impl UserButton {
-    /// Watches it from now on.
     pub(crate) fn start() -> Self {
         Self {
             pin: Pin::new(USER_BUTTON, PinConfig::INPUT.pulled_up()),

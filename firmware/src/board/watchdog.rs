@@ -12,7 +12,7 @@ const SLOW_COUNTS: u16 = (4 * CLOCKS.watchdog_hz[2] / 256) as u16;
 pub(crate) struct Watchdog(());
 
 impl Watchdog {
-    /// Starts it; nothing but a reset stops it.
+    /// Nothing but a reset stops it.
     pub(crate) fn start() -> Self {
         key(Key::START);
         Self::set(Pr::DIVIDE_BY4, CLOCKS.watchdog_counts())

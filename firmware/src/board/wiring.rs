@@ -12,27 +12,21 @@ use super::gpio::PinName;
 use super::pin_config::AlternateFunction;
 use crate::here::dma::Route;
 
-/// Everything that a whisker hangs on.
 pub(crate) struct Side {
     pub(crate) sensor: SensorPort,
     /// Its motor, if that has brushes.
     pub(crate) bridge: BridgePort,
-    /// Its angle.
     pub(crate) encoder: EncoderPort,
 }
 
-/// What reads a sensor.
 pub(crate) struct SensorPort {
-    /// The SPI, and what divides its clock.
     pub(crate) spi: Spi,
     pub(crate) divider: Br,
     /// Requests each byte of a frame.
     pub(crate) byte_timer: TimBasic,
     /// From its clock to that of [`CLOCKS`](crate::here::CLOCKS).
     pub(crate) byte_timer_divider: u16,
-    /// Moves the bytes.
     pub(crate) dma: Route,
-    /// Where it puts what came.
     pub(crate) received: &'static Received,
     pub(crate) pins: SensorPins,
     /// Alternate function of the three that are the SPI's.
@@ -50,11 +44,9 @@ impl Received {
 }
 
 pub(crate) struct SensorPins {
-    /// Clock.
     pub(crate) sck: PinName,
     /// Data from the sensor; joined to `mosi` outside, one open-drain line.
     pub(crate) miso: PinName,
-    /// Data to the sensor.
     pub(crate) mosi: PinName,
     /// /SS.
     pub(crate) select: PinName,
@@ -68,19 +60,15 @@ pub(crate) enum Output {
     Three,
 }
 
-/// What drives an H-bridge.
 pub(crate) struct BridgePort {
-    /// The output of the PWM's timer, and its pin.
     pub(crate) output: Output,
     pub(crate) pwm: PinName,
     pub(crate) direction: PinName,
 }
 
-/// What counts an encoder's edges.
 pub(crate) struct EncoderPort {
     /// A timer of at least 16 bits.
     pub(crate) timer: TimGp16,
-    /// Its channels' pins.
     pub(crate) a: PinName,
     pub(crate) b: PinName,
     pub(crate) function: AlternateFunction,
@@ -99,7 +87,6 @@ pub(crate) const LEFT_SENSOR: SensorPins = SensorPins {
 
 pub(crate) const LEFT_ENCODER: [PinName; 2] = [pin('A', 0), pin('A', 1)];
 
-/// The left H-bridge.
 pub(crate) const LEFT_BRIDGE: BridgePort = BridgePort {
     output: Output::One,
     pwm: PWMS[0],
@@ -116,5 +103,4 @@ pub(crate) const USER_BUTTON: PinName = pin('C', 13);
 pub(crate) const SERIAL: [PinName; 2] = [pin('A', 2), pin('A', 3)];
 /// Contact, and that a decision fell: D15 and D14 of every board (UM1724, UM2324).
 pub(crate) const SIGNALS: [PinName; 2] = [pin('B', 8), pin('B', 9)];
-/// Hall sensors of the brushless motor.
 pub(crate) const HALLS: [PinName; 3] = [pin('A', 15), pin('B', 3), pin('B', 10)];

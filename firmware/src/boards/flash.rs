@@ -75,7 +75,6 @@ pub struct FlashMap {
 pub(super) const MODEL_OFFSET: u32 = 4096;
 
 impl FlashMap {
-    /// Two sectors, each with a model of its own.
     pub(super) const fn with_two_models(program: Region, sectors: [Region; 2]) -> Self {
         let [a, b] = sectors;
         Self {
@@ -92,7 +91,6 @@ impl FlashMap {
         }
     }
 
-    /// Two slots of pages, and one model behind them.
     pub(super) const fn with_one_model(program: Region, slots: [Region; 2], model: Region) -> Self {
         let [a, b] = slots;
         Self {

@@ -58,7 +58,6 @@ pub const TICK_MIN_HZ: u32 = 200;
 /// Motor PWM, Hz: above hearing, and a bridge still switches it with ease.
 pub const PWM_HZ: u32 = 20_000;
 
-/// The watchdog's divider.
 const WATCHDOG_DIVIDER: u32 = 4;
 
 /// What the serial port's error is of a baud, at most: 3 in 200, which is 1.5 %. An asynchronous
@@ -132,7 +131,6 @@ impl Clocks {
         }
     }
 
-    /// Whether bytes are short enough for the fast slot.
     const fn has_fast_slot(&self) -> bool {
         self.byte_ns() + BYTE_GAP_FAST_NS <= SLOT_FAST_NS
     }

@@ -23,7 +23,6 @@ pub const HEADER_BYTES: usize = 16;
 /// The first bytes.
 const MAGIC: u32 = u32::from_le_bytes(*b"WCFG");
 
-/// A word of flash that is erased.
 const ERASED: u32 = u32::MAX;
 
 const CRC: crc::Crc<u32, crc::NoTable> = crc::Crc::<u32, crc::NoTable>::new(&crc::CRC_32_ISO_HDLC);
@@ -116,7 +115,6 @@ struct Parts<'b> {
 struct Refused;
 
 impl<'b> Parts<'b> {
-    /// The next value, of a part.
     #[inline(never)]
     fn take<T: Deserialize<'b>>(&mut self, part: Part) -> Result<T, Refused> {
         match T::deserialize(&mut self.reader) {
@@ -167,7 +165,7 @@ impl<'b> Parts<'b> {
         Ok(())
     }
 
-    /// How whiskers move, in the order of its fields.
+    /// In the order of its fields.
     // Apart, so that little else is on the stack meanwhile.
     #[inline(never)]
     fn motion<R: Real>(&mut self, place: &mut Option<MotionConfig<R>>) -> Result<(), Refused> {

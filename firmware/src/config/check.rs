@@ -192,10 +192,7 @@ impl<R: Real> Config<R> {
 }
 
 impl<R: Real> Config<R> {
-    /// Whether its limits protect a motor that is real, which settles under its gains.
-    ///
-    /// # Errors
-    /// [`ConfigError::Range`] names the limit that does not, or the gain to change.
+    /// Names the limit that does not protect a motor that is real, or the gain to change.
     pub(super) fn protects(&self) -> Checked {
         let motion = self.motion.as_ref().filter(|_| Part::Motion.is_built());
         let protects = motion.map_or(Ok(()), |motion| motion.protects(self.head.tick_hz));
@@ -431,7 +428,6 @@ fn of_servo<R: Real>(servo: &ServoConfig<R>) -> Checked {
     )
 }
 
-/// How a motor moves as it is driven.
 fn moves<R: Real>(model: &ModelConfig<R>) -> Checked {
     let ModelConfig {
         speed,

@@ -85,7 +85,6 @@ fn times<R: Real>(x: R, factor: R::Coefficient) -> R {
 }
 
 impl<R: Real> MotionConfig<R> {
-    /// Whether its limits protect a motor that is real, at so many ticks a second.
     #[inline(never)]
     pub(super) fn protects(&self, tick_hz: u32) -> Protected {
         let servo = &self.servo;
@@ -159,7 +158,6 @@ fn expects<R: Real>(model: &ModelConfig<R>, encoder: &Encoder<R>, tick_hz: u32) 
     require(Field::Guards, is_kept)
 }
 
-/// Whether a motor settles under its gains.
 fn settles<R: Real>(pd: &pd::Config<R>, model: &ModelConfig<R>) -> Protected {
     pd.settles(model).map_err(|unborne| match unborne {
         Unborne::Kp => Field::Kp,

@@ -10,7 +10,6 @@ use serde::de::{
     DeserializeSeed, EnumAccess, Error, IntoDeserializer, SeqAccess, VariantAccess, Visitor,
 };
 
-/// Bytes that are read one after the other.
 pub(super) struct Reader<'de> {
     bytes: &'de [u8],
     is_good: bool,
@@ -51,14 +50,12 @@ impl<'de> Reader<'de> {
         }
     }
 
-    /// A zero or a one.
     fn flag(&mut self) -> bool {
         let byte = self.byte();
         self.is_good &= byte < 2;
         byte == 1
     }
 
-    /// A number below `end`.
     fn below(&mut self, end: u32) -> u32 {
         let number = self.word();
         if number < end {
@@ -93,7 +90,6 @@ impl<'de> Reader<'de> {
         long
     }
 
-    /// Four bytes, the lowest first.
     #[inline(never)]
     fn fixed(&mut self) -> u32 {
         let bytes = [(); 4].map(|()| self.byte());
@@ -117,7 +113,6 @@ const fn signed(word: u64) -> i64 {
     (word >> 1).cast_signed() ^ -(word & 1).cast_signed()
 }
 
-/// A whole number of this width.
 macro_rules! whole {
     ($($method:ident $visit:ident $type:ty: $read:expr;)+) => {$(
         fn $method<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Unreadable> {

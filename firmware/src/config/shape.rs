@@ -64,7 +64,6 @@ impl<R: Real> Config<R> {
         Ok(())
     }
 
-    /// Whether the limits that protect are the same.
     fn protects_as(&self, new: &Self) -> Checked {
         let kept = |field, is_same: bool| {
             if is_same {

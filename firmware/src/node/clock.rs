@@ -11,7 +11,6 @@ struct Ended {
     at_us: u64,
 }
 
-/// What a node knows of the clock of its head.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct Clock {
     last: Option<Ended>,
@@ -34,12 +33,10 @@ impl Clock {
         }
     }
 
-    /// Whether it knows the clock of the head.
     pub(super) const fn is_set(&self) -> bool {
         self.is_set
     }
 
-    /// A message of time has come.
     pub(super) fn hear(&mut self, from: u8, number: u8, last_us: u64, at_us: u64) {
         if let Some(last) = self.last
             && last.from == from
@@ -114,7 +111,6 @@ mod tests {
         }
     }
 
-    /// A message that was lost, or another node's in between, sets nothing.
     #[test]
     fn only_two_in_a_row_of_one_node_count() {
         let mut clock = Clock::new();

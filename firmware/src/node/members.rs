@@ -9,7 +9,6 @@ use crate::HeadConfig;
 /// So many messages in a row with strange stamps, and a clock is another.
 const STRANGE: u8 = 3;
 
-/// What is known of another node.
 #[derive(Debug, Clone, Copy, Default)]
 struct Member {
     /// Ticks for which it lives without being heard.
@@ -23,7 +22,6 @@ struct Member {
     carries: [bool; MAX_SIDES],
 }
 
-/// The nodes of a head.
 #[derive(Debug)]
 pub(super) struct Members {
     number: u8,
@@ -105,7 +103,6 @@ impl Members {
         lower.any(|(_, member)| member.is_joined && member.strange >= STRANGE)
     }
 
-    /// What a node feels takes effect.
     pub(super) fn feels(&mut self, from: u8, pi: [u16; MAX_SIDES]) {
         if let Some(member) = self.all.get_mut(usize::from(from)) {
             member.pi = pi;

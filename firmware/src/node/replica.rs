@@ -43,7 +43,6 @@ impl Replica {
         self.is_led = [false; MAX_SIDES];
     }
 
-    /// Whether ψ of a side was heard.
     pub(super) fn is_led(&self, side: usize) -> bool {
         self.is_led.get(side) == Some(&true)
     }
@@ -52,7 +51,6 @@ impl Replica {
         tick.checked_div(self.times.psi.into()).unwrap_or(0) as usize % KEPT
     }
 
-    /// Keeps ψ of each side after a tick.
     pub(super) fn keep<R: Real>(&mut self, tick: u32, all: &[Psi<R>]) {
         let mut kept = All::default();
         for (kept, psi) in kept.iter_mut().zip(all) {
@@ -64,7 +62,6 @@ impl Replica {
         }
     }
 
-    /// ψ of a side after a tick, Q22, if it is kept.
     pub(super) fn at(&self, tick: u32, side: usize) -> Option<Psi22> {
         let (of, all) = (*self.kept.get(self.place(tick))?)?;
         all.get(side).copied().filter(|_| of == tick)

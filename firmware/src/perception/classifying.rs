@@ -215,7 +215,6 @@ impl<C: SampleClassifier> Perception<C> {
     }
 }
 
-/// What listens to one whisker in one tick.
 struct Listener<'a, C> {
     classifier: &'a mut C,
     touches: &'a mut TouchDetector,
@@ -225,7 +224,6 @@ struct Listener<'a, C> {
 }
 
 impl<C: SampleClassifier> Listener<'_, C> {
-    /// A tick with these codes.
     #[inline]
     fn step(self, codes: [u16; 2], counts: bool, events: &mut impl FnMut(Event)) {
         let place = self.place;

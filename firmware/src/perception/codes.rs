@@ -58,11 +58,9 @@ pub struct ModelLimits {
 #[derive(Debug, Clone)]
 pub struct CodeClassifier<W = &'static [u32]> {
     found: Result<Codes<W>, Refusal>,
-    /// How many whiskers are heard.
     heard: usize,
 }
 
-/// A classifier and what makes its codes.
 #[derive(Debug, Clone)]
 struct Codes<W> {
     classifier: StreamClassifier<W>,
@@ -78,7 +76,6 @@ impl<W: Words> Codes<W> {
     }
 }
 
-/// A word of flash that is erased.
 const ERASED: u32 = u32::MAX;
 
 impl<'p> CodeClassifier<&'p [u32]> {
@@ -134,7 +131,6 @@ impl<'p> CodeClassifier<&'p [u32]> {
     }
 }
 
-/// The model at the beginning of `place`.
 fn find(place: &[u8], limits: ModelLimits) -> Result<Model<&[u32]>, Refusal> {
     let first = place.first_chunk().ok_or(Refusal::Absent)?;
     if u32::from_le_bytes(*first) == ERASED {

@@ -80,7 +80,6 @@ impl Refusal {
         }
     }
 
-    /// Of what keeps a model and a rule apart.
     pub(super) const fn of_setup(error: SetupError) -> Self {
         match error {
             SetupError::Window { .. } => Self::Window,

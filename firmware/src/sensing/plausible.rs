@@ -5,7 +5,6 @@ use mlx90333::Word;
 use super::limits::SensorLimits;
 use crate::SensorFault;
 
-/// How the words have gone on up to now.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Course {
     /// Those that were believed last.
@@ -24,9 +23,6 @@ impl Course {
         missed: u16::MAX,
     };
 
-    /// The words of the next frame.
-    ///
-    /// # Errors
     /// [`SensorFault::Jump`] if they are too far from the last: then those stay.
     /// [`SensorFault::Frozen`] if they have been the same for too long.
     #[inline]

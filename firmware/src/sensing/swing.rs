@@ -28,10 +28,8 @@ const EVERY: u16 = 4;
 /// Within this of either end of the range, of 65,536 steps, x says nothing.
 const END: u16 = 16;
 
-/// What a look has found.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Lost {
-    /// The reading does not move.
     Still,
     /// It is at the end of its range, for a whole look.
     AtEnd,

@@ -8,7 +8,6 @@ use crate::io::AngleInput;
 use crate::{Event, Place};
 
 impl<R: Real, M: MotorDriver, A: AngleInput> Servo<R, M, A> {
-    /// The encoder has leapt, as no motor does.
     #[cold]
     #[inline(never)]
     pub(super) fn leap(
@@ -37,7 +36,6 @@ impl<R: Real, M: MotorDriver, A: AngleInput> Servo<R, M, A> {
         }
     }
 
-    /// The same where there are some.
     #[cold]
     #[inline(never)]
     fn age_faults(&mut self, retry: Retry, is_given_up: bool) {
@@ -51,7 +49,6 @@ impl<R: Real, M: MotorDriver, A: AngleInput> Servo<R, M, A> {
         }
     }
 
-    /// One tick of a motor that rests after a fault.
     #[cold]
     pub(super) fn rest(&mut self, left: u16, place: Place, events: &mut impl FnMut(Event)) {
         if left > 1 {
@@ -111,8 +108,7 @@ impl<R: Real, M: MotorDriver, A: AngleInput> Servo<R, M, A> {
         self.state = ServoState::Resting { left };
     }
 
-    /// It did not move in a test. It rests for longer each time, so that what holds it now and
-    /// then does not meet every test.
+    /// It rests for longer each time, so that what holds it now and then does not meet every test.
     fn was_held(&mut self, retry: Retry, place: Place, events: &mut impl FnMut(Event)) {
         self.held = self.held.saturating_add(1);
         if self.held >= HELD {

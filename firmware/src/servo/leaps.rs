@@ -4,7 +4,6 @@
 /// So many leaps, and counts are lost: a blow may be one.
 const MOST: u8 = 2;
 
-/// What is known of an encoder's leaps.
 #[derive(Debug, Default)]
 pub(super) struct Leaps {
     /// Not a count was seen in the last tick.

@@ -54,7 +54,6 @@ fn config() -> ServoConfig<f32> {
 
 type Whisker = Servo<f32, Kept, Still>;
 
-/// One tick towards θ = 0.2; what the motor is driven with, and the events.
 fn tick(servo: &mut Whisker) -> (Option<f32>, Vec<Event>) {
     let mut events = Vec::new();
     let place = Place::new(0, 0);

@@ -9,7 +9,6 @@ use whisking::{Fix, GateSettings, Integrator, Number, Settings, filter, pd};
 
 use crate::hardware::{Bent, NoClock, Toy, feeling, passive};
 
-/// A motor that keeps what it is driven with.
 #[derive(Default)]
 pub(crate) struct Kept {
     duty: f64,
@@ -28,7 +27,6 @@ impl MotorDriver for Kept {
     fn clear(&mut self) {}
 }
 
-/// A whisker that does not turn.
 pub(crate) struct Still;
 
 impl AngleInput for Still {
@@ -100,17 +98,14 @@ pub(crate) fn module<R: Number>() -> (Whiskers<R>, Config<R>) {
 
 const SECOND: Place = Place::new(0, 1);
 
-/// The servo of the second whisker.
 pub(crate) fn servo<R: Number>(module: &Whiskers<R>) -> &Servo<R, Kept, Still> {
     module.whiskers().get(1).and_then(Whisker::servo).unwrap()
 }
 
-/// The nominal gain of a whisker.
 pub(crate) fn nominal<R: Number>(module: &Whiskers<R>, n: usize) -> R {
     module.motion().unwrap().state().whiskers[n].nominal()
 }
 
-/// Duties of both motors after a tick.
 pub(crate) fn tick<R: Number>(module: &mut Whiskers<R>, config: &Config<R>) -> [f64; 2] {
     module.tick(config, &mut |event| panic!("{event:?}"));
     let [first, second] = module.whiskers_mut() else {

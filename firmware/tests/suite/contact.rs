@@ -10,7 +10,6 @@ use crate::hardware::{Bent, feeling, passive};
 
 const REST: u16 = 0x8000;
 
-/// Contact of both sides after one tick of whiskers at these words.
 fn contact(words: [[u16; 2]; 2]) -> [f64; 2] {
     let h50 = filter::Config::<f64>::new(50.0, 2000.0).unwrap();
     let config = feeling(Some(h50));
@@ -65,7 +64,6 @@ fn the_lowest_reading_is_full_scale() {
     assert!((left - felt(8191)).abs() < 1e-12, "{left}");
 }
 
-/// What a whisker's sensor sends, tick by tick; none: nothing.
 struct Sent(std::vec::IntoIter<Option<u16>>);
 
 impl FrameSource for Sent {

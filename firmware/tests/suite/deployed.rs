@@ -20,7 +20,6 @@ const LIMITS: ModelLimits = ModelLimits {
 struct Place(Aligned<[u8; 16_384]>);
 
 impl Place {
-    /// Erased, but for a model at its beginning.
     fn with(model: &[u8]) -> Self {
         let mut place = Aligned([0xFF; 16_384]);
         place.0[..model.len()].copy_from_slice(model);
@@ -41,7 +40,6 @@ impl Place {
         self
     }
 
-    /// With the right sum of what it has now.
     fn summed(mut self) -> Self {
         let body = MODEL.len() - CRC_BYTES;
         let sum = checksum(&self.0.0[..body]).to_le_bytes();

@@ -16,7 +16,6 @@ pub(crate) const AT_ONCE: SensorLimits = SensorLimits {
     ..SensorLimits::ANY
 };
 
-/// A module of two sides with two whiskers each that does nothing but feel.
 pub(crate) fn feeling<R: Real>(contact: Option<filter::Config<R>>) -> Config<R> {
     let still = Config::still();
     Config {
@@ -37,7 +36,7 @@ pub(crate) fn feeling<R: Real>(contact: Option<filter::Config<R>>) -> Config<R> 
     }
 }
 
-/// A passive module whose sensors are these, left side first.
+/// Left side first.
 pub(crate) fn passive<R: Real, S: WordSource>(
     config: &Config<R>,
     sources: impl IntoIterator<Item = S>,
@@ -49,7 +48,6 @@ pub(crate) fn passive<R: Real, S: WordSource>(
     Module::new(config, parts, None, (NoClock, 0))
 }
 
-/// Motors that keep what they are driven with, and these sensors.
 pub(crate) struct Toy<S>(S);
 
 impl<S: WordSource> Hardware for Toy<S> {

@@ -23,7 +23,6 @@ fn ask(
     answer
 }
 
-/// The records of a tick, for so many of which a PC has room.
 fn records(
     link: &mut Link,
     module: &Whiskers<f32>,

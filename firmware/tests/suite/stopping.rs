@@ -19,7 +19,6 @@ struct Turned {
     duty: f64,
     /// Where it is, counts.
     counts: f64,
-    /// What a stuck encoder shows.
     stuck_at: Option<i32>,
 }
 
@@ -49,7 +48,6 @@ impl AngleInput for Rig {
     }
 }
 
-/// One with this motor.
 struct Moved;
 
 impl Hardware for Moved {

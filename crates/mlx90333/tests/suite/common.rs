@@ -13,14 +13,12 @@ pub(crate) fn word() -> impl Strategy<Value = Word> {
     .prop_map(Word::new)
 }
 
-/// Two words that a line held low or let go does not give.
 pub(crate) fn pair() -> impl Strategy<Value = (Word, Word)> {
     let stuck =
         |pair: &(Word, Word)| matches!((pair.0.raw(), pair.1.raw()), (0, 0) | (0xFFFF, 0xFFFF));
     (word(), word()).prop_filter("a stuck line", move |pair| !stuck(pair))
 }
 
-/// Any rule.
 pub(crate) fn rule() -> impl Strategy<Value = SumRule> {
     select(SumRule::ALL.to_vec())
 }

@@ -6,7 +6,6 @@ use mlx90333::{Decoder, Error, Faults, FrameError, Mlx90333, Mode, SumRule, Word
 
 const GOOD: [u8; 8] = [0xFF, 0x34, 0x12, 0xCD, 0xAB, 0x00, 0x00, 0xBE];
 
-/// Eight 0xFF at once, answered by `answer`.
 fn at_once(answer: [u8; 8]) -> Vec<Transaction<u8>> {
     vec![
         Transaction::transaction_start(),
@@ -15,7 +14,6 @@ fn at_once(answer: [u8; 8]) -> Vec<Transaction<u8>> {
     ]
 }
 
-/// Eight times 0xFF with a gap between any two, in one transaction.
 fn paced(answer: [u8; 8], gap_ns: u32) -> Vec<Transaction<u8>> {
     let mut steps = vec![Transaction::transaction_start()];
     for (i, byte) in answer.into_iter().enumerate() {
@@ -28,7 +26,6 @@ fn paced(answer: [u8; 8], gap_ns: u32) -> Vec<Transaction<u8>> {
     steps
 }
 
-/// A sensor over a bus that expects `steps`.
 fn sensor(steps: &[Transaction<u8>]) -> Mlx90333<Mock<u8>> {
     Mlx90333::new(Mock::new(steps), Decoder::new())
 }
@@ -98,7 +95,6 @@ fn the_decoder_given_is_the_one_used() {
     sensor.release().done();
 }
 
-/// A bus that always fails.
 struct BrokenBus;
 
 impl ErrorType for BrokenBus {

@@ -17,7 +17,6 @@ const TABLE: [(u16, &str); 10] = [
 ];
 const UNKNOWN: [u16; 6] = [0x0001, 0x0002, 0x0400, 0x1000, 0x2000, 0x4000];
 
-/// The faults that a decoder reads from a frame with this error word.
 fn through_a_frame(bits: u16) -> Faults {
     let (alpha, beta) = (Word::new(0x2468), Word::MID);
     let bytes = encode::alpha_beta(alpha, beta, Faults::new(bits), SumRule::default());

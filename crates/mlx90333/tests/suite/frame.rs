@@ -32,7 +32,6 @@ fn alpha_beta_by_hand() {
     assert_eq!(frame.third(), None);
 }
 
-/// The same words with their high bytes first, under the same sum, and two ways to encode them.
 #[test]
 fn high_bytes_first_by_hand() {
     let bytes = [0xFF, 0x12, 0x34, 0xAB, 0xCD, 0x00, 0x00, 0xBE];

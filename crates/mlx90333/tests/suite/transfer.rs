@@ -4,7 +4,6 @@ use crate::common::{pair, rule};
 use mlx90333::{Decoder, Faults, Frame, Mode, Step, Transfer, encode};
 use proptest::prelude::*;
 
-/// Runs a started transfer to its end over a slave that answers `bytes`.
 fn run(transfer: &mut Transfer, bytes: [u8; 8]) -> [u8; 8] {
     assert_eq!(transfer.start(), 0xFF);
     let (last, others) = bytes.split_last().unwrap();
@@ -18,7 +17,6 @@ fn run(transfer: &mut Transfer, bytes: [u8; 8]) -> [u8; 8] {
     }
 }
 
-/// What may happen to a transfer.
 #[derive(Clone, Copy, Debug)]
 enum Event {
     Start,
@@ -59,7 +57,6 @@ proptest! {
         }
     }
 
-    /// Any order of starts, bytes and aborts, against a list of what came.
     #[test]
     fn any_order_of_events(events in prop::collection::vec(event(), 0..200)) {
         let mut transfer = Transfer::new();

@@ -77,7 +77,6 @@ fn from_normalised_takes_anything() {
     assert_eq!(raw(f32::NEG_INFINITY), 4);
 }
 
-/// Checks the code against the nearest one in f64, and the round trip.
 fn check_round_trip(x: f32) {
     let word = Word::from_normalised(x);
     let exact = f64::from(x) * 8191.0;

@@ -23,7 +23,6 @@ pub(crate) fn sealed(bits: u32) -> [u8; 4] {
     [b0, b1, b2, b3 | crc_by_shifting([b0, b1, b2, b3])]
 }
 
-/// One frame: what must be sent, as 28 bits, and what is answered.
 pub(crate) fn frame(sent: u32, answered: [u8; 4]) -> [Transaction<u8>; 3] {
     [
         Transaction::transaction_start(),
@@ -32,7 +31,6 @@ pub(crate) fn frame(sent: u32, answered: [u8; 4]) -> [Transaction<u8>; 3] {
     ]
 }
 
-/// A sensor over a bus that expects these frames and no others.
 pub(crate) fn sensor(frames: &[[Transaction<u8>; 3]]) -> Tmag5170<Mock<u8>> {
     Tmag5170::new(Mock::new(&frames.concat()))
 }

@@ -50,7 +50,6 @@ proptest! {
         prop_assert_eq!(crc4(&frame), crc_by_shifting(frame));
     }
 
-    /// Of any frame, good to begin with.
     #[test]
     fn a_wrong_bit_is_always_found(frame: [u8; 4], bit in 0_u32..32) {
         let [b0, b1, b2, b3] = frame;

@@ -9,17 +9,14 @@ use tmag5170::{
     Temperature, Tmag5170, Version, encode,
 };
 
-/// A good reply without status.
 fn reply(value: u16) -> [u8; 4] {
     encode::register(Status::default(), value)
 }
 
-/// A write of a register, answered by a good reply.
 fn write(address: u32, value: u16) -> [Transaction<u8>; 3] {
     frame((address << 20) | (u32::from(value) << 4), reply(0))
 }
 
-/// A read of a register that holds `value`.
 fn read(address: u32, value: u16) -> [Transaction<u8>; 3] {
     frame((0x80 | address) << 20, reply(value))
 }
@@ -29,7 +26,6 @@ fn ask(answer: [u8; 4]) -> [Transaction<u8>; 3] {
     frame(0x0800_0002, answer)
 }
 
-/// Fields of X and Y, with replies of this type.
 fn config(data_type: DataType) -> Config {
     Config {
         device: DeviceConfig {
@@ -189,7 +185,6 @@ fn each_read_and_write() {
     sensor.spi_mut().done();
 }
 
-/// A bus that always fails.
 struct BrokenBus;
 
 impl ErrorType for BrokenBus {

@@ -110,7 +110,6 @@ proptest! {
         prop_assert_eq!(ChannelPair::decode(&rejecting), Err(rejection(rejecting)));
     }
 
-    /// What a sensor sends that has restarted meanwhile is no pair of two axes.
     #[test]
     fn a_register_after_a_restart_is_no_pair(status in 0_u16..0x1000, value: u16) {
         let restarted = Status::new(status | 0x400);

@@ -97,7 +97,6 @@ impl Controller {
         self.fill();
     }
 
-    /// A tick passes.
     pub(super) fn tick(&mut self, tick_hz: u32) {
         let late = LATE_MS * tick_hz / 1_000;
         for (n, one) in self.boxes.iter_mut().enumerate() {
@@ -210,7 +209,7 @@ fn accept_data() {
 
 const IDE_AND_RTR: u32 = 0b110;
 
-/// Puts a frame into a mailbox that is empty, and asks for it to be sent.
+/// The mailbox must be empty.
 fn load(n: usize, frame: &Frame) {
     let mailbox = CAN.tx(n % BOXES);
     let mut bytes = [0; 8];

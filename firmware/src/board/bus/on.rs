@@ -50,14 +50,12 @@ pub(crate) fn number(settings: &Settings) -> u8 {
 /// A board of a head; nothing where one board has all whiskers.
 pub(crate) struct Head(Option<&'static mut OnBus>);
 
-/// Where that lies.
 static ON_BUS: StaticCell<OnBus> = StaticCell::new();
 
 struct OnBus {
     node: Node,
     controller: Controller,
     own: Time,
-    /// What the tick has decided.
     decided: Option<Decision>,
 }
 
@@ -121,7 +119,6 @@ impl Time {
         self.next_us = self.next_us.wrapping_add_signed(us.into());
     }
 
-    /// A tick begins.
     fn tick(&mut self, tick_hz: u32) -> u64 {
         self.tick = self.clock.now();
         self.tick_us = self.next_us;
@@ -212,7 +209,6 @@ impl Head {
         });
     }
 
-    /// Frames have come.
     pub(crate) fn hear(&mut self) {
         let Some(OnBus { node, own, .. }) = &mut self.0 else {
             return bxcan::ignore();
@@ -239,7 +235,6 @@ impl Head {
         controller.go_on(&mut |frame: &Frame| node.said(frame, at_us));
     }
 
-    /// Stops the motors of the head.
     pub(crate) fn stop(&mut self) {
         if let Some(OnBus { node, .. }) = &mut self.0 {
             node.stop();

@@ -30,7 +30,6 @@ use crate::here::{self, SERIAL_FUNCTION, SERIAL_ROUTE, SERIAL_USART, usart};
 use received::Received;
 pub(crate) use received::ring;
 
-/// Of the firmware.
 const VERSION: &str = env!("CARGO_PKG_VERSION");
 
 /// Requests that may wait for others.
@@ -76,7 +75,6 @@ pub(crate) fn not_armed(reason: NotArmed, about: &About) {
     sent::line(said.ended());
 }
 
-/// Lines and events that found no room, since the start.
 pub(crate) fn lost() -> u32 {
     sent::LOST.get()
 }
@@ -104,18 +102,16 @@ pub(crate) struct Serial {
     waiting: Deque<Asked, WAITING>,
     /// Bytes of the piece under way.
     sending: u16,
-    /// Bits a second.
     baud: u32,
     /// Bits a second that records of every tick take.
     records_baud: u32,
     /// Ticks without a byte after which a frame that was begun is none: 0.1 s.
     pause: u32,
-    /// A loader has it.
     is_loading: bool,
 }
 
 impl Serial {
-    /// Opens it; `None` where the scene has none.
+    /// `None` where the scene has none.
     #[inline(never)]
     pub(crate) fn start(about: &About) -> Option<Self> {
         let baud = about.links.serial_baud?;
@@ -229,7 +225,7 @@ impl Serial {
             && request.command == Command::Stream(true)
             && !self.carries_records()
         {
-            self.is_too_slow(asked.origin, request);
+            self.refuse_records(asked.origin, request);
         } else if self.waiting.push_back(asked).is_err() {
             refuse(b"", "too much at once, wait for answers");
         }
@@ -241,8 +237,7 @@ impl Serial {
         self.records_baud / 20 * 21 <= self.baud
     }
 
-    /// Refuses records.
-    fn is_too_slow(&self, origin: Origin, request: TaggedCommand) {
+    fn refuse_records(&self, origin: Origin, request: TaggedCommand) {
         if origin == Origin::Frame {
             let status = CommandStatus::TooSlow;
             let answer = firmware::answer(request, TICKS.get(), (status, [0; 2]));
@@ -256,7 +251,6 @@ impl Serial {
         }
     }
 
-    /// Sends the next piece once the last is sent.
     pub(crate) fn send(&mut self) {
         if self.transfers.is_sending() {
             return;
@@ -271,7 +265,7 @@ impl Serial {
 
 /// What a loader uses, which has the port for itself.
 impl Serial {
-    /// The next request. No tick looks for stops any more.
+    /// No tick looks for stops any more.
     pub(crate) fn next(&mut self) -> Option<Result<TaggedCommand, UnknownCommand>> {
         let (ring, looked) = ring();
         looked.is_at(writer(), ring.len());
@@ -292,7 +286,6 @@ impl Serial {
     }
 }
 
-/// The line of what is refused.
 fn refuse(what: &[u8], why: &str) {
     let mut said = Line::new();
     said.text("refused");
@@ -302,7 +295,7 @@ fn refuse(what: &[u8], why: &str) {
     sent::line(said.text(": ").text(why).ended());
 }
 
-/// Passes an answer on; whether there was room.
+/// Whether there was room.
 fn reply(origin: Origin, answer: &Answer, about: &About) -> bool {
     let Origin::Line(command) = origin else {
         return sent::answer(&wire::frame(&Packet::Answer(*answer)));

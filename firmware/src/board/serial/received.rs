@@ -10,10 +10,8 @@ use crate::board::telemetry::Looked;
 /// Atomic, as the compiler does not see that the DMA writes them.
 static RING: [AtomicU8; RECEIVED_BYTES] = [const { AtomicU8::new(0) }; RECEIVED_BYTES];
 
-/// What the tick has looked at of it.
 static LOOKED: Looked = Looked::new();
 
-/// The ring, and what the tick has looked at of it.
 pub(crate) fn ring() -> (&'static [AtomicU8], &'static Looked) {
     (&RING, &LOOKED)
 }
@@ -30,7 +28,6 @@ pub(crate) fn address() -> u32 {
 }
 
 pub(crate) struct Received {
-    /// The next byte.
     at: usize,
 }
 

@@ -48,14 +48,13 @@ fn put(bytes: &[u8]) -> bool {
     true
 }
 
-/// Puts a line in, or counts it.
 pub(crate) fn line(bytes: &[u8]) {
     if !put(bytes) {
         LOST.increment();
     }
 }
 
-/// Puts a frame in that somebody waits for; whether there was room.
+/// Whether there was room.
 pub(crate) fn answer(bytes: &[u8]) -> bool {
     put(bytes)
 }

@@ -40,7 +40,6 @@ impl Queue {
     }
 }
 
-/// An end of both ways.
 pub(crate) struct Ways {
     pub(super) send: Producer<'static, Spare>,
     pub(super) receive: Consumer<'static, Spare>,
@@ -55,11 +54,9 @@ pub(crate) enum Verdict {
     Unknown,
     /// The settings that it asks for are on their way.
     TakeOver,
-    /// This is the answer.
     Done(CommandStatus, [i32; 2]),
 }
 
-/// Where the bytes of configurations lie, and settings that the tick does not read.
 static TUNING: StaticCell<Tuning<&[u8]>> = StaticCell::new();
 static SPARE: StaticCell<Settings> = StaticCell::new();
 
@@ -120,7 +117,6 @@ impl Configs {
         true
     }
 
-    /// What can be done about a request here.
     pub(crate) fn prepare(&mut self, command: Command) -> Verdict {
         self.settle();
         if let (Command::Scene, Some(error)) = (command, self.none) {

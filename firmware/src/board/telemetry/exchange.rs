@@ -14,7 +14,6 @@ use crate::board::counters::TICKS;
 use crate::board::perception::Names;
 use crate::board::{log, retained, serial};
 
-/// How something was asked for, and is answered.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Origin {
     Probe,
@@ -33,7 +32,6 @@ impl Origin {
     }
 }
 
-/// A request that is not answered yet.
 #[derive(Clone, Copy)]
 struct Pending {
     origin: Origin,
@@ -42,7 +40,6 @@ struct Pending {
 }
 
 impl Pending {
-    /// What is to be loaded, where that was asked for and may be.
     fn load(&self, answer: &Answer) -> Option<Load> {
         match self.command {
             Some(Command::Load(load)) if answer.status == CommandStatus::Done => Some(load),
@@ -70,7 +67,6 @@ pub(crate) struct Exchange {
     number: u8,
     /// What was [`OWED`] when it was paid last.
     paid: [u32; 3],
-    /// There are motors that stop, and a serial line.
     has_motors: bool,
     has_serial: bool,
     /// The serial line's request comes before the probe's: neither link waits for ever for the
@@ -95,22 +91,18 @@ impl Exchange {
         }
     }
 
-    /// Whether another request can be taken: its predecessor is answered.
     pub(crate) const fn is_free(&self) -> bool {
         self.pending.is_none()
     }
 
-    /// Whether a request of the serial line can be taken.
     pub(crate) fn is_free_for_serial(&self) -> bool {
         self.is_free() && (self.is_serials_turn || !self.probe.is_waiting())
     }
 
-    /// The serial line has had its turn.
     pub(crate) const fn was_serials_turn(&mut self) {
         self.is_serials_turn = false;
     }
 
-    /// Says in the log that settings were changed.
     pub(crate) fn log_changes(&mut self, now: u32) {
         self.configs.log_changes(now);
     }
@@ -129,7 +121,7 @@ impl Exchange {
         }
     }
 
-    /// Answers a request, or hands it to the tick. So many bytes had come with its last one.
+    /// So many bytes had come with its last one.
     pub(crate) fn ask(
         &mut self,
         request: Result<TaggedCommand, UnknownCommand>,
@@ -169,7 +161,6 @@ impl Exchange {
         }
     }
 
-    /// What was asked for last, and its answer, once that is there.
     fn answered(&mut self) -> Option<(Pending, Answer)> {
         if self.answer.is_none() {
             self.answer = self.ends.answers.dequeue();
@@ -246,7 +237,6 @@ impl Exchange {
         }
     }
 
-    /// Whether every stop is answered.
     pub(crate) fn has_answered_stops(&self) -> bool {
         OWED.iter()
             .zip(self.paid)
@@ -305,7 +295,6 @@ fn refusal(unknown: UnknownCommand) -> Answer {
     }
 }
 
-/// Letters of the name of a class.
 fn class_name(names: &Names, class: u8, from: u8) -> Verdict {
     match names.find(class.into()) {
         Some(name) => Verdict::Done(CommandStatus::Done, letters(name, from)),

@@ -10,7 +10,6 @@ use crate::board::types::{Inner, Number, Settings};
 
 pub(crate) struct Queues;
 
-/// An end of nothing.
 pub(crate) struct Ends;
 
 impl Queues {

@@ -35,7 +35,6 @@ use stops::{By, Stops};
 /// Records of as many ticks as idle may be late, of two whiskers, and one more.
 const RECORDS: usize = 32;
 
-/// What idle asks of the tick.
 #[derive(Clone, Copy)]
 struct Asked {
     /// Counts up: a flipped bit in an offset of the queue has nothing carried out again.
@@ -79,7 +78,6 @@ impl Queues {
         }
     }
 
-    /// Idle's ends, those of settings apart, and the tick's.
     pub(crate) fn split(&'static mut self) -> (IdleEnds, Ways, TickEnds) {
         let (put_record, take_record) = self.records.split();
         let (ask, take_request) = self.requests.split();
@@ -132,8 +130,6 @@ impl Telemetry {
         }
     }
 
-    /// Looks at what has come by the links before a tick, after so many; whether there is a stop
-    /// in it.
     #[inline]
     pub(crate) fn look_for_stop(&mut self, tick: u32) -> bool {
         self.stops.look(tick)
@@ -144,18 +140,15 @@ impl Telemetry {
         self.stops.stop();
     }
 
-    /// Notes an event of this tick.
     pub(crate) fn note(&mut self, event: &Event) {
         self.link.note(event);
     }
 
-    /// Whether there is something to be done after a tick: records, or a request.
     #[inline]
     pub(crate) fn is_busy(&self) -> bool {
         self.link.streams() || self.waits()
     }
 
-    /// Whether a request waits.
     #[inline]
     pub(crate) fn waits(&self) -> bool {
         self.ends.requests.ready()
@@ -205,7 +198,6 @@ impl Telemetry {
         arms
     }
 
-    /// Has the module go on by the settings that idle has prepared.
     #[cold]
     #[inline(never)]
     fn take_over(
@@ -231,7 +223,6 @@ impl Telemetry {
     }
 }
 
-/// Whether idle may load a scene, which then has the chip for itself.
 fn may_load(load: Load, is_armed: bool) -> CommandStatus {
     match firmware::may_load(load, ROOM, is_armed) {
         Ok(()) if slots::is_paired(load) => CommandStatus::Done,

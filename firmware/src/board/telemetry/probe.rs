@@ -21,13 +21,12 @@ impl ProbeLine {
         }
     }
 
-    /// The next request, for a loader: no tick looks for stops any more.
+    /// For a loader: no tick looks for stops any more.
     pub(crate) fn next(&mut self) -> Option<Result<TaggedCommand, UnknownCommand>> {
         PROBE.is_at(DOWN.writer() as usize, REQUESTS.len());
         self.next_looked_at()
     }
 
-    /// Whether there is something that it has not read.
     pub(crate) fn is_waiting(&self) -> bool {
         DOWN.reader() as usize != PROBE.until(REQUESTS.len())
     }
@@ -36,7 +35,6 @@ impl ProbeLine {
         PROBE.bytes_until(DOWN.reader() as usize, REQUESTS.len())
     }
 
-    /// The next request in what the tick has looked at.
     pub(crate) fn next_looked_at(&mut self) -> Option<Result<TaggedCommand, UnknownCommand>> {
         while self.is_waiting() {
             let at = DOWN.reader() as usize;

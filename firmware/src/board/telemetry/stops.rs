@@ -49,7 +49,6 @@ impl Looked {
     }
 }
 
-/// Those of the probe's ring.
 pub(crate) static PROBE: Looked = Looked::new();
 
 /// Stops that idle is to answer: their count in the high half, the last one's tag in the other.
@@ -61,7 +60,6 @@ impl Owed {
         Self(AtomicU32::new(0))
     }
 
-    /// Another stop is to be answered.
     fn add(&self, tag: u16) {
         let count = (self.get() >> 16).wrapping_add(1) << 16;
         self.0.store(count | u32::from(tag), Ordering::Relaxed);
@@ -82,7 +80,6 @@ pub(crate) static STOPPED_IN: AtomicU32 = AtomicU32::new(0);
 /// Bytes behind which a stop is followed.
 const FAR: u32 = 1 << 20;
 
-/// A link.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(crate) enum By {
     Probe,
@@ -107,7 +104,7 @@ impl Stops {
         }
     }
 
-    /// Looks at what has come since the last tick; whether there is a stop in it.
+    /// Whether there is a stop in what has come since the last tick.
     #[inline]
     pub(crate) fn look(&mut self, tick: u32) -> bool {
         self.has_more() && self.look_at_links(tick)
