@@ -56,7 +56,6 @@ pub(crate) fn image(
 }
 
 impl Deployment {
-    /// A scene that decides by `model`, for a board.
     pub(crate) fn of(
         scene: &Scene,
         model: Option<&ModelBuf>,

@@ -55,13 +55,11 @@ impl Crystal {
     }
 }
 
-/// `time * by / of`.
 fn scaled(time: Ps, by: u128, of: u128) -> Ps {
     let scaled = u128::from(time) * by / of;
     Ps::try_from(scaled).unwrap_or(Ps::MAX)
 }
 
-/// One of the boards.
 #[derive(Debug)]
 pub(crate) struct Node {
     pub(crate) board: Board,
@@ -78,7 +76,6 @@ pub(crate) struct Node {
     pub(crate) ended: u32,
 }
 
-/// A head of boards.
 #[derive(Debug)]
 pub(crate) struct Head {
     pub(crate) nodes: Vec<Node>,
@@ -157,7 +154,6 @@ impl Head {
         self.fault.clone().map_or(Ok(()), Err)
     }
 
-    /// Lets all run on.
     fn run_on(&mut self) -> Result<(), Fault> {
         let until = self.now + (LEAST_BITS - 1) * self.bit;
         (0..self.wires.len()).for_each(|wire| self.carry(wire, until));

@@ -35,7 +35,6 @@ pub(crate) fn load(session: &mut Session, what: &Deployment, words: usize) -> Re
 /// Ticks for which a board that was reset drives nothing before it is armed.
 const WAITS: u32 = 200;
 
-/// A board that was reset arms no motor by itself; somebody does.
 fn arm(session: &mut Session) -> Result<(), Error> {
     for _ in 0..WAITS {
         session.tick()?;

@@ -61,7 +61,6 @@ pub(crate) struct Machine {
     pub(crate) memories: Memories,
     pub(crate) rtt: Rtt,
     stack: Stack,
-    /// Time since power-up.
     pub(crate) now: Ps,
     due: Option<Ps>,
     pub(crate) cycle: Ps,

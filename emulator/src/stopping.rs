@@ -23,7 +23,6 @@ enum Line {
     Full(&'static [u8]),
 }
 
-/// By what the motors are stopped.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum By {
     Line,
@@ -279,7 +278,6 @@ impl Flooded<'_> {
         Ok(())
     }
 
-    /// Has a probe write a request once there is room for it.
     fn request(&mut self, request: TaggedCommand) -> Result<(), Error> {
         for _ in 0..ANSWERED {
             if self.session.request(request)? {

@@ -83,7 +83,6 @@ impl Prepared {
         Subject::new(&self.loaded, board.map(|(program, words)| (program, words)))
     }
 
-    /// One tick. Somebody arms motors that wait for a command.
     fn tick(&self, subject: &mut Subject<'_>, tick: u64) -> Result<Seen, Fault> {
         let motor = self.loaded.scene.motor.as_ref();
         let waits = motor.is_some_and(|motor| motor.arm != Some(Arm::AtStart));

@@ -38,7 +38,6 @@ impl Chip {
         self.lines.iter_mut().for_each(SensorLines::slow_down);
     }
 
-    /// How frames of a side's sensor are read, and how long it must rest between two, µs.
     pub(crate) fn program_sensor(&mut self, side: usize, decoder: Decoder, rest_us: u32) {
         if let Some(lines) = self.lines.get_mut(side) {
             lines.program(decoder, rest_us);

@@ -67,7 +67,6 @@ impl DebugInfo {
 }
 
 impl Place<'_> {
-    /// The numbers in it.
     fn leaves(self, path: &str, into: &mut Vec<Leaf>) -> Result<(), Fault> {
         let tag = self.tag()?;
         if tag == DW_TAG_array_type {

@@ -6,7 +6,6 @@ use super::on_pc;
 use super::row::ShardRow;
 use crate::counters;
 
-/// Hours of a week and of a day.
 const WEEK_H: f64 = 168.0;
 const DAY_H: f64 = 24.0;
 

@@ -62,7 +62,6 @@ impl Head {
         }
     }
 
-    /// What passes on a wire until then.
     pub(super) fn carry(&mut self, wire: usize, until: Ps) {
         let there = self.nodes.iter_mut().enumerate();
         let mut there: Vec<_> = there.filter(|(_, node)| node.wire == wire).collect();
