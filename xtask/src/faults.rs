@@ -160,7 +160,6 @@ impl Subject {
         command
     }
 
-    /// Makes the runs in so many shards at once; their tables.
     fn run(&self, shards: u64) -> Result<Vec<PathBuf>, Fault> {
         let runs = match self.runs {
             Some(runs) => runs.to_string(),

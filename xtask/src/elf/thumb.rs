@@ -75,7 +75,6 @@ fn word(body: &[u8], begin: u64, address: u64) -> Option<i32> {
     Some(i32::from_le_bytes(*bytes))
 }
 
-/// An instruction.
 #[derive(Debug, Clone, Copy)]
 struct Instruction {
     address: u64,
