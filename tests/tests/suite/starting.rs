@@ -136,7 +136,6 @@ fn rest_is_found_wherever_a_whisker_is() {
     }
 }
 
-/// The faults of the left motor with their ticks.
 fn faults(played: &Played) -> Vec<(u64, Fault)> {
     let fault = |(tick, event): &(u64, Event)| match event {
         Event::MotorFault(LEFT, fault) => Some((*tick, *fault)),
