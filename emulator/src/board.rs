@@ -53,8 +53,7 @@ pub(crate) struct Board {
     pub(crate) world_waits: Option<Ps>,
     /// No tick has ended since the world moved on last.
     pub(crate) is_late: bool,
-    /// How often the world has moved on.
-    moves: u64,
+    world_moves: u64,
     pub(crate) meter: Meter,
     pub(crate) bears_resets: bool,
     fault: Option<Fault>,
@@ -115,7 +114,7 @@ impl Board {
             reset: None,
             world_waits: None,
             is_late: false,
-            moves: 0,
+            world_moves: 0,
             meter: Meter::default(),
             bears_resets: false,
             fault: None,
@@ -174,7 +173,7 @@ impl Board {
     /// The world has moved on: what the next tick reads.
     fn begin_tick(&mut self) -> Result<(), Fault> {
         self.inputs();
-        if self.moves > 0 {
+        if self.world_moves > 0 {
             for (side, sensor) in self.sensors.iter_mut().enumerate() {
                 if let Some(said) = sensor.moved() {
                     self.machine.say_again(side, &said)?;
@@ -203,7 +202,7 @@ impl Board {
             self.drain()?;
         }
         self.outputs();
-        self.moves += 1;
+        self.world_moves += 1;
         self.drain()
     }
 
@@ -230,7 +229,7 @@ impl Board {
         self.ring = Receiver::default();
     }
 
-    /// The world has moved on, for a board of a head, which is run by [`Self::run_until`].
+    /// For a board of a head, which is run by [`Self::run_until`].
     pub(crate) fn begin(&mut self) -> Result<(), Fault> {
         self.begin_tick()
     }
@@ -247,7 +246,7 @@ impl Board {
                 Stop::Ready => {}
                 Stop::Tick => {
                     self.outputs();
-                    self.moves += 1;
+                    self.world_moves += 1;
                     ended += 1;
                 }
             }

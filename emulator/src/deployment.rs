@@ -89,7 +89,6 @@ impl Deployment {
         }
     }
 
-    /// These words, in the order in which they come.
     pub(crate) fn words(&self) -> impl Iterator<Item = u32> {
         let load = self.load();
         let [config, model] = [&self.config, &self.model].map(|bytes| words(bytes));

@@ -46,7 +46,7 @@ fn arm(session: &mut Session) -> Result<(), Error> {
     session.must(Command::Arm, CommandStatus::Done)
 }
 
-/// The same; `watch` looks at it after each word, with the number of those that were written.
+/// As [`load`]; `watch` looks at it after each word, with the number of those that were written.
 pub(crate) fn load_watched(
     session: &mut Session,
     what: &Deployment,

@@ -261,7 +261,6 @@ impl Session {
         Err(Error::Work(format!("{command:?}: no answer")))
     }
 
-    /// Asks for something, which must become of it.
     pub(crate) fn must(&mut self, command: Command, status: CommandStatus) -> Result<(), Error> {
         let found = self.ask(command)?.status;
         if found == status {

@@ -140,7 +140,6 @@ struct Flooded<'f> {
     random: u32,
 }
 
-/// Runs the scene in `path` under each flood. Returns what was found.
 pub(crate) fn stopping(path: &Path, program: &Path, stops: u32) -> Result<Vec<String>, Error> {
     let (loaded, program) = flashed(path, program)?;
     let mut said = Vec::new();

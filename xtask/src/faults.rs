@@ -232,7 +232,6 @@ fn again(name: &str, number: u64) -> Result<(), Fault> {
     Ok(())
 }
 
-/// Writes the page, if one is wanted, and fails if a run was harmful.
 fn summed_up(tables: &[PathBuf], page: Option<&Path>) -> Result<(), Fault> {
     let mut command = workspace_program("emulator");
     command.arg("reliability");

@@ -144,7 +144,6 @@ impl Program {
         })
     }
 
-    /// Follows every call from the functions that begin at `from`.
     fn walk(&self, from: &[u64]) -> Result<Walk, Fault> {
         let mut walk = Walk::default();
         // Each function that was reached, and from where.

@@ -117,7 +117,6 @@ pub(crate) fn short() -> Result<(), Fault> {
     table::within_limits(&found)
 }
 
-/// What the programs built so far take and hold.
 #[derive(Default)]
 struct Measured {
     figures: Vec<Figure>,

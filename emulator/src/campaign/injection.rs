@@ -215,7 +215,7 @@ impl Injection {
         self.detail.is_multiple_of(2)
     }
 
-    /// Does what is to be done before `tick`, counted from 1; `random` is that of the run.
+    /// `tick` counts from 1; `random` is that of the run.
     pub(super) fn apply(
         &self,
         tick: u64,

@@ -195,7 +195,6 @@ impl Prepared {
         })
     }
 
-    /// How a run with a fault from tick `start` on ends otherwise than without it.
     fn difference(&self, start: usize, disturbed: &[Seen]) -> Option<&'static str> {
         let compared = (COMPARED_S * f64::from(self.has.tick_hz)) as usize;
         let from = disturbed.len().saturating_sub(compared);

@@ -164,7 +164,6 @@ pub(crate) enum Arrival {
     Silent(u32),
 }
 
-/// What its mailboxes have asked for.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Request {
     Send(Frame),

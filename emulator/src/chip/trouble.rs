@@ -11,7 +11,7 @@ const LATENCY: u32 = 15;
 const HIGHEST: u32 = 0;
 
 impl Chip {
-    /// The supply is so many mV from now on. Returns what holds the chip in reset.
+    /// Returns what holds the chip in reset.
     pub(crate) fn set_supply(&mut self, supply_mv: u32) -> Result<Option<ResetCause>, Fault> {
         self.power.supply_mv = supply_mv;
         let held = self.power.holds_in_reset();
@@ -54,7 +54,7 @@ impl Chip {
         self.lines.iter_mut().for_each(SensorLines::tilt);
     }
 
-    /// The clock from outside stops, or is there again. Returns whether the chip runs by it.
+    /// Returns whether the chip runs by the clock from outside.
     pub(crate) fn stop_clock(&mut self, stopped: bool) -> Result<bool, Fault> {
         let had = self.rcc.stop_outside(stopped);
         self.follow_clocks()?;

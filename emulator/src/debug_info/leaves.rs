@@ -45,7 +45,6 @@ fn short(path: &str) -> String {
 }
 
 impl DebugInfo {
-    /// The numbers in all variables that lie in RAM.
     pub(crate) fn leaves(&self) -> Result<Vec<Leaf>, Fault> {
         let mut leaves = Vec::new();
         for unit in 0..self.units.len() {

@@ -55,7 +55,6 @@ impl Head {
         }
     }
 
-    /// From now on this share of the frames that a board sends is destroyed.
     pub(crate) fn disturb(&mut self, n: usize, share: f64) {
         if let Some(node) = self.nodes.get_mut(n) {
             node.noise = share;

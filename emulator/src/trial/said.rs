@@ -34,7 +34,6 @@ pub(super) struct Listed {
 #[derive(Debug, Default)]
 pub(super) struct Lister {
     line: Receiver,
-    /// In order.
     pub(super) listed: Vec<Listed>,
     pub(super) answers: BTreeMap<String, u64>,
     /// Events that are not listed, as there were too many.

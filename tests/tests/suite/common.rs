@@ -8,7 +8,6 @@ use acceptance::reference::{Row, Settings};
 use host_sim::commands::run::{self, Arguments};
 use host_sim::progress::Verbosity;
 
-/// The scene file that says the same as `settings`.
 pub(crate) fn scene(settings: &Settings, integrator: &str, duration_s: f64) -> String {
     let [left, right] = &settings.gains;
     assert_eq!(left.len(), right.len());

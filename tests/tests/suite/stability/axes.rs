@@ -207,7 +207,6 @@ pub(crate) fn cases() -> Vec<Case> {
     places.into_iter().map(place).map(Case).collect()
 }
 
-/// The largest value so far.
 #[derive(Default)]
 pub(crate) struct Worst(Mutex<f64>);
 
