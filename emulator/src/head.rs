@@ -92,9 +92,8 @@ pub(crate) struct Head {
 }
 
 impl Head {
-    /// The boards of `scene`, their motors on `pins`, left side first; started, and before their
-    /// first tick. The crystals of the even ones are faster by `ppm` millionths, of the odd ones
-    /// slower.
+    /// Started, and before the first tick; `pins` have the left side first. The crystals of even
+    /// boards are faster by `ppm` millionths, of odd ones slower.
     fn new(
         (program, ppm): (&Program, i32),
         scene: &Scene,
@@ -280,8 +279,6 @@ impl Bench for Head {
     }
 }
 
-/// The head of a scene in its world, before its first tick; the crystals of its boards by so many
-/// millionths faster and slower.
 pub(crate) fn start(
     scene: &Scene,
     bus: BusConfig,
