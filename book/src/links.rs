@@ -92,7 +92,6 @@ fn parse(text: &str) -> impl Iterator<Item = (Event<'_>, Range<usize>)> {
     Parser::new_ext(text, Options::ENABLE_TABLES).into_offset_iter()
 }
 
-/// Whether a link leads out of the workspace.
 pub(crate) fn is_foreign(to: &str) -> bool {
     to.contains("://") || to.starts_with("mailto:")
 }
@@ -124,10 +123,6 @@ pub(crate) struct Pages<'a> {
 }
 
 impl<'a> Pages<'a> {
-    /// The pages of the book and those beside it, from the top of the workspace.
-    ///
-    /// # Errors
-    /// If one cannot be read.
     pub(crate) fn read(
         top: &'a Path,
         src: &'a Path,

@@ -4,7 +4,6 @@
 use stm32_metapac::metadata::Peripheral;
 use stm32_metapac::metadata::ir::{Array, BitOffset, Block, BlockItemInner, Field, FieldSet, IR};
 
-/// A register: where it stands, its name, and its bits.
 struct Register {
     offset: u32,
     name: &'static str,

@@ -42,12 +42,10 @@ pub(crate) struct Board {
     sensors: Vec<Wired>,
     /// Left side first; none where the whiskers are passive.
     pins: Vec<Pins>,
-    /// Who reads what it sends by the probe's ring, and by its serial port.
     ring: Receiver,
     line: Receiver,
     log: Vec<u8>,
     has_reader: bool,
-    /// The faults that the module has queued, and their ends, until they are taken.
     pub(crate) notices: Vec<(Place, Notice)>,
     /// What has reset the chip last.
     pub(crate) reset: Option<ResetCause>,
@@ -55,8 +53,7 @@ pub(crate) struct Board {
     pub(crate) world_waits: Option<Ps>,
     /// No tick has ended since the world moved on last.
     pub(crate) is_late: bool,
-    /// How often the world has moved on.
-    moves: u64,
+    world_moves: u64,
     pub(crate) meter: Meter,
     pub(crate) bears_resets: bool,
     fault: Option<Fault>,
@@ -89,8 +86,7 @@ fn set_pwm(pwm: &mut SimPwm, (on, period): (u32, u32)) {
 }
 
 impl Board {
-    /// A board with `program` in its flash, sensors on the sides of `scene`, and the motors
-    /// behind `pins`; started, and before its first tick.
+    /// Started, and before its first tick.
     pub(crate) fn new(program: &Program, scene: &Scene, pins: Vec<Pins>) -> Result<Self, Fault> {
         Self::of_node(program, scene, (0, 0..scene.head.sides.count()), pins)
     }
@@ -118,7 +114,7 @@ impl Board {
             reset: None,
             world_waits: None,
             is_late: false,
-            moves: 0,
+            world_moves: 0,
             meter: Meter::default(),
             bears_resets: false,
             fault: None,
@@ -147,8 +143,6 @@ impl Board {
         Ok(board)
     }
 
-    /// The sensor of a side has frames that are read by `decoder`, and rests so many microseconds
-    /// between two.
     pub(crate) fn program_sensor(&mut self, side: usize, decoder: Decoder, rest_us: u32) {
         if let Some(slave) = self.slave_mut(side) {
             slave.program(decoder);
@@ -179,7 +173,7 @@ impl Board {
     /// The world has moved on: what the next tick reads.
     fn begin_tick(&mut self) -> Result<(), Fault> {
         self.inputs();
-        if self.moves > 0 {
+        if self.world_moves > 0 {
             for (side, sensor) in self.sensors.iter_mut().enumerate() {
                 if let Some(said) = sensor.moved() {
                     self.machine.say_again(side, &said)?;
@@ -208,7 +202,7 @@ impl Board {
             self.drain()?;
         }
         self.outputs();
-        self.moves += 1;
+        self.world_moves += 1;
         self.drain()
     }
 
@@ -217,7 +211,7 @@ impl Board {
         self.machine.reset(cause)
     }
 
-    /// The chip has no supply, or has it again. Without it RAM and the encoder's count are lost.
+    /// Without it RAM and the encoder's count are lost.
     pub(crate) fn set_power(&mut self, is_on: bool) -> Result<(), Fault> {
         if is_on {
             return self.machine.set_supply(WELL_MV).map(drop);
@@ -235,12 +229,11 @@ impl Board {
         self.ring = Receiver::default();
     }
 
-    /// The world has moved on, for a board of a head, which is run by [`Self::run_until`].
+    /// For a board of a head, which is run by [`Self::run_until`].
     pub(crate) fn begin(&mut self) -> Result<(), Fault> {
         self.begin_tick()
     }
 
-    /// Runs until then; how many ticks have ended.
     pub(crate) fn run_until(&mut self, until: Ps) -> Result<u32, Fault> {
         let mut ended = 0;
         loop {
@@ -253,7 +246,7 @@ impl Board {
                 Stop::Ready => {}
                 Stop::Tick => {
                     self.outputs();
-                    self.moves += 1;
+                    self.world_moves += 1;
                     ended += 1;
                 }
             }
@@ -315,7 +308,6 @@ impl Board {
         rtt.log().fill(memories)
     }
 
-    /// Has a PC ask for something; whether there was room for it.
     pub(crate) fn request(&mut self, bytes: &[u8]) -> Result<bool, Fault> {
         let Machine { rtt, memories, .. } = &self.machine;
         let ring = rtt.requests(memories)?;
@@ -323,7 +315,6 @@ impl Board {
         Ok(sent == bytes.len())
     }
 
-    /// How many bytes of requests there is room for.
     pub(crate) fn request_room(&self) -> Result<usize, Fault> {
         let Machine { rtt, memories, .. } = &self.machine;
         let ring = rtt.requests(memories)?;
@@ -347,7 +338,6 @@ impl Board {
         ring.map_or(Ok(Vec::new()), |ring| ring.drain(memories))
     }
 
-    /// What the other end of the serial line has received since the last call, taken apart.
     pub(crate) fn received(&mut self) -> Result<Vec<Received>, Fault> {
         let bytes = self.serial_read();
         read(&mut self.line, &bytes)

@@ -289,7 +289,6 @@ impl Chip {
         self.flash.take_erased()
     }
 
-    /// Until when the core waits for its flash.
     pub(crate) fn flash_busy_until(&self) -> Ps {
         self.flash.busy_until()
     }

@@ -49,7 +49,6 @@ impl From<Probe> for Circumstances {
     }
 }
 
-/// How a board is run.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(crate) struct Circumstances {
     /// Who fetches its log.

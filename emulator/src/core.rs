@@ -63,7 +63,6 @@ fn is_known_at(pc: u32, memories: &Memories) -> bool {
     half(pc).is_none_or(|first| v6m::is_known(first, half(pc.wrapping_add(2)).unwrap_or(0)))
 }
 
-/// A core with its instructions.
 #[derive(Debug)]
 pub(crate) struct Core {
     inner: ArmV7m,
@@ -75,7 +74,6 @@ pub(crate) struct Core {
 }
 
 impl Core {
-    /// A core before its first instruction.
     pub(crate) fn new(model: &Model, memories: &Memories, space: AddressSpace) -> Self {
         let mut config = match model.core {
             CoreKind::M4F => Config::CORTEX_M4F,

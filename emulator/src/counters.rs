@@ -9,7 +9,6 @@ mod started;
 
 pub(crate) use started::Started;
 
-/// Where a counter is.
 #[derive(Debug, Clone, Copy)]
 enum Place {
     /// In RAM: how the names end that lead to it.

@@ -20,7 +20,6 @@ pub(crate) use place::{Number, Place};
 type Reader = EndianRcSlice<LittleEndian>;
 type Entry<'a> = DebuggingInformationEntry<'a, 'a, Reader>;
 
-/// The program's debug information.
 #[derive(Debug)]
 pub(crate) struct DebugInfo {
     dwarf: Dwarf<Reader>,
@@ -133,7 +132,6 @@ impl DebugInfo {
     }
 }
 
-/// An unsigned attribute of an entry.
 fn number(entry: &Entry<'_>, attribute: DwAt) -> Result<Option<u64>, Fault> {
     let value = entry.attr_value(attribute).map_err(bad)?;
     Ok(value.and_then(|value| value.udata_value()))

@@ -56,7 +56,6 @@ pub(crate) fn image(
 }
 
 impl Deployment {
-    /// A scene that decides by `model`, for a board.
     pub(crate) fn of(
         scene: &Scene,
         model: Option<&ModelBuf>,
@@ -90,7 +89,6 @@ impl Deployment {
         }
     }
 
-    /// These words, in the order in which they come.
     pub(crate) fn words(&self) -> impl Iterator<Item = u32> {
         let load = self.load();
         let [config, model] = [&self.config, &self.model].map(|bytes| words(bytes));

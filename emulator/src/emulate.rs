@@ -69,7 +69,6 @@ pub(crate) fn start_without(
     Ok(Run::of(scene, Box::new(board), classes, world))
 }
 
-/// The scene without what is said of the classes of its model.
 fn without_class_settings(scene: &Scene) -> Scene {
     let mut scene = scene.clone();
     if let Some(classifier) = &mut scene.classifier {

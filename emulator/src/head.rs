@@ -55,13 +55,11 @@ impl Crystal {
     }
 }
 
-/// `time * by / of`.
 fn scaled(time: Ps, by: u128, of: u128) -> Ps {
     let scaled = u128::from(time) * by / of;
     Ps::try_from(scaled).unwrap_or(Ps::MAX)
 }
 
-/// One of the boards.
 #[derive(Debug)]
 pub(crate) struct Node {
     pub(crate) board: Board,
@@ -78,7 +76,6 @@ pub(crate) struct Node {
     pub(crate) ended: u32,
 }
 
-/// A head of boards.
 #[derive(Debug)]
 pub(crate) struct Head {
     pub(crate) nodes: Vec<Node>,
@@ -95,9 +92,8 @@ pub(crate) struct Head {
 }
 
 impl Head {
-    /// The boards of `scene`, their motors on `pins`, left side first; started, and before their
-    /// first tick. The crystals of the even ones are faster by `ppm` millionths, of the odd ones
-    /// slower.
+    /// Started, and before the first tick; `pins` have the left side first. The crystals of even
+    /// boards are faster by `ppm` millionths, of odd ones slower.
     fn new(
         (program, ppm): (&Program, i32),
         scene: &Scene,
@@ -157,7 +153,6 @@ impl Head {
         self.fault.clone().map_or(Ok(()), Err)
     }
 
-    /// Lets all run on.
     fn run_on(&mut self) -> Result<(), Fault> {
         let until = self.now + (LEAST_BITS - 1) * self.bit;
         (0..self.wires.len()).for_each(|wire| self.carry(wire, until));
@@ -284,8 +279,6 @@ impl Bench for Head {
     }
 }
 
-/// The head of a scene in its world, before its first tick; the crystals of its boards by so many
-/// millionths faster and slower.
 pub(crate) fn start(
     scene: &Scene,
     bus: BusConfig,

@@ -22,9 +22,7 @@ use crate::program::Program;
 use crate::session::Session;
 use crate::talk::wrong;
 
-/// Runs the scene in `path`, which has two sides, CIA and an obstacle a side, until
-/// contact has excited the other side; then again with the obstacles exchanged. Returns how long
-/// that took.
+/// How long contact on one side takes to excite the other, and the same with obstacles exchanged.
 pub(crate) fn measure(path: &Path, program: &Path) -> Result<Vec<String>, Error> {
     let (loaded, program) = flashed(path, program)?;
     let mut scene = loaded.scene;

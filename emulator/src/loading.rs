@@ -35,7 +35,6 @@ pub(crate) fn load(session: &mut Session, what: &Deployment, words: usize) -> Re
 /// Ticks for which a board that was reset drives nothing before it is armed.
 const WAITS: u32 = 200;
 
-/// A board that was reset arms no motor by itself; somebody does.
 fn arm(session: &mut Session) -> Result<(), Error> {
     for _ in 0..WAITS {
         session.tick()?;
@@ -47,7 +46,7 @@ fn arm(session: &mut Session) -> Result<(), Error> {
     session.must(Command::Arm, CommandStatus::Done)
 }
 
-/// The same; `watch` looks at it after each word, with the number of those that were written.
+/// As [`load`]; `watch` looks at it after each word, with the number of those that were written.
 pub(crate) fn load_watched(
     session: &mut Session,
     what: &Deployment,

@@ -61,7 +61,6 @@ pub(crate) struct Machine {
     pub(crate) memories: Memories,
     pub(crate) rtt: Rtt,
     stack: Stack,
-    /// Time since power-up.
     pub(crate) now: Ps,
     due: Option<Ps>,
     pub(crate) cycle: Ps,
@@ -131,8 +130,7 @@ impl Machine {
         done
     }
 
-    /// Changes the supply to so many mV. The chip is in reset while that is too low; its RAM
-    /// keeps its contents.
+    /// The chip is in reset while that is too low; its RAM keeps its contents.
     pub(crate) fn set_supply(&mut self, supply_mv: u32) -> Result<Option<ResetCause>, Fault> {
         let held = self.disturb(|chip| chip.set_supply(supply_mv))?;
         if let Some(cause) = held {
@@ -142,7 +140,6 @@ impl Machine {
         Ok(held)
     }
 
-    /// A side's sensor has said this so far in the frame that is under way.
     pub(crate) fn say_again(&mut self, side: usize, said: &[u8]) -> Result<(), Fault> {
         let places = self.shared.chip().say_again(side, said);
         let mut bytes = places.into_iter().zip(said);

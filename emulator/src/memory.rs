@@ -42,7 +42,7 @@ impl Shared {
         })
     }
 
-    /// The chip. No thread panics while holding it.
+    /// No thread panics while holding it.
     pub(crate) fn chip(&self) -> MutexGuard<'_, Chip> {
         self.chip.lock().unwrap_or_else(PoisonError::into_inner)
     }
@@ -107,7 +107,6 @@ impl MemOps for Registers {
     }
 }
 
-/// What the core stores into flash.
 #[derive(Debug)]
 struct FlashStores {
     shared: Arc<Shared>,
@@ -149,7 +148,6 @@ impl Memories {
         Self::flashed(program.segments(), model.flash, model.ram)
     }
 
-    /// Memories of so many bytes of flash and RAM, with `segments` flashed.
     pub(crate) fn flashed<'s>(
         segments: impl Iterator<Item = (u32, &'s [u8])>,
         flash_len: u32,

@@ -8,7 +8,6 @@ use crate::machine::{Observer, Spent};
 pub(crate) struct Tally {
     count: u64,
     sum: u64,
-    /// The largest.
     pub(crate) worst: u64,
 }
 

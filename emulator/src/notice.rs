@@ -6,18 +6,13 @@ use firmware::{Event, Place};
 pub(crate) enum Notice {
     /// The sensor of a whisker has a fault: its motor is off.
     SensorLost,
-    /// It is good again.
     SensorBack,
-    /// A motor has a fault: it is off.
     MotorFault,
-    /// It is tried again.
     MotorRetry,
-    /// It stays off.
     MotorGivenUp,
 }
 
 impl Notice {
-    /// Of an event of the module; nothing for what is no fault.
     pub(crate) fn of(event: &Event) -> Option<(Place, Self)> {
         match *event {
             Event::SensorLost(place, _) => Some((place, Self::SensorLost)),

@@ -52,7 +52,6 @@ fn converse(path: &Path, program: &Path) -> Result<Vec<String>, Error> {
     ])
 }
 
-/// Says a line, and lets a part of the time pass; the lines that came and are replies.
 fn say(talk: &mut Talk, line: &str) -> Result<Vec<String>, Error> {
     write(talk, format!("{line}\n").as_bytes(), talk.part)
 }

@@ -129,7 +129,6 @@ impl Session {
         1_000_000_000_000 / Ps::from(self.tick_hz)
     }
 
-    /// So much of the scene's time, ticks.
     pub(crate) fn ticks_of(&self, seconds: f64) -> u32 {
         (seconds * f64::from(self.tick_hz)).round() as u32
     }
@@ -241,7 +240,6 @@ impl Session {
         Ok(self.board_mut().request(&frame)?)
     }
 
-    /// Writes a request with a number of its own, for which there must be room.
     pub(crate) fn send(&mut self, command: Command) -> Result<TaggedCommand, Error> {
         self.tag += 1;
         let tag = self.tag;
@@ -263,7 +261,6 @@ impl Session {
         Err(Error::Work(format!("{command:?}: no answer")))
     }
 
-    /// Asks for something, which must become of it.
     pub(crate) fn must(&mut self, command: Command, status: CommandStatus) -> Result<(), Error> {
         let found = self.ask(command)?.status;
         if found == status {

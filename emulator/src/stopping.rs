@@ -23,7 +23,6 @@ enum Line {
     Full(&'static [u8]),
 }
 
-/// By what the motors are stopped.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum By {
     Line,
@@ -141,7 +140,6 @@ struct Flooded<'f> {
     random: u32,
 }
 
-/// Runs the scene in `path` under each flood. Returns what was found.
 pub(crate) fn stopping(path: &Path, program: &Path, stops: u32) -> Result<Vec<String>, Error> {
     let (loaded, program) = flashed(path, program)?;
     let mut said = Vec::new();
@@ -279,7 +277,6 @@ impl Flooded<'_> {
         Ok(())
     }
 
-    /// Has a probe write a request once there is room for it.
     fn request(&mut self, request: TaggedCommand) -> Result<(), Error> {
         for _ in 0..ANSWERED {
             if self.session.request(request)? {

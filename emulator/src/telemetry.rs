@@ -30,7 +30,6 @@ const QUIET: f64 = 65.0;
 /// the encoder.
 const ANGLE_DEG: f64 = 0.25;
 
-/// A step of z.
 const Z_STEP: f64 = 1.0 / 8192.0;
 
 /// A value of 1 in Q24.

@@ -24,9 +24,9 @@ const PART_S: f64 = 0.5;
 /// Ticks that an answer may take.
 const PATIENCE: u32 = 20;
 
-/// Has the board in the middle of the scene in `path` go on by another configuration, sent word
-/// by word: from the tick that takes it over on it must do what the PC does by the same, to the
-/// last bit, and miss no tick. What is refused must change nothing. Returns what was found.
+/// In the middle of a scene the board gets another configuration, word by word: from the tick that
+/// takes it over on it must do what the PC does by the same, to the last bit, and miss no tick.
+/// What is refused must change nothing.
 pub(crate) fn tune(path: &Path, program: &Path) -> Result<Vec<String>, Error> {
     let (mut loaded, program) = flashed(path, program)?;
     let mut talk = Talk::new(Pair::new(&mut loaded, &program)?, false);

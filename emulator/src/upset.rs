@@ -68,7 +68,6 @@ impl Planned {
         }
     }
 
-    /// What is due after so many instructions of ticks.
     pub(crate) fn due(&mut self, spent: u64) -> Option<Upset> {
         let (_, upset) = self.now.take_if(|(at, _)| *at <= spent)?;
         Some(upset)

@@ -59,7 +59,6 @@ impl Wired {
         Some(Self { latched: 0, kind })
     }
 
-    /// It, if it is an MLX90333.
     pub(crate) fn slave_mut(&mut self) -> Option<&mut Slave> {
         match &mut self.kind {
             Kind::Mlx90333(mlx) => Some(&mut mlx.slave),
@@ -67,7 +66,6 @@ impl Wired {
         }
     }
 
-    /// It, if it is a TMAG5170.
     pub(crate) fn tmag_mut(&mut self) -> Option<&mut TmagSlave> {
         match &mut self.kind {
             Kind::Mlx90333(_) => None,

@@ -12,7 +12,6 @@ use crate::{
     python, scenarios, size, studies, walk,
 };
 
-/// What a warning becomes.
 const DENY: [&str; 3] = ["--", "-D", "warnings"];
 
 /// All that runs on this PC in one build, so that nothing is compiled twice with other features:
@@ -117,14 +116,7 @@ fn tests() -> Result<(), Fault> {
     run(test.args(ALL).env("PROPTEST_RNG_SEED", SEED))
 }
 
-/// A board's own program on the emulated chip: PC and board agree, in single precision
-/// and in fixed point, with one side and with two, the scene linked and deployed; contact on one
-/// side excites the other in time; ticks that are too long and a sensor
-/// that is lost, on either side, are noticed, no unwanted start drives a motor, and
-/// a supply that dips switches it off; a PC reads and asks, at its price.
-/// The boards that carry one side run its scene as the PC does, and notice a sensor that is
-/// lost; the last takes scenes and models that are right and refuses others. The rest is for the
-/// night. Half of it runs beside the other half.
+/// Half of it runs beside the other half; the rest is for the night.
 fn board() -> Result<(), Fault> {
     std::thread::scope(|scope| {
         let beside = scope.spawn(other_boards);

@@ -53,8 +53,6 @@ pub(crate) fn short() -> Result<(), Fault> {
     TABLE.check_part(&measured(first)?)
 }
 
-/// Ten minutes of the noisiest scene on the emulated board; writes
-/// docs/measured/deadlines.csv and the page.
 pub(crate) fn deadlines() -> Result<(), Fault> {
     let board = firmware::Board::named("nucleo-f446re")?;
     let said = emulate::deadlines(board, Path::new("scenes/full.toml"), 10.0)?;

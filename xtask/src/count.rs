@@ -45,7 +45,6 @@ pub(crate) fn short() -> Result<(), Fault> {
     TABLE.check_part(&count(PROCESSORS[0], &SHORT, &[])?)
 }
 
-/// Builds counting programs and has the emulator count.
 fn count(
     (processor, board): (&str, &str),
     programs: &[&str],

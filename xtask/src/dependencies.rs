@@ -10,7 +10,6 @@ const OFFLINE: [&str; 4] = ["licenses", "bans", "sources", "--hide-inclusion-gra
 
 const WORKSPACES: [&str; 2] = ["Cargo.toml", studies::MANIFEST];
 
-/// Checks `what` of each workspace.
 fn deny(what: &[&str]) -> Result<(), Fault> {
     WORKSPACES.into_iter().try_for_each(|manifest| {
         let mut deny = cargo(&["deny", "--locked", "--manifest-path", manifest, "check"]);

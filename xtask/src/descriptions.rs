@@ -9,7 +9,6 @@ use crate::run::{Fault, cargo_apart, document, output, workspace_program};
 
 const PAGE: &str = "docs/registers.md";
 
-/// What the emulator says of all chips, or of a board's.
 fn facts(board: Option<Board>) -> Result<String, Fault> {
     let mut command = workspace_program("emulator");
     command.arg("facts");

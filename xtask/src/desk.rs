@@ -28,7 +28,6 @@ struct OfPage {
     phone_frames_s: f64,
 }
 
-/// Measures both, and writes the page and the picture of the README.
 pub(crate) fn measure() -> Result<(), Fault> {
     page::build()?;
     page::test()?;

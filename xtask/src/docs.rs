@@ -113,7 +113,6 @@ fn asymmetry(check: bool) -> Result<(), Fault> {
     document("docs/asymmetry.svg", &read_bytes(&drawn)?, check)
 }
 
-/// Checks the picture of the emulated board.
 pub(crate) fn asymmetry_is_current() -> Result<(), Fault> {
     asymmetry(true)
 }
@@ -133,7 +132,6 @@ const TRAINED: [(&str, &[&str], &[&str]); 8] = [
 /// What a scene of some seconds is recorded with: as long as the main job.
 const LONGER: [&str; 2] = ["--set", "duration_s=40"];
 
-/// The bytes of the model of a scene.
 fn trained(scene: &str, recorded: &[&str], options: &[&str]) -> Result<Vec<u8>, Fault> {
     let folder = target().join("models").join(scene);
     let (recording, model) = (folder.join("recording.csv"), folder.join("the.model"));

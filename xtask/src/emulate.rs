@@ -20,7 +20,6 @@ pub(crate) struct Emulated {
 }
 
 impl Emulated {
-    /// A board whose scenes are linked.
     pub(crate) const fn linked(board: Board) -> Self {
         Self {
             board,
@@ -28,7 +27,6 @@ impl Emulated {
         }
     }
 
-    /// Builds the program to which any scene is deployed.
     pub(crate) fn deployed(board: Board) -> Result<Self, Fault> {
         let any_scene = firmware::build_any_scene(board)?;
         Ok(Self {
@@ -269,7 +267,6 @@ pub(crate) fn compare_with_slow_sensors(on: &Emulated) -> Result<(), Fault> {
     emulate(on, &slow, COMPARE)
 }
 
-/// Compares the start of [`judged_with_options`] with host-sim.
 pub(crate) fn compare_with_options(on: &Emulated) -> Result<(), Fault> {
     emulate(on, &judged_with_options()?, &["compare --duration 6"])
 }
@@ -290,12 +287,11 @@ pub(crate) fn full_with_options() -> Result<[PathBuf; 2], Fault> {
     Ok([likely, variants::with(full, &keys)?])
 }
 
-/// [`CIA`] on two boards. Writes it and returns its path.
 pub(crate) fn head_of_two() -> Result<PathBuf, Fault> {
     variants::with(&top().join(CIA), &["head.nodes=2".to_owned()])
 }
 
-/// [`FULL`] on both sides: the noisiest scene. Writes it and returns its path.
+/// [`FULL`] on both sides: the noisiest scene.
 pub(crate) fn noisiest() -> Result<PathBuf, Fault> {
     variants::on_both_sides(&top().join(FULL))
 }

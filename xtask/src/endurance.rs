@@ -40,7 +40,6 @@ pub(crate) struct Choice {
     resume: bool,
 }
 
-/// A scene with a seed for some hours.
 struct Shard {
     scene: PathBuf,
     seed: u32,

@@ -160,7 +160,6 @@ impl Subject {
         command
     }
 
-    /// Makes the runs in so many shards at once; their tables.
     fn run(&self, shards: u64) -> Result<Vec<PathBuf>, Fault> {
         let runs = match self.runs {
             Some(runs) => runs.to_string(),
@@ -233,7 +232,6 @@ fn again(name: &str, number: u64) -> Result<(), Fault> {
     Ok(())
 }
 
-/// Writes the page, if one is wanted, and fails if a run was harmful.
 fn summed_up(tables: &[PathBuf], page: Option<&Path>) -> Result<(), Fault> {
     let mut command = workspace_program("emulator");
     command.arg("reliability");

@@ -111,7 +111,6 @@ impl Table {
             .collect()
     }
 
-    /// The figures for a person to read, each with its note.
     fn lines(&self, figures: &[Figure]) -> String {
         let mut text = format!("{}\n", self.header);
         for figure in figures {

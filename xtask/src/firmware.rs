@@ -15,7 +15,6 @@ use tactile::ModelBuf;
 
 use crate::run::{Fault, cargo, read_bytes, run, target, top, write};
 
-/// A board that the firmware runs on.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct Board {
     pub(crate) name: &'static str,
@@ -137,7 +136,6 @@ fn kept(board: Board, mut compiler: Command, linked: Vec<Vec<u8>>) -> Result<Pat
     Ok(kept)
 }
 
-/// Flashes a program onto a NUCLEO-F446RE and shows its log.
 pub(crate) fn flash(elf: &Path) -> Result<(), Fault> {
     let mut probe = Command::new("probe-rs");
     run(probe.args(["run", "--chip", "STM32F446RETx"]).arg(elf))
@@ -264,7 +262,6 @@ fn sum(file: &object::File<'_>, names: &[&str]) -> u64 {
         .sum()
 }
 
-/// What `ask` says of an ELF file.
 pub(crate) fn with_elf<T, E: Display>(
     elf: &Path,
     ask: impl FnOnce(&object::File<'_>) -> Result<T, E>,

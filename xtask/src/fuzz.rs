@@ -76,7 +76,6 @@ pub(crate) fn all(names: &[String], minutes: f64, page: bool) -> Result<(), Faul
     document("docs/measured/fuzz.md", page.as_bytes(), false)
 }
 
-/// Feeds every target but [`SLOW`] for a few seconds.
 pub(crate) fn short() -> Result<(), Fault> {
     let names = TARGETS.map(|target| target.0).into_iter();
     let quick: Vec<String> = names

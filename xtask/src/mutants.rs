@@ -57,7 +57,6 @@ impl Mutant {
         asked
     }
 
-    /// Its file, in which its place is found.
     fn find_in(&self, file: &Path) -> Result<String, Fault> {
         let whole = read(file)?;
         if whole.matches(&self.find).count() == 1 {

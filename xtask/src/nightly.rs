@@ -80,9 +80,6 @@ fn lints() -> Result<(), Fault> {
     studies::lints()
 }
 
-/// PC and board agree, every scene linked and deployed, with a probe at the log and without, over
-/// ten minutes no tick is missed, and ticks that are too long and a sensor that is lost are
-/// noticed; no unwanted start drives a motor.
 fn boards() -> Result<(), Fault> {
     for board in Board::ALL {
         let (linked, deployed) = (Emulated::linked(board), Emulated::deployed(board)?);

@@ -6,7 +6,6 @@ use std::process::Command;
 use crate::run::{Fault, cargo, cargo_apart, run, target, top};
 use crate::{python, traces};
 
-/// The file.
 pub(crate) fn path() -> PathBuf {
     target().join("page/whisker.html")
 }

@@ -117,14 +117,12 @@ pub(crate) fn control(board: Board) -> Result<(), Fault> {
     Ok(())
 }
 
-/// A program and the panics that stand inside its functions.
 struct Program {
     calls: Calls,
-    /// Addresses of these panics.
+    /// Addresses of panics that stand inside its functions.
     inlined: Vec<u64>,
 }
 
-/// What a walk comes to.
 #[derive(Default)]
 struct Walk {
     functions: usize,
@@ -146,7 +144,6 @@ impl Program {
         })
     }
 
-    /// Follows every call from the functions that begin at `from`.
     fn walk(&self, from: &[u64]) -> Result<Walk, Fault> {
         let mut walk = Walk::default();
         // Each function that was reached, and from where.
@@ -185,7 +182,6 @@ impl Program {
         Ok(walk)
     }
 
-    /// The names of the functions on the way to the one at `begin`.
     fn way(&self, reached: &BTreeMap<u64, Option<u64>>, begin: u64) -> String {
         let back = std::iter::successors(Some(begin), |at| reached.get(at).copied().flatten());
         let name = |at: u64| self.calls.at(at).map_or("?", |function| &function.name);

@@ -25,7 +25,6 @@ pub(crate) enum Profile {
     Release,
 }
 
-/// Where environments and wheels are.
 fn place(name: &str) -> PathBuf {
     target().join("python").join(name)
 }

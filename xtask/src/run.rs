@@ -21,7 +21,6 @@ pub(crate) fn top() -> PathBuf {
     here.parent().unwrap_or(here).to_owned()
 }
 
-/// Where cargo builds.
 pub(crate) fn target() -> PathBuf {
     std::env::var_os("CARGO_TARGET_DIR").map_or_else(|| top().join("target"), PathBuf::from)
 }
@@ -31,24 +30,20 @@ pub(crate) fn absolute(path: &Path) -> Result<PathBuf, Fault> {
     std::path::absolute(path).map_err(|error| format!("{}: {error}", path.display()))
 }
 
-/// The text of a file.
 pub(crate) fn read(path: &Path) -> Result<String, Fault> {
     String::from_utf8(read_bytes(path)?).map_err(|error| format!("{}: {error}", path.display()))
 }
 
-/// The bytes of a file.
 pub(crate) fn read_bytes(path: &Path) -> Result<Vec<u8>, Fault> {
     file::read(path, file::BINARY_BYTES).map_err(|error| format!("{}: {error}", path.display()))
 }
 
-/// Writes a file, and the folder it stands in.
 pub(crate) fn write(path: &Path, content: impl AsRef<[u8]>) -> Result<(), Fault> {
     let folder = path.parent().map_or(Ok(()), fs::create_dir_all);
     let written = folder.and_then(|()| fs::write(path, content));
     written.map_err(|error| format!("{}: {error}", path.display()))
 }
 
-/// Writes a document, or checks that it is up to date.
 pub(crate) fn document(name: &str, bytes: &[u8], check: bool) -> Result<(), Fault> {
     let path = top().join(name);
     if !check {
@@ -61,7 +56,6 @@ pub(crate) fn document(name: &str, bytes: &[u8], check: bool) -> Result<(), Faul
     }
 }
 
-/// Deletes a folder and all in it, if it is there.
 pub(crate) fn remove(folder: &Path) -> Result<(), Fault> {
     match fs::remove_dir_all(folder) {
         Err(error) if error.kind() != ErrorKind::NotFound => {
@@ -71,7 +65,6 @@ pub(crate) fn remove(folder: &Path) -> Result<(), Fault> {
     }
 }
 
-/// Fails with every fault of a list, a line each, if there is one.
 pub(crate) fn no_faults(faults: &[Fault]) -> Result<(), Fault> {
     if faults.is_empty() {
         Ok(())
@@ -80,7 +73,6 @@ pub(crate) fn no_faults(faults: &[Fault]) -> Result<(), Fault> {
     }
 }
 
-/// The files in `folder` whose names end so, sorted.
 pub(crate) fn listing(folder: &Path, extension: &str) -> Result<Vec<PathBuf>, Fault> {
     let entries = fs::read_dir(folder).map_err(|error| format!("{}: {error}", folder.display()))?;
     let paths = entries.filter_map(|entry| Some(entry.ok()?.path()));
@@ -90,7 +82,6 @@ pub(crate) fn listing(folder: &Path, extension: &str) -> Result<Vec<PathBuf>, Fa
     Ok(paths)
 }
 
-/// `cargo` with `arguments`, to be run at the top.
 pub(crate) fn cargo(arguments: &[&str]) -> Command {
     let mut command = Command::new(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
     command.args(arguments).current_dir(top());
@@ -147,7 +138,6 @@ pub(crate) fn workspace_program(package: &str) -> Command {
     }
 }
 
-/// Runs `command` and prints it first.
 pub(crate) fn run(command: &mut Command) -> Result<(), Fault> {
     let text = line(command);
     println!("$ {text}");
@@ -161,7 +151,6 @@ pub(crate) fn run(command: &mut Command) -> Result<(), Fault> {
     }
 }
 
-/// Runs `commands`, so many at once, to the last, whichever fail.
 pub(crate) fn run_at_once(commands: Vec<Command>, at_once: usize) -> Result<(), Fault> {
     each(commands, at_once, |mut command| run(&mut command))
 }
@@ -213,7 +202,6 @@ pub(crate) fn installed(subcommand: &str) -> Result<(), Fault> {
     run(&mut cargo(&["install", "--locked", &package]))
 }
 
-/// What `command` prints.
 pub(crate) fn output(command: &mut Command) -> Result<String, Fault> {
     let text = line(command);
     let output = command

@@ -448,7 +448,6 @@ pub(crate) fn all() -> Result<(), Fault> {
     rows(ROWS.iter().collect())
 }
 
-/// Runs rows on the first board.
 fn rows(rows: Vec<&Row>) -> Result<(), Fault> {
     let on = Emulated::deployed(BOARD)?;
     crate::run::write(&target().join("scenarios/.here"), "")?;

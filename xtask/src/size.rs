@@ -85,7 +85,6 @@ pub(crate) fn print(board: Board, scene: &str) -> Result<(), Fault> {
     Ok(())
 }
 
-/// [`JUDGED`] where it asks for poses too.
 fn judging_poses() -> Result<PathBuf, Fault> {
     with(&top().join(JUDGED), &["classifier.pose=true".to_owned()])
 }
@@ -118,7 +117,6 @@ pub(crate) fn short() -> Result<(), Fault> {
     table::within_limits(&found)
 }
 
-/// What the programs built so far take and hold.
 #[derive(Default)]
 struct Measured {
     figures: Vec<Figure>,
@@ -155,7 +153,6 @@ impl Measured {
         }
     }
 
-    /// Builds the program that takes any scene and measures it.
     fn any_scene(&mut self, board: Board) -> Result<(), Fault> {
         let elf = firmware::build_any_scene(board)?;
         self.check_panics(board, ANY_SCENE, &elf);
@@ -184,7 +181,6 @@ impl Measured {
     }
 }
 
-/// A scene, seen from the top of the workspace.
 fn load(path: &Path) -> Result<Scene, Fault> {
     Scene::load(top().join(path)).map_err(|error| error.to_string())
 }

@@ -89,7 +89,6 @@ fn pair([least, median]: [f64; 2]) -> String {
     format!("{least:6.3} {median:6.3}")
 }
 
-/// User time of one run of a scene, s.
 fn user_s(program: &Path, scene: &Path) -> Result<f64, Fault> {
     let out = target().join("speed");
     let mut command = Command::new("sh");

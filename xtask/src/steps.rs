@@ -22,7 +22,6 @@ pub(crate) struct Steps {
 }
 
 impl Steps {
-    /// Of all steps those whose name contains one of `wanted`, or all.
     pub(crate) fn new(wanted: Vec<String>) -> Self {
         Self {
             wanted,
@@ -32,7 +31,6 @@ impl Steps {
         }
     }
 
-    /// Runs a step, if it is wanted, and notes its time.
     pub(crate) fn run(
         &self,
         name: &'static str,
@@ -73,7 +71,6 @@ impl Steps {
         }
     }
 
-    /// Prints the table of times.
     pub(crate) fn end(self) -> Result<(), Fault> {
         println!();
         for (name, took) in self.done.into_inner().unwrap_or_default() {

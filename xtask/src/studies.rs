@@ -8,7 +8,6 @@ use crate::run::{Fault, cargo, read_bytes, run, target, top, write};
 /// From the top.
 pub(crate) const MANIFEST: &str = "studies/Cargo.toml";
 
-/// `cargo` with a command, in that workspace.
 fn in_workspace(command: &str) -> Command {
     cargo(&[command, "--locked", "--manifest-path", MANIFEST])
 }

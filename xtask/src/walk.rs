@@ -45,7 +45,6 @@ pub(crate) fn nightly() -> Result<(), Fault> {
     with(&[], true)
 }
 
-/// Runs the blocks of the pages that are chosen, or lists them.
 pub(crate) fn all(choice: &Choice) -> Result<(), Fault> {
     if !choice.list {
         return with(&choice.pages, choice.nightly);
@@ -88,7 +87,6 @@ fn with(pages: &[PathBuf], nightly: bool) -> Result<(), Fault> {
     }
 }
 
-/// Runs the blocks of a page, one after the other.
 fn walk(page: &Path, blocks: &[Block]) -> Result<(), Fault> {
     let begun = Instant::now();
     let folder = folder(page)?;

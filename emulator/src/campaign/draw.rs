@@ -82,7 +82,7 @@ pub(super) fn injections(
     }
 }
 
-/// Draws an injection. Half of those that can be taken away again stay to the end.
+/// Half of those that can be taken away again stay to the end.
 fn injection(random: &mut Xoshiro256PlusPlus, has: Has, to_s: f64) -> Injection {
     let kind = match below(random, 10) {
         0..6 if has.chip => one_of(random, &Kind::CHIP),

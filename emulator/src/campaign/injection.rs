@@ -82,7 +82,6 @@ pub enum Kind {
     Late,
 }
 
-/// What a fault befalls.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Befallen {
     Motor,
@@ -108,7 +107,6 @@ impl Kind {
         Self::Supply,
         Self::Commands,
     ];
-    /// Those that befall a sensor and its wires.
     pub(super) const SENSOR: [Self; 12] = [
         Self::SensorSilent,
         Self::SensorLoose,
@@ -123,7 +121,6 @@ impl Kind {
         Self::ErrorWord,
         Self::BusError,
     ];
-    /// Those that befall a chip.
     pub(super) const CHIP: [Self; 6] = [
         Self::RamBit,
         Self::CoreBit,
@@ -218,7 +215,7 @@ impl Injection {
         self.detail.is_multiple_of(2)
     }
 
-    /// Does what is to be done before `tick`, counted from 1; `random` is that of the run.
+    /// `tick` counts from 1; `random` is that of the run.
     pub(super) fn apply(
         &self,
         tick: u64,
@@ -287,7 +284,6 @@ impl Injection {
         Ok(())
     }
 
-    /// What is done to a motor while it `lasts`, or no more.
     fn at_motor(&self, motor: &mut SimMotor, lasts: bool) {
         let drawn = (self.detail % 4001) as f64 / 4000.0;
         let flawed = |flaws| if lasts { flaws } else { EncoderFlaws::NONE };

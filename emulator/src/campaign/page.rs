@@ -9,7 +9,6 @@ use super::outcome::{Ending, RunRow};
 /// Why what is silent is silent, by the kind of fault or the beginning of a variable's name.
 const REASONS: &str = include_str!("reasons.toml");
 
-/// What runs with two injections are called.
 const TWO: &str = "two-at-once";
 
 const OUTCOMES: [Ending; 5] = [
@@ -31,7 +30,6 @@ fn with(rows: &[RunRow], outcome: Ending) -> impl Iterator<Item = &RunRow> {
     rows.iter().filter(move |row| row.outcome == outcome)
 }
 
-/// How many of `rows` have each outcome, as cells of a table.
 fn cells(rows: &[&RunRow]) -> String {
     let counts = OUTCOMES.map(|outcome| {
         let count = rows.iter().filter(|row| row.outcome == outcome).count();

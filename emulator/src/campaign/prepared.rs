@@ -83,7 +83,6 @@ impl Prepared {
         Subject::new(&self.loaded, board.map(|(program, words)| (program, words)))
     }
 
-    /// One tick. Somebody arms motors that wait for a command.
     fn tick(&self, subject: &mut Subject<'_>, tick: u64) -> Result<Seen, Fault> {
         let motor = self.loaded.scene.motor.as_ref();
         let waits = motor.is_some_and(|motor| motor.arm != Some(Arm::AtStart));
@@ -196,7 +195,6 @@ impl Prepared {
         })
     }
 
-    /// How a run with a fault from tick `start` on ends otherwise than without it.
     fn difference(&self, start: usize, disturbed: &[Seen]) -> Option<&'static str> {
         let compared = (COMPARED_S * f64::from(self.has.tick_hz)) as usize;
         let from = disturbed.len().saturating_sub(compared);

@@ -29,7 +29,6 @@ pub(super) struct Seen {
     pub(super) commands: Vec<Command>,
     pub(super) notices: Vec<(usize, Notice)>,
     pub(super) decisions: Vec<(usize, String)>,
-    /// What has reset the chip.
     pub(super) reset: Option<ResetCause>,
     /// The core has not come to the end of a tick in a tick's time.
     pub(super) is_late: bool,
@@ -65,7 +64,6 @@ impl Seen {
     }
 }
 
-/// A scene that runs: on this PC, or on a board.
 pub(super) enum Subject<'p> {
     OnPc {
         run: Box<Run>,
@@ -143,7 +141,6 @@ impl<'p> Subject<'p> {
         }
     }
 
-    /// What has a chip that can be changed.
     pub(super) fn board(&mut self) -> Option<&mut OnBoard<'p>> {
         match self {
             Self::OnPc { .. } => None,

@@ -44,7 +44,7 @@ impl Words {
         self.words.len()
     }
 
-    /// The address and name of a word, counted from 0 and then from the first again.
+    /// Counts from 0, and after the last from the first again.
     pub(super) fn pick(&self, n: u32) -> (u32, &str) {
         let n = n as usize % self.words.len();
         self.words

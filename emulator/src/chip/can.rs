@@ -140,7 +140,6 @@ impl Mailbox {
         Frame::new((id >> 21) as u16, &data[..(length & DLC).min(8) as usize])
     }
 
-    /// Its request is over.
     const fn complete(&mut self, is_sent: bool) {
         self.words[0] &= !TXRQ;
         (self.is_completed, self.is_sent) = (true, is_sent);
@@ -165,7 +164,6 @@ pub(crate) enum Arrival {
     Silent(u32),
 }
 
-/// What its mailboxes have asked for.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Request {
     Send(Frame),
@@ -238,7 +236,6 @@ impl BxCan {
         self.overrun
     }
 
-    /// What waits to be sent.
     pub(super) fn pending(&self) -> impl Iterator<Item = Frame> {
         let pending = self.mailboxes.iter().filter(|one| one.is_pending());
         pending.map(Mailbox::frame)
@@ -262,7 +259,6 @@ impl BxCan {
         self.arriving.front().map(|(at, _)| *at)
     }
 
-    /// What its mailboxes have asked for since the last call, and when.
     pub(super) fn take_requests(&mut self) -> Vec<(Ps, Request)> {
         std::mem::take(&mut self.requests)
     }

@@ -34,12 +34,10 @@ impl Chip {
         self.can.errors()
     }
 
-    /// Whether a frame came for which its queue had no room.
     pub(crate) const fn has_overrun(&self) -> bool {
         self.can.has_overrun()
     }
 
-    /// What its mailboxes hold.
     pub(crate) fn pending(&self) -> Vec<Frame> {
         self.can.pending().collect()
     }

@@ -17,7 +17,6 @@ pub(super) const BOFF: u32 = 1 << 2;
 pub(super) const TEC: u32 = 0xFF << 16;
 pub(super) const REC: u32 = 0xFF << 24;
 
-/// What errors have come to so far.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub(crate) struct ErrorCounts {
     pub(crate) transmit: u16,

@@ -17,7 +17,6 @@ pub(super) enum Version {
     Channels,
 }
 
-/// What is known of the registers of that kind.
 pub(super) const fn fields(version: Version) -> &'static [Field] {
     match version {
         Version::Streams => &streams::FIELDS,

@@ -11,7 +11,6 @@ use super::{
     Model, SUPPLY_IRQ, can, dma, flash, gpio, lines, mux, power, remap, spi, timer, usart, watchdog,
 };
 
-/// What a fact is of.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum FactKind {
     /// Bytes of flash, or of RAM; bits of a priority in the NVIC.

@@ -11,7 +11,6 @@ use roles::Common;
 use v1::TwoRegisters;
 use v2::Modes;
 
-/// A port after a reset.
 #[derive(Debug, Clone, Copy)]
 pub(super) enum Reset {
     /// Four bits a pin (STM32F1): all are inputs.
@@ -27,7 +26,6 @@ pub(super) const fn fields(reset: Reset) -> &'static [Field] {
     }
 }
 
-/// How a port's pins are configured.
 #[derive(Debug, Clone)]
 enum Config {
     V1(TwoRegisters),

@@ -6,7 +6,6 @@ use super::fields::{Field, whole};
 /// The detector's line, by its bit.
 const DETECTOR: u32 = 1 << 16;
 
-/// Where the registers are.
 #[derive(Debug)]
 pub(super) struct Layout {
     /// Interrupt mask, and its value after a reset.
@@ -31,7 +30,7 @@ pub(super) static G0: Layout = Layout {
     pending: 0x0C,
 };
 
-/// The registers that are modelled. Their bits are the lines' numbers.
+/// Their bits are the lines' numbers.
 pub(super) fn fields(layout: &Layout) -> Vec<Field> {
     let pending = if layout.mask.0 == 0 { "PR" } else { "RPR" };
     vec![

@@ -9,7 +9,6 @@ use super::timers::Kind;
 use super::wiring::Wiring;
 use super::{dma, flash, gpio, lines, power, spi, usart};
 
-/// What a core can execute.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum CoreKind {
     /// Cortex-M0+: the instructions of ARMv6-M, no access but an aligned one.

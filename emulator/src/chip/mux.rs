@@ -18,7 +18,7 @@ pub(super) struct Mux {
 }
 
 impl Mux {
-    /// The request that a channel, counted from 0, listens to.
+    /// Channels count from 0.
     pub(super) fn request(&self, channel: usize) -> Option<u32> {
         self.ccr.get(channel).copied()
     }

@@ -68,7 +68,6 @@ impl Chip {
         })
     }
 
-    /// Levels of the enables of three half-bridges. A pin that is not driven is low.
     pub(crate) fn motor_enables(&self) -> [bool; 3] {
         ENABLES.map(|pin| self.is_high(pin))
     }

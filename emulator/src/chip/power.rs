@@ -8,7 +8,6 @@ use super::reset::ResetCause;
 /// The supply of a board that is well, mV.
 pub(crate) const WELL_MV: u32 = 3_300;
 
-/// What a family's supply has.
 #[derive(Debug)]
 pub(super) struct Layout {
     /// The registers of PWR that can be read, and their values after a reset; the detector's
@@ -131,11 +130,9 @@ pub(super) fn options(layout: &Layout) -> Option<Field> {
     Some(field("OPTCR", brown_out.register, "BOR_LEV", bits))
 }
 
-/// The supply and what watches it.
 #[derive(Debug)]
 pub(super) struct Power {
     layout: &'static Layout,
-    /// mV.
     pub(super) supply_mv: u32,
     control: u32,
     /// It is below the detector's threshold.

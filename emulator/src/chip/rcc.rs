@@ -101,7 +101,6 @@ const fn divider(bits: u32) -> u64 {
     }
 }
 
-/// RCC of a family of chips.
 #[derive(Debug)]
 pub(super) struct Layout {
     /// Registers that keep what is written, and their values after a reset; CR first.
@@ -285,7 +284,6 @@ impl Rcc {
     }
 }
 
-/// A clock that does not run.
 const STOPPED: Fault = Fault::Clock("the system clock does not run");
 /// What divides the clock of the core, by the four bits of its setting.
 fn ahb_divider(bits: u32) -> Result<u64, Fault> {

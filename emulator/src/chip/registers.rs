@@ -137,7 +137,6 @@ impl Chip {
         Ok(())
     }
 
-    /// Resets what RCC's reset registers name.
     fn reset_peripherals(&mut self) {
         if !self.rcc.has_pulsed() {
             return;

@@ -12,7 +12,6 @@ const APB1: std::ops::Range<u32> = 0x4000_0000..0x4000_8000;
 const BYTE: u32 = 0xFF;
 
 impl Chip {
-    /// Moves bytes for every request that a stream listens to.
     pub(super) fn serve_requests(&mut self, memory: &dyn Memory) -> Result<(), Fault> {
         for (n, side) in self.model.wiring.sides.iter().enumerate() {
             while let Some(moved) = self.requested(n, side) {

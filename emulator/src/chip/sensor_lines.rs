@@ -170,7 +170,6 @@ impl SensorLines {
         (self.needs.mode, self.needs.is_joined)
     }
 
-    /// /SS is at this level from `now` on.
     pub(super) fn select(&mut self, low: bool, now: Ps) {
         if low && !self.selected {
             self.fell = now;
@@ -204,7 +203,6 @@ impl SensorLines {
         self.selected = low;
     }
 
-    /// Whether it is silent in the frame that is under way.
     fn is_silent(&self) -> bool {
         let rested = self.rose.map(|(rose, _)| self.fell.saturating_sub(rose));
         // What follows a frame that does not end is a line that is let go.

@@ -4,7 +4,6 @@ use std::collections::VecDeque;
 
 use super::time::Ps;
 
-/// The other end.
 #[derive(Debug, Clone, Default)]
 pub(super) struct SerialLine {
     /// A bit at the other end; none: nothing is there.

@@ -52,7 +52,6 @@ impl Chip {
         })
     }
 
-    /// Brings the bytes that are due now over the line.
     pub(super) fn carry_serial(&mut self) -> Result<(), Fault> {
         let now = self.now;
         let wires = &self.model.wiring.serial;

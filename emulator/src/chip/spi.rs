@@ -58,7 +58,6 @@ pub(super) fn fields(version: Version) -> Vec<Field> {
     }
 }
 
-/// Which SPI.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub(super) enum Version {
     /// It holds one byte of each direction (STM32F1, STM32F4).
@@ -69,7 +68,6 @@ pub(super) enum Version {
     Queues,
 }
 
-/// Bytes in their order.
 #[derive(Debug, Clone, Copy, Default)]
 struct Queue {
     bytes: [u8; 4],
@@ -103,7 +101,6 @@ pub(super) struct Spi {
     version: Version,
     cr1: u32,
     cr2: u32,
-    /// The byte on its way.
     pub(super) shift: Option<Shift>,
     waiting: Queue,
     received: Queue,

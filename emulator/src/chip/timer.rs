@@ -138,7 +138,6 @@ impl Timer {
         self.cr1 & CEN != 0 && !self.is_encoder()
     }
 
-    /// A count of the timer in time.
     fn step(&self, clock: Ps) -> Ps {
         clock * (Ps::from(self.active[0]) + 1)
     }
@@ -212,7 +211,6 @@ impl Timer {
         self.sr & self.dier & UIF != 0
     }
 
-    /// Moves the encoder to `position` counts; heard if its lines are `connected`.
     pub(super) const fn set_position(&mut self, position: i32, connected: bool) {
         let moved = position.wrapping_sub(self.position);
         self.position = position;

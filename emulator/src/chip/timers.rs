@@ -1,6 +1,5 @@
 //! What a timer can do.
 
-/// What a timer can do.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub(super) enum Kind {
     /// It counts 16 bits of time.
@@ -15,7 +14,6 @@ pub(super) enum Kind {
 }
 
 impl Kind {
-    /// Largest count.
     pub(super) const fn mask(self) -> u32 {
         match self {
             Self::Wide => u32::MAX,

@@ -11,7 +11,7 @@ const LATENCY: u32 = 15;
 const HIGHEST: u32 = 0;
 
 impl Chip {
-    /// The supply is so many mV from now on. Returns what holds the chip in reset.
+    /// Returns what holds the chip in reset.
     pub(crate) fn set_supply(&mut self, supply_mv: u32) -> Result<Option<ResetCause>, Fault> {
         self.power.supply_mv = supply_mv;
         let held = self.power.holds_in_reset();
@@ -38,7 +38,6 @@ impl Chip {
         self.lines.iter_mut().for_each(SensorLines::slow_down);
     }
 
-    /// How frames of a side's sensor are read, and how long it must rest between two, µs.
     pub(crate) fn program_sensor(&mut self, side: usize, decoder: Decoder, rest_us: u32) {
         if let Some(lines) = self.lines.get_mut(side) {
             lines.program(decoder, rest_us);
@@ -55,7 +54,7 @@ impl Chip {
         self.lines.iter_mut().for_each(SensorLines::tilt);
     }
 
-    /// The clock from outside stops, or is there again. Returns whether the chip runs by it.
+    /// Returns whether the chip runs by the clock from outside.
     pub(crate) fn stop_clock(&mut self, stopped: bool) -> Result<bool, Fault> {
         let had = self.rcc.stop_outside(stopped);
         self.follow_clocks()?;

@@ -21,7 +21,6 @@ const TXE: u32 = 1 << 7;
 /// Start, eight bits and stop.
 const BITS: Ps = 10;
 
-/// Which USART.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub(super) enum Version {
     /// One data register (STM32F1, STM32F4).
@@ -98,7 +97,6 @@ pub(super) fn fields(version: Version) -> Vec<Field> {
     fields
 }
 
-/// A byte on its way out.
 #[derive(Debug, Clone, Copy)]
 struct Shift {
     byte: u8,

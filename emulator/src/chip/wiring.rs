@@ -6,7 +6,6 @@
 
 use super::rcc::Bus;
 
-/// A pin.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct Pin {
     pub(super) port: usize,
@@ -29,7 +28,6 @@ pub(super) struct Request {
     pub(super) channel: u32,
 }
 
-/// One side of the board.
 #[derive(Debug)]
 pub(super) struct Side {
     /// SCK, MISO and MOSI of the sensor's SPI (SPI1 on the left, SPI2 on the right).
@@ -94,7 +92,6 @@ pub(super) struct CanPort {
     pub(super) sent_irq: u16,
 }
 
-/// Everything that a board has wired.
 #[derive(Debug)]
 pub(super) struct Wiring {
     pub(super) sides: &'static [Side],

@@ -116,7 +116,6 @@ impl Started {
         Ok(started)
     }
 
-    /// Sees which have wrapped, after a tick.
     pub(crate) fn look(&mut self, board: &Board) -> Result<(), Fault> {
         for seen in self.seen.iter_mut().filter(|seen| !seen.is_beyond) {
             let count = read(board, &seen.leaf)?;

@@ -45,7 +45,6 @@ fn short(path: &str) -> String {
 }
 
 impl DebugInfo {
-    /// The numbers in all variables that lie in RAM.
     pub(crate) fn leaves(&self) -> Result<Vec<Leaf>, Fault> {
         let mut leaves = Vec::new();
         for unit in 0..self.units.len() {
@@ -67,7 +66,6 @@ impl DebugInfo {
 }
 
 impl Place<'_> {
-    /// The numbers in it.
     fn leaves(self, path: &str, into: &mut Vec<Leaf>) -> Result<(), Fault> {
         let tag = self.tag()?;
         if tag == DW_TAG_array_type {

@@ -14,12 +14,10 @@ use crate::chip::Fault;
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Place<'d> {
     pub(super) info: &'d DebugInfo,
-    /// Where it begins.
     pub(crate) address: u32,
     pub(super) of: Type,
 }
 
-/// A number in memory.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Number {
     /// IEEE single precision.

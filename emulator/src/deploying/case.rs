@@ -26,7 +26,6 @@ pub(super) struct Flashed {
     pub(super) flash: Vec<u8>,
 }
 
-/// By what requests go.
 #[derive(Debug, Clone, Copy)]
 pub(super) enum Way {
     Probe,

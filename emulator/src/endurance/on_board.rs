@@ -9,8 +9,7 @@ use host_sim::loaded::Loaded;
 use super::row::ShardRow;
 use crate::compare::{Circumstances, compare};
 
-/// Runs the scene in `path` for so many hours on the board that `program` was built for, every
-/// counter started just below its wrap, and on the PC from zero. Every tick and every decision
+/// Every counter starts just below its wrap, and on the PC at zero. Every tick and every decision
 /// must be the same, no tick may be missed, and every counter must wrap.
 pub(super) fn on_board(
     path: &Path,

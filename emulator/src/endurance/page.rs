@@ -6,7 +6,6 @@ use super::on_pc;
 use super::row::ShardRow;
 use crate::counters;
 
-/// Hours of a week and of a day.
 const WEEK_H: f64 = 168.0;
 const DAY_H: f64 = 24.0;
 
@@ -51,8 +50,7 @@ fn cell(value: Option<f64>, decimals: usize) -> String {
     value.map_or_else(|| "–".to_owned(), |value| format!("{value:.decimals$}"))
 }
 
-/// Hours simulated in a minute by the clock, by one shard.
-fn speed(rows: &[&ShardRow]) -> f64 {
+fn hours_per_minute(rows: &[&ShardRow]) -> f64 {
     let hours: f64 = rows.iter().map(|row| row.hours).sum();
     let took_s: f64 = rows.iter().map(|row| row.took_s).sum();
     hours * 60.0 / took_s
@@ -74,7 +72,7 @@ pub(super) fn page(rows: &[ShardRow]) -> String {
 fn on_the_pc(page: &mut String, groups: &[Group<'_>]) {
     let rows: Vec<&ShardRow> = groups.iter().flat_map(|group| group.rows.clone()).collect();
     let hours: f64 = rows.iter().map(|row| row.hours).sum();
-    let speed = speed(&rows);
+    let speed = hours_per_minute(&rows);
     // Writing to a string does not fail.
     let _ = write!(
         page,
@@ -105,7 +103,7 @@ fn on_the_pc(page: &mut String, groups: &[Group<'_>]) {
 fn on_boards(page: &mut String, groups: &[Group<'_>]) {
     let rows: Vec<&ShardRow> = groups.iter().flat_map(|group| group.rows.clone()).collect();
     let hours: f64 = rows.iter().map(|row| row.hours).sum();
-    let speed = speed(&rows);
+    let speed = hours_per_minute(&rows);
     // Writing to a string does not fail.
     let _ = write!(
         page,

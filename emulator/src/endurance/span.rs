@@ -20,7 +20,6 @@ pub(super) struct Span {
 }
 
 impl Span {
-    /// Takes a tick of a scene with so many sides.
     pub(super) fn tick(&mut self, row: &Row, decided: &[Decided], classes: &[String]) {
         let now = [row.theta_deg, row.angle_deg];
         for (ranges, values) in self.ranges.iter_mut().zip(now) {

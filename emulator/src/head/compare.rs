@@ -11,13 +11,9 @@ use crate::compare::{difference, same_numbers};
 use crate::deployment::flashed;
 use crate::emulate::pwm_counts;
 
-/// Runs the head of the scene in `path` on the PC and on boards, in their number format; every
-/// number of every row of the trace and every decision must be the same, to the last bit. The
-/// crystals of every other board are by `ppm` millionths faster, those between as much slower. What
-/// was seen, a line each.
-///
-/// # Errors
-/// [`Error::Input`] for a scene that is wrong or no head, [`Error::Work`] for what differs.
+/// The head on the PC and on boards, in their number format: every number of every row of the
+/// trace and every decision must be the same, to the last bit. The crystals of every other board
+/// are by `ppm` millionths faster, those between as much slower.
 pub(crate) fn compare(
     path: &Path,
     program: &Path,

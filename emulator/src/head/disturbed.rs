@@ -55,14 +55,12 @@ impl Head {
         }
     }
 
-    /// From now on this share of the frames that a board sends is destroyed.
     pub(crate) fn disturb(&mut self, n: usize, share: f64) {
         if let Some(node) = self.nodes.get_mut(n) {
             node.noise = share;
         }
     }
 
-    /// What passes on a wire until then.
     pub(super) fn carry(&mut self, wire: usize, until: Ps) {
         let there = self.nodes.iter_mut().enumerate();
         let mut there: Vec<_> = there.filter(|(_, node)| node.wire == wire).collect();

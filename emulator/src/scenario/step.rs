@@ -67,9 +67,7 @@ pub(super) enum Step {
 /// What befalls a sensor's wires, and what it says of itself.
 #[derive(Clone, Copy)]
 pub(super) enum Trouble {
-    /// Of an MLX90333.
     Mlx(Option<WireFault>, Faults),
-    /// Of a TMAG5170.
     Tmag(Option<LineFault>, StatusFaults),
 }
 

@@ -124,7 +124,6 @@ fn expected(talk: &Talk, scene: &Scene, tick: u32) -> Vec<Due> {
     due.collect()
 }
 
-/// Notes what touches and decisions of a tick show.
 fn note(events: &[Event], tick: u32, touching: &mut Vec<Place>, decided: &mut Option<u32>) {
     for event in events {
         match event {

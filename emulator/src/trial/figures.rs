@@ -41,7 +41,6 @@ pub(super) struct Outcome {
     driven_s: f64,
     armed_at_end: Option<bool>,
     angle_at_end_deg: Vec<f64>,
-    /// Seconds that were run.
     ran_s: f64,
     answers: BTreeMap<String, u64>,
     unlisted: u64,
@@ -56,7 +55,6 @@ impl Outcome {
     }
 }
 
-/// From the least value to the greatest.
 #[derive(Debug, Clone, Copy)]
 struct Span {
     least: f64,
@@ -85,7 +83,6 @@ impl Span {
     }
 }
 
-/// What is kept of a side.
 #[derive(Debug, Clone)]
 struct OfSide {
     /// Of its setpoints, and of its true angle.
@@ -95,11 +92,9 @@ struct OfSide {
     faults: [Option<u64>; 2],
     /// For how many ticks it has been driven in this excursion.
     excursion: u64,
-    /// Whether it was being homed in the last tick.
     was_homing: bool,
 }
 
-/// Looks at every tick.
 pub(super) struct Figures {
     tick_hz: f64,
     /// Setpoints are within these, degrees.

@@ -21,7 +21,6 @@ const MOST_EVENTS: usize = 1_000;
 /// Latest time, s.
 const LATEST_S: f64 = 3_600.0;
 
-/// What befalls it.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) enum What {
     Stuck,
@@ -78,7 +77,6 @@ pub(super) enum Change {
     WildGains,
 }
 
-/// An event.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Event {
     pub(super) at_s: f64,

@@ -79,7 +79,6 @@ struct Around {
 }
 
 impl Around {
-    /// Nothing is wrong.
     const WELL: Self = Self {
         cut: [false; 2],
         encoder: EncoderFlaws::NONE,

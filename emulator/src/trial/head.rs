@@ -30,7 +30,6 @@ struct Outcome {
     nodes: Vec<OfNode>,
 }
 
-/// Of one board.
 #[derive(Debug, Default, Serialize)]
 struct OfNode {
     ticks: u64,
@@ -63,7 +62,6 @@ struct Seen {
     off: u64,
 }
 
-/// A stop that was sent to a board.
 struct Stop {
     node: usize,
     /// In ticks of the run; none: its last byte has not come.

@@ -163,7 +163,6 @@ impl<'s> Links<'s> {
         Ok(())
     }
 
-    /// The one that is due first in this tick.
     fn first_due(&self, end_s: f64, held: &[bool]) -> Option<usize> {
         let due = self.senders.iter().zip(held).enumerate();
         let due = due.filter(|(_, (_, held))| !**held);

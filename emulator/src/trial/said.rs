@@ -31,13 +31,10 @@ pub(super) struct Listed {
     pub(super) text: String,
 }
 
-/// Keeps all of it.
 #[derive(Debug, Default)]
 pub(super) struct Lister {
     line: Receiver,
-    /// In order.
     pub(super) listed: Vec<Listed>,
-    /// How often each answer came.
     pub(super) answers: BTreeMap<String, u64>,
     /// Events that are not listed, as there were too many.
     pub(super) unlisted: u64,

@@ -9,7 +9,6 @@ use crate::debug_info::{DebugInfo, Place};
 use crate::memory::Memories;
 use crate::program::Program;
 
-/// What a motor is to do.
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct Wants {
     /// The setpoint that was commanded in place of the pattern generator's, degrees.

@@ -8,7 +8,6 @@ use acceptance::reference::{Row, Settings};
 use host_sim::commands::run::{self, Arguments};
 use host_sim::progress::Verbosity;
 
-/// The scene file that says the same as `settings`.
 pub(crate) fn scene(settings: &Settings, integrator: &str, duration_s: f64) -> String {
     let [left, right] = &settings.gains;
     assert_eq!(left.len(), right.len());
@@ -47,7 +46,6 @@ pub(crate) fn trace(settings: &Settings, integrator: &str, duration_s: f64) -> V
     run(&scene(settings, integrator, duration_s))
 }
 
-/// The trace of a scene file.
 fn run(scene: &str) -> Vec<Row> {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("scene.toml");
@@ -58,7 +56,6 @@ fn run(scene: &str) -> Vec<Row> {
     read_trace(&text).unwrap()
 }
 
-/// A file of the project.
 pub(crate) fn project(path: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("..").join(path)
 }

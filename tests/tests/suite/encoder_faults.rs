@@ -109,7 +109,6 @@ struct Worst {
 }
 
 impl Worst {
-    /// Takes one, which must be within the bounds.
     fn take(&mut self, lost: &Lost, case: &str) {
         let far_ms = lost.far_for as f64 * 1e3 / TICK_HZ as f64;
         assert!(far_ms <= 100.0, "{case}: {far_ms} ms");
@@ -120,7 +119,6 @@ impl Worst {
     }
 }
 
-/// By how much a whisker is away from its setpoint, degrees.
 fn error_deg(row: &Row) -> f64 {
     (row.angle_deg[0] - row.theta_deg[0]).abs()
 }

@@ -51,7 +51,6 @@ fn right(row: &Row) -> [f64; 5] {
     [row.theta_deg, row.z, row.g, row.contact, row.angle_deg].map(|pair| pair[1])
 }
 
-/// The right side must not notice: its course is that of an undisturbed run.
 #[track_caller]
 fn right_is_unaffected(played: &Played, sound: &Played) {
     let pairs = played.rows.iter().zip(&sound.rows);

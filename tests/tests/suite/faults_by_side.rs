@@ -42,7 +42,6 @@ fn events_of(played: &Played, place: Place) -> Vec<(u64, Event)> {
     events.filter(|(_, event)| is_its(event)).copied().collect()
 }
 
-/// The other side must not notice: its course is that of an undisturbed run.
 #[track_caller]
 fn is_unaffected(played: &Played, sound: &Played, side: usize) {
     let course = |played: &Played| -> Vec<[f64; 7]> {

@@ -24,7 +24,6 @@ fn finds(motor: &str) -> Scene {
     Scene::from_str("finds.toml", &text).unwrap_or_else(|problems| panic!("{problems}"))
 }
 
-/// The faults of the motor with their ticks.
 fn faults(played: &Played) -> Vec<(u64, Fault)> {
     let fault = |(tick, event): &(u64, Event)| match event {
         Event::MotorFault(LEFT, fault) => Some((*tick, *fault)),
@@ -102,7 +101,6 @@ fn slips(slip: f64, motor: &str, ticks: u64) -> Played {
     flawed(EncoderFlaws { slip, ..none }, SLIPS, motor, ticks)
 }
 
-/// What became of an encoder that has flaws from a tick on.
 fn flawed(flaws: EncoderFlaws, from: u64, motor: &str, ticks: u64) -> Played {
     play(&finds(motor), ticks, |tick, run| {
         if tick == from {

@@ -8,7 +8,6 @@ use scene::Scene;
 use whisking::motor::{FOLLOWING_S, Fault};
 
 const LEFT: Place = Place::new(0, 0);
-/// Free whisking so often a second.
 fn free_at(frequency_hz: f64, motor: &str) -> Scene {
     let text = format!(
         "name = \"free\"\ntick_hz = {TICK_HZ}\nduration_s = 20\nseed = 1\n\
@@ -21,7 +20,6 @@ fn free_at(frequency_hz: f64, motor: &str) -> Scene {
     Scene::from_str("free.toml", &text).unwrap_or_else(|problems| panic!("{problems}"))
 }
 
-/// A run in which a wire of the left motor is cut at a tick, and mended never.
 fn cut_at(scene: &Scene, ticks: u64, wire: Wire, start: u64) -> Played {
     play(scene, ticks, |tick, run| {
         if tick == start {
@@ -30,7 +28,7 @@ fn cut_at(scene: &Scene, ticks: u64, wire: Wire, start: u64) -> Played {
     })
 }
 
-/// The faults of the left motor with their ticks; nothing may befall the right one.
+/// Nothing may befall the right motor.
 #[track_caller]
 fn faults(played: &Played) -> Vec<(u64, Fault)> {
     let fault = |(tick, event): &(u64, Event)| match event {

@@ -11,7 +11,6 @@ pub(crate) const TICK_HZ: u64 = 2000;
 
 /// What came of a scene; a row a tick.
 pub(crate) struct Played {
-    /// The trace.
     pub(crate) rows: Vec<Row>,
     /// Events but touches and frames, with their tick, from 0.
     pub(crate) events: Vec<(u64, Event)>,
@@ -68,7 +67,6 @@ pub(crate) fn play(scene: &Scene, ticks: u64, mut act: impl FnMut(u64, &mut Run)
     played
 }
 
-/// As [`play`], with no disturbance.
 pub(crate) fn undisturbed(scene: &Scene, ticks: u64) -> Played {
     play(scene, ticks, |_, _| {})
 }
@@ -84,13 +82,11 @@ pub(crate) fn angles(played: &Played, side: usize) -> Vec<f64> {
     played.rows.iter().map(|row| row.angle_deg[side]).collect()
 }
 
-/// Largest less smallest.
 pub(crate) fn extent(values: &[f64]) -> f64 {
     let top = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
     top - values.iter().copied().fold(f64::INFINITY, f64::min)
 }
 
-/// Largest difference of two courses.
 pub(crate) fn apart(a: &[f64], b: &[f64]) -> f64 {
     assert_eq!(a.len(), b.len());
     a.iter()

@@ -16,7 +16,6 @@ fn file(path: &str) -> String {
     std::fs::read_to_string(&path).unwrap_or_else(|error| panic!("{}: {error}", path.display()))
 }
 
-/// Rows of numbers under a header.
 fn table(path: &str) -> Vec<Vec<f64>> {
     let text = file(path);
     let numbers = |line: &str| line.split(',').map(|cell| cell.parse().unwrap()).collect();

@@ -47,7 +47,6 @@ fn config() -> Config {
     }
 }
 
-/// A whisker's sensor, the magnet above it, and what has happened.
 struct Whisker {
     sensor: Sensor<TiltSource<TmagSlave>>,
     magnet: Magnet,
@@ -86,7 +85,6 @@ impl Whisker {
     }
 }
 
-/// Ticks until the whisker is given up, and why.
 fn lost(whisker: &mut Whisker) -> SensorFault {
     for tick in 0..LIMITS.hold + 2 {
         whisker.tick([0.05, 0.0]);

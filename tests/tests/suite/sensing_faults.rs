@@ -23,7 +23,6 @@ fn slave(run: &mut Run) -> &mut Slave {
     run.slave_mut(0).unwrap()
 }
 
-/// A run in which the left sensor is befallen in some ticks.
 fn befallen(scene: &Scene, length: u64, fault: impl Fn(u64) -> Option<WireFault>) -> Played {
     play(scene, length, |tick, run| slave(run).set_fault(fault(tick)))
 }

@@ -9,7 +9,6 @@ use whisking::motor::Fault;
 
 const LEFT: Place = Place::new(0, 0);
 
-/// Both sides whisk freely, four times a second; `motor` follows.
 fn free(motor: &str) -> Scene {
     let plant = textured(300.0);
     crate::played::scene(1, &plant, &format!("[motor]\n{motor}"))
@@ -19,8 +18,7 @@ fn free(motor: &str) -> Scene {
 const FIND: &str = "rest = \"find\"\narm = \"on-command\"\n";
 const ARMED: u64 = 10;
 
-/// Degrees a second, tick by tick, of the left whisker.
-fn speeds(played: &Played) -> Vec<f64> {
+fn speeds_deg_s(played: &Played) -> Vec<f64> {
     let angles = angles(played, 0);
     let steps = angles.windows(2).map(|pair| (pair[1] - pair[0]).abs());
     steps.map(|step| step * TICK_HZ as f64).collect()
@@ -77,7 +75,7 @@ fn rest_is_where_the_whisker_is_when_it_is_armed() {
 #[test]
 fn a_whisker_sets_off_softly_from_where_it_is() {
     let scene = free("");
-    let fastest = |played: &Played| speeds(played).into_iter().fold(0.0, f64::max);
+    let fastest = |played: &Played| speeds_deg_s(played).into_iter().fold(0.0, f64::max);
     let sound = fastest(&undisturbed(&scene, 4 * TICK_HZ));
     let (lost, turned, back) = (2 * TICK_HZ, 2 * TICK_HZ + 400, 2 * TICK_HZ + 600);
     let played = play(&scene, 4 * TICK_HZ, |tick, run| {
@@ -97,7 +95,7 @@ fn a_whisker_sets_off_softly_from_where_it_is() {
         events.clone().next_back(),
         Some(Event::SensorBack(LEFT))
     ));
-    let after = speeds(&played).split_off(turned as usize + 1);
+    let after = speeds_deg_s(&played).split_off(turned as usize + 1);
     let after = after.into_iter().fold(0.0, f64::max);
     assert!(after < sound + 600.0, "{after} of {sound} degrees a second");
     assert!(farthest(&played, 3 * TICK_HZ) < 25.0, "it is back");
@@ -136,7 +134,6 @@ fn rest_is_found_wherever_a_whisker_is() {
     }
 }
 
-/// The faults of the left motor with their ticks.
 fn faults(played: &Played) -> Vec<(u64, Fault)> {
     let fault = |(tick, event): &(u64, Event)| match event {
         Event::MotorFault(LEFT, fault) => Some((*tick, *fault)),

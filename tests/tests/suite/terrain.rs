@@ -16,7 +16,6 @@ use host_sim::training::{How, Tables};
 use scene::Rule;
 use tempfile::TempDir;
 
-/// The recordings, both programs' models, and a place for decisions.
 struct Terrain {
     folder: TempDir,
     model: PathBuf,

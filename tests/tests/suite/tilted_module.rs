@@ -10,7 +10,6 @@ use tmag5170::ReplyError;
 
 const LEFT: Place = Place::new(0, 0);
 
-/// Both sides whisk against a surface.
 fn tilted() -> Scene {
     let more = "[rcp]\ngain = 0.7\ntau_s = 0.0625\n[sensor]\nmodel = \"tmag5170\"\n";
     scene(1, &textured(90.0), more)

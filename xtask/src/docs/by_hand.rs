@@ -55,7 +55,6 @@ fn the_harness_has_the_pins_of_the_firmware() {
     assert_eq!(drawn("harness.svg"), [sensors, encoders, bridges].concat());
 }
 
-/// Rows of a table that begin with a number.
 fn rows_of_numbers(table: &str) -> Vec<Vec<u32>> {
     let rows = table.lines().map(|line| {
         let cells = line.split('|').filter_map(|cell| cell.trim().parse().ok());

@@ -6,7 +6,6 @@ use crate::run::Fault;
 
 pub(super) const DECISIONS: &str = "docs/measured/decisions.csv";
 
-/// The main job over many runs.
 #[derive(Debug, Deserialize)]
 struct ManyRuns {
     part: String,

@@ -68,14 +68,12 @@ fn called(
     }
 }
 
-/// The word at an address of `body`.
 fn word(body: &[u8], begin: u64, address: u64) -> Option<i32> {
     let at = usize::try_from(address.checked_sub(begin)?).ok()?;
     let bytes = body.get(at..)?.first_chunk()?;
     Some(i32::from_le_bytes(*bytes))
 }
 
-/// An instruction.
 #[derive(Debug, Clone, Copy)]
 struct Instruction {
     address: u64,

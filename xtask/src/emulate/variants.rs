@@ -163,7 +163,6 @@ fn set(table: &mut Table, part: &str, key: &str, value: impl Into<Value>) {
     }
 }
 
-/// Puts these keys in the place of a part.
 fn replace<const N: usize>(table: &mut Table, part: &str, keys: [(&str, Value); N]) {
     let keys = keys.map(|(key, value)| (key.to_owned(), value));
     table.insert(part.to_owned(), Table::from_iter(keys).into());

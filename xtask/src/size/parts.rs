@@ -17,7 +17,6 @@ fn parts() -> Result<BTreeMap<String, Vec<String>>, Fault> {
     toml::from_str(include_str!("parts.toml")).map_err(|error| format!("parts.toml: {error}"))
 }
 
-/// A scene, and the model of its classifier.
 #[derive(Clone, Copy)]
 pub(super) struct Named<'a> {
     pub(super) scene: &'a Scene,

@@ -81,7 +81,6 @@ pub(crate) fn blocks(text: &str) -> Result<Vec<Block>, Fault> {
     Ok(found)
 }
 
-/// The pages that a summary names, in their order.
 pub(crate) fn pages(summary: &str) -> Vec<String> {
     let links = Parser::new(summary).filter_map(|event| match event {
         Event::Start(Tag::Link { dest_url, .. }) => Some(dest_url.into_string()),

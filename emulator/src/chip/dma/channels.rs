@@ -72,7 +72,6 @@ impl Channels {
         }
     }
 
-    /// Serves a request on a channel, counted from 0: the byte to move, if it listens.
     pub(super) fn request(&mut self, channel: usize) -> Option<Move> {
         let c = self.channels.get_mut(channel)?;
         if c.ccr & EN == 0 || c.cndtr == 0 {

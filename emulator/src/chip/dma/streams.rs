@@ -75,8 +75,6 @@ impl Streams {
         }
     }
 
-    /// Serves a request of `channel` on a stream: the byte to move, if the
-    /// stream listens.
     pub(super) fn request(&mut self, stream: usize, channel: u32) -> Option<Move> {
         let s = self.streams.get_mut(stream)?;
         if s.cr & EN == 0 || (s.cr & CHSEL) >> CHSEL.trailing_zeros() != channel {

@@ -14,7 +14,6 @@ pub(super) const WORDS: u32 = 2 << 8;
 const MS: Ps = 1_000_000_000;
 const US: Ps = 1_000_000;
 
-/// Whose it is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Version {
     /// Pages of 1 KiB, selected by their address; 16 bits at a time.
@@ -25,7 +24,6 @@ pub(crate) enum Version {
     G0,
 }
 
-/// Registers and bits, units, and typical times.
 #[derive(Debug)]
 pub(super) struct Layout {
     version: Version,

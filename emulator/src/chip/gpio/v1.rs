@@ -23,7 +23,6 @@ pub(super) const FIELDS: [Field; 8] = [
     field("BRR", BRR, "BR1", 1 << 1),
 ];
 
-/// The registers that every port has, where they stand here.
 pub(super) const fn common(offset: u32) -> Option<Common> {
     match offset {
         IDR => Some(Common::Idr),

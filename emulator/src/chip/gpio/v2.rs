@@ -27,8 +27,7 @@ pub(super) const FIELDS: [Field; 9] = [
     field("BSRR", BSRR, "BR1", 1 << 17),
 ];
 
-/// The registers that every port has, where they stand here. BRR, which not all of these
-/// chips have, is not used.
+/// BRR, which not all of these chips have, is not used.
 pub(super) const fn common(offset: u32) -> Option<Common> {
     match offset {
         IDR => Some(Common::Idr),
@@ -41,7 +40,6 @@ pub(super) const fn common(offset: u32) -> Option<Common> {
 /// Registers that keep what is written.
 const KEPT: [u32; 6] = [MODER, OTYPER, OSPEEDR, PUPDR, AFRL, AFRH];
 
-/// How the pins are configured.
 #[derive(Debug, Clone)]
 pub(super) struct Modes {
     /// By their offsets, a word each.

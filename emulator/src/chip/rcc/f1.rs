@@ -5,7 +5,6 @@ use super::{
 };
 use crate::chip::fault::Fault;
 
-/// The internal oscillator, Hz.
 const HSI_HZ: u64 = 8_000_000;
 
 const CFGR: u32 = 0x04;

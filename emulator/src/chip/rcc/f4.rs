@@ -5,7 +5,6 @@ use super::{
 };
 use crate::chip::fault::Fault;
 
-/// The internal oscillator, Hz.
 const HSI_HZ: u64 = 16_000_000;
 
 const PLLCFGR: u32 = 0x04;

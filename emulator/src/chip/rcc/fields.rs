@@ -23,7 +23,6 @@ impl Layout {
         resets.find(|reset| reset.0 == bus).map(|reset| reset.1)
     }
 
-    /// Switches, the selection of the system clock, and flags of the causes of a reset.
     pub(in crate::chip) fn fields(&self) -> Vec<Field> {
         let (cfgr, mask, above) = self.selection;
         let (csr, clear) = self.csr;

@@ -3,7 +3,6 @@
 use super::{Bus, CR, Clocks, HSE_HZ, HSEON, Layout, PLLON, Rcc, ahb_divider, core_hz, divider};
 use crate::chip::fault::Fault;
 
-/// The internal oscillator, Hz.
 const HSI_HZ: u64 = 16_000_000;
 
 const CFGR: u32 = 0x08;

@@ -14,7 +14,6 @@ const MOST_TEXT: usize = 4_096;
 /// For how long a button is pressed and power is off, unless the event says so, s.
 const SHORT_S: f64 = 0.1;
 
-/// What can befall a board and what hangs on it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub(super) enum Kind {

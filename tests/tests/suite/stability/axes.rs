@@ -14,7 +14,6 @@ pub(crate) const SIGMA_Z: [f64; 3] = [0.0, 0.7, 100.0];
 pub(crate) const SIGMA_G: [f64; 3] = [0.0, 0.5, 100.0];
 /// g_nominal of the whiskers, two a side: every level in every run.
 pub(crate) const NOMINAL: [[f64; 2]; 2] = [[0.0, 2.0], [1.0, 2.0]];
-/// Both integrators.
 pub(crate) const INTEGRATORS: [Integrator; 2] = [Integrator::Exact, Integrator::Euler];
 
 /// τ of a gate: a share of the tick, or of the whisk.
@@ -168,7 +167,6 @@ impl Case {
 pub(crate) struct Random(pub(crate) u64);
 
 impl Random {
-    /// A number below `n`.
     pub(crate) fn below(&mut self, n: usize) -> usize {
         let state = self.0.wrapping_mul(6_364_136_223_846_793_005);
         self.0 = state.wrapping_add(1_442_695_040_888_963_407);
@@ -209,7 +207,6 @@ pub(crate) fn cases() -> Vec<Case> {
     places.into_iter().map(place).map(Case).collect()
 }
 
-/// The largest value so far.
 #[derive(Default)]
 pub(crate) struct Worst(Mutex<f64>);
 

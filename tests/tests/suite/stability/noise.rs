@@ -14,7 +14,6 @@ const PAPERS: f64 = 0.005;
 /// The largest σ_η.
 const STRONGEST: f64 = 1.0;
 
-/// Runs `case` for two thousand ticks.
 fn run<R: Extreme>(case: Case, noise: f64, worst: &Worst) {
     let settings = Settings {
         noise,

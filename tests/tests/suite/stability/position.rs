@@ -21,7 +21,6 @@ use super::rig::Extreme;
 /// Some encoder: 100 counts a degree, 10,000 a unit of protraction.
 const DEGREES_PER_COUNT: f64 = 0.01;
 
-/// The gains and limits of one run.
 fn settings() -> Vec<pd::Settings> {
     let mut list = Vec::new();
     for kp in [0.0, 0.05, 10.0] {

@@ -46,7 +46,6 @@ impl Extreme for Fix {
     const ROUNDING: f64 = 3e-4;
 }
 
-/// The module.
 pub(crate) struct Module<R: Number> {
     config: Config<R>,
     pub(crate) state: State<R>,
@@ -60,7 +59,6 @@ impl<R: Number> Module<R> {
         }
     }
 
-    /// One tick; fails if it leaves the bounds.
     pub(crate) fn tick(&mut self, contact: [R; 2], case: &impl Debug) {
         self.config.step(&mut self.state, &contact);
         let [psi, theta, kept, z, g] = self.view();
@@ -92,7 +90,6 @@ impl<R: Number> Module<R> {
         [psi, theta, kept, z, whiskers.map(WhiskerState::gain)]
     }
 
-    /// The largest difference to another module's states.
     pub(crate) fn distance<Q: Number>(&self, other: &Module<Q>) -> f64 {
         let (a, b) = (self.view(), other.view());
         let pairs = a.iter().flatten().zip(b.iter().flatten());
@@ -100,7 +97,6 @@ impl<R: Number> Module<R> {
     }
 }
 
-/// The start of `case`.
 pub(crate) fn start<R: Number>(case: Case, settings: &Settings) -> Start<R> {
     let [left, right] = &NOMINAL;
     settings.start(&case.start(), &[left, right]).unwrap()
@@ -147,7 +143,6 @@ impl<R: Extreme> Abuse<R> {
         }
     }
 
-    /// Contact of the next tick.
     pub(crate) fn contact(&mut self) -> [R; 2] {
         self.up = !self.up;
         let jump = if self.up { R::ONE } else { -R::ONE };

@@ -72,7 +72,6 @@ impl<R: Real> Channel<R> {
     }
 }
 
-/// The whiskers of a module.
 #[derive(Debug)]
 struct Pipeline<R: Real> {
     state: State<R>,

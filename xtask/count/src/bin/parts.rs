@@ -70,7 +70,6 @@ fn each<R: Format>() {
     oscillators("oscillator of 1 side", &one);
 }
 
-/// A step of the oscillators, with their drives.
 fn oscillators<R: Format>(name: &str, module: &Module<R>) {
     let start = module.start.sides.iter();
     let state = oscillator::State::new(start.map(|side| side.oscillator).collect());
