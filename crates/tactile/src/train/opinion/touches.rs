@@ -53,7 +53,6 @@ impl Touch {
     }
 }
 
-/// How the samples of trials are felt.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Sense {
     pub(super) narrow: Narrow,
@@ -67,7 +66,6 @@ pub(super) struct Sense {
 const RAW: core::ops::RangeInclusive<i32> = 0..=16383;
 
 impl Sense {
-    /// Of codes of these scales.
     pub(super) fn of(trials: &[Trial], scales: &[Quantiser; CHANNELS], block: u32) -> Self {
         let low = scales.iter().map(|scale| scale.low).min().unwrap_or(0);
         let high = scales.iter().map(|scale| scale.high).max().unwrap_or(0);
