@@ -47,7 +47,6 @@ const LEAST: f64 = 0.05;
 /// A place of the ground, with its height and slopes.
 pub(super) type Known = (V3, [f64; 3]);
 
-/// What a round has found.
 struct Round {
     /// Which place of the ground the foot feels at the end.
     felt: [f64; 2],
