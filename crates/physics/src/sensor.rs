@@ -77,7 +77,6 @@ impl Sensor {
         self.settings
     }
 
-    /// Whether the next call of [`Sensor::advance`] with this time measures.
     #[inline]
     pub(crate) fn due(&self, dt_s: f64) -> bool {
         self.due_s <= dt_s

@@ -59,7 +59,6 @@ impl fmt::Display for Condition {
 }
 
 impl Row {
-    /// Type, range and unit in words.
     pub(crate) fn allowed(&self) -> String {
         if self.unit.is_empty() {
             self.kind.to_string()
@@ -105,7 +104,6 @@ impl<T> Key<T> {
         Self::from_row(Row { need, ..self.row })
     }
 
-    /// The key may be left out, which means this.
     pub(crate) const fn optional(self, without: &'static str) -> Key<Option<T>> {
         let need = Need::When { any: &[], without };
         Key::from_row(Row { need, ..self.row })

@@ -38,7 +38,6 @@ impl Range {
         }
     }
 
-    /// Above 0, up to and including `high`.
     pub(crate) const fn positive(high: f64) -> Self {
         Self {
             with_high: true,

@@ -45,7 +45,6 @@ impl Section {
         path(self.name, key)
     }
 
-    /// The section as messages name it.
     pub(crate) fn title(&self) -> String {
         if self.name.is_empty() {
             "the top of the file".to_owned()

@@ -95,7 +95,6 @@ pub(crate) const fn implied<K: Keys>(
 }
 
 impl<T> Table<T> {
-    /// It makes no sense without that section.
     pub(crate) const fn needs(mut self, section: &'static str) -> Self {
         if let Presence::Optional { needs, .. } = &mut self.presence {
             *needs = Some(section);

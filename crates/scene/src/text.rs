@@ -76,7 +76,6 @@ impl<'a> Text<'a> {
         one_line(self.content.get(span).unwrap_or_default())
     }
 
-    /// The whole line around the byte at `offset`, as an excerpt.
     pub(crate) fn line_at(&self, offset: usize) -> String {
         let line = self.line(offset) - 1;
         let before = line.checked_sub(1).and_then(|last| self.ends.get(last));

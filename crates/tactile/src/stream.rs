@@ -252,7 +252,6 @@ impl<E> StreamState<E> {
         Some(decision.in_touch(self.touch, reason(is_below, objection)))
     }
 
-    /// Whether the touch is too young for the second opinion.
     pub(crate) fn is_early(&self, section: Option<Section<'_>>) -> bool {
         let blocks = self.judges.first().map(|judge| judge.opinion.blocks());
         matches!((section, blocks), (Some(section), Some(blocks)) if blocks < section.least())
@@ -268,7 +267,6 @@ impl<E> StreamState<E> {
         judge.opinion.objection(section?, classes, class)
     }
 
-    /// How what it last touched stands, if it is of this class.
     pub(crate) fn pose(&self, section: Section<'_>, class: usize) -> Option<Pose> {
         self.judges.first()?.opinion.pose(section, class)
     }

@@ -95,7 +95,6 @@ impl Body {
         }
     }
 
-    /// Sets the state of the modes, away from any plate.
     pub(super) fn place(&mut self, state: ModalState) {
         self.state = state;
         self.leave();

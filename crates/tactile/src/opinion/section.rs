@@ -25,7 +25,6 @@ const TRIANGLE_WORDS: usize = (FEATURES * (FEATURES + 1) / 2).div_ceil(2);
 pub(crate) const STATE_WORDS: usize = FEATURES / 2 + 1 + TRIANGLE_WORDS;
 pub(crate) const TYPICAL_WORDS: usize = STATES.len() * STATE_WORDS + STAGES;
 
-/// States begun after so many blocks.
 pub(crate) fn begun(blocks: usize) -> usize {
     STATES.iter().filter(|[first, _]| *first < blocks).count()
 }

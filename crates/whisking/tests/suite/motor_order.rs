@@ -17,7 +17,6 @@ struct Bench<D> {
 }
 
 impl<D: MotorDriver> Bench<D> {
-    /// What a tick writes.
     fn drive(&mut self, duty: Duty) -> String {
         self.driver.drive(duty).unwrap();
         self.log.take()
@@ -28,7 +27,6 @@ impl<D: MotorDriver> Bench<D> {
         self.log.take()
     }
 
-    /// Sets the Hall code.
     fn turn(&self, code: u16) {
         for (bit, hall) in self.halls.iter().enumerate() {
             hall.value.set(code >> bit & 1);

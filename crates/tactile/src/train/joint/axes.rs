@@ -97,7 +97,6 @@ impl Shape {
         bin(0) * self.axes[1].bins + bin(1)
     }
 
-    /// The cells that it is looked up at, block after block.
     pub(super) fn cells_of(&self, piece: &Piece<'_>) -> Vec<usize> {
         let codes = match self.source {
             TableSource::Samples => &piece.blocks.samples,

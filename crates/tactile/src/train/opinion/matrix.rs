@@ -33,7 +33,6 @@ impl Matrix {
         }
     }
 
-    /// Adds to the diagonal.
     pub(super) fn raise(&mut self, by: f64) {
         let diagonal = self.values.iter_mut().step_by(self.size + 1);
         diagonal.for_each(|value| *value += by);
@@ -91,7 +90,6 @@ impl Matrix {
         }
     }
 
-    /// The rows of its lower triangle.
     pub(super) fn triangle(&self) -> impl Iterator<Item = &[f64]> {
         let rows = self.values.chunks_exact(self.size).enumerate();
         rows.map(|(row, values)| &values[..=row])

@@ -46,7 +46,6 @@ impl Touch {
         Some(mean)
     }
 
-    /// The means of all states that have begun after so many blocks.
     pub(super) fn stage(&self, blocks: usize) -> Vec<f64> {
         let states = (0..STATES.len()).filter_map(|state| self.state(state, blocks));
         states.flatten().collect()
