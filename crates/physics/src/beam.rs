@@ -24,7 +24,6 @@ use crate::grid::{Grid, NODES};
 use crate::shaft::Shaft;
 use crate::shapes::{MODES, STATIC, Shapes};
 
-/// Elements in a shaft.
 const ELEMENTS: usize = 40;
 
 /// Nodes and weights of Gauss' quadrature on −1..1, exact to degree 9: the mass

@@ -6,16 +6,13 @@ use crate::vector::{V3, add, dot};
 /// Compliances of ground, and of shaft and ground in series, m/N; positive.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Compliance {
-    /// Transverse to the shaft.
     pub(crate) across: f64,
-    /// Along it.
     pub(crate) along: f64,
     /// Transverse to the shaft at its tip, with that of the static shapes.
     pub(crate) rest: f64,
 }
 
 impl Compliance {
-    /// The smaller of the two.
     #[inline]
     pub(crate) fn least(&self) -> f64 {
         self.across.min(self.along)

@@ -44,12 +44,11 @@ pub(crate) struct Problem {
 pub(crate) struct Force {
     /// N and the two components of T, N.
     pub(crate) local: [f64; 3],
-    /// Whether the tip is held.
     pub(crate) stuck: bool,
 }
 
 impl Problem {
-    /// The force; none where the gap is open without one.
+    /// No force where the gap is open without one.
     #[inline]
     pub(crate) fn solve(&self) -> Force {
         if self.gap >= 0.0 {
@@ -219,13 +218,11 @@ impl Frame {
         }
     }
 
-    /// Components of a vector in this frame.
     #[inline]
     pub(crate) fn local(&self, v: V3) -> [f64; 3] {
         self.axes.map(|axis| dot(axis, v))
     }
 
-    /// The vector with these components.
     #[inline]
     pub(crate) fn plate(&self, local: [f64; 3]) -> V3 {
         let [n, a, b] = self.axes;

@@ -13,7 +13,6 @@
 //! taper 3 to 15 pushed by 2 to 45° the base moment differs from that of ten segments by 0.2 %
 //! root mean square, 1.1 % at most.
 
-/// Segments of a shaft.
 const SEGMENTS: usize = 6;
 
 /// Nodes of a segment.
@@ -29,7 +28,6 @@ const OFF: f64 = 0.387_298_334_620_741_7;
 /// nothing gives way.
 const LEAST: f64 = 0.1;
 
-/// The nodes of a shaft.
 #[derive(Debug, Clone)]
 pub(crate) struct Grid {
     length_m: f64,
@@ -61,7 +59,6 @@ impl Place {
 }
 
 impl Grid {
-    /// For a shaft of this length.
     pub(crate) fn new(length_m: f64) -> Self {
         let edge = |n: usize| {
             let left = 1.0 - n as f64 / SEGMENTS as f64;
@@ -97,7 +94,6 @@ impl Grid {
         grid
     }
 
-    /// The tip.
     #[inline]
     pub(crate) fn tip(&self) -> &Place {
         &self.tip

@@ -21,7 +21,6 @@ use crate::vector::length2;
 /// ψ at the tip up to which a shaft bends, rad: just below where directions end.
 const MOST_RAD: f64 = 3.9;
 
-/// The constants of a shaft that a step needs.
 #[derive(Debug, Clone)]
 pub(crate) struct ModalShaft {
     pub(crate) length_m: f64,
@@ -214,7 +213,6 @@ impl ModalState {
         length2([along(0), along(1)])
     }
 
-    /// Where the shaft bends to.
     #[inline]
     pub(crate) fn curve(&self, shaft: &ModalShaft) -> Curve {
         shaft.shapes.curve(&self.x)
@@ -227,7 +225,6 @@ impl ModalState {
         (2.0 * self.elastic_j(shaft) * shaft.give).sqrt()
     }
 
-    /// Elastic energy, J.
     #[inline]
     fn elastic_j(&self, shaft: &ModalShaft) -> f64 {
         let square = |k: usize| self.x[k][0] * self.x[k][0] + self.x[k][1] * self.x[k][1];
@@ -267,7 +264,6 @@ impl ModalState {
     }
 }
 
-/// Amplitudes after forces on the shapes.
 #[inline]
 pub(crate) fn pushed(
     from: &Amplitudes,

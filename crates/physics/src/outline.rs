@@ -48,7 +48,6 @@ impl Outline {
         }
     }
 
-    /// Whether it has no end.
     #[inline]
     pub(crate) fn is_plane(&self) -> bool {
         self.flat_m[0] == f64::NEG_INFINITY && self.flat_m[1] == f64::INFINITY

@@ -62,7 +62,6 @@ impl PlateFrame {
         }
     }
 
-    /// `pose` in the plate's coordinates.
     #[inline]
     pub(crate) fn see(&self, pose: &Pose) -> PlatePose {
         let turn = |v: V3| [dot(self.along, v), dot(self.side, v), dot(self.normal, v)];
@@ -76,7 +75,6 @@ impl PlateFrame {
     }
 }
 
-/// A pose in a plate's coordinates.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct PlatePose {
     /// Base of the shaft, m.

@@ -48,7 +48,6 @@ impl Default for Cell {
     }
 }
 
-/// One octave.
 #[derive(Debug, Clone, Copy, Default)]
 struct Octave {
     /// Lattice points a metre.
@@ -62,7 +61,6 @@ struct Octave {
     cell: Cell,
 }
 
-/// Heights of a surface.
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct Relief {
     octaves: [Octave; OCTAVES],

@@ -53,12 +53,11 @@ impl SensorSettings {
     }
 }
 
-/// A sensor: its settings, noise and last measurement.
 #[derive(Debug, Clone)]
 pub(crate) struct Sensor {
     settings: SensorSettings,
     noise: Noise,
-    /// Time until the next measurement, s.
+    /// Until the next measurement.
     due_s: f64,
     codes: [i16; 2],
 }
@@ -74,12 +73,10 @@ impl Sensor {
         }
     }
 
-    /// The settings it was made with.
     pub(crate) const fn settings(&self) -> SensorSettings {
         self.settings
     }
 
-    /// Whether the next call of [`Sensor::advance`] with this time measures.
     #[inline]
     pub(crate) fn due(&self, dt_s: f64) -> bool {
         self.due_s <= dt_s

@@ -26,10 +26,8 @@ use crate::vector::{V3, add, dot};
 /// first's frequency, beyond what a sensor of 2 to 4 kHz resolves.
 pub(crate) const MODES: usize = 4;
 
-/// Static shapes.
 pub(crate) const STATIC: usize = 4;
 
-/// All shapes.
 pub(crate) const SHAPES: usize = MODES + STATIC;
 
 /// Amplitudes of all shapes, in x and y.
@@ -90,12 +88,10 @@ pub(crate) struct Angles {
 pub(crate) struct Curve([[f64; NODES]; 3]);
 
 impl Shapes {
-    /// Takes a shape away.
     pub(crate) fn clear(&mut self, k: usize) {
         self.set(k, [0.0; NODES], 0.0, 0.0);
     }
 
-    /// Sets φ′ at the nodes and at the base and φ at the tip of a shape.
     pub(crate) fn set(&mut self, k: usize, slope: [f64; NODES], base: f64, tip: f64) {
         for (slopes, slope) in self.slope.iter_mut().zip(slope) {
             slopes[k] = slope;
@@ -111,7 +107,6 @@ impl Shapes {
         Angles::new(|n| weighted(&self.slope[n], amplitudes))
     }
 
-    /// Where it points.
     #[inline]
     pub(crate) fn curve(&self, amplitudes: &Amplitudes) -> Curve {
         self.angles(amplitudes).curve()
@@ -193,14 +188,12 @@ impl Angles {
         }
     }
 
-    /// Where the shaft points.
     #[inline]
     pub(crate) fn curve(&self) -> Curve {
         let along = |axis: usize| core::array::from_fn(|n| self.tangent(n)[axis]);
         Curve([along(0), along(1), along(2)])
     }
 
-    /// The tangent at a node.
     #[inline]
     fn tangent(&self, n: usize) -> V3 {
         let sinc = self.sinc[n];
@@ -322,7 +315,6 @@ fn polynomial(coefficients: &[f64; TERMS], at: &[f64; NODES]) -> [f64; NODES] {
     value
 }
 
-/// Coefficients of a polynomial.
 const TERMS: usize = 11;
 
 /// sin √x/√x for x of 0 to 16, within 3e-16 (Chebyshev's series).

@@ -27,7 +27,6 @@ pub(crate) struct Row {
 /// Whether a key must be there, once its section is.
 #[derive(Clone, Copy)]
 pub(crate) enum Need {
-    /// Always.
     Always,
     /// No: this TOML value stands in for it.
     Default(&'static str),
@@ -44,7 +43,6 @@ pub(crate) enum Need {
 pub(crate) enum Condition {
     /// The key has this word as its value.
     Is(&'static str, &'static str),
-    /// The key is given.
     Given(&'static str),
     /// The key has this word as its value, and another key is not given.
     IsWithout(&'static str, &'static str, &'static str),
@@ -61,7 +59,6 @@ impl fmt::Display for Condition {
 }
 
 impl Row {
-    /// Type, range and unit in words.
     pub(crate) fn allowed(&self) -> String {
         if self.unit.is_empty() {
             self.kind.to_string()
@@ -98,18 +95,15 @@ impl<T> Key<T> {
         }
     }
 
-    /// Unit of the numbers.
     pub(crate) const fn unit(self, unit: &'static str) -> Self {
         Self::from_row(Row { unit, ..self.row })
     }
 
-    /// The value, in TOML, of a key that is left out.
     pub(crate) const fn default(self, toml: &'static str) -> Self {
         let need = Need::Default(toml);
         Self::from_row(Row { need, ..self.row })
     }
 
-    /// The key may be left out, which means this.
     pub(crate) const fn optional(self, without: &'static str) -> Key<Option<T>> {
         let need = Need::When { any: &[], without };
         Key::from_row(Row { need, ..self.row })
@@ -126,7 +120,6 @@ impl<T> Key<T> {
         Self::from_row(Row { need, ..self.row })
     }
 
-    /// The key is an error where none of the conditions holds.
     pub(crate) const fn only_if(self, only: &'static [Condition]) -> Self {
         Self::from_row(Row { only, ..self.row })
     }
@@ -136,7 +129,6 @@ impl<T> Key<T> {
         Key::from_row(self.row)
     }
 
-    /// The row of the catalogue.
     pub(crate) const fn row(self, name: &'static str, meaning: &'static str) -> Row {
         Row {
             name,
@@ -146,7 +138,6 @@ impl<T> Key<T> {
     }
 }
 
-/// `true` or `false`.
 pub(crate) const fn yes_or_no() -> Key<bool> {
     Key::of(Kind::Bool)
 }
@@ -174,7 +165,6 @@ pub(crate) const fn between(low: f64, high: f64) -> Key<f64> {
     Key::of(Kind::Number(Range::open(low, high)))
 }
 
-/// One of the words of `T`.
 pub(crate) const fn word<T: Choice>() -> Key<T> {
     Key::of(Kind::Word(T::WORDS))
 }

@@ -3,32 +3,19 @@
 use std::fmt;
 use std::ops::RangeInclusive;
 
-/// Type and range of a value.
 #[derive(Clone, Copy)]
 pub(crate) enum Kind {
-    /// `true` or `false`.
     Bool,
-    /// A whole number, bounds included.
     Integer { low: u64, high: u64 },
-    /// A real number.
     Number(Range),
-    /// One of these words.
     Word(&'static [&'static str]),
-    /// A name that is safe in file names, of at most this many characters.
     Name { longest: usize },
-    /// A path: a string that is not empty.
     Path,
-    /// A real number for all whiskers, or a list with one for each.
     PerWhisker(Range),
-    /// A list of real numbers, one a side.
     PerSide(Range),
-    /// A list of pairs of real numbers, one pair a side.
     PairPerSide(Range),
-    /// A list of real numbers, one for each of the scene's own surfaces.
     PerOwn(Range),
-    /// A table of real numbers, one for each of the model's classes that it names.
     PerClass(Range),
-    /// A list of distinct words among these, at least one.
     Words(&'static [&'static str]),
 }
 
@@ -37,13 +24,11 @@ pub(crate) enum Kind {
 pub(crate) struct Range {
     pub(crate) low: f64,
     pub(crate) high: f64,
-    /// Whether `low` itself belongs to the range; likewise `high`.
     pub(crate) with_low: bool,
     pub(crate) with_high: bool,
 }
 
 impl Range {
-    /// Both ends included.
     pub(crate) const fn closed(ends: &RangeInclusive<f64>) -> Self {
         Self {
             low: *ends.start(),
@@ -53,7 +38,6 @@ impl Range {
         }
     }
 
-    /// Above 0, up to and including `high`.
     pub(crate) const fn positive(high: f64) -> Self {
         Self {
             with_high: true,
@@ -61,7 +45,6 @@ impl Range {
         }
     }
 
-    /// Strictly between `low` and `high`.
     pub(crate) const fn open(low: f64, high: f64) -> Self {
         Self {
             low,
@@ -71,7 +54,7 @@ impl Range {
         }
     }
 
-    /// Whether `x` is in the range; NaN never is.
+    /// NaN never is.
     pub(crate) fn contains(self, x: f64) -> bool {
         let above = x > self.low || (self.with_low && x >= self.low);
         let below = x < self.high || (self.with_high && x <= self.high);

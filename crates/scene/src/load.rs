@@ -114,8 +114,8 @@ impl Scene {
     }
 }
 
-/// Reports faults of syntax, one a line; `end`: where its document ends. Returns whether what was read past them might not
-/// be what was meant.
+/// Reports faults of syntax, one a line; `end`: where its document ends. Returns whether what was
+/// read past them might not be what was meant.
 fn report_syntax(faults: &[toml::de::Error], end: usize, text: &mut Text<'_>) -> bool {
     let mut last_line = None;
     let mut is_broken = false;

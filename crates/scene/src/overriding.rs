@@ -61,12 +61,10 @@ impl Override {
         &self.value
     }
 
-    /// What messages call it.
     pub(crate) fn source(&self) -> &str {
         &self.source
     }
 
-    /// Key and value in TOML.
     pub(crate) fn toml(&self) -> String {
         let Self { key, value, .. } = self;
         if DeValue::parse(value).is_ok() {

@@ -149,7 +149,6 @@ fn resolve(
     meant
 }
 
-/// Fills in the defaults of keys that are not given.
 pub(crate) fn add_defaults(values: &mut Values) {
     for section in sections() {
         for key in section.keys() {
@@ -166,7 +165,6 @@ pub(crate) fn add_defaults(values: &mut Values) {
     }
 }
 
-/// The entries of a table as they follow each other in the file.
 fn in_file_order<'t, 'i>(table: &'t DeTable<'i>) -> Vec<Item<'t, 'i>> {
     let mut items: Vec<Item<'t, 'i>> = table.iter().collect();
     items.sort_by_key(|(name, _)| name.span().start);

@@ -12,7 +12,6 @@ use crate::sections::{
 use crate::text::Text;
 use crate::values::Values;
 
-/// Applies all rules, noting problems in `text`.
 pub(crate) fn apply(values: &Values, text: &mut Text<'_>) {
     at_least_one_tick("", "duration_s", values, text);
     at_least_one_tick("plant", "present_s", values, text);

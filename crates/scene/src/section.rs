@@ -11,12 +11,9 @@ pub(crate) struct Section {
     pub(crate) entries: &'static [Entry],
 }
 
-/// Whether a section must be there.
 #[derive(Clone, Copy)]
 pub(crate) enum Presence {
-    /// It must.
     Required,
-    /// It may be left out.
     Optional {
         /// What leaving it out means.
         without: &'static str,
@@ -40,17 +37,14 @@ impl Section {
         keys.into_iter()
     }
 
-    /// The key of this name.
     pub(crate) fn key(&self, name: &str) -> Option<&'static Row> {
         self.keys().find(|key| key.name == name)
     }
 
-    /// The key as messages name it: with its section, if that has a name.
     pub(crate) fn path(&self, key: &str) -> String {
         path(self.name, key)
     }
 
-    /// The section as messages name it.
     pub(crate) fn title(&self) -> String {
         if self.name.is_empty() {
             "the top of the file".to_owned()

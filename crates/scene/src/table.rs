@@ -5,9 +5,7 @@ use crate::values::{Part, Values};
 
 /// What [`keys!`](crate::keys::keys) writes: the list of some keys and their reader.
 pub(crate) trait Keys {
-    /// What they are read into.
     type Value;
-    /// The keys.
     const ENTRIES: &'static [Entry];
     /// The tables; only the top of the file has any.
     const TABLES: &'static [Section];
@@ -26,7 +24,6 @@ pub(crate) struct Table<T> {
     read: fn(Part<'_>, bool) -> Option<T>,
 }
 
-/// A table that must be there.
 pub(crate) const fn required<K: Keys>() -> Table<K::Value> {
     Table {
         presence: Presence::Required,
@@ -98,7 +95,6 @@ pub(crate) const fn implied<K: Keys>(
 }
 
 impl<T> Table<T> {
-    /// It makes no sense without that section.
     pub(crate) const fn needs(mut self, section: &'static str) -> Self {
         if let Presence::Optional { needs, .. } = &mut self.presence {
             *needs = Some(section);
@@ -106,7 +102,6 @@ impl<T> Table<T> {
         self
     }
 
-    /// The section of the catalogue.
     pub(crate) const fn section(&self, name: &'static str, meaning: &'static str) -> Section {
         Section {
             name,
@@ -116,7 +111,6 @@ impl<T> Table<T> {
         }
     }
 
-    /// The table's value.
     pub(crate) fn read(&self, values: &Values, name: &'static str) -> Option<T> {
         let is_there = values.section(self.with.unwrap_or(name)).is_some();
         (self.read)(values.part(name), is_there)

@@ -64,7 +64,6 @@ impl<'a> Text<'a> {
         }
     }
 
-    /// The place of `offset` in words.
     pub(crate) fn place_in_words(&self, offset: usize) -> String {
         match self.place(offset) {
             (name, Some(line)) => format!("{name}:{line}"),
@@ -77,7 +76,6 @@ impl<'a> Text<'a> {
         one_line(self.content.get(span).unwrap_or_default())
     }
 
-    /// The whole line around the byte at `offset`, as an excerpt.
     pub(crate) fn line_at(&self, offset: usize) -> String {
         let line = self.line(offset) - 1;
         let before = line.checked_sub(1).and_then(|last| self.ends.get(last));
@@ -86,7 +84,6 @@ impl<'a> Text<'a> {
         self.excerpt(start..end)
     }
 
-    /// Notes a problem at a byte offset.
     pub(crate) fn report(&mut self, offset: usize, key: String, found: String, allowed: String) {
         if self.is_full() {
             self.more += 1;
@@ -108,7 +105,6 @@ impl<'a> Text<'a> {
         self.problems.len() >= MOST_PROBLEMS
     }
 
-    /// Whether no problem was noted.
     pub(crate) fn is_clean(&self) -> bool {
         self.problems.is_empty()
     }

@@ -12,9 +12,7 @@ use crate::suggest;
 /// A value that is in range.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) enum Value {
-    /// Of [`Kind::Bool`].
     Bool(bool),
-    /// Of [`Kind::Integer`].
     Integer(u64),
     /// Of [`Kind::Number`], or the one number of [`Kind::PerWhisker`].
     Number(f64),
@@ -22,9 +20,7 @@ pub(crate) enum Value {
     Text(String),
     /// Of [`Kind::PerSide`] and [`Kind::PerOwn`], or the list of [`Kind::PerWhisker`].
     Numbers(Vec<f64>),
-    /// Of [`Kind::PairPerSide`].
     Pairs(Vec<[f64; 2]>),
-    /// Of [`Kind::PerClass`].
     PerClass(Vec<(String, f64)>),
     /// Of [`Kind::Words`].
     Texts(Vec<String>),
@@ -33,11 +29,9 @@ pub(crate) enum Value {
 /// Why a value, or one entry of a list, was refused.
 #[derive(Debug)]
 pub(crate) struct Fault {
-    /// The offending part of the file.
     pub(crate) span: Span<usize>,
     /// More than the excerpt tells, such as which entry it is; may be empty.
     pub(crate) note: String,
-    /// The word it may be a misspelling of.
     pub(crate) suggestion: Option<&'static str>,
 }
 

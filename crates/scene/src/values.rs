@@ -7,7 +7,6 @@ use crate::key::Condition;
 use crate::section::path;
 use crate::value::Value;
 
-/// The checked values of a file.
 #[derive(Default)]
 pub(crate) struct Values {
     sections: BTreeMap<&'static str, Given>,
@@ -42,7 +41,6 @@ impl Values {
         self.keys.entry((section, key)).or_insert(entry);
     }
 
-    /// Puts all keys of others in the place of these, or beside them.
     pub(crate) fn override_with(&mut self, others: Self) {
         for (section, given) in others.sections {
             self.add_section(section, given);
@@ -61,7 +59,6 @@ impl Values {
         sections.chain(keys)
     }
 
-    /// Puts another value in the key's place, or none.
     pub(crate) fn replace(
         &mut self,
         section: &'static str,
@@ -73,7 +70,6 @@ impl Values {
         }
     }
 
-    /// The section, if it is in the file.
     pub(crate) fn section(&self, section: &str) -> Option<Given> {
         self.sections.get(section).copied()
     }
@@ -83,7 +79,6 @@ impl Values {
         self.keys.get(&(section, key))?.value.as_ref()
     }
 
-    /// The key's value as a `T`.
     pub(crate) fn get<T: Read>(&self, section: &'static str, key: &'static str) -> Option<T> {
         self.part(section).get(key)
     }
@@ -110,7 +105,6 @@ impl Values {
         }
     }
 
-    /// The values of one section.
     pub(crate) fn part(&self, section: &'static str) -> Part<'_> {
         Part {
             values: self,
@@ -119,7 +113,6 @@ impl Values {
     }
 }
 
-/// The values of one section.
 #[derive(Clone, Copy)]
 pub(crate) struct Part<'v> {
     pub(crate) values: &'v Values,
@@ -127,7 +120,6 @@ pub(crate) struct Part<'v> {
 }
 
 impl<'v> Part<'v> {
-    /// The key's value as a `T`; `None` where it has none.
     pub(crate) fn get<T: Read>(self, key: &'static str) -> Option<T> {
         T::read(self, key)
     }
@@ -137,9 +129,7 @@ impl<'v> Part<'v> {
     }
 }
 
-/// A type that a key can have.
 pub(crate) trait Read: Sized {
-    /// The key's value; `None` where it has none.
     fn read(from: Part<'_>, key: &'static str) -> Option<Self>;
 }
 

@@ -42,10 +42,8 @@ pub enum AnyEvidence {
 }
 
 impl AnyEvidence {
-    /// Of no rule.
     pub(crate) const NONE: Self = Self::Window(Totals::new());
 
-    /// That of the sequential rule.
     pub(crate) const fn sequential(&self) -> Option<&SequentialEvidence> {
         match self {
             Self::Sequential(evidence) => Some(evidence),
@@ -53,12 +51,10 @@ impl AnyEvidence {
         }
     }
 
-    /// Whether it is that of the sequential rule, and of a block at least.
     pub(crate) fn is_begun(&self) -> bool {
         self.sequential().is_some_and(SequentialEvidence::is_begun)
     }
 
-    /// The same, to be changed.
     pub(crate) const fn sequential_mut(&mut self) -> Option<&mut SequentialEvidence> {
         match self {
             Self::Sequential(evidence) => Some(evidence),
@@ -67,9 +63,7 @@ impl AnyEvidence {
     }
 }
 
-/// Whether the program has the code of the sequential rule.
 const SEQUENTIAL: bool = cfg!(feature = "sequential");
-/// Of the window rule.
 const WINDOW: bool = cfg!(feature = "window");
 
 impl DecisionRule for AnyRule {

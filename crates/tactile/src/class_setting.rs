@@ -72,7 +72,6 @@ impl ClassSettings {
         settings
     }
 
-    /// That of a class.
     #[inline]
     pub(crate) fn get(&self, class: usize) -> ClassSetting {
         self.0.get(class).copied().unwrap_or_default()
@@ -85,7 +84,6 @@ impl ClassSettings {
         u32::from(self.get(class).prior) * block
     }
 
-    /// The smallest threshold of its own that a class has.
     pub(crate) fn least_threshold(&self) -> Option<u16> {
         let own = self.0.iter().map(|class| class.threshold);
         own.filter(|threshold| *threshold > 0).min()

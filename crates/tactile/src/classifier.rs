@@ -288,7 +288,6 @@ impl<W: Words> StreamClassifier<W> {
         }
     }
 
-    /// Whether it decides by the sum of all evidence.
     #[inline]
     fn is_sum(&self) -> bool {
         cfg!(feature = "several") && self.deciding == Deciding::Together

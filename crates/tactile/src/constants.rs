@@ -15,12 +15,6 @@ pub struct Constants<R, W> {
 }
 
 impl<R: DecisionRule, W: Words> Constants<R, W> {
-    /// Joins them.
-    ///
-    /// # Errors
-    ///
-    /// The rule's settings do not fit the model, or the program was built without what the
-    /// model or the rule needs.
     pub(crate) fn new(model: Model<W>, settings: R::Settings) -> Result<Self, SetupError> {
         if model.is_joint() && !JOINT {
             return Err(SetupError::NotBuilt("joint models"));
@@ -32,11 +26,7 @@ impl<R: DecisionRule, W: Words> Constants<R, W> {
         Ok(Self { model, rule })
     }
 
-    /// Another rule for the model, with the same priors and thresholds of classes.
-    ///
-    /// # Errors
-    ///
-    /// As [`Constants::new`]; nothing has changed.
+    /// Priors and thresholds of classes stay; after an error everything does.
     pub(crate) fn set_rule(&mut self, settings: R::Settings) -> Result<(), SetupError> {
         let mut rule: R = rule_for(&self.model, settings)?;
         rule.set_classes(self.rule.classes());
@@ -45,7 +35,6 @@ impl<R: DecisionRule, W: Words> Constants<R, W> {
     }
 }
 
-/// A rule that a model can be asked by.
 fn rule_for<R: DecisionRule, W: Words>(
     model: &Model<W>,
     settings: R::Settings,

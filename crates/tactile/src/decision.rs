@@ -44,7 +44,7 @@ impl Reason {
         }
     }
 
-    /// It in the bits of [`Decision::touch`].
+    /// In the bits of [`Decision::touch`].
     const fn bits(self) -> u32 {
         match self {
             Self::Unknown => UNKNOWN,
@@ -71,7 +71,6 @@ impl Decision {
         }
     }
 
-    /// The same, after so many samples more.
     #[inline]
     pub(crate) fn after(self, samples: u32) -> Self {
         Self {
@@ -90,7 +89,6 @@ impl Decision {
         }
     }
 
-    /// The same, which fell in this touch, and why it names no class, if so.
     #[inline]
     pub(crate) fn in_touch(self, touch: u16, reason: Option<Reason>) -> Self {
         Self {
@@ -164,7 +162,6 @@ impl Decision {
     }
 }
 
-/// Bits of the mantissa of the odds.
 const MANTISSA_BITS: u32 = 21;
 /// Bits of mantissa and exponent together.
 const ODDS_BITS: u32 = 27;

@@ -30,7 +30,6 @@ impl Elsewhere {
         }
     }
 
-    /// Whether another board decides.
     #[inline]
     pub(crate) fn is_led(&self) -> bool {
         self.is_led.contains(&true)

@@ -38,7 +38,6 @@ pub const MAX_STREAMS: usize = if !cfg!(target_os = "none") || cfg!(feature = "a
     1
 };
 
-/// First bytes of a model file.
 pub(crate) const MAGIC: [u8; 4] = *b"WLIK";
 /// Newest version of the format.
 pub const VERSION: u16 = 3;
@@ -122,7 +121,6 @@ pub(crate) struct TableRecord {
     pub(crate) axis: [AxisRecord; 2],
 }
 
-/// An axis of a table.
 #[derive(Debug, Clone, Copy, Default, FromBytes, IntoBytes, KnownLayout, Immutable)]
 #[repr(C)]
 pub(crate) struct AxisRecord {
@@ -133,7 +131,6 @@ pub(crate) struct AxisRecord {
     pub(crate) binner: Binner,
 }
 
-/// Words of a table's record.
 pub(crate) const TABLE_WORDS: usize = size_of::<TableRecord>() / size_of::<u32>();
 
 /// [`TableRecord::source`] of a table that is looked up each sample.
@@ -141,7 +138,7 @@ pub(crate) const OF_SAMPLES: u8 = 0;
 /// Of one that is looked up once a block, by the roughness of its channels.
 pub(crate) const OF_ROUGHNESS: u8 = 1;
 
-/// Words of one row: two classes a word.
+/// Two classes a word.
 pub(crate) const fn row_words(classes: usize) -> usize {
     classes.div_ceil(2)
 }

@@ -42,13 +42,11 @@ fn cells(table: &TableRecord) -> usize {
     bins(0) * bins(1)
 }
 
-/// The entries of a row, in bits.
 fn bits(row: &[u32]) -> impl Iterator<Item = f64> {
     let halves = row.iter().flat_map(|word| [word & 0xffff, word >> 16]);
     halves.map(|entry| f64::from(entry) / f64::from(ENTRIES_PER_BIT))
 }
 
-/// What a table adds.
 fn add(rises: &mut [Vec<f64>], cells: &[Vec<f64>]) {
     let weight = weight(cells);
     let offset = f64::from(ENTRY_OFFSET_BITS);

@@ -20,24 +20,19 @@ use crate::quantiser::Quantiser;
 pub(crate) struct Layout {
     pub(crate) classes: usize,
     pub(crate) channels: usize,
-    /// Words of a row of a table.
     pub(crate) row_words: usize,
     /// Samples.
     pub(crate) block: u32,
     pub(crate) touch: Option<TouchRule>,
     /// The channels' records end and those of the tables of samples begin.
     pub(crate) tables: usize,
-    /// Those of the tables of roughness begin.
     pub(crate) rough_tables: usize,
     /// The tables' records end and the floors begin, if there are any.
     pub(crate) floors: usize,
-    /// The floors end and the names begin.
     pub(crate) names: usize,
-    /// The names end and the rows of the tables begin.
     pub(crate) rows: usize,
-    /// The rows end and the opinion begins.
     pub(crate) opinion: usize,
-    /// It ends, and the checksum begins.
+    /// The opinion ends, and the checksum begins.
     pub(crate) end: usize,
 }
 
@@ -57,33 +52,19 @@ pub struct TouchRule {
 pub(crate) const RECORDS: usize = size_of::<Header>() / size_of::<u32>();
 
 impl Layout {
-    /// Where things lie in a model file that was checked before: only its magic,
-    /// version, length and checksum are looked at.
-    ///
-    /// # Errors
-    ///
-    /// The first of these found wrong.
+    /// Of a file that was checked before: looks only at magic, version, length and checksum.
     pub(crate) fn read(bytes: &[u8]) -> Result<Self, ModelError> {
         let header = header(bytes)?;
         whole(header, bytes)?;
         Ok(Self::of(header, bytes))
     }
 
-    /// The length that the header at the beginning of `bytes` says, bytes.
-    ///
-    /// # Errors
-    ///
-    /// No header, or one of another version.
+    /// Bytes.
     pub(crate) fn length(bytes: &[u8]) -> Result<usize, ModelError> {
         Ok(header(bytes)?.length.get() as usize)
     }
 
-    /// Checks a model file: its magic, version and header, then its length, its
-    /// checksum and its content.
-    ///
-    /// # Errors
-    ///
-    /// The first thing found wrong.
+    /// Magic, version and header first, then length, checksum and content.
     pub(crate) fn check(bytes: &[u8]) -> Result<Self, ModelError> {
         let header = header(bytes)?;
         let classes = usize::from(header.classes);
@@ -160,7 +141,6 @@ impl Layout {
         Ok(layout)
     }
 
-    /// By a header, and what the first table says of its rows.
     fn of(header: &Header, bytes: &[u8]) -> Self {
         let classes = usize::from(header.classes);
         let channels = usize::from(header.channels);
@@ -200,13 +180,11 @@ impl Layout {
         }
     }
 
-    /// Whether there are tables of roughness.
     #[inline]
     pub(crate) const fn has_roughness(&self) -> bool {
         self.floors > self.rough_tables
     }
 
-    /// Whether classes have floors.
     #[inline]
     pub(crate) const fn has_floors(&self) -> bool {
         self.names > self.floors
@@ -214,7 +192,6 @@ impl Layout {
 }
 
 impl Header {
-    /// Words of the opinion.
     pub(crate) fn opinion_words(&self) -> usize {
         (self.floors.get() >> 8) as usize
     }
@@ -258,13 +235,11 @@ fn record(bytes: &[u8; size_of::<TableRecord>()]) -> TableRecord {
     transmute!(*bytes)
 }
 
-/// Rows of a table.
 fn rows(record: &TableRecord) -> u64 {
     let [a, b] = record.axis.map(|axis| u64::from(axis.last_bin) + 1);
     a * b
 }
 
-/// The header of this version.
 fn header(bytes: &[u8]) -> Result<&Header, ModelError> {
     let (magic, _) = bytes.split_first_chunk::<4>().ok_or(ModelError::TooShort)?;
     if *magic != MAGIC {
@@ -306,7 +281,6 @@ fn check_touch_rule(header: &Header) -> Result<(), ModelError> {
     fits.then_some(()).ok_or(ModelError::TouchRule)
 }
 
-/// The ranges of the header's counts.
 pub(crate) fn check_counts(classes: usize, channels: usize, block: u32) -> Result<(), ModelError> {
     if !(2..=MAX_CLASSES).contains(&classes) {
         return Err(ModelError::Classes(classes));
@@ -324,7 +298,6 @@ pub(crate) fn check_counts(classes: usize, channels: usize, block: u32) -> Resul
     Ok(())
 }
 
-/// The range of a table's bins.
 pub(crate) fn check_bins(bins: usize) -> Result<(), ModelError> {
     if !(1..=MAX_BINS).contains(&bins) {
         return Err(ModelError::Bins(bins));

@@ -139,7 +139,6 @@ impl<W: Words> Model<W> {
         if JOINT { self.layout.touch } else { None }
     }
 
-    /// The opinion, if it has one.
     #[inline]
     pub(crate) fn opinion(&self) -> Option<Section<'_>> {
         let Layout {
@@ -214,7 +213,6 @@ impl<W: Words> Model<W> {
         })
     }
 
-    /// What the streaming step reads.
     #[inline]
     pub(crate) fn parts(&self) -> Parts<'_> {
         Parts::new(self.words.as_ref(), &self.layout)
@@ -254,13 +252,11 @@ impl<W: Words> Model<W> {
         self.parts().sample_tables().find(of_it)
     }
 
-    /// Whether there are tables of roughness.
     #[inline]
     pub(crate) const fn has_roughness(&self) -> bool {
         JOINT && self.layout.has_roughness()
     }
 
-    /// Whether classes have floors.
     #[inline]
     pub(crate) const fn has_floors(&self) -> bool {
         JOINT && self.layout.has_floors()
@@ -281,13 +277,11 @@ pub(crate) struct Parts<'m> {
 }
 
 impl<'m> Parts<'m> {
-    /// Of a model.
     #[inline]
     pub(crate) const fn new(words: &'m [u32], layout: &'m Layout) -> Self {
         Self { words, layout }
     }
 
-    /// Number of classes.
     #[inline]
     pub(crate) const fn classes(self) -> usize {
         self.layout.classes
@@ -299,19 +293,17 @@ impl<'m> Parts<'m> {
         self.layout.block
     }
 
-    /// The tables that are looked up each sample.
     #[inline]
     pub(crate) fn sample_tables(self) -> impl Iterator<Item = &'m TableRecord> {
         self.tables(self.layout.tables, self.layout.rough_tables)
     }
 
-    /// The tables that are looked up once a block.
     #[inline]
     pub(crate) fn rough_tables(self) -> impl Iterator<Item = &'m TableRecord> {
         self.tables(self.layout.rough_tables, self.layout.floors)
     }
 
-    /// The floors of the classes, a word each; none where there are none.
+    /// A word a class; none where there are none.
     #[inline]
     pub(crate) fn floors(self) -> &'m [u32] {
         self.part(self.layout.floors, self.layout.names)
@@ -343,7 +335,6 @@ impl<'m> Parts<'m> {
 }
 
 impl TableRecord {
-    /// The cell of the values that `code` gives for channels.
     #[inline]
     pub(crate) fn cell(&self, code: impl Fn(usize) -> Option<i32>) -> Option<usize> {
         let [a, b] = &self.axis;

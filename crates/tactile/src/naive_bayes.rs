@@ -131,7 +131,6 @@ impl<R: DecisionRule, W: Words> NaiveBayes<R, W> {
     }
 }
 
-/// Posterior of each class by this evidence.
 pub(crate) fn posteriors<R: DecisionRule, W: Words>(
     model: &Model<W>,
     rule: &R,

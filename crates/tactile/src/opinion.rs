@@ -59,7 +59,6 @@ impl Whisked {
     }
 }
 
-/// Features of a block.
 pub(crate) const FEATURES: usize = 10;
 /// Blocks of a touch that are distinguished; a longer one begins again.
 pub(crate) const BLOCKS: usize = 9;
@@ -68,7 +67,7 @@ pub(crate) const STAGES: usize = 8;
 /// First and last block, from 0 and excluded, of each state.
 pub(crate) const STATES: [[usize; 2]; 4] = [[0, 1], [1, 3], [3, 6], [6, BLOCKS]];
 
-/// The state that a block, from 0, is of.
+/// `block` is from 0.
 pub(crate) fn state_of(block: usize) -> usize {
     let past = STATES.iter().filter(|[_, end]| *end <= block).count();
     past.min(STATES.len() - 1)
@@ -89,7 +88,6 @@ pub(crate) const STATE_BITS: u32 = 4;
 /// How far beyond the outermost poses a path may lie, in steps to the next pose; 1/256.
 pub(crate) const BEYOND: i32 = 128;
 
-/// What was felt of the touch.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct Opinion {
     pub(crate) differences: Differences,
@@ -102,7 +100,6 @@ pub(crate) struct Opinion {
 }
 
 impl Opinion {
-    /// Before the first sample.
     const fn new() -> Self {
         Self {
             differences: Differences::new([0; 2]),
@@ -113,7 +110,6 @@ impl Opinion {
         }
     }
 
-    /// Takes a sample of a model's codes.
     // As fast as this crate is built, which a board's program for size is not.
     #[inline(never)]
     pub(crate) fn push(&mut self, narrow: Narrow, codes: &[i32], counts: bool) {
@@ -130,12 +126,10 @@ impl Opinion {
         self.scores = [0; MAX_CLASSES];
     }
 
-    /// Blocks of the touch.
     pub(crate) const fn blocks(&self) -> usize {
         self.blocks
     }
 
-    /// Whether it has as many blocks as are distinguished.
     pub(crate) const fn is_full(&self) -> bool {
         self.blocks >= BLOCKS
     }
@@ -185,7 +179,6 @@ impl Opinion {
         self.scores = [0; MAX_CLASSES];
     }
 
-    /// Why it objects to naming this class, if it does.
     // At a decision, likewise.
     #[inline(never)]
     pub(crate) fn objection(
@@ -207,7 +200,7 @@ impl Opinion {
             .map(Reason::Between)
     }
 
-    /// How what is touched stands, if it is of this class; none where the model does not say.
+    /// None where the model does not say.
     pub(crate) fn pose(&self, section: Section<'_>, class: usize) -> Option<Pose> {
         let (limits, stage, words) = section.pose(class, self.blocks)?;
         pose::estimate(self.path.get(..stage)?, words, limits)
@@ -332,7 +325,6 @@ pub(crate) struct Judge {
 }
 
 impl Judge {
-    /// Before the first sample.
     pub(crate) const fn new() -> Self {
         Self {
             opinion: Opinion::new(),
@@ -353,7 +345,6 @@ impl Judge {
         is_refused
     }
 
-    /// The touch has had its decision.
     pub(crate) fn finish(&mut self) {
         self.is_done = true;
         self.held = None;
@@ -362,9 +353,9 @@ impl Judge {
 
     /// The end of a block whose sums are what the opinion's scores have risen by.
     ///
-    /// A class is named once the touch has lasted for two thirds of the model's patience and
-    /// its posterior exceeds the threshold, if nothing objects. What was refused is said, as is a pair of classes that exceeds the
-    /// threshold together, once the touch has lasted for the model's patience.
+    /// A class is named once the touch has lasted for two thirds of the model's patience and its
+    /// posterior exceeds the threshold, if nothing objects. What was refused is said, as is a pair
+    /// of classes that exceeds the threshold together, once patience ends.
     pub(crate) fn name<R: DecisionRule>(
         &mut self,
         (section, classes): (Section<'_>, usize),
@@ -406,7 +397,6 @@ impl Judge {
     }
 }
 
-/// By how much scores have risen.
 pub(crate) type Rise = [i32; MAX_CLASSES];
 
 /// The largest size of a score: 1024 bits.

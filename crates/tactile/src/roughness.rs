@@ -9,7 +9,6 @@ use crate::format::ROUGH_CHANNELS;
 
 /// Samples between the terms of the difference.
 const DELAY: usize = 4;
-/// Samples that are kept.
 const KEPT: usize = 2 * DELAY;
 /// Bits of a code's fraction: 1/64 octave.
 const FRACTION_BITS: u32 = 6;

@@ -138,7 +138,6 @@ pub struct SequentialEvidence {
 }
 
 impl SequentialEvidence {
-    /// Whether it has seen a block.
     pub(crate) const fn is_begun(&self) -> bool {
         self.blocks > 0
     }
@@ -151,7 +150,6 @@ impl SequentialEvidence {
         }
     }
 
-    /// How many blocks it has seen.
     pub(crate) const fn blocks(&self) -> u32 {
         self.blocks
     }
@@ -234,7 +232,6 @@ impl SequentialRule {
         self.decide(classes, evidence)
     }
 
-    /// Decides, if the posterior exceeds the threshold of its class.
     fn decide(&self, classes: usize, evidence: &SequentialEvidence) -> Option<Decision> {
         let deficits = evidence.deficits.get(..classes).unwrap_or_default();
         let leader = leader(deficits);
@@ -252,7 +249,6 @@ impl SequentialRule {
         }
     }
 
-    /// How far a class lies behind by its prior.
     #[inline]
     fn behind(&self, class: usize) -> u32 {
         self.classes.behind(class, self.block).min(MAX_DEFICIT)

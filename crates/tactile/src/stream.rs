@@ -30,12 +30,10 @@ impl fmt::Display for WrongChannels {
 
 impl core::error::Error for WrongChannels {}
 
-/// Sums of the open block, and evidence of the blocks before.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct StreamState<E> {
     pub(crate) sums: Sums,
     pub(crate) evidence: E,
-    /// The number of the touch.
     pub(crate) touch: u16,
     /// Of models that object; where the program was built without, there is none.
     judges: [Judge; OPINION as usize],
@@ -89,7 +87,6 @@ fn add_rise(sums: &mut [u32; MAX_CLASSES], rise: &[i32; MAX_CLASSES], block: u32
 }
 
 impl<E> StreamState<E> {
-    /// Nothing is seen yet, all classes are equal.
     pub(crate) fn new<R, W>(model: &Model<W>, rule: &R) -> Self
     where
         R: DecisionRule<Evidence = E>,
@@ -167,7 +164,6 @@ impl<E> StreamState<E> {
         }
     }
 
-    /// A touch begins.
     pub(crate) fn begin_touch<R, W>(&mut self, model: &Model<W>, rule: &R, number: u16)
     where
         R: DecisionRule<Evidence = E>,
@@ -256,13 +252,11 @@ impl<E> StreamState<E> {
         Some(decision.in_touch(self.touch, reason(is_below, objection)))
     }
 
-    /// Whether the touch is too young for the second opinion.
     pub(crate) fn is_early(&self, section: Option<Section<'_>>) -> bool {
         let blocks = self.judges.first().map(|judge| judge.opinion.blocks());
         matches!((section, blocks), (Some(section), Some(blocks)) if blocks < section.least())
     }
 
-    /// Why the second opinion objects to naming a class, if it does.
     pub(crate) fn objection(
         &self,
         section: Option<Section<'_>>,
@@ -273,7 +267,6 @@ impl<E> StreamState<E> {
         judge.opinion.objection(section?, classes, class)
     }
 
-    /// How what it last touched stands, if it is of this class.
     pub(crate) fn pose(&self, section: Section<'_>, class: usize) -> Option<Pose> {
         self.judges.first()?.opinion.pose(section, class)
     }

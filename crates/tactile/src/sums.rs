@@ -14,7 +14,7 @@ use crate::words::Words;
 pub(crate) struct Sums {
     /// Samples to the end of the open block.
     pub(crate) left: u32,
-    /// A sum a class; the check of the model keeps them below 2³¹.
+    /// The check of the model keeps them below 2³¹.
     pub(crate) classes: [u32; MAX_CLASSES],
     pub(crate) roughness: Roughness,
     /// By how much each class exceeds its floors since the touch began: in samples,
@@ -23,7 +23,6 @@ pub(crate) struct Sums {
 }
 
 impl Sums {
-    /// Before the first sample of a block of `left`.
     pub(crate) const fn new(left: u32) -> Self {
         Self {
             left,
@@ -33,7 +32,6 @@ impl Sums {
         }
     }
 
-    /// Drops the open block and what was held against the floors.
     pub(crate) fn clear(&mut self, left: u32) {
         self.left = left;
         self.classes = [0; MAX_CLASSES];
@@ -98,7 +96,6 @@ impl Sums {
     }
 }
 
-/// Adds the row that a table has for a sample; `None` where there is none.
 #[inline]
 fn add(
     model: Parts<'_>,
@@ -128,7 +125,7 @@ fn add_words(sums: &mut [[u32; 2]], row: &[u32]) {
     }
 }
 
-/// Adds the entries of two classes. No sum wraps: the check of the model sees to that.
+/// No sum wraps: the check of the model sees to that.
 #[inline]
 fn add_word([even, odd]: &mut [u32; 2], word: u32) {
     *even = even.wrapping_add(word & 0xffff);

@@ -71,9 +71,7 @@ mod tests;
 use level::{DEFLECTION_RATES, FRACTION, QUICK_RATES, bounded, follow};
 use quick::Quick;
 
-/// The largest code of 14 bits.
 const CODE_MOST: u16 = 0x3fff;
-/// Samples that are kept.
 const KEPT: usize = 6;
 /// How often its level a sign is that begins a touch, sixteenths: curvature, surprise.
 const FACTORS: [u32; 2] = [144, 96];
@@ -110,7 +108,7 @@ const REST_AT_START: u32 = 8;
 const START_S: u32 = 1;
 /// The most samples that it can have.
 const START_MOST: u16 = 20_000;
-/// Samples a second, unless said otherwise.
+/// Samples a second.
 const USUAL_HZ: u32 = 2000;
 
 /// What a whisker touches.
@@ -428,7 +426,6 @@ impl TouchDetector {
     }
 }
 
-/// The signs of a sample.
 struct Signs {
     /// Curvature and surprise, each below 2^18.
     quick: [u32; 2],

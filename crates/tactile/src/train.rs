@@ -142,7 +142,6 @@ impl Trainer {
         &self.names
     }
 
-    /// All samples so far: class and values of the channels.
     fn samples(&self) -> impl Iterator<Item = (usize, &[f64])> {
         self.classes
             .iter()
@@ -322,7 +321,6 @@ fn smoothed(histogram: &[f64], kernel: &[f64]) -> Vec<f64> {
     out.iter().map(|x| x / sum).collect()
 }
 
-/// The table entry of a probability.
 fn entry(p: f64) -> u16 {
     let bits = (p + LOG_FLOOR).log2() + f64::from(ENTRY_OFFSET_BITS);
     // `as` saturates; 1 + 1e-6 rounds to the entry of one.

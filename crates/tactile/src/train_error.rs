@@ -92,11 +92,6 @@ pub enum TrainError {
 }
 
 impl TrainError {
-    /// Whether a class may have this name.
-    ///
-    /// # Errors
-    ///
-    /// What is wrong with it.
     pub(crate) fn check_name(name: &str) -> Result<(), Self> {
         let bytes = name.len();
         if bytes == 0 {

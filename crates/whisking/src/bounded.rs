@@ -31,13 +31,12 @@ impl Bound {
         }
     }
 
-    /// Whether the sign of a number is allowed, and its size by `is_small`.
     pub(crate) const fn holds(self, is_negative: bool, is_small: bool) -> bool {
         is_small && (self.signed || !is_negative)
     }
 
-    /// The same of a mantissa that is below 2^`scale`; its own bits are not looked at, so that
-    /// up to four times the largest is allowed.
+    /// Of a mantissa that is below 2^`scale`; its own bits are not looked at, so that up to four
+    /// times the largest is allowed.
     #[inline(never)]
     pub(crate) fn holds_scaled(self, mantissa: i32, scale: i32) -> bool {
         let is_small = mantissa == 0 || scale <= i32::from(self.power) + 1;
@@ -75,7 +74,6 @@ impl<T: Bounded, const K: usize> Bounded for [T; K] {
     }
 }
 
-/// Whether an integer of this size lies within `bound`.
 fn integer(is_negative: bool, size: u32, bound: Bound) -> bool {
     let is_small = match u8::try_from(bound.power) {
         Ok(power) if power < 32 => size <= 1 << power,

@@ -38,7 +38,7 @@ pub struct Error {
 }
 
 impl Error {
-    /// `value` if it lies within `range` (a NaN lies in none), otherwise the error.
+    /// A NaN lies in no range.
     pub(crate) fn check(
         parameter: Parameter,
         value: f64,
@@ -91,7 +91,6 @@ impl fmt::Display for Error {
     }
 }
 
-/// A range as text.
 struct Allowed<'a>(&'a RangeInclusive<f64>);
 
 impl fmt::Display for Allowed<'_> {

@@ -3,17 +3,14 @@
 /// An N × N matrix, rows first.
 pub(crate) type Matrix<const N: usize> = [[f64; N]; N];
 
-/// The identity.
 pub(crate) fn identity<const N: usize>() -> Matrix<N> {
     core::array::from_fn(|i| core::array::from_fn(|j| if i == j { 1.0 } else { 0.0 }))
 }
 
-/// The product `a b`.
 pub(crate) fn product<const N: usize>(a: &Matrix<N>, b: &Matrix<N>) -> Matrix<N> {
     core::array::from_fn(|i| core::array::from_fn(|j| (0..N).map(|k| a[i][k] * b[k][j]).sum()))
 }
 
-/// Every element times `factor`.
 pub(crate) fn scaled<const N: usize>(a: &Matrix<N>, factor: f64) -> Matrix<N> {
     a.map(|row| row.map(|x| x * factor))
 }

@@ -2,7 +2,7 @@
 
 use heapless::Vec;
 
-/// The items as a list; those for which it has no room are left out.
+/// Items for which it has no room are left out.
 #[inline]
 pub(crate) fn listed<T, const N: usize>(items: impl IntoIterator<Item = T>) -> Vec<T, N> {
     let mut list = Vec::new();

@@ -99,10 +99,7 @@ pub struct State<R> {
 }
 
 impl<R: Real> Config<R> {
-    /// `sigma` is σ_η, per second; `tick_hz` the tick rate.
-    ///
-    /// # Errors
-    /// [`crate::Parameter::Corner`] if the tick rate leaves no room for 50 Hz.
+    /// `sigma` is σ_η, per second; the tick rate must leave room for 50 Hz.
     pub(crate) fn new(sigma: f64, tick_hz: f64) -> Result<Self, Error> {
         let amplitude = 4.0 * sigma / tick_hz * libm::sqrt(tick_hz / REFERENCE_TICK_HZ);
         Ok(Self {

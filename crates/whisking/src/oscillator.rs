@@ -59,7 +59,6 @@ impl<R: Real> State<R> {
         }
     }
 
-    /// The sides, if there are `S`.
     #[inline]
     fn sides<const S: usize>(&mut self) -> Option<Sides<'_, R, S>> {
         Some(Sides {
@@ -78,7 +77,6 @@ impl<R: Real, const S: usize> Sides<'_, R, S> {
     }
 }
 
-/// The noise of the first `S` sides.
 #[inline]
 fn of_sides<R: Real, const S: usize>(noise: Option<&[Psi<R>]>) -> Option<&[Psi<R>; S]> {
     noise?.first_chunk()
@@ -104,7 +102,6 @@ fn is_sound<R: Real>(kept: &[Psi<R>]) -> bool {
     all.all(|x| x.is_within(R::TWO + R::TWO))
 }
 
-/// The nearest ψ within ±1.5.
 #[inline]
 fn limited<R: Real>(psi: Psi<R>) -> Psi<R> {
     psi.map(|x| x.clamp(-psi_limit::<R>(), psi_limit()))

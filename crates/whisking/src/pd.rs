@@ -17,7 +17,6 @@ use crate::motor::Duty;
 use crate::ranges::pd as ranges;
 use crate::{DEGREES_PER_UNIT, Error, Parameter, Real, protraction};
 
-/// Corner of the low-pass on the measured velocity, Hz.
 const VELOCITY_CORNER_HZ: f64 = 100.0;
 
 /// A duty of one in the controller's state: Q24, so that the slowest slew is not

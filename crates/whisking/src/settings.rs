@@ -46,7 +46,6 @@ impl Settings {
         self.frequency_hz / self.tick_hz
     }
 
-    /// Checks the settings.
     pub(crate) fn check(&self) -> Result<(), Error> {
         Error::check(Parameter::TickHz, self.tick_hz, &ranges::TICK_HZ)?;
         Error::check(

@@ -71,7 +71,6 @@ impl<const S: usize> Joint<S> {
     }
 }
 
-/// Force f of a whisker of side `side`.
 fn force<const S: usize>(joint: &Joint<S>, side: usize) -> f64 {
     muscle::force(muscle::drive(joint.psi[side][0]), joint.whisker[0])
 }

@@ -131,7 +131,6 @@ impl<R: Real> Config<R> {
         }
     }
 
-    /// One tick of a whisker.
     // Apart: in the loop all its constants are loaded ahead, for which there are not
     // registers enough.
     #[inline(never)]

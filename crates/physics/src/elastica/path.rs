@@ -249,7 +249,6 @@ impl<'p> Path<'p> {
         is_near && presses && lowest > -1e-9 && sign * self.sign >= 0.0
     }
 
-    /// The shaft at the last push.
     pub(super) fn pressed(&self) -> Pressed {
         let Press { shaft, .. } = self.press;
         let (push_deg, at) = self.last[1];

@@ -15,7 +15,6 @@ use crate::vector::{V3, dot};
 const NEARER: usize = 5;
 const FARTHEST: f64 = 0.05;
 
-/// The elastic whisker and the surface before it.
 #[derive(Debug, Clone)]
 pub(super) struct Body {
     pub(super) shaft: ModalShaft,
@@ -96,13 +95,11 @@ impl Body {
         }
     }
 
-    /// Sets the state of the modes, away from any plate.
     pub(super) fn place(&mut self, state: ModalState) {
         self.state = state;
         self.leave();
     }
 
-    /// Forgets the plate.
     fn leave(&mut self) {
         self.curve = None;
         self.touch = Touch::default();
@@ -130,7 +127,6 @@ pub(super) struct Steps {
 }
 
 impl Steps {
-    /// For steps of this length.
     pub(super) fn new(shaft: &ModalShaft, dt_s: f64) -> Self {
         let of = |power: usize| ModalStep::new(shaft, dt_s / f64::from(1_u32 << power));
         Self {
@@ -140,10 +136,8 @@ impl Steps {
     }
 }
 
-/// A surface with its heights.
 #[derive(Debug, Clone)]
 pub(super) struct Ground {
-    /// As it was given.
     given: Surface,
     /// With its values limited to their ranges.
     pub(super) surface: Surface,
@@ -153,7 +147,6 @@ pub(super) struct Ground {
 }
 
 impl Ground {
-    /// A surface as a tip of this radius feels it.
     pub(super) fn new(given: Surface, tip_radius_m: f64) -> Self {
         let surface = given.limited();
         Self {
@@ -178,7 +171,6 @@ impl Ground {
     }
 }
 
-/// The state of the contact.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Touch {
     /// Stretch along the whisker's axes x, y and z, m.
@@ -220,7 +212,6 @@ impl Touch {
         }
     }
 
-    /// Whether the shaft is pressed on the plate.
     #[inline]
     pub(super) fn is_contact(&self) -> bool {
         self.normal_n > 0.0

@@ -92,7 +92,6 @@ pub(super) struct Moves {
 }
 
 impl Moves {
-    /// Of a place with these ways.
     #[inline]
     pub(super) fn new(ways: &Ways, part: &Part<'_>) -> Self {
         let mut free = [0.0; 3];
@@ -119,7 +118,6 @@ impl Moves {
         }
     }
 
-    /// Displacement between two states of the shapes.
     #[inline]
     pub(super) fn between(&self, start: &Amplitudes, end: &Amplitudes) -> V3 {
         let mut moved = [0.0; 3];
@@ -195,7 +193,6 @@ fn kept(share: f64) -> f64 {
 }
 
 impl Body {
-    /// The law for parts of the length `part_s`.
     #[inline]
     pub(super) fn law(&self, step: &ModalStep, part_s: f64) -> Law {
         let compliance = self.shaft.compliance(self.ground.compliance_m_n);

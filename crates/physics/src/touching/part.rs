@@ -43,7 +43,6 @@ use crate::vector::{V3, scale, sub};
 const DEEPER: f64 = 2e-2;
 
 impl Body {
-    /// One part of a step, from one pose to the next.
     pub(super) fn part(&mut self, old: &PlatePose, new: &PlatePose, step: &ModalStep, part_s: f64) {
         let before = self.curve.take();
         let before = before.unwrap_or_else(|| self.state.curve(&self.shaft));

@@ -47,7 +47,6 @@ const LEAST: f64 = 0.05;
 /// A place of the ground, with its height and slopes.
 pub(super) type Known = (V3, [f64; 3]);
 
-/// What a round has found.
 struct Round {
     /// Which place of the ground the foot feels at the end.
     felt: [f64; 2],
@@ -262,7 +261,6 @@ fn aside(along: Option<[f64; 2]>, way: [f64; 2]) -> [f64; 2] {
     [0, 1].map(|i| way[i] - far * along[i])
 }
 
-/// Halfway between two states.
 #[inline]
 fn between(start: &Amplitudes, end: &Amplitudes) -> Amplitudes {
     core::array::from_fn(|k| [0, 1].map(|axis| 0.5 * start[k][axis] + 0.5 * end[k][axis]))

@@ -155,7 +155,6 @@ fn left_j(touch: &Touch, part: &Part<'_>, found: &Found, end: &Amplitudes) -> f6
     touch.spring_j - of_base - of_shapes
 }
 
-/// Forces on the shapes together.
 pub(super) fn sum(one: &Amplitudes, two: &Amplitudes) -> Amplitudes {
     core::array::from_fn(|k| [0, 1].map(|axis| one[k][axis] + two[k][axis]))
 }

@@ -41,7 +41,6 @@ pub(super) fn nosed(tip_m: [f64; 3]) -> Pose {
     }
 }
 
-/// A floor.
 pub(super) fn floor(surface: Surface) -> Plate {
     Plate {
         point_m: [0.0; 3],

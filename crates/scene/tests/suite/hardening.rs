@@ -124,7 +124,6 @@ fn apply(text: &str, edit: &Edit) -> String {
     }
 }
 
-/// Checks what must hold of any text.
 fn holds_up(text: &str) -> Result<(), TestCaseError> {
     match Scene::from_str("s.toml", text) {
         Ok(scene) => {

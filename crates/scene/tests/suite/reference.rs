@@ -29,7 +29,6 @@ fn rows_tell_type_range_unit_and_default() {
     }
 }
 
-/// Every key that a message lists as allowed has a row on the page.
 #[test]
 fn every_allowed_key_has_a_row() {
     let page = reference();

@@ -14,7 +14,6 @@ use crate::divide::divide;
 
 /// Lags of the differences, samples: at 2 kHz they are largest at 500 to 31 Hz.
 const LAGS: [usize; FEATURES / 2] = [2, 4, 8, 16, 32];
-/// Samples that are kept.
 const KEPT: usize = 64;
 /// Bits of the fraction of a feature.
 pub(crate) const FEATURE_BITS: u32 = 8;
@@ -32,7 +31,6 @@ pub(crate) struct Narrow {
     pub(crate) shift: u32,
 }
 
-/// The largest size of a narrow code.
 pub(crate) const NARROW_MOST: i32 = 8191;
 
 impl Narrow {
@@ -65,7 +63,6 @@ pub(crate) struct Differences {
 }
 
 impl Differences {
-    /// Before the first sample, with this rest.
     pub(crate) const fn new(rest: [i32; 2]) -> Self {
         Self {
             line: [[0; 2]; KEPT],

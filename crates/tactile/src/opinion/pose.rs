@@ -73,14 +73,12 @@ impl Pose {
 
 /// What is estimated: tilt and depth.
 pub(crate) const TARGETS: usize = 2;
-/// Most inputs of an estimate.
 pub(crate) const MOST_INPUTS: usize = 2 * STATES.len() + 3;
 /// Bits that are left off a product of sums.
 const PRODUCT_BITS: u32 = 10;
 /// Words that hold for all classes: the least and the most of each target.
 pub(crate) const LIMIT_WORDS: usize = TARGETS;
 
-/// Inputs after so many blocks.
 pub(crate) fn inputs_of(blocks: usize) -> usize {
     2 * begun(blocks) + 3
 }

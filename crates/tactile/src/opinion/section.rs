@@ -20,16 +20,11 @@ use crate::error::ModelError;
 
 /// Most poses between which a path may lie.
 pub(crate) const MAX_POSES: usize = 12;
-/// Words before the stages.
 pub(crate) const HEAD_WORDS: usize = 8;
-/// Words of the triangle of a state.
 const TRIANGLE_WORDS: usize = (FEATURES * (FEATURES + 1) / 2).div_ceil(2);
-/// Words of a state of a class.
 pub(crate) const STATE_WORDS: usize = FEATURES / 2 + 1 + TRIANGLE_WORDS;
-/// Words of what is typical of a class.
 pub(crate) const TYPICAL_WORDS: usize = STATES.len() * STATE_WORDS + STAGES;
 
-/// States begun after so many blocks.
 pub(crate) fn begun(blocks: usize) -> usize {
     STATES.iter().filter(|[first, _]| *first < blocks).count()
 }
@@ -39,12 +34,10 @@ pub(crate) fn stage_words(stage: usize, classes: usize) -> usize {
     1 + classes + classes * begun(stage) * FEATURES / 2
 }
 
-/// Words of the paths of a class.
 pub(crate) const fn path_words(poses: usize) -> usize {
     BLOCKS * (1 + poses) + 1
 }
 
-/// The section of a model of so many classes.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Section<'m> {
     words: &'m [u32],
@@ -81,7 +74,6 @@ impl<'m> Section<'m> {
         HEAD_WORDS + before
     }
 
-    /// Words by which poses are estimated.
     fn pose_words(self) -> usize {
         if !self.has_pose() {
             return 0;
@@ -90,7 +82,6 @@ impl<'m> Section<'m> {
         pose::LIMIT_WORDS + self.classes * of_class
     }
 
-    /// Whether poses are estimated.
     pub(crate) fn has_pose(self) -> bool {
         self.byte(0) & 4 != 0
     }
@@ -170,7 +161,6 @@ impl<'m> Section<'m> {
         self.word(1)
     }
 
-    /// How codes become narrow.
     #[inline]
     pub(crate) fn narrow(self) -> super::Narrow {
         super::Narrow {
@@ -184,7 +174,6 @@ impl<'m> Section<'m> {
         [self.word(4), self.word(5)].map(u32::cast_signed)
     }
 
-    /// How it was whisked in training.
     pub(crate) fn whisked(self) -> Whisked {
         let frequency = self.word(6);
         Whisked {

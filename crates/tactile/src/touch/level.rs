@@ -16,7 +16,6 @@ pub(super) const DEFLECTION_RATES: Rates = Rates {
     touch: [13, 16],
 };
 
-/// By how much a level moves, up and down.
 pub(super) struct Rates {
     start: [u32; 2],
     air: [u32; 2],
@@ -24,7 +23,6 @@ pub(super) struct Rates {
 }
 
 impl Rates {
-    /// Those of a sample.
     #[inline]
     pub(super) const fn at(&self, in_touch: bool, is_start: bool) -> [u32; 2] {
         match (in_touch, is_start) {

@@ -14,7 +14,6 @@ const ABOVE_RECENT: u32 = 22;
 /// What was lately falls by 2^−n of itself a block.
 const RECENT: u32 = 3;
 
-/// What is known of curvature or surprise.
 #[derive(Debug, Clone)]
 pub(super) struct Quick {
     pub(super) level: u32,

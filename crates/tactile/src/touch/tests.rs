@@ -42,7 +42,6 @@ impl Codes {
     }
 }
 
-/// A word of the state, and how many bits it has.
 enum Word<'a> {
     U8(&'a mut u8),
     U16(&'a mut u16),
@@ -143,7 +142,6 @@ fn found(detector: &mut TouchDetector, codes: &mut Codes) -> bool {
     found
 }
 
-/// After how many touches all are found, [`IN_A_ROW`] at least.
 fn touches_until_back(detector: &mut TouchDetector, codes: &mut Codes) -> usize {
     let (mut touches, mut in_a_row) = (0, 0);
     while in_a_row < IN_A_ROW && touches < MOST {

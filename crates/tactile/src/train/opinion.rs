@@ -89,7 +89,6 @@ const IMPATIENT: f64 = 0.1;
 /// Parts in which the touches of one pose are held out.
 const PARTS: usize = 8;
 
-/// What is trained from.
 pub(super) struct Material<'a> {
     pub(super) trials: &'a [Trial],
     pub(super) names: &'a [String],
@@ -106,7 +105,6 @@ pub(super) struct Trained {
     pub(super) warnings: Vec<Warning>,
 }
 
-/// The touches, and how they were felt.
 struct Felt {
     sense: Sense,
     classes: usize,
@@ -266,7 +264,6 @@ impl Felt {
         }
     }
 
-    /// Touches of a class, in one pose or in all.
     fn count(&self, class: usize, pose: Option<usize>) -> usize {
         let of = self.touches.iter().filter(|touch| touch.class == class);
         of.filter(|touch| pose.is_none_or(|pose| touch.recording == pose))
@@ -314,7 +311,6 @@ impl Felt {
             .collect()
     }
 
-    /// What is typical of a class, and its paths.
     fn class(&self, class: usize, names: bool) -> (Typical, Paths) {
         let (mut typical, mut paths) = self.limited(class, names);
         if self.begins_again {
@@ -326,7 +322,7 @@ impl Felt {
         (typical, paths)
     }
 
-    /// The same, with limits as if touches were short.
+    /// With limits as if touches were short.
     fn limited(&self, class: usize, names: bool) -> (Typical, Paths) {
         let of: Vec<&Touch> = self.touches.iter().filter(|t| t.class == class).collect();
         let mut trials: Vec<usize> = of.iter().map(|touch| touch.trial).collect();

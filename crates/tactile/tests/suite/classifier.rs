@@ -13,7 +13,6 @@ use crate::common::{entry, model};
 
 const BLOCK: u32 = 4;
 
-/// What is done to a stream.
 #[derive(Debug, Clone)]
 enum Act {
     Push([i32; 2]),
@@ -54,7 +53,6 @@ fn act_alone(alone: &mut Sequential<Box<[u32]>>, act: &Act) -> Option<Decision> 
     None
 }
 
-/// A classifier by this threshold.
 fn sequential(model: ModelBuf, theta: f64, deciding: Deciding, whiskers: usize) -> Owned {
     let rule = RuleSettings::Sequential(threshold(theta));
     StreamClassifier::new(model, rule, deciding, whiskers).unwrap()

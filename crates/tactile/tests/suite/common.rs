@@ -4,7 +4,6 @@ use tactile::{
     Axis, ENTRIES_PER_BIT, ENTRY_OFFSET_BITS, ModelBuf, ModelParts, Quantiser, TableParts,
 };
 
-/// The table entry of a log2-likelihood.
 pub(crate) fn entry(log2_p: f64) -> u16 {
     ((log2_p + f64::from(ENTRY_OFFSET_BITS)) * f64::from(ENTRIES_PER_BIT)).round() as u16
 }

@@ -13,7 +13,6 @@ fn roll(state: &mut u64) -> f64 {
     (*state >> 11) as f64 / (1_u64 << 53) as f64
 }
 
-/// Normal: the sum of twelve uniform numbers.
 fn normal(state: &mut u64) -> f64 {
     (0..12).map(|_| roll(state)).sum::<f64>() - 6.0
 }

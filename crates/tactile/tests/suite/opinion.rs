@@ -56,12 +56,10 @@ fn trial(label: &str, amplitude: f64, [x_bend, y_bend]: [f64; 2], seed: u64) -> 
     }
 }
 
-/// Trained in these poses.
 fn trained(poses: &[f64]) -> ModelBuf {
     expecting(Expect::default(), poses)
 }
 
-/// The same, where so much is expected to differ.
 fn expecting(expect: Expect, poses: &[f64]) -> ModelBuf {
     let trials = poses.iter().flat_map(|pose| {
         (0..8).flat_map(|n| {

@@ -21,7 +21,6 @@ struct Segment {
 struct Quadratics<const N: usize, const BITS: u32>([Segment; N]);
 
 impl<const N: usize, const BITS: u32> Quadratics<N, BITS> {
-    /// The last number of the table.
     const LAST: u32 = ((N as u32) << BITS) - 1;
 
     /// The value at `x` ≥ 0, or that at the end of the table; Q28.

@@ -131,7 +131,6 @@ pub struct GuardConfig<R: Real> {
 /// off.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Guards<R> {
-    /// What is expected of it.
     expected: Expected<R>,
     /// Ticks that it was driven hard forwards and backwards since it last moved.
     still: [u16; 2],

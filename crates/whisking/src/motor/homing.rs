@@ -114,7 +114,6 @@ pub struct HomingConfig {
     pub calm: i32,
 }
 
-/// Which way a whisker is driven while it is homed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Way {
     Forward,
@@ -160,7 +159,6 @@ impl Homing {
         }
     }
 
-    /// It goes on another way.
     const fn turn(&mut self, way: Way, counts: i32) {
         let ticks = match way {
             Way::Through => 0,

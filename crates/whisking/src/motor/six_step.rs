@@ -246,7 +246,6 @@ impl<PWM: PhasePwms, EN: PhaseEnables, HALL: HallInputs> SixStep<PWM, EN, HALL> 
         Ok(())
     }
 
-    /// Changes from the driven pair `old` to another.
     fn change(&mut self, old: Option<Pair>, pair: Pair, duty: Duty) -> Result<(), Fault> {
         let changes = |phase| old.is_none_or(|old| old.role(phase) != pair.role(phase));
         for phase in Phase::ALL.into_iter().filter(|&phase| changes(phase)) {

@@ -69,7 +69,6 @@ fn crossed<R: Real, const S: usize>(modes: &[Psi<R>; S]) -> [Psi<R>; S] {
     out
 }
 
-/// The modes of `sides`.
 #[inline]
 fn modes<R: Real, const S: usize>(sides: &[Psi<R>; S]) -> [Psi<R>; S] {
     crossed(&sides.map(|psi| psi.map(|x| if S == 2 { x.halved() } else { x })))
@@ -93,7 +92,6 @@ fn excess<R: Real>(x: R) -> R {
     x.one_minus_inv_sqrt()
 }
 
-/// a + b, mode by mode or side by side.
 #[inline]
 fn sums<R: Real, const S: usize>(a: &[Psi<R>; S], b: &[Psi<R>; S]) -> [Psi<R>; S] {
     let mut out = *a;
@@ -259,7 +257,6 @@ impl<R: Real> Exact<R> {
         }
     }
 
-    /// ψ of every side before it is limited.
     fn unlimited<const S: usize>(&self, kept: &[Psi<R>; S]) -> [Psi<R>; S] {
         crossed(&sums(kept, &increments(&self.half, kept)))
     }

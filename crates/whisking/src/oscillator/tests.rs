@@ -4,7 +4,6 @@ use super::{Config, Euler, Exact, PSI_LIMIT, Psi, State, keep, psi_limit};
 use crate::list::listed;
 use crate::{Fix, Real};
 
-/// Oscillators at work: configuration and state.
 struct Running<R: Real, const S: usize>(Config<R>, State<R>);
 
 impl<R: Real, const S: usize> Running<R, S> {

@@ -22,7 +22,6 @@ use crate::Elementary;
 use crate::math::fixed;
 use crate::math::product::{by_top, high_rounded};
 
-/// The product of two numbers.
 #[inline]
 const fn product(x: i32, y: i32) -> i32 {
     // Rounded: truncation would bias a sum of many downwards.

@@ -50,7 +50,6 @@ pub(super) mod array {
         deserializer.deserialize_tuple(K, Entries([T::default(); K]))
     }
 
-    /// The entries, to be filled.
     struct Entries<T, const K: usize>([T; K]);
 
     impl<'de, T: Deserialize<'de> + Default + Copy, const K: usize> Visitor<'de> for Entries<T, K> {

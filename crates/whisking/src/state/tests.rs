@@ -22,7 +22,6 @@ const AFTER: usize = 30;
 /// How far the ends of a whisk may be from those of whisks that nothing disturbed, θ.
 const BACK: f64 = 0.01;
 
-/// Something whose bits can be anything.
 trait Bits: Copy {
     const WIDTH: u32;
     fn bits(self) -> u64;
@@ -77,7 +76,6 @@ fn spoilt<T: Bits>(word: T) -> impl Iterator<Item = T> {
     flipped.chain(WORDS).map(T::of)
 }
 
-/// A word of a state.
 enum Word<'a, R: Real> {
     Number(&'a mut R),
     Carry(&'a mut R::Carry),

@@ -10,7 +10,6 @@ const MINUS_HALF: Duty = Duty::from_q15(-16_384);
 /// The writes that switch the six-step stage off.
 const OFF: &str = "EN1=0 EN2=0 EN3=0 IN1=0 IN2=0 IN3=0";
 
-/// A driver and the log of its pins.
 struct Bench<D> {
     log: Log,
     driver: D,
@@ -18,7 +17,6 @@ struct Bench<D> {
 }
 
 impl<D: MotorDriver> Bench<D> {
-    /// What a tick writes.
     fn drive(&mut self, duty: Duty) -> String {
         self.driver.drive(duty).unwrap();
         self.log.take()
@@ -29,7 +27,6 @@ impl<D: MotorDriver> Bench<D> {
         self.log.take()
     }
 
-    /// Sets the Hall code.
     fn turn(&self, code: u16) {
         for (bit, hall) in self.halls.iter().enumerate() {
             hall.value.set(code >> bit & 1);
@@ -143,7 +140,6 @@ fn states(words: &str, names: [&str; 3], states: &mut [u16; 3]) -> Vec<[u16; 3]>
 }
 
 proptest! {
-    /// The direction pin never moves while the PWM is above zero.
     #[test]
     fn hbridge_direction_changes_only_at_zero(
         duties in proptest::collection::vec(any::<i16>(), 1..40),

@@ -89,7 +89,6 @@ fn drives(field: [f64; 2], angle: f64, forward: bool) -> bool {
     (59.999..=120.001).contains(&(sign * lead_deg(field, angle)))
 }
 
-/// Whether a driver in this wiring drives rightly from everywhere.
 fn wiring_works(phases: [usize; 3], sensors: [usize; 3]) -> bool {
     let mut bench = Bench::new(phases, sensors, FREE_RUNNING);
     (0..360).all(|degree| {
@@ -102,7 +101,6 @@ fn wiring_works(phases: [usize; 3], sensors: [usize; 3]) -> bool {
     })
 }
 
-/// Whether a table drives rightly from everywhere.
 fn table_works(table: &[CommutationStep; 6]) -> bool {
     (0..360).all(|degree| {
         let angle = (f64::from(degree) + 0.5).to_radians();

@@ -29,7 +29,6 @@ impl<R: Real, const S: usize> Running<R, S> {
         }
     }
 
-    /// ψ after a tick with this noise.
     fn tick(&mut self, noise: [Psi<f64>; S]) -> [Psi<f64>; S] {
         let noise = noise.map(|n| n.map(R::from_f64));
         self.config.step(&mut self.state, Some(&noise));

@@ -25,7 +25,6 @@ pub(crate) const FREE_RUNNING: SixStepConfig = SixStepConfig {
 pub(crate) struct Log(Rc<RefCell<Vec<String>>>);
 
 impl Log {
-    /// Everything since the last call.
     pub(crate) fn take(&self) -> String {
         self.0.take().join(" ")
     }

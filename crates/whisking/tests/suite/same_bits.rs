@@ -20,7 +20,6 @@ impl Fingerprint {
         }
     }
 
-    /// Adds a number's bits.
     fn add(&mut self, number: f64) {
         self.add_bytes(number.to_bits().to_le_bytes());
     }
@@ -101,7 +100,6 @@ fn settings(integrator: Integrator, parts: u32) -> Settings {
     }
 }
 
-/// Adds a run from `gains` of each side.
 fn run<R: Number>(print: &mut Fingerprint, settings: &Settings, gains: &[&[f64]]) {
     let config = settings.build::<R>().unwrap();
     let start = settings.start::<R>(&PSI[..gains.len()], gains).unwrap();

@@ -94,7 +94,6 @@ proptest! {
         }
     }
 
-    /// How many whiskers a side has is no matter of each of them.
     #[test]
     fn a_whisker_moves_as_it_does_alone(
         psi in any_psi(),

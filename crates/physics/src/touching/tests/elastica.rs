@@ -14,7 +14,6 @@ impl Row {
         found.unwrap_or_else(|| panic!("{name}")).1
     }
 
-    /// The shaft that it is of.
     pub(super) fn shaft(&self) -> Shaft {
         let hub_diameter_m = self.get("hub_m");
         Shaft {

@@ -12,7 +12,6 @@ use crate::quantiser::Quantiser;
 /// The share of codes that lies below, and above, a table's range.
 const OUTSIDE: f64 = 0.002;
 
-/// The axes of the tables of samples and of roughness.
 pub(super) struct Axes {
     samples: [Axis; CHANNELS],
     roughness: [Axis; CHANNELS],
@@ -98,7 +97,6 @@ impl Shape {
         bin(0) * self.axes[1].bins + bin(1)
     }
 
-    /// The cells that it is looked up at, block after block.
     pub(super) fn cells_of(&self, piece: &Piece<'_>) -> Vec<usize> {
         let codes = match self.source {
             TableSource::Samples => &piece.blocks.samples,
@@ -108,7 +106,6 @@ impl Shape {
     }
 }
 
-/// The tables of a model.
 pub(super) struct Layout {
     pub(super) shapes: Vec<Shape>,
 }
@@ -124,7 +121,6 @@ impl Layout {
         }
     }
 
-    /// What each table is looked up by.
     pub(super) fn sources(&self) -> Vec<TableSource> {
         self.shapes.iter().map(|shape| shape.source).collect()
     }

@@ -22,7 +22,6 @@ pub(super) struct Blocks {
 }
 
 impl Blocks {
-    /// Of a trial.
     pub(super) fn of(trial: &Trial, scales: &[Quantiser; CHANNELS], options: &Options) -> Self {
         let length = options.block as usize;
         let mut blocks = Self {
@@ -59,12 +58,10 @@ impl Blocks {
         blocks
     }
 
-    /// How many.
     pub(super) fn len(&self) -> usize {
         self.touches.len()
     }
 
-    /// Cuts off those from `at` on.
     pub(super) fn split_off(&mut self, at: usize) -> Self {
         Self {
             length: self.length,

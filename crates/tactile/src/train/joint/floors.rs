@@ -30,7 +30,6 @@ pub struct Floor {
 }
 
 impl Floor {
-    /// Whether it refuses a decision of these mean entries.
     pub(super) fn refuses(&self, [samples, roughness]: [f64; 2]) -> bool {
         samples < self.samples || roughness < self.roughness
     }

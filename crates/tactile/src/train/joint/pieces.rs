@@ -18,7 +18,7 @@ pub(super) struct Piece<'t> {
     pub(super) blocks: Blocks,
 }
 
-/// Class names, in order of first appearance.
+/// In order of first appearance.
 pub(super) fn names(trials: &[Trial]) -> Result<Vec<String>, TrainError> {
     let mut names: Vec<String> = Vec::new();
     for trial in trials {
@@ -38,7 +38,6 @@ pub(super) fn names(trials: &[Trial]) -> Result<Vec<String>, TrainError> {
     }
 }
 
-/// Pieces, and how they are held out.
 pub(super) struct Folded<'t> {
     /// In the order in which they were felt.
     pub(super) pieces: Vec<Piece<'t>>,
@@ -50,10 +49,6 @@ pub(super) struct Folded<'t> {
 
 impl<'t> Folded<'t> {
     /// Says what is held out together, and splits the only trial of a class.
-    ///
-    /// # Errors
-    ///
-    /// A class of fewer than two blocks.
     pub(super) fn new(pieces: Vec<Piece<'t>>, names: &[String]) -> Result<Self, TrainError> {
         let of_class = |class| pieces.iter().filter(move |p: &&Piece<'_>| p.class == class);
         for (class, name) in names.iter().enumerate() {

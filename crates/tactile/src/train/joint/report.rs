@@ -84,7 +84,6 @@ pub struct Report {
     pub warnings: Vec<Warning>,
 }
 
-/// What a report is made of.
 pub(super) struct Maker<'a> {
     pub(super) names: &'a [String],
     pub(super) trials: &'a [Trial],
@@ -95,7 +94,6 @@ pub(super) struct Maker<'a> {
 }
 
 impl Maker<'_> {
-    /// By the rule at a threshold.
     pub(super) fn report(self, rule: &Rule) -> Report {
         let threshold = rule.threshold;
         let run = |threshold| {
@@ -123,7 +121,6 @@ impl Maker<'_> {
         floor.is_some_and(|floor| floor.refuses(decided.entries))
     }
 
-    /// Pieces, of all classes or of one, without a decision that names a class.
     fn undecided(&self, found: &[Decided], class: Option<usize>) -> Interval {
         let of = |n: usize| class.is_none_or(|class| self.folded.pieces[n].class == class);
         let mut silent = vec![true; self.folded.pieces.len()];

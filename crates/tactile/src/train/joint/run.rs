@@ -8,7 +8,6 @@ use super::tables::Evidence;
 use crate::format::ENTRY_OFFSET_BITS;
 use crate::model_buf::TableSource;
 
-/// When to decide.
 #[derive(Clone)]
 pub(super) struct Rule {
     /// On the posterior.
@@ -24,10 +23,8 @@ pub(super) struct Rule {
     pub(super) unknown: Option<usize>,
 }
 
-/// A decision.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Decided {
-    /// The piece that it fell in.
     pub(super) piece: usize,
     pub(super) truth: usize,
     pub(super) class: usize,
@@ -47,7 +44,6 @@ pub(super) struct Felt {
     pub(super) entries: [f64; 2],
 }
 
-/// The decisions over the pieces, one after the other.
 pub(super) fn decisions(pieces: &[Piece<'_>], evidence: &[Evidence], rule: &Rule) -> Vec<Decided> {
     let mut found = Vec::new();
     follow(pieces, evidence, rule, |piece, state, verdict| {
@@ -66,7 +62,6 @@ pub(super) fn decisions(pieces: &[Piece<'_>], evidence: &[Evidence], rule: &Rule
     found
 }
 
-/// What was felt of the classes over the pieces.
 pub(super) fn felt(pieces: &[Piece<'_>], evidence: &[Evidence], rule: &Rule) -> Vec<Felt> {
     let mut all = Vec::new();
     follow(pieces, evidence, rule, |piece, state, _| {
@@ -131,7 +126,6 @@ fn follow(
     }
 }
 
-/// What a block decided.
 struct Verdict {
     class: usize,
     posterior: f64,
@@ -139,7 +133,6 @@ struct Verdict {
     blocks: u32,
 }
 
-/// Evidence so far.
 struct State<'r> {
     rule: &'r Rule,
     /// Bits behind the leader.

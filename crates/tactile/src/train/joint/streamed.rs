@@ -20,7 +20,6 @@ const FOLDS: usize = 4;
 /// In how many at most, of poses.
 const MOST_FOLDS: usize = 8;
 
-/// A decision, and of what.
 struct Said {
     trial: usize,
     truth: usize,
@@ -154,7 +153,6 @@ fn stream(
     Ok(said)
 }
 
-/// Trials without a named class, of so many.
 fn undecided(said: &[Said], trials: impl Iterator<Item = usize>) -> Interval {
     let silent = |trial: &usize| {
         !said

@@ -22,12 +22,9 @@ pub struct LogTable {
     pub log2_p: Vec<f64>,
 }
 
-/// What the tables say of the blocks of a piece.
 #[derive(Clone)]
 pub(super) struct Evidence {
-    /// The piece's class.
     pub(super) class: usize,
-    /// Pieces of a fold were held out together.
     pub(super) fold: usize,
     pub(super) tables: usize,
     pub(super) classes: usize,
@@ -42,7 +39,6 @@ impl Evidence {
     }
 }
 
-/// What was counted: of each table and piece.
 pub(super) struct Tables<'l> {
     layout: &'l Layout,
     classes: usize,
@@ -59,7 +55,6 @@ struct Counted {
 }
 
 impl<'l> Tables<'l> {
-    /// Counts all pieces.
     pub(super) fn count(
         layout: &'l Layout,
         pieces: &[Piece<'_>],

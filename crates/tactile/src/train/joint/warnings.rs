@@ -96,7 +96,6 @@ pub enum Warning {
     },
 }
 
-/// What doubts are raised by.
 pub(super) struct Doubts<'a> {
     pub(super) names: &'a [String],
     pub(super) trials: &'a [Trial],
@@ -106,7 +105,6 @@ pub(super) struct Doubts<'a> {
 }
 
 impl Doubts<'_> {
-    /// What is doubtful.
     pub(super) fn warnings(&self) -> Vec<Warning> {
         let mut warnings = Vec::new();
         for (class, name) in self.names.iter().enumerate() {

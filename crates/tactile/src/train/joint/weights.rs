@@ -41,7 +41,6 @@ impl Prior {
     };
 }
 
-/// What the floors of a rule refuse.
 #[derive(Clone, Copy)]
 pub(super) struct Known<'a> {
     pub(super) rule: &'a Rule,
@@ -72,7 +71,6 @@ impl Known<'_> {
     }
 }
 
-/// A stretch of blocks.
 struct Stretch {
     class: usize,
     /// What is held out together with it.
@@ -138,7 +136,6 @@ pub(super) fn fitted(
     problem.solved()
 }
 
-/// Stretches of blocks, each of one piece.
 fn stretches(
     evidence: &[Evidence],
     lengths: &[usize],
@@ -207,7 +204,6 @@ struct Problem {
     stiffness: f64,
 }
 
-/// Loss, gradient and curvature at some weights.
 struct Local {
     loss: f64,
     gradient: Vec<f64>,

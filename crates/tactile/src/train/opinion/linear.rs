@@ -16,7 +16,6 @@ use super::touches::Touch;
 /// Least variance of a feature: that of its rounding and of its logarithm, octaves².
 pub(super) const LEAST_VARIANCE: f64 = 1e-3;
 
-/// How covariances are made.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Covariance {
     /// α.
@@ -25,7 +24,6 @@ pub(super) struct Covariance {
     pub(super) shrink: f64,
 }
 
-/// A stage.
 #[derive(Debug, Clone)]
 pub(super) struct Linear {
     /// T w_c of each class, an octave.
@@ -43,7 +41,6 @@ pub(super) struct HeldOut<'t> {
 }
 
 impl HeldOut<'_> {
-    /// The class of the largest score.
     pub(super) fn leader(&self) -> usize {
         let scores = self.scores.iter().enumerate();
         let best = scores.max_by(|(_, a), (_, b)| a.total_cmp(b));
@@ -51,7 +48,6 @@ impl HeldOut<'_> {
     }
 }
 
-/// Touches of one stage.
 struct Row<'t> {
     touch: &'t Touch,
     means: Vec<f64>,

@@ -11,7 +11,6 @@ pub(super) struct Matrix {
 }
 
 impl Matrix {
-    /// All zero.
     pub(super) fn zero(size: usize) -> Self {
         Self {
             size,
@@ -19,7 +18,6 @@ impl Matrix {
         }
     }
 
-    /// Adds `share` of a vector's product with itself.
     pub(super) fn add_square(&mut self, vector: &[f64], share: f64) {
         let rows = self.values.chunks_exact_mut(self.size);
         for (row, a) in rows.zip(vector) {
@@ -29,20 +27,17 @@ impl Matrix {
         }
     }
 
-    /// Adds `share` of another.
     pub(super) fn add(&mut self, other: &Self, share: f64) {
         for (value, other) in self.values.iter_mut().zip(&other.values) {
             *value += share * other;
         }
     }
 
-    /// Adds to the diagonal.
     pub(super) fn raise(&mut self, by: f64) {
         let diagonal = self.values.iter_mut().step_by(self.size + 1);
         diagonal.for_each(|value| *value += by);
     }
 
-    /// Times a number.
     pub(super) fn scale(&mut self, share: f64) {
         self.values.iter_mut().for_each(|value| *value *= share);
     }
@@ -95,7 +90,6 @@ impl Matrix {
         }
     }
 
-    /// The rows of its lower triangle.
     pub(super) fn triangle(&self) -> impl Iterator<Item = &[f64]> {
         let rows = self.values.chunks_exact(self.size).enumerate();
         rows.map(|(row, values)| &values[..=row])
@@ -119,7 +113,6 @@ impl Matrix {
     }
 }
 
-/// The sum of squares.
 pub(super) fn square(vector: &[f64]) -> f64 {
     vector.iter().map(|value| value * value).sum()
 }
@@ -140,7 +133,6 @@ pub(super) fn mean<'v>(size: usize, vectors: impl Iterator<Item = &'v [f64]>) ->
     sum
 }
 
-/// The difference of two vectors.
 pub(super) fn less(a: &[f64], b: &[f64]) -> Vec<f64> {
     a.iter().zip(b).map(|(a, b)| a - b).collect()
 }

@@ -20,7 +20,6 @@ const SHARE: [f64; 2] = [0.98, 0.95];
 /// where a pose is held out.
 const BEYOND: [f64; 2] = [0.5, 1.0];
 
-/// The paths of a class.
 #[derive(Debug, Clone)]
 pub(super) struct Paths {
     /// Of each number; infinite where no touch reached.

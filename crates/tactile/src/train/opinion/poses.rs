@@ -10,9 +10,7 @@ use crate::train::joint::Trial;
 /// What is one pose: a recording; or, where it says that it has several, one of these.
 type Key<'t> = (&'t str, Option<&'t str>);
 
-/// The poses of trials.
 pub(in crate::train) struct Poses {
-    /// The number of the pose of each trial.
     pub(in crate::train) of_trial: Vec<usize>,
     /// What each is called; none where poses were put together.
     pub(in crate::train) names: Vec<Option<String>>,
@@ -44,7 +42,6 @@ impl Poses {
         }
     }
 
-    /// How many there are.
     pub(in crate::train) const fn count(&self) -> usize {
         self.names.len()
     }

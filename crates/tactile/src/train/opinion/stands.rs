@@ -25,7 +25,6 @@ const RIDGES: [f64; 4] = [1e-3, 1e-2, 1e-1, 1e2];
 /// Weights of the inputs, and what is added.
 type Weights = (Vec<f64>, f64);
 
-/// A stage of a class.
 #[derive(Debug, Clone)]
 pub(super) struct Fit {
     /// Of each target: weights of the inputs, and what is added.
@@ -34,7 +33,6 @@ pub(super) struct Fit {
     pub(super) errors: [f64; TARGETS],
 }
 
-/// All classes.
 #[derive(Debug, Clone)]
 pub(super) struct Stands {
     /// The least and the most of each target.
@@ -43,7 +41,6 @@ pub(super) struct Stands {
     pub(super) classes: Vec<Vec<Fit>>,
 }
 
-/// A touch, and how what it touched stood.
 struct Row<'t> {
     touch: &'t Touch,
     stands: [f64; TARGETS],
@@ -129,7 +126,6 @@ impl Stands {
     }
 }
 
-/// Touches of a class that are needed to learn a stage.
 fn least_touches(stage: usize) -> usize {
     LEAST_TOUCHES_AN_INPUT * inputs_of(stage)
 }
@@ -157,7 +153,6 @@ fn weighed(touch: &Touch, stage: usize) -> Vec<f64> {
 }
 
 impl Fit {
-    /// Of the touches of a class.
     fn of(rows: &[&Row<'_>], stage: usize, limits: &[[f64; 2]; TARGETS]) -> Self {
         let long = rows.iter().filter(|row| row.touch.len() >= stage);
         let long: Vec<(&Row<'_>, Vec<f64>)> =

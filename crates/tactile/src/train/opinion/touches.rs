@@ -46,14 +46,12 @@ impl Touch {
         Some(mean)
     }
 
-    /// The means of all states that have begun after so many blocks.
     pub(super) fn stage(&self, blocks: usize) -> Vec<f64> {
         let states = (0..STATES.len()).filter_map(|state| self.state(state, blocks));
         states.flatten().collect()
     }
 }
 
-/// How the samples of trials are felt.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Sense {
     pub(super) narrow: Narrow,
@@ -67,7 +65,6 @@ pub(super) struct Sense {
 const RAW: core::ops::RangeInclusive<i32> = 0..=16383;
 
 impl Sense {
-    /// Of codes of these scales.
     pub(super) fn of(trials: &[Trial], scales: &[Quantiser; CHANNELS], block: u32) -> Self {
         let low = scales.iter().map(|scale| scale.low).min().unwrap_or(0);
         let high = scales.iter().map(|scale| scale.high).max().unwrap_or(0);

@@ -14,14 +14,12 @@ const SHRINK: f64 = 0.3;
 /// The share of held-out touches of a class that are typical of it.
 const SHARE: f64 = 0.95;
 
-/// A state of a class.
 #[derive(Debug, Clone)]
 pub(super) struct State {
     pub(super) mean: Vec<f64>,
     pub(super) whitening: Matrix,
 }
 
-/// A class.
 #[derive(Debug, Clone)]
 pub(super) struct Typical {
     pub(super) states: Vec<State>,

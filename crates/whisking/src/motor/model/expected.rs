@@ -8,7 +8,6 @@ const MOST_FRICTION: i32 = 10_066_330;
 /// By how much friction is larger than the duty that it has resisted, 0.02, Q24.
 const BEYOND: i32 = 335_544;
 
-/// A test that is under way.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 struct Test {
     is_forward: bool,
@@ -49,7 +48,6 @@ enum Phase {
     /// What is driven.
     #[default]
     Free,
-    /// It is tested.
     Test(Test),
     /// It has passed a test, and so many ticks are left in which nothing is expected of it.
     Grace(u16),
@@ -72,9 +70,7 @@ pub struct Expected<R> {
 pub(in crate::motor) enum Unturned {
     /// Not a count was seen.
     Silent,
-    /// It stood.
     Still,
-    /// It turned the other way.
     Backwards,
 }
 
@@ -87,7 +83,6 @@ impl<R: Real> Expected<R> {
         }
     }
 
-    /// Whether a test is under way.
     pub(in crate::motor) const fn is_tested(&self) -> bool {
         matches!(self.phase, Phase::Test(_))
     }

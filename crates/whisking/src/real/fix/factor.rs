@@ -132,7 +132,6 @@ impl FineFactor {
         }
     }
 
-    /// The product with `x`.
     #[inline]
     pub(super) const fn times(self, x: i32) -> i32 {
         if self.shift < 0 {
