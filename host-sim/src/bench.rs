@@ -122,11 +122,9 @@ pub trait HostModule: Bench + Send {
     }
 }
 
-/// A module in one number format.
 struct Hosted<R: Number> {
     module: Module<R, Mock>,
     config: Config<R>,
-    /// As the scene has it.
     built_with: Config<R>,
     sensor: SensorSection,
     /// Which board of its head it is.
@@ -140,7 +138,6 @@ impl<R: Number> Hosted<R> {
         Some(whisker.sensor_mut().source_mut())
     }
 
-    /// Where each whisker is to be, degrees; nothing where they are passive.
     fn look_at_setpoints(&self, theta_deg: &mut [f64]) {
         let Some(motion) = self.module.motion() else {
             return;
@@ -154,7 +151,6 @@ impl<R: Number> Hosted<R> {
         }
     }
 
-    /// The place of whisker `n`.
     fn place(&self, n: usize) -> Option<Place> {
         self.module.whiskers().get(n).map(Whisker::place)
     }
@@ -336,7 +332,6 @@ pub fn build(
     }
 }
 
-/// What is wrong with a scene for its module.
 fn broken(mismatch: Mismatch) -> Error {
     match mismatch {
         Mismatch::Unstable(_)
@@ -387,7 +382,6 @@ where
 }
 
 impl<R: Number> Hosted<R> {
-    /// Board `number` of a scene, whose motors are on `pins`.
     fn new(
         scene: &Scene,
         number: u8,

@@ -176,7 +176,6 @@ impl Loaded {
     }
 }
 
-/// Checks the model in `bytes`, which messages call `path`.
 pub(crate) fn model_of(path: &Path, bytes: &[u8]) -> Result<(PathBuf, ModelBuf), Error> {
     let model = ModelBuf::from_bytes(bytes).map_err(|error| Error::file(path, error))?;
     Ok((path.to_owned(), model))

@@ -206,7 +206,6 @@ impl<B: Bench + ?Sized> Run<B> {
         run
     }
 
-    /// Row and snapshot as before the first tick.
     fn rest(&mut self) {
         let sides = self.sides;
         let absent = |side: usize, value: f64| if side < sides { value } else { f64::NAN };
@@ -371,7 +370,6 @@ impl<B: Bench + ?Sized> Run<B> {
         self.done as f64 / self.tick_hz
     }
 
-    /// The row of the last tick.
     fn look(&mut self) {
         self.bench.look(&mut self.snapshot);
         self.row.t_s = self.t_s();

@@ -18,7 +18,6 @@ fn scene(name: &str, overrides: &[&str]) -> Scene {
         .0
 }
 
-/// A head of two boards.
 const TWO: &str = "head.nodes=2";
 
 /// The largest θ′ of each side over the scene, and all θ′ of the left.

@@ -120,7 +120,6 @@ impl Bus {
     }
 }
 
-/// One board of a head.
 struct Board<R: Number> {
     hosted: Hosted<R>,
     node: Node,
@@ -130,7 +129,6 @@ struct Board<R: Number> {
     ticks: u64,
 }
 
-/// A head of boards.
 pub(super) struct Head<R: Number> {
     boards: Vec<Board<R>>,
     bus: Bus,
@@ -139,7 +137,6 @@ pub(super) struct Head<R: Number> {
     each: usize,
 }
 
-/// Whether the boards of a head can decide by a model.
 fn suits_a_head(classifier: &Classifier) -> Result<(), Error> {
     let refused = |found: &str, allowed: &str| {
         let text = format!("classifier.model: found {found}; allowed with head.nodes: {allowed}");
@@ -211,7 +208,6 @@ impl<R: Number> Head<R> {
         Some((&board.hosted, n - board.own.start))
     }
 
-    /// What was asked for, before a tick.
     fn do_asked(&mut self) {
         for (n, board) in self.boards.iter_mut().enumerate() {
             let asked = std::mem::take(&mut self.bus.asked[n]);

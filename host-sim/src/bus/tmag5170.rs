@@ -201,7 +201,6 @@ impl TmagSlave {
         self.standing | self.happened
     }
 
-    /// Measures, if there is something new to measure.
     fn convert(&mut self, fault: Option<LineFault>) {
         if !self.due {
             return;
@@ -230,7 +229,6 @@ impl TmagSlave {
         self.due = false;
     }
 
-    /// The status bits of this moment.
     fn status(&self) -> Status {
         let report = self.report();
         let afe = report.without(StatusFaults::RESTARTED).afe_status() != 0;
@@ -313,7 +311,6 @@ impl TmagSlave {
 /// One transaction, byte by byte.
 #[derive(Debug, Clone)]
 pub struct Frame {
-    /// What has arrived at the sensor, and how many bytes.
     command: [u8; FRAME_LEN],
     arrived: usize,
     clocked: usize,

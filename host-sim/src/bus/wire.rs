@@ -61,7 +61,6 @@ pub(super) fn clock(
     traffic.delay_ns = traffic.delay_ns.saturating_add(delay_ns);
 }
 
-/// As many bytes as the longer of the two has.
 fn transfer(read: &mut [u8], write: &[u8], byte: &mut impl FnMut(u8) -> u8) {
     for i in 0..read.len().max(write.len()) {
         let received = byte(write.get(i).copied().unwrap_or(FILLER));

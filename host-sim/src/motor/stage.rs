@@ -17,7 +17,6 @@ use super::MotorSettings;
 use super::pins::Wires;
 use super::rotor::Rotor;
 
-/// Which power stage, and how its pins are read.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Stage {
     /// PWM 0 across the winding, pin 0 its direction.
@@ -94,7 +93,6 @@ impl Stage {
         })
     }
 
-    /// The winding's torque at a rotor angle with the pins as they are.
     pub(super) fn winding(self, s: &MotorSettings, wires: &Wires, angle: f64) -> Winding {
         match self {
             Self::Brushed => Self::brushed_winding(s, wires),

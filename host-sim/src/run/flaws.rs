@@ -29,7 +29,6 @@ pub(super) struct Flaws {
 }
 
 impl Flaws {
-    /// Those of a scene.
     pub(super) fn new(scene: &Scene) -> Self {
         let plant = &scene.plant;
         let of = |codes: &Option<Vec<[f64; 2]>>| {

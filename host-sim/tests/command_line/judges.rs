@@ -22,7 +22,6 @@ fn evaluating(test: &str) -> Place {
     place
 }
 
-/// The line of `text` that begins with `name`.
 #[track_caller]
 fn line<'t>(text: &'t str, name: &str) -> &'t str {
     let found = text.lines().find(|line| line.starts_with(name));

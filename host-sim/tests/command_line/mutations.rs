@@ -15,7 +15,6 @@ use scene::{Rule, Scene};
 
 use crate::common::{Place, RECORDING, SEQUENTIAL, TEXTURED, decisions, model};
 
-/// A change to some bytes.
 #[derive(Debug, Clone)]
 enum Cut {
     Replace(f64, u8),
