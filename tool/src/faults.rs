@@ -6,7 +6,6 @@ use firmware::faults::TABLE;
 use firmware::{Event, EventRecord};
 use host_sim::report;
 
-/// A fault.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct Fault {
     /// When, where and which, and its likely causes.

@@ -13,7 +13,6 @@ use crate::conversation::Conversation;
 use crate::source::SourceChoice;
 use crate::tuning::{Tuner, live_key};
 
-/// A command at its time.
 #[derive(Debug, Clone, PartialEq)]
 struct Entry {
     /// s since the script began.
@@ -22,7 +21,6 @@ struct Entry {
     action: Action,
 }
 
-/// What is done.
 #[derive(Debug, Clone, PartialEq)]
 enum Action {
     Give(Command),
@@ -41,10 +39,7 @@ pub(crate) struct Script {
 }
 
 impl Script {
-    /// That in a file, if one is named, for the module of this choice.
-    ///
-    /// # Errors
-    /// [`Error::Input`] for a key that cannot be set in it.
+    /// Fails for a key that cannot be set in the module of this choice.
     pub(crate) fn of(path: Option<&Path>, source: &SourceChoice) -> Result<Self, Error> {
         let Some(path) = path else {
             return Ok(Self::default());

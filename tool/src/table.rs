@@ -134,7 +134,6 @@ impl<W: Write> RecordWriter<W> {
     }
 }
 
-/// A table that was kept.
 #[derive(Debug)]
 pub(crate) struct Kept {
     pub(crate) origin: Origin,

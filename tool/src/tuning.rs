@@ -16,7 +16,6 @@ use crate::source::SourceChoice;
 
 pub(crate) use live::{LIVE, live_key};
 
-/// Who sets keys of a scene.
 #[derive(Debug)]
 pub(crate) struct Tuner {
     path: PathBuf,
@@ -35,7 +34,6 @@ pub(crate) struct Has {
 }
 
 impl Tuner {
-    /// Of the scene in `path`, for the module of `source`.
     pub(crate) fn open(path: &Path, source: &SourceChoice) -> Result<Self, Error> {
         let loaded = Loaded::new(path)?;
         loaded.classifier()?;
@@ -209,7 +207,6 @@ fn values(file: &Scene, module: &Scene) -> Vec<(&'static str, f64, f64)> {
 }
 
 impl Has {
-    /// Keys in their order: with the values of the file and of the module.
     pub(crate) fn values(&self, file: &Scene) -> Vec<(&'static str, f64, f64)> {
         values(file, &self.scene)
     }

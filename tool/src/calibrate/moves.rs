@@ -23,7 +23,6 @@ const STEP_S: f64 = 0.4;
 /// The end of a step, in which the whisker rests, s.
 const SETTLED_S: f64 = 0.05;
 
-/// Which way a whisker goes that is pushed.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Push {
     /// With the duty, so far, degrees.
@@ -33,7 +32,6 @@ pub(crate) enum Push {
     Still,
 }
 
-/// Goes a little way from rest and back.
 pub(crate) fn push(whisker: &mut Listening<'_>) -> Result<Push, Error> {
     whisker.hold(Some(REST_DEG))?;
     let before = whisker.follow(0.3, |_| true)?;

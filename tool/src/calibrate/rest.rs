@@ -34,7 +34,6 @@ pub(crate) struct Zero {
 }
 
 impl Channel {
-    /// Of codes, of which there is at least one.
     fn of(codes: &[u16]) -> Option<Self> {
         let mean = |codes: &[u16]| {
             codes.iter().copied().map(f64::from).sum::<f64>() / codes.len().max(1) as f64

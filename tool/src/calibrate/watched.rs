@@ -12,7 +12,6 @@ const REST_S: f64 = 3.0;
 /// A block whose mean is taken for what is slow, s.
 const BLOCK_S: f64 = 0.02;
 
-/// What was seen of one whisker.
 #[derive(Debug)]
 pub(crate) struct Watched {
     pub(crate) zero: [Zero; 2],

@@ -20,11 +20,9 @@ const SAME: [&str; 2] = ["scene", "tick_hz"];
 /// When the first touch ended, by the PC's clock.
 pub(crate) const FIRST_TOUCH: &str = "first_touch";
 
-/// A recording, as far as it has come.
 #[derive(Debug)]
 pub(crate) struct Recording {
     path: PathBuf,
-    /// The pose that is captured.
     pose: Option<String>,
     /// How samples stand in it.
     stands: Option<Stands>,

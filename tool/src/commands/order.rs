@@ -68,7 +68,6 @@ pub(crate) fn clear(to: &ToSide) -> Result<(), Error> {
     order(&to.source, Command::Clear(to.whisker()), "faults cleared")
 }
 
-/// Finds rest again.
 pub(crate) fn home(to: &ToSide) -> Result<(), Error> {
     order(&to.source, Command::Home(to.whisker()), "is being homed")
 }

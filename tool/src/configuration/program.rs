@@ -15,7 +15,6 @@ pub(crate) struct Program {
 }
 
 impl Program {
-    /// That of the numbers of a board and a number format.
     pub(crate) fn of(board: u8, format: u8) -> Result<Self, Error> {
         let boards = ALL.iter().map(|facts| facts.code);
         let mut boards = boards.chain([BoardCode::Simulation]);
@@ -31,7 +30,6 @@ impl Program {
         })
     }
 
-    /// That which a scene needs on this board, or in a simulation.
     pub(crate) fn for_scene(board: BoardCode, scene: &Scene) -> Result<Self, Error> {
         let format = match BoardFacts::of(board) {
             None => config::in_simulation(scene),

@@ -27,7 +27,6 @@ pub(crate) struct Decided {
     pub(crate) decision: Decision,
 }
 
-/// What is known of one whisker from its records.
 #[derive(Debug, Clone, Copy, Default)]
 struct Track {
     filter: filter::State<f32>,

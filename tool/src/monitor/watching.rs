@@ -39,7 +39,6 @@ pub(crate) fn lock(shared: &Mutex<Shared>) -> MutexGuard<'_, Shared> {
     shared.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// How listening has ended.
 pub(crate) fn joined(listener: JoinHandle<Result<(), Error>>) -> Result<(), Error> {
     let failed = |_| Err(Error::Work("whoever listens has failed".to_owned()));
     listener.join().unwrap_or_else(failed)
@@ -68,7 +67,6 @@ pub(crate) struct Watching {
     pub(crate) most_s: Option<f64>,
 }
 
-/// Motors that are to be stopped.
 #[derive(Debug, Default)]
 struct Stopping {
     tags: Vec<u16>,

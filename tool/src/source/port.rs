@@ -88,7 +88,6 @@ impl Port {
         Ok(port)
     }
 
-    /// Asks who is there, until it is answered.
     fn greet(&mut self) -> Result<(), Error> {
         let begun = Instant::now();
         let mut asked = None;

@@ -65,7 +65,6 @@ pub(crate) fn scenes(name: &str) -> PathBuf {
 
 pub(crate) struct Place(TempDir);
 
-/// How the program ended.
 #[derive(Debug)]
 pub(crate) struct Ran {
     pub(crate) status: Option<i32>,

@@ -11,7 +11,6 @@ use super::report::Part;
 use crate::frames::Seen;
 use crate::interrupt;
 
-/// What a TMAG5170 has in place of frames.
 pub(super) const NO_FRAMES: &str = "not done: its sensor has no frames of its own, as a TMAG5170; whisker log \
                          names faults 27 to 31, and the steps below look at its readings";
 
