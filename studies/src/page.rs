@@ -156,7 +156,6 @@ impl Page {
         self.files.push((path, svg));
     }
 
-    /// Diagrams as a picture.
     pub(crate) fn panels(&mut self, name: &str, what: &str, panels: &[Panel]) -> Result<()> {
         self.picture(name, what, draw(panels)?);
         self.shown.push(Shown {
@@ -210,7 +209,6 @@ impl Page {
     }
 }
 
-/// A row of a table: its name, then its cells.
 pub(crate) fn row(name: impl Into<String>, cells: impl IntoIterator<Item = String>) -> Vec<String> {
     std::iter::once(name.into()).chain(cells).collect()
 }

@@ -42,7 +42,6 @@ pub(crate) struct Rigs {
     pub(crate) corridor: Corridor,
     /// PSIK, the mobile robot's maze.
     pub(crate) maze: Maze,
-    /// What is before them.
     pub(crate) surfaces: Surfaces,
 }
 

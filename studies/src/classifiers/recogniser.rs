@@ -55,11 +55,7 @@ pub(crate) struct Bayes<'m, R: DecisionRule> {
 }
 
 impl<'m, R: DecisionRule> Bayes<'m, R> {
-    /// A model under a rule.
-    ///
-    /// # Errors
-    ///
-    /// The rule's settings do not fit the model.
+    /// Fails where the rule's settings do not fit the model.
     pub(crate) fn new(model: Model<&'m [u32]>, settings: R::Settings) -> Result<Self, SetupError> {
         let quantisers: Vec<_> = (0..model.channels())
             .filter_map(|channel| model.quantiser(channel))

@@ -33,7 +33,6 @@ pub(crate) struct SpectralTrainer {
 }
 
 impl SpectralTrainer {
-    /// For signals of so many channels, cut into blocks of so many samples.
     pub(crate) fn new(channels: usize, bins: Bins, block: usize, measure: Measure) -> Self {
         let spectrum = Spectrum::new(bins);
         Self {

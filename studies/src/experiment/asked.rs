@@ -143,7 +143,6 @@ impl Asked {
         first..first.saturating_add(self.changes)
     }
 
-    /// A run of a part by an arm.
     pub(super) fn request(&self, part: &Part, seed: u64, arm: Arm) -> anyhow::Result<Request> {
         Ok(Request {
             names: part.names.clone(),

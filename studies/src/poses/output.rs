@@ -7,7 +7,6 @@ use super::trained::TICK_HZ;
 use crate::decisions::figures::{cell, number, percent};
 use crate::page::Page;
 
-/// What all sections add to.
 pub(super) struct Output {
     pub(super) page: Page,
     /// Condition, goal, found, verdict.

@@ -72,7 +72,6 @@ impl Subject {
         Ok(whisker?.finer(finer))
     }
 
-    /// A plate that it touches at [`TOUCH_RAD`].
     fn plate(&self, surface: Surface) -> Plate {
         Plate::in_the_way(TOUCH_RAD, self.shaft.length_m, &Facing::USUAL, surface)
     }
