@@ -388,7 +388,7 @@ impl<R: Number> Hosted<R> {
         pins: Vec<Pins>,
         classifier: Option<Classifier>,
     ) -> Result<Self, Error> {
-        let tap = Tap::new(classifier, heard_by(scene, number));
+        let tap = Tap::new(classifier, heard_by_board(scene, number));
         let gate = tap.touch_rule().map(|touch| touch.gate);
         let model = match (tap.model(), &scene.classifier) {
             (Some(model), _) => model,
@@ -430,8 +430,7 @@ impl<R: Number> Hosted<R> {
     }
 }
 
-/// How many whiskers of a board of a head are heard by its classifier.
-fn heard_by(scene: &Scene, number: u8) -> usize {
+fn heard_by_board(scene: &Scene, number: u8) -> usize {
     let each = scene.whiskers() / usize::from(scene.head.nodes.unwrap_or(1)).max(1);
     heard(scene)
         .saturating_sub(usize::from(number) * each)

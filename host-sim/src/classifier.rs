@@ -189,7 +189,6 @@ pub struct Tap {
 }
 
 impl Tap {
-    /// Of the first `heard` whiskers.
     pub(crate) fn new(classifier: Option<Classifier>, heard: usize) -> Self {
         Self {
             samples: vec![None; heard],

@@ -39,8 +39,7 @@ impl Loaded {
         })
     }
 
-    /// Checks what was read from `path`; `model` gives the model that the scene names, if any,
-    /// and what messages call it.
+    /// `model` gives the model that the scene names, if any, and what messages call it.
     pub(crate) fn of(
         path: &Path,
         (scene, places): (Scene, Places),

@@ -114,7 +114,6 @@ pub(crate) struct Page {
 }
 
 impl Page {
-    /// A page, or a section of one, whose pictures are in a folder beside it.
     pub(crate) fn new(folder: &'static str) -> Self {
         Self {
             folder,
@@ -213,7 +212,6 @@ pub(crate) fn row(name: impl Into<String>, cells: impl IntoIterator<Item = Strin
     std::iter::once(name.into()).chain(cells).collect()
 }
 
-/// Two digits and an exponent.
 pub(crate) fn short(value: f64) -> String {
     if value == 0.0 {
         "0".to_owned()

@@ -13,7 +13,6 @@ pub(crate) struct Fault {
     pub(crate) remedy: String,
 }
 
-/// The number of the fault or limit that an event is about, if it is about one.
 pub(crate) const fn number(event: &Event) -> Option<u8> {
     match event {
         Event::SensorLost(_, why) => Some(why.code()),

@@ -92,8 +92,7 @@ impl Script {
         Ok(Some(tuner))
     }
 
-    /// Gives the next command if it is due and the last was answered. Returns the line of a key
-    /// that was set, or was refused.
+    /// Returns the line of a key that was set, or was refused.
     pub(crate) fn play(&mut self, module: &mut Conversation) -> Result<Option<String>, Error> {
         let now_s = module.source().now_s();
         let begun_s = *self.begun_s.get_or_insert(now_s);

@@ -149,11 +149,7 @@ impl Tuner {
         has.running.remade(&loaded.scene, &overrides)
     }
 
-    /// Sets keys in a module, all between the same two ticks; returns what it has then.
-    ///
-    /// # Errors
-    /// [`Error::Input`] for a key that cannot be set or a value that the scene refuses,
-    /// [`Error::Work`] for a module of another scene, or one that refuses: nothing has changed.
+    /// All between the same two ticks; where it fails, nothing has changed.
     pub(crate) fn set(&self, module: &mut Conversation, set: &[Override]) -> Result<Has, Error> {
         let has = self.look(module)?;
         if let Some(other) = has.other {
@@ -188,7 +184,6 @@ fn named(key: &str, value: &str) -> Override {
     Override::new(format!("{key}={value}"), key, value)
 }
 
-/// Those of `keys` whose values differ from a scene file's, with those values.
 fn differing(file: &Scene, module: &Scene, keys: &[&str]) -> Vec<(&'static str, f64)> {
     let values = values(file, module).into_iter();
     let values = values.filter(|(key, own, has)| own != has && keys.contains(key));

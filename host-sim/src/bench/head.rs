@@ -18,8 +18,8 @@ use crate::bus::tmag5170::TmagSlave;
 use crate::classifier::{Classifier, Tap};
 use crate::motor::Pins;
 
-/// When in a tick a board has computed what it says, µs: the last of the papers' 500 µs that a
-/// tick may take is left for the bus.
+/// Share of a tick after which a board has computed what it says: the rest of the papers' 500 µs
+/// is left for the bus.
 const READY_SHARE: f64 = 0.6;
 
 /// What became of a node.
@@ -194,8 +194,7 @@ impl<R: Number> Head<R> {
         })
     }
 
-    /// The board of whisker `n`, and which of its whiskers it is.
-    fn find(&mut self, n: usize) -> Option<(&mut Hosted<R>, usize)> {
+    fn board_of(&mut self, n: usize) -> Option<(&mut Hosted<R>, usize)> {
         let board = self
             .boards
             .iter_mut()
@@ -358,17 +357,17 @@ impl<R: Number> Bench for Head<R> {
     }
 
     fn slave_mut(&mut self, n: usize) -> Option<&mut Slave> {
-        let (hosted, n) = self.find(n)?;
+        let (hosted, n) = self.board_of(n)?;
         hosted.slave_mut(n)
     }
 
     fn tmag_mut(&mut self, n: usize) -> Option<&mut TmagSlave> {
-        let (hosted, n) = self.find(n)?;
+        let (hosted, n) = self.board_of(n)?;
         hosted.tmag_mut(n)
     }
 
     fn bend(&mut self, n: usize, deflection: [f64; 2]) {
-        if let Some((hosted, n)) = self.find(n) {
+        if let Some((hosted, n)) = self.board_of(n) {
             hosted.bend(n, deflection);
         }
     }
@@ -405,7 +404,7 @@ where
     }
 
     fn command(&mut self, n: usize, command: Command<f64>) -> Result<(), NotDone> {
-        let (hosted, n) = self.find(n).ok_or(NoActiveWhisker)?;
+        let (hosted, n) = self.board_of(n).ok_or(NoActiveWhisker)?;
         hosted.command(n, command)
     }
 

@@ -73,7 +73,7 @@ impl Line {
             None => self.change(module, config, request.command),
             done => done,
         };
-        let done = done.or_else(|| self.class(request.command));
+        let done = done.or_else(|| self.class_letters(request.command));
         let answer = if let Some(done) = done {
             answer(request, self.ticks, done)
         } else {
@@ -84,8 +84,7 @@ impl Line {
         self.sent.push(Packet::Answer(answer));
     }
 
-    /// Letters of the name of a class, if they are asked for.
-    fn class(&self, command: Command) -> Option<(CommandStatus, [i32; 2])> {
+    fn class_letters(&self, command: Command) -> Option<(CommandStatus, [i32; 2])> {
         let Command::Class(class, from) = command else {
             return None;
         };

@@ -32,8 +32,7 @@ impl embedded_hal::spi::Error for SimSpiError {
     }
 }
 
-/// Clocks what a transaction asks for: `byte` takes what the master sends and gives what it
-/// reads. Counts delays and bytes.
+/// `byte` takes what the master sends and gives what it reads. Counts delays and bytes.
 pub(super) fn clock(
     operations: &mut [Operation<'_, u8>],
     traffic: &mut Traffic,

@@ -120,7 +120,7 @@ impl Stage {
 
     fn star_winding(self, s: &MotorSettings, wires: &Wires, angle: f64) -> Winding {
         let terminals = self.terminals(s, wires, angle);
-        let mean = mean(&terminals);
+        let mean = star_point(&terminals);
         let mut winding = Winding::default();
         for terminal in terminals.iter().flatten() {
             let factor = terminal.factor - mean.factor;
@@ -154,7 +154,7 @@ impl Stage {
     /// Current into each terminal, A.
     pub(super) fn currents(self, s: &MotorSettings, wires: &Wires, rotor: &Rotor) -> [f64; 3] {
         let terminals = self.terminals(s, wires, rotor.angle);
-        let mean = mean(&terminals);
+        let mean = star_point(&terminals);
         terminals.map(|terminal| {
             terminal.map_or(0.0, |terminal| {
                 let emf = (terminal.factor - mean.factor) * rotor.speed;
@@ -164,8 +164,7 @@ impl Stage {
     }
 }
 
-/// The star point.
-fn mean(terminals: &[Option<Terminal>; 3]) -> Terminal {
+fn star_point(terminals: &[Option<Terminal>; 3]) -> Terminal {
     let count = terminals.iter().flatten().count().max(1) as f64;
     Terminal {
         volts: terminals.iter().flatten().map(|t| t.volts).sum::<f64>() / count,

@@ -71,7 +71,6 @@ impl Presented {
         self.wanted = Some(texture);
     }
 
-    /// Whether what was to be laid by hand lies there.
     pub(super) const fn is_laid(&self) -> bool {
         self.is_by_hand && self.wanted.is_none()
     }

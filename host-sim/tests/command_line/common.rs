@@ -147,8 +147,7 @@ impl Place {
         content
     }
 
-    /// The program must refuse `line` with status 2 and a message that
-    /// has each of `naming`, and leave the folder as it was.
+    /// Status 2, a message that has each of `naming`, and the folder as it was.
     pub(crate) fn refuses(&self, line: &str, naming: &[&str]) {
         let before = self.content();
         let ran = self.run(line);
@@ -163,8 +162,7 @@ impl Place {
         assert!(after == before, "{line} changed a file");
     }
 
-    /// [`Place::refuses`] with the option `--out`, once onto older output, which
-    /// must survive, and once into a folder that is not there.
+    /// Once onto older output, which must survive, and once into a folder that is not there.
     pub(crate) fn refuses_to_write(&self, line: &str, naming: &[&str]) {
         let old = ["old/trace.csv", "old/decisions.csv", "old/file"];
         for name in old {
@@ -194,8 +192,7 @@ fn walk(folder: &Path, content: &mut BTreeMap<PathBuf, Option<Vec<u8>>>) {
     }
 }
 
-/// A model of `channels` channels and two classes with blocks of `block`,
-/// trained on two samples, whole numbers or not.
+/// Two classes, trained on two samples, whole numbers or not.
 pub(crate) fn model(channels: usize, block: u32, whole: bool) -> Vec<u8> {
     let options = Options {
         bins: 10,

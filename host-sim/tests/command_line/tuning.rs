@@ -260,7 +260,6 @@ fn a_frequency_takes_effect_at_once() {
     }
 }
 
-/// The refusal of a configuration, which changes nothing.
 fn refused(run: &mut Run, bytes: &[u8]) -> ConfigError {
     let before = running(run);
     let (status, values) = answer(run, &requests(bytes));

@@ -30,8 +30,7 @@ pub(crate) trait Recogniser {
     fn finish(&mut self) -> Option<Outcome>;
 }
 
-/// All outcomes of a segment, its samples one after another, each of `channels` values; starts and
-/// ends as new.
+/// Samples of `channels` values, one after another. Starts and ends as new.
 pub(crate) fn outcomes(
     recogniser: &mut impl Recogniser,
     segment: &[f64],

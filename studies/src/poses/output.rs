@@ -79,7 +79,6 @@ fn silent(tally: &Tally) -> String {
     format!("{} of {all}", tally.silent.map(share).join(" / "))
 }
 
-/// Right, stated and decided in short.
 pub(super) fn found(tally: &Tally) -> String {
     format!(
         "right {}, stated {}, decided {}, {} ms",

@@ -123,7 +123,6 @@ impl<'m> Listening<'m> {
         Ok(samples)
     }
 
-    /// Of a record, with the zero that was taken out of it.
     fn sample(&self, record: &TickRecord) -> Sample {
         let sample = Sample::new(record, self.ticks as f64 * self.tick_s());
         Sample {

@@ -61,8 +61,7 @@ pub(crate) fn push(whisker: &mut Listening<'_>) -> Result<Push, Error> {
     })
 }
 
-/// Leads the whisker slowly from rest to `to_deg` and back; where it met something on its way, if
-/// it did, degrees.
+/// Where it met something on its way to `to_deg` and back to rest, if it did, degrees.
 pub(crate) fn lead(whisker: &mut Listening<'_>, to_deg: f64) -> Result<Option<f64>, Error> {
     let met = led(whisker, [REST_DEG, to_deg])?;
     led(whisker, [met.unwrap_or(to_deg), REST_DEG])?;

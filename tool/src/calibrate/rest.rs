@@ -25,7 +25,6 @@ pub(crate) struct Channel {
     pub(crate) span: [u16; 2],
 }
 
-/// Both axes at rest.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Zero {
     pub(crate) channels: [Channel; 2],

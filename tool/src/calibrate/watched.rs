@@ -32,8 +32,7 @@ pub(crate) struct Watched {
     pub(crate) samples: Vec<Sample>,
 }
 
-/// Watches for so many seconds, rest included; a whisker that `has_motor` is armed for it, and
-/// stopped again.
+/// A whisker that `has_motor` is armed for it, and stopped again. `seconds` include the rest.
 pub(crate) fn watch(
     whisker: &mut Listening<'_>,
     seconds: f64,

@@ -93,7 +93,6 @@ impl Recording {
             .filter(move |stream| stream.label == label)
     }
 
-    /// In the pose that is captured.
     pub(crate) fn touches(&self, label: &str) -> usize {
         count(self.of(label).filter(|stream| stream.pose == self.pose))
     }

@@ -37,7 +37,6 @@ pub(super) enum SideName {
 }
 
 impl SideName {
-    /// 0 left, 1 right.
     pub(super) const fn number(self) -> u8 {
         match self {
             Self::Left => 0,

@@ -7,7 +7,6 @@ use host_sim::Error;
 use scene::Scene;
 use whisking::FormatCode;
 
-/// The program of a board, or of a simulation.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct Program {
     pub(crate) board: BoardCode,

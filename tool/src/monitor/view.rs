@@ -88,7 +88,6 @@ impl View {
         }
     }
 
-    /// For how long the picture goes back, s.
     pub(crate) const fn span_s(&self) -> f64 {
         SPANS_S[self.span]
     }

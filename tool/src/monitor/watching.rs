@@ -44,7 +44,6 @@ pub(crate) fn joined(listener: JoinHandle<Result<(), Error>>) -> Result<(), Erro
     listener.join().unwrap_or_else(failed)
 }
 
-/// What is wanted of whoever listens.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Wish {
     Arm,
@@ -220,7 +219,6 @@ impl Watching {
     }
 }
 
-/// Whether records have come, none of which is of an armed module.
 fn is_unarmed(incoming: &Incoming) -> bool {
     let mut records = incoming.records();
     let has_come = records.clone().next().is_some();

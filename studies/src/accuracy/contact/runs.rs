@@ -77,7 +77,6 @@ impl Subject {
     }
 }
 
-/// This many degrees beyond first touch.
 fn pose(overlap_deg: f64) -> Pose {
     Pose::swung(TOUCH_RAD + overlap_deg.to_radians())
 }

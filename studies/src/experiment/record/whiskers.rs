@@ -15,7 +15,6 @@ pub(crate) fn sensor(full_scale_rad: [f64; 2]) -> SensorSettings {
     }
 }
 
-/// A shaft whose follicle is so many times as stiff.
 pub(crate) fn held(mut shaft: Shaft, follicle: f64) -> Shaft {
     shaft.follicle.rotation_n_m_rad *= follicle;
     shaft

@@ -38,7 +38,6 @@ fn watched(bench: &mut Bench, side: u8) -> Result<Result<Vec<Sample>, Part>, Err
     })
 }
 
-/// How often there is a new reading.
 #[derive(Serialize)]
 struct Rate {
     readings: usize,

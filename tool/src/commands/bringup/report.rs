@@ -51,7 +51,6 @@ impl Part {
         }
     }
 
-    /// What is no step of the usual ones.
     pub(super) fn named(self, name: &str) -> Self {
         Self {
             step: name.to_owned(),

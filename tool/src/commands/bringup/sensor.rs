@@ -69,7 +69,6 @@ pub(super) fn read(
     Ok(Some(frames))
 }
 
-/// The rest that a rate of ticks leaves.
 #[derive(Debug, Clone, Copy, Serialize)]
 pub(super) struct Leaves {
     pub(super) tick_hz: u32,
