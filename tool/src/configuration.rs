@@ -54,7 +54,6 @@ pub(crate) struct Running {
 /// The whole duty in a configuration, Q24.
 const FULL_DUTY: f64 = 16_777_216.0;
 
-/// What helps where an image was built without a part.
 pub(crate) const ANY_SCENE: &str = "cargo xtask firmware --any-scene builds one that has it";
 
 /// What to do about an image that was built without this.

@@ -72,7 +72,6 @@ impl Script {
         })
     }
 
-    /// Who sets its keys, if it sets any.
     fn tuner(&self, source: &SourceChoice) -> Result<Option<Tuner>, Error> {
         let sets = self.entries.iter().filter_map(|entry| match &entry.action {
             Action::Set(set) => Some(set.key()),

@@ -57,7 +57,6 @@ fn a_recording_has_the_number_of_the_pose_where_poses_differ() {
     place.done("train --data differ.csv --tables single --out the.model");
 }
 
-/// The page, as it is committed and as the program prints it.
 #[test]
 fn every_column_that_is_written_is_on_the_page() {
     let page = include_str!("../../../docs/files.md");

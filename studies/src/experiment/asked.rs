@@ -158,7 +158,6 @@ impl Asked {
         })
     }
 
-    /// A run of a part with a change, cut short.
     pub(super) fn changed(
         &self,
         part: &Part,

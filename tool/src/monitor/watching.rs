@@ -240,7 +240,6 @@ impl Pace {
         }
     }
 
-    /// For how long to wait at a time of the module.
     fn ahead(&mut self, now_s: f64) -> Duration {
         let Some(speed) = self.speed else {
             return Duration::ZERO;

@@ -39,7 +39,6 @@ pub(crate) struct Felt {
 }
 
 impl Pads {
-    /// The pads of a robot, each side with a seed.
     pub(crate) fn new(rig: &Corridor, seeds: [u64; 2]) -> Result<Self> {
         let side = |seed| {
             anyhow::Ok(Side {
