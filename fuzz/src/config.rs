@@ -187,7 +187,6 @@ mod tests {
 
     const FIRST: &str = "corpus/config";
 
-    /// The bytes of a scene's configuration as a board has it.
     fn bytes<R: Number>(scene: &str) -> Vec<u8> {
         let scene = Path::new("../scenes").join(scene).with_extension("toml");
         let scene = Scene::load(&scene).unwrap();

@@ -43,7 +43,6 @@ pub fn shards(data: &[u8]) {
     assert!(harmful.all(|row| page.contains(&campaign::described(row))));
 }
 
-/// A table with these rows.
 fn written(rows: &[RunRow]) -> Vec<u8> {
     let mut table = csv::Writer::from_writer(Vec::new());
     for row in rows {

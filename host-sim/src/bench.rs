@@ -122,11 +122,9 @@ pub trait HostModule: Bench + Send {
     }
 }
 
-/// A module in one number format.
 struct Hosted<R: Number> {
     module: Module<R, Mock>,
     config: Config<R>,
-    /// As the scene has it.
     built_with: Config<R>,
     sensor: SensorSection,
     /// Which board of its head it is.
@@ -140,7 +138,6 @@ impl<R: Number> Hosted<R> {
         Some(whisker.sensor_mut().source_mut())
     }
 
-    /// Where each whisker is to be, degrees; nothing where they are passive.
     fn look_at_setpoints(&self, theta_deg: &mut [f64]) {
         let Some(motion) = self.module.motion() else {
             return;
@@ -154,7 +151,6 @@ impl<R: Number> Hosted<R> {
         }
     }
 
-    /// The place of whisker `n`.
     fn place(&self, n: usize) -> Option<Place> {
         self.module.whiskers().get(n).map(Whisker::place)
     }
@@ -336,7 +332,6 @@ pub fn build(
     }
 }
 
-/// What is wrong with a scene for its module.
 fn broken(mismatch: Mismatch) -> Error {
     match mismatch {
         Mismatch::Unstable(_)
@@ -387,14 +382,13 @@ where
 }
 
 impl<R: Number> Hosted<R> {
-    /// Board `number` of a scene, whose motors are on `pins`.
     fn new(
         scene: &Scene,
         number: u8,
         pins: Vec<Pins>,
         classifier: Option<Classifier>,
     ) -> Result<Self, Error> {
-        let tap = Tap::new(classifier, heard_by(scene, number));
+        let tap = Tap::new(classifier, heard_by_board(scene, number));
         let gate = tap.touch_rule().map(|touch| touch.gate);
         let model = match (tap.model(), &scene.classifier) {
             (Some(model), _) => model,
@@ -436,8 +430,7 @@ impl<R: Number> Hosted<R> {
     }
 }
 
-/// How many whiskers of a board of a head are heard by its classifier.
-fn heard_by(scene: &Scene, number: u8) -> usize {
+fn heard_by_board(scene: &Scene, number: u8) -> usize {
     let each = scene.whiskers() / usize::from(scene.head.nodes.unwrap_or(1)).max(1);
     heard(scene)
         .saturating_sub(usize::from(number) * each)

@@ -213,7 +213,6 @@ impl Slave {
         (self.frame(fault), fault)
     }
 
-    /// The words of this frame, with noise, unless the sensor stands still.
     fn measure(&mut self, fault: Option<WireFault>) {
         if fault != Some(WireFault::Frozen) {
             let noise = self.is_noisy && self.traffic.transactions.is_multiple_of(2);
@@ -226,7 +225,6 @@ impl Slave {
         }
     }
 
-    /// The frame of the words last measured, with what befalls it.
     fn frame(&self, fault: Option<WireFault>) -> [u8; FRAME_LEN] {
         let [x, y, z] = self.sent;
         let x = match fault {
@@ -277,7 +275,6 @@ impl Default for Slave {
 pub struct Exchange {
     /// The shift register: the next byte on top, behind the last one a line that is released.
     answer: u64,
-    /// What happens to the frame.
     fault: Option<WireFault>,
     /// What noise inverts, in the same positions.
     noise: u64,

@@ -97,7 +97,6 @@ impl Classifier {
         self.codes.model().map_or(0, Model::channels)
     }
 
-    /// Whether its model has a second opinion.
     pub(crate) fn has_opinion(&self) -> bool {
         self.codes.model().is_some_and(Model::has_opinion)
     }
@@ -190,7 +189,6 @@ pub struct Tap {
 }
 
 impl Tap {
-    /// Of the first `heard` whiskers.
     pub(crate) fn new(classifier: Option<Classifier>, heard: usize) -> Self {
         Self {
             samples: vec![None; heard],
@@ -198,32 +196,26 @@ impl Tap {
         }
     }
 
-    /// What a touch means to the classifier's model, if there is one.
     pub(crate) fn touch_rule(&self) -> Option<TouchRule> {
         self.classifier.as_ref()?.touch_rule()
     }
 
-    /// Which model that decides by, if there is one.
     pub(crate) fn model(&self) -> Option<ModelState> {
         self.classifier.as_ref().map(Classifier::model)
     }
 
-    /// The names of its classes.
     pub(crate) fn classes(&self) -> &[String] {
         self.classifier.as_ref().map_or(&[], Classifier::classes)
     }
 
-    /// The priors and thresholds of its classes.
     pub(crate) fn settings(&self) -> Option<&ClassList> {
         self.classifier.as_ref().map(Classifier::settings)
     }
 
-    /// Whether there is none.
     pub(crate) const fn is_recording(&self) -> bool {
         self.classifier.is_none()
     }
 
-    /// Posteriors of the classifier, if there is one.
     pub(crate) fn posteriors(&self) -> Option<Posteriors> {
         self.classifier.as_ref().map(Classifier::posteriors)
     }
@@ -305,7 +297,6 @@ pub(crate) fn quantisers(model: &ModelBuf) -> Result<Vec<[Quantiser; 2]>, Fault>
     })
 }
 
-/// A model under a rule.
 pub(crate) fn bayes(model: ModelBuf, rule: Rule) -> Result<NaiveBayes<AnyRule, Words>, Fault> {
     NaiveBayes::new(model, settings(rule)?).map_err(of_rule)
 }

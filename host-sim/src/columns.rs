@@ -12,7 +12,6 @@ pub struct Column {
     pub meaning: &'static str,
 }
 
-/// A table of columns, a row each: name, unit, meaning.
 macro_rules! columns {
     ($($name:literal, $unit:literal, $meaning:literal;)+) => {
         [$($crate::columns::Column { name: $name, unit: $unit, meaning: $meaning },)+]
@@ -20,12 +19,10 @@ macro_rules! columns {
 }
 pub(crate) use columns;
 
-/// The names of columns.
 pub(crate) fn names(columns: &[Column]) -> Vec<&'static str> {
     columns.iter().map(|column| column.name).collect()
 }
 
-/// Columns as a table in Markdown.
 #[cfg(feature = "cli")]
 pub(crate) fn table(columns: &[Column]) -> String {
     use std::fmt::Write as _;

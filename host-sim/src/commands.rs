@@ -63,7 +63,6 @@ pub fn any_picture(text: &str) -> Result<PathBuf, String> {
     }
 }
 
-/// Whether a path has this extension.
 fn ends_in(path: &Path, extension: &str) -> bool {
     let found = path.extension();
     found.is_some_and(|found| found.eq_ignore_ascii_case(extension))

@@ -39,8 +39,7 @@ impl Loaded {
         })
     }
 
-    /// Checks what was read from `path`; `model` gives the model that the scene names, if any,
-    /// and what messages call it.
+    /// `model` gives the model that the scene names, if any, and what messages call it.
     pub(crate) fn of(
         path: &Path,
         (scene, places): (Scene, Places),
@@ -176,7 +175,6 @@ impl Loaded {
     }
 }
 
-/// Checks the model in `bytes`, which messages call `path`.
 pub(crate) fn model_of(path: &Path, bytes: &[u8]) -> Result<(PathBuf, ModelBuf), Error> {
     let model = ModelBuf::from_bytes(bytes).map_err(|error| Error::file(path, error))?;
     Ok((path.to_owned(), model))

@@ -102,7 +102,6 @@ enum Command {
 }
 
 impl Command {
-    /// Whether its table goes to standard output.
     fn is_piped(&self) -> bool {
         match self {
             Self::Record { out, .. } | Self::Classify { out, .. } => is_stdout(out),

@@ -224,7 +224,7 @@ impl SimMotor {
             self.rotor.speed = 0.0;
             return;
         }
-        let s = &self.fed();
+        let s = &self.supplied();
         let both = self.derived.inertia_kg_m2;
         let steps = self.stage.substeps(s, self.rotor.speed, dt_s);
         let step_s = dt_s / f64::from(steps);
@@ -256,8 +256,7 @@ impl SimMotor {
         self.wires.set_angle(self.rotor.angle, self.flaws);
     }
 
-    /// Its settings with the supply that it has now.
-    const fn fed(&self) -> MotorSettings {
+    const fn supplied(&self) -> MotorSettings {
         MotorSettings {
             supply_v: self.supply_v,
             ..self.settings
@@ -342,7 +341,8 @@ impl SimMotor {
     /// motor, 0 to 2 of a brushless one, averaged over the PWM period. Their
     /// sum is 0.
     pub fn currents_a(&self) -> [f64; 3] {
-        self.stage.currents(&self.fed(), &self.wires, &self.rotor)
+        self.stage
+            .currents(&self.supplied(), &self.wires, &self.rotor)
     }
 
     /// By how much the whisker is displaced from where the encoder says it is, degrees.

@@ -14,7 +14,6 @@ use crate::Error;
 use partial::Partial;
 pub use partial::remove_on_interrupt;
 
-/// What stands for standard output where a file is asked for.
 const STDOUT: &str = "-";
 
 /// Whether `path` means standard output.
@@ -29,7 +28,6 @@ pub struct Output {
     sink: Sink,
 }
 
-/// Where bytes go.
 #[derive(Debug)]
 enum Sink {
     File(BufWriter<File>, Partial),
@@ -178,7 +176,6 @@ pub fn check_or_stdout(path: &Path) -> Result<(), Error> {
     if is_stdout(path) { Ok(()) } else { check(path) }
 }
 
-/// What a path that is not a regular file leads to.
 fn kind(of: FileType) -> &'static str {
     if of.is_dir() {
         return "a folder";

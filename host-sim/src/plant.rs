@@ -49,7 +49,6 @@ impl Head {
         }
     }
 
-    /// Checks stiffness and obstacles.
     fn check(&self) -> Result<(), BadSetting> {
         BadSetting::check("stiffness", self.stiffness, 0.0, 100.0)?;
         if self.obstacle_deg.iter().any(|limit| limit.is_nan()) {

@@ -153,7 +153,6 @@ impl Pressing {
     }
 }
 
-/// A shaft of length, hub, taper, Young's modulus and follicle.
 fn of_numbers([length, hub, taper, youngs, follicle]: [f64; 5]) -> Result<Shaft, Refused> {
     let length_m = of_scene("length_m", "length_m", length)?;
     within("hub_m", hub, [1e-5, length_m / 5.0])?;
@@ -175,7 +174,6 @@ fn of_numbers([length, hub, taper, youngs, follicle]: [f64; 5]) -> Result<Shaft,
     })
 }
 
-/// A value in the range of a scene's key.
 fn of_scene(key: &'static str, of: &str, value: f64) -> Result<f64, Refused> {
     let facts = key_facts(&format!("plant.{of}"));
     let ends = facts.and_then(|facts| facts.ends);

@@ -207,15 +207,12 @@ impl Tokens<'_> {
     }
 }
 
-/// The numbers of a row.
 struct Cells {
     channels: [f64; 2],
     contact: Option<f64>,
     touch: Option<u16>,
 }
 
-/// Adds a sample, if there is one, to the last stream, or begins one where label or
-/// trial is another.
 fn append(streams: &mut Vec<Stream>, label: &str, trial: &str, sample: Option<Cells>) {
     let is_same = |last: &Stream| last.label == label && last.trial == trial;
     if !streams.last().is_some_and(is_same) {
@@ -360,7 +357,6 @@ pub fn broken(error: &csv::Error, table: &[u8], above: u64) -> String {
     }
 }
 
-/// The number of a cell in a line.
 fn finite(text: &str, name: &str, line: u64) -> Result<f64, String> {
     match text.parse::<f64>() {
         Ok(value) if value.is_finite() => Ok(value),

@@ -19,7 +19,6 @@ pub struct Replay {
     /// Contact from which a sample counts, and samples without it that end a touch.
     gate: f64,
     gap: u32,
-    /// The number of the last touch.
     touch: u16,
 }
 
@@ -105,7 +104,6 @@ mod tests {
     use crate::recording::Stream;
     use crate::training;
 
-    /// Samples about `x`, of a whisker.
     fn stream(label: &str, whisker: usize, x: f64) -> Stream {
         let samples = (0..400).map(|n| [x + f64::from(n % 7), f64::from(n % 5)]);
         Stream {

@@ -163,7 +163,6 @@ impl Run {
     }
 }
 
-/// What a sensor sends of a deflection: the 14-bit codes of x and y.
 fn codes(deflection: [f64; 2]) -> [f64; 2] {
     deflection.map(|x| f64::from(Word::from_normalised(x as f32).code14()))
 }
@@ -206,7 +205,6 @@ impl<B: Bench + ?Sized> Run<B> {
         run
     }
 
-    /// Row and snapshot as before the first tick.
     fn rest(&mut self) {
         let sides = self.sides;
         let absent = |side: usize, value: f64| if side < sides { value } else { f64::NAN };
@@ -371,7 +369,6 @@ impl<B: Bench + ?Sized> Run<B> {
         self.done as f64 / self.tick_hz
     }
 
-    /// The row of the last tick.
     fn look(&mut self) {
         self.bench.look(&mut self.snapshot);
         self.row.t_s = self.t_s();
@@ -477,7 +474,6 @@ impl<B: Bench + ?Sized> Run<B> {
     }
 }
 
-/// What a whisker of each side decided in one tick; of several of a side the first.
 fn by_side(decided: &[Decided]) -> [Option<&str>; 2] {
     [0, 1].map(|side| {
         let is_its = |decided: &&Decided| decided.place.is_some_and(|place| place.side == side);

@@ -25,7 +25,6 @@ pub struct Scored {
     pub wall: f64,
 }
 
-/// What has been scored so far.
 struct Scoring {
     classes: Vec<String>,
     presentations: Vec<Shown>,

@@ -202,7 +202,6 @@ impl World {
     }
 }
 
-/// The shafts that scenes know by their names.
 pub(crate) const SHAFTS: [(ShaftName, Shaft); 5] = [
     (ShaftName::BiotactFront, Shaft::biotact(Biotact::Front)),
     (ShaftName::BiotactMiddle, Shaft::biotact(Biotact::Middle)),
@@ -235,7 +234,6 @@ fn shaft(of: Option<scene::ShaftChoice>) -> Shaft {
     }
 }
 
-/// Gives the scene's own surfaces their properties.
 fn own_surfaces(textured: &Presentation, all: &mut [Surface; 4]) {
     let Some(given) = &textured.own else {
         return;

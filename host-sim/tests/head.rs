@@ -18,7 +18,6 @@ fn scene(name: &str, overrides: &[&str]) -> Scene {
         .0
 }
 
-/// A head of two boards.
 const TWO: &str = "head.nodes=2";
 
 /// The largest θ′ of each side over the scene, and all θ′ of the left.
@@ -53,7 +52,6 @@ fn the_right_finds_its_obstacle_by_contact_of_another_board() {
     assert!(never[1] < 125.0);
 }
 
-/// Without noise and contact a head whisks to the last bit as one board does.
 #[test]
 fn a_head_in_the_air_whisks_as_one_board() {
     for integrator in ["euler", "exact"] {
@@ -150,7 +148,6 @@ fn phase_deg(scene: &Scene, hz: f64) -> f64 {
     left - right
 }
 
-/// The bus does not draw the sides apart: within a degree of one board's.
 #[test]
 fn sides_on_many_boards_whisk_together_as_on_one() {
     for hz in [2.0, 8.0] {
@@ -214,7 +211,6 @@ fn a_board_that_returns_takes_the_phase_of_the_others() {
     );
 }
 
-/// A stop that a board was to say or to hear while it was off the bus stops the head once it is back.
 #[test]
 fn a_stop_reaches_boards_that_were_cut_off() {
     for stopped_by in [0, 2] {

@@ -12,7 +12,6 @@ use crate::moments::range;
 pub(crate) type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
 pub(crate) type Fault = Box<dyn std::error::Error>;
 
-/// An axis: its name and what it covers.
 #[derive(Debug, Clone)]
 pub(crate) struct Axis {
     pub(crate) name: &'static str,
@@ -136,7 +135,6 @@ impl Series {
         Self::new(name, 0, Mark::Nothing, points)
     }
 
-    /// The points alone.
     pub(crate) fn unjoined(self) -> Self {
         Self {
             joined: false,
@@ -242,7 +240,6 @@ pub(crate) fn draw(panels: &[Panel]) -> Result<String> {
     draw_in(panels.len().clamp(1, 2), panels)
 }
 
-/// The panels in so many columns.
 pub(crate) fn draw_in(columns: usize, panels: &[Panel]) -> Result<String> {
     let rows = panels.len().div_ceil(columns).max(1);
     let named = |series: &&Series| !series.name.is_empty();
@@ -279,7 +276,6 @@ fn draw_legend(legend: &[&Series], below: &Area<'_>) -> Result<(), Fault> {
     Ok(())
 }
 
-/// A series' mark at a place.
 fn mark<'b, C: Clone + 'static>(
     series: &Series,
     at: C,

@@ -7,8 +7,7 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use host_sim::progress::{Progress, Verbosity};
 use rayon::prelude::*;
 
-/// Does `work` for each of `items` on all cores; the results are in their order, and
-/// depend on neither the order in which they were made nor the number of cores.
+/// The results are in the order of `items`, and do not depend on the number of cores.
 pub(crate) fn each<T: Sync, U: Send>(
     verbosity: Verbosity,
     message: &'static str,

@@ -105,8 +105,7 @@ fn experiments(asked: &Asked, verbosity: Verbosity) -> Result<String> {
     Ok(asked.out.join(page).display().to_string())
 }
 
-/// Writes generated files, or with `--check` says whether those that are there are the same.
-/// `command` makes `what`. Returns what was done.
+/// With `--check` says whether the files there are the same. Returns what was done.
 fn keep(made: &Made, files: Result<Files>, what: &str, command: &str) -> Result<String> {
     let files = files.with_context(|| what.to_owned())?;
     let folder = made.out.display();

@@ -114,7 +114,6 @@ pub(crate) struct Page {
 }
 
 impl Page {
-    /// A page, or a section of one, whose pictures are in a folder beside it.
     pub(crate) fn new(folder: &'static str) -> Self {
         Self {
             folder,
@@ -156,7 +155,6 @@ impl Page {
         self.files.push((path, svg));
     }
 
-    /// Diagrams as a picture.
     pub(crate) fn panels(&mut self, name: &str, what: &str, panels: &[Panel]) -> Result<()> {
         self.picture(name, what, draw(panels)?);
         self.shown.push(Shown {
@@ -210,12 +208,10 @@ impl Page {
     }
 }
 
-/// A row of a table: its name, then its cells.
 pub(crate) fn row(name: impl Into<String>, cells: impl IntoIterator<Item = String>) -> Vec<String> {
     std::iter::once(name.into()).chain(cells).collect()
 }
 
-/// Two digits and an exponent.
 pub(crate) fn short(value: f64) -> String {
     if value == 0.0 {
         "0".to_owned()

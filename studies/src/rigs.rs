@@ -42,7 +42,6 @@ pub(crate) struct Rigs {
     pub(crate) corridor: Corridor,
     /// PSIK, the mobile robot's maze.
     pub(crate) maze: Maze,
-    /// What is before them.
     pub(crate) surfaces: Surfaces,
 }
 
@@ -56,7 +55,6 @@ const FILES: [(&str, &str); 6] = [
     ("maze", include_str!("../rigs/maze.toml")),
 ];
 
-/// All names of rigs, for messages.
 fn names() -> String {
     let names = FILES.iter().map(|(name, _)| *name).chain(["surfaces"]);
     names.collect::<Vec<_>>().join(", ")
@@ -138,7 +136,6 @@ impl Rigs {
         })
     }
 
-    /// The rigs that are built in, with these settings.
     #[cfg(test)]
     pub(crate) fn with(settings: &[&str]) -> Self {
         let settings: Vec<_> = settings.iter().map(|text| text.parse().unwrap()).collect();

@@ -44,7 +44,6 @@ pub(crate) struct Running {
     /// Least time between two frames of one, µs, and whether it is in its slow mode.
     pub(crate) rest_us: u16,
     pub(crate) has_slow_sensors: bool,
-    /// Whether its whiskers have motors.
     pub(crate) has_motor: bool,
     pub(crate) decides: bool,
     contact_min: Option<f64>,
@@ -55,7 +54,6 @@ pub(crate) struct Running {
 /// The whole duty in a configuration, Q24.
 const FULL_DUTY: f64 = 16_777_216.0;
 
-/// What helps where an image was built without a part.
 pub(crate) const ANY_SCENE: &str = "cargo xtask firmware --any-scene builds one that has it";
 
 /// What to do about an image that was built without this.
@@ -66,7 +64,6 @@ pub(crate) const fn builds(part: Part) -> &'static str {
     }
 }
 
-/// A request to an image that was built without what carries it out.
 pub(crate) fn not_built(part: Part) -> Error {
     Error::Work(format!(
         "the module's image was built without {part}; {ANY_SCENE}"
@@ -152,7 +149,6 @@ impl Running {
         in_format!(program.format, read(program, bytes)).map_err(strange)
     }
 
-    /// That of a scene for this board or simulation.
     pub(crate) fn of_scene(
         scene: &Scene,
         board: BoardCode,

@@ -11,7 +11,6 @@ use crate::source::{Incoming, Source};
 
 const PATIENCE_S: f64 = 2.0;
 
-/// What a module says of itself.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct AboutModule {
     pub(crate) scene: String,
@@ -55,7 +54,6 @@ impl Conversation {
         Ok(())
     }
 
-    /// What came while answers were waited for, and was not received yet.
     pub(crate) fn take_kept(&mut self) -> VecDeque<Incoming> {
         std::mem::take(&mut self.kept)
     }

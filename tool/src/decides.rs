@@ -7,7 +7,6 @@ use wire::{Command, CommandStatus};
 
 use crate::conversation::Conversation;
 
-/// What a module decides by, as it says itself.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Decides {
     By(u32, u32),

@@ -14,7 +14,6 @@ use whisking::Real;
 
 use crate::configuration::{Program, Running, in_format};
 
-/// A scene and its model.
 #[derive(Debug)]
 pub(crate) struct Deployment {
     pub(crate) config: Running,
@@ -83,7 +82,6 @@ fn with_model<R: Real>(
 }
 
 impl Deployment {
-    /// The scene in a file, which decides by `model`, for a program.
     pub(crate) fn of(
         file: &Path,
         loaded: Loaded,

@@ -6,7 +6,6 @@ use firmware::faults::TABLE;
 use firmware::{Event, EventRecord};
 use host_sim::report;
 
-/// A fault.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct Fault {
     /// When, where and which, and its likely causes.
@@ -14,7 +13,6 @@ pub(crate) struct Fault {
     pub(crate) remedy: String,
 }
 
-/// The number of the fault or limit that an event is about, if it is about one.
 pub(crate) const fn number(event: &Event) -> Option<u8> {
     match event {
         Event::SensorLost(_, why) => Some(why.code()),

@@ -27,7 +27,6 @@ struct Asking<'s, S: ?Sized> {
 }
 
 impl<S: Source + ?Sized> Asking<'_, S> {
-    /// Sends a request; the answer, if there is one in time.
     fn ask(&mut self, command: Command, patience: Duration) -> Result<Option<Answer>, Error> {
         self.tag = self.tag.wrapping_add(1) | FIRST_TAG;
         let tag = self.tag;
@@ -47,7 +46,7 @@ impl<S: Source + ?Sized> Asking<'_, S> {
         Ok(None)
     }
 
-    /// The same for what can be asked more than once; it must be done.
+    /// Asks for what can be asked more than once; it must be done.
     fn done(&mut self, command: Command, times: usize, patience: Duration) -> Result<(), Error> {
         for _ in 0..times {
             if let Some(answer) = self.ask(command, patience)? {

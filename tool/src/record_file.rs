@@ -23,7 +23,6 @@ enum Form {
     Messages(Box<Messages>),
 }
 
-/// What a file's name says of what is to be in it.
 fn is_messages(path: &Path) -> Result<bool, Error> {
     let ends_in = |ending| path.extension().is_some_and(|found| found == ending);
     if is_stdout(path) || ends_in("csv") {
@@ -53,7 +52,6 @@ pub(crate) fn check_new(path: &Path) -> Result<(), Error> {
 }
 
 impl RecordFile {
-    /// A file of a module with so many ticks a second, which decides for these classes.
     pub(crate) fn create(
         path: &Path,
         origin: &Origin,

@@ -16,8 +16,7 @@ const NEAR_S: f64 = 0.1;
 /// How long whiskers may take to get there, and motors to go off, s.
 const PATIENCE_S: f64 = 1.0;
 
-/// Holds every whisker at rest and then switches its motor off. A module without motors is left
-/// alone.
+/// Motors go off once all whiskers rest, or have had time to; a module without any is left alone.
 pub(crate) fn rest(module: &mut Conversation) -> Result<(), Error> {
     let [tick_hz, whiskers] = module.ask(Command::Hello)?.values;
     let near_ticks = (NEAR_S * f64::from(tick_hz)) as u32;

@@ -4,16 +4,13 @@ use wire::{Flags, TickRecord, degrees, unit};
 
 const FULL: f64 = 32767.0;
 
-/// A tick of a whisker.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Sample {
-    /// When it was, s.
     pub(crate) t_s: f64,
     /// x and y of the record, whose two lowest bits are no measurement.
     pub(crate) words: [u16; 2],
     /// x and y as the sensor has them, codes of 14 bits.
     pub(crate) codes: [u16; 2],
-    /// Where it should be, degrees.
     pub(crate) setpoint_deg: f64,
     /// Where it is by its encoder, degrees.
     pub(crate) measured_deg: f64,

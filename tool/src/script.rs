@@ -13,7 +13,6 @@ use crate::conversation::Conversation;
 use crate::source::SourceChoice;
 use crate::tuning::{Tuner, live_key};
 
-/// A command at its time.
 #[derive(Debug, Clone, PartialEq)]
 struct Entry {
     /// s since the script began.
@@ -22,7 +21,6 @@ struct Entry {
     action: Action,
 }
 
-/// What is done.
 #[derive(Debug, Clone, PartialEq)]
 enum Action {
     Give(Command),
@@ -41,10 +39,7 @@ pub(crate) struct Script {
 }
 
 impl Script {
-    /// That in a file, if one is named, for the module of this choice.
-    ///
-    /// # Errors
-    /// [`Error::Input`] for a key that cannot be set in it.
+    /// Fails for a key that cannot be set in the module of this choice.
     pub(crate) fn of(path: Option<&Path>, source: &SourceChoice) -> Result<Self, Error> {
         let Some(path) = path else {
             return Ok(Self::default());
@@ -77,7 +72,6 @@ impl Script {
         })
     }
 
-    /// Who sets its keys, if it sets any.
     fn tuner(&self, source: &SourceChoice) -> Result<Option<Tuner>, Error> {
         let sets = self.entries.iter().filter_map(|entry| match &entry.action {
             Action::Set(set) => Some(set.key()),
@@ -97,8 +91,7 @@ impl Script {
         Ok(Some(tuner))
     }
 
-    /// Gives the next command if it is due and the last was answered. Returns the line of a key
-    /// that was set, or was refused.
+    /// Returns the line of a key that was set, or was refused.
     pub(crate) fn play(&mut self, module: &mut Conversation) -> Result<Option<String>, Error> {
         let now_s = module.source().now_s();
         let begun_s = *self.begun_s.get_or_insert(now_s);

@@ -36,7 +36,6 @@ use wire::{TaggedCommand, TickRecord};
 use crate::deployment::Deployment;
 use crate::loading::load;
 
-/// What has come from a module.
 #[derive(Debug, Default)]
 pub(crate) struct Incoming {
     pub(crate) packets: Vec<Packet>,

@@ -63,8 +63,7 @@ fn numbers(record: &TickRecord, t_s: f64) -> [String; NUMBERS.len()] {
     ]
 }
 
-/// A record of a time, s, as an object of JSON, with the columns of the table as keys. Rust writes
-/// finite numbers as JSON has them.
+/// The keys are the table's columns. Rust writes finite numbers as JSON has them.
 pub(crate) fn json(record: &TickRecord, t_s: f64) -> String {
     let mut text = String::with_capacity(320);
     for (name, number) in NUMBERS.iter().zip(numbers(record, t_s)) {
@@ -134,7 +133,6 @@ impl<W: Write> RecordWriter<W> {
     }
 }
 
-/// A table that was kept.
 #[derive(Debug)]
 pub(crate) struct Kept {
     pub(crate) origin: Origin,

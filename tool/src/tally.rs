@@ -7,13 +7,11 @@ use wire::{Flags, TickRecord};
 pub(crate) enum Before {
     /// The record of the tick before, or nothing at all.
     Nothing,
-    /// So many records that were lost.
     Lost(u32),
     /// Ticks are counted from zero: the module has started again.
     Restart,
 }
 
-/// Records so far.
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct Tally {
     last: [Option<u32>; 2],
@@ -35,7 +33,6 @@ impl Tally {
         self.last = [None; 2];
     }
 
-    /// Counts a record; tells what is before it.
     pub(crate) fn take(&mut self, record: &TickRecord) -> Before {
         self.records += 1;
         let last = self.last[side(record)].replace(record.sequence);

@@ -16,7 +16,6 @@ use crate::source::SourceChoice;
 
 pub(crate) use live::{LIVE, live_key};
 
-/// Who sets keys of a scene.
 #[derive(Debug)]
 pub(crate) struct Tuner {
     path: PathBuf,
@@ -35,7 +34,6 @@ pub(crate) struct Has {
 }
 
 impl Tuner {
-    /// Of the scene in `path`, for the module of `source`.
     pub(crate) fn open(path: &Path, source: &SourceChoice) -> Result<Self, Error> {
         let loaded = Loaded::new(path)?;
         loaded.classifier()?;
@@ -151,11 +149,7 @@ impl Tuner {
         has.running.remade(&loaded.scene, &overrides)
     }
 
-    /// Sets keys in a module, all between the same two ticks; returns what it has then.
-    ///
-    /// # Errors
-    /// [`Error::Input`] for a key that cannot be set or a value that the scene refuses,
-    /// [`Error::Work`] for a module of another scene, or one that refuses: nothing has changed.
+    /// All between the same two ticks; where it fails, nothing has changed.
     pub(crate) fn set(&self, module: &mut Conversation, set: &[Override]) -> Result<Has, Error> {
         let has = self.look(module)?;
         if let Some(other) = has.other {
@@ -190,7 +184,6 @@ fn named(key: &str, value: &str) -> Override {
     Override::new(format!("{key}={value}"), key, value)
 }
 
-/// Those of `keys` whose values differ from a scene file's, with those values.
 fn differing(file: &Scene, module: &Scene, keys: &[&str]) -> Vec<(&'static str, f64)> {
     let values = values(file, module).into_iter();
     let values = values.filter(|(key, own, has)| own != has && keys.contains(key));
@@ -209,7 +202,6 @@ fn values(file: &Scene, module: &Scene) -> Vec<(&'static str, f64, f64)> {
 }
 
 impl Has {
-    /// Keys in their order: with the values of the file and of the module.
     pub(crate) fn values(&self, file: &Scene) -> Vec<(&'static str, f64, f64)> {
         values(file, &self.scene)
     }

@@ -9,7 +9,6 @@ use wasm_bindgen::prelude::wasm_bindgen;
 
 use crate::loaded;
 
-/// The line of a decision of a model of these classes.
 fn line(t_s: f64, d: &Decided, classes: &[String]) -> String {
     let side = d.place.map_or("", |place| place.side_name());
     let [reason, among] = d.why();

@@ -198,8 +198,6 @@ mod tests {
     use super::Can;
     use can::Frame;
 
-    /// The lower identifier goes first although it came last, but not before a frame that is
-    /// under way; and each takes as many bits as it has.
     #[test]
     fn the_lowest_identifier_goes_first_once_the_bus_is_free() {
         let mut can = Can::new(3, 500);

@@ -18,8 +18,8 @@ use crate::bus::tmag5170::TmagSlave;
 use crate::classifier::{Classifier, Tap};
 use crate::motor::Pins;
 
-/// When in a tick a board has computed what it says, µs: the last of the papers' 500 µs that a
-/// tick may take is left for the bus.
+/// Share of a tick after which a board has computed what it says: the rest of the papers' 500 µs
+/// is left for the bus.
 const READY_SHARE: f64 = 0.6;
 
 /// What became of a node.
@@ -120,7 +120,6 @@ impl Bus {
     }
 }
 
-/// One board of a head.
 struct Board<R: Number> {
     hosted: Hosted<R>,
     node: Node,
@@ -130,7 +129,6 @@ struct Board<R: Number> {
     ticks: u64,
 }
 
-/// A head of boards.
 pub(super) struct Head<R: Number> {
     boards: Vec<Board<R>>,
     bus: Bus,
@@ -139,7 +137,6 @@ pub(super) struct Head<R: Number> {
     each: usize,
 }
 
-/// Whether the boards of a head can decide by a model.
 fn suits_a_head(classifier: &Classifier) -> Result<(), Error> {
     let refused = |found: &str, allowed: &str| {
         let text = format!("classifier.model: found {found}; allowed with head.nodes: {allowed}");
@@ -197,8 +194,7 @@ impl<R: Number> Head<R> {
         })
     }
 
-    /// The board of whisker `n`, and which of its whiskers it is.
-    fn find(&mut self, n: usize) -> Option<(&mut Hosted<R>, usize)> {
+    fn board_of(&mut self, n: usize) -> Option<(&mut Hosted<R>, usize)> {
         let board = self
             .boards
             .iter_mut()
@@ -211,7 +207,6 @@ impl<R: Number> Head<R> {
         Some((&board.hosted, n - board.own.start))
     }
 
-    /// What was asked for, before a tick.
     fn do_asked(&mut self) {
         for (n, board) in self.boards.iter_mut().enumerate() {
             let asked = std::mem::take(&mut self.bus.asked[n]);
@@ -362,17 +357,17 @@ impl<R: Number> Bench for Head<R> {
     }
 
     fn slave_mut(&mut self, n: usize) -> Option<&mut Slave> {
-        let (hosted, n) = self.find(n)?;
+        let (hosted, n) = self.board_of(n)?;
         hosted.slave_mut(n)
     }
 
     fn tmag_mut(&mut self, n: usize) -> Option<&mut TmagSlave> {
-        let (hosted, n) = self.find(n)?;
+        let (hosted, n) = self.board_of(n)?;
         hosted.tmag_mut(n)
     }
 
     fn bend(&mut self, n: usize, deflection: [f64; 2]) {
-        if let Some((hosted, n)) = self.find(n) {
+        if let Some((hosted, n)) = self.board_of(n) {
             hosted.bend(n, deflection);
         }
     }
@@ -409,7 +404,7 @@ where
     }
 
     fn command(&mut self, n: usize, command: Command<f64>) -> Result<(), NotDone> {
-        let (hosted, n) = self.find(n).ok_or(NoActiveWhisker)?;
+        let (hosted, n) = self.board_of(n).ok_or(NoActiveWhisker)?;
         hosted.command(n, command)
     }
 

@@ -20,7 +20,6 @@ pub(super) struct Line {
 }
 
 impl Line {
-    /// Before the first tick of a module, which decides by this model, of these classes.
     pub(super) fn new<R: Real>(
         config: &Config<R>,
         model: ModelState,
@@ -38,7 +37,6 @@ impl Line {
         }
     }
 
-    /// Begins again.
     pub(super) fn restart(&mut self) {
         self.link = Link::new();
         self.tuning.restart();
@@ -46,7 +44,6 @@ impl Line {
         self.sent.clear();
     }
 
-    /// Takes an event of the tick that is under way.
     pub(super) fn note(&mut self, event: &Event) {
         self.link.note(event);
         if self.link.streams() {
@@ -57,7 +54,6 @@ impl Line {
         }
     }
 
-    /// A tick has ended.
     pub(super) fn tick_ends<R: Real>(&mut self, module: &Module<R, Mock>, config: &Config<R>) {
         self.ticks = self.ticks.wrapping_add(1);
         let sent = &mut self.sent;
@@ -67,7 +63,6 @@ impl Line {
         });
     }
 
-    /// Carries out a request.
     pub(super) fn carry_out<R: Real>(
         &mut self,
         module: &mut Module<R, Mock>,
@@ -78,7 +73,7 @@ impl Line {
             None => self.change(module, config, request.command),
             done => done,
         };
-        let done = done.or_else(|| self.class(request.command));
+        let done = done.or_else(|| self.class_letters(request.command));
         let answer = if let Some(done) = done {
             answer(request, self.ticks, done)
         } else {
@@ -89,8 +84,7 @@ impl Line {
         self.sent.push(Packet::Answer(answer));
     }
 
-    /// Letters of the name of a class, if they are asked for.
-    fn class(&self, command: Command) -> Option<(CommandStatus, [i32; 2])> {
+    fn class_letters(&self, command: Command) -> Option<(CommandStatus, [i32; 2])> {
         let Command::Class(class, from) = command else {
             return None;
         };
@@ -121,7 +115,6 @@ impl Line {
         }
     }
 
-    /// What was sent since the last call.
     pub(super) fn take(&mut self) -> Vec<Packet> {
         std::mem::take(&mut self.sent)
     }

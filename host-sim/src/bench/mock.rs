@@ -16,7 +16,6 @@ impl Clock for NoClock {
     }
 }
 
-/// What a simulated module is made of.
 pub(super) struct Mock;
 
 impl Hardware for Mock {

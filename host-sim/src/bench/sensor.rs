@@ -7,21 +7,15 @@ use scene::{SensorModel, SensorSection};
 use crate::bus::Slave;
 use crate::bus::tmag5170::{BelowMagnet, TmagSlave};
 
-/// A sensor on its mock bus.
 pub(super) struct AnySensor(Kind);
 
-/// Either of them.
 enum Kind {
-    /// It measures what it is set to.
     Mlx90333(Polled<Slave>),
-    /// It measures the field of a magnet.
     Tmag5170(Box<TiltSource<BelowMagnet>>),
 }
 
 impl AnySensor {
-    /// A sensor at rest, whose noise, where the bus does not make its own, follows from `seed`.
-    ///
-    /// `None` if there is no such magnet, which does not depend on the scene.
+    /// The noise follows from `seed` where the bus does not make its own. `None`: no such magnet.
     pub(super) fn new(section: &SensorSection, seed: u64) -> Option<Self> {
         let kind = match section.model {
             SensorModel::Mlx90333 => {
@@ -36,7 +30,6 @@ impl AnySensor {
         Some(Self(kind))
     }
 
-    /// The first kind, on its bus.
     pub(super) fn slave_mut(&mut self) -> Option<&mut Slave> {
         match &mut self.0 {
             Kind::Mlx90333(polled) => Some(polled.sensor_mut().spi_mut()),
@@ -44,7 +37,6 @@ impl AnySensor {
         }
     }
 
-    /// The second kind, on its bus.
     pub(super) fn tmag_mut(&mut self) -> Option<&mut TmagSlave> {
         match &mut self.0 {
             Kind::Mlx90333(_) => None,

@@ -11,7 +11,6 @@ use super::{SimSpiError, Slave, WireFault};
 
 const REST: [u8; 8] = [0xFF, 0x00, 0x80, 0x00, 0x80, 0x00, 0x00, 0x00];
 
-/// A sensor whose frames are the same as long as its codes are.
 fn still() -> Slave {
     Slave::new().without_noise()
 }

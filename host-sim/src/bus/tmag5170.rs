@@ -201,7 +201,6 @@ impl TmagSlave {
         self.standing | self.happened
     }
 
-    /// Measures, if there is something new to measure.
     fn convert(&mut self, fault: Option<LineFault>) {
         if !self.due {
             return;
@@ -230,7 +229,6 @@ impl TmagSlave {
         self.due = false;
     }
 
-    /// The status bits of this moment.
     fn status(&self) -> Status {
         let report = self.report();
         let afe = report.without(StatusFaults::RESTARTED).afe_status() != 0;
@@ -252,15 +250,14 @@ impl TmagSlave {
         let asked = Register::at(first & 0x7F).filter(|_| first & 0x80 != 0);
         let value = asked.map_or(0, |register| self.register(register));
         let reply = encode::register(self.status(), value);
-        if arrived == FRAME_LEN && self.is_wrong(command) {
+        if arrived == FRAME_LEN && self.has_wrong_crc(command) {
             encode::rejecting(reply)
         } else {
             reply
         }
     }
 
-    /// Whether the check bits of a command are wrong, and are looked at.
-    fn is_wrong(&self, command: [u8; FRAME_LEN]) -> bool {
+    fn has_wrong_crc(&self, command: [u8; FRAME_LEN]) -> bool {
         let [.., last] = command;
         let checked = self.register(Register::TestConfig) & 0x0004 == 0;
         checked && crc4(&command) != last & 0x0F
@@ -273,7 +270,7 @@ impl TmagSlave {
             self.happened = self.happened | StatusFaults::FRAME_LENGTH;
             return;
         }
-        if self.is_wrong(command) {
+        if self.has_wrong_crc(command) {
             self.happened = self.happened | StatusFaults::FRAME_CRC;
             self.refused = true;
             return;
@@ -313,7 +310,6 @@ impl TmagSlave {
 /// One transaction, byte by byte.
 #[derive(Debug, Clone)]
 pub struct Frame {
-    /// What has arrived at the sensor, and how many bytes.
     command: [u8; FRAME_LEN],
     arrived: usize,
     clocked: usize,

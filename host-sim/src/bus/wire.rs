@@ -32,8 +32,7 @@ impl embedded_hal::spi::Error for SimSpiError {
     }
 }
 
-/// Clocks what a transaction asks for: `byte` takes what the master sends and gives what it
-/// reads. Counts delays and bytes.
+/// `byte` takes what the master sends and gives what it reads. Counts delays and bytes.
 pub(super) fn clock(
     operations: &mut [Operation<'_, u8>],
     traffic: &mut Traffic,
@@ -61,7 +60,6 @@ pub(super) fn clock(
     traffic.delay_ns = traffic.delay_ns.saturating_add(delay_ns);
 }
 
-/// As many bytes as the longer of the two has.
 fn transfer(read: &mut [u8], write: &[u8], byte: &mut impl FnMut(u8) -> u8) {
     for i in 0..read.len().max(write.len()) {
         let received = byte(write.get(i).copied().unwrap_or(FILLER));

@@ -8,8 +8,7 @@ use crate::report;
 /// Ticks that are simulated before anyone wonders.
 const SHORT: u64 = 2_000_000;
 
-/// Says how much `runs` of a scene are, unless they are short; `file` is what is written of
-/// them, and about how many bytes of it each tick brings.
+/// Nothing of short runs. `file`: what is written, and about how many bytes of it a tick brings.
 pub(super) fn tell(scene: &Scene, runs: u64, file: Option<(&str, u64)>, verbosity: Verbosity) {
     let ticks = scene.ticks().saturating_mul(runs);
     if verbosity != Verbosity::Normal || ticks <= SHORT {

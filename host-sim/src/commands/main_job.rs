@@ -18,7 +18,6 @@ use crate::{Error, report};
 
 /// The scene, so that the program runs wherever it stands.
 const SCENE: &str = include_str!("../../../scenes/bench-textures.toml");
-/// Where the files go.
 const OUT: &str = "out/bench-textures";
 /// Seconds that are trained on: of 24 presentations of each texture, each in its own pose.
 const TRAINING_S: f64 = 240.0;
@@ -93,7 +92,6 @@ fn train(scene: &Scene, streams: Vec<Stream>) -> Result<ModelBuf, Error> {
     Ok(trained.model)
 }
 
-/// A run with decisions, which are printed as they fall.
 fn decide(
     scene: &Scene,
     model: ModelBuf,

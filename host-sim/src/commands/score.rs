@@ -159,7 +159,6 @@ pub(super) fn seeds(text: &str) -> Result<Range<u64>, String> {
     }
 }
 
-/// What decides in a scene, at its own threshold or at another.
 fn decides(scene: &Scene, threshold: Option<f64>, model: ModelBuf) -> Result<Classifier, Fault> {
     let mut scene = scene.clone();
     let Some(classifier) = &mut scene.classifier else {

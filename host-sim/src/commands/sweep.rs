@@ -38,8 +38,7 @@ pub struct Arguments {
     pub out: PathBuf,
 }
 
-/// Most runs of a sweep.
-const MOST: usize = 1_000_000;
+const MOST_RUNS: usize = 1_000_000;
 
 /// One combination, checked.
 struct Setting {
@@ -110,8 +109,9 @@ fn settings(arguments: &Arguments) -> Result<Vec<Setting>, Error> {
         .map_or(1, |seeds| seeds.end - seeds.start);
     let mut count = key.iter().map(|axis| axis.values.len());
     let count = count.try_fold(each as usize, usize::checked_mul);
-    if count.is_none_or(|count| count > MOST) {
-        let fault = format!("--key, --seeds: found more than {MOST} runs, allowed: up to {MOST}");
+    if count.is_none_or(|count| count > MOST_RUNS) {
+        let fault =
+            format!("--key, --seeds: found more than {MOST_RUNS} runs, allowed: up to {MOST_RUNS}");
         return Err(Error::Input(fault));
     }
     for (n, axis) in key.iter().enumerate() {

@@ -125,7 +125,6 @@ pub fn train(arguments: &Arguments) -> Result<String, Error> {
     Ok(format!("{summary}\n\n{}{odd}", TrainingReport(joint)))
 }
 
-/// What is wrong, and what may be why.
 fn with_doubts(
     refused: &Error,
     why: &TrainError,
@@ -140,7 +139,6 @@ fn with_doubts(
     Error::Input(lines.join("\n"))
 }
 
-/// Leaves out what is of this label.
 fn leave_out(recordings: &mut [(String, Vec<Stream>)], label: &str) -> Result<(), Error> {
     let all = || recordings.iter().flat_map(|(_, streams)| streams);
     if !all().any(|stream| stream.label == label) {
@@ -193,7 +191,6 @@ pub(super) fn of_option(fault: &str) -> Error {
     Error::Input(format!("--{fault}"))
 }
 
-/// What is wrong: an option, or the data.
 fn refusal(data: &[PathBuf], channels: &[String; 2], error: &TrainError) -> Error {
     let first = data.first().map_or(Path::new(""), PathBuf::as_path);
     let option = match error {

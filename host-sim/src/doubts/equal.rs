@@ -18,7 +18,6 @@ const BASE: u64 = 0x9E37_79B9_7F4A_7C15;
 /// A stream, and of which recording it is, from 0.
 type Placed<'s> = (usize, usize, &'s Stream);
 
-/// A sum of a sample.
 fn sum(sample: [f64; 2]) -> u64 {
     let [x, y] = sample.map(f64::to_bits);
     (x.wrapping_mul(BASE) ^ y.rotate_left(31)).wrapping_mul(BASE)

@@ -44,12 +44,10 @@ impl Usual {
     }
 }
 
-/// What is usual of x and y.
 fn usual(recordings: &[(String, Vec<Stream>)]) -> [Option<Usual>; 2] {
     [0, 1].map(|channel| Usual::of(recordings, channel))
 }
 
-/// Whether a value of a channel stands apart.
 fn is_apart(usual: Option<Usual>, value: f64) -> bool {
     usual.is_some_and(|usual| usual.has_apart(value))
 }

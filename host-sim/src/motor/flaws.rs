@@ -23,7 +23,6 @@ impl EncoderFlaws {
         jitter: 0,
     };
 
-    /// What it counts of an angle.
     pub(super) fn seen(self, turned: f64) -> f64 {
         let seen = self.scale * turned;
         if turned > 0.0 {
@@ -34,7 +33,6 @@ impl EncoderFlaws {
     }
 }
 
-/// Where jitter comes from.
 #[derive(Debug, Clone)]
 pub(super) struct Jitter(Xoshiro256PlusPlus);
 

@@ -46,7 +46,6 @@ impl Level {
     }
 }
 
-/// What the pins carry.
 #[derive(Debug)]
 pub(super) struct Wires {
     duty: [AtomicU16; 3],
@@ -120,7 +119,6 @@ impl Wires {
         }
     }
 
-    /// Angle that the encoder has not seen, rad.
     pub(super) fn missed(&self) -> f64 {
         self.missed.get()
     }

@@ -17,7 +17,6 @@ pub(super) struct Play {
 pub(super) struct Coupled {
     /// Outer torque on the whisker, N·m.
     pub(super) load_nm: f64,
-    /// Inertia of the whisker alone and of both, kg·m².
     pub(super) whisker_kg_m2: f64,
     pub(super) both_kg_m2: f64,
 }
@@ -31,7 +30,6 @@ impl Play {
         }
     }
 
-    /// Whether there is none.
     pub(super) const fn is_none(&self) -> bool {
         self.half == 0.0
     }
@@ -43,7 +41,6 @@ impl Play {
         (self.lag <= -self.half && force > 0.0) || (self.lag >= self.half && force < 0.0)
     }
 
-    /// The whisker has gone with the rotor.
     pub(super) const fn follow(&mut self, rotor: Rotor) {
         self.speed = rotor.speed;
     }

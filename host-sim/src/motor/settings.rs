@@ -84,7 +84,6 @@ impl MotorSettings {
         360.0 / (self.gear * self.counts_per_rev as f64)
     }
 
-    /// Checks every setting.
     pub(super) fn check(&self) -> Result<(), BadMotorSetting> {
         let within = |name, value: f64, range: RangeInclusive<f64>| {
             range

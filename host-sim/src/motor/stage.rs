@@ -17,7 +17,6 @@ use super::MotorSettings;
 use super::pins::Wires;
 use super::rotor::Rotor;
 
-/// Which power stage, and how its pins are read.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Stage {
     /// PWM 0 across the winding, pin 0 its direction.
@@ -94,7 +93,6 @@ impl Stage {
         })
     }
 
-    /// The winding's torque at a rotor angle with the pins as they are.
     pub(super) fn winding(self, s: &MotorSettings, wires: &Wires, angle: f64) -> Winding {
         match self {
             Self::Brushed => Self::brushed_winding(s, wires),
@@ -122,7 +120,7 @@ impl Stage {
 
     fn star_winding(self, s: &MotorSettings, wires: &Wires, angle: f64) -> Winding {
         let terminals = self.terminals(s, wires, angle);
-        let mean = mean(&terminals);
+        let mean = star_point(&terminals);
         let mut winding = Winding::default();
         for terminal in terminals.iter().flatten() {
             let factor = terminal.factor - mean.factor;
@@ -156,7 +154,7 @@ impl Stage {
     /// Current into each terminal, A.
     pub(super) fn currents(self, s: &MotorSettings, wires: &Wires, rotor: &Rotor) -> [f64; 3] {
         let terminals = self.terminals(s, wires, rotor.angle);
-        let mean = mean(&terminals);
+        let mean = star_point(&terminals);
         terminals.map(|terminal| {
             terminal.map_or(0.0, |terminal| {
                 let emf = (terminal.factor - mean.factor) * rotor.speed;
@@ -166,8 +164,7 @@ impl Stage {
     }
 }
 
-/// The star point.
-fn mean(terminals: &[Option<Terminal>; 3]) -> Terminal {
+fn star_point(terminals: &[Option<Terminal>; 3]) -> Terminal {
     let count = terminals.iter().flatten().count().max(1) as f64;
     Terminal {
         volts: terminals.iter().flatten().map(|t| t.volts).sum::<f64>() / count,

@@ -19,7 +19,6 @@ fn motor(settings: MotorSettings) -> (SimMotor, Driver, SimEncoder) {
     (motor, HBridge::new(pins.pwm, pins.dir), pins.encoder)
 }
 
-/// A motor under a constant duty for some time, in ticks of a rate.
 fn run(settings: MotorSettings, duty: f32, seconds: f64, tick_hz: f64) -> SimMotor {
     let (mut motor, mut driver, _) = motor(settings);
     for _ in 0..(seconds * tick_hz).round() as u32 {

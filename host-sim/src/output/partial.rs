@@ -36,7 +36,6 @@ impl Partial {
         Ok((file, Self(path)))
     }
 
-    /// Puts it in its target's place.
     pub(super) fn rename(self, target: &Path) -> io::Result<()> {
         let mut there = there();
         fs::rename(&self.0, target)?;

@@ -47,7 +47,6 @@ const SPEED_LIMIT: f64 = 1e6;
 /// Steps of the sensor's 14-bit code in a deflection of 1.
 const CODES: f64 = 8191.0;
 
-/// A whisker and its sensor.
 #[derive(Debug, Clone)]
 struct Whisker {
     shaft: WhiskerSettings,
@@ -138,7 +137,6 @@ fn whiskers(head: &Head, settings: &TexturedSettings, seed: u64) -> Vec<Whisker>
         .collect()
 }
 
-/// What a step happens in.
 struct World<'a> {
     surface: &'a SurfaceSettings,
     stiffness: f64,

@@ -77,7 +77,6 @@ impl ElasticSettings {
     }
 }
 
-/// A whisker and its plate.
 #[derive(Debug, Clone)]
 struct Swung {
     whisker: TouchingWhisker,
@@ -213,7 +212,6 @@ impl Elastic {
         self.surface = surface;
     }
 
-    /// The plate of a whisker with this θ′_lim, if it has one.
     fn plate(&self, limit_deg: f64, pose: SurfacePose) -> Option<Plate> {
         let facing = Facing {
             tilt_deg: self.facing.tilt_deg + pose.tilt_deg,
@@ -227,7 +225,6 @@ impl Elastic {
         limit.is_finite().then(plate)
     }
 
-    /// The piece that a whisker touches.
     fn piece(&self, whisker: u64) -> Surface {
         // Inverted: other seeds than those of the sensors' noise.
         let seed = apart(!self.seed, self.pieces);

@@ -22,12 +22,9 @@ pub(super) fn envelope(rows: &[Row], value: impl Fn(&Row) -> f64) -> Vec<(f64, f
         .collect()
 }
 
-/// A line, in a colour.
 #[derive(Debug, Clone, Copy)]
 pub(super) enum Stroke {
-    /// Unbroken.
     Whole(RGBColor),
-    /// In dashes.
     Dashed(RGBColor),
 }
 
@@ -42,7 +39,6 @@ const DASH: (u32, u32) = (7, 4);
 pub(super) struct Axes<'t> {
     /// Below; none: where another panel below has it.
     pub(super) x: Option<&'t str>,
-    /// On the left.
     pub(super) y: &'t str,
     /// Room on the left, and beyond the end of the axis below, pixels.
     pub(super) room: (u32, u32),
@@ -66,21 +62,15 @@ pub(super) fn plain(value: f64) -> String {
 /// What stands in a legend before a name.
 #[derive(Debug, Clone, Copy)]
 pub(super) enum Sign {
-    /// A line.
     Line(Stroke),
-    /// A square.
     Square(RGBColor),
-    /// A filled dot.
     Dot(RGBColor),
-    /// A cross.
     Cross(RGBColor),
-    /// A triangle.
     Triangle(RGBColor),
     /// A ring, which stands around another.
     Ring(RGBColor),
 }
 
-/// The legend of curves.
 pub(super) fn entries(curves: &[Curve]) -> Vec<(Sign, &'static str)> {
     let line = |(name, stroke, _): &Curve| (Sign::Line(*stroke), *name);
     curves.iter().map(line).collect()
@@ -146,7 +136,6 @@ pub(super) fn range(curves: &[Curve], least: f64) -> (f64, f64) {
     (middle - 0.56 * span, middle + 0.56 * span)
 }
 
-/// Draws curves in a panel, with axes.
 pub(super) fn curves<DB: DrawingBackend>(
     area: &DrawingArea<DB, Shift>,
     axes: Axes<'_>,

@@ -37,7 +37,7 @@ where
         (Sign::Cross(WRONG), "wrong"),
         (Sign::Triangle(REFUSED), "refused"),
     ];
-    if picture.decided.iter().any(is_right) {
+    if picture.decided.iter().any(is_of_right_side) {
         entries.push((Sign::Ring(SETPOINT), "by the right side"));
     }
     let area = with_legend(area, &entries)?;
@@ -97,14 +97,13 @@ where
                 chart.draw_series([TriangleMarker::new(at, DOT + 1, REFUSED.filled())])?;
             }
         }
-        if is_right(decided) {
+        if is_of_right_side(decided) {
             chart.draw_series([Circle::new(at, RING, SETPOINT.stroke_width(1))])?;
         }
     }
     Ok(())
 }
 
-/// Whether a whisker of the right side decided.
-fn is_right(decided: &Decided) -> bool {
+fn is_of_right_side(decided: &Decided) -> bool {
     decided.place.is_some_and(|place| place.side != 0)
 }

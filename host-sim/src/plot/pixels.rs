@@ -26,10 +26,6 @@ pub(super) struct Pixels {
 }
 
 impl Pixels {
-    /// A white one.
-    ///
-    /// # Errors
-    /// [`Error::Work`] if the font that comes with the program is none.
     pub(super) fn new(size: (u32, u32)) -> Result<Self, Error> {
         let font = FontRef::try_from_slice(FONT);
         Ok(Self {
@@ -39,10 +35,6 @@ impl Pixels {
         })
     }
 
-    /// Its PNG file.
-    ///
-    /// # Errors
-    /// [`Error::Work`] if it cannot be encoded.
     pub(super) fn png(&self) -> Result<Vec<u8>, Error> {
         let failed = |error: png::EncodingError| Error::Work(format!("plot: {error}"));
         let mut file = Vec::new();
@@ -55,14 +47,12 @@ impl Pixels {
         Ok(file)
     }
 
-    /// Scale of the font for a text of this size.
     fn scale(&self, size: f64) -> PxScale {
         let units = self.font.units_per_em().unwrap_or(1000.0);
         let em = (size / SIZE_OF_EM) as f32;
         PxScale::from(em * self.font.height_unscaled() / units)
     }
 
-    /// Width and height of a text.
     fn extent(&self, text: &str, size: f64) -> (f32, f32) {
         let font = self.font.as_scaled(self.scale(size));
         let advances = text.chars().map(|c| font.h_advance(font.glyph_id(c)));
@@ -70,7 +60,6 @@ impl Pixels {
     }
 }
 
-/// Between two colours, by a share of 0 to 1.
 fn mixed(below: u8, above: u8, share: f64) -> u8 {
     let (below, above) = (f64::from(below), f64::from(above));
     (below + (above - below) * share.clamp(0.0, 1.0)).round() as u8

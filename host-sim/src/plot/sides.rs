@@ -8,7 +8,6 @@ use super::{Fault, MEASURED, OTHER};
 use crate::Error;
 use crate::trace::Row;
 
-/// How the sides are drawn, and what is in their way.
 const SIDES: [Stroke; 2] = [Stroke::Whole(MEASURED), Stroke::Whole(OTHER)];
 const OBSTACLES: [Stroke; 2] = [Stroke::Dashed(MEASURED), Stroke::Dashed(OTHER)];
 /// Height of a panel, and width of the picture, pixels.

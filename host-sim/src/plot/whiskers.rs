@@ -133,7 +133,6 @@ const CONTACTS: [Quantity; 2] = [
     },
 ];
 
-/// The curves of the left side, and in front of them those of the right one, if there is one.
 fn of_sides(rows: &[Row], quantities: &[Quantity]) -> Vec<Curve> {
     let has_right = rows.first().is_some_and(|row| !row.angle_deg[1].is_nan());
     let sides = 0..1 + usize::from(has_right);

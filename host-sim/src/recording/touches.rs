@@ -2,10 +2,7 @@
 
 use super::Stream;
 
-/// The number of a touch from a cell: whole, as others write it too, or a truth.
-///
-/// # Errors
-/// What is wrong with it.
+/// Whole, as others write it too, or a truth.
 pub(super) fn number(cell: &str) -> Result<u16, String> {
     let number = match cell.to_ascii_lowercase().as_str() {
         "true" => Some(1.0),

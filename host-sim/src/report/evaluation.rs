@@ -8,7 +8,6 @@ use tactile::train::joint::Warning;
 use super::warnings::InWords;
 use crate::evaluation::{Candidate, ClassFigures, Evaluation};
 
-/// A share in percent, with its interval.
 pub(crate) struct Percent(pub(crate) Interval);
 
 impl fmt::Display for Percent {
@@ -27,7 +26,7 @@ impl fmt::Display for Percent {
     }
 }
 
-/// Over which classes a mean is: all but these.
+/// All classes but these.
 pub(crate) struct Over<'a>(pub(crate) &'a [&'a str]);
 
 impl fmt::Display for Over<'_> {
@@ -107,7 +106,7 @@ impl fmt::Display for Figures<'_> {
     }
 }
 
-/// The figures of a class; times by samples a second.
+/// Of a class; times by samples a second.
 struct OfClass<'a>(&'a ClassFigures, f64);
 
 impl fmt::Display for OfClass<'_> {

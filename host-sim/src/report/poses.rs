@@ -8,7 +8,6 @@ use tactile::train::joint::{JointModel, PoseReport};
 use super::evaluation::Percent;
 use crate::evaluation::Evaluation;
 
-/// So many poses.
 fn poses(count: usize) -> String {
     match count {
         0 | 1 => "1 pose".to_owned(),
@@ -89,7 +88,6 @@ pub(super) struct HeldOut<'a> {
 }
 
 impl HeldOut<'_> {
-    /// The pose and class that were decided least often, and how often.
     fn least(&self) -> Option<(&str, &str, f64)> {
         let all = self.poses.iter().flat_map(|pose| {
             let of_class = pose.classes.iter().zip(&self.classes);

@@ -32,7 +32,6 @@ pub struct OverRuns<'a> {
     pub tick_hz: f64,
 }
 
-/// Which end of a figure is the worst one.
 #[derive(Clone, Copy)]
 enum Worst {
     Low,

@@ -4,7 +4,6 @@ use std::fmt;
 
 use tactile::train::joint::Warning;
 
-/// So many of something.
 struct Count(usize, &'static str);
 
 impl fmt::Display for Count {
@@ -18,7 +17,6 @@ impl fmt::Display for Count {
     }
 }
 
-/// A warning in words.
 pub(super) struct InWords<'a>(pub(super) &'a Warning);
 
 impl fmt::Display for InWords<'_> {

@@ -29,7 +29,6 @@ pub(super) struct Flaws {
 }
 
 impl Flaws {
-    /// Those of a scene.
     pub(super) fn new(scene: &Scene) -> Self {
         let plant = &scene.plant;
         let of = |codes: &Option<Vec<[f64; 2]>>| {
@@ -57,7 +56,6 @@ impl Flaws {
         }
     }
 
-    /// Sensors as before the first tick.
     pub(super) fn restart(&mut self) {
         self.held.fill([0.0; 2]);
         self.gain = 1.0;
@@ -68,7 +66,6 @@ impl Flaws {
         self.gain = gain;
     }
 
-    /// Whether sensors make anything else of a deflection than what it is.
     pub(super) const fn are_there(&self) -> bool {
         self.are_there
     }
@@ -121,7 +118,6 @@ mod tests {
     use super::{CODE, Flaws};
     use scene::Scene;
 
-    /// Of two whiskers a side, with keys of `[plant]`.
     fn flaws(keys: &str) -> Flaws {
         let text = format!(
             "name = \"f\"\ntick_hz = 2000\nduration_s = 1\nseed = 1\n[head]\n\

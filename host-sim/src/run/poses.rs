@@ -12,7 +12,6 @@ use crate::plant::SurfacePose;
 /// Sets the numbers that poses are drawn from apart from all others of the same seed.
 const STREAM: u64 = 0x706F_7365_7320_3334;
 
-/// Draws poses.
 #[derive(Debug, Clone)]
 pub(super) struct Poses {
     /// None: all presentations have the scene's own.
@@ -29,7 +28,6 @@ pub(super) struct Poses {
 }
 
 impl Poses {
-    /// Those of a scene.
     pub(super) fn new(scene: &Scene) -> Self {
         let mut poses = Self {
             spread: scene.plant.spread.filter(PoseSpread::is_there),
@@ -43,7 +41,6 @@ impl Poses {
         poses
     }
 
-    /// Starts again with this seed.
     pub(super) fn restart(&mut self, seed: u64) {
         self.random = Noise::new(seed ^ STREAM);
         self.taken = 0;

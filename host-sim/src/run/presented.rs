@@ -14,7 +14,6 @@ pub(super) struct Presented {
     air: Option<u64>,
     /// The last tick with touch.
     touched: u64,
-    /// Presentations that have begun.
     begun: u64,
     /// Set once a texture is laid by hand: the scene's order has no say any more.
     is_by_hand: bool,
@@ -72,7 +71,6 @@ impl Presented {
         self.wanted = Some(texture);
     }
 
-    /// Whether what was to be laid by hand lies there.
     pub(super) const fn is_laid(&self) -> bool {
         self.is_by_hand && self.wanted.is_none()
     }

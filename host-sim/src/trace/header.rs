@@ -133,7 +133,6 @@ impl TraceShape {
         CELL * self.names().len() as u64
     }
 
-    /// The header.
     pub(super) fn header(self) -> String {
         self.names().join(",")
     }

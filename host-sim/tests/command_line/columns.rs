@@ -2,7 +2,6 @@
 
 use crate::common::{Place, SEQUENTIAL, TEXTURED, cells, model};
 
-/// The cells of a column, as they are written.
 fn column<'t>(rows: &[Vec<&'t str>], name: &str) -> Vec<&'t str> {
     let at = rows[0].iter().position(|title| *title == name);
     let at = at.unwrap_or_else(|| panic!("no {name}"));
@@ -14,7 +13,6 @@ fn numbers(rows: &[Vec<&str>], name: &str) -> Vec<f64> {
     cells.map(|cell| cell.parse().unwrap()).collect()
 }
 
-/// [`TEXTURED`] with a whisker that bends.
 fn elastic() -> String {
     TEXTURED.replace(
         "kind = \"textured\"",
@@ -59,7 +57,6 @@ fn a_recording_has_the_number_of_the_pose_where_poses_differ() {
     place.done("train --data differ.csv --tables single --out the.model");
 }
 
-/// The page, as it is committed and as the program prints it.
 #[test]
 fn every_column_that_is_written_is_on_the_page() {
     let page = include_str!("../../../docs/files.md");

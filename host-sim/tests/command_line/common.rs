@@ -37,7 +37,6 @@ present_s = 0.125
 exchange = "timed"
 "#;
 
-/// What makes [`TEXTURED`] classify.
 pub(crate) const SEQUENTIAL: &str =
     "[classifier]\nrule = \"sequential\"\nmodel = \"the.model\"\nthreshold = 0.9\n";
 
@@ -69,10 +68,8 @@ pub(crate) const RECORDING: &str = "label,trial,x,y\n\
     low,0,100,8000\nlow,0,120,8100\nlow,1,140,8000\nlow,1,110,8100\n\
     high,0,9000,8000\nhigh,0,9100,8100\nhigh,1,9050,8000\nhigh,1,9020,8100\n";
 
-/// A folder to work in; gone when dropped.
 pub(crate) struct Place(TempDir);
 
-/// How the program ended.
 #[derive(Debug)]
 pub(crate) struct Ran {
     /// `None`: by a signal.
@@ -93,12 +90,10 @@ impl Ran {
 }
 
 impl Place {
-    /// An empty folder.
     pub(crate) fn new() -> Self {
         Self(tempfile::tempdir().unwrap())
     }
 
-    /// A folder with these files.
     pub(crate) fn with(files: &[(&str, &str)]) -> Self {
         let place = Self::new();
         for (name, text) in files {
@@ -125,7 +120,6 @@ impl Place {
         String::from_utf8(self.bytes(name)).unwrap()
     }
 
-    /// The program's command with the words of `line`, to be run here.
     pub(crate) fn command(&self, line: &str) -> Command {
         let mut command = Command::new(env!("CARGO_BIN_EXE_host-sim"));
         command
@@ -135,7 +129,6 @@ impl Place {
         command
     }
 
-    /// Runs the program here.
     pub(crate) fn run(&self, line: &str) -> Ran {
         Ran::new(self.command(line).output().unwrap())
     }
@@ -154,8 +147,7 @@ impl Place {
         content
     }
 
-    /// The program must refuse `line` with status 2 and a message that
-    /// has each of `naming`, and leave the folder as it was.
+    /// Status 2, a message that has each of `naming`, and the folder as it was.
     pub(crate) fn refuses(&self, line: &str, naming: &[&str]) {
         let before = self.content();
         let ran = self.run(line);
@@ -170,8 +162,7 @@ impl Place {
         assert!(after == before, "{line} changed a file");
     }
 
-    /// [`Place::refuses`] with the option `--out`, once onto older output, which
-    /// must survive, and once into a folder that is not there.
+    /// Once onto older output, which must survive, and once into a folder that is not there.
     pub(crate) fn refuses_to_write(&self, line: &str, naming: &[&str]) {
         let old = ["old/trace.csv", "old/decisions.csv", "old/file"];
         for name in old {
@@ -201,8 +192,7 @@ fn walk(folder: &Path, content: &mut BTreeMap<PathBuf, Option<Vec<u8>>>) {
     }
 }
 
-/// A model of `channels` channels and two classes with blocks of `block`,
-/// trained on two samples, whole numbers or not.
+/// Two classes, trained on two samples, whole numbers or not.
 pub(crate) fn model(channels: usize, block: u32, whole: bool) -> Vec<u8> {
     let options = Options {
         bins: 10,
@@ -218,7 +208,6 @@ pub(crate) fn model(channels: usize, block: u32, whole: bool) -> Vec<u8> {
     trainer.train().unwrap().as_bytes().to_vec()
 }
 
-/// The cells of a table, header first.
 pub(crate) fn cells(text: &str) -> Vec<Vec<&str>> {
     text.lines().map(|line| line.split(',').collect()).collect()
 }
@@ -231,8 +220,7 @@ fn whisker(cells: &[&str]) -> Option<Whisker> {
     Some(Whisker::new(side.unwrap() as u8, number - 1))
 }
 
-/// Reads `decisions.csv`; checks its header. That of a scene tells the time as well, and
-/// where several whiskers are heard which one.
+/// Checks the header, too. That of a scene has the time, and where several are heard the whisker.
 pub(crate) fn decisions(text: &str) -> Vec<Decided> {
     let mut rows = cells(text).into_iter();
     let header = rows.next().unwrap().join(",");

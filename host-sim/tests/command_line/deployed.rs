@@ -2,7 +2,6 @@
 
 use crate::common::{Place, SEQUENTIAL, TEXTURED, model};
 
-/// [`SEQUENTIAL`] for a model that is deployed.
 fn awaiting() -> String {
     SEQUENTIAL.replace("model = \"the.model\"\n", "")
 }

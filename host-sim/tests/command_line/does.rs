@@ -8,7 +8,6 @@ use scene::Scene;
 
 use crate::common::{IDEAL, Place, RECORDING, SEQUENTIAL, TEXTURED, cells, decisions};
 
-/// The textured scene with a model that `train` made of it.
 fn classifying() -> Place {
     let scene = Scene::from_str("training.toml", &TEXTURED.replace("= 0.5", "= 3.0")).unwrap();
     let streams = main_job::record(&scene, Verbosity::Quiet).unwrap();
@@ -137,7 +136,6 @@ fn train_and_classify_say_and_write_what_they_did() {
     assert_eq!(left.len(), 3, "{left:?}");
 }
 
-/// The same table in every dress that spreadsheets give it.
 #[test]
 fn recordings_may_come_in_any_dress() {
     let train = |bytes: &[u8]| {

@@ -22,7 +22,6 @@ fn evaluating(test: &str) -> Place {
     place
 }
 
-/// The line of `text` that begins with `name`.
 #[track_caller]
 fn line<'t>(text: &'t str, name: &str) -> &'t str {
     let found = text.lines().find(|line| line.starts_with(name));
@@ -114,7 +113,6 @@ fn score_is_the_same_whatever_the_cores() {
     assert_ne!(other, printed);
 }
 
-/// A run of its own with the model of the training seed decides as `score` counts.
 #[test]
 fn score_is_of_what_run_decides() {
     let text = format!("{TEXTURED}{SEQUENTIAL}").replace("duration_s = 0.5", "duration_s = 4.0");
@@ -155,7 +153,6 @@ fn a_texture_that_was_not_trained_is_presented_all_the_same() {
     line(&printed, "refused, unknown");
 }
 
-/// By class, with a picture, and with what is doubtful.
 #[test]
 fn evaluate_warns_and_draws() {
     let place = evaluating("a,0,0,0\na,0,0,0\na,1,0,0\na,2,100,0\nc,0,900,0\n");

@@ -35,7 +35,6 @@ fn run(scene: &Scene) -> Run {
     Run::new(scene, classifier).unwrap()
 }
 
-/// Everything that a run shows, to the last bit.
 #[derive(Debug, PartialEq)]
 struct Seen {
     rows: Vec<[u64; 15]>,

@@ -15,7 +15,6 @@ use scene::{Rule, Scene};
 
 use crate::common::{Place, RECORDING, SEQUENTIAL, TEXTURED, decisions, model};
 
-/// A change to some bytes.
 #[derive(Debug, Clone)]
 enum Cut {
     Replace(f64, u8),
@@ -92,8 +91,7 @@ fn mutilated(bytes: &[u8], cuts: &[Cut]) -> Vec<u8> {
     bytes
 }
 
-/// Trains on and classifies a recording, whatever it is; decisions, if any
-/// fall, must be whole.
+/// Decisions, if any fall, must be whole.
 fn train_and_decide(folder: &Place, model: &str, recording: &str) -> Result<(), TestCaseError> {
     let path = |name: &str| folder.path(name);
     let mut models = vec![model];

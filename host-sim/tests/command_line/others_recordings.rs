@@ -15,7 +15,6 @@ fn rows(label: &str, trial: usize, level: u32, range: std::ops::Range<u32>) -> S
     range.map(row).collect()
 }
 
-/// Three trials of each of two classes.
 fn usual() -> String {
     let trials = (0..3).flat_map(|trial: u32| {
         let at = 1_000 * trial;

@@ -4,7 +4,6 @@ use tactile::{ModelBuf, Whisked};
 
 use crate::common::{Place, TEXTURED};
 
-/// Recordings of the same textures with the obstacle at so many degrees.
 fn recorded(places_deg: &[u32]) -> Place {
     let place = Place::new();
     for deg in places_deg {
@@ -17,7 +16,6 @@ fn recorded(places_deg: &[u32]) -> Place {
     place
 }
 
-/// Trains from these; returns what was said.
 fn trained(place: &Place, data: &[&str], options: &str) -> String {
     let data: Vec<_> = data.iter().map(|name| format!("--data {name}")).collect();
     let line = format!("train {} --out the.model {options}", data.join(" "));

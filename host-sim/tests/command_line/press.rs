@@ -2,7 +2,6 @@
 
 use crate::common::{Place, cells};
 
-/// The numbers of a table without its header.
 fn numbers(text: &str) -> Vec<Vec<f64>> {
     let rows = cells(text).into_iter().skip(1);
     let row = |row: Vec<&str>| row.iter().map(|cell| cell.parse().unwrap()).collect();

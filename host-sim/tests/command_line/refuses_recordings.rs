@@ -16,7 +16,6 @@ fn refused_by_both(recording: impl AsRef<[u8]>, naming: &[&str]) {
     place.refuses_to_write(CLASSIFY, &naming);
 }
 
-/// The recording with `row` in the place of its third.
 fn with_row(row: &[u8]) -> Vec<u8> {
     let rows: Vec<&[u8]> = RECORDING.lines().map(str::as_bytes).collect();
     let rows = [&rows[..3], &[row], &rows[4..]].concat();

@@ -40,7 +40,6 @@ fn run(scene: &Scene) -> Run {
     .unwrap()
 }
 
-/// The configuration of a scene for a board.
 fn bytes_for<R: Number>(scene: &Scene, board: BoardCode) -> ConfigBytes {
     let config = config_of::<R>(scene, (None, None), false, "").unwrap();
     encode(&config, board).unwrap()
@@ -50,10 +49,8 @@ fn bytes_of<R: Number>(scene: &Scene) -> ConfigBytes {
     bytes_for::<R>(scene, BoardCode::Simulation)
 }
 
-/// Makes the configuration of a scene.
 type BytesOf = fn(&Scene) -> ConfigBytes;
 
-/// The number formats, and what makes the configuration of a scene in each.
 const FORMATS: [(&str, BytesOf); 3] = [
     ("f32", bytes_of::<f32>),
     ("f64", bytes_of::<f64>),
@@ -78,7 +75,6 @@ fn seen(run: &mut Run) -> (Vec<u64>, Vec<String>) {
     (rows, events)
 }
 
-/// What a module answers, after a tick.
 fn answers(run: &mut Run, commands: &[Command]) -> Vec<Answer> {
     let mut answers = Vec::new();
     for (tag, command) in (1..).zip(commands) {
@@ -94,13 +90,11 @@ fn answers(run: &mut Run, commands: &[Command]) -> Vec<Answer> {
     answers
 }
 
-/// The answer to the last of some requests.
 fn answer(run: &mut Run, commands: &[Command]) -> (CommandStatus, [i32; 2]) {
     let last = *answers(run, commands).last().unwrap();
     (last.status, last.values)
 }
 
-/// The requests by which a module goes on by a configuration.
 fn requests(bytes: &[u8]) -> Vec<Command> {
     let mut requests = vec![Command::Forget];
     for (number, four) in bytes.chunks(4).enumerate() {
@@ -266,7 +260,6 @@ fn a_frequency_takes_effect_at_once() {
     }
 }
 
-/// The refusal of a configuration, which changes nothing.
 fn refused(run: &mut Run, bytes: &[u8]) -> ConfigError {
     let before = running(run);
     let (status, values) = answer(run, &requests(bytes));

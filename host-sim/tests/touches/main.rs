@@ -35,7 +35,6 @@ fn scene(text: &str, hz: f64, limit_deg: f64, seconds: f64, seed: u64) -> Scene 
     scene
 }
 
-/// What happened in some runs.
 #[derive(Debug, Default)]
 struct Found {
     /// Ticks from when a contact can be noticed to the onset.

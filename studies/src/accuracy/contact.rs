@@ -58,7 +58,6 @@ pub(super) fn section(page: &mut Page, measured: &[Against]) -> Result<()> {
     Ok(())
 }
 
-/// Curves of all surfaces: x and y of each tick.
 fn curves(measured: &[Against], point: impl Fn(&Measured, u32) -> (f64, f64)) -> Vec<Series> {
     let curve = |(n, against): (usize, &Against)| {
         let points = against.ticks.iter().zip(TICKS_HZ);

@@ -57,7 +57,6 @@ impl Counts {
         Ok(Self(rows.collect::<Result<_, _>>()?))
     }
 
-    /// Mean and most instructions of a call of `kernel`.
     pub(crate) fn mean_and_worst(
         &self,
         kernel: &str,

@@ -31,7 +31,6 @@ pub(super) struct Scheme {
 }
 
 impl Scheme {
-    /// All of them, Euler first.
     pub(super) fn all() -> impl Iterator<Item = Self> {
         let formats = |integrator| Format::ALL.map(|format| Self { integrator, format });
         [Integrator::Euler, Integrator::Exact]

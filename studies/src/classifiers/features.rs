@@ -33,7 +33,6 @@ pub(crate) struct Extractor {
 }
 
 impl Extractor {
-    /// For blocks of so many samples.
     pub(crate) fn new(onset: f64, rate_hz: f64, block: usize) -> Result<Self> {
         let bins = Bins::between(block, rate_hz, 6.0, 1000.0)?;
         Ok(Self {

@@ -97,7 +97,6 @@ pub(crate) struct Imp {
 }
 
 impl Imp {
-    /// An IMP averaged over windows of so many samples.
     pub(crate) const fn new(window: u32) -> Self {
         Self {
             window,
@@ -119,7 +118,6 @@ impl Imp {
         self.finish()
     }
 
-    /// The IMP of the open window, if it holds a sample.
     pub(crate) fn finish(&mut self) -> Option<[u32; VIBRISSAE]> {
         let is_open = std::mem::take(&mut self.open) > 0;
         is_open.then(|| self.vibrissae.each_mut().map(Peaks::take))

@@ -87,7 +87,6 @@ impl Network {
     }
 }
 
-/// Inputs as the units see them.
 fn scaled(inputs: &[f64], scales: &[(f64, f64)]) -> Vec<f64> {
     let one = |(x, (offset, gain)): (&f64, &(f64, f64))| {
         ((x - offset) * gain).clamp(-MAX_SCALED, MAX_SCALED)

@@ -30,8 +30,7 @@ pub(crate) trait Recogniser {
     fn finish(&mut self) -> Option<Outcome>;
 }
 
-/// All outcomes of a segment, its samples one after another, each of `channels` values; starts and
-/// ends as new.
+/// Samples of `channels` values, one after another. Starts and ends as new.
 pub(crate) fn outcomes(
     recogniser: &mut impl Recogniser,
     segment: &[f64],
@@ -55,11 +54,7 @@ pub(crate) struct Bayes<'m, R: DecisionRule> {
 }
 
 impl<'m, R: DecisionRule> Bayes<'m, R> {
-    /// A model under a rule.
-    ///
-    /// # Errors
-    ///
-    /// The rule's settings do not fit the model.
+    /// Fails where the rule's settings do not fit the model.
     pub(crate) fn new(model: Model<&'m [u32]>, settings: R::Settings) -> Result<Self, SetupError> {
         let quantisers: Vec<_> = (0..model.channels())
             .filter_map(|channel| model.quantiser(channel))

@@ -51,8 +51,7 @@ fn product(powers: &[u8], scaled: &[f64]) -> f64 {
 }
 
 impl Regression {
-    /// Fits to examples: the features of each, and the value to be estimated. Where the examples
-    /// do not determine a coefficient, the smallest is taken.
+    /// Where the examples do not determine a coefficient, the smallest is taken.
     pub(crate) fn fit(degree: u8, examples: &[(Vec<f64>, f64)]) -> Result<Self> {
         let (first, _) = examples.first().context("nothing to fit to")?;
         let features = first.len();

@@ -33,7 +33,6 @@ pub(crate) struct SpectralTrainer {
 }
 
 impl SpectralTrainer {
-    /// For signals of so many channels, cut into blocks of so many samples.
     pub(crate) fn new(channels: usize, bins: Bins, block: usize, measure: Measure) -> Self {
         let spectrum = Spectrum::new(bins);
         Self {
@@ -73,7 +72,6 @@ pub(crate) struct SpectralTemplates {
 }
 
 impl SpectralTemplates {
-    /// The sum of squared errors of a block under each class.
     pub(crate) fn errors(&self, block: &[f64]) -> Result<Vec<f64>> {
         check_segment(block, self.spectra.channels, self.spectra.block)?;
         Ok(squared_errors(&self.means, &self.spectra.of(block)?))

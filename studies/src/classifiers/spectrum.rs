@@ -30,7 +30,6 @@ pub(crate) enum Measure {
 }
 
 impl Bins {
-    /// Every bin of a transform of so many points, from 0 to N / 2.
     pub(crate) const fn all(points: usize) -> Self {
         Self {
             points,

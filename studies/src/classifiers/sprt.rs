@@ -10,7 +10,6 @@ use tactile::{Binner, Model, Quantiser, SetupError};
 
 use super::recogniser::{Outcome, Recogniser};
 
-/// A channel's likelihood ratio.
 #[derive(Debug, Clone)]
 struct Channel {
     quantiser: Quantiser,
@@ -114,7 +113,6 @@ mod tests {
     use tactile::ModelBuf;
     use tactile::train::{Options, Trainer};
 
-    /// A sample of standard deviation 100.
     fn sample(chance: &mut Chance, mean: f64) -> f64 {
         100.0 * chance.normal() + mean
     }

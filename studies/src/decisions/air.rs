@@ -13,7 +13,6 @@ use crate::cores::each;
 use crate::page::{Page, verdict};
 
 const FREQUENCIES_HZ: [f64; 2] = [2.0, 8.0];
-/// An obstacle out of reach, degrees.
 const OUT_OF_REACH_DEG: f64 = 300.0;
 /// A seed that is neither trained on nor scored.
 const SEED: u64 = 400;

@@ -45,7 +45,6 @@ pub(super) fn section(page: &mut Page, grounds: &[Ground]) -> Result<()> {
     Ok(())
 }
 
-/// The bins of all trainings together.
 fn pooled(trained: &[Trained], at: usize) -> Vec<CalibrationBin> {
     let mut pooled: Vec<CalibrationBin> = Vec::new();
     let bins = trained.iter().flat_map(|one| &one.at[at].calibration.bins);

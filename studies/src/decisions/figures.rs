@@ -76,7 +76,6 @@ pub(super) fn mean_of(figures: &[f64]) -> (f64, f64) {
     })
 }
 
-/// The mean of a figure of some models and its standard error over them.
 pub(super) fn over<'f>(
     models: impl Iterator<Item = &'f Figures>,
     figure: impl Fn(&Figures) -> f64,

@@ -140,7 +140,6 @@ impl Ground {
         trained.map_err(anyhow::Error::new)
     }
 
-    /// A model with other settings.
     pub(super) fn train_by(&self, streams: Vec<Stream>, options: &Options) -> Result<JointModel> {
         training::joint(&[(self.scene.name.clone(), streams)], options).map_err(anyhow::Error::new)
     }
@@ -159,7 +158,6 @@ impl Ground {
     }
 }
 
-/// What a model is worth on runs.
 pub(super) fn score_on(
     runs: &[Heard],
     model: &ModelBuf,
@@ -172,7 +170,6 @@ pub(super) fn score_on(
     Ok(Figures::of(scored.collect(), classifier.classes(), tick_hz))
 }
 
-/// Runs of a scene with these seeds, as a classifier takes them.
 pub(super) fn record_all(scene: &Scene, seeds: &[u64], verbosity: Verbosity) -> Result<Vec<Heard>> {
     each(verbosity, "scored runs", seeds, |&seed| {
         let scene = Scene {

@@ -77,7 +77,6 @@ pub(super) fn section(
     Ok(())
 }
 
-/// Table and conclusion of a setting.
 fn of_setting(
     page: &mut Page,
     setting: Setting,

@@ -143,7 +143,6 @@ impl Asked {
         first..first.saturating_add(self.changes)
     }
 
-    /// A run of a part by an arm.
     pub(super) fn request(&self, part: &Part, seed: u64, arm: Arm) -> anyhow::Result<Request> {
         Ok(Request {
             names: part.names.clone(),
@@ -159,7 +158,6 @@ impl Asked {
         })
     }
 
-    /// A run of a part with a change, cut short.
     pub(super) fn changed(
         &self,
         part: &Part,

@@ -8,7 +8,6 @@ use super::verdicts::{Bodies, digits, margins};
 use crate::moments::{SURE, Summary};
 use crate::page::{Claim, Page};
 
-/// A change of the rigs: what it is called, and its keys.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Change {
     pub(super) name: &'static str,
@@ -79,7 +78,6 @@ const PAD: &[Change] = &[
     change("follicles half as stiff", &["pad.follicle=0.5"]),
 ];
 
-/// The changes of the rig of a part.
 pub(super) fn of(part: &Part) -> &'static [Change] {
     match part.names.first() {
         Some(Name::Lep10 | Name::Lep12) => FLOOR,

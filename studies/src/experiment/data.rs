@@ -14,7 +14,6 @@ use super::verdicts::Bodies;
 use crate::page::Files;
 use crate::rigs::CHANNELS;
 
-/// What stands above a table.
 fn origin(asked: &Asked, seeds: impl Display) -> Origin {
     let said = Origin::default()
         .with("version", env!("CARGO_PKG_VERSION"))
@@ -25,7 +24,6 @@ fn origin(asked: &Asked, seeds: impl Display) -> Origin {
     settings.fold(said, |said, setting| said.with("set", setting))
 }
 
-/// A table of rows below where it comes from.
 fn table(
     origin: &Origin,
     header: &[String],
@@ -78,7 +76,6 @@ pub(super) fn figures(asked: &Asked, part: &Part, bodies: &Bodies) -> Result<Fil
     Ok(files)
 }
 
-/// The names of a recording's columns.
 fn columns(dataset: Dataset, count: usize) -> Vec<String> {
     let axes = |n: usize| format!("{}{}", ["x", "y"][n % 2], n / 2);
     let name = |n: usize| match dataset {

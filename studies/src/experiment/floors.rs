@@ -169,7 +169,6 @@ impl Tally {
         }
     }
 
-    /// Counts an outcome after so many samples.
     pub(super) fn add(&mut self, floor: usize, decided: usize, samples: u64) -> Result<()> {
         self.confusion.add(floor, Some(decided))?;
         self.samples += samples;

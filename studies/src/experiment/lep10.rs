@@ -24,7 +24,6 @@ const CHANCE: f64 = 100.0 / FLOORS.len() as f64;
 /// Vinyl, which falls the most in the paper.
 const VINYL: usize = 3;
 
-/// Hits over windows of so many samples.
 fn windows(buf: &ModelBuf, picked: &[usize], validation: &[Stream], window: u32) -> Result<Tally> {
     let model = buf.view();
     Tally::of(validation, picked, || {

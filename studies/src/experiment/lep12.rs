@@ -98,7 +98,6 @@ fn product(page: &mut Page, groups: &[Group], rate_hz: f64) -> Result<()> {
     product::section(page, tasks)
 }
 
-/// The hit rates of the floors, and their mean.
 fn with_mean(hits: [f64; 4]) -> [f64; 5] {
     let [a, b, c, d] = hits;
     [a, b, c, d, (a + b + c + d) / 4.0]

@@ -26,7 +26,6 @@ fn shade(share: f64) -> RGBColor {
     RGBColor(part(10.0), part(50.0), part(110.0))
 }
 
-/// The matrices in so many columns.
 pub(super) fn draw(matrices: &[Matrix], columns: usize) -> Result<String> {
     grid(matrices, columns, PANEL, |matrix, area| {
         let text = |text: &str, at: (i32, i32), size: i32| {

@@ -52,7 +52,6 @@ pub(super) fn stream(
 const HEADER: &str =
     "right of what was decided, % | stated, % | with a decision, % | time, ms | tables, bytes";
 
-/// Trains on some streams and decides in others.
 fn cells(
     page: &mut Page,
     task: Task<'_>,

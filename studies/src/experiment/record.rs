@@ -27,7 +27,6 @@ fn all(dataset: Dataset, extent: Extent) -> impl Iterator<Item = Job> {
     (0..count).map(move |number| Job { dataset, number })
 }
 
-/// The jobs of all data sets that the experiments of a request need, each once.
 pub(crate) fn jobs(request: &Request) -> Vec<Job> {
     let names = request.names.iter();
     let mut datasets: Vec<Dataset> = names.flat_map(|name| name.datasets()).copied().collect();
@@ -54,8 +53,7 @@ fn one(request: &Request, job: Job) -> Result<Recording> {
     record(request, number, seed).context(dataset.text())
 }
 
-/// Records `jobs` on all cores. The result depends on neither their order nor
-/// the number of cores.
+/// The result depends on neither the order of jobs nor the number of cores.
 pub(crate) fn record(request: &Request, jobs: &[Job], verbosity: Verbosity) -> Result<Recordings> {
     each(verbosity, "recording", jobs, |job| {
         Ok((*job, one(request, *job)?))

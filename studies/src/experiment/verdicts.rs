@@ -26,9 +26,8 @@ impl Bodies {
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Verdict {
     Met,
-    /// It does not.
     NotMet,
-    /// The seeds do not say whether it does.
+    /// The seeds do not say which.
     WithinNoise,
     /// Labels alone are recognised too, so that it says nothing.
     DoesNotCount,

@@ -64,7 +64,6 @@ pub(super) fn report(asked: &Asked, all: &[Done]) -> Result<Files> {
     Ok(files)
 }
 
-/// The command that makes the page again.
 fn command(asked: &Asked) -> String {
     let names = asked.names();
     let name = if names == Name::ALL {

@@ -49,7 +49,6 @@ pub(crate) const FIG9: Figure = Figure {
     cia: Some((0.5, 0.25)),
     ..FIG7
 };
-/// Gains of Fig. 6.
 pub(crate) const FIG6_GAINS: [f64; 4] = [0.5, 1.0, 1.5, 2.0];
 /// σ_z and τ_z, as a share of the whisk period, of strong and fast RCP (Fig. 8).
 pub(crate) const STRONG: (f64, f64) = (2.0, 0.1);

@@ -33,7 +33,6 @@ impl Asked {
         }
     }
 
-    /// What of it is missed.
     pub(super) fn missed(self, tally: &Tally) -> Vec<&'static str> {
         let [least, most] = tally.short_within();
         let [right, decided] = [tally.right_share(), tally.decided_share()];
@@ -58,7 +57,6 @@ impl Asked {
     }
 }
 
-/// A verdict, with what is missed.
 pub(super) fn said(missed: &[&str]) -> String {
     let met = verdict(missed.is_empty());
     if missed.is_empty() {

@@ -7,7 +7,6 @@ use super::trained::TICK_HZ;
 use crate::decisions::figures::{cell, number, percent};
 use crate::page::Page;
 
-/// What all sections add to.
 pub(super) struct Output {
     pub(super) page: Page,
     /// Condition, goal, found, verdict.
@@ -80,7 +79,6 @@ fn silent(tally: &Tally) -> String {
     format!("{} of {all}", tally.silent.map(share).join(" / "))
 }
 
-/// Right, stated and decided in short.
 pub(super) fn found(tally: &Tally) -> String {
     format!(
         "right {}, stated {}, decided {}, {} ms",

@@ -24,7 +24,6 @@ use crate::rigs::Chance;
 const GOAL: f64 = 1.0;
 const SEED: u64 = 7501;
 
-/// The labels of presentations in any order.
 fn permute(streams: &mut [Stream], seed: u64) {
     let mut labels: Vec<String> = streams.iter().map(|stream| stream.label.clone()).collect();
     Chance::new(seed).shuffle(&mut labels);
@@ -33,7 +32,6 @@ fn permute(streams: &mut [Stream], seed: u64) {
     }
 }
 
-/// Every texture under every name in turn.
 fn turn(streams: &mut [Stream]) {
     let names = SURFACES.map(|(name, _)| name);
     for stream in streams {
@@ -41,7 +39,6 @@ fn turn(streams: &mut [Stream]) {
     }
 }
 
-/// Every second presentation has a second name.
 fn name_twice(streams: &mut [Stream]) {
     for (n, stream) in streams.iter_mut().enumerate() {
         stream.label.push_str(["-a", "-b"][n % 2]);

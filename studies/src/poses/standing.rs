@@ -133,7 +133,6 @@ fn introduction(page: &mut Page, extent: &Extent, [trained_s, test_s]: [f64; 2])
     }
 }
 
-/// A mean over trainings with its standard error.
 fn mean(values: impl Iterator<Item = f64>, digits: usize) -> String {
     let Some(of) = Statistics::of(values.filter(|value| value.is_finite())) else {
         return "–".to_owned();
@@ -235,12 +234,10 @@ fn cell(trained: &TrainedModel, change: Option<Change>, test_s: f64, seed: u64) 
     Ok(cell)
 }
 
-/// Root mean squares of what is found and of what was stated.
 fn root(errors: &[[f64; 2]]) -> [f64; 2] {
     [0, 1].map(|n| Statistics::of(errors.iter().map(|of| of[n])).map_or(f64::NAN, |s| s.rms))
 }
 
-/// A cell of the table; empty where there were no decisions.
 fn figure(value: f64) -> String {
     if value.is_finite() {
         return format!("{value:.4}");

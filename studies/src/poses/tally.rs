@@ -69,7 +69,6 @@ impl Tally {
         Interval::of_share(self.right as f64 / self.named as f64, self.decided)
     }
 
-    /// Presentations with a name.
     pub(super) fn decided_share(&self) -> Interval {
         Interval::of(self.decided, self.presentations)
     }
@@ -82,7 +81,6 @@ impl Tally {
         Interval::of_share(share, if all == 0 { 0 } else { self.presentations })
     }
 
-    /// Presentations without a name.
     pub(super) fn undecided_share(&self) -> Interval {
         Interval::of(self.presentations - self.decided, self.presentations)
     }

@@ -146,5 +146,4 @@ pub(super) fn judge(model: &ModelBuf, threshold: f64, streams: &[Stream]) -> Res
     Ok(Tally::of(&shown))
 }
 
-/// Labels as they are.
 pub(super) fn as_felt(_: &mut Vec<Stream>, _: u64) {}

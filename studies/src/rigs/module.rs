@@ -171,7 +171,6 @@ impl HeadModule {
         })
     }
 
-    /// What the sensor of whisker `n` has measured, as codes.
     pub(super) fn feel(&mut self, n: usize, codes: [i16; 2]) {
         if let Some(whisker) = self.module.whiskers_mut().get_mut(n) {
             whisker.sensor_mut().source_mut().set(codes);

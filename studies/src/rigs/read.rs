@@ -123,7 +123,6 @@ fn alike(place: &Value, value: Value) -> Result<Value, String> {
     }
 }
 
-/// The line on which `key` is set.
 pub(super) fn line_of(text: &str, key: &str) -> usize {
     let sets = |line: &str| {
         line.trim_start()

@@ -5,8 +5,7 @@ use std::str::FromStr;
 
 use toml::{Table, Value};
 
-/// A key that is set by name, such as `head.motor.kp=0.2`: its rig, where in that it is, and
-/// its value in TOML.
+/// A key of a rig and its value in TOML, such as `head.motor.kp=0.2`.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Setting {
     path: Vec<String>,

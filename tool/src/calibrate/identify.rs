@@ -145,7 +145,6 @@ fn solved(normal: [[f64; 3]; 3], right: [f64; 3]) -> Option<[f64; 3]> {
     Some([with(0), with(1), with(2)])
 }
 
-/// Gains of the position control.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Gains {
     /// Duty per degree.

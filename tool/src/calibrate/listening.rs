@@ -10,7 +10,6 @@ use crate::interrupt;
 use crate::sample::Sample;
 use crate::tally::{Before, Tally, side};
 
-/// Codes with so much added, within their range.
 fn sum([x, y]: [u16; 2], [more_x, more_y]: [i32; 2]) -> [u16; 2] {
     [(x, more_x), (y, more_y)].map(|(code, more)| {
         // Within 16383, thus within a u16.
@@ -30,7 +29,6 @@ pub(crate) struct Listening<'m> {
     pub(crate) tally: Tally,
     /// Faults and limits that it has said, with their time.
     pub(crate) faults: Vec<String>,
-    /// The number of the last.
     pub(crate) last_fault: Option<u8>,
 }
 
@@ -125,7 +123,6 @@ impl<'m> Listening<'m> {
         Ok(samples)
     }
 
-    /// Of a record, with the zero that was taken out of it.
     fn sample(&self, record: &TickRecord) -> Sample {
         let sample = Sample::new(record, self.ticks as f64 * self.tick_s());
         Sample {

@@ -23,7 +23,6 @@ const STEP_S: f64 = 0.4;
 /// The end of a step, in which the whisker rests, s.
 const SETTLED_S: f64 = 0.05;
 
-/// Which way a whisker goes that is pushed.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Push {
     /// With the duty, so far, degrees.
@@ -33,7 +32,6 @@ pub(crate) enum Push {
     Still,
 }
 
-/// Goes a little way from rest and back.
 pub(crate) fn push(whisker: &mut Listening<'_>) -> Result<Push, Error> {
     whisker.hold(Some(REST_DEG))?;
     let before = whisker.follow(0.3, |_| true)?;
@@ -63,8 +61,7 @@ pub(crate) fn push(whisker: &mut Listening<'_>) -> Result<Push, Error> {
     })
 }
 
-/// Leads the whisker slowly from rest to `to_deg` and back; where it met something on its way, if
-/// it did, degrees.
+/// Where it met something on its way to `to_deg` and back to rest, if it did, degrees.
 pub(crate) fn lead(whisker: &mut Listening<'_>, to_deg: f64) -> Result<Option<f64>, Error> {
     let met = led(whisker, [REST_DEG, to_deg])?;
     led(whisker, [met.unwrap_or(to_deg), REST_DEG])?;

@@ -25,7 +25,6 @@ pub(crate) struct Channel {
     pub(crate) span: [u16; 2],
 }
 
-/// Both axes at rest.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Zero {
     pub(crate) channels: [Channel; 2],
@@ -34,7 +33,6 @@ pub(crate) struct Zero {
 }
 
 impl Channel {
-    /// Of codes, of which there is at least one.
     fn of(codes: &[u16]) -> Option<Self> {
         let mean = |codes: &[u16]| {
             codes.iter().copied().map(f64::from).sum::<f64>() / codes.len().max(1) as f64

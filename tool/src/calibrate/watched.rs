@@ -12,7 +12,6 @@ const REST_S: f64 = 3.0;
 /// A block whose mean is taken for what is slow, s.
 const BLOCK_S: f64 = 0.02;
 
-/// What was seen of one whisker.
 #[derive(Debug)]
 pub(crate) struct Watched {
     pub(crate) zero: [Zero; 2],
@@ -33,8 +32,7 @@ pub(crate) struct Watched {
     pub(crate) samples: Vec<Sample>,
 }
 
-/// Watches for so many seconds, rest included; a whisker that `has_motor` is armed for it, and
-/// stopped again.
+/// A whisker that `has_motor` is armed for it, and stopped again. `seconds` include the rest.
 pub(crate) fn watch(
     whisker: &mut Listening<'_>,
     seconds: f64,

@@ -87,7 +87,6 @@ fn moments(half: &[[f64; SIGNS.len()]], sign: usize) -> Moments {
 mod tests {
     use super::{Felt, drift};
 
-    /// A touch of such a mean, steps and scatter.
     fn touch(n: u32, mean: u16, step: u16) -> Felt {
         let mut felt = Felt::default();
         let scatter = (n * 37 % 11 * 5) as u16;

@@ -36,7 +36,6 @@ pub(crate) struct Checks {
 }
 
 impl Checks {
-    /// Of a label, by what the module says of its ticks.
     pub(crate) fn new(label: &str, tick_hz: u32) -> Self {
         Self {
             label: label.to_owned(),

@@ -20,11 +20,9 @@ const SAME: [&str; 2] = ["scene", "tick_hz"];
 /// When the first touch ended, by the PC's clock.
 pub(crate) const FIRST_TOUCH: &str = "first_touch";
 
-/// A recording, as far as it has come.
 #[derive(Debug)]
 pub(crate) struct Recording {
     path: PathBuf,
-    /// The pose that is captured.
     pose: Option<String>,
     /// How samples stand in it.
     stands: Option<Stands>,
@@ -95,7 +93,6 @@ impl Recording {
             .filter(move |stream| stream.label == label)
     }
 
-    /// In the pose that is captured.
     pub(crate) fn touches(&self, label: &str) -> usize {
         count(self.of(label).filter(|stream| stream.pose == self.pose))
     }

@@ -7,7 +7,6 @@ use wire::{Flags, TickRecord};
 use crate::sample::Sample;
 use crate::tally::Before;
 
-/// What one record says of the whisker's touch.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Sampled {
     pub(crate) codes: [u16; 2],
@@ -31,7 +30,6 @@ pub(crate) struct Sampler {
 }
 
 impl Sampler {
-    /// Of a module with so many ticks a second.
     pub(crate) const fn new(tick_hz: u32) -> Self {
         Self {
             touches: TouchDetector::at(tick_hz),

@@ -8,7 +8,6 @@ use super::samples::Sampled;
 /// Touches of a trial: at the usual 2 Hz of whisking 2.5 s.
 const OF_TRIAL: u32 = 5;
 
-/// What was captured of a label.
 #[derive(Debug)]
 pub(crate) struct Touches {
     label: String,

@@ -214,7 +214,6 @@ fn next(out: &Path, tick_hz: u32, [labels, poses]: [usize; 2], is_simulated: boo
     lines.join("\n")
 }
 
-/// The first model in the folder of a recording.
 fn model_beside(recording: &Path) -> Option<PathBuf> {
     let folder = match recording.parent() {
         Some(folder) if folder != Path::new("") => folder,

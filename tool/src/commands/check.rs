@@ -37,8 +37,7 @@ pub(crate) struct Arguments {
 
 const FAULTS: usize = 40;
 
-/// Watches the module and its scene's simulation, and writes what differs; the motors are off at
-/// the end, however it ends.
+/// The motors are off at the end, however it ends.
 pub(crate) fn check(arguments: &Arguments) -> Result<(), Error> {
     let scene = arguments.which.scene_file()?;
     let simulation = SourceChoice::simulation(scene)?;

@@ -64,7 +64,6 @@ impl Arguments {
         Ok(Some((file.to_owned(), loaded, model)))
     }
 
-    /// What a module gets, which fits it.
     fn deployment(
         &self,
         module: &mut Conversation,

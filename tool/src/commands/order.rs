@@ -37,7 +37,6 @@ pub(super) enum SideName {
 }
 
 impl SideName {
-    /// 0 left, 1 right.
     pub(super) const fn number(self) -> u8 {
         match self {
             Self::Left => 0,
@@ -68,7 +67,6 @@ pub(crate) fn clear(to: &ToSide) -> Result<(), Error> {
     order(&to.source, Command::Clear(to.whisker()), "faults cleared")
 }
 
-/// Finds rest again.
 pub(crate) fn home(to: &ToSide) -> Result<(), Error> {
     order(&to.source, Command::Home(to.whisker()), "is being homed")
 }

@@ -129,7 +129,6 @@ pub(crate) fn records(arguments: &Arguments, verbosity: Verbosity) -> Result<(),
     script.end()
 }
 
-/// What is in records.
 #[derive(Debug, Default)]
 struct Summary {
     tally: Tally,
@@ -153,7 +152,6 @@ impl Summary {
         self.touches[side] += u64::from(touching && !before);
     }
 
-    /// In words, at so many ticks a second.
     fn text(&self, tick_hz: Option<u32>) -> String {
         let Tally {
             records,

@@ -7,7 +7,6 @@ use host_sim::Error;
 use scene::Scene;
 use whisking::FormatCode;
 
-/// The program of a board, or of a simulation.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct Program {
     pub(crate) board: BoardCode,
@@ -15,7 +14,6 @@ pub(crate) struct Program {
 }
 
 impl Program {
-    /// That of the numbers of a board and a number format.
     pub(crate) fn of(board: u8, format: u8) -> Result<Self, Error> {
         let boards = ALL.iter().map(|facts| facts.code);
         let mut boards = boards.chain([BoardCode::Simulation]);
@@ -31,7 +29,6 @@ impl Program {
         })
     }
 
-    /// That which a scene needs on this board, or in a simulation.
     pub(crate) fn for_scene(board: BoardCode, scene: &Scene) -> Result<Self, Error> {
         let format = match BoardFacts::of(board) {
             None => config::in_simulation(scene),

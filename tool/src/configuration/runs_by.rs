@@ -7,7 +7,6 @@ use host_sim::Error;
 
 use super::Running;
 
-/// Which scene a module runs.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) enum RunsBy {
     Scene {

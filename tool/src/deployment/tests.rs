@@ -15,7 +15,6 @@ fn textures() -> ModelBuf {
         .1
 }
 
-/// A scene of the workspace, with keys in place of its own.
 fn loaded(name: &str, keys: &[&str]) -> Loaded {
     let text = std::fs::read_to_string(scene_file(name)).unwrap();
     let keys: Vec<_> = keys.iter().map(|key| key.parse().unwrap()).collect();

@@ -19,7 +19,6 @@ pub(crate) enum Purpose {
     Port,
 }
 
-/// Something that was looked for.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct Check {
     what: String,

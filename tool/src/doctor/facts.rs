@@ -8,7 +8,6 @@ use crate::source::{BoardName, workspace};
 
 const PINS: &str = include_str!("../../../rust-toolchain.toml");
 
-/// What is found on this PC.
 #[derive(Debug, Clone)]
 pub(crate) struct Facts {
     pub(super) toolchain: String,
@@ -23,7 +22,6 @@ pub(crate) struct Facts {
     pub(super) is_linux: bool,
     pub(super) is_root: bool,
     pub(super) has_rules: bool,
-    /// Probes; or why none can be seen.
     pub(super) probes: Result<Vec<SeenProbe>, String>,
     pub(super) ports: Vec<SerialPort>,
 }

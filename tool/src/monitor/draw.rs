@@ -19,7 +19,6 @@ use theme::bold;
 const WIDE: u16 = 68;
 const HIGH: u16 = 14;
 
-/// Where everything is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 struct Places {
     head: Rect,

@@ -101,7 +101,6 @@ impl History {
         self.listener.as_ref().map_or(&[], Listener::classes)
     }
 
-    /// Takes what has come; returns the answers among it.
     pub(crate) fn take(&mut self, incoming: &Incoming) -> Vec<Answer> {
         let mut answers = Vec::new();
         for packet in &incoming.packets {
@@ -189,7 +188,6 @@ impl History {
     }
 }
 
-/// What was said by tick `end`.
 pub(crate) fn until<T>(said: &VecDeque<Said<T>>, end: u64) -> vec_deque::Iter<'_, Said<T>> {
     let after = said.partition_point(|said| said.ticks <= end);
     said.range(..after)

@@ -27,7 +27,6 @@ pub(crate) struct Decided {
     pub(crate) decision: Decision,
 }
 
-/// What is known of one whisker from its records.
 #[derive(Debug, Clone, Copy, Default)]
 struct Track {
     filter: filter::State<f32>,
@@ -123,8 +122,7 @@ impl Listener {
         posteriors.to_f64().map(|p| p as f32).collect()
     }
 
-    /// Takes a record and what is before it; restarts after lost records or another start of the
-    /// module. Returns what was decided in its tick.
+    /// Restarts after lost records or another start of the module.
     pub(crate) fn take(&mut self, record: &TickRecord, before: Before) -> Vec<Decided> {
         if before != Before::Nothing {
             self.perception = self.perception.take().map(Perception::restarted);

@@ -19,7 +19,6 @@ const MOST_FAULTS: usize = 8;
 /// Signals of a whisker, in the order of [`signals`].
 pub(crate) const SIGNALS: usize = 7;
 
-/// What there is to draw.
 #[derive(Debug, Clone)]
 pub(crate) struct Shown {
     pub(crate) title: String,
@@ -40,7 +39,6 @@ pub(crate) struct Shown {
     pub(crate) message: String,
 }
 
-/// A whisker that is shown.
 #[derive(Debug, Clone)]
 pub(crate) struct Whisker {
     pub(crate) side: &'static str,

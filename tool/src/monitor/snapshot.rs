@@ -14,7 +14,6 @@ use super::view::View;
 use super::watching::{Shared, lock};
 use super::window::About;
 
-/// Columns and rows.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct Size {
     columns: u16,

@@ -120,7 +120,6 @@ fn cells(svg: &mut String, cells: &[Cell], left: f32, top: f32) {
     );
 }
 
-/// The outline of a character that is drawn.
 fn shape(cell: &Cell, left: f32, top: f32) -> String {
     let first = cell.symbol().chars().next().unwrap_or(' ');
     let block = |x: f32, y: f32, width: f32, height: f32| {

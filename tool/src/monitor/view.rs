@@ -1,6 +1,5 @@
 //! What of the history is looked at, and what each key does.
 
-/// Which whiskers are shown.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Shows {
     Left,
@@ -30,7 +29,6 @@ pub(crate) enum Deed {
     Stop,
     /// Ends; the module goes on.
     Quit,
-    /// Stops the motors, then ends.
     StopAndQuit,
     Save,
 }
@@ -50,7 +48,6 @@ pub(crate) const KEYS: [(&str, &str); 10] = [
 
 const SPANS_S: [f64; 6] = [1.0, 2.0, 5.0, 10.0, 30.0, 60.0];
 
-/// What is looked at.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct View {
     pub(crate) shows: Shows,
@@ -91,7 +88,6 @@ impl View {
         }
     }
 
-    /// For how long the picture goes back, s.
     pub(crate) const fn span_s(&self) -> f64 {
         SPANS_S[self.span]
     }
@@ -109,7 +105,6 @@ impl View {
         held.clamp(extent.oldest.min(extent.now), extent.now)
     }
 
-    /// Looks elsewhere, if that is what a key is for.
     pub(crate) fn press(&mut self, key: Key, extent: Extent) {
         match key {
             Key::Letter('?' | 'h') => self.has_help = !self.has_help,

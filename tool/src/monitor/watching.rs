@@ -39,13 +39,11 @@ pub(crate) fn lock(shared: &Mutex<Shared>) -> MutexGuard<'_, Shared> {
     shared.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// How listening has ended.
 pub(crate) fn joined(listener: JoinHandle<Result<(), Error>>) -> Result<(), Error> {
     let failed = |_| Err(Error::Work("whoever listens has failed".to_owned()));
     listener.join().unwrap_or_else(failed)
 }
 
-/// What is wanted of whoever listens.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Wish {
     Arm,
@@ -68,7 +66,6 @@ pub(crate) struct Watching {
     pub(crate) most_s: Option<f64>,
 }
 
-/// Motors that are to be stopped.
 #[derive(Debug, Default)]
 struct Stopping {
     tags: Vec<u16>,
@@ -222,7 +219,6 @@ impl Watching {
     }
 }
 
-/// Whether records have come, none of which is of an armed module.
 fn is_unarmed(incoming: &Incoming) -> bool {
     let mut records = incoming.records();
     let has_come = records.clone().next().is_some();
@@ -244,7 +240,6 @@ impl Pace {
         }
     }
 
-    /// For how long to wait at a time of the module.
     fn ahead(&mut self, now_s: f64) -> Duration {
         let Some(speed) = self.speed else {
             return Duration::ZERO;

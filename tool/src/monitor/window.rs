@@ -35,7 +35,6 @@ pub(crate) struct About {
     pub(crate) save: PathBuf,
 }
 
-/// What the one who draws is to look at.
 enum Look {
     Key(Key),
     Resized,

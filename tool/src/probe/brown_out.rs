@@ -32,7 +32,6 @@ pub(super) trait Words {
     fn write_word(&mut self, at: u32, word: u32) -> Result<(), Error>;
 }
 
-/// What became of the level.
 #[derive(Debug, PartialEq, Eq)]
 pub(super) enum Level {
     WasHigh,

@@ -70,7 +70,6 @@ pub(crate) fn flash(
     Ok(())
 }
 
-/// The session by which it was programmed.
 fn program(
     selector: &str,
     board: BoardName,

@@ -43,7 +43,6 @@ struct Channels {
 }
 
 impl Messages {
-    /// Messages of a module with so many ticks a second, which decides for these classes.
     pub(super) fn new(
         output: Output,
         origin: &Origin,
@@ -153,7 +152,6 @@ impl Messages {
         self.write(channel, message.as_bytes())
     }
 
-    /// The module's time at a tick of this number, s.
     fn t_s(&mut self, sequence: u32) -> f64 {
         self.time.take(sequence) as f64 / f64::from(self.tick_hz)
     }

@@ -22,7 +22,6 @@ pub(crate) enum Laying {
 }
 
 impl Laying {
-    /// By the command `line`; without one by whoever is at standard input.
     pub(crate) fn by(line: Option<&str>) -> Self {
         match line {
             None => Self::Person(Person::at_standard_input()),

@@ -23,7 +23,6 @@ impl Person {
         Self::new(|| Box::new(io::stdin().lock()), io::stdin().is_terminal())
     }
 
-    /// Someone whose answers are the lines of `input`.
     fn new(input: impl FnOnce() -> Box<dyn BufRead> + Send + 'static, forgets: bool) -> Self {
         let (answer, answers) = mpsc::channel();
         thread::spawn(move || {

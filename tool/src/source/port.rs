@@ -65,7 +65,6 @@ pub(super) struct Port {
 }
 
 impl Port {
-    /// Opens the port at `path` and asks who is there.
     pub(super) fn open(path: &Path, baud: u32, laying: Laying) -> Result<Self, Error> {
         let wrong = |error: std::io::Error| Error::file(path, error);
         let mut line = SerialPort::open(path, baud).map_err(wrong)?;
@@ -88,7 +87,6 @@ impl Port {
         Ok(port)
     }
 
-    /// Asks who is there, until it is answered.
     fn greet(&mut self) -> Result<(), Error> {
         let begun = Instant::now();
         let mut asked = None;

@@ -54,7 +54,6 @@ pub(crate) fn workspace() -> Option<&'static Path> {
     }
 }
 
-/// Builds the program of a board, which brings `scene` with it; returns its file.
 pub(crate) fn build(board: BoardName, scene: &Path) -> Result<PathBuf, Error> {
     let Board {
         name: feature,

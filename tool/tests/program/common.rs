@@ -65,7 +65,6 @@ pub(crate) fn scenes(name: &str) -> PathBuf {
 
 pub(crate) struct Place(TempDir);
 
-/// How the program ended.
 #[derive(Debug)]
 pub(crate) struct Ran {
     pub(crate) status: Option<i32>,
@@ -74,7 +73,6 @@ pub(crate) struct Ran {
 }
 
 impl Place {
-    /// A folder with [`BENCH`] in it.
     pub(crate) fn new() -> Self {
         let place = Self(tempfile::tempdir().unwrap());
         place.write("bench.toml", BENCH);
@@ -108,21 +106,18 @@ impl Place {
         }
     }
 
-    /// The same, which must end well.
     pub(crate) fn done(&self, arguments: &str) -> Ran {
         let ran = self.run(arguments);
         assert_eq!(ran.status, Some(0), "{arguments}: {}", ran.stderr);
         ran
     }
 
-    /// The same, which must fail at its work.
     pub(crate) fn fails(&self, arguments: &str) -> Ran {
         let ran = self.run(arguments);
         assert_eq!(ran.status, Some(1), "{arguments}: {}", ran.stderr);
         ran
     }
 
-    /// The same, which must be refused with `why`.
     pub(crate) fn refuses(&self, arguments: &str, why: &str) {
         let ran = self.run(arguments);
         assert_eq!(ran.status, Some(2), "{arguments}: {}", ran.stderr);

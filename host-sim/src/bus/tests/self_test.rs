@@ -25,7 +25,6 @@ impl DelayNs for Waited {
     }
 }
 
-/// A sensor that is bent elsewhere in each frame.
 struct Shaken(Slave, u32);
 
 impl ErrorType for Shaken {

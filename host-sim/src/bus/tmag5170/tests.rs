@@ -12,7 +12,6 @@ use super::{LineFault, SimSpiError, TmagSlave};
 
 const RANGES: [Range; 3] = [Range::Narrow, Range::Narrow, Range::Wide];
 
-/// All axes, averaged.
 fn config() -> Config {
     Config {
         device: DeviceConfig {
@@ -42,7 +41,6 @@ fn configured(change: impl FnOnce(&mut Config)) -> Tmag5170<TmagSlave> {
     sensor
 }
 
-/// A configured sensor in a field.
 fn running() -> Tmag5170<TmagSlave> {
     let mut sensor = configured(|_| {});
     sensor.spi_mut().set_field([1.0, -2.0, 40.0]);
@@ -55,7 +53,6 @@ fn exchange(slave: &mut TmagSlave, command: [u8; 4]) -> [u8; 4] {
     bytes
 }
 
-/// The fields that a driver reads, mT.
 fn fields_mt(sensor: &mut Tmag5170<TmagSlave>) -> [f64; 3] {
     let fields = sensor.fields().unwrap();
     std::array::from_fn(|axis| f64::from(fields[axis].mt(RANGES[axis].full_scale_mt(Version::A1))))

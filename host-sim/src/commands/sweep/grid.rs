@@ -4,7 +4,6 @@ use std::str::FromStr;
 
 use scene::Override;
 
-/// A key with the values that it takes.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(super) struct Axis {
     pub(super) key: String,

@@ -10,7 +10,6 @@ use crate::decisions::{Decided, Score, Verdict};
 use crate::output::Output;
 use crate::run::Run;
 
-/// The figures of a run.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Measured {
     /// Decisions that are right, wrong and refused.
@@ -25,7 +24,6 @@ pub(super) struct Measured {
 }
 
 impl Measured {
-    /// Runs a scene to its end; `tick` is called after each.
     pub(super) fn of(mut run: Run<dyn HostModule>, scene: &Scene, mut tick: impl FnMut()) -> Self {
         let mut decided: Vec<Decided> = Vec::new();
         let (mut touches, mut faults) = (0, 0);
@@ -65,7 +63,6 @@ impl Measured {
         }
     }
 
-    /// Share of wrong decisions among those that were not refused.
     fn error_rate(&self) -> Option<f64> {
         let [right, wrong, _] = self.verdicts;
         let all = right + wrong;
@@ -104,7 +101,6 @@ pub(crate) const COLUMNS: [Column; 8] = columns! {
         `[whisking]`";
 };
 
-/// Writes the table: of each run the values of the keys, its seed and its figures.
 pub(super) fn write<'r>(
     output: Output,
     keys: impl Iterator<Item = &'r str>,

@@ -104,7 +104,6 @@ impl TexturedSettings {
         Ok(())
     }
 
-    /// The shaft of whisker `i` of a side.
     pub(super) fn whisker(&self, i: usize) -> WhiskerSettings {
         let last = self.whiskers.last().copied();
         let whisker = self.whiskers.get(i).copied().or(last);

@@ -19,7 +19,6 @@ fn head(whiskers_per_side: usize) -> Head {
     }
 }
 
-/// Without noise, base inertia and scatter of the friction.
 fn quiet() -> TexturedSettings {
     TexturedSettings {
         inertia: 0.0,
@@ -43,7 +42,6 @@ fn plant(settings: TexturedSettings, surface: SurfaceSettings) -> Textured {
     plant
 }
 
-/// Moves the one whisker at a constant speed and returns its last deflection.
 fn sweep(plant: &mut Textured, from: f64, to: f64, seconds: f64) -> [f64; 2] {
     let ticks = (seconds / TICK_S).round();
     for n in 1..=ticks as u32 {
@@ -206,7 +204,6 @@ fn vibration_is_that_of_a_resonator_over_a_random_profile() {
     }
 }
 
-/// Readings of whiskers that whisk against P240.
 fn readings(whiskers: usize, seed: u64) -> Vec<Vec<[f64; 2]>> {
     let mut plant = Textured::new(head(whiskers), TexturedSettings::default(), seed).unwrap();
     plant.present(Texture::P240);

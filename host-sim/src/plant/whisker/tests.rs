@@ -262,7 +262,6 @@ fn a_free_whisker_reads_nothing_at_rest() {
     );
 }
 
-/// Readings of whiskers that whisk against a texture.
 fn readings(
     settings: &ElasticSettings,
     texture: Texture,

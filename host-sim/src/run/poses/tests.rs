@@ -6,7 +6,6 @@ use super::Poses;
 use crate::plant::SurfacePose;
 use crate::run::Run;
 
-/// `scenes/whisker.toml` with more keys of `[plant]`.
 fn scene(keys: &str) -> Scene {
     let text = include_str!("../../../../scenes/whisker.toml");
     let (all, _) = text.split_once("[classifier]").unwrap();

@@ -72,13 +72,11 @@ impl Subject {
         Ok(whisker?.finer(finer))
     }
 
-    /// A plate that it touches at [`TOUCH_RAD`].
     fn plate(&self, surface: Surface) -> Plate {
         Plate::in_the_way(TOUCH_RAD, self.shaft.length_m, &Facing::USUAL, surface)
     }
 }
 
-/// This many degrees beyond first touch.
 fn pose(overlap_deg: f64) -> Pose {
     Pose::swung(TOUCH_RAD + overlap_deg.to_radians())
 }

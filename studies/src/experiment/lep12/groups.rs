@@ -106,7 +106,6 @@ impl Curves {
             .min_by(|a, b| off(a).total_cmp(&off(b)))
     }
 
-    /// Mean hit rate of the window at a time, between the points of the curve.
     pub(super) fn window_at(&self, time_s: f64) -> f64 {
         interpolate(&self.window, time_s)
     }

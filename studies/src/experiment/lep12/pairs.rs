@@ -123,7 +123,6 @@ impl Pair {
     }
 }
 
-/// The section, on a group of trials.
 pub(super) fn section(page: &mut Page, group: &Group, rate_hz: f64) -> Result<()> {
     let mut pairs = Vec::new();
     for a in 0..FLOORS.len() {

@@ -19,8 +19,7 @@ pub(super) const PENALTIES: [f64; 3] = [1e-5, 1e-4, 1e-3];
 /// One sweep of so many is held out to choose the penalty.
 const HELD_OUT: usize = 5;
 
-/// Trains a network with the penalty that does best on sweeps that are held out
-/// of the training ones, the smallest of equals.
+/// The penalty is the best on sweeps held out of the training ones, the smallest of equals.
 fn train_choosing(rows: &[Row], seed: u64) -> Result<Network> {
     let mut best = (0, Options::imp(seed).decay);
     let places = || rows.iter().enumerate();
@@ -100,7 +99,6 @@ pub(super) fn hit_of_p40(score: &Confusion) -> f64 {
     100.0 * score.hit_rate_of(0).unwrap_or(0.0)
 }
 
-/// Mean of the diagonal of a paper's table.
 pub(super) fn mean_hit<const N: usize>(table: &[[f64; N]; N]) -> f64 {
     let hits = table.iter().enumerate().map(|(n, row)| row[n]);
     hits.sum::<f64>() / N as f64

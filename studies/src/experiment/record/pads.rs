@@ -14,7 +14,6 @@ const BITS: usize = 8;
 /// Window of the IMP's mean, samples (50 ms; chosen).
 pub(crate) const WINDOW: u32 = 58;
 
-/// A side of the robot: its vibrissae and what they do.
 struct Side {
     whiskers: Vec<(Vibrissa, TouchingWhisker)>,
     imp: Imp,
@@ -40,7 +39,6 @@ pub(crate) struct Felt {
 }
 
 impl Pads {
-    /// The pads of a robot, each side with a seed.
     pub(crate) fn new(rig: &Corridor, seeds: [u64; 2]) -> Result<Self> {
         let side = |seed| {
             anyhow::Ok(Side {

@@ -8,7 +8,6 @@ use crate::paper::psik::ARCS;
 use crate::rigs::{Layout, Vibrissa, seed_of};
 use physics::{Biotact, Grit, Material, Modes, SensorSettings, Shaft, TouchingWhisker};
 
-/// A sensor with a rig's gains of x and y.
 pub(crate) fn sensor(full_scale_rad: [f64; 2]) -> SensorSettings {
     SensorSettings {
         full_scale_rad,
@@ -16,7 +15,6 @@ pub(crate) fn sensor(full_scale_rad: [f64; 2]) -> SensorSettings {
     }
 }
 
-/// A shaft whose follicle is so many times as stiff.
 pub(crate) fn held(mut shaft: Shaft, follicle: f64) -> Shaft {
     shaft.follicle.rotation_n_m_rad *= follicle;
     shaft

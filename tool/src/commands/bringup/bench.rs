@@ -17,7 +17,6 @@ use crate::interrupt;
 pub(super) struct Bench {
     pub(super) module: Conversation,
     pub(super) about: AboutModule,
-    /// The configuration that the module runs by.
     pub(super) running: Running,
     /// How many frames are read, and ticks watched.
     pub(super) frames: u32,
@@ -115,7 +114,6 @@ impl Bench {
         }))
     }
 
-    /// The whisker of a side, which is listened to from now on.
     pub(super) fn whisker(&mut self, side: u8) -> Result<Listening<'_>, Error> {
         let mut whisker = Listening::new(&mut self.module, side)?;
         whisker.go_on()?;

@@ -10,7 +10,6 @@ use super::report::Part;
 use crate::configuration::RunsBy;
 use crate::faults::plain;
 
-/// What helps the F446 with faster dips of the supply.
 const BROWN_OUT: &str = "the brown-out level is below what the clock needs, as it is delivered: \
                          whisker flash sets it";
 
@@ -69,7 +68,6 @@ fn of_start(started: Started, part: &mut Part) {
     }
 }
 
-/// The row of a fault or limit, in one line.
 pub(super) fn of_fault(number: u8) -> String {
     match TABLE.iter().find(|row| row.number == number) {
         None => format!("fault {number}: a newer version of this program knows it"),

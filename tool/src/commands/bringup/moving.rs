@@ -66,7 +66,6 @@ pub(super) fn encoder(bench: &mut Bench, side: u8) -> Result<Part, Error> {
     })
 }
 
-/// Which way the motor has turned the whisker.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 enum Turns {
     Forward(f64),

@@ -15,7 +15,6 @@ const NEW: f64 = 0.9;
 /// there, which is twice what the simulated sensor does.
 const NOISY_CODES: f64 = 9.0;
 
-/// What is wrong where no reading counts.
 const INVALID: &str = "not done: no reading counts; the step frames comes first, and whisker log names \
                        the fault";
 
@@ -39,7 +38,6 @@ fn watched(bench: &mut Bench, side: u8) -> Result<Result<Vec<Sample>, Part>, Err
     })
 }
 
-/// How often there is a new reading.
 #[derive(Serialize)]
 struct Rate {
     readings: usize,

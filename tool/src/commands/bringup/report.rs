@@ -35,7 +35,6 @@ impl Part {
         }
     }
 
-    /// A step that cannot be done here.
     pub(super) fn not_done(why: impl Into<String>) -> Self {
         Self {
             means: why.into(),
@@ -43,7 +42,6 @@ impl Part {
         }
     }
 
-    /// Of this step, and of the whisker on this side.
     pub(super) fn of(self, name: Name, side: u8) -> Self {
         let name = name.to_possible_value();
         Self {
@@ -53,7 +51,6 @@ impl Part {
         }
     }
 
-    /// What is no step of the usual ones.
     pub(super) fn named(self, name: &str) -> Self {
         Self {
             step: name.to_owned(),
@@ -102,11 +99,9 @@ impl Part {
     }
 }
 
-/// All of it.
 #[derive(Debug, Serialize)]
 pub(super) struct Report {
     whisker: &'static str,
-    /// Where the module is, and its firmware.
     board: String,
     firmware: String,
     scene: String,
@@ -130,7 +125,6 @@ impl Report {
         })
     }
 
-    /// Adds what a step reports, and prints it.
     pub(super) fn add(&mut self, part: Part) {
         part.print();
         let title = part.title();

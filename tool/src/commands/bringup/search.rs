@@ -17,8 +17,7 @@ use crate::frames::Seen;
 /// Rates of ticks by the rest that they leave, the shortest first: from 64 us to 1.3 ms on an F446.
 const RATES: [u32; 6] = [2_000, 1_800, 1_600, 1_500, 1_000, 500];
 
-/// Deploys `scene` at one rate after the other, and leaves it at the first at which each frame is
-/// answered.
+/// Leaves the module at the first rate at which each frame is answered.
 pub(super) fn find(bench: &mut Bench, scene: &Path) -> Result<Part, Error> {
     let Some(facts) = bench.running.program().facts() else {
         let why = "not done: no time passes between the frames of a simulated module";

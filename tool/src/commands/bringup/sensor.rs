@@ -11,7 +11,6 @@ use super::report::Part;
 use crate::frames::Seen;
 use crate::interrupt;
 
-/// What a TMAG5170 has in place of frames.
 pub(super) const NO_FRAMES: &str = "not done: its sensor has no frames of its own, as a TMAG5170; whisker log \
                          names faults 27 to 31, and the steps below look at its readings";
 
@@ -70,7 +69,6 @@ pub(super) fn read(
     Ok(Some(frames))
 }
 
-/// The rest that a rate of ticks leaves.
 #[derive(Debug, Clone, Copy, Serialize)]
 pub(super) struct Leaves {
     pub(super) tick_hz: u32,

@@ -44,7 +44,6 @@ fn complete() -> Facts {
     }
 }
 
-/// An empty PC, and a board that is not plugged in.
 fn empty() -> Facts {
     Facts {
         rustup: None,

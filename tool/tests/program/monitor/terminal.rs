@@ -23,7 +23,6 @@ pub(super) const INTERRUPT: Signal = Signal::INT;
 
 const PATIENCE: Duration = Duration::from_secs(30);
 
-/// The program in a terminal.
 pub(super) struct Terminal {
     program: Child,
     keyboard: File,
@@ -34,7 +33,6 @@ pub(super) struct Terminal {
 }
 
 impl Terminal {
-    /// Starts the program with these arguments in a terminal of so many columns and rows.
     pub(super) fn start(
         place: &Place,
         arguments: &str,
@@ -107,7 +105,6 @@ impl Terminal {
         })
     }
 
-    /// Waits until it is so.
     #[track_caller]
     pub(super) fn wait_until(&mut self, is_so: impl Fn(&str) -> bool) {
         let begun = Instant::now();
@@ -117,7 +114,6 @@ impl Terminal {
         }
     }
 
-    /// Waits until a word is there.
     #[track_caller]
     pub(super) fn wait_for(&mut self, word: &str) {
         self.wait_until(|text| text.contains(word));
