@@ -228,7 +228,7 @@ impl Injection {
         if !(lasts || ends) {
             return Ok(());
         }
-        // A loose contact changes every 8 ticks in the mean.
+        // A loose contact is drawn again every 8 ticks in the mean.
         let flips = begins || random.next_u64().is_multiple_of(8);
         let closed = random.next_u64().is_multiple_of(2);
         let is_there = match self.kind {
@@ -270,7 +270,7 @@ impl Injection {
         } else if let Some(slave) = subject.slave(self.whisker) {
             match self.kind {
                 Kind::SensorNoise if begins || ends => {
-                    // From one frame in a thousand to every second one.
+                    // From one frame in two thousand to every second one.
                     let share = 0.5 * 0.001_f64.powf((self.detail % 1001) as f64 / 1000.0);
                     slave.disturb(0.0, if lasts { share } else { 0.0 }, self.detail);
                 }

@@ -13,8 +13,7 @@ const OFF_TICKS: u32 = 2;
 /// For how long a whisker may be further from its setpoint than the scene allows, and be
 /// driven, s.
 const AWAY_S: f64 = 0.05;
-/// For how long it may be driven into an end stop, s: as long as what is away from its setpoint
-/// may be driven.
+/// For how long it may be driven into an end stop, s.
 const AT_STOP_S: f64 = 0.1;
 /// Within how many ticks of a stop its motors are off. A line takes some to arrive, behind others;
 /// how late the tick is after its last byte is measured by `emulate --stopping`.

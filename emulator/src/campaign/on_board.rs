@@ -38,7 +38,7 @@ impl<'p> OnBoard<'p> {
 }
 
 /// Which bit, which byte or register, whether within a tick, and before which instruction of
-/// it: ticks of a decision are the longest, and have up to 2,400.
+/// it, of the first 1,500: longer ticks are not interrupted later.
 const fn parts(detail: u64) -> [u32; 4] {
     let drawn = (detail >> 32) as u32;
     [

@@ -129,7 +129,8 @@ impl Changed {
 )]
 fn word(address: usize) -> u32 {
     let word;
-    // SAFETY: reads a word of a region, which lives for ever and which nothing writes.
+    // SAFETY: reads an aligned word of a region, which lives for ever; where the tick changes it,
+    // either value is a word.
     unsafe {
         core::arch::asm!(
             "ldr {word}, [{address}]",
