@@ -20,11 +20,12 @@ use case::{Case, Flashed, Way, missing, pass, running, says, stop};
 
 /// How long PC and board are compared, s, and how long after what changes nothing.
 const COMPARED_S: f64 = 4.0;
-const SHORT_S: f64 = 1.0;
-/// How long a board that was deployed to is watched, s: it whisks and may touch.
-const WATCHED_S: f64 = 2.0;
+const SHORT_S: f64 = 0.5;
+/// How long a board that was deployed to is watched, s: it whisks; and where it may touch.
+const WATCHED_S: f64 = 1.0;
+const TOUCHES_S: f64 = 2.0;
 /// How long one that has a model may take to decide, s.
-const PATIENCE_S: f64 = 6.0;
+const PATIENCE_S: f64 = 3.0;
 
 /// Deploys the scene with the model in `model` to a board that has it without, by a probe and by
 /// the serial port: PC and board must then agree to the last bit, in decisions too, as they must
@@ -49,7 +50,7 @@ pub(crate) fn deploying(
     let words = case.new.deployment.load().words() as usize;
     for (way, written) in [
         (Way::Probe, 0),
-        (Way::Serial, words / 2),
+        (Way::Serial, words / 8),
         (Way::Probe, words - 1),
     ] {
         case.keeps(way, &case.new.deployment, written, None)?;
@@ -158,7 +159,7 @@ impl Case<'_> {
     }
 
     fn has_refused(&self, mut session: Session, refusal: Refusal) -> Result<String, Error> {
-        let (lines, driven) = pass(&mut session, WATCHED_S)?;
+        let (lines, driven) = pass(&mut session, TOUCHES_S)?;
         let has = |what: &str| lines.iter().any(|line| line.contains(what));
         if !driven || !says(&lines, refusal) || !has("touch ") || has("decision") {
             return Err(missing(refusal.text(), &lines));

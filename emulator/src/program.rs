@@ -2,6 +2,7 @@
 
 use std::ops::Range;
 use std::path::Path;
+use std::sync::{Arc, OnceLock};
 
 use firmware::{BoardCode, ConfigError, HEADER_BYTES, HeadConfig, Header, decode};
 use object::elf::{FileHeader32, PT_LOAD};
@@ -15,9 +16,11 @@ use crate::chip::{Fault, MODELS, Model};
 
 #[derive(Debug, Clone)]
 pub(crate) struct Program {
-    bytes: Vec<u8>,
+    bytes: Arc<[u8]>,
     /// Where in memory what stands, by load address.
     segments: Vec<(u32, Vec<u8>)>,
+    /// Once it was looked for, through megabytes.
+    model: OnceLock<&'static Model>,
 }
 
 fn bad(what: impl std::fmt::Display) -> Fault {
@@ -47,13 +50,20 @@ impl Program {
                 segments.push((segment.p_paddr(endian), contents.to_vec()));
             }
         }
-        Ok(Self { bytes, segments })
+        Ok(Self {
+            bytes: bytes.into(),
+            segments,
+            model: OnceLock::new(),
+        })
     }
 
     /// The board that it was built for: its main source file is called after it, as the
     /// debug information says.
     pub(crate) fn model(&self) -> Result<&'static Model, Fault> {
-        let file = object::File::parse(self.bytes.as_slice()).map_err(bad)?;
+        if let Some(model) = self.model.get() {
+            return Ok(model);
+        }
+        let file = object::File::parse(&*self.bytes).map_err(bad)?;
         let names = file.section_by_name(".debug_str");
         let names = names.and_then(|names| names.uncompressed_data().ok());
         let names = names.unwrap_or_default();
@@ -64,7 +74,8 @@ impl Program {
                 .any(|found| found == main.as_bytes())
         };
         let model = MODELS.iter().find(is_named).copied();
-        model.ok_or_else(|| bad("it is of no board that is emulated"))
+        let model = model.ok_or_else(|| bad("it is of no board that is emulated"))?;
+        Ok(self.model.get_or_init(|| model))
     }
 
     pub(crate) fn bytes(&self) -> &[u8] {

@@ -97,7 +97,7 @@ fn wheel(python: &Path, profile: Profile) -> Result<PathBuf, Fault> {
     match profile {
         Profile::Release => build.arg("--release"),
         // What is there already.
-        Profile::Dev => build.args(["--features", "united"]),
+        Profile::Dev => build.args(["--features", "compiled-once"]),
     };
     run(&mut build)?;
     let built = listing(&wheels, "whl")?;

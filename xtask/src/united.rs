@@ -18,7 +18,7 @@ fn built(choice: &[&str], edges: &str) -> BTreeSet<String> {
 fn what_was_built_for_the_simulator_is_taken_by_tests_bench_and_python() {
     let simulator = built(&["-p", "host-sim"], "normal,build");
     assert!(simulator.len() > 50, "{}", simulator.len());
-    let python = ["-p", "whisker-python", "--features", "united"];
+    let python = ["-p", "whisker-python", "--features", "compiled-once"];
     for (choice, edges) in [
         (&["-p", "whisker"][..], "normal,build"),
         (&python, "normal,build"),
