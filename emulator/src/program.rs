@@ -19,7 +19,7 @@ pub(crate) struct Program {
     bytes: Arc<[u8]>,
     /// Where in memory what stands, by load address.
     segments: Vec<(u32, Vec<u8>)>,
-    /// Once it was looked for, through megabytes.
+    /// Kept, as it is found by a search through megabytes of debug information.
     model: OnceLock<&'static Model>,
 }
 

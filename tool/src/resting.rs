@@ -27,7 +27,7 @@ pub(crate) fn rest(module: &mut Conversation) -> Result<(), Error> {
         match answer.status {
             // Its range may leave rest out.
             CommandStatus::Done | CommandStatus::OutOfRange => sides += 1,
-            // A module has whiskers on one side, or none.
+            // There may be a side without whiskers, or without motors.
             CommandStatus::NoWhisker => {}
             _ => return Ok(()),
         }

@@ -96,7 +96,7 @@ fn wheel(python: &Path, profile: Profile) -> Result<PathBuf, Fault> {
         .current_dir(top().join("python"));
     match profile {
         Profile::Release => build.arg("--release"),
-        // What is there already.
+        // Takes what the tests were built of.
         Profile::Dev => build.args(["--features", "compiled-once"]),
     };
     run(&mut build)?;

@@ -112,7 +112,7 @@ impl Field {
 
     /// Whether an image of these parts may refuse it: where it cannot, it needs no text.
     pub const fn can_be_refused(self) -> bool {
-        // Numbers keep their meanings.
+        // By codes, which never change: of whisking and motors, then of the classifier.
         match self.code() {
             9..=30 | 38..=43 => Part::Motion.is_built(),
             31..=35 | 45 => Part::Classifier.is_built(),

@@ -2,7 +2,7 @@
 
 use super::Stream;
 
-/// Whole, as others write it too, or a truth.
+/// A whole number, also as 3.0 or 3e0, which other programs write, or `true` or `false`.
 pub(super) fn number(cell: &str) -> Result<u16, String> {
     let number = match cell.to_ascii_lowercase().as_str() {
         "true" => Some(1.0),

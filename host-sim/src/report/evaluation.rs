@@ -26,7 +26,7 @@ impl fmt::Display for Percent {
     }
 }
 
-/// All classes but these.
+/// What a mean is over: all classes but these.
 pub(crate) struct Over<'a>(pub(crate) &'a [&'a str]);
 
 impl fmt::Display for Over<'_> {
@@ -106,7 +106,7 @@ impl fmt::Display for Figures<'_> {
     }
 }
 
-/// Of a class; times by samples a second.
+/// The row of a class, and samples a second.
 struct OfClass<'a>(&'a ClassFigures, f64);
 
 impl fmt::Display for OfClass<'_> {
