@@ -18,29 +18,24 @@ const PATIENCE_S: f64 = 1.0;
 
 /// Motors go off once all whiskers rest, or have had time to; a module without any is left alone.
 pub(crate) fn rest(module: &mut Conversation) -> Result<(), Error> {
-    let [tick_hz, _] = module.ask(Command::Hello)?.values;
+    let [tick_hz, whiskers] = module.ask(Command::Hello)?.values;
     let near_ticks = (NEAR_S * f64::from(tick_hz)) as u32;
-    let mut sides = 0;
-    for side in 0..2 {
+    let whiskers = usize::try_from(whiskers).unwrap_or(0);
+    for side in (0..16).take(whiskers) {
         let whisker = WhiskerId { side, number: 0 };
         let answer = module.answer(Command::Setpoint(whisker, REST))?;
         match answer.status {
             // Its range may leave rest out.
-            CommandStatus::Done | CommandStatus::OutOfRange => sides += 1,
-            // There may be a side without whiskers, or without motors.
-            CommandStatus::NoWhisker => {}
+            CommandStatus::Done | CommandStatus::OutOfRange => {}
             _ => return Ok(()),
         }
     }
-    if sides == 0 {
-        return Ok(());
-    }
     module.ask(Command::Stream(true))?;
     let is_near = |record: &TickRecord| (degrees(record.measured) - degrees(0)).abs() < NEAR_DEG;
-    until(module, sides, near_ticks, is_near)?;
+    until(module, whiskers, near_ticks, is_near)?;
     module.ask(Command::Stop)?;
     let is_off = |record: &TickRecord| record.duty == 0 && !record.flags.contains(Flags::ARMED);
-    let are_off = until(module, sides, 0, is_off)?;
+    let are_off = until(module, whiskers, 0, is_off)?;
     module.ask(Command::Stream(false))?;
     if are_off {
         return Ok(());
@@ -50,11 +45,11 @@ pub(crate) fn rest(module: &mut Conversation) -> Result<(), Error> {
     )))
 }
 
-/// Waits until the records of so many sides have been such for so many ticks; `false` if that
+/// Waits until the records of each whisker have been such for so many ticks; `false` if that
 /// takes too long.
 fn until(
     module: &mut Conversation,
-    sides: usize,
+    whiskers: usize,
     ticks: u32,
     is_such: impl Fn(&TickRecord) -> bool,
 ) -> Result<bool, Error> {
@@ -67,7 +62,7 @@ fn until(
             since[side] = is_such(record).then(|| since[side].unwrap_or(now));
             such[side] = since[side].is_some_and(|first| now.wrapping_sub(first) >= ticks);
         }
-        if such.iter().filter(|such| **such).count() >= sides {
+        if such.iter().filter(|such| **such).count() >= whiskers {
             return Ok(true);
         }
     }
