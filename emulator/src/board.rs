@@ -170,8 +170,9 @@ impl Board {
             .map(drop)
     }
 
-    /// The world has moved on: what the next tick reads.
-    fn begin_tick(&mut self) -> Result<(), Fault> {
+    /// The world has moved on: what the next tick reads. A board of a head is then run by
+    /// [`Self::run_until`].
+    pub(crate) fn begin(&mut self) -> Result<(), Fault> {
         self.inputs();
         if self.world_moves > 0 {
             for (side, sensor) in self.sensors.iter_mut().enumerate() {
@@ -185,7 +186,7 @@ impl Board {
 
     /// Runs to the end of the next tick, through resets if they are borne.
     fn pass_tick(&mut self) -> Result<(), Fault> {
-        self.begin_tick()?;
+        self.begin()?;
         let limit = self.machine.now + self.world_waits.unwrap_or(PATIENCE);
         loop {
             let stop = self
@@ -227,11 +228,6 @@ impl Board {
         self.reset = Some(cause);
         self.watch.restart();
         self.ring = Receiver::default();
-    }
-
-    /// For a board of a head, which is run by [`Self::run_until`].
-    pub(crate) fn begin(&mut self) -> Result<(), Fault> {
-        self.begin_tick()
     }
 
     pub(crate) fn run_until(&mut self, until: Ps) -> Result<u32, Fault> {
@@ -433,11 +429,6 @@ impl Board {
         })
     }
 
-    fn run_tick(&mut self, events: &mut Vec<Event>) -> Result<(), Fault> {
-        self.pass_tick()?;
-        self.look_at_tick(events)
-    }
-
     fn look_at_tick(&mut self, events: &mut Vec<Event>) -> Result<(), Fault> {
         if let Some(cause) = self.reset
             && !self.bears_resets
@@ -459,7 +450,10 @@ impl Board {
 
 impl Bench for Board {
     fn tick(&mut self, events: &mut Vec<Event>) {
-        self.attempt(|board| board.run_tick(events));
+        self.attempt(|board| {
+            board.pass_tick()?;
+            board.look_at_tick(events)
+        });
     }
 
     fn look(&mut self, snapshot: &mut Snapshot) {

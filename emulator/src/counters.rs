@@ -7,7 +7,7 @@
 
 mod started;
 
-pub(crate) use started::Started;
+pub(crate) use started::{Started, bare};
 
 #[derive(Debug, Clone, Copy)]
 enum Place {

@@ -85,17 +85,11 @@ pub struct Given {
     pub verbosity: Verbosity,
 }
 
-impl Given {
-    fn parts(&self) -> (&Path, &Path) {
-        (&self.flashed.scene, &self.flashed.program)
-    }
-}
-
 enum What {
     /// Steps on one board, or each case on its own.
     Steps(fn(&Loaded, &Program) -> Result<Vec<Case>, Error>),
-    /// More than that; what was seen.
-    Work(fn(&Given) -> Result<Vec<String>, Error>),
+    /// More than that, by the files of scene and program; what was seen.
+    Work(fn(&Given, &Path, &Path) -> Result<Vec<String>, Error>),
 }
 
 /// A scenario.
@@ -112,8 +106,7 @@ pub const ALL: [Scenario; 13] = [
     Scenario {
         name: "compare",
         what: "Runs the scene on PC and board and compares every tick",
-        how: What::Work(|given| {
-            let (scene, program) = given.parts();
+        how: What::Work(|given, scene, program| {
             let circumstances = Circumstances {
                 duration_s: given.duration,
                 ..given.probe.into()
@@ -131,16 +124,14 @@ pub const ALL: [Scenario; 13] = [
         name: "head",
         what: "Runs the scene on boards that a bus joins, and compares every tick with the \
                simulated head",
-        how: What::Work(|given| {
-            let (scene, program) = given.parts();
+        how: What::Work(|given, scene, program| {
             head::compare(scene, program, given.duration, given.ppm)
         }),
     },
     Scenario {
         name: "deadlines",
         what: "Measures how the board keeps its time; fails if it misses a tick",
-        how: What::Work(|given| {
-            let (scene, program) = given.parts();
+        how: What::Work(|given, scene, program| {
             deadlines::measure(scene, program, given.minutes, given.csv, given.verbosity)
         }),
     },
@@ -148,10 +139,7 @@ pub const ALL: [Scenario; 13] = [
         name: "latency",
         what: "Measures how long contact on one side takes to excite the other; fails if it does \
                so in another tick than the one that reads it",
-        how: What::Work(|given| {
-            let (scene, program) = given.parts();
-            latency::measure(scene, program)
-        }),
+        how: What::Work(|_, scene, program| latency::measure(scene, program)),
     },
     Scenario {
         name: "overload",
@@ -187,7 +175,7 @@ pub const ALL: [Scenario; 13] = [
         what: "Deploys the scene with --model to a board whose scene names none, in --world; \
                after a right one PC and board must agree; fails if a wrong or interrupted one is \
                not refused, or does not leave the scene before",
-        how: What::Work(|given| {
+        how: What::Work(|given, _, _| {
             let (world, model) = (named(given.world.as_ref())?, named(given.model.as_ref())?);
             deploying::deploying(&given.flashed, world, model)
         }),
@@ -197,8 +185,7 @@ pub const ALL: [Scenario; 13] = [
         what: "Has a PC talk to the board; fails if an answer is wrong, a record not that of the \
                same module on the PC, or telemetry takes more instructions than it may beside the \
                program --without it",
-        how: What::Work(|given| {
-            let (scene, program) = given.parts();
+        how: What::Work(|given, scene, program| {
             telemetry::talk(scene, program, named(given.without.as_ref())?)
         }),
     },
@@ -207,18 +194,14 @@ pub const ALL: [Scenario; 13] = [
         what: "Stops the board's motors by every way while its links are flooded, --stops times a \
                flood; fails if a motor is driven later than in the tick after the stop has come, \
                or a stop is not answered",
-        how: What::Work(|given| {
-            let (scene, program) = given.parts();
-            stopping::stopping(scene, program, given.stops)
-        }),
+        how: What::Work(|given, scene, program| stopping::stopping(scene, program, given.stops)),
     },
     Scenario {
         name: "serial",
         what: "Talks with the board over its serial line, also at a --slow baud; fails if a line, \
                a record or an answer is not what it should be, something is lost, or the tick \
                takes longer for it than --without",
-        how: What::Work(|given| {
-            let (scene, program) = given.parts();
+        how: What::Work(|given, scene, program| {
             let [slow, without] = [&given.slow, &given.without].map(Option::as_ref);
             serial::talk(scene, [program, named(slow)?, named(without)?])
         }),
@@ -236,11 +219,11 @@ impl Scenario {
     /// # Errors
     /// [`Error::Input`] for a scene that is wrong, [`Error::Work`] says what did not happen.
     pub fn run(&self, given: &Given) -> Result<Vec<String>, Error> {
+        let Flashed { scene, program } = &given.flashed;
         let cases = match self.how {
-            What::Work(work) => return work(given),
+            What::Work(work) => return work(given, scene, program),
             What::Steps(cases) => cases,
         };
-        let (scene, program) = given.parts();
         let (loaded, program) = flashed(scene, program)?;
         let mut said = Vec::new();
         for case in cases(&loaded, &program)? {

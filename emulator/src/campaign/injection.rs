@@ -24,10 +24,6 @@ pub enum Kind {
     EncoderLoose,
     /// The encoder's count jitters, in half of the runs around one that stands still.
     EncoderJitter,
-    /// The encoder loses a share of the counts of protraction.
-    EncoderSlip,
-    /// The encoder counts so many times what it should.
-    EncoderScale,
     /// The winding's cable is cut.
     WindingOpen,
     /// The winding's cable has a loose contact.
@@ -286,7 +282,6 @@ impl Injection {
 
     fn at_motor(&self, motor: &mut SimMotor, lasts: bool) {
         let drawn = (self.detail % 4001) as f64 / 4000.0;
-        let flawed = |flaws| if lasts { flaws } else { EncoderFlaws::NONE };
         match self.kind {
             Kind::Held => motor.block(lasts),
             Kind::EncoderJitter => {
@@ -296,19 +291,11 @@ impl Injection {
                     motor.mend(Wire::Encoder);
                 }
                 // A test of a motor is not misled by so much (`whisking::motor::Expected`).
-                motor.set_encoder(flawed(EncoderFlaws {
-                    jitter: 1 + (3.0 * drawn) as u16,
+                motor.set_encoder(EncoderFlaws {
+                    jitter: if lasts { 1 + (3.0 * drawn) as u16 } else { 0 },
                     ..EncoderFlaws::NONE
-                }));
+                });
             }
-            Kind::EncoderSlip => motor.set_encoder(flawed(EncoderFlaws {
-                slip: drawn,
-                ..EncoderFlaws::NONE
-            })),
-            Kind::EncoderScale => motor.set_encoder(flawed(EncoderFlaws {
-                scale: 3.0 * drawn,
-                ..EncoderFlaws::NONE
-            })),
             Kind::Friction => motor.set_friction(if lasts { 1.0 + 9.0 * drawn } else { 1.0 }),
             Kind::Supply => {
                 let own_v = motor.settings().supply_v;

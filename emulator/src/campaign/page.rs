@@ -5,6 +5,7 @@ use std::fmt::Write as _;
 
 use super::injection::Kind;
 use super::outcome::{Ending, RunRow};
+use crate::counters::bare;
 
 /// Why what is silent is silent, by the kind of fault or the beginning of a variable's name.
 const REASONS: &str = include_str!("reasons.toml");
@@ -48,26 +49,12 @@ fn noticed(rows: &[&RunRow]) -> String {
     }
 }
 
-fn without_indices(name: &str) -> String {
-    let mut kept = String::new();
-    let mut inside = false;
-    for letter in name.chars() {
-        match letter {
-            '[' => inside = true,
-            ']' => inside = false,
-            letter if !inside => kept.push(letter),
-            _ => {}
-        }
-    }
-    kept
-}
-
 fn place(row: &RunRow) -> String {
     match &row.changed {
         Some(changed) => {
             let word = changed.split(" bit ").next().unwrap_or(changed);
             let named = word.split_once(' ').map_or(word, |(_, name)| name);
-            without_indices(named)
+            bare(named)
         }
         None if row.and.is_some() => TWO.to_owned(),
         None => name(row.kind),
@@ -124,13 +111,7 @@ pub fn page(rows: &[RunRow]) -> Result<String, String> {
     }
 
     let _ = writeln!(text, "\n## Harmful\n");
-    let mut harmful = with(rows, Ending::Harmful).peekable();
-    if harmful.peek().is_none() {
-        let _ = writeln!(text, "None.");
-    }
-    for row in harmful {
-        let _ = writeln!(text, "- {}", described(row));
-    }
+    list(&mut text, rows, Ending::Harmful);
 
     let _ = writeln!(
         text,
@@ -158,14 +139,18 @@ pub fn page(rows: &[RunRow]) -> Result<String, String> {
     }
 
     let _ = writeln!(text, "\n## Not followed\n");
-    let mut unfollowed = with(rows, Ending::Unfollowed).peekable();
-    if unfollowed.peek().is_none() {
+    list(&mut text, rows, Ending::Unfollowed);
+    Ok(text)
+}
+
+fn list(text: &mut String, rows: &[RunRow], outcome: Ending) {
+    let mut rows = with(rows, outcome).peekable();
+    if rows.peek().is_none() {
         let _ = writeln!(text, "None.");
     }
-    for row in unfollowed {
+    for row in rows {
         let _ = writeln!(text, "- {}", described(row));
     }
-    Ok(text)
 }
 
 /// A run in a line.

@@ -22,7 +22,7 @@ pub(crate) struct Started {
 }
 
 /// A path without its indices.
-fn bare(path: &str) -> String {
+pub(crate) fn bare(path: &str) -> String {
     let parts = path.split('[');
     let parts = parts.map(|part| part.split_once(']').map_or(part, |(_, rest)| rest));
     parts.collect()

@@ -61,12 +61,15 @@ struct Span {
     most: f64,
 }
 
-impl Span {
-    const EMPTY: Self = Self {
-        least: f64::INFINITY,
-        most: f64::NEG_INFINITY,
-    };
+/// It is empty.
+impl Default for Span {
+    fn default() -> Self {
+        let (least, most) = (f64::INFINITY, f64::NEG_INFINITY);
+        Self { least, most }
+    }
+}
 
+impl Span {
     fn take(&mut self, value: f64) {
         self.least = self.least.min(value);
         self.most = self.most.max(value);
@@ -83,7 +86,7 @@ impl Span {
     }
 }
 
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Default)]
 struct OfSide {
     /// Of its setpoints, and of its true angle.
     whisk: Span,
@@ -95,6 +98,7 @@ struct OfSide {
     was_homing: bool,
 }
 
+#[derive(Default)]
 pub(super) struct Figures {
     tick_hz: f64,
     /// Setpoints are within these, degrees.
@@ -116,32 +120,14 @@ pub(super) struct Figures {
 
 impl Figures {
     pub(super) fn new(scene: &Scene) -> Self {
-        let side = OfSide {
-            whisk: Span::EMPTY,
-            reached: Span::EMPTY,
-            faults: [None; 2],
-            excursion: 0,
-            was_homing: false,
-        };
         let motor = scene.motor.as_ref();
         Self {
             tick_hz: f64::from(scene.tick_hz),
             limits_deg: motor.map_or([f64::NEG_INFINITY, f64::INFINITY], |motor| {
                 [motor.min_deg, motor.max_deg]
             }),
-            ticks: 0,
-            sides: vec![side; scene.head.sides.count()],
-            stops: Stops::default(),
-            with_fault: 0,
-            at_stop: 0,
-            driven: 0,
-            squares: 0.0,
-            duties: 0,
-            resets: Vec::new(),
-            max_following_deg: 0.0,
-            longest_excursion: 0,
-            is_armed: None,
-            angles_deg: Vec::new(),
+            sides: vec![OfSide::default(); scene.head.sides.count()],
+            ..Self::default()
         }
     }
 
@@ -267,10 +253,8 @@ impl Figures {
         let resets = self.resets.iter().map(|t_s| Listed {
             t_s: *t_s,
             kind: "reset".to_owned(),
-            side: None,
-            number: None,
-            name: None,
             text: "reset".to_owned(),
+            ..Listed::default()
         });
         lister.listed.extend(resets);
         lister.listed.sort_by(|a, b| a.t_s.total_cmp(&b.t_s));

@@ -13,7 +13,7 @@ use serde::Deserialize;
 use wire::Command;
 
 use super::wrong;
-use written::{WrittenFile, within};
+use written::{WrittenFile, WrittenPart, read_event, within};
 
 /// Bytes of the longest file, and most events in it.
 const MOST_BYTES: u64 = 1 << 20;
@@ -21,13 +21,15 @@ const MOST_EVENTS: usize = 1_000;
 /// Latest time, s.
 const LATEST_S: f64 = 3_600.0;
 
-#[derive(Debug, Clone, PartialEq)]
+/// What befalls a board, by the words and keys of the file.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(rename_all = "kebab-case", deny_unknown_fields)]
 pub(super) enum What {
-    Stuck,
-    Jitter { counts: u16 },
-    Slip { share: f64 },
-    Scale { factor: f64 },
-    Reversed,
+    EncoderStuck,
+    EncoderJitter { counts: u16 },
+    EncoderSlip { share: f64 },
+    EncoderScale { factor: f64 },
+    EncoderReversed,
     MotorReversed,
     Friction { factor: f64 },
     Supply { volts: f64 },
@@ -40,10 +42,10 @@ pub(super) enum What {
     SelectStuck,
     SensorRestart,
     MagnetGone,
-    SensorPart { part: Part },
+    SensorPart(Part),
     MagnetNear,
-    Serial { line: String },
-    Probe { command: Command },
+    Serial { text: String },
+    Probe { request: Asked },
     Configuration { change: Change },
     Button,
     PowerOff,
@@ -53,8 +55,14 @@ pub(super) enum What {
     BusNoise { share: f64 },
 }
 
+/// What a probe asks for.
+#[derive(Debug, Clone, Copy, PartialEq, Deserialize)]
+#[serde(try_from = "String")]
+pub(super) struct Asked(pub(super) Command);
+
 /// A sensor that is another part, or programmed otherwise, than the scene has it.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[serde(try_from = "WrittenPart")]
 pub(super) struct Part {
     pub(super) decoder: Decoder,
     /// It is silent in frames that come sooner after the last, µs.
@@ -125,10 +133,9 @@ impl Scenario {
             within("duration_s", duration_s, 1e-3..=LATEST_S)?;
         }
         let events = (1..).zip(written.event).map(|(n, event)| {
-            let name = event.name();
-            event
-                .read()
-                .map_err(|fault| format!("event {n} ({name}): {fault}"))
+            let kind = event.get("kind").and_then(toml::Value::as_str);
+            let kind = kind.unwrap_or("of no kind").to_owned();
+            read_event(event).map_err(|fault| format!("event {n} ({kind}): {fault}"))
         });
         let mut events = events.collect::<Result<Vec<_>, _>>()?;
         events.sort_by(|a, b| a.at_s.total_cmp(&b.at_s));
@@ -166,7 +173,7 @@ impl Scenario {
                 _ if what.is_at_motor() && scene.motor.is_none() => {
                     "an event of a motor, but the scene has none"
                 }
-                What::SensorPart { .. } | What::SelectStuck | What::SensorUnpowered
+                What::SensorPart(_) | What::SelectStuck | What::SensorUnpowered
                     if scene.sensor.model != SensorModel::Mlx90333 =>
                 {
                     "an event of an MLX90333, but the scene has another sensor"
@@ -219,11 +226,11 @@ impl What {
     const fn is_at_motor(&self) -> bool {
         matches!(
             self,
-            Self::Stuck
-                | Self::Jitter { .. }
-                | Self::Slip { .. }
-                | Self::Scale { .. }
-                | Self::Reversed
+            Self::EncoderStuck
+                | Self::EncoderJitter { .. }
+                | Self::EncoderSlip { .. }
+                | Self::EncoderScale { .. }
+                | Self::EncoderReversed
                 | Self::MotorReversed
                 | Self::Friction { .. }
                 | Self::Supply { .. }

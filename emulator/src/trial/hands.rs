@@ -93,11 +93,11 @@ impl Around {
 
     fn add(&mut self, what: &What) {
         match *what {
-            What::Stuck => self.cut[0] = true,
-            What::Jitter { counts } => self.encoder.jitter = counts,
-            What::Slip { share } => self.encoder.slip = share,
-            What::Scale { factor } => self.encoder.scale *= factor,
-            What::Reversed => self.encoder.scale = -self.encoder.scale,
+            What::EncoderStuck => self.cut[0] = true,
+            What::EncoderJitter { counts } => self.encoder.jitter = counts,
+            What::EncoderSlip { share } => self.encoder.slip = share,
+            What::EncoderScale { factor } => self.encoder.scale *= factor,
+            What::EncoderReversed => self.encoder.scale = -self.encoder.scale,
             What::MotorReversed => self.cut[1] = true,
             What::Friction { factor } => self.friction = factor,
             What::Supply { volts } => self.volts = Some(volts),
@@ -111,7 +111,7 @@ impl Around {
             What::SensorRestart => self.has_restarted = true,
             What::MagnetGone => self.sensor = Some(Sensor::NoMagnet),
             What::MagnetNear => self.sensor = Some(Sensor::NearMagnet),
-            What::SensorPart { part } => self.part = Some(part),
+            What::SensorPart(part) => self.part = Some(part),
             What::Serial { .. }
             | What::Probe { .. }
             | What::Configuration { .. }

@@ -123,29 +123,28 @@ fn befall(head: &mut Head, event: &Event, begins: bool) -> Result<Option<Stop>, 
                 None => (0..head.nodes.len()).for_each(|node| head.disturb(node, share)),
             }
         }
-        What::Serial { line } if begins => {
+        What::Serial { text } if begins => {
             if let Some(node) = head.nodes.get_mut(node) {
-                node.board.serial_write(format!("{line}\n").as_bytes());
+                node.board.serial_write(format!("{text}\n").as_bytes());
             }
             let arrived = None;
-            return Ok((line.trim() == "stop").then_some(Stop { node, arrived }));
+            return Ok((text.trim() == "stop").then_some(Stop { node, arrived }));
         }
-        What::Probe { command } if begins => {
-            let request = TaggedCommand {
-                tag: 1,
-                command: *command,
-            };
+        What::Probe { request } if begins => {
+            let (tag, command) = (1, request.0);
+            let request = TaggedCommand { tag, command };
             if let Some(node) = head.nodes.get_mut(node) {
                 node.board.request(&wire::frame(&request))?;
             }
             let arrived = None;
-            return Ok((*command == Command::Stop).then_some(Stop { node, arrived }));
+            return Ok((command == Command::Stop).then_some(Stop { node, arrived }));
         }
         _ => {}
     }
     Ok(None)
 }
 
+#[derive(Default)]
 struct Figures {
     tick_s: f64,
     ticks: u64,
@@ -172,11 +171,8 @@ impl Figures {
         };
         Ok(Self {
             tick_s: 1.0 / f64::from(scene.tick_hz),
-            ticks: 0,
             nodes: (0..nodes).map(node).collect::<Result<_, Fault>>()?,
-            stops: Vec::new(),
-            stop_to_off: 0,
-            apart_s: 0.0,
+            ..Self::default()
         })
     }
 

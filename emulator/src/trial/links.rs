@@ -99,7 +99,7 @@ impl<'s> Links<'s> {
         for event in &scenario.events {
             let asked = |line: &str| event.repeat_hz.unwrap_or(0.0) * (line.len() + 1) as f64;
             let (is_flood, frames) = match &event.what {
-                What::Serial { line } => (asked(line) >= bytes_s, Vec::new()),
+                What::Serial { text } => (asked(text) >= bytes_s, Vec::new()),
                 What::Probe { .. } => (false, Vec::new()),
                 What::Configuration { change } => (false, stage(*change)?),
                 _ => continue,
@@ -137,10 +137,10 @@ impl<'s> Links<'s> {
                 break;
             };
             let is_sent = match &sender.event.what {
-                What::Serial { line } => self.write(line, sender.is_flood, session),
-                What::Probe { command } => {
+                What::Serial { text } => self.write(text, sender.is_flood, session),
+                What::Probe { request } => {
                     requests += 1;
-                    requests <= MOST_A_TICK && self.ask(*command, session)?
+                    requests <= MOST_A_TICK && self.ask(request.0, session)?
                 }
                 _ => {
                     let next = sender.sent as usize % sender.frames.len().max(1);

@@ -15,7 +15,7 @@ use crate::session::Session;
 const MOST_LISTED: usize = 100_000;
 
 /// Something that the board has said, or that has happened to it.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, Default, PartialEq, Serialize)]
 pub(super) struct Listed {
     /// At the end of the tick in which it was read.
     pub(super) t_s: f64,
@@ -134,10 +134,8 @@ impl Lister {
             self.list(Listed {
                 t_s,
                 kind: "answer".to_owned(),
-                side: None,
-                number: None,
-                name: None,
                 text: text.clone(),
+                ..Listed::default()
             });
         }
         // Behind what is done stand values.

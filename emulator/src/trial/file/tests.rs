@@ -77,9 +77,17 @@ fn what_is_wrong_is_named() {
         ("kind = 'encoder-stuck'\ncount = 3", "count"),
         (
             "kind = 'encoder-stuck'\ncounts = 3",
-            "counts: not a key of this kind",
+            "event 1 (encoder-stuck): counts: ",
         ),
-        ("kind = 'encoder-jitter'", "counts: missing"),
+        (
+            "kind = 'button'\nrepeat_hz = 3.0",
+            "event 1 (button): repeat_hz: ",
+        ),
+        (
+            "kind = 'sensor-part'\nreports = 3",
+            "event 1 (sensor-part): reports: ",
+        ),
+        ("kind = 'encoder-jitter'", "missing field `counts`"),
         (
             "kind = 'encoder-slip'\nshare = 1.5",
             "share: found 1.5, allowed: 0 to 1",
@@ -93,7 +101,7 @@ fn what_is_wrong_is_named() {
             "kind = 'serial'\ntext = 'stop'\nrepeat_hz = 0.0",
             "repeat_hz: found 0",
         ),
-        ("kind = 'configuration'", "change: missing"),
+        ("kind = 'configuration'", "missing field `change`"),
         (
             "kind = 'configuration'\nchange = 'all'",
             "unknown variant `all`",
@@ -105,7 +113,7 @@ fn what_is_wrong_is_named() {
         ),
         (
             "kind = 'select-stuck'\nreport = 1",
-            "report: not a key of this kind",
+            "event 1 (select-stuck): report: ",
         ),
         ("kind = 'button'\nside = 'both'", "both"),
     ] {
