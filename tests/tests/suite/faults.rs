@@ -1,7 +1,7 @@
 //! Sensors that fail while the module runs: short faults are bridged, long ones
 //! switch the motor of that whisker off, and nothing else suffers.
 
-use crate::played::{Played, TICK_HZ, angles, apart, extent, free, play, scene, undisturbed};
+use crate::played::{LEFT, Played, TICK_HZ, angles, apart, extent, free, play, scene, undisturbed};
 use firmware::design_parameters::{HOLD_S, Plausible, RECOVER_S, sensor_limits, ticks};
 use firmware::{Event, Place, SensorFault};
 use host_sim::bus::{Slave, WireFault};
@@ -23,7 +23,6 @@ const FRAMES: u64 = {
 
 /// A tick at which the left side protracts fastest, at 0.35 degrees a tick.
 const AMID: u64 = 1440;
-const LEFT: Place = Place::new(0, 0);
 
 /// Every fault of the wire with the number of its report.
 const WIRE: [(WireFault, u8); 8] = [
