@@ -138,3 +138,13 @@ pub(crate) fn apart(a: &[f64], b: &[f64]) -> f64 {
         .map(|(a, b)| (a - b).abs())
         .fold(0.0, f64::max)
 }
+
+/// What is of a side in a row is the same to the last bit.
+#[track_caller]
+pub(crate) fn is_unaffected(played: &Played, sound: &Played, side: usize) {
+    let course = |played: &Played| -> Vec<[f64; 7]> {
+        let rows = played.rows.iter();
+        rows.map(|row| row.pairs().map(|pair| pair[side])).collect()
+    };
+    assert!(course(played) == course(sound));
+}
