@@ -137,7 +137,7 @@ fn each_fault_is_seen_as_what_it_is() {
 }
 
 #[test]
-fn bytes_are_lost_and_doubled_where_they_are_said_to_be() {
+fn bytes_are_lost_and_doubled_where_they_are_said_to_be_and_then_the_bus_fails() {
     let mut source = Polled::new(driver());
     source.sensor_mut().spi_mut().set([0.25, -0.5]);
     let whole = source.take().unwrap().unwrap();
@@ -154,15 +154,9 @@ fn bytes_are_lost_and_doubled_where_they_are_said_to_be() {
         source.sensor_mut().spi_mut().inject(fault, 1);
         assert_eq!(source.take(), Ok(Some(expected)), "{fault:?}");
     }
-}
-
-#[test]
-fn the_module_s_polled_source_sees_frames_and_bus_errors() {
-    let mut source = Polled::new(driver());
-    assert_eq!(source.take(), Ok(Some(REST)));
     source.sensor_mut().spi_mut().inject(WireFault::Bus, 1);
     assert_eq!(source.take(), Err(BusError));
-    assert_eq!(source.take(), Ok(Some(REST)));
+    assert_eq!(source.take(), Ok(Some(whole)));
 }
 
 #[test]

@@ -5,9 +5,12 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
 
 use firmware::Place as Whisker;
+use host_sim::classifier::Classifier;
 use host_sim::decisions::Decided;
-use tactile::Reason;
+use host_sim::run::Run;
+use scene::Scene;
 use tactile::train::{Options, Trainer};
+use tactile::{ModelBuf, Reason};
 use tempfile::TempDir;
 
 /// Two textures of an active whisker that is touched gently; half a second.
@@ -206,6 +209,15 @@ pub(crate) fn model(channels: usize, block: u32, whole: bool) -> Vec<u8> {
         .add("carpet", &vec![9000.0 + shift; channels])
         .unwrap();
     trainer.train().unwrap().as_bytes().to_vec()
+}
+
+/// A run of a scene, whose classifier, if it has one, has such a model.
+pub(crate) fn run(scene: &Scene) -> Run {
+    let classifier = scene.classifier.as_ref().map(|classifier| {
+        let model = ModelBuf::from_bytes(&model(2, 20, true)).unwrap();
+        Classifier::new(model, classifier.rule).unwrap()
+    });
+    Run::new(scene, classifier).unwrap()
 }
 
 pub(crate) fn cells(text: &str) -> Vec<Vec<&str>> {

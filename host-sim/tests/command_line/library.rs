@@ -3,15 +3,13 @@
 
 use firmware::{Event, Sample};
 use host_sim::bus::WireFault;
-use host_sim::classifier::Classifier;
 use host_sim::decisions::Decided;
 use host_sim::recording::GATE;
 use host_sim::run::Run;
 use host_sim::trace::WhiskerRow;
 use scene::Scene;
-use tactile::ModelBuf;
 
-use crate::common::{IDEAL, SEQUENTIAL, TEXTURED, model};
+use crate::common::{IDEAL, SEQUENTIAL, TEXTURED, run};
 
 const fn is_send<T: Send>() {}
 const _: () = is_send::<Run>();
@@ -24,15 +22,6 @@ fn scene(text: &str, seed: u64) -> Scene {
     let mut scene = Scene::from_str("s.toml", text).unwrap();
     scene.seed = seed;
     scene
-}
-
-fn run(scene: &Scene) -> Run {
-    let rule = scene.classifier.as_ref().map(|classifier| classifier.rule);
-    let classifier = rule.map(|rule| {
-        let model = ModelBuf::from_bytes(&model(2, 20, true)).unwrap();
-        Classifier::new(model, rule).unwrap()
-    });
-    Run::new(scene, classifier).unwrap()
 }
 
 #[derive(Debug, PartialEq)]

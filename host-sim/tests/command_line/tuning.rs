@@ -5,14 +5,12 @@ use firmware::{
 };
 use host_sim::bench::config_of;
 use host_sim::bus::WireFault;
-use host_sim::classifier::Classifier;
 use host_sim::run::Run;
 use scene::{Override, Scene};
-use tactile::ModelBuf;
 use whisking::{Fix, Number};
 use wire::{Answer, CONFIG_CHANGED, Command, CommandStatus, TaggedCommand};
 
-use crate::common::{SEQUENTIAL, TEXTURED, model};
+use crate::common::{SEQUENTIAL, TEXTURED, run};
 
 const CIA: &str = "[cia]\ngain = 0.5\ntau_s = 0.2\n";
 
@@ -28,16 +26,6 @@ fn scene_of(text: &str, numbers: &str, set: &[&str]) -> Scene {
 fn scene(numbers: &str, set: &[&str]) -> Scene {
     let text = format!("{TEXTURED}{SEQUENTIAL}contact_min = 0.05\n{CIA}");
     scene_of(&text, numbers, set)
-}
-
-fn run(scene: &Scene) -> Run {
-    let rule = scene.classifier.as_ref().map(|classifier| classifier.rule);
-    let model = ModelBuf::from_bytes(&model(2, 20, true)).unwrap();
-    Run::new(
-        scene,
-        rule.map(|rule| Classifier::new(model, rule).unwrap()),
-    )
-    .unwrap()
 }
 
 fn bytes_for<R: Number>(scene: &Scene, board: BoardCode) -> ConfigBytes {

@@ -1,29 +1,14 @@
 //! Encoders that stand still, and motors that are not as the scene has them: the ones are off before
 //! the whisker is far, the others are no fault.
 
-use crate::played::{TICK_HZ, angles, extent, play, textured};
-use firmware::{Event, Place};
+use crate::played::{LEFT, TICK_HZ, alone, angles, error_deg, extent, play};
+use firmware::Event;
 use host_sim::motor::{EncoderFlaws, SimMotor, Wire};
 use host_sim::trace::Row;
 use rand_core::{Rng, SeedableRng};
 use rand_xoshiro::Xoshiro256PlusPlus;
-use scene::Scene;
 
-pub(crate) const LEFT: Place = Place::new(0, 0);
 pub(crate) const GIVEN_UP: Event = Event::MotorGivenUp(LEFT);
-
-/// Free whisking so often a second, of one whisker.
-pub(crate) fn whisking(frequency_hz: f64, motor: &str) -> Scene {
-    let text = format!(
-        "name = \"free\"\ntick_hz = {TICK_HZ}\nduration_s = 60\nseed = 1\n\
-         [head]\nwhiskers_per_side = 1\nsides = \"left\"\n\
-         [whisking]\nfrequency_hz = {frequency_hz:?}\nintegrator = \"exact\"\ncoupling = false\n\
-         noise = 0.005\ngain = 1.0\nstart = [[1.0, 0.0]]\n\
-         [plant]\n{}\n[motor]\n{motor}",
-        textured(300.0).replace("obstacle_deg = [300.0, 300.0]", "obstacle_deg = [300.0]")
-    );
-    Scene::from_str("free.toml", &text).unwrap_or_else(|problems| panic!("{problems}"))
-}
 
 /// A whisk, ticks.
 pub(crate) fn cycle(frequency_hz: f64) -> u64 {
@@ -67,7 +52,7 @@ struct Lost {
 fn lost(frequency_hz: f64, phase: f64, flaw: Flaw, friction: f64, motor: &str) -> Lost {
     let cycle = cycle(frequency_hz);
     let start = TICK_HZ + cycle + (phase * cycle as f64) as u64;
-    let scene = whisking(frequency_hz, motor);
+    let scene = alone(frequency_hz, motor);
     let played = play(&scene, start + 12 * TICK_HZ, |tick, run| {
         let motor = run.motor_mut(0).unwrap();
         motor.set_friction(friction);
@@ -119,10 +104,6 @@ impl Worst {
     }
 }
 
-fn error_deg(row: &Row) -> f64 {
-    (row.angle_deg[0] - row.theta_deg[0]).abs()
-}
-
 #[test]
 fn a_motor_whose_encoder_stands_still_or_jitters_is_off_before_the_whisker_is_far() {
     let mut worst = Worst::default();
@@ -165,7 +146,7 @@ fn a_motor_whose_encoder_counts_the_other_way_is_off_before_the_whisker_is_far()
 fn loose(frequency_hz: f64, seed: u64) -> f64 {
     let mut random = Xoshiro256PlusPlus::seed_from_u64(seed);
     let mut displaced_deg: f64 = 0.0;
-    let played = play(&whisking(frequency_hz, ""), 30 * TICK_HZ, |tick, run| {
+    let played = play(&alone(frequency_hz, ""), 30 * TICK_HZ, |tick, run| {
         let motor = run.motor_mut(0).unwrap();
         if tick > TICK_HZ && random.next_u64().is_multiple_of(8) {
             if random.next_u64().is_multiple_of(2) {
@@ -225,7 +206,7 @@ fn motors_that_are_not_as_the_scene_has_them_have_no_fault() {
             for frequency_hz in [0.05, 0.2, 0.5, 2.0, 5.0, 8.0, 14.0] {
                 // The model is wrong instead of the motor.
                 let motor = model(speed, time_constant) + UNLIMITED;
-                let scene = whisking(frequency_hz, &motor);
+                let scene = alone(frequency_hz, &motor);
                 let ticks = TICK_HZ * 2 + 2 * cycle(frequency_hz).min(10 * TICK_HZ);
                 let played = play(&scene, ticks, |_, run| {
                     run.motor_mut(0).unwrap().set_friction(friction);
@@ -255,7 +236,7 @@ fn what_makes_a_whisker_heavy_while_it_runs_is_no_fault() {
     ];
     for (name, change) in changes {
         for frequency_hz in [0.2, 0.5, 2.0, 5.0, 8.0] {
-            let played = play(&whisking(frequency_hz, ""), 6 * TICK_HZ, |tick, run| {
+            let played = play(&alone(frequency_hz, ""), 6 * TICK_HZ, |tick, run| {
                 if tick == 3 * TICK_HZ + 321 {
                     change(run.motor_mut(0).unwrap());
                 }
@@ -270,7 +251,7 @@ fn what_makes_a_whisker_heavy_while_it_runs_is_no_fault() {
 #[test]
 fn a_finger_now_and_then_costs_no_motor() {
     for frequency_hz in [0.5, 2.0, 8.0] {
-        let played = play(&whisking(frequency_hz, ""), 60 * TICK_HZ, |tick, run| {
+        let played = play(&alone(frequency_hz, ""), 60 * TICK_HZ, |tick, run| {
             let holds = tick > TICK_HZ && tick % TICK_HZ < 3 * TICK_HZ / 10;
             run.motor_mut(0).unwrap().block(holds);
         });

@@ -1,7 +1,7 @@
 //! Motors drawn at random, with what is no fault: none is lost.
 
-use crate::encoder_faults::{GIVEN_UP, LEFT, UNLIMITED, cycle, model, whisking};
-use crate::played::{TICK_HZ, play};
+use crate::encoder_faults::{GIVEN_UP, UNLIMITED, cycle, model};
+use crate::played::{LEFT, TICK_HZ, alone, play};
 use firmware::Event;
 use rand_core::{Rng, SeedableRng};
 use rand_xoshiro::Xoshiro256PlusPlus;
@@ -30,7 +30,7 @@ fn tried(friction: f64, play_deg: f64, hand: Hand) -> [usize; 2] {
         // The model is wrong instead of the motor.
         let motor = model(within(), within()) + UNLIMITED;
         let ticks = TICK_HZ * 2 + (2 * cycle(frequency_hz)).clamp(8 * TICK_HZ, 20 * TICK_HZ);
-        let played = play(&whisking(frequency_hz, &motor), ticks, |tick, run| {
+        let played = play(&alone(frequency_hz, &motor), ticks, |tick, run| {
             let motor = run.motor_mut(0).unwrap();
             if tick == 0 {
                 motor.set_play_deg(play_deg);

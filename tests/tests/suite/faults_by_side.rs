@@ -1,7 +1,9 @@
 //! What a fault of one side does to the other: nothing, unless the scene says that all
 //! stop; and what is left of the lost side's touch: nothing.
 
-use crate::played::{Played, TICK_HZ, angles, extent, play, scene, textured, undisturbed};
+use crate::played::{
+    Played, TICK_HZ, angles, extent, is_unaffected, play, scene, textured, undisturbed,
+};
 use firmware::design_parameters::{HOLD_S, RETRY_S, ticks};
 use firmware::{Event, Place};
 use host_sim::bus::WireFault;
@@ -40,15 +42,6 @@ fn events_of(played: &Played, place: Place) -> Vec<(u64, Event)> {
     };
     let events = played.events.iter();
     events.filter(|(_, event)| is_its(event)).copied().collect()
-}
-
-#[track_caller]
-fn is_unaffected(played: &Played, sound: &Played, side: usize) {
-    let course = |played: &Played| -> Vec<[f64; 7]> {
-        let rows = played.rows.iter();
-        rows.map(|row| row.pairs().map(|pair| pair[side])).collect()
-    };
-    assert!(course(played) == course(sound));
 }
 
 #[test]

@@ -1,42 +1,18 @@
 //! Whiskers that look for their stop: a hand that holds one meanwhile, and encoders that lose counts.
 
-use crate::played::{Played, TICK_HZ, angles, play, textured, undisturbed};
-use firmware::{Event, Place};
+use crate::played::{LEFT, Played, TICK_HZ, alone, angles, farthest, faults, play, undisturbed};
+use firmware::Event;
 use host_sim::motor::EncoderFlaws;
 use host_sim::run::Run;
 use scene::Scene;
 use whisking::motor::Fault;
 
-const LEFT: Place = Place::new(0, 0);
 /// When an encoder begins to lose counts.
 const SLIPS: u64 = 3 * TICK_HZ;
 
 /// A whisker that looks for its stop and whisks freely, twice a second.
 fn finds(motor: &str) -> Scene {
-    let text = format!(
-        "name = \"finds\"\ntick_hz = {TICK_HZ}\nduration_s = 300\nseed = 1\n\
-         [head]\nwhiskers_per_side = 1\nsides = \"left\"\n\
-         [whisking]\nfrequency_hz = 2.0\nintegrator = \"exact\"\ncoupling = false\n\
-         noise = 0.005\ngain = 1.0\nstart = [[1.0, 0.0]]\n\
-         [plant]\n{}\n[motor]\nrest = \"find\"\n{motor}",
-        textured(300.0).replace("obstacle_deg = [300.0, 300.0]", "obstacle_deg = [300.0]")
-    );
-    Scene::from_str("finds.toml", &text).unwrap_or_else(|problems| panic!("{problems}"))
-}
-
-fn faults(played: &Played) -> Vec<(u64, Fault)> {
-    let fault = |(tick, event): &(u64, Event)| match event {
-        Event::MotorFault(LEFT, fault) => Some((*tick, *fault)),
-        _ => None,
-    };
-    played.events.iter().filter_map(fault).collect()
-}
-
-/// The largest distance of the whisker from its setpoint, from a tick on.
-fn farthest(played: &Played, from: u64) -> f64 {
-    let rows = played.rows[from as usize..].iter();
-    let errors = rows.map(|row| (row.theta_deg[0] - row.angle_deg[0]).abs());
-    errors.fold(0.0, f64::max)
+    alone(2.0, &format!("rest = \"find\"\n{motor}"))
 }
 
 /// A whisker at 120 degrees is armed, and a hand holds it for two seconds where it meets it on its

@@ -2,7 +2,7 @@
 
 use proptest::prelude::*;
 
-use crate::played::{TICK_HZ, play, textured};
+use crate::played::{TICK_HZ, alone_with, play};
 use config::{RunsOn, Target};
 use firmware::{Config, Event, decode, encode};
 use host_sim::motor::{EncoderFlaws, Wire};
@@ -42,18 +42,6 @@ fn keys() -> impl Strategy<Value = String> {
     })
 }
 
-fn whisking(frequency_hz: f64, motor: &str) -> Scene {
-    let text = format!(
-        "name = \"open\"\ntick_hz = {TICK_HZ}\nduration_s = 60\nseed = 1\n\
-         [head]\nwhiskers_per_side = 1\nsides = \"left\"\n\
-         [whisking]\nfrequency_hz = {frequency_hz:?}\nintegrator = \"exact\"\ncoupling = false\n\
-         noise = 0.0\ngain = 2.0\nstart = [[1.0, 0.0]]\n\
-         [plant]\n{}\n[motor]\n{motor}",
-        textured(300.0).replace("obstacle_deg = [300.0, 300.0]", "obstacle_deg = [300.0]")
-    );
-    Scene::from_str("open.toml", &text).unwrap_or_else(|problems| panic!("{problems}"))
-}
-
 /// Whether a board takes a scene: the one that builds its configuration and the board that reads
 /// it say the same.
 fn is_taken(scene: &Scene) -> bool {
@@ -90,7 +78,8 @@ proptest! {
         frequency_hz in 0.5..8.0_f64,
         jitter in 0..=3_u16,
     ) {
-        let scene = whisking(frequency_hz, &motor);
+        let whisking = format!("frequency_hz = {frequency_hz:?}\nnoise = 0.0\ngain = 2.0");
+        let scene = alone_with(&whisking, &motor);
         prop_assume!(is_taken(&scene));
         let mut duties = Vec::new();
         let played = play(&scene, 6 * TICK_HZ, |tick, run| {

@@ -1,23 +1,18 @@
 //! Motors and encoders that do what they should not: what moves is found out by the
 //! encoder, and switched off.
 
-use crate::played::{Played, TICK_HZ, angles, extent, play, textured, undisturbed};
-use firmware::{Event, FAULTS, HELD, Place};
+use crate::played::{
+    LEFT, Played, TICK_HZ, angles, error_deg, extent, play, scene, textured, undisturbed,
+};
+use firmware::{Event, FAULTS, HELD};
 use host_sim::motor::Wire;
 use scene::Scene;
 use whisking::motor::{FOLLOWING_S, Fault};
 
-const LEFT: Place = Place::new(0, 0);
 fn free_at(frequency_hz: f64, motor: &str) -> Scene {
-    let text = format!(
-        "name = \"free\"\ntick_hz = {TICK_HZ}\nduration_s = 20\nseed = 1\n\
-         [head]\nwhiskers_per_side = 1\n\
-         [whisking]\nfrequency_hz = {frequency_hz:?}\nintegrator = \"exact\"\ncoupling = true\n\
-         noise = 0.005\ngain = 1.0\nstart = [[1.0, 0.0], [1.0, 0.0]]\n\
-         [plant]\n{}\n[motor]\n{motor}",
-        textured(300.0)
-    );
-    Scene::from_str("free.toml", &text).unwrap_or_else(|problems| panic!("{problems}"))
+    let mut scene = scene(1, &textured(300.0), &format!("[motor]\n{motor}"));
+    scene.whisking.as_mut().unwrap().frequency_hz = frequency_hz;
+    scene
 }
 
 fn cut_at(scene: &Scene, ticks: u64, wire: Wire, start: u64) -> Played {
@@ -111,7 +106,7 @@ fn a_whisker_that_is_held_is_not_driven_for_long() {
     let &(first, fault) = found.first().expect("a fault");
     assert_eq!(fault, Fault::Following);
     let rows = played.rows.iter();
-    let mut errors = rows.map(|row| (row.theta_deg[0] - row.angle_deg[0]).abs());
+    let mut errors = rows.map(error_deg);
     let left = errors.position(|error| error > limit).unwrap() as u64;
     let lasted = (first - left) as f64 / TICK_HZ as f64;
     assert!((FOLLOWING_S..0.045).contains(&lasted), "{lasted} s");

@@ -5,9 +5,13 @@ use host_sim::run::Run;
 use host_sim::trace::Row;
 use mlx90333::FRAME_LEN;
 use scene::Scene;
+use whisking::motor::Fault;
 
 /// Ticks a second of [`scene`].
 pub(crate) const TICK_HZ: u64 = 2000;
+
+/// The first whisker of the left side.
+pub(crate) const LEFT: Place = Place::new(0, 0);
 
 /// What came of a scene; a row a tick.
 pub(crate) struct Played {
@@ -23,12 +27,32 @@ pub(crate) struct Played {
 /// A scene of both sides, 4 whisks a second with noise, at rest for the first
 /// quarter of a second or so; `plant` and `more` follow.
 pub(crate) fn scene(whiskers_per_side: usize, plant: &str, more: &str) -> Scene {
+    let whisking = "frequency_hz = 4.0\ncoupling = true\nnoise = 0.005\ngain = 1.0\n\
+                    start = [[1.0, 0.0], [0.9, 0.1]]";
+    let head = format!("whiskers_per_side = {whiskers_per_side}");
+    read(&head, whisking, plant, more)
+}
+
+/// One whisker in free air that whisks so often a second; keys of its motor follow.
+pub(crate) fn alone(frequency_hz: f64, motor: &str) -> Scene {
+    alone_with(
+        &format!("frequency_hz = {frequency_hz:?}\nnoise = 0.005\ngain = 1.0"),
+        motor,
+    )
+}
+
+/// The same with these keys of its whisking.
+pub(crate) fn alone_with(whisking: &str, motor: &str) -> Scene {
+    let plant = textured(300.0).replace("[300.0, 300.0]", "[300.0]");
+    let whisking = format!("{whisking}\ncoupling = false\nstart = [[1.0, 0.0]]");
+    let head = "whiskers_per_side = 1\nsides = \"left\"";
+    read(head, &whisking, &plant, &format!("[motor]\n{motor}"))
+}
+
+fn read(head: &str, whisking: &str, plant: &str, more: &str) -> Scene {
     let text = format!(
-        "name = \"played\"\ntick_hz = {TICK_HZ}\nduration_s = 20\nseed = 1\n\
-         [head]\nwhiskers_per_side = {whiskers_per_side}\n\
-         [whisking]\nfrequency_hz = 4.0\nintegrator = \"exact\"\ncoupling = true\n\
-         noise = 0.005\ngain = 1.0\nstart = [[1.0, 0.0], [0.9, 0.1]]\n\
-         [plant]\n{plant}\n{more}"
+        "name = \"played\"\ntick_hz = {TICK_HZ}\nduration_s = 20\nseed = 1\n[head]\n{head}\n\
+         [whisking]\nintegrator = \"exact\"\n{whisking}\n[plant]\n{plant}\n{more}"
     );
     Scene::from_str("played.toml", &text).unwrap_or_else(|problems| panic!("{problems}"))
 }
@@ -82,6 +106,26 @@ pub(crate) fn angles(played: &Played, side: usize) -> Vec<f64> {
     played.rows.iter().map(|row| row.angle_deg[side]).collect()
 }
 
+/// How far the left whisker is from its setpoint, degrees.
+pub(crate) fn error_deg(row: &Row) -> f64 {
+    (row.theta_deg[0] - row.angle_deg[0]).abs()
+}
+
+/// The largest of these distances from a tick on.
+pub(crate) fn farthest(played: &Played, from: u64) -> f64 {
+    let rows = played.rows[from as usize..].iter();
+    rows.map(error_deg).fold(0.0, f64::max)
+}
+
+/// The faults of the left motor with their ticks.
+pub(crate) fn faults(played: &Played) -> Vec<(u64, Fault)> {
+    let fault = |(tick, event): &(u64, Event)| match event {
+        Event::MotorFault(LEFT, fault) => Some((*tick, *fault)),
+        _ => None,
+    };
+    played.events.iter().filter_map(fault).collect()
+}
+
 pub(crate) fn extent(values: &[f64]) -> f64 {
     let top = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
     top - values.iter().copied().fold(f64::INFINITY, f64::min)
@@ -93,4 +137,14 @@ pub(crate) fn apart(a: &[f64], b: &[f64]) -> f64 {
         .zip(b)
         .map(|(a, b)| (a - b).abs())
         .fold(0.0, f64::max)
+}
+
+/// What is of a side in a row is the same to the last bit.
+#[track_caller]
+pub(crate) fn is_unaffected(played: &Played, sound: &Played, side: usize) {
+    let course = |played: &Played| -> Vec<[f64; 7]> {
+        let rows = played.rows.iter();
+        rows.map(|row| row.pairs().map(|pair| pair[side])).collect()
+    };
+    assert!(course(played) == course(sound));
 }

@@ -1,16 +1,17 @@
 //! Frames that are good in themselves and yet are no readings of a whisker: frozen, jumping,
 //! stuck, or too often missing. The motor goes off, and nothing is decided.
 
-use crate::played::{Played, TICK_HZ, angles, extent, free, play, scene, textured, undisturbed};
+use crate::played::{
+    LEFT, Played, TICK_HZ, angles, extent, free, play, scene, textured, undisturbed,
+};
 use firmware::design_parameters::{HOLD_S, RECOVER_S, ticks};
-use firmware::{Event, Place, SensorFault};
+use firmware::{Event, SensorFault};
 use host_sim::bus::{Slave, WireFault};
 use host_sim::loaded::Loaded;
 use host_sim::run::Run;
 use mlx90333::FrameError;
 use scene::Scene;
 
-const LEFT: Place = Place::new(0, 0);
 /// Ticks for which a reading is held, and good ones before a whisker moves again.
 const HOLD: u64 = ticks(HOLD_S, TICK_HZ as u32) as u64;
 const RECOVER: u64 = ticks(RECOVER_S, TICK_HZ as u32) as u64;

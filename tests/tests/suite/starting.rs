@@ -1,13 +1,13 @@
 //! How a module starts: armed or not, where its whiskers are, and how softly they set off.
 
-use crate::played::{Played, TICK_HZ, angles, extent, play, textured, undisturbed};
-use firmware::{Event, FAULTS, Place};
+use crate::played::{
+    LEFT, Played, TICK_HZ, angles, extent, farthest, faults, play, textured, undisturbed,
+};
+use firmware::{Event, FAULTS};
 use host_sim::bus::WireFault;
 use host_sim::motor::Wire;
 use scene::Scene;
 use whisking::motor::Fault;
-
-const LEFT: Place = Place::new(0, 0);
 
 fn free(motor: &str) -> Scene {
     let plant = textured(300.0);
@@ -22,13 +22,6 @@ fn speeds_deg_s(played: &Played) -> Vec<f64> {
     let angles = angles(played, 0);
     let steps = angles.windows(2).map(|pair| (pair[1] - pair[0]).abs());
     steps.map(|step| step * TICK_HZ as f64).collect()
-}
-
-/// The largest distance of the left whisker from its setpoint, from a tick on.
-fn farthest(played: &Played, from: u64) -> f64 {
-    let rows = played.rows[from as usize..].iter();
-    let errors = rows.map(|row| (row.theta_deg[0] - row.angle_deg[0]).abs());
-    errors.fold(0.0, f64::max)
 }
 
 #[test]
@@ -132,14 +125,6 @@ fn rest_is_found_wherever_a_whisker_is() {
             "{start_deg}: the stop at {lowest}"
         );
     }
-}
-
-fn faults(played: &Played) -> Vec<(u64, Fault)> {
-    let fault = |(tick, event): &(u64, Event)| match event {
-        Event::MotorFault(LEFT, fault) => Some((*tick, *fault)),
-        _ => None,
-    };
-    played.events.iter().filter_map(fault).collect()
 }
 
 #[test]

@@ -1,14 +1,12 @@
 //! A module whose whiskers have TMAG5170s: it feels what they are bent by, as noisily as such a
 //! sensor does, and a broken wire switches the motor off until it is mended.
 
-use crate::played::{TICK_HZ, play, scene, textured, undisturbed};
+use crate::played::{LEFT, TICK_HZ, play, scene, textured, undisturbed};
 use firmware::design_parameters::{HOLD_S, RECOVER_S, ticks};
-use firmware::{Event, Place, SensorFault, TiltFault};
+use firmware::{Event, SensorFault, TiltFault};
 use host_sim::bus::tmag5170::LineFault;
 use scene::Scene;
 use tmag5170::ReplyError;
-
-const LEFT: Place = Place::new(0, 0);
 
 fn tilted() -> Scene {
     let more = "[rcp]\ngain = 0.7\ntau_s = 0.0625\n[sensor]\nmodel = \"tmag5170\"\n";

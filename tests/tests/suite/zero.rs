@@ -2,12 +2,10 @@
 
 use std::ops::Range;
 
-use firmware::{Event, Place, SensorFault};
+use firmware::{Event, SensorFault};
 use host_sim::bus::WireFault;
 
-use crate::played::{Played, TICK_HZ, play, scene, textured, undisturbed};
-
-const LEFT: Place = Place::new(0, 0);
+use crate::played::{LEFT, Played, TICK_HZ, play, scene, textured, undisturbed};
 
 /// A silence, in ticks of the scenes below.
 const SILENCE: u64 = 2 * TICK_HZ;

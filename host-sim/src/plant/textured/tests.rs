@@ -7,17 +7,8 @@ use proptest::prelude::*;
 use scene::Texture;
 
 use super::{Textured, TexturedSettings, WhiskerSettings};
-use crate::plant::{BadSetting, Head, Plant, SurfaceSettings};
-
-const TICK_S: f64 = 5e-4;
-
-fn head(whiskers_per_side: usize) -> Head {
-    Head {
-        whiskers_per_side,
-        obstacle_deg: vec![100.0],
-        stiffness: 0.1,
-    }
-}
+use crate::plant::tests::{TICK_S, any_motion, head, readings, seed_decides, stays_in_range};
+use crate::plant::{BadSetting, Plant, SurfaceSettings};
 
 fn quiet() -> TexturedSettings {
     TexturedSettings {
@@ -204,31 +195,14 @@ fn vibration_is_that_of_a_resonator_over_a_random_profile() {
     }
 }
 
-fn readings(whiskers: usize, seed: u64) -> Vec<Vec<[f64; 2]>> {
-    let mut plant = Textured::new(head(whiskers), TexturedSettings::default(), seed).unwrap();
-    plant.present(Texture::P240);
-    let mut all = vec![Vec::new(); whiskers];
-    for n in 0..2000 {
-        let angle = 95.0 + 15.0 * (f64::from(n) * TICK_S * TAU * 2.0).sin();
-        plant.advance(&vec![angle; whiskers], TICK_S);
-        for (w, one) in all.iter_mut().enumerate() {
-            one.push(plant.deflection(0, w));
-        }
-    }
-    all
-}
-
 #[test]
 fn the_seed_decides_everything_for_each_whisker() {
-    let all = readings(3, 5);
-    assert_eq!(all, readings(3, 5));
-    assert_ne!(all, readings(3, 6));
-    assert_eq!(
-        all[0],
-        readings(1, 5)[0],
-        "a whisker does not depend on others"
-    );
-    assert_ne!(all[0], all[1]);
+    seed_decides(|whiskers, seed| {
+        let settings = TexturedSettings::default();
+        let mut plant = Textured::new(head(whiskers), settings, seed).unwrap();
+        plant.present(Texture::P240);
+        readings(&mut plant, whiskers)
+    });
 }
 
 #[test]
@@ -250,20 +224,13 @@ proptest! {
     /// Whatever the angles, ticks and surfaces are, readings stay in range.
     #[test]
     fn nothing_leaves_the_range(
-        angles in prop::collection::vec(
-            prop_oneof![50.0..150.0, -1e7..1e7, Just(f64::NAN), Just(f64::MAX)], 1..60),
-        tick_s in prop_oneof![Just(5e-3), Just(5e-5), 1e-12..1e3],
+        motion in any_motion(),
         height_m in prop_oneof![0.0..1e-3, Just(f64::INFINITY), Just(1e300)],
         grain_m in prop_oneof![0.0..1e-2, Just(f64::NAN)],
         friction in prop_oneof![0.0..1.0, Just(1e300)],
     ) {
         let mut plant = Textured::new(head(2), TexturedSettings::default(), 1).unwrap();
         plant.present_surface(SurfaceSettings { height_m, grain_m, grip: 20.0, softness: 1.0, friction });
-        for angle in angles {
-            plant.advance(&[angle], tick_s);
-            let [x, y] = plant.deflection(0, 0);
-            prop_assert!((-1.0..=1.0).contains(&x) && (-1.0..=1.0).contains(&y), "{x} {y}");
-            prop_assert_eq!(plant.deflection(0, 1), [0.0; 2], "it was never moved");
-        }
+        stays_in_range(&mut plant, motion)?;
     }
 }

@@ -6,18 +6,9 @@ use proptest::prelude::*;
 use scene::Texture;
 
 use super::{Elastic, ElasticSettings};
+use crate::plant::tests::{TICK_S, any_motion, head, readings, seed_decides, stays_in_range};
 use crate::plant::{BadSetting, Head, Plant, SurfacePose};
 use physics::{Biotact, Facing, Grit, Material, Outline, Shaft, Surface};
-
-const TICK_S: f64 = 5e-4;
-
-fn head(whiskers_per_side: usize) -> Head {
-    Head {
-        whiskers_per_side,
-        obstacle_deg: vec![100.0],
-        stiffness: 0.1,
-    }
-}
 
 fn quiet(shaft: Shaft) -> ElasticSettings {
     ElasticSettings {
@@ -262,7 +253,7 @@ fn a_free_whisker_reads_nothing_at_rest() {
     );
 }
 
-fn readings(
+fn shown(
     settings: &ElasticSettings,
     texture: Texture,
     whiskers: usize,
@@ -270,21 +261,13 @@ fn readings(
 ) -> Vec<Vec<[f64; 2]>> {
     let mut plant = Elastic::new(head(whiskers), *settings, seed).unwrap();
     plant.present(texture);
-    let mut all = vec![Vec::new(); whiskers];
-    for n in 0..2000 {
-        let angle = 95.0 - 12.0 * (f64::from(n) * TICK_S * TAU * 2.0).cos();
-        plant.advance(&vec![angle; whiskers], TICK_S);
-        for (w, one) in all.iter_mut().enumerate() {
-            one.push(plant.deflection(0, w));
-        }
-    }
-    all
+    readings(&mut plant, whiskers)
 }
 
 #[test]
 fn an_own_surface_is_felt_as_what_it_is() {
     let mut settings = ElasticSettings::of(Shaft::biotact(Biotact::Middle));
-    let of = |settings: &ElasticSettings, texture| readings(settings, texture, 1, 5);
+    let of = |settings: &ElasticSettings, texture| shown(settings, texture, 1, 5);
     let smooth = of(&settings, Texture::Smooth);
     assert_eq!(of(&settings, Texture::Own3), smooth);
     settings.own[2] = Surface::of(Material::Sandpaper(Grit::P240));
@@ -296,15 +279,8 @@ fn an_own_surface_is_felt_as_what_it_is() {
 
 #[test]
 fn the_seed_decides_everything_for_each_whisker() {
-    let of = |whiskers, seed| {
-        let settings = ElasticSettings::of(Shaft::biotact(Biotact::Middle));
-        readings(&settings, Texture::P240, whiskers, seed)
-    };
-    let all = of(3, 5);
-    assert_eq!(all, of(3, 5));
-    assert_ne!(all, of(3, 6));
-    assert_eq!(all[0], of(1, 5)[0]);
-    assert_ne!(all[0], all[1]);
+    let settings = ElasticSettings::of(Shaft::biotact(Biotact::Middle));
+    seed_decides(|whiskers, seed| shown(&settings, Texture::P240, whiskers, seed));
 }
 
 #[test]
@@ -312,7 +288,7 @@ fn textures_shake_more_than_smooth_plastic() {
     // Eight pieces of each, as pieces differ; without the sensor's noise, which
     // would shake as much as fine paper does.
     let shaking = |texture| {
-        let all = readings(&quiet(Shaft::biotact(Biotact::Middle)), texture, 8, 5);
+        let all = shown(&quiet(Shaft::biotact(Biotact::Middle)), texture, 8, 5);
         let changes = |one: &Vec<[f64; 2]>| -> f64 {
             let pairs = one.windows(2);
             pairs.map(|pair| (pair[1][1] - pair[0][1]).powi(2)).sum()
@@ -370,19 +346,12 @@ proptest! {
     /// Whatever the angles and ticks are, readings stay in range.
     #[test]
     fn nothing_leaves_the_range(
-        angles in prop::collection::vec(
-            prop_oneof![50.0..150.0, -1e7..1e7, Just(f64::NAN), Just(f64::MAX)], 1..60),
-        tick_s in prop_oneof![Just(5e-3), Just(5e-5), 1e-12..1e3],
+        motion in any_motion(),
         height_m in prop_oneof![0.0..1e-3, Just(f64::INFINITY), Just(f64::NAN)],
     ) {
         let settings = ElasticSettings::of(Shaft::biotact(Biotact::Middle));
         let mut plant = Elastic::new(head(2), settings, 1).unwrap();
         plant.present_surface(Surface { height_m, ..Surface::of(Material::Tarmac) });
-        for angle in angles {
-            plant.advance(&[angle], tick_s);
-            let [x, y] = plant.deflection(0, 0);
-            prop_assert!((-1.0..=1.0).contains(&x) && (-1.0..=1.0).contains(&y), "{x} {y}");
-            prop_assert_eq!(plant.deflection(0, 1), [0.0; 2], "it was never moved");
-        }
+        stays_in_range(&mut plant, motion)?;
     }
 }

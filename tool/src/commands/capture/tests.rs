@@ -5,7 +5,7 @@ use std::ffi::OsString;
 use clap::Parser;
 use host_sim::files::read_recording;
 use host_sim::recording::{CHANNELS, GATE, Stream};
-use wire::{Flags, TickRecord};
+use wire::Flags;
 
 use super::*;
 use crate::source::{Alter, Altered, Around, GOOD, scene_file};
@@ -69,21 +69,20 @@ fn what_comes_with_the_last_touch_of_a_label_is_not_lost() {
 }
 
 #[test]
-fn records_that_are_lost_in_a_touch_cost_that_touch_and_are_reported() {
+fn lost_records_and_a_fault_cost_their_touch_and_are_reported() {
+    let spoils: [Alter; 2] = [
+        |record, _| record.sequence != 4100,
+        |record, _| {
+            if (4100..4120).contains(&record.sequence) {
+                record.flags = record.flags.without(Flags::VALID);
+            }
+            true
+        },
+    ];
     // In the third touch: where it is cut another trial begins.
-    let spoils = |record: &mut TickRecord, _: f64| record.sequence != 4100;
-    assert_eq!(captured(&[], GOOD, spoils), (2, vec![2, 4]));
-}
-
-#[test]
-fn a_fault_costs_its_touch_and_is_reported() {
-    let spoils = |record: &mut TickRecord, _: f64| {
-        if (4100..4120).contains(&record.sequence) {
-            record.flags = record.flags.without(Flags::VALID);
-        }
-        true
-    };
-    assert_eq!(captured(&[], GOOD, spoils), (2, vec![2, 4]));
+    for spoils in spoils {
+        assert_eq!(captured(&[], GOOD, spoils), (2, vec![2, 4]));
+    }
 }
 
 #[test]
