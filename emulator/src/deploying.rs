@@ -19,10 +19,10 @@ use crate::session::Session;
 use case::{Case, Flashed, Way, missing, pass, running, says, stop};
 
 /// How long PC and board are compared, s, and how long after what changes nothing.
-const COMPARED_S: f64 = 4.0;
+const COMPARED_S: f64 = 3.0;
 const SHORT_S: f64 = 0.5;
 /// In how long a board that was deployed to whisks, s.
-const WATCHED_S: f64 = 1.0;
+const WATCHED_S: f64 = 0.5;
 /// In how long its whisker touches the surface, s.
 const TOUCHES_S: f64 = 2.0;
 /// How long one that has a model may take to decide, s.

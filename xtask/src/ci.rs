@@ -8,8 +8,8 @@ use crate::firmware::Board;
 use crate::run::{Fault, cargo, run, take_built_programs};
 use crate::steps::{Step, Steps};
 use crate::{
-    book, cost, count, dependencies, descriptions, docs, emulate, endurance, faults, fuzz, page,
-    python, scenarios, size, studies, walk,
+    book, cost, dependencies, descriptions, docs, emulate, endurance, faults, page, python,
+    scenarios, size, studies, walk,
 };
 
 const DENY: [&str; 3] = ["--", "-D", "warnings"];
@@ -24,30 +24,27 @@ pub(crate) const ALL: [&str; 5] = [
     "whisker-python",
 ];
 
-/// Features of what is in no program for this PC, and of debug probes: these make 66 more of 437
-/// units to check, 170 were `whisker` linted apart.
-const LINTED: &str = "fuzz/engine,mlx90333/defmt,tmag5170/defmt,whisker/probe";
+/// Features of what is in no program for this PC. Debug probes and libFuzzer, which are linted
+/// and built at night, make a fifth more to compile.
+const LINTED: &str = "mlx90333/defmt,tmag5170/defmt";
 
 /// Of the properties' cases.
 const SEED: &str = "1";
 
 /// What runs on this PC: tests, the main job, whose output and files are what the generated documents
 /// must hold, and all that is built beside the product.
-const ON_THE_PC: [Step; 9] = [
+const ON_THE_PC: [Step; 7] = [
     ("tests", tests),
-    // One target after the other for a few seconds by the clock.
-    ("untrusted input", fuzz::short),
     ("main job and documents", docs::short),
     ("chips as described", descriptions::compare),
     ("the book", the_book),
     ("Python", python::test),
     ("studies", studies_on_same_cases),
-    ("experiments, cut short", studies::experiments_in_short),
     ("page", page),
 ];
 
 /// What builds programs of boards, all in one place and therefore one after the other.
-const ON_THE_BOARDS: [Step; 9] = [
+const ON_THE_BOARDS: [Step; 8] = [
     ("firmware of some scenes", size::short),
     ("picture of the emulated board", docs::asymmetry_is_current),
     ("the walk through the book", walk::short),
@@ -55,7 +52,6 @@ const ON_THE_BOARDS: [Step; 9] = [
     ("injected faults, five hundred", faults::short),
     ("faults from files", scenarios::short),
     ("endurance, in short", endurance::short),
-    ("counts of a tick", count::short),
     ("cost of a tick on the board", cost::short),
 ];
 

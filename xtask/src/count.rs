@@ -22,9 +22,6 @@ pub(crate) const TABLE: Table = Table {
     command: "cargo xtask count",
 };
 
-/// Programs that are counted where time is short: frame, touch and classifier, the parts of a tick.
-const SHORT: [&str; 2] = ["integers", "parts"];
-
 const PROGRAMS: [&str; 5] = ["computation", "functions", "integers", "parts", "whisking"];
 
 /// Of these the one that also counts twenty-four whiskers, where there is an FPU.
@@ -39,10 +36,6 @@ pub(crate) fn all(csv: Option<&Path>, check: bool) -> Result<(), Fault> {
     }
     found.extend(count(PROCESSORS[0], ARRAY.0, ARRAY.1)?);
     TABLE.take(&found, csv, check)
-}
-
-pub(crate) fn short() -> Result<(), Fault> {
-    TABLE.check_part(&count(PROCESSORS[0], &SHORT, &[])?)
 }
 
 fn count(

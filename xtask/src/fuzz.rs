@@ -76,15 +76,6 @@ pub(crate) fn all(names: &[String], minutes: f64, page: bool) -> Result<(), Faul
     document("docs/measured/fuzz.md", page.as_bytes(), false)
 }
 
-pub(crate) fn short() -> Result<(), Fault> {
-    let names = TARGETS.map(|target| target.0).into_iter();
-    let quick: Vec<String> = names
-        .filter(|name| *name != SLOW)
-        .map(str::to_owned)
-        .collect();
-    all(&quick, 0.05, false)
-}
-
 fn build(with_slow: bool) -> Result<(), Fault> {
     let what = [
         "build",

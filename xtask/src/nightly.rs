@@ -77,6 +77,9 @@ fn lints() -> Result<(), Fault> {
             .args(board.build_arguments(&tilt))
             .args(deny))?;
     }
+    let apart = ["clippy", "--all-targets", "-p", "whisker", "-p", "fuzz"];
+    let features = ["--features", "whisker/probe,fuzz/engine"];
+    run(cargo(&apart).args(features).args(["--", "-D", "warnings"]))?;
     studies::lints()
 }
 

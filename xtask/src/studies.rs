@@ -33,16 +33,7 @@ pub(crate) fn check(seed: Option<&str>) -> Result<(), Fault> {
     run(in_workspace("test").envs(seed.map(|seed| ("PROPTEST_RNG_SEED", seed))))
 }
 
-/// The experiments cut short. LEP10's is one of the commands of the book. PSIK's 33 vibrissae take
-/// minutes, and are the nightly run's.
-pub(crate) fn experiments_in_short() -> Result<(), Fault> {
-    let papers = ["lep12", "biotact", "pose"];
-    let mut experiments = program();
-    experiments.args(["--quiet", "experiment"]).args(papers);
-    experiments.args(["--quick", "--out"]);
-    run(experiments.arg(target().join("experiments")))
-}
-
+/// All experiments. CI runs LEP10's in short, which is one of the commands of the book.
 pub(crate) fn experiments() -> Result<(), Fault> {
     let all = ["--release", "--quiet", "--", "--quiet"];
     let mut experiments = in_workspace("run");
