@@ -32,6 +32,7 @@ use crate::sensing::SensorLimits;
 use crate::servo::ServoConfig;
 
 pub use bus::BusConfig;
+pub(crate) use bytes::ERASED;
 pub use bytes::{
     BoardCode, CONFIG_BYTES, ConfigBytes, HEADER_BYTES, Header, VERSION, decode, decode_into,
     encode,

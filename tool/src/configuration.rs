@@ -51,9 +51,6 @@ pub(crate) struct Running {
     pub(crate) classes: ClassList,
 }
 
-/// The whole duty in a configuration, Q24.
-const FULL_DUTY: f64 = 16_777_216.0;
-
 pub(crate) const ANY_SCENE: &str = "cargo xtask firmware --any-scene builds one that has it";
 
 /// What to do about an image that was built without this.
@@ -108,7 +105,7 @@ fn gentle<R: Real>(of: &Running, most: f64) -> Result<ConfigBytes, ConfigError> 
     let mut config = decode::<R>(&of.bytes, board)?;
     if let Some(motion) = &mut config.motion {
         let servo = &mut motion.servo;
-        servo.pd.limit = servo.pd.limit.min((most * FULL_DUTY) as i32);
+        servo.pd.limit = servo.pd.limit.min((most * whisking::pd::FULL) as i32);
         // It is driven hard from half of that on, which is Q15 here.
         let hard = Duty::from_q15((servo.pd.limit >> 10) as i16);
         let stall = &mut servo.guards.stall;

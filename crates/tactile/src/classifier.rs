@@ -266,7 +266,7 @@ impl<W: Words> StreamClassifier<W> {
         for stream in &mut self.streams {
             if stream.evidence.is_begun() {
                 stream.evidence = rule.start();
-                stream.is_spent();
+                stream.spend();
             }
         }
         self.elsewhere.forget();
@@ -337,7 +337,7 @@ impl<W: Words> StreamClassifier<W> {
                     *sum = sum.saturating_add(own);
                 }
                 stream.evidence = rule.start();
-                stream.is_spent();
+                stream.spend();
             }
         }
         self.elsewhere.forget();

@@ -272,7 +272,7 @@ impl<E> StreamState<E> {
     }
 
     /// The streams together have decided: this touch says no more by itself.
-    pub(crate) fn is_spent(&mut self) {
+    pub(crate) fn spend(&mut self) {
         if let [judge, ..] = self.judges.as_mut_slice() {
             judge.finish();
         }

@@ -21,7 +21,7 @@ const VELOCITY_CORNER_HZ: f64 = 100.0;
 
 /// A duty of one in the controller's state: Q24, so that the slowest slew is not
 /// lost in rounding.
-pub(crate) const FULL: f64 = 16_777_216.0;
+pub const FULL: f64 = 16_777_216.0;
 
 /// Gains and limits in physical units.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -16,7 +16,7 @@ use core::sync::atomic::{AtomicU8, AtomicU32, Ordering, compiler_fence};
 /// The log's ring: what idle writes within the 100 ms after which a probe comes by.
 pub(crate) static LOG_BYTES: [AtomicU8; 1024] = [const { AtomicU8::new(0) }; 1024];
 
-/// The ring of packets. At 2 kHz and one whisker 32 ms pass until records have filled it, three
+/// The ring of packets. At 2 kHz and one whisker 47 ms pass until records have filled it, four
 /// times as long as a probe stays away; then some more wait in their queue.
 #[cfg(feature = "rtt")]
 pub(crate) static PACKETS: [AtomicU8; 1_920] = [const { AtomicU8::new(0) }; 1_920];

@@ -23,7 +23,8 @@ pub const HEADER_BYTES: usize = 16;
 /// The first bytes.
 const MAGIC: u32 = u32::from_le_bytes(*b"WCFG");
 
-const ERASED: u32 = u32::MAX;
+/// A word of flash that nothing was written to.
+pub(crate) const ERASED: u32 = u32::MAX;
 
 const CRC: crc::Crc<u32, crc::NoTable> = crc::Crc::<u32, crc::NoTable>::new(&crc::CRC_32_ISO_HDLC);
 

@@ -10,6 +10,7 @@ use tactile::{
 use tactile::Behind;
 
 use super::{ModelState, Refusal, Sample, SampleClassifier};
+use crate::config::ERASED;
 
 /// The model was not trained on the integer codes of a sensor's two channels,
 /// so that it cannot classify them.
@@ -75,8 +76,6 @@ impl<W: Words> Codes<W> {
         })
     }
 }
-
-const ERASED: u32 = u32::MAX;
 
 impl<'p> CodeClassifier<&'p [u32]> {
     /// With the model at the beginning of `place`, which starts on a four-byte boundary, if

@@ -6,10 +6,8 @@ use wire::{Flags, TickRecord};
 use super::alike::drift;
 use super::samples::Sampled;
 use super::touches::Touches;
+use crate::calibrate::is_at_end;
 use crate::tally::Before;
-
-/// The last codes before either end at which a sensor no longer tells how far it is bent.
-const ENDS: [u16; 2] = [8, 16375];
 
 /// Samples of contact at an end from which it is reported: 5 ms at 2 kHz.
 const SATURATED: u64 = 10;
@@ -93,7 +91,7 @@ impl Checks {
         }
         let axes = ["x", "y"].into_iter().zip(sample.codes);
         for (saturated, (axis, code)) in self.saturated.iter_mut().zip(axes) {
-            if code <= ENDS[0] || code >= ENDS[1] {
+            if is_at_end(code) {
                 *saturated += 1;
                 if *saturated == SATURATED {
                     return Some(format!(
