@@ -26,6 +26,7 @@ impl Notice {
             | Event::TouchEnd { .. }
             | Event::ZeroMoved(..)
             | Event::Frame(..)
+            | Event::Node(..)
             | Event::Armed
             | Event::Stopped
             | Event::Health(_)

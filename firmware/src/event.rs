@@ -147,6 +147,8 @@ pub enum Event {
     /// A motor has had too many faults: it stays off until it is cleared
     /// ([`Command::Clear`](crate::Command::Clear)).
     MotorGivenUp(Place),
+    /// What has become of a board of a head, by what this one, of that number, says.
+    Node(u8, NodeEvent),
     /// The user button has armed the motors.
     Armed,
     /// The user button has stopped the motors.
@@ -155,6 +157,45 @@ pub enum Event {
     Health(Health),
     /// A limit with this number in the [table](crate::faults) was passed.
     Limit(u8),
+}
+
+/// What becomes of a board of a head.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum NodeEvent {
+    /// It shares clock and oscillators of its head.
+    Joined,
+    /// It does so no longer: its clock is another than that of a lower node.
+    Left,
+    /// It hears another, for the first time or again.
+    Heard(u8),
+    /// It does not hear another any more.
+    Lost(u8),
+    /// Another has its number (fault): its motors stay off, and it is silent.
+    Twin,
+}
+
+impl NodeEvent {
+    /// As it is sent: a number, and which other board.
+    pub(crate) const fn code(self) -> [u8; 2] {
+        match self {
+            Self::Joined => [0, 0],
+            Self::Left => [1, 0],
+            Self::Heard(other) => [2, other],
+            Self::Lost(other) => [3, other],
+            Self::Twin => [4, 0],
+        }
+    }
+
+    pub(crate) const fn of([code, other]: [u8; 2]) -> Option<Self> {
+        Some(match code {
+            0 => Self::Joined,
+            1 => Self::Left,
+            2 => Self::Heard(other),
+            3 => Self::Lost(other),
+            4 => Self::Twin,
+            _ => return None,
+        })
+    }
 }
 
 /// How the ticks keep their time.

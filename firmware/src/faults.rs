@@ -97,6 +97,7 @@ pub const fn can_occur(number: u8) -> bool {
         number::HALL_LOW..=number::SKIPPED_SECTOR => Part::SixStep.is_built(),
         ..=number::LOST_COUNTS | number::UNFELT => Part::Motion.is_built(),
         number::TILT_NO_SENSOR..=number::TILT_NO_MAGNET => Part::Tmag5170.is_built(),
+        number::TWIN => Part::Bus.is_built(),
         number::NO_MODEL | number::MODEL => Part::Classifier.is_built(),
         _ => true,
     }
@@ -120,7 +121,7 @@ mod tests {
             let reaction = match row.number {
                 1..=31 => Reaction::WhiskerOff,
                 32..=47 => Reaction::GoesOn,
-                number::TOO_MANY_RESETS => Reaction::NotArmed,
+                number::TOO_MANY_RESETS | number::TWIN => Reaction::NotArmed,
                 _ => Reaction::AllOff,
             };
             assert_eq!(row.reaction, reaction, "{row:?}");

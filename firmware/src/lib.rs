@@ -60,12 +60,12 @@ pub use config::{
 };
 #[cfg(feature = "tmag5170")]
 pub use event::TiltFault;
-pub use event::{Event, Health, Place, SensorFault};
+pub use event::{Event, Health, NodeEvent, Place, SensorFault};
 pub use io::{AngleInput, BusError, Clock, FrameSource, Polled, WordSource};
 pub use module::{Hardware, Module, Whisker, WhiskerParts};
 pub use motion::{Command, Motion, NoActiveWhisker, NotDone};
 #[cfg(feature = "bus")]
-pub use node::{Node, NodeEvent};
+pub use node::Node;
 pub use packet::{EventRecord, Packet};
 pub use perception::{
     ClassifierConfig, CodeClassifier, ModelLimits, ModelState, NotCodes, Perception, Refusal,

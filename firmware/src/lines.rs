@@ -104,6 +104,19 @@ macro_rules! say_event {
             $crate::Event::MotorGivenUp(place) if $crate::Part::Motion.is_built() => {
                 $say!(error, "off {=str}", place.side_name());
             }
+            $crate::Event::Node(node, what) if $crate::Part::Bus.is_built() => match what {
+                $crate::NodeEvent::Joined => $say!(info, "node {=u8} joined", node),
+                $crate::NodeEvent::Left => $say!(warn, "node {=u8} left", node),
+                $crate::NodeEvent::Heard(other) => {
+                    $say!(info, "node {=u8} hears {=u8}", node, other);
+                }
+                $crate::NodeEvent::Lost(other) => {
+                    $say!(warn, "node {=u8} lost {=u8}", node, other);
+                }
+                $crate::NodeEvent::Twin => {
+                    $crate::say_board_fault!($say, $texts, $crate::faults::number::TWIN);
+                }
+            },
             $crate::Event::Stopped if $crate::Part::Motion.is_built() => {
                 $say!(info, "stopped");
             }

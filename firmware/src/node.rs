@@ -16,12 +16,15 @@ mod members;
 mod replica;
 mod times;
 
-use can::{Contact, Frame, Message};
+use can::{Contact, Frame, MAX_NODES, Message};
 use heapless::Vec;
 use tactile::Decision;
 use whisking::{MAX_SIDES, Number, Real};
 
-use crate::{Config, Hardware, HeadConfig, Module, MotionConfig, Perception, SampleClassifier};
+use crate::{
+    Config, Event, Hardware, HeadConfig, Module, MotionConfig, NodeEvent, Perception,
+    SampleClassifier, Whisker,
+};
 use clock::Clock;
 use deciding::Deciding;
 use members::Members;
@@ -36,23 +39,6 @@ const STOPS: u8 = 3;
 
 /// By how much contact π rises before that is said at once, Q15: 1/64.
 const RISE: u16 = 1 << 9;
-
-/// What becomes of a node.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum NodeEvent {
-    /// It shares clock and oscillators of its head.
-    Joined,
-    /// It does so no longer: its clock is another than that of a lower node.
-    Left,
-    /// Another is not heard any more.
-    Lost(u8),
-    /// Another is heard, for the first time or again.
-    Heard(u8),
-    /// Another has the same number: its motors stay off, and it is silent.
-    Twin,
-    /// The whiskers of the head together have decided, by what those of another have felt.
-    Decided(Decision),
-}
 
 #[derive(Debug, Clone, Copy)]
 struct Due {
@@ -69,6 +55,10 @@ enum Motors {
     Stopped,
     /// Another node has the same number.
     Twin,
+}
+
+const fn bit(node: u8) -> u32 {
+    1 << (node & 31)
 }
 
 /// A board of a head.
@@ -98,6 +88,9 @@ pub struct Node {
     /// What was said of contact last, and how long ago.
     said: Contact,
     since_said: u16,
+    /// Nodes that were heard, for the first time or again, since the last tick, a bit each; its own
+    /// number is a twin's.
+    news: u32,
     /// Messages that came too late, were no messages or out of range, or found no room.
     lost: u32,
 }
@@ -124,6 +117,7 @@ impl Node {
             due: Vec::new(),
             said: Contact::default(),
             since_said: 0,
+            news: 0,
             lost: 0,
         }
     }
@@ -142,6 +136,11 @@ impl Node {
     /// Whether motors may run: no stop came after the last arm, and its number is its own.
     pub const fn may_run(&self) -> bool {
         matches!(self.motors, Motors::May)
+    }
+
+    /// Whether another board of its head has its number.
+    const fn is_twin(&self) -> bool {
+        matches!(self.motors, Motors::Twin)
     }
 
     /// Messages that it could not use.
@@ -175,15 +174,15 @@ impl Node {
     }
 
     /// A frame has come; `at_us`: when it ended, by the node's own clock.
-    pub fn hear(&mut self, frame: &Frame, at_us: u64, events: &mut impl FnMut(NodeEvent)) {
+    pub fn hear(&mut self, frame: &Frame, at_us: u64) {
         let Ok((from, stamp, message)) = Message::of(frame) else {
             self.lost = self.lost.saturating_add(1);
             return;
         };
         if from == self.number {
-            if self.motors != Motors::Twin {
+            if !self.is_twin() {
                 self.motors = Motors::Twin;
-                events(NodeEvent::Twin);
+                self.news |= bit(from);
             }
             return;
         }
@@ -203,7 +202,7 @@ impl Node {
         if let Message::Contact(contact) = message
             && self.members.heard(from, contact.is_joined)
         {
-            events(NodeEvent::Heard(from));
+            self.news |= bit(from);
             // It was off the bus as the stop was said.
             if contact.is_armed && self.motors == Motors::Stopped {
                 self.stops = self.stops.max(1);
@@ -230,13 +229,34 @@ impl Node {
         }
     }
 
-    /// Before a tick, which begins at `now_us` by its own clock.
+    /// Before a tick, which begins at `now_us` by its own clock. What becomes of the node since the
+    /// last is an event of this tick, as is what the whiskers of the head together have decided,
+    /// by what those of another have felt.
     pub fn before<R: Number, H: Hardware>(
         &mut self,
         now_us: u64,
         (module, config): (&mut Module<R, H>, &Config<R>),
+        events: &mut impl FnMut(Event),
+    ) {
+        let own = self.number;
+        let place = module.whiskers().first().map(Whisker::place);
+        let mut decided = None;
+        self.pass(now_us, (module, config), &mut decided, &mut |what| {
+            events(Event::Node(own, what));
+        });
+        if let (Some(decision), Some(place)) = (decided, place) {
+            events(Event::Decision(place, decision));
+        }
+    }
+
+    fn pass<R: Number, H: Hardware>(
+        &mut self,
+        now_us: u64,
+        (module, config): (&mut Module<R, H>, &Config<R>),
+        decided: &mut Option<Decision>,
         events: &mut impl FnMut(NodeEvent),
     ) {
+        self.say_news(events);
         self.keep_time(now_us, config.head.tick_hz, events);
         let now = self.tick;
         let mut is_armed = false;
@@ -276,7 +296,7 @@ impl Node {
                     });
                     if let Some(decision) = decision {
                         self.decision = Some(decision);
-                        events(NodeEvent::Decided(decision));
+                        *decided = Some(decision);
                     }
                 }
                 Message::Decision { .. } => {
@@ -303,13 +323,24 @@ impl Node {
         });
         self.join(config.motion.as_ref(), events);
         module.feel_elsewhere(self.members.contact());
-        if is_armed && self.motors != Motors::Twin {
+        if is_armed && !self.is_twin() {
             self.motors = Motors::May;
             self.stops = 0;
             module.arm(true);
         }
         if !self.may_run() {
             module.arm(false);
+        }
+    }
+
+    fn say_news(&mut self, events: &mut impl FnMut(NodeEvent)) {
+        let news = core::mem::take(&mut self.news);
+        for node in (0..MAX_NODES as u8).filter(|node| news & bit(*node) != 0) {
+            events(if node == self.number {
+                NodeEvent::Twin
+            } else {
+                NodeEvent::Heard(node)
+            });
         }
     }
 
@@ -344,10 +375,10 @@ impl Node {
         motion: Option<&MotionConfig<R>>,
         events: &mut impl FnMut(NodeEvent),
     ) {
-        if self.is_joined {
-            if self.members.is_strange() {
-                self.leave(events);
-            }
+        if self.is_joined && (self.members.is_strange() || self.is_twin()) {
+            self.leave(events);
+        }
+        if self.is_joined || self.is_twin() {
             return;
         }
         self.alone = self.alone.saturating_add(1);
@@ -374,7 +405,7 @@ impl Node {
     ) {
         let tick = self.tick;
         self.tick = tick.wrapping_add(1);
-        if self.motors == Motors::Twin {
+        if self.is_twin() {
             return;
         }
         let stamp = tick as u8;
@@ -442,6 +473,10 @@ impl Node {
         say: &mut impl FnMut(Message),
     ) {
         self.since_said = self.since_said.saturating_add(1);
+        // It listens first, so that of two with one number it is the second that is silent.
+        if !self.is_joined && self.alone <= self.times.contact {
+            return;
+        }
         let pi = module
             .contact()
             .map(|pi| (pi.to_q24() >> 9).clamp(0, u16::MAX.into()) as u16);

@@ -12,7 +12,7 @@ use wire::{Answer, TickRecord};
 
 use crate::faults::number;
 use crate::lines::halves;
-use crate::{Event, Health, Part, Place, SensorFault};
+use crate::{Event, Health, NodeEvent, Part, Place, SensorFault};
 
 /// What a module sends.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -82,6 +82,7 @@ mod kind {
     pub(super) const STOPPED: u8 = 12;
     pub(super) const FRAME: u8 = 13;
     pub(super) const POSE: u8 = 14;
+    pub(super) const NODE: u8 = 15;
 }
 
 impl EventRecord {
@@ -121,6 +122,15 @@ impl EventRecord {
             }
             Event::MotorRetry(place) => (kind::MOTOR_RETRY, place, 0, NONE),
             Event::MotorGivenUp(place) => (kind::MOTOR_GIVEN_UP, place, 0, NONE),
+            Event::Node(node, what) if Part::Bus.is_built() => {
+                let [number, other] = what.code();
+                (
+                    kind::NODE,
+                    Place::new(0, node),
+                    number,
+                    [other.into(), 0, 0],
+                )
+            }
             Event::Armed => (kind::ARMED, nowhere, 0, NONE),
             Event::Stopped => (kind::STOPPED, nowhere, 0, NONE),
             Event::Health(health) => {
@@ -129,7 +139,7 @@ impl EventRecord {
                 (kind::HEALTH, nowhere, 0, values)
             }
             Event::Limit(number) => (kind::LIMIT, nowhere, number, NONE),
-            Event::Decision(..) | Event::Pose(..) | Event::MotorFault(..) => {
+            Event::Decision(..) | Event::Pose(..) | Event::MotorFault(..) | Event::Node(..) => {
                 (u8::MAX, nowhere, 0, NONE)
             }
         };
@@ -169,6 +179,7 @@ impl EventRecord {
             }
             kind::MOTOR_RETRY => Event::MotorRetry(place),
             kind::MOTOR_GIVEN_UP => Event::MotorGivenUp(place),
+            kind::NODE => Event::Node(whisker, NodeEvent::of([number, a as u8])?),
             kind::ARMED => Event::Armed,
             kind::STOPPED => Event::Stopped,
             kind::HEALTH => Event::Health(Health {
@@ -245,7 +256,7 @@ mod tests {
     };
 
     use super::{EventRecord, Packet};
-    use crate::{Event, Health, Place, SensorFault};
+    use crate::{Event, Health, NodeEvent, Place, SensorFault};
 
     fn received(packet: &Packet) -> Option<Packet> {
         let mut splitter = Splitter::<FRAME_BYTES>::new();
@@ -345,6 +356,11 @@ mod tests {
                 9 => Event::Armed,
                 12 => Event::Stopped,
                 13 => Event::Frame(place, u64::from(missed).to_be_bytes()),
+                14 => Event::Node(place.whisker, NodeEvent::Joined),
+                15 => Event::Node(place.whisker, NodeEvent::Left),
+                16 => Event::Node(place.whisker, NodeEvent::Heard(limit)),
+                17 => Event::Node(place.whisker, NodeEvent::Lost(limit)),
+                18 => Event::Node(place.whisker, NodeEvent::Twin),
                 10 => Event::Health(Health {
                     worst_tenths,
                     missed,

@@ -74,6 +74,7 @@ impl Link {
             }
             Event::ZeroMoved(..) => self.said = self.said | Flags::ZEROED,
             Event::Pose(..)
+            | Event::Node(..)
             | Event::SensorBack(_)
             | Event::Frame(..)
             | Event::MotorRetry(_)

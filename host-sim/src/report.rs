@@ -10,8 +10,8 @@ use std::fmt::{self, Display};
 use std::io::{self, Write};
 use std::process::ExitCode;
 
-use firmware::Event;
 use firmware::lines::{self, Context};
+use firmware::{Event, NodeEvent};
 use tactile::name::{self, Shown};
 use wire::Line;
 
@@ -95,6 +95,11 @@ pub fn said(event: &Event, classes: &[String]) -> Option<(&'static str, String)>
 
 /// Reports faults and recoveries on standard error; for decisions see [`decision`].
 pub fn limits_and_faults(t_s: f64, event: &Event) {
+    if let Event::Node(_, NodeEvent::Left | NodeEvent::Lost(_) | NodeEvent::Twin) = event
+        && let Some((_, said)) = said(event, &[])
+    {
+        warn(format_args!("{t_s:.4} s: {said}"));
+    }
     let (Event::SensorLost(place, _)
     | Event::Frame(place, _)
     | Event::ZeroMoved(place, _)

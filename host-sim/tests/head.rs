@@ -237,6 +237,63 @@ fn a_stop_reaches_boards_that_were_cut_off() {
     }
 }
 
+/// At every corner of the gains: all boards restart at once, are armed, and then every other one
+/// is cut off for good. Setpoints never step, and those that are left whisk as one.
+#[test]
+fn a_head_bears_a_restart_of_all_and_the_loss_of_half_at_every_gain() {
+    for (rcp, cia) in [(0.0, 0.0), (100.0, 0.0), (0.0, 100.0), (100.0, 100.0)] {
+        let gains = [format!("rcp.gain={rcp:?}"), format!("cia.gain={cia:?}")];
+        let gains = gains.each_ref().map(String::as_str);
+        let (_, calm) = largest(&whole(1, 4.0, &gains));
+        let moved = calm
+            .windows(2)
+            .flat_map(|two| [0, 1].map(|side| (two[1][side] - two[0][side]).abs()));
+        let calm = moved.fold(0.0, f64::max);
+        let mut run = Run::new(&whole(24, 4.0, &gains), None).unwrap();
+        let (mut rows, mut last) = (Vec::new(), Vec::<f64>::new());
+        let mut worst = 0.0_f64;
+        for tick in 0..10_000 {
+            let bus = run.bus().unwrap();
+            for node in 0..24 {
+                match tick {
+                    3_000 => bus.reset(node),
+                    6_000 => bus.cut(node, node % 2 == 0),
+                    _ => {}
+                }
+            }
+            if tick == 3_400 {
+                assert!((0..24).all(|node| bus.is_joined(node) && !bus.is_armed(node)));
+                bus.arm(7, true);
+            }
+            run.tick();
+            run.look_at_whiskers(&mut rows);
+            // What is computed while motors are off moves nothing.
+            if !(3_000..3_500).contains(&tick) {
+                for (row, before) in rows.iter().zip(&last) {
+                    worst = worst.max((row.theta_deg - before).abs());
+                }
+            }
+            last = rows.iter().map(|row| row.theta_deg).collect();
+        }
+        for side in 0..2 {
+            // Every other whisker of a side, one a board: the first of a side leads it now.
+            let left: Vec<f64> = last[12 * side..12 * (side + 1)]
+                .iter()
+                .skip(1)
+                .step_by(2)
+                .copied()
+                .collect();
+            let spread = left
+                .iter()
+                .fold(0.0_f64, |most, theta| most.max((theta - left[0]).abs()));
+            println!("rcp {rcp}, cia {cia}, side {side}: {spread:.3} degrees apart");
+            assert!(spread < 0.5, "{left:?}");
+        }
+        println!("θ' moves {worst:.3} degrees a tick at most (one board {calm:.3})");
+        assert!(worst < 1.25 * calm, "{worst} {calm}");
+    }
+}
+
 /// Ten thousand disturbances: boards that are reset, cut off and joined again, frames missed and
 /// destroyed. Setpoints never step, and in the end all whisk together again.
 #[test]

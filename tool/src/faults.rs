@@ -2,8 +2,8 @@
 
 use std::fmt::Write as _;
 
-use firmware::faults::TABLE;
-use firmware::{Event, EventRecord};
+use firmware::faults::{self, TABLE};
+use firmware::{Event, EventRecord, NodeEvent};
 use host_sim::report;
 
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -17,6 +17,7 @@ pub(crate) const fn number(event: &Event) -> Option<u8> {
     match event {
         Event::SensorLost(_, why) => Some(why.code()),
         Event::MotorFault(_, why) => Some(why.code()),
+        Event::Node(_, NodeEvent::Twin) => Some(faults::number::TWIN),
         Event::Limit(number) => Some(*number),
         _ => None,
     }

@@ -277,6 +277,13 @@ pub(crate) fn compare_head(board: Board, options: &str) -> Result<(), Fault> {
     emulate(&Emulated::linked(board), &head_of_two()?, &[&scenario])
 }
 
+/// The same with a board a whisker, two dozen: what bus and boards bear at most.
+pub(crate) fn compare_large_head(board: Board) -> Result<(), Fault> {
+    let keys = ["head.nodes=24", "head.whiskers_per_side=12"].map(str::to_owned);
+    let scene = variants::with(&top().join(CIA), &keys)?;
+    emulate(&Emulated::linked(board), &scene, &["head --duration 2"])
+}
+
 /// [`FULL`] with priors, and besides without self-motion in its contact: what not every board has
 /// room for. Writes them and returns their paths.
 pub(crate) fn full_with_options() -> Result<[PathBuf; 2], Fault> {

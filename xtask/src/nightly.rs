@@ -95,6 +95,7 @@ fn boards() -> Result<(), Fault> {
             emulate::emulate(&linked, Path::new(emulate::CIA), &["latency"])?;
             let both = emulate::noisiest()?;
             emulate::emulate(&linked, &both, &["compare"])?;
+            emulate::compare_large_head(board)?;
             scenes.push(both);
         }
         for scene in &scenes {

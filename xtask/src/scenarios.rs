@@ -72,6 +72,12 @@ fn broken(bound: &str, json: &Value) -> Result<Option<String>, Fault> {
         let found = value(key);
         return Ok((found < number(least)?).then(|| format!("{bound}: found {found:.4}")));
     }
+    if let Some((node, bound)) = bound.split_once(' ')
+        && node.starts_with("nodes/")
+    {
+        let of_node = json.pointer(&format!("/{node}"));
+        return broken(bound, of_node.unwrap_or(&Value::Null));
+    }
     let mut events = json["events"].as_array().into_iter().flatten();
     let first = &json["first_fault"];
     let is_so = match bound.split(' ').collect::<Vec<_>>()[..] {
@@ -191,8 +197,11 @@ mod tests {
     #[test]
     fn a_bound_is_broken_or_not() {
         let event = json!({"kind": "fault", "number": 24, "t_s": 1.5});
-        let json =
-            json!({"a": {"b": 2.0}, "first_fault": "24", "armed_at_end": false, "events": [event]});
+        let node = json!({"events": [event]});
+        let json = json!({
+            "a": {"b": 2.0}, "first_fault": "24", "armed_at_end": false, "events": [event],
+            "nodes": [node],
+        });
         for (bound, is_so) in [
             ("a/b <= 2", true),
             ("a/b <= 1.9", false),
@@ -207,6 +216,9 @@ mod tests {
             ("fault number 21", false),
             ("off|fault after 1.0", true),
             ("off|fault after 1.5", false),
+            ("nodes/0 fault number 24", true),
+            ("nodes/0 never fault", false),
+            ("nodes/1 fault number 24", false),
         ] {
             assert_eq!(
                 broken(bound, &json).map(|found| found.is_none()),

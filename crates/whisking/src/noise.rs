@@ -116,13 +116,13 @@ impl<R: Real> Config<R> {
         let mut out = [[R::ZERO; 2]; MAX_SIDES];
         let mut drawn = 0;
         for (out, filters) in out.iter_mut().zip(filters) {
-            *out = filters.each_mut().map(|filter| {
+            for (out, filter) in out.iter_mut().zip(filters) {
                 let word = random.next_u32();
                 drawn |= word;
                 let white = R::from_q24(normal_q24(word) >> 2);
                 let coloured = self.filter.process(filter, white);
-                coloured.times_fine(self.amplitude)
-            });
+                *out = coloured.times_fine(self.amplitude);
+            }
         }
         if drawn == 0 {
             // Its only state that it never leaves; otherwise once in 2^64 draws of two words.

@@ -2,17 +2,34 @@
 
 use std::path::Path;
 
-use host_sim::Error;
+use firmware::Event;
+use host_sim::bench::Bus;
 use host_sim::decisions::Decided;
 use host_sim::run::Run;
+use host_sim::{Error, report};
 
+use super::US;
 use crate::chip::SIDE_NAMES;
 use crate::compare::{difference, same_numbers};
 use crate::deployment::flashed;
 use crate::emulate::pwm_counts;
 
+/// A line of a log, if it says what became of a node.
+fn of_node(line: &str) -> Option<String> {
+    let (_, said) = line.split_once(" node ")?;
+    Some(format!("node {said}"))
+}
+
+/// What a board of a simulated head has said of nodes.
+fn expected(bus: Option<&Bus>, number: u8) -> Vec<String> {
+    let happened = bus.map(Bus::happened).unwrap_or_default();
+    let own = happened.iter().filter(|happened| happened.node == number);
+    let said = own.filter_map(|happened| report::said(&Event::Node(number, happened.what), &[]));
+    said.map(|(_, said)| said).collect()
+}
+
 /// The head on the PC and on boards, in their number format: every number of every row of the
-/// trace and every decision must be the same, to the last bit. The crystals of every other board
+/// trace, every decision, and what each board says of the others must be the same, to the last bit. The crystals of every other board
 /// are by `ppm` millionths faster, those between as much slower.
 pub(crate) fn compare(
     path: &Path,
@@ -40,10 +57,19 @@ pub(crate) fn compare(
     let mut alone = Run::with_pwm(&alone, classifier, pwm)?;
 
     let named = |fault: String| Error::Work(format!("{}: {fault}", path.display()));
+    let mut logs = Vec::new();
+    for _ in 0..bus.nodes {
+        logs.push((program.log_decoder()?, Vec::new()));
+    }
     let (mut most, mut decisions) = ([[f64::NAN; 2]; 3], 0);
     for n in 1..=host.ticks() {
         let (mut expected, mut found) = (host.tick(), boards.tick());
-        boards.module_mut().check()?;
+        let head = boards.module_mut();
+        head.check()?;
+        for (node, (decoder, said)) in head.nodes.iter_mut().zip(&mut logs) {
+            let lines = decoder.lines(&node.board.take_log()).into_iter();
+            said.extend(lines.filter_map(|line| of_node(&line)));
+        }
         if !feels {
             (expected.contact, found.contact) = ([0.0; 2], [0.0; 2]);
         }
@@ -75,14 +101,39 @@ pub(crate) fn compare(
             }
         }
     }
-    let load = boards.module_mut().load();
+    let mut reports = 0;
+    for (number, (_, found)) in (0..).zip(logs) {
+        let expected = expected(host.bus().as_deref(), number);
+        if expected != found {
+            return Err(named(format!(
+                "of its nodes the log of board {number} says {found:?}, in the simulated head \
+                 {expected:?}"
+            )));
+        }
+        reports += found.len();
+    }
+    let run_s = boards.t_s();
+    let head = boards.module_mut();
+    let load = head.load();
+    let lengths = head.nodes.iter().map(|node| {
+        let length = node.board.meter.figures.length;
+        [length.mean(), length.worst as f64].map(|time| time / US)
+    });
+    let [mean_us, worst_us] = lengths
+        .reduce(|[mean, worst], [of_mean, of_worst]| [mean.max(of_mean), worst.max(of_worst)])
+        .unwrap_or_default();
     let mut lines = vec![format!(
         "{}: {} boards, crystals ±{ppm} ppm, and the simulated head agree to the last bit in {} \
-         ticks, {decisions} decisions; {load}",
+         ticks, {decisions} decisions, {reports} reports of nodes; {load}",
         path.display(),
         bus.nodes,
         host.ticks()
     )];
+    lines.push(format!(
+        "bus busy for {:.1} %; of the board that takes longest a tick takes {mean_us:.1} us in the \
+         mean, {worst_us:.1} at most",
+        100.0 * load.busy_s / run_s
+    ));
     let names = ["boards", "simulated head", "one simulated board"];
     lines.extend(names.into_iter().zip(most).map(|(name, most)| {
         let of_side = |(side, theta): (&str, f64)| format!("{side} {theta:.2}");

@@ -51,6 +51,7 @@ pub(super) enum What {
     PowerOff,
     ClockLate,
     Reset,
+    Jumpers { number: u8 },
     BusCut,
     BusNoise { share: f64 },
 }
@@ -151,7 +152,7 @@ impl Scenario {
         for event in &self.events {
             let what = &event.what;
             let missing = match what {
-                What::Reset | What::BusCut | What::BusNoise { .. }
+                What::Reset | What::Jumpers { .. } | What::BusCut | What::BusNoise { .. }
                     if scene.head.nodes.is_none() =>
                 {
                     "an event of a head, but the scene has no head.nodes"
@@ -218,6 +219,7 @@ impl What {
                 | Self::Probe { .. }
                 | Self::PowerOff
                 | Self::Reset
+                | Self::Jumpers { .. }
                 | Self::BusCut
                 | Self::BusNoise { .. }
         )

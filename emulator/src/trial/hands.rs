@@ -119,6 +119,7 @@ impl Around {
             | What::PowerOff
             | What::ClockLate
             | What::Reset
+            | What::Jumpers { .. }
             | What::BusCut
             | What::BusNoise { .. } => {}
         }

@@ -115,6 +115,10 @@ fn befall(head: &mut Head, event: &Event, begins: bool) -> Result<Option<Stop>, 
     match &event.what {
         What::PowerOff => head.strike(node, |board| board.set_power(!begins))?,
         What::Reset if begins => head.strike(node, |board| board.reset_now(ResetCause::Pin))?,
+        What::Jumpers { number } if begins => head.strike(node, |board| {
+            board.machine.with_chip(|chip| chip.set_number(*number));
+            board.reset_now(ResetCause::Pin)
+        })?,
         What::BusCut => head.cut(node, begins),
         What::BusNoise { share } => {
             let share = if begins { *share } else { 0.0 };

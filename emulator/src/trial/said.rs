@@ -41,7 +41,7 @@ pub(super) struct Lister {
 }
 
 /// First words of the lines that are events.
-const KINDS: [&str; 15] = [
+const KINDS: [&str; 16] = [
     "armed",
     "back",
     "decision",
@@ -50,6 +50,7 @@ const KINDS: [&str; 15] = [
     "frame",
     "health",
     "limit",
+    "node",
     "not-armed",
     "off",
     "retry",

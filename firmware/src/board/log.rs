@@ -55,7 +55,7 @@ pub(crate) fn start(cause: StartCause, start: &Startup, found: &Scene) {
     };
     let what = (env!("CARGO_PKG_VERSION"), scene_name, pace::tick_hz());
     firmware::say_start!(say, texts, what, (start, cause));
-    if found.deployed.is_none() {
+    if found.deployed.is_none() && Part::Deploy.is_built() {
         defmt::warn!("no scene: whisker deploy brings one");
     }
     scene(found);
@@ -157,7 +157,8 @@ macro_rules! part_text {
         #[inline(never)]
         fn part_text(part: Part) -> defmt::Str {
             match part {
-                $(Part::$name => intern!($text),)*
+                $(Part::$name if Part::BY_LINK => intern!($text),)*
+                _ => intern!("a part of what was linked"),
             }
         }
     };

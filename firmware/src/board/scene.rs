@@ -1,6 +1,6 @@
 //! Which scene the board runs: that of the newest valid slot, or none.
 
-use firmware::boards::{CanTiming, Clocks, Misfit, Needs, TickPeriod, newest_first};
+use firmware::boards::{CanTiming, Clocks, Misfit, Needs, TickPeriod};
 use firmware::{ConfigError, Field, Header, Links, Part, decode_into};
 use static_cell::StaticCell;
 
@@ -62,7 +62,7 @@ pub(crate) fn find() -> Option<Scene> {
         deployed: None,
         refused: [None; 2],
     };
-    for slot in newest_first(slots::headers()) {
+    for slot in slots::newest_first() {
         let refused = match read(slot, scene.settings) {
             Ok(deployed) => {
                 scene.deployed = Some(deployed);
@@ -74,7 +74,12 @@ pub(crate) fn find() -> Option<Scene> {
             *place = Some(refused);
         }
     }
-    still(scene.settings);
+    if Part::BY_LINK {
+        still(scene.settings);
+    } else {
+        // Nor is there a link by which another could come.
+        *scene.settings = Settings::still();
+    }
     Some(scene)
 }
 
@@ -106,6 +111,9 @@ fn read(slot: usize, settings: &mut Settings) -> Result<Deployed, ConfigError> {
 }
 
 fn fits(settings: &Settings) -> Result<(), ConfigError> {
+    if !Part::BY_LINK {
+        return Ok(());
+    }
     FACTS.fits(&Needs::of(settings)).map_err(Misfit::error)?;
     // As many as any board of a head, the first.
     if settings.head.of_node(0).len() > SIDES.len() {

@@ -1,7 +1,7 @@
 //! The flash in which scenes and models lie apart from the program: two slots, of which the
 //! newest valid one counts (`firmware::boards`). A program may bring a first scene with it.
 
-use firmware::boards::{Region, Slot, SlotHeader, has_armed};
+use firmware::boards::{self, Region, Slot, SlotHeader, has_armed};
 use firmware::{ConfigError, HEADER_BYTES, NotArmed, Part};
 use wire::Load;
 
@@ -49,6 +49,20 @@ pub(crate) fn header(slot: &Slot) -> Option<SlotHeader> {
 
 pub(crate) fn headers() -> [Option<SlotHeader>; 2] {
     SLOTS.each_ref().map(header)
+}
+
+/// In how many slots a start looks for its scene: where nothing is deployed, in the first alone, in
+/// which lies what is linked.
+pub(crate) const SEARCHED: usize = if Part::BY_LINK { SLOTS.len() } else { 1 };
+
+/// These, in their order.
+pub(crate) fn newest_first() -> impl Iterator<Item = usize> {
+    let order = if Part::BY_LINK {
+        boards::newest_first(headers())
+    } else {
+        [0, 1]
+    };
+    order.into_iter().take(SEARCHED)
 }
 
 /// The bytes of a slot's configuration, which may go on behind it.

@@ -228,6 +228,9 @@ pub fn decode_into<R: Real>(
     if parts.all(config).is_err() {
         return Err(parts.refused);
     }
+    if !Part::BY_LINK {
+        return Ok(());
+    }
     config.check()?;
     // What is simulated cannot be harmed.
     if board == BoardCode::Simulation {

@@ -211,6 +211,10 @@ macro_rules! fault_table {
                 "a supply or a reset line with a loose contact; somebody at the button",
                 "the lines before it",
                 NotArmed, Armed;
+            60 TWIN: "another board of the head has its number",
+                "two boards with the same jumpers; a jumper without contact",
+                "[the jumpers](boards.md#the-bus-of-a-head) of both; this board is silent, and its motors stay off",
+                NotArmed, Restart;
         }
     };
 }

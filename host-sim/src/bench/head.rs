@@ -255,15 +255,7 @@ impl<R: Number> Head<R> {
                 if self.bus.cut[n] || is_missed {
                     continue;
                 }
-                let t_s = at_us * 1e-6;
-                let happened = &mut self.bus.happened;
-                board.node.hear(&sent.frame, own_us, &mut |what| {
-                    happened.push(Happened {
-                        t_s,
-                        node: n as u8,
-                        what,
-                    });
-                });
+                board.node.hear(&sent.frame, own_us);
             }
         }
     }
@@ -283,20 +275,15 @@ impl<R: Number> Bench for Head<R> {
                 ..
             } = board;
             let bus = &mut self.bus;
-            let place = hosted.place(0);
             let now_us = *ticks as f64 * tick_us;
             node.before(
                 now_us as u64,
                 (&mut hosted.module, &hosted.config),
-                &mut |what| {
-                    if let (NodeEvent::Decided(decision), Some(place)) = (what, place) {
-                        events.push(Event::Decision(place, decision));
+                &mut |event| {
+                    if let Event::Node(node, what) = event {
+                        bus.happened.push(Happened { t_s, node, what });
                     }
-                    bus.happened.push(Happened {
-                        t_s,
-                        node: n as u8,
-                        what,
-                    });
+                    events.push(event);
                 },
             );
             let first = events.len();

@@ -1,7 +1,7 @@
 //! What is drawn, taken from the history at once, so that nothing is drawn while it is held.
 
 use firmware::{Event, EventRecord, Place};
-use host_sim::decisions;
+use host_sim::{decisions, report};
 use wire::{Flags, TickRecord};
 
 use super::history::{Entry, History, by, until};
@@ -119,6 +119,10 @@ impl History {
             }
             Event::Pose(place, pose) => {
                 format!("{t_s:8.3} {}  {}", of(place), decisions::stands(*pose))
+            }
+            Event::Node(..) => {
+                let (_, said) = report::said(event, &[])?;
+                format!("{t_s:8.3} {said}")
             }
             _ => return None,
         })

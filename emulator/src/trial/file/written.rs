@@ -109,6 +109,7 @@ fn what(kind: &str, keys: Table) -> Result<What, String> {
         What::Friction { factor } => _ = within("factor", *factor, 0.0..=1_000.0)?,
         What::Supply { volts } => _ = within("volts", *volts, 0.0..=100.0)?,
         What::Hand { torque_nm } => _ = within("torque_nm", *torque_nm, -1.0..=1.0)?,
+        What::Jumpers { number } => _ = within("number", f64::from(*number), 0.0..=31.0)?,
         What::Serial { text } if text.len() > MOST_TEXT => {
             let found = text.len();
             return Err(format!("text: found {found} bytes, allowed: {MOST_TEXT}"));

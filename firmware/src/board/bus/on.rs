@@ -8,7 +8,7 @@ mod bxcan;
 
 use can::Frame;
 use firmware::boards::TickPeriod;
-use firmware::{Clock, Event, Node, NodeEvent};
+use firmware::{Clock, Event, Node};
 use static_cell::StaticCell;
 use tactile::Decision;
 
@@ -166,12 +166,7 @@ impl Head {
         let now_us = own.tick(settings.head.tick_hz);
         *decided = None;
         let was_armed = inner.is_armed();
-        let place = inner.whiskers().first().map(firmware::Whisker::place);
-        node.before(now_us, (inner, settings), &mut |what| {
-            if let (NodeEvent::Decided(decision), Some(place)) = (what, place) {
-                events(Event::Decision(place, decision));
-            }
-        });
+        node.before(now_us, (inner, settings), events);
         own.follow(node.late_us());
         let is_armed = inner.is_armed();
         if is_armed != was_armed {
@@ -215,8 +210,7 @@ impl Head {
         };
         let at_us = own.now();
         while let Some(frame) = Controller::take() {
-            // What matters of it shows in the next tick.
-            node.hear(&frame, at_us, &mut |_| {});
+            node.hear(&frame, at_us);
         }
     }
 
