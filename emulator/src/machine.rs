@@ -255,11 +255,7 @@ impl Machine {
         }
         if self.exception != 0 && before != self.exception && (before == 0 || self.exception < 16) {
             // An entry is no instruction.
-            if self.exception == self.tick {
-                let latency = self.now - self.shared.chip().tick_began();
-                observer.tick_begins(self.now, latency, &self.spent);
-                self.planned.tick_begins(self.spent.tick);
-            }
+            self.look_for_tick(observer);
             return Ok(false);
         }
         let counter = match before {
@@ -269,6 +265,10 @@ impl Machine {
             _ => &mut self.spent.other,
         };
         *counter += 1;
+        // No handler of the program's is more urgent than the tick's: behind another it begins.
+        if before >= INTERRUPTS && before != self.exception {
+            self.look_for_tick(observer);
+        }
         if let Some(upset) = self.planned.due(self.spent.tick) {
             let held = upset.happen(&self.core, &self.memories)?;
             self.now += held;
@@ -281,6 +281,14 @@ impl Machine {
         }
         self.is_locked_up = before != 0 && before < INTERRUPTS && self.core.has_locked_up();
         Ok(false)
+    }
+
+    fn look_for_tick(&mut self, observer: &mut impl Observer) {
+        if self.exception == self.tick {
+            let latency = self.now - self.shared.chip().tick_began();
+            observer.tick_begins(self.now, latency, &self.spent);
+            self.planned.tick_begins(self.spent.tick);
+        }
     }
 
     fn look(&mut self, sensors: &mut [impl SensorEnd]) -> Result<Option<ResetCause>, Fault> {
