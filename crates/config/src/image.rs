@@ -1,13 +1,13 @@
 //! What a board runs by: a configuration in its number format, and its model.
 
 use firmware::boards::BoardFacts;
-use firmware::{Config, ConfigBytes, Driver, Part, encode};
+use firmware::{Config, ConfigBytes, Driver, Part, decode, encode};
 use scene::Scene;
 use tactile::{Deciding, ModelBuf, RuleSettings};
 use whisking::{Fix, FormatCode, Real, oscillator};
 
 use crate::fits::{Unfit, fits};
-use crate::{NumberFormat, RunsOn, Target, build, classes, on_board};
+use crate::{Mismatch, NumberFormat, RunsOn, Target, build, classes, on_board};
 
 /// A configuration in whichever number format.
 #[derive(Debug, Clone, PartialEq)]
@@ -109,6 +109,14 @@ fn features<R: Real>(
     features
 }
 
+/// A configuration as bytes, once it has passed what a board asks of it: a program that takes none
+/// by a link does not ask again.
+fn checked<R: Real>(config: &Config<R>, board: &BoardFacts) -> Result<ConfigBytes, Mismatch> {
+    let bytes = encode(config, board.code).map_err(Mismatch::Config)?;
+    decode::<R>(&bytes, board.code).map_err(Mismatch::Config)?;
+    Ok(bytes)
+}
+
 /// What `board` runs by for `scene`, whose classifier decides by `model`; `overrides` are the
 /// keys that differ from the scene's file.
 ///
@@ -131,16 +139,15 @@ pub fn image(
     let format = on_board(scene, board.name, board.has_fpu)?;
     let (config, bytes, features) = if format == NumberFormat::Fixed {
         let config = build::<Fix>(scene, target)?;
-        let bytes = encode(&config, board.code);
+        let bytes = checked(&config, board)?;
         let features = features(&config, model, board);
         (AnyConfig::Fixed(Box::new(config)), bytes, features)
     } else {
         let config = build::<f32>(scene, target)?;
-        let bytes = encode(&config, board.code);
+        let bytes = checked(&config, board)?;
         let features = features(&config, model, board);
         (AnyConfig::Single(Box::new(config)), bytes, features)
     };
-    let bytes = bytes.map_err(crate::Mismatch::Config)?;
     Ok(Image {
         config,
         bytes,
