@@ -157,7 +157,7 @@ macro_rules! part_text {
         #[inline(never)]
         fn part_text(part: Part) -> defmt::Str {
             match part {
-                $(Part::$name if Part::BY_LINK => intern!($text),)*
+                $(Part::$name if Part::TAKES_CONFIGURATIONS => intern!($text),)*
                 _ => intern!("a part of what was linked"),
             }
         }

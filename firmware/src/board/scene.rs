@@ -74,7 +74,7 @@ pub(crate) fn find() -> Option<Scene> {
             *place = Some(refused);
         }
     }
-    if Part::BY_LINK {
+    if Part::TAKES_CONFIGURATIONS {
         still(scene.settings);
     } else {
         // Nor is there a link by which another could come.
@@ -111,7 +111,7 @@ fn read(slot: usize, settings: &mut Settings) -> Result<Deployed, ConfigError> {
 }
 
 fn fits(settings: &Settings) -> Result<(), ConfigError> {
-    if !Part::BY_LINK {
+    if !Part::TAKES_CONFIGURATIONS {
         return Ok(());
     }
     FACTS.fits(&Needs::of(settings)).map_err(Misfit::error)?;

@@ -53,11 +53,15 @@ pub(crate) fn headers() -> [Option<SlotHeader>; 2] {
 
 /// In how many slots a start looks for its scene: where nothing is deployed, in the first alone, in
 /// which lies what is linked.
-pub(crate) const SEARCHED: usize = if Part::BY_LINK { SLOTS.len() } else { 1 };
+const SEARCHED: usize = if Part::TAKES_CONFIGURATIONS {
+    SLOTS.len()
+} else {
+    1
+};
 
 /// These, in their order.
 pub(crate) fn newest_first() -> impl Iterator<Item = usize> {
-    let order = if Part::BY_LINK {
+    let order = if Part::TAKES_CONFIGURATIONS {
         boards::newest_first(headers())
     } else {
         [0, 1]

@@ -211,7 +211,8 @@ pub fn decode<R: Real>(bytes: &[u8], board: BoardCode) -> Result<Config<R>, Conf
 }
 
 /// As [`decode`], part by part into a configuration that is there: for a board, whose stack has
-/// no room for another.
+/// no room for another. An image that takes none by a link ([`Part::TAKES_CONFIGURATIONS`]) checks
+/// header and sum alone.
 ///
 /// # Errors
 /// As [`decode`]; then the configuration is of no use any more.
@@ -228,7 +229,7 @@ pub fn decode_into<R: Real>(
     if parts.all(config).is_err() {
         return Err(parts.refused);
     }
-    if !Part::BY_LINK {
+    if !Part::TAKES_CONFIGURATIONS {
         return Ok(());
     }
     config.check()?;

@@ -114,7 +114,7 @@ impl Field {
     pub const fn can_be_refused(self) -> bool {
         // By codes, which never change: of whisking and motors, then of the classifier.
         match self.code() {
-            _ if !Part::BY_LINK => false,
+            _ if !Part::TAKES_CONFIGURATIONS => false,
             9..=30 | 38..=43 => Part::Motion.is_built(),
             31..=35 | 45 => Part::Classifier.is_built(),
             _ => true,

@@ -28,7 +28,7 @@ macro_rules! parts {
             /// Whether an image takes configurations over its links. One that does not runs by
             /// the one that it was linked with: whoever made that has checked it, by the same
             /// functions, and its sum says whether it is still what it was.
-            pub const BY_LINK: bool = Self::Deploy.is_built() || Self::Set.is_built();
+            pub const TAKES_CONFIGURATIONS: bool = Self::Deploy.is_built() || Self::Set.is_built();
 
             /// It in words.
             pub const fn text(self) -> &'static str {
