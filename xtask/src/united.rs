@@ -1,5 +1,5 @@
 //! That what is built after host-sim takes what was built for it: cargo compiles a dependency again
-//! where its features are others.
+//! where its features are others, or where a program takes what only wrote code before.
 
 use std::collections::BTreeSet;
 
@@ -18,18 +18,28 @@ fn built(choice: &[&str], edges: &str) -> BTreeSet<String> {
 fn what_was_built_for_the_simulator_is_taken_by_tests_bench_and_python() {
     let simulator = built(&["-p", "host-sim"], "normal,build");
     assert!(simulator.len() > 50, "{}", simulator.len());
+    let linked = built(&["-p", "host-sim"], "normal,no-proc-macro");
     let python = ["-p", "whisker-python", "--features", "compiled-once"];
     for (choice, edges) in [
-        (&["-p", "whisker"][..], "normal,build"),
-        (&python, "normal,build"),
-        (&ALL, "normal,build,dev"),
+        (&["-p", "whisker"][..], "normal"),
+        (&python, "normal"),
+        (&ALL, "normal,dev"),
     ] {
-        let after = built(choice, edges);
+        let after = built(choice, &format!("{edges},build"));
         let of_others = |line: &&String| !line.starts_with("host-sim ");
         let again: Vec<&String> = simulator.difference(&after).filter(of_others).collect();
         assert!(
             again.is_empty(),
             "compiled again with {choice:?}: {again:#?}\nname their features in crates/united"
+        );
+        let linked_after = built(choice, &format!("{edges},no-proc-macro"));
+        let flags: Vec<&String> = simulator
+            .difference(&linked)
+            .filter(|package| linked_after.contains(*package))
+            .collect();
+        assert!(
+            flags.is_empty(),
+            "compiled again with {choice:?}, as a program takes them: {flags:#?}\nname them in crates/united"
         );
     }
 }
