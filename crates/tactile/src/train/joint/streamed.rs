@@ -4,6 +4,8 @@
 use std::string::String;
 use std::vec::Vec;
 
+use rayon::prelude::*;
+
 use super::model::JointModel;
 use super::report::{AtThreshold, ClassReport, PoseReport};
 use super::trial::Trial;
@@ -24,6 +26,14 @@ struct Said {
     trial: usize,
     truth: usize,
     decision: Decision,
+}
+
+/// What was said of a part that was held out.
+struct OfFold {
+    /// At each threshold of the calibration.
+    said: Vec<Vec<Said>>,
+    /// At the model's own.
+    own: Vec<Said>,
 }
 
 impl Said {
@@ -50,35 +60,21 @@ pub(super) fn report(model: &mut JointModel, trials: &[Trial]) -> Result<(), Tra
         .iter()
         .map(|at| at.threshold)
         .collect();
+    let of_folds: Vec<Option<OfFold>> = (0..=last)
+        .into_par_iter()
+        .map(|fold| of_fold(model, trials, (&folds, fold), &thresholds))
+        .collect::<Result<_, TrainError>>()?;
     let mut said: Vec<Vec<Said>> = thresholds.iter().map(|_| Vec::new()).collect();
     let mut own: Vec<Said> = Vec::new();
-    for fold in 0..=last {
-        let pick = |is_held_out: bool| {
-            let of = trials.iter().enumerate().zip(&folds);
-            of.filter(move |(_, of)| (**of == fold) == is_held_out)
-                .map(|(trial, _)| trial)
-        };
-        let kept: Vec<Trial> = pick(false).map(|(_, trial)| trial.clone()).collect();
-        let other = match super::once(&kept, &model.options) {
-            Ok(other) if other.names.len() == model.names.len() => other,
-            // Too little is left without it: what there is is not worth less for that.
-            _ => return Ok(()),
-        };
-        if other.opinion.as_ref().map(|opinion| opinion.names)
-            != model.opinion.as_ref().map(|opinion| opinion.names)
-        {
+    for of_fold in of_folds {
+        // Too little is left without a part: what there is is not worth less for that.
+        let Some(of_fold) = of_fold else {
             return Ok(());
+        };
+        for (said, of_fold) in said.iter_mut().zip(of_fold.said) {
+            said.extend(of_fold);
         }
-        let held_out: Vec<(usize, &Trial)> = pick(true).collect();
-        for (said, threshold) in said.iter_mut().zip(&thresholds) {
-            said.extend(stream(&other, &model.names, &held_out, *threshold)?);
-        }
-        own.extend(stream(
-            &other,
-            &model.names,
-            &held_out,
-            model.report.threshold,
-        )?);
+        own.extend(of_fold.own);
     }
     let report = &mut model.report;
     for (at, said) in report.calibration.iter_mut().zip(&said) {
@@ -91,6 +87,36 @@ pub(super) fn report(model: &mut JointModel, trials: &[Trial]) -> Result<(), Tra
         report.poses = of_poses(&poses, &own, trials, &model.names);
     }
     Ok(())
+}
+
+/// What a model without the trials of one part says of them; none where too little is left to train
+/// one of the same kind.
+fn of_fold(
+    model: &JointModel,
+    trials: &[Trial],
+    (folds, fold): (&[usize], usize),
+    thresholds: &[f64],
+) -> Result<Option<OfFold>, TrainError> {
+    let pick = |is_held_out: bool| {
+        let of = trials.iter().enumerate().zip(folds);
+        of.filter(move |(_, of)| (**of == fold) == is_held_out)
+            .map(|(trial, _)| trial)
+    };
+    let kept: Vec<Trial> = pick(false).map(|(_, trial)| trial.clone()).collect();
+    let Ok(other) = super::once(&kept, &model.options) else {
+        return Ok(None);
+    };
+    let names = |model: &JointModel| model.opinion.as_ref().map(|opinion| opinion.names);
+    if other.names.len() != model.names.len() || names(&other) != names(model) {
+        return Ok(None);
+    }
+    let held_out: Vec<(usize, &Trial)> = pick(true).collect();
+    let at = |threshold: f64| stream(&other, &model.names, &held_out, threshold);
+    let said = thresholds.iter().map(|threshold| at(*threshold));
+    Ok(Some(OfFold {
+        said: said.collect::<Result<_, _>>()?,
+        own: at(model.report.threshold)?,
+    }))
 }
 
 /// With which part each trial is held out.
