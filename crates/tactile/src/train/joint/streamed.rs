@@ -1,10 +1,10 @@
 //! A report of a model with a second opinion: the classifier itself, as it runs on a board, over
 //! what its training has not seen.
 
+use std::panic::resume_unwind;
 use std::string::String;
+use std::thread;
 use std::vec::Vec;
-
-use rayon::prelude::*;
 
 use super::model::JointModel;
 use super::report::{AtThreshold, ClassReport, PoseReport};
@@ -60,10 +60,18 @@ pub(super) fn report(model: &mut JointModel, trials: &[Trial]) -> Result<(), Tra
         .iter()
         .map(|at| at.threshold)
         .collect();
-    let of_folds: Vec<Option<OfFold>> = (0..=last)
-        .into_par_iter()
-        .map(|fold| of_fold(model, trials, (&folds, fold), &thresholds))
-        .collect::<Result<_, TrainError>>()?;
+    let of_fold = |fold| of_fold(model, trials, (&folds, fold), &thresholds);
+    let of_folds: Vec<Option<OfFold>> = thread::scope(|scope| {
+        let begin = |fold| thread::Builder::new().spawn_scoped(scope, move || of_fold(fold));
+        let begun: Vec<_> = (0..=last).map(begin).collect();
+        let ends = begun.into_iter().enumerate();
+        ends.map(|(fold, begun)| match begun {
+            Ok(begun) => begun.join().unwrap_or_else(|why| resume_unwind(why)),
+            // A browser has no threads.
+            Err(_) => of_fold(fold),
+        })
+        .collect::<Result<_, TrainError>>()
+    })?;
     let mut said: Vec<Vec<Said>> = thresholds.iter().map(|_| Vec::new()).collect();
     let mut own: Vec<Said> = Vec::new();
     for of_fold in of_folds {
