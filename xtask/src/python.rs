@@ -186,16 +186,32 @@ pub(crate) fn try_wheel(folder: &Path) -> Result<(), Fault> {
     run(Command::new(inside).args(["-I", "-c", LINE]))
 }
 
+/// What measures.
+const SPEEDS: &str = "python/tests/speeds.py";
+
+/// A wheel in a clean environment of the newest Python, with what its own environments need.
+pub(crate) fn with_environments(wheel: &Path, name: &str) -> Result<PathBuf, Fault> {
+    let inside = environment(&newest()?, name, &["gymnasium"])?;
+    run(pip(&inside).arg(wheel))?;
+    Ok(inside)
+}
+
+/// Steps that 128 environments make in a second together.
+pub(crate) fn steps_a_second(inside: &Path) -> Result<f64, Fault> {
+    let mut measure = Command::new(inside);
+    let said = output(measure.arg(top().join(SPEEDS)).arg("environments"))?;
+    let steps = said.trim().parse();
+    steps.map_err(|_| format!("{SPEEDS} printed {said:?}"))
+}
+
 /// The figures of the wheel that `pip install` would make, as JSON.
 pub(crate) fn figures() -> Result<String, Fault> {
-    let python = newest()?;
     let wheel = release()?;
-    let inside = environment(&python, "speeds", &["gymnasium"])?;
-    run(pip(&inside).arg(&wheel))?;
+    let inside = with_environments(&wheel, "speeds")?;
     let bytes = fs::metadata(&wheel)
         .map_err(|error| error.to_string())?
         .len();
-    let said = output(Command::new(inside).arg(top().join("python/tests/speeds.py")))?;
+    let said = output(Command::new(inside).arg(top().join(SPEEDS)))?;
     let figures = said.trim().trim_start_matches('{');
     Ok(format!("{{\"wheel_bytes\": {bytes}, {figures}"))
 }

@@ -1,5 +1,6 @@
-//! The time that host-sim takes for a tick of an elastic whisker: scene `whisker`,
-//! and lasting contact with rough ground. Another host-sim may run beside it.
+//! The time that host-sim takes for a tick: scene `textures`, an elastic whisker in scene `whisker`
+//! and in lasting contact with rough ground. Another host-sim may run beside it, and another wheel,
+//! whose environments are measured.
 //!
 //! The time is that of the processor in user mode for a whole run of the program,
 //! which other programs disturb less than they do the clock on the wall. It holds
@@ -12,10 +13,15 @@ use std::time::Instant;
 use scene::Scene;
 
 use crate::emulate::variants;
+use crate::python;
 use crate::run::{Fault, cargo, output, run, target, top};
 
 /// What runs, from the top of the workspace.
-const SCENES: [&str; 2] = ["scenes/whisker.toml", "xtask/src/speed/rough.toml"];
+const SCENES: [&str; 3] = [
+    "scenes/textures.toml",
+    "scenes/whisker.toml",
+    "xtask/src/speed/rough.toml",
+];
 
 /// What to measure.
 #[derive(clap::Args)]
@@ -23,6 +29,9 @@ pub(crate) struct Choice {
     /// Another host-sim, run by turns with this tree's
     #[arg(long, value_name = "PROGRAM")]
     vs: Option<PathBuf>,
+    /// Another wheel, whose 128 environments run by turns with this tree's
+    #[arg(long, value_name = "WHEEL")]
+    vs_wheel: Option<PathBuf>,
     /// Runs of each program for each scene
     #[arg(long, default_value_t = 7, value_parser = clap::value_parser!(u32).range(1..=1000))]
     rounds: u32,
@@ -60,6 +69,28 @@ pub(crate) fn speed(choice: &Choice) -> Result<(), Fault> {
         }
         println!();
     }
+    choice
+        .vs_wheel
+        .as_deref()
+        .map_or(Ok(()), |other| environments(other, choice.rounds))
+}
+
+/// Prints how many steps environments make in a second, and how many times as many as those of the
+/// other wheel.
+fn environments(other: &Path, rounds: u32) -> Result<(), Fault> {
+    let ours = python::with_environments(&python::release()?, "speeds")?;
+    let theirs = python::with_environments(other, "speeds-other")?;
+    let mut pairs = Vec::new();
+    for _ in 0..rounds {
+        let of = |inside| python::steps_a_second(inside);
+        pairs.push([of(&ours)?, of(&theirs)?]);
+    }
+    let [ours, theirs] =
+        [0, 1].map(|of| least_and_median(pairs.iter().map(|pair| pair[of]).collect())[1]);
+    println!(
+        "128 environments, steps a second, median of {rounds}: {ours:.0}  {theirs:.0}  {:.3}",
+        ours / theirs
+    );
     Ok(())
 }
 
