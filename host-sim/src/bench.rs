@@ -113,6 +113,10 @@ pub trait HostModule: Bench + Send {
     /// Carries out `request` before the next tick.
     fn request(&mut self, request: TaggedCommand);
 
+    /// Has requests go to this board of several, and takes what that has sent; at first the one with
+    /// number 0.
+    fn talk_with(&mut self, _board: usize) {}
+
     /// What it has sent since the last call.
     fn take_packets(&mut self) -> Vec<Packet>;
 

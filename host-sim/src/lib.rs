@@ -45,6 +45,7 @@
 //! # Ok::<(), host_sim::Error>(())
 //! ```
 
+pub mod array;
 pub mod bench;
 pub mod bus;
 pub mod classifier;

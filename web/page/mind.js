@@ -39,18 +39,18 @@ export function clearMind(player) {
 /** Takes the core's lines of decisions in. */
 export function decide(lines, sides, tick_hz) {
   for (const line of lines) {
-    const [t, side, decision, posterior, samples, truth, verdict, reason, among, touch] = line.split("\t");
+    const [t, whisker, decision, posterior, samples, truth, verdict, reason, among, touch] = line.split("\t");
     const made = { decision, truth, verdict, reason, among, sure: Number(posterior) };
     mind.counts[verdict] += 1;
     mind.last = { ...made, t: Number(t), ms: Math.round(1000 * Number(samples) / tick_hz) };
     // One line for all decisions of a touch that say the same.
-    const key = [side, touch, truth, decision, among].join();
+    const key = [whisker, touch, truth, decision, among].join();
     if (mind.top?.key === key) {
       mind.top.times += 1;
       mind.top.again.textContent = ` × ${mind.top.times}`;
       continue;
     }
-    const where = sides > 1 ? ` ${side}` : "";
+    const where = sides > 1 || whisker.includes(" ") ? ` ${whisker}` : "";
     const again = element("span", {});
     const said = `${MARKS[verdict]} ${Number(t).toFixed(1)} s${where}: ${spoken(made)}`;
     $("decisions").prepend(element("li", { className: `is-${verdict}` }, said, again));

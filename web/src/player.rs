@@ -1,5 +1,6 @@
 //! A scene as it is watched.
 
+use host_sim::array::Array;
 use host_sim::decisions::Decided;
 use host_sim::run::Run;
 use host_sim::trace::WhiskerRow;
@@ -9,12 +10,19 @@ use wasm_bindgen::prelude::wasm_bindgen;
 
 use crate::loaded;
 
-fn line(t_s: f64, d: &Decided, classes: &[String]) -> String {
-    let side = d.place.map_or("", |place| place.side_name());
+fn line(t_s: f64, d: &Decided, classes: &[String], has_rows: bool) -> String {
+    let whisker = d.place.map_or(String::new(), |place| {
+        let name = place.side_name();
+        if has_rows {
+            format!("{name} {}", place.whisker + 1)
+        } else {
+            name.to_owned()
+        }
+    });
     let [reason, among] = d.why();
     let cells = [
         &format!("{t_s:.3}"),
-        side,
+        whisker.as_str(),
         &d.decision,
         &format!("{:.4}", d.posterior),
         &d.samples.to_string(),
@@ -36,6 +44,7 @@ const EVERY: u64 = 4;
 pub struct Player {
     scene: Scene,
     run: Run,
+    array: Array,
     done: u64,
     whiskers: Vec<WhiskerRow>,
     decided: Vec<String>,
@@ -57,6 +66,7 @@ impl Player {
             Run::new(&loaded.scene, loaded.classifier().map_err(text_of)?).map_err(text_of)?;
         Ok(Self {
             run,
+            array: Array::new(&loaded.scene),
             scene: loaded.scene,
             done: 0,
             whiskers: Vec::new(),
@@ -78,8 +88,10 @@ impl Player {
                 heard.push(x.unwrap_or_default() as f32);
             }
             for d in self.run.decisions() {
-                let line = line(t_s, &d, self.run.classes());
+                let several = self.scene.head.whiskers_per_side > 1;
+                let line = line(t_s, &d, self.run.classes(), several);
                 self.decided.push(line);
+                self.array.take(&d);
             }
             if self.done.is_multiple_of(EVERY) {
                 self.run.look_at_whiskers(&mut self.whiskers);
@@ -114,6 +126,24 @@ impl Player {
             bodies.extend(bent.points_m.as_flattened());
         }
         bodies
+    }
+
+    /// Where every whisker stands: its column, its row, and the number of its board (-1: one board
+    /// has all), from 0.
+    pub fn stands(&self) -> Vec<i32> {
+        let stands = self.array.stands().iter();
+        let numbers = stands.flat_map(|at| {
+            let board = at.board.map_or(-1, |board| board as i32);
+            [at.column as i32, at.row as i32, board]
+        });
+        numbers.collect()
+    }
+
+    /// What every whisker has decided within the last second; empty: nothing.
+    pub fn said(&self) -> Vec<String> {
+        let whiskers = 0..self.array.stands().len();
+        let said = whiskers.map(|n| self.array.said(n, self.run.t_s()).to_owned());
+        said.collect()
     }
 
     /// A shaft without a shape of its own is drawn as held by its obstacle at the tip: each point
@@ -187,7 +217,8 @@ impl Player {
         self.heard.as_mut().map_or_else(Vec::new, std::mem::take)
     }
 
-    /// The decisions since the last call, with tabulators between time, side, decision, posterior,
+    /// The decisions since the last call, with tabulators between time, side (and number, where a side has
+    /// several), decision, posterior,
     /// samples, the truth, what it is worth (`right`, `wrong`, `refused`), the reason and the pair
     /// if no class is named (as in `decisions.csv`), and the number of the touch.
     pub fn decisions(&mut self) -> Vec<String> {
@@ -295,7 +326,7 @@ mod tests {
             let made = Decision::from_memory(34, 1 << 27 | 1 << 15, bits << 16).unwrap();
             let decided = Decided::new(made, &classes, "loam", "1");
             let expected = format!("1.250\t\t{decision}\t0.5000\t34\tloam\t{why}\t0");
-            assert_eq!(line(1.25, &decided, &classes), expected);
+            assert_eq!(line(1.25, &decided, &classes, false), expected);
         }
     }
 
@@ -315,6 +346,28 @@ mod tests {
             };
             assert_eq!((cells[5], cells[6]), ("carpet", worth), "{line}");
         }
+    }
+
+    #[test]
+    fn whiskers_of_a_head_are_on_their_boards_and_say_what_they_decide() {
+        let keys = "head.whiskers_per_side=4\nhead.rows=2\nhead.nodes=8\nclassifier.whiskers=each";
+        let mut player = Player::new(crate::text("both").unwrap(), keys).unwrap();
+        assert_eq!(player.stands()[..6], [0, 0, 0, 1, 0, 1]);
+        assert_eq!(player.stands()[21..], [1, 1, 7]);
+        let mut numbers = std::collections::BTreeSet::new();
+        for _ in 0..40 {
+            player.step(200);
+            let said = player.said();
+            for line in player.decisions() {
+                let cells: Vec<&str> = line.split('\t').collect();
+                let (side, number) = cells[1].split_once(' ').unwrap();
+                let number: usize = number.parse().unwrap();
+                let n = number - 1 + if side == "left" { 0 } else { 4 };
+                assert!(!said[n].is_empty(), "{line}");
+                numbers.insert(n);
+            }
+        }
+        assert!(numbers.len() > 4, "{numbers:?}");
     }
 
     #[test]

@@ -5,6 +5,7 @@ import hashlib
 import json
 import os
 import pathlib
+import re
 
 import pytest
 from conftest import PAGE
@@ -98,6 +99,18 @@ def test_the_menus_name_the_scene_that_runs(browser, page):
     assert linked.js("return document.getElementById('rcp.gain-value').textContent") == "0.5"
     own = browser().open(encoded({"text": text + "\n# of my own\n"}))
     assert own.element("preset").get_attribute("value") == ""
+
+
+def test_each_hair_of_a_head_says_what_it_decides(browser, page):
+    page.choose("both")
+    text = page.element("editor").get_attribute("value")
+    keys = "whiskers_per_side = 4\nrows = 2\nnodes = 8"
+    text = text.replace("whiskers_per_side = 1", keys).replace('"together"', '"each"')
+    head = browser().open(encoded({"text": text}))
+    assert head.text("problems") == ""
+    head.pick("speed", "4")
+    whose = re.compile(r"(left|right) [1-4]: ")
+    head.wait(lambda: any(whose.search(line) for line in head.decisions()))
 
 
 def test_a_scene_is_text_alone_and_nothing_else_may_run(browser):

@@ -28,8 +28,8 @@ use toml::de::DeValue;
 /// assert_eq!(
 ///     problems.to_string(),
 ///     "--set head.whisker_per_side=2: head.whisker_per_side: unknown key; \
-///      did you mean `whiskers_per_side`? allowed here: whiskers_per_side, sides, \
-///      nodes, bus_kbit_s"
+///      did you mean `whiskers_per_side`? allowed here: whiskers_per_side, rows, \
+///      sides, nodes, bus_kbit_s"
 /// );
 /// # Ok::<(), String>(())
 /// ```

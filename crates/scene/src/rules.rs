@@ -30,6 +30,23 @@ pub(crate) fn apply(values: &Values, text: &mut Text<'_>) {
     silence_can_be_counted(values, text);
     self_motion_has_its_parts(values, text);
     boards_share_alike(values, text);
+    rows_are_alike(values, text);
+}
+
+/// Each row of a side has as many whiskers as any other.
+fn rows_are_alike(values: &Values, text: &mut Text<'_>) {
+    let (Some(rows), Some(each)) = (
+        values.get::<usize>("head", "rows"),
+        values.get::<usize>("head", "whiskers_per_side"),
+    ) else {
+        return;
+    };
+    if !each.is_multiple_of(rows) {
+        let offset = values.offset("head", "rows").unwrap_or(0);
+        let found = format!("found {rows} rows for {each} whiskers a side");
+        let allowed = "allowed: a number that divides that of the whiskers".to_owned();
+        text.report(offset, path("head", "rows"), found, allowed);
+    }
 }
 
 /// Each board of a head carries as many whiskers as any other.

@@ -70,7 +70,7 @@ mod tests {
         }
         // Twenty of the motor, fourteen of the plant, ten of the sensor, two of telemetry, one of
         // the head and of whisking, two of the classifier.
-        assert_eq!(defaults, 50);
+        assert_eq!(defaults, 51);
     }
 
     #[test]

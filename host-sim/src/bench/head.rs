@@ -135,6 +135,8 @@ pub(super) struct Head<R: Number> {
     tick_hz: f64,
     done: u64,
     each: usize,
+    /// The board that is talked with.
+    talking: usize,
 }
 
 fn suits_a_head(classifier: &Classifier) -> Result<(), Error> {
@@ -191,6 +193,7 @@ impl<R: Number> Head<R> {
             tick_hz: f64::from(scene.tick_hz),
             done: 0,
             each: scene.head.whiskers_per_side,
+            talking: 0,
         })
     }
 
@@ -410,14 +413,18 @@ where
     }
 
     fn request(&mut self, request: TaggedCommand) {
-        if let Some(first) = self.boards.first_mut() {
-            first.hosted.request(request);
+        if let Some(board) = self.boards.get_mut(self.talking) {
+            board.hosted.request(request);
         }
     }
 
+    fn talk_with(&mut self, board: usize) {
+        self.talking = board;
+    }
+
     fn take_packets(&mut self) -> Vec<Packet> {
-        let first = self.boards.first_mut();
-        first
+        let board = self.boards.get_mut(self.talking);
+        board
             .map(|board| board.hosted.take_packets())
             .unwrap_or_default()
     }

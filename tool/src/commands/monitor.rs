@@ -144,6 +144,7 @@ fn begin(arguments: &Arguments, wishes: Receiver<Wish>) -> Result<(Watching, Rea
     }
     let mut history = History::new(tick_hz, whiskers, listener.transpose()?);
     history.module_classes = classes;
+    history.hairs = module.source().hairs();
     let shared = Arc::new(Mutex::new(Shared {
         history,
         message: None,
@@ -164,6 +165,7 @@ fn begin(arguments: &Arguments, wishes: Receiver<Wish>) -> Result<(Watching, Rea
             None => arguments.speed.or(arguments.source.pace()),
         },
         begun_s,
+        looked_s: begun_s,
         most_s: pictures.or(arguments.seconds),
     };
     let about = About {

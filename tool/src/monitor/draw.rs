@@ -1,6 +1,7 @@
 //! The window: what is shown, as characters. Colour alone carries no information.
 
 mod charts;
+mod hairs;
 mod panes;
 mod theme;
 
@@ -58,7 +59,11 @@ pub(crate) fn draw(frame: &mut Frame<'_>, shown: &Shown, theme: Theme) {
     let places = places(area, shown.whiskers.len() as u16);
     frame.render_widget(head(shown, places.head.width), places.head);
     panes::states(frame, places.states, shown, theme);
-    charts::charts(frame, places.charts, shown, theme);
+    if shown.hairs.is_empty() {
+        charts::charts(frame, places.charts, shown, theme);
+    } else {
+        hairs::hairs(frame, places.charts, &shown.hairs, theme);
+    }
     panes::panes(frame, places.side, shown, theme);
     let foot = if shown.message.is_empty() {
         "x stop  a arm  p pause  Tab side  +- time  s save  q end  ^C stop, end  ? help"

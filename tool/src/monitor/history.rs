@@ -6,6 +6,7 @@ use firmware::{Event, EventRecord, Health, Packet};
 use wire::{Answer, Flags, TickRecord};
 
 use super::listener::{Decided, Listener};
+use crate::source::Hair;
 use crate::source::Incoming;
 use crate::tally::{Before, Tally, TickCount, side};
 
@@ -60,6 +61,8 @@ pub(crate) struct History {
     /// Whether module and PC have decided in the tick that is under way.
     deciding: [bool; 2],
     last_belief: u64,
+    /// All whiskers of a head, as they are now.
+    pub(crate) hairs: Vec<Hair>,
 }
 
 impl History {
@@ -81,6 +84,7 @@ impl History {
             ticks: TickCount::default(),
             deciding: [false; 2],
             last_belief: 0,
+            hairs: Vec::new(),
         }
     }
 
@@ -129,7 +133,8 @@ impl History {
             self.agreed[0] += u64::from(module);
             self.agreed[1] += u64::from(module && here);
         }
-        let side = side(record);
+        // A board of a head may have one of the right.
+        let side = if self.whiskers == 1 { 0 } else { side(record) };
         let entries = &mut self.sides[side];
         entries.push_back(Entry {
             ticks,

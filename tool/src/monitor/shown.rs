@@ -5,10 +5,11 @@ use host_sim::{decisions, report};
 use wire::{Flags, TickRecord};
 
 use super::history::{Entry, History, by, until};
-use super::view::{Extent, View};
+use super::view::{Extent, Shows, View};
 use crate::faults::{Fault, fault, number};
 use crate::sample::Sample;
-use crate::tally::SIDES;
+use crate::source::Hair;
+use crate::tally::{self, SIDES};
 
 const PARTS: usize = 160;
 
@@ -28,6 +29,8 @@ pub(crate) struct Shown {
     pub(crate) behind_s: Option<f64>,
     pub(crate) has_help: bool,
     pub(crate) whiskers: Vec<Whisker>,
+    /// All whiskers of the head, where that is looked at.
+    pub(crate) hairs: Vec<Hair>,
     pub(crate) events: Vec<String>,
     /// Faults, the newest first, and how many there were.
     pub(crate) faults: Vec<Fault>,
@@ -69,6 +72,7 @@ impl History {
             now: self.now(),
             tick_hz: self.tick_hz,
             whiskers: self.whiskers,
+            has_head: !self.hairs.is_empty(),
         }
     }
 
@@ -95,6 +99,10 @@ impl History {
                 .iter()
                 .map(|side| self.whisker(*side, from, end))
                 .collect(),
+            hairs: match view.shows {
+                Shows::Head => self.hairs.clone(),
+                Shows::Left | Shows::Right | Shows::Both => Vec::new(),
+            },
             events: lines,
             fault_count: events().filter_map(|of| number(&of.event)).count(),
             faults: faults.take(MOST_FAULTS).collect(),
@@ -146,13 +154,14 @@ impl History {
                 curve.extend(ends.map(|value| (at_s, value)));
             }
         }
+        let record = entries.last().map(|entry| entry.record);
         let beliefs = &self.beliefs[side];
         let after = beliefs.partition_point(|belief| belief.ticks <= end);
         let belief = after.checked_sub(1).and_then(|at| beliefs.get(at));
         let posteriors = belief.map_or(&[][..], |belief| &belief.posteriors);
         Whisker {
-            side: SIDES[side],
-            record: entries.last().map(|entry| entry.record),
+            side: SIDES[record.as_ref().map_or(side, tally::side)],
+            record,
             curves,
             posteriors: self
                 .classes()
@@ -218,6 +227,14 @@ pub(crate) const STATES: [(&str, Flags); 6] = [
     ("touching", Flags::TOUCHING),
     ("valid", Flags::VALID),
 ];
+
+#[cfg(test)]
+impl Shown {
+    /// What is shown before a key is pressed.
+    pub(crate) fn first(history: &History, title: &str) -> Self {
+        history.shown(&View::new(history.extent()), title, String::new())
+    }
+}
 
 #[cfg(test)]
 mod tests;

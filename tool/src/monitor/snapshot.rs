@@ -35,10 +35,11 @@ pub(crate) struct Snapshot(Buffer);
 
 impl Snapshot {
     pub(crate) fn of(shared: &Mutex<Shared>, about: &About, size: Size) -> Result<Self, Error> {
-        let view = View::new();
-        let shown = lock(shared)
-            .history
-            .shown(&view, &about.title, String::new());
+        let shown = {
+            let history = &lock(shared).history;
+            let view = View::new(history.extent());
+            history.shown(&view, &about.title, String::new())
+        };
         let failed = |error: Infallible| Error::Work(error.to_string());
         let mut terminal =
             Terminal::new(TestBackend::new(size.columns, size.rows)).map_err(failed)?;

@@ -5,6 +5,8 @@ pub(crate) enum Shows {
     Left,
     Right,
     Both,
+    /// All whiskers of a head, from above.
+    Head,
 }
 
 /// A key, whatever terminal it comes from.
@@ -38,7 +40,7 @@ pub(crate) const KEYS: [(&str, &str); 10] = [
     ("a", "arm: motors may be driven"),
     ("Ctrl-C", "stop, then end"),
     ("q", "end; the module goes on as it is"),
-    ("Tab", "left, right, both whiskers"),
+    ("Tab", "left, right, both whiskers; the head"),
     ("p", "pause: hold the picture; recording goes on"),
     ("arrows, PgUp, PgDn", "paused: back and forth; Home, End"),
     ("+, -", "a shorter, a longer time"),
@@ -64,6 +66,7 @@ pub(crate) struct Extent {
     pub(crate) now: u64,
     pub(crate) tick_hz: u32,
     pub(crate) whiskers: usize,
+    pub(crate) has_head: bool,
 }
 
 /// What a key means that must not wait for a picture.
@@ -79,9 +82,13 @@ pub(crate) const fn deed(key: Key) -> Option<Deed> {
 }
 
 impl View {
-    pub(crate) const fn new() -> Self {
+    pub(crate) const fn new(extent: Extent) -> Self {
         Self {
-            shows: Shows::Left,
+            shows: if extent.has_head {
+                Shows::Head
+            } else {
+                Shows::Left
+            },
             held: None,
             has_help: false,
             span: 2,
@@ -94,7 +101,7 @@ impl View {
 
     pub(crate) const fn sides(&self) -> &'static [usize] {
         match self.shows {
-            Shows::Left => &[0],
+            Shows::Left | Shows::Head => &[0],
             Shows::Right => &[1],
             Shows::Both => &[0, 1],
         }
@@ -109,11 +116,12 @@ impl View {
         match key {
             Key::Letter('?' | 'h') => self.has_help = !self.has_help,
             Key::Escape => self.has_help = false,
-            Key::Tab if extent.whiskers > 1 => {
+            Key::Tab => {
                 self.shows = match self.shows {
-                    Shows::Left => Shows::Right,
+                    Shows::Left if extent.whiskers > 1 => Shows::Right,
                     Shows::Right => Shows::Both,
-                    Shows::Both => Shows::Left,
+                    Shows::Left | Shows::Both if extent.has_head => Shows::Head,
+                    Shows::Left | Shows::Both | Shows::Head => Shows::Left,
                 };
             }
             Key::Letter('p') => {
@@ -148,18 +156,19 @@ impl View {
 
 #[cfg(test)]
 mod tests {
-    use super::{Deed, Extent, Key, View, deed};
+    use super::{Deed, Extent, Key, Shows, View, deed};
 
     const EXTENT: Extent = Extent {
         oldest: 1000,
         now: 101_000,
         tick_hz: 1000,
         whiskers: 2,
+        has_head: false,
     };
 
     #[test]
     fn a_held_picture_stays_and_is_moved_within_what_is_held() {
-        let mut view = View::new();
+        let mut view = View::new(EXTENT);
         view.press(Key::Back, EXTENT);
         assert_eq!(view.end(EXTENT), 101_000);
         view.press(Key::Letter('p'), EXTENT);
@@ -188,6 +197,29 @@ mod tests {
         assert_eq!(view.end(much_later), 50_000);
         view.press(Key::Letter('p'), much_later);
         assert_eq!(view.end(much_later), 350_000);
+    }
+
+    #[test]
+    fn a_head_is_shown_first_and_after_its_whiskers() {
+        let head = Extent {
+            has_head: true,
+            ..EXTENT
+        };
+        let mut view = View::new(head);
+        let mut seen = Vec::new();
+        for _ in 0..4 {
+            seen.push(view.shows);
+            view.press(Key::Tab, head);
+        }
+        assert_eq!(seen, [Shows::Head, Shows::Left, Shows::Right, Shows::Both]);
+        assert_eq!(view.shows, Shows::Head);
+        let one = Extent {
+            whiskers: 1,
+            ..EXTENT
+        };
+        let mut view = View::new(one);
+        view.press(Key::Tab, one);
+        assert_eq!(view.shows, Shows::Left);
     }
 
     #[test]

@@ -18,6 +18,9 @@ use crate::source::Incoming;
 /// After how long without an answer the motors are asked to stop again, s.
 const AGAIN_S: f64 = 0.1;
 
+/// How often all whiskers of a head are looked at, s.
+const LOOKS_S: f64 = 0.02;
+
 const PATIENCE_S: f64 = 2.0;
 
 /// For how long a stopped module is listened to, so that what is recorded shows that its motors
@@ -62,6 +65,8 @@ pub(crate) struct Watching {
     /// Seconds of the module in a second; none: as fast as it goes.
     pub(crate) speed: Option<f64>,
     pub(crate) begun_s: f64,
+    /// When the whiskers of a head were looked at last, s.
+    pub(crate) looked_s: f64,
     /// How long to listen, s of the module; none: until it is ended.
     pub(crate) most_s: Option<f64>,
 }
@@ -138,6 +143,11 @@ impl Watching {
                 }
             }
             let now_s = self.module.source().now_s();
+            if now_s - self.looked_s >= LOOKS_S {
+                self.looked_s = now_s;
+                let hairs = self.module.source().hairs();
+                lock(&self.shared).history.hairs = hairs;
+            }
             if stopping
                 .as_ref()
                 .is_some_and(|stopping| stopping.is_answered)

@@ -188,7 +188,7 @@ fn pictures(
     looks: &Receiver<Look>,
 ) -> std::io::Result<()> {
     let theme = Theme::of_environment();
-    let mut view = View::new();
+    let mut view = View::new(lock(shared).history.extent());
     loop {
         let begun = Instant::now();
         let (shown, has_ended) = {

@@ -66,6 +66,9 @@ pub(crate) struct SourceChoice {
     /// the sample's name in $SAMPLE, and ends once it lies there
     #[arg(long, value_name = "COMMAND", conflicts_with_all = ["sim", "emulated"])]
     lay_by: Option<String>,
+    /// The board of a simulated head that is talked with, from 0 [default: 0]
+    #[arg(long, value_name = "N", conflicts_with_all = ["emulated", "probe", "port"])]
+    node: Option<u8>,
     /// Another seed of the world than the scene's
     #[arg(long, value_name = "N", value_parser = seed)]
     seed: Option<u64>,
@@ -108,13 +111,21 @@ impl SourceChoice {
         };
         let loaded = self.placed(Loaded::new(path)?, later)?;
         let flash = Flash::open(self.flash.as_deref())?;
-        if loaded.scene.head.whiskers_per_side > 1 {
+        let head = &loaded.scene.head;
+        let boards = head.nodes.map_or(0, usize::from);
+        let is_one_a_board = simulates && boards == loaded.scene.whiskers();
+        if head.whiskers_per_side > 1 && !is_one_a_board {
             let fault = "a record tells a whisker's side and not its number; found more than \
-                         one, allowed: head.whiskers_per_side = 1";
+                         one, allowed: head.whiskers_per_side = 1, or with --sim a board a whisker";
             return Err(Error::file(path, fault));
         }
         if simulates {
-            return Ok(Box::new(Simulated::open(loaded, flash)?));
+            let node = usize::from(self.node.unwrap_or(0));
+            if node >= boards.max(1) {
+                let fault = format!("--node: found {node}, allowed: boards 0 to head.nodes - 1");
+                return Err(Error::file(path, fault));
+            }
+            return Ok(Box::new(Simulated::open(loaded, flash, node)?));
         }
         if !loaded.scene.telemetry.rtt {
             let fault = "telemetry.rtt is false: a module of this scene tells nothing but its \
@@ -155,7 +166,7 @@ impl SourceChoice {
 
     pub(crate) fn simulation(scene: &Path) -> Result<Box<dyn Source>, Error> {
         let flash = Flash::open(None)?;
-        Ok(Box::new(Simulated::open(Loaded::new(scene)?, flash)?))
+        Ok(Box::new(Simulated::open(Loaded::new(scene)?, flash, 0)?))
     }
 
     pub(crate) const fn is_simulated(&self) -> bool {

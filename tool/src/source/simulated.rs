@@ -3,17 +3,19 @@
 use firmware::boards::NUCLEO_F446RE;
 use firmware::faults::number;
 use firmware::{Event, Refusal};
+use host_sim::array::Array;
 use host_sim::classifier::deployed;
 use host_sim::loaded::Loaded;
 use host_sim::origin::Origin;
 use host_sim::run::Run;
+use host_sim::trace::WhiskerRow;
 use host_sim::{Error, report};
 use tactile::ModelBuf;
 use wire::TaggedCommand;
 
 use super::flash::Flash;
 use super::texture::texture;
-use super::{Incoming, Source};
+use super::{Hair, Incoming, Source};
 use crate::decides::Decides;
 use crate::deployment::Deployment;
 
@@ -21,6 +23,10 @@ pub(super) struct Simulated {
     loaded: Loaded,
     flash: Flash,
     run: Run,
+    /// Of a head of several boards, and the one that is talked with.
+    array: Option<Array>,
+    node: usize,
+    whiskers: Vec<WhiskerRow>,
     /// Lines that it has logged before its first tick.
     first: Vec<String>,
 }
@@ -29,7 +35,7 @@ pub(super) struct Simulated {
 const ROOM: usize = NUCLEO_F446RE.flash.slots[0].model.bytes as usize;
 
 impl Simulated {
-    pub(super) fn open(mut loaded: Loaded, flash: Flash) -> Result<Self, Error> {
+    pub(super) fn open(mut loaded: Loaded, flash: Flash, node: usize) -> Result<Self, Error> {
         let flash = flash.of_size(ROOM)?;
         let mut first = Vec::new();
         if loaded.scene.awaits_model() {
@@ -37,8 +43,12 @@ impl Simulated {
             first = of_model(&found);
             loaded = loaded.with_deployed(flash.name(), found.ok());
         }
+        let is_head = loaded.scene.head.nodes.is_some();
         Ok(Self {
-            run: Run::new(&loaded.scene, loaded.classifier()?)?,
+            run: run(&loaded, node)?,
+            array: is_head.then(|| Array::new(&loaded.scene)),
+            node,
+            whiskers: Vec::new(),
             loaded,
             flash,
             first,
@@ -55,6 +65,12 @@ impl Simulated {
     fn now(&self) -> f64 {
         self.run.row().t_s
     }
+}
+
+fn run(loaded: &Loaded, node: usize) -> Result<Run, Error> {
+    let mut run = Run::new(&loaded.scene, loaded.classifier()?)?;
+    run.module_mut().talk_with(node);
+    Ok(run)
 }
 
 fn line(t_s: f64, event: &Event, classes: &[String]) -> Option<String> {
@@ -81,6 +97,11 @@ fn of_model(found: &Result<ModelBuf, Refusal>) -> Vec<String> {
 impl Source for Simulated {
     fn next(&mut self) -> Result<Incoming, Error> {
         self.run.tick();
+        if let Some(array) = &mut self.array {
+            self.run
+                .decisions()
+                .for_each(|decided| array.take(&decided));
+        }
         let mut lines = std::mem::take(&mut self.first);
         lines.extend(self.lines());
         Ok(Incoming {
@@ -111,6 +132,23 @@ impl Source for Simulated {
         self.now()
     }
 
+    fn hairs(&mut self) -> Vec<Hair> {
+        let Some(array) = &self.array else {
+            return Vec::new();
+        };
+        self.run.look_at_whiskers(&mut self.whiskers);
+        let t_s = self.run.t_s();
+        let stands = array.stands().iter().zip(&self.whiskers).enumerate();
+        let hair = |(n, (stand, row)): (usize, (&_, &WhiskerRow))| Hair {
+            stand: *stand,
+            columns: array.columns(),
+            angle_deg: row.angle_deg,
+            contact: row.contact,
+            said: array.said(n, t_s).to_owned(),
+        };
+        stands.map(hair).collect()
+    }
+
     fn duration_s(&self) -> Option<f64> {
         Some(self.loaded.scene.duration_s)
     }
@@ -129,7 +167,7 @@ impl Source for Simulated {
                          is that of --sim SCENE";
             return Err(Error::Input(fault.to_owned()));
         }
-        let run = Run::new(&loaded.scene, loaded.classifier()?)?;
+        let run = run(loaded, self.node)?;
         let model = what.model.as_ref();
         self.flash
             .program(model.map_or(&[], |model| model.as_bytes()))?;

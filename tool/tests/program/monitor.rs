@@ -226,3 +226,27 @@ fn a_window_keeps_the_time_and_a_picture_needs_no_terminal() {
     place.refuses(&recording, "is not overwritten");
     place.refuses("monitor --sim bench.toml", "needs a terminal");
 }
+
+#[test]
+fn a_head_is_watched_through_any_of_its_boards() {
+    let place = Place::new();
+    let cia = std::fs::read_to_string(crate::common::scenes("cia.toml")).unwrap();
+    let each = "whiskers_per_side = 1";
+    let head = |keys: &str| cia.replace(each, keys);
+    place.write("head.toml", &head("whiskers_per_side = 3\nnodes = 6"));
+    let picture = |node: u8| {
+        let monitor = "monitor --sim head.toml --frames 40 --size 120x40 --node";
+        place.done(&format!("{monitor} {node}")).stdout
+    };
+    let [left, right] = [0, 3].map(picture);
+    assert!(left.contains("\nleft  [ARMED]") && right.contains("\nright [ARMED]"));
+    assert!(left.contains(" 6 whiskers on 6 boards"), "{left}");
+    // The whisker that is heard is the first of the left.
+    assert!(left.contains("touch 1") && !right.contains("touch 1"));
+    place.refuses(
+        "monitor --sim head.toml --frames 9 --node 6",
+        "--node: found 6",
+    );
+    place.write("head.toml", &head("whiskers_per_side = 2\nnodes = 2"));
+    place.refuses("monitor --sim head.toml --frames 9", "a board a whisker");
+}

@@ -32,6 +32,10 @@ keys! {
         /// Whiskers on each side.
         whiskers_per_side: usize = integer(1..=12),
 
+        /// Rows in which the whiskers of a side stand, one after the other from the front: for
+        /// pictures.
+        rows: usize = integer(1..=12).default("1"),
+
         /// Which sides are built; with `left`, lists that have one entry a side have one entry.
         sides: Sides = word().default("\"both\""),
 

@@ -37,6 +37,7 @@ fn every_key_reaches_its_field() {
         seed: i64::MAX as u64,
         head: HeadSection {
             whiskers_per_side: 1,
+            rows: 1,
             sides: Sides::Both,
             nodes: None,
             bus_kbit_s: None,

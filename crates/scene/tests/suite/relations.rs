@@ -9,8 +9,8 @@ const PASSIVE: &str = "name = 'a'\ntick_hz = 2000\nduration_s = 1\nseed = 0\n\
 fn missing_keys_and_tables() {
     assert_eq!(
         complaint(&PASSIVE.replace("head.whiskers_per_side = 1\n", "")),
-        "s.toml:1: [head]: missing; required: a table with the keys whiskers_per_side, sides, nodes, \
-         bus_kbit_s"
+        "s.toml:1: [head]: missing; required: a table with the keys whiskers_per_side, rows, sides, \
+         nodes, bus_kbit_s"
     );
     let all = "s.toml:1: name: missing\ns.toml:1: tick_hz: missing\ns.toml:1: duration_s: missing\n\
                s.toml:1: seed: missing\ns.toml:1: [head]: missing";
@@ -222,6 +222,11 @@ fn boards_of_a_head_share_alike() {
     }
     assert!(head(6, "head.nodes = 5\n").contains(
         "head.nodes: found 5 boards for 12 whiskers; allowed: a number that divides that of the \
+         whiskers"
+    ));
+    assert_eq!(head(6, "head.rows = 2\n"), "");
+    assert!(head(6, "head.rows = 4\n").contains(
+        "head.rows: found 4 rows for 6 whiskers a side; allowed: a number that divides that of the \
          whiskers"
     ));
     assert!(head(6, "head.nodes = 1\n").contains("head.nodes: found 1; allowed: "));

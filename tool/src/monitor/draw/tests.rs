@@ -1,6 +1,7 @@
 //! The window at all sizes, without a terminal.
 
 use firmware::{Event, EventRecord, Health, Packet, Place};
+use host_sim::array::Stand;
 use ratatui::Terminal;
 use ratatui::backend::TestBackend;
 use tactile::Decision;
@@ -12,7 +13,7 @@ use crate::monitor::history::History;
 use crate::monitor::shown::Shown;
 use crate::monitor::svg::{svg, text};
 use crate::monitor::view::{Key, View};
-use crate::source::Incoming;
+use crate::source::{Hair, Incoming};
 
 const PLAIN: Theme = Theme { colours: false };
 
@@ -60,7 +61,7 @@ fn drawn(shown: &Shown, theme: Theme, width: u16, height: u16) -> ratatui::buffe
 
 #[test]
 fn all_is_there_in_the_smallest_usual_window() {
-    let shown = history().shown(&View::new(), "bench, simulated", String::new());
+    let shown = Shown::first(&history(), "bench, simulated");
     let buffer = drawn(&shown, PLAIN, 80, 24);
     let text = text(&buffer);
     for word in [
@@ -102,7 +103,7 @@ fn a_decision_that_names_no_class_says_why() {
     // Unknown, outside the poses, and between carpet and class 1.
     let reasons = [(1, 1), (2, 1 | 1 << 1), (3, 1 | 2 << 1 | 1 << 3)];
     history.take(&Incoming::of(reasons.map(unnamed)));
-    let shown = history.shown(&View::new(), "t", String::new());
+    let shown = Shown::first(&history, "t");
     for words in [
         "left unknown 640",
         "left outside the poses of training 640",
@@ -119,7 +120,7 @@ fn a_decision_that_names_no_class_says_why() {
 #[test]
 fn any_window_can_be_drawn() {
     let history = history();
-    let mut view = View::new();
+    let mut view = View::new(history.extent());
     for press in ['n', '?', 'p'] {
         view.press(Key::Letter(press), history.extent());
         view.press(Key::Tab, history.extent());
@@ -140,7 +141,7 @@ fn any_window_can_be_drawn() {
 
 #[test]
 fn a_picture_has_every_word_and_dot_of_the_window() {
-    let shown = history().shown(&View::new(), "t < & \"", String::new());
+    let shown = Shown::first(&history(), "t < & \"");
     let buffer = drawn(&shown, Theme { colours: true }, 100, 30);
     let picture = svg(&buffer);
     for word in ["t &lt; &amp;", "[ARMED]", "carpet 99.50 % 640"] {
@@ -155,4 +156,53 @@ fn a_picture_has_every_word_and_dot_of_the_window() {
         .sum();
     assert!(dots > 100);
     assert_eq!(picture.matches("h2v2h-2z").count() as u32, dots);
+}
+
+#[test]
+fn a_head_is_seen_from_above_with_who_feels_and_who_decides_what() {
+    let hair = |side, column, contact, said: &str| Hair {
+        stand: Stand {
+            side,
+            column,
+            row: 0,
+            board: Some(7 * side + column),
+        },
+        columns: 2,
+        angle_deg: 84.0,
+        contact,
+        said: said.to_owned(),
+    };
+    let mut history = history();
+    history.hairs = vec![
+        hair(0, 0, 0.0, ""),
+        hair(0, 1, 0.0, "loam"),
+        hair(1, 0, 0.0, ""),
+        hair(1, 1, 0.9, ""),
+    ];
+    let drawn_now = |history: &History| text(&drawn(&Shown::first(history, "t"), PLAIN, 120, 40));
+    // Without what stands beside it.
+    let head = |all: &str| -> String {
+        let line = |line: &str| line.chars().take(70).chain(['\n']).collect::<String>();
+        all.lines().map(line).collect()
+    };
+    let felt = head(&drawn_now(&history));
+    assert!(felt.contains(" 4 whiskers on 9 boards"), "{felt}");
+    // Left is left, and what stands behind is below.
+    let line = |words: &str| felt.lines().position(|line| line.contains(words)).unwrap();
+    let behind = felt.lines().nth(line("loam")).unwrap();
+    let [loam, one, eight] = ["loam", "1", "8"].map(|word| behind.find(word).unwrap());
+    assert!(loam < one && one < eight, "{behind}");
+    assert!(line("0   7") < line("loam"), "{felt}");
+    // A circle where it feels, and nowhere else.
+    history.hairs[3].contact = 0.0;
+    let air = head(&drawn_now(&history));
+    let changed: Vec<(usize, usize)> = (felt.lines().zip(air.lines()).enumerate())
+        .flat_map(|(row, (felt, air))| {
+            let cells = felt.chars().zip(air.chars()).enumerate();
+            cells.filter_map(move |(column, (a, b))| (a != b).then_some((row, column)))
+        })
+        .collect();
+    assert!((4..40).contains(&changed.len()), "{changed:?}");
+    let near = |(row, column): &(usize, usize)| row.abs_diff(line("loam")) < 4 && *column > 50;
+    assert!(changed.iter().all(near), "{changed:?}");
 }

@@ -8,7 +8,7 @@ use super::Fault;
 use crate::monitor::history::History;
 use crate::monitor::known::Known;
 use crate::monitor::listener::Listener;
-use crate::monitor::view::View;
+use crate::monitor::shown::Shown;
 use crate::source::{Incoming, record, scene_file};
 
 /// Records of four seconds at 1 kHz, a peak of one tick in the third, with a fault.
@@ -33,7 +33,7 @@ fn history() -> History {
 #[test]
 fn a_peak_of_one_tick_is_in_the_picture_where_it_was() {
     let history = history();
-    let shown = history.shown(&View::new(), "t", String::new());
+    let shown = Shown::first(&history, "t");
     assert_eq!((shown.from_s, shown.to_s), (-1.0, 4.0));
     let measured = &shown.whiskers[0].curves[1];
     let peaks: Vec<f64> = measured
@@ -49,7 +49,7 @@ fn a_peak_of_one_tick_is_in_the_picture_where_it_was() {
 
 #[test]
 fn faults_come_with_cause_and_remedy() {
-    let shown = history().shown(&View::new(), "t", String::new());
+    let shown = Shown::first(&history(), "t");
     let expected = Fault {
         what: "2.000 fault left 8 runs away (motor or encoder wired the wrong way round; noise on \
                the encoder's lines?)"
@@ -69,7 +69,7 @@ fn it_is_said_that_the_classifier_has_started_again() {
     let mut take = |sequence| {
         let record = record(sequence, Flags::VALID);
         history.take(&Incoming::of([Packet::Record(record)]));
-        let shown = history.shown(&View::new(), "t", String::new());
+        let shown = Shown::first(&history, "t");
         shown.classifying.join("\n")
     };
     let said = [1, 2, 3001, 3002, 1].map(&mut take);
