@@ -1,5 +1,5 @@
 """How fast it is: `cargo xtask desk` runs it. Prints figures as JSON, each the median of some runs
-with the least and the largest. `cargo xtask speed --vs-wheel` has it measure environments alone."""
+with the least and the largest."""
 
 import json
 import resource
@@ -53,9 +53,6 @@ def steps_a_second() -> float:
 
 
 def main() -> None:
-    if sys.argv[1:] == ["environments"]:
-        print(steps_a_second())
-        return
     sim = vibrissa.Sim(SCENE)
 
     def one() -> float:

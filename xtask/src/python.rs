@@ -83,24 +83,31 @@ fn newest() -> Result<PathBuf, Fault> {
 }
 
 fn wheel(python: &Path, profile: Profile) -> Result<PathBuf, Fault> {
-    let tools = environment(python, "tools", &[MATURIN])?;
     let wheels = place("wheels");
-    remove(&wheels)?;
-    let mut build = Command::new(tools);
-    build
-        .args(["-m", "maturin", "build", "--locked", "--out"])
-        .arg(&wheels);
-    build
-        .arg("--interpreter")
-        .arg(python)
-        .current_dir(top().join("python"));
+    let mut build = maturin(python, &top().join("python"), &wheels)?;
     match profile {
         Profile::Release => build.arg("--release"),
         // Takes what the tests were built of.
         Profile::Dev => build.args(["--features", "compiled-once"]),
     };
     run(&mut build)?;
-    let built = listing(&wheels, "whl")?;
+    only(&wheels)
+}
+
+/// What builds the wheel of the package in a folder to another, which is emptied.
+fn maturin(python: &Path, package: &Path, wheels: &Path) -> Result<Command, Fault> {
+    let tools = environment(python, "tools", &[MATURIN])?;
+    remove(wheels)?;
+    let mut build = Command::new(tools);
+    build
+        .args(["-m", "maturin", "build", "--locked", "--out"])
+        .arg(wheels);
+    build.arg("--interpreter").arg(python).current_dir(package);
+    Ok(build)
+}
+
+fn only(wheels: &Path) -> Result<PathBuf, Fault> {
+    let built = listing(wheels, "whl")?;
     built
         .into_iter()
         .next()
@@ -186,34 +193,48 @@ pub(crate) fn try_wheel(folder: &Path) -> Result<(), Fault> {
     run(Command::new(inside).args(["-I", "-c", LINE]))
 }
 
-/// What measures.
-const SPEEDS: &str = "python/tests/speeds.py";
-
-/// A wheel in a clean environment of the newest Python, with what its own environments need.
-pub(crate) fn with_environments(wheel: &Path, name: &str) -> Result<PathBuf, Fault> {
-    let inside = environment(&newest()?, name, &["gymnasium"])?;
-    run(pip(&inside).arg(wheel))?;
-    Ok(inside)
-}
-
-/// Steps that 128 environments make in a second together.
-pub(crate) fn steps_a_second(inside: &Path) -> Result<f64, Fault> {
-    let mut measure = Command::new(inside);
-    let said = output(measure.arg(top().join(SPEEDS)).arg("environments"))?;
-    let steps = said.trim().parse();
-    steps.map_err(|_| format!("{SPEEDS} printed {said:?}"))
-}
-
 /// The figures of the wheel that `pip install` would make, as JSON.
 pub(crate) fn figures() -> Result<String, Fault> {
     let wheel = release()?;
-    let inside = with_environments(&wheel, "speeds")?;
+    let said = Measured::with(&wheel, &top(), "speeds")?.figures()?;
     let bytes = fs::metadata(&wheel)
         .map_err(|error| error.to_string())?
         .len();
-    let said = output(Command::new(inside).arg(top().join(SPEEDS)))?;
     let figures = said.trim().trim_start_matches('{');
     Ok(format!("{{\"wheel_bytes\": {bytes}, {figures}"))
+}
+
+/// A wheel in a clean environment, and what measures it.
+pub(crate) struct Measured {
+    inside: PathBuf,
+    script: PathBuf,
+}
+
+impl Measured {
+    fn with(wheel: &Path, tree: &Path, name: &str) -> Result<Self, Fault> {
+        let inside = environment(&newest()?, name, &["gymnasium"])?;
+        run(pip(&inside).arg(wheel))?;
+        let script = tree.join("python/tests/speeds.py");
+        Ok(Self { inside, script })
+    }
+
+    /// Of this tree.
+    pub(crate) fn own() -> Result<Self, Fault> {
+        Self::with(&release()?, &top(), "speeds")
+    }
+
+    /// Of another checkout, whose wheel is built in the folder `built`.
+    pub(crate) fn of(tree: &Path, built: &Path) -> Result<Self, Fault> {
+        let python = newest()?;
+        let mut build = maturin(&python, &tree.join("python"), &built.join("wheels"))?;
+        run(build.arg("--release").env("CARGO_TARGET_DIR", built))?;
+        Self::with(&only(&built.join("wheels"))?, tree, "speeds-other")
+    }
+
+    /// Its figures, as JSON.
+    pub(crate) fn figures(&self) -> Result<String, Fault> {
+        output(Command::new(&self.inside).arg(&self.script))
+    }
 }
 
 /// Error against time of the bending whisker and of MuJoCo; the page is written where programs are.

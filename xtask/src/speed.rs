@@ -1,6 +1,6 @@
 //! The time that host-sim takes for a tick: scene `textures`, an elastic whisker in scene `whisker`
-//! and in lasting contact with rough ground. Another host-sim may run beside it, and another wheel,
-//! whose environments are measured.
+//! and in lasting contact with rough ground. Another checkout's may run beside it by turns, and the
+//! environments of both wheels.
 //!
 //! The time is that of the processor in user mode for a whole run of the program,
 //! which other programs disturb less than they do the clock on the wall. It holds
@@ -11,10 +11,11 @@ use std::process::Command;
 use std::time::Instant;
 
 use scene::Scene;
+use serde_json::Value;
 
 use crate::emulate::variants;
-use crate::python;
-use crate::run::{Fault, cargo, output, run, target, top};
+use crate::python::Measured;
+use crate::run::{Fault, absolute, cargo, output, run, target, top};
 
 /// What runs, from the top of the workspace.
 const SCENES: [&str; 3] = [
@@ -26,12 +27,13 @@ const SCENES: [&str; 3] = [
 /// What to measure.
 #[derive(clap::Args)]
 pub(crate) struct Choice {
-    /// Another host-sim, run by turns with this tree's
-    #[arg(long, value_name = "PROGRAM")]
+    /// Another checkout of this project, whose host-sim runs its own scenes by turns with this
+    /// tree's
+    #[arg(long, value_name = "FOLDER")]
     vs: Option<PathBuf>,
-    /// Another wheel, whose 128 environments run by turns with this tree's
-    #[arg(long, value_name = "WHEEL")]
-    vs_wheel: Option<PathBuf>,
+    /// The wheels of both, too: 128 environments of scene `textures`
+    #[arg(long, requires = "vs")]
+    environments: bool,
     /// Runs of each program for each scene
     #[arg(long, default_value_t = 7, value_parser = clap::value_parser!(u32).range(1..=1000))]
     rounds: u32,
@@ -40,11 +42,12 @@ pub(crate) struct Choice {
 /// Builds host-sim for release and prints times a tick, and how many times as fast
 /// as the other program it is.
 pub(crate) fn speed(choice: &Choice) -> Result<(), Fault> {
-    let own = released()?;
+    let own = Program::own()?;
+    let other = choice.vs.as_deref().map(Program::of).transpose()?;
     println!(
         "µs a tick, least and median of {}: this tree{}",
         choice.rounds,
-        if choice.vs.is_some() {
+        if other.is_some() {
             ", the other, times as fast"
         } else {
             ""
@@ -54,41 +57,45 @@ pub(crate) fn speed(choice: &Choice) -> Result<(), Fault> {
         let scene = Scene::load(top().join(path)).map_err(|error| error.to_string())?;
         let (mut ours, mut theirs) = (Vec::new(), Vec::new());
         for _ in 0..choice.rounds {
-            if let Some(other) = &choice.vs {
-                theirs.push(user_s(other, Path::new(path))?);
+            if let Some(other) = &other {
+                theirs.push(other.user_s(path)?);
             }
-            ours.push(user_s(&own, Path::new(path))?);
+            ours.push(own.user_s(path)?);
         }
         let a_tick = 1e6 / scene.ticks() as f64;
         let ours = least_and_median(ours).map(|s| s * a_tick);
         print!("{:10} {}", scene.name, pair(ours));
-        if choice.vs.is_some() {
+        if other.is_some() {
             let theirs = least_and_median(theirs).map(|s| s * a_tick);
             let ratio = [0, 1].map(|i| theirs[i] / ours[i]);
             print!("  {}  {}", pair(theirs), pair(ratio));
         }
         println!();
     }
-    choice
-        .vs_wheel
-        .as_deref()
-        .map_or(Ok(()), |other| environments(other, choice.rounds))
+    match choice.vs.as_deref().filter(|_| choice.environments) {
+        Some(other) => environments(other),
+        None => Ok(()),
+    }
 }
 
 /// Prints how many steps environments make in a second, and how many times as many as those of the
-/// other wheel.
-fn environments(other: &Path, rounds: u32) -> Result<(), Fault> {
-    let ours = python::with_environments(&python::release()?, "speeds")?;
-    let theirs = python::with_environments(other, "speeds-other")?;
-    let mut pairs = Vec::new();
-    for _ in 0..rounds {
-        let of = |inside| python::steps_a_second(inside);
-        pairs.push([of(&ours)?, of(&theirs)?]);
+/// other checkout.
+fn environments(other: &Path) -> Result<(), Fault> {
+    /// Each is a median itself.
+    const TURNS: usize = 3;
+    let both = [Measured::of(other, &built(other)?)?, Measured::own()?];
+    let mut found: [Vec<f64>; 2] = Default::default();
+    for _ in 0..TURNS {
+        for (measured, found) in both.iter().zip(&mut found) {
+            let said: Value = serde_json::from_str(&measured.figures()?)
+                .map_err(|error| format!("speeds.py: {error}"))?;
+            let median = said.pointer("/env_steps_s/0").and_then(Value::as_f64);
+            found.push(median.ok_or("speeds.py: no env_steps_s")?);
+        }
     }
-    let [ours, theirs] =
-        [0, 1].map(|of| least_and_median(pairs.iter().map(|pair| pair[of]).collect())[1]);
+    let [theirs, ours] = found.map(|found| least_and_median(found)[1]);
     println!(
-        "128 environments, steps a second, median of {rounds}: {ours:.0}  {theirs:.0}  {:.3}",
+        "128 environments, steps a second: {ours:.0}  {theirs:.0}  {:.3}",
         ours / theirs
     );
     Ok(())
@@ -98,7 +105,7 @@ fn environments(other: &Path, rounds: u32) -> Result<(), Fault> {
 /// runs of so many ticks that the start of the program does not count.
 pub(crate) fn ns_per_tick(scene: &Path) -> Result<u64, Fault> {
     let ticks = 100_000;
-    let (program, long) = (released()?, variants::with_ticks(scene, ticks)?);
+    let (program, long) = (Program::own()?.path, variants::with_ticks(scene, ticks)?);
     let mut least = f64::INFINITY;
     for _ in 0..3 {
         let begun = Instant::now();
@@ -110,29 +117,58 @@ pub(crate) fn ns_per_tick(scene: &Path) -> Result<u64, Fault> {
     Ok((1e9 * least / f64::from(ticks)) as u64)
 }
 
-fn released() -> Result<PathBuf, Fault> {
-    let build = ["build", "--release", "--locked", "--quiet"];
-    run(cargo(&build).args(["-p", "host-sim"]))?;
-    Ok(target().join("release/host-sim"))
+/// A host-sim, and the tree whose scenes it runs.
+struct Program {
+    path: PathBuf,
+    tree: PathBuf,
+}
+
+/// Where another checkout is built.
+fn built(other: &Path) -> Result<PathBuf, Fault> {
+    let name = absolute(other)?;
+    let name = name.file_name().unwrap_or_default();
+    Ok(target().join("other").join(name))
+}
+
+impl Program {
+    fn own() -> Result<Self, Fault> {
+        Self::released(top(), &target())
+    }
+
+    fn of(other: &Path) -> Result<Self, Fault> {
+        Self::released(absolute(other)?, &built(other)?)
+    }
+
+    fn released(tree: PathBuf, built: &Path) -> Result<Self, Fault> {
+        let build = [
+            "build",
+            "--release",
+            "--locked",
+            "--quiet",
+            "-p",
+            "host-sim",
+        ];
+        let mut build = cargo(&build);
+        run(build.current_dir(&tree).env("CARGO_TARGET_DIR", built))?;
+        let path = built.join("release/host-sim");
+        Ok(Self { path, tree })
+    }
+
+    fn user_s(&self, scene: &str) -> Result<f64, Fault> {
+        let mut command = Command::new("sh");
+        command
+            .args(["-c", r#""$0" "$@" > /dev/null && times"#])
+            .arg(&self.path)
+            .args(["run", "--quiet", scene, "--out"])
+            .arg(target().join("speed"))
+            .current_dir(&self.tree);
+        let text = output(&mut command)?;
+        children_s(&text).ok_or_else(|| format!("times printed {text:?}"))
+    }
 }
 
 fn pair([least, median]: [f64; 2]) -> String {
     format!("{least:6.3} {median:6.3}")
-}
-
-fn user_s(program: &Path, scene: &Path) -> Result<f64, Fault> {
-    let out = target().join("speed");
-    let mut command = Command::new("sh");
-    command
-        .args(["-c", r#""$0" "$@" > /dev/null && times"#])
-        .arg(std::path::absolute(program).map_err(|error| error.to_string())?)
-        .args(["run", "--quiet"])
-        .arg(scene)
-        .arg("--out")
-        .arg(out)
-        .current_dir(top());
-    let text = output(&mut command)?;
-    children_s(&text).ok_or_else(|| format!("times printed {text:?}"))
 }
 
 /// User time of its children in what the shell's `times` prints, s: minutes and
