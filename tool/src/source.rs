@@ -110,7 +110,7 @@ pub(crate) trait Source {
         true
     }
 
-    /// All whiskers of its head, left side first; none where nobody looks at it from above.
+    /// All whiskers of its head, left side first; none where they cannot be seen: on a board.
     fn hairs(&mut self) -> Vec<Hair> {
         Vec::new()
     }

@@ -10,10 +10,10 @@ use wasm_bindgen::prelude::wasm_bindgen;
 
 use crate::loaded;
 
-fn line(t_s: f64, d: &Decided, classes: &[String], has_rows: bool) -> String {
+fn line(t_s: f64, d: &Decided, classes: &[String], are_several: bool) -> String {
     let whisker = d.place.map_or(String::new(), |place| {
         let name = place.side_name();
-        if has_rows {
+        if are_several {
             format!("{name} {}", place.whisker + 1)
         } else {
             name.to_owned()
@@ -88,8 +88,8 @@ impl Player {
                 heard.push(x.unwrap_or_default() as f32);
             }
             for d in self.run.decisions() {
-                let several = self.scene.head.whiskers_per_side > 1;
-                let line = line(t_s, &d, self.run.classes(), several);
+                let are_several = self.scene.head.whiskers_per_side > 1;
+                let line = line(t_s, &d, self.run.classes(), are_several);
                 self.decided.push(line);
                 self.array.take(&d);
             }
@@ -217,10 +217,10 @@ impl Player {
         self.heard.as_mut().map_or_else(Vec::new, std::mem::take)
     }
 
-    /// The decisions since the last call, with tabulators between time, side (and number, where a side has
-    /// several), decision, posterior,
-    /// samples, the truth, what it is worth (`right`, `wrong`, `refused`), the reason and the pair
-    /// if no class is named (as in `decisions.csv`), and the number of the touch.
+    /// The decisions since the last call, with tabulators between time, side (with the whisker's
+    /// number, from 1, where a side has several), decision, posterior, samples, the truth, what it is
+    /// worth (`right`, `wrong`, `refused`), the reason and the pair if no class is named (as in
+    /// `decisions.csv`), and the number of the touch.
     pub fn decisions(&mut self) -> Vec<String> {
         std::mem::take(&mut self.decided)
     }

@@ -125,14 +125,15 @@ struct Program {
 
 /// Where another checkout is built.
 fn built(other: &Path) -> Result<PathBuf, Fault> {
-    let name = absolute(other)?;
-    let name = name.file_name().unwrap_or_default();
-    Ok(target().join("other").join(name))
+    let other = absolute(other)?;
+    let name = other.file_name().unwrap_or_default();
+    // Cargo runs there, not here.
+    absolute(&target().join("other").join(name))
 }
 
 impl Program {
     fn own() -> Result<Self, Fault> {
-        Self::released(top(), &target())
+        Self::released(top(), &absolute(&target())?)
     }
 
     fn of(other: &Path) -> Result<Self, Fault> {

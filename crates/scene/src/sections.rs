@@ -68,8 +68,8 @@ mod tests {
                 defaults += 1;
             }
         }
-        // Twenty of the motor, fourteen of the plant, ten of the sensor, two of telemetry, one of
-        // the head and of whisking, two of the classifier.
+        // Twenty of the motor, fourteen of the plant, ten of the sensor, two of telemetry, of the
+        // head and of the classifier, one of whisking.
         assert_eq!(defaults, 51);
     }
 

@@ -144,7 +144,7 @@ fn begin(arguments: &Arguments, wishes: Receiver<Wish>) -> Result<(Watching, Rea
     }
     let mut history = History::new(tick_hz, whiskers, listener.transpose()?);
     history.module_classes = classes;
-    history.hairs = module.source().hairs();
+    history.see(module.source().hairs());
     let shared = Arc::new(Mutex::new(Shared {
         history,
         message: None,

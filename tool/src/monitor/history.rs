@@ -19,6 +19,9 @@ const LINES: usize = 4000;
 /// How often the classifier's posteriors are kept in a second.
 const BELIEFS_HZ: u32 = 20;
 
+/// How often the whiskers of a head are looked at in a second, as often as a picture is drawn.
+pub(crate) const LOOKS_HZ: u32 = 20;
+
 /// A record, and the tick that it is of: counted on where the module starts again.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Entry {
@@ -61,8 +64,8 @@ pub(crate) struct History {
     /// Whether module and PC have decided in the tick that is under way.
     deciding: [bool; 2],
     last_belief: u64,
-    /// All whiskers of a head, as they are now.
-    pub(crate) hairs: Vec<Hair>,
+    /// All whiskers of a head.
+    pub(crate) hairs: VecDeque<Said<Vec<Hair>>>,
 }
 
 impl History {
@@ -84,7 +87,7 @@ impl History {
             ticks: TickCount::default(),
             deciding: [false; 2],
             last_belief: 0,
-            hairs: Vec::new(),
+            hairs: VecDeque::new(),
         }
     }
 
@@ -122,6 +125,16 @@ impl History {
             say(&mut self.lines, self.ticks.now(), line.clone());
         }
         answers
+    }
+
+    /// Keeps how all whiskers of a head are by now, if there is one.
+    pub(crate) fn see(&mut self, hairs: Vec<Hair>) {
+        if hairs.is_empty() {
+            return;
+        }
+        let ticks = self.now();
+        self.hairs.push_back(Said { ticks, what: hairs });
+        bound(&mut self.hairs, (HELD_S * LOOKS_HZ) as usize);
     }
 
     fn record(&mut self, record: &TickRecord) {

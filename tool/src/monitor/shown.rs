@@ -100,7 +100,7 @@ impl History {
                 .map(|side| self.whisker(*side, from, end))
                 .collect(),
             hairs: match view.shows {
-                Shows::Head => self.hairs.clone(),
+                Shows::Head => by(&self.hairs, end).map_or(Vec::new(), |seen| seen.what.clone()),
                 Shows::Left | Shows::Right | Shows::Both => Vec::new(),
             },
             events: lines,

@@ -9,7 +9,7 @@ use std::time::{Duration, Instant};
 use host_sim::Error;
 use wire::{Answer, Command, CommandStatus, Flags};
 
-use super::history::History;
+use super::history::{History, LOOKS_HZ};
 use crate::conversation::Conversation;
 use crate::record_file::RecordFile;
 use crate::script::Script;
@@ -17,9 +17,6 @@ use crate::source::Incoming;
 
 /// After how long without an answer the motors are asked to stop again, s.
 const AGAIN_S: f64 = 0.1;
-
-/// How often all whiskers of a head are looked at, s.
-const LOOKS_S: f64 = 0.02;
 
 const PATIENCE_S: f64 = 2.0;
 
@@ -143,10 +140,10 @@ impl Watching {
                 }
             }
             let now_s = self.module.source().now_s();
-            if now_s - self.looked_s >= LOOKS_S {
+            if now_s - self.looked_s >= 1.0 / f64::from(LOOKS_HZ) {
                 self.looked_s = now_s;
                 let hairs = self.module.source().hairs();
-                lock(&self.shared).history.hairs = hairs;
+                lock(&self.shared).history.see(hairs);
             }
             if stopping
                 .as_ref()

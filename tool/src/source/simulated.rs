@@ -43,10 +43,9 @@ impl Simulated {
             first = of_model(&found);
             loaded = loaded.with_deployed(flash.name(), found.ok());
         }
-        let is_head = loaded.scene.head.nodes.is_some();
         Ok(Self {
             run: run(&loaded, node)?,
-            array: is_head.then(|| Array::new(&loaded.scene)),
+            array: array(&loaded),
             node,
             whiskers: Vec::new(),
             loaded,
@@ -65,6 +64,11 @@ impl Simulated {
     fn now(&self) -> f64 {
         self.run.row().t_s
     }
+}
+
+fn array(loaded: &Loaded) -> Option<Array> {
+    let is_head = loaded.scene.head.nodes.is_some();
+    is_head.then(|| Array::new(&loaded.scene))
 }
 
 fn run(loaded: &Loaded, node: usize) -> Result<Run, Error> {
@@ -176,6 +180,7 @@ impl Source for Simulated {
             Some(model) => of_model(&Ok(model.clone())),
             None => of_model(&Err(Refusal::Absent)),
         };
+        self.array = array(loaded);
         self.loaded = loaded.clone();
         self.run = run;
         Ok(())

@@ -32,8 +32,7 @@ keys! {
         /// Whiskers on each side.
         whiskers_per_side: usize = integer(1..=12),
 
-        /// Rows in which the whiskers of a side stand, one after the other from the front: for
-        /// pictures.
+        /// Rows of a side, for pictures: its whiskers stand row by row, each row from front to back.
         rows: usize = integer(1..=12).default("1"),
 
         /// Which sides are built; with `left`, lists that have one entry a side have one entry.

@@ -173,12 +173,13 @@ fn a_head_is_seen_from_above_with_who_feels_and_who_decides_what() {
         said: said.to_owned(),
     };
     let mut history = history();
-    history.hairs = vec![
+    let hairs = vec![
         hair(0, 0, 0.0, ""),
         hair(0, 1, 0.0, "loam"),
         hair(1, 0, 0.0, ""),
         hair(1, 1, 0.9, ""),
     ];
+    history.see(hairs.clone());
     let drawn_now = |history: &History| text(&drawn(&Shown::first(history, "t"), PLAIN, 120, 40));
     // Without what stands beside it.
     let head = |all: &str| -> String {
@@ -194,7 +195,9 @@ fn a_head_is_seen_from_above_with_who_feels_and_who_decides_what() {
     assert!(loam < one && one < eight, "{behind}");
     assert!(line("0   7") < line("loam"), "{felt}");
     // A circle where it feels, and nowhere else.
-    history.hairs[3].contact = 0.0;
+    let mut in_air = hairs.clone();
+    in_air[3].contact = 0.0;
+    history.see(in_air);
     let air = head(&drawn_now(&history));
     let changed: Vec<(usize, usize)> = (felt.lines().zip(air.lines()).enumerate())
         .flat_map(|(row, (felt, air))| {
@@ -205,4 +208,15 @@ fn a_head_is_seen_from_above_with_who_feels_and_who_decides_what() {
     assert!((4..40).contains(&changed.len()), "{changed:?}");
     let near = |(row, column): &(usize, usize)| row.abs_diff(line("loam")) < 4 && *column > 50;
     assert!(changed.iter().all(near), "{changed:?}");
+    // Forwards is up.
+    let mut protracted = hairs;
+    protracted[1].angle_deg += 30.0;
+    history.see(protracted);
+    let up = head(&drawn_now(&history));
+    let name = up.lines().position(|line| line.contains("loam")).unwrap();
+    assert!(name + 4 < line("loam"), "{up}");
+    // A held picture shows what was then: nothing yet.
+    let mut view = View::new(history.extent());
+    view.held = Some(3_000);
+    assert!(history.shown(&view, "t", String::new()).hairs.is_empty());
 }

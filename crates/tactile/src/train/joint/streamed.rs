@@ -28,14 +28,6 @@ struct Said {
     decision: Decision,
 }
 
-/// What was said of a part that was held out.
-struct OfFold {
-    /// At each threshold of the calibration.
-    said: Vec<Vec<Said>>,
-    /// At the model's own.
-    own: Vec<Said>,
-}
-
 impl Said {
     fn is_named(&self) -> bool {
         self.decision.class().is_some()
@@ -44,6 +36,14 @@ impl Said {
     fn is_right(&self) -> bool {
         self.decision.leader() == self.truth
     }
+}
+
+/// What was said of a part that was held out.
+struct OfFold {
+    /// At each threshold of the calibration.
+    said: Vec<Vec<Said>>,
+    /// At the model's own.
+    own: Vec<Said>,
 }
 
 /// Replaces the report of a model by one of the classifier as it streams: of several poses
