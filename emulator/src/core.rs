@@ -103,8 +103,8 @@ impl Core {
     /// Executes an instruction, or enters an exception; the cycles that it took.
     pub(crate) fn step(&mut self) -> u64 {
         if let Some(known) = &self.known
-            && !self.inner.is_asleep()
             && !known.has(self.inner.pc())
+            && !self.inner.is_asleep()
         {
             self.stuck |= self.inner.execution_priority() <= HARD_FAULT_PRIORITY;
             self.inner

@@ -196,7 +196,9 @@ impl Machine {
                 continue;
             }
             let cycles = self.core.step();
-            let was_asleep = std::mem::replace(&mut asleep, self.core.is_asleep());
+            // It falls asleep, and sleeps on, in one cycle; asking takes a lock.
+            let is_asleep = cycles == 1 && self.core.is_asleep();
+            let was_asleep = std::mem::replace(&mut asleep, is_asleep);
             if was_asleep && asleep {
                 if !self.ready {
                     self.ready = true;
