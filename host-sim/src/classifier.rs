@@ -9,7 +9,6 @@ use tactile::{
     AnyRule, Behind, ClassList, ClassSettings, Decision, MAX_STREAMS, Model, ModelBuf, NaiveBayes,
     Pose, Posteriors, Quantiser, RuleSettings, Threshold, TouchRule,
 };
-use zerocopy::IntoBytes;
 
 use crate::Error;
 
@@ -333,7 +332,8 @@ pub fn deployed(
     };
     let rule = rule.map_err(|fault| Error::Input(fault.to_string()))?;
     let rule = (rule, classifier.whiskers);
-    let found = CodeClassifier::at_start(words.as_bytes(), limits, rule, scene.whiskers());
+    let found =
+        CodeClassifier::at_start(bytemuck::cast_slice(&words), limits, rule, scene.whiskers());
     Ok(match (found.state(), found.model()) {
         (ModelState::Refused(refusal), _) => Err(refusal),
         (_, Some(model)) => {

@@ -1,7 +1,5 @@
 //! From a code to its bin, without a division.
 
-use zerocopy::{FromBytes, Immutable, IntoBytes, KnownLayout};
-
 /// Whether the processor computes only the low half of a product: a Cortex-M0+, the
 /// only supported one without atomic exchange. For more the compiler calls a function
 /// of some forty instructions.
@@ -14,10 +12,7 @@ const IS_SMALL: bool = cfg!(all(target_arch = "arm", not(target_has_atomic = "32
 /// by less than one unit, which adds less than d / 2³² ≤ 1 / span to the
 /// quotient, and its fraction is at most 1 − 1 / span. For wider spans an edge
 /// may come early by at most span / 2³² of a bin.
-#[derive(
-    Debug, Clone, Copy, Default, PartialEq, Eq, FromBytes, IntoBytes, KnownLayout, Immutable,
-)]
-#[repr(C)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub struct Binner {
     low: i32,
     /// Below 2³¹.
@@ -28,6 +23,11 @@ impl Binner {
     /// From the code of the lower edge and the slope, below 2³¹.
     pub(crate) const fn new(low: i32, slope: u32) -> Self {
         Self { low, slope }
+    }
+
+    #[cfg(feature = "std")]
+    pub(crate) const fn slope(self) -> u32 {
+        self.slope
     }
 
     /// The code of the lower edge of the first bin.

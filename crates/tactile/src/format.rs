@@ -23,9 +23,6 @@
 //! have a table of samples a channel with w = 1, no rule of touches and no floors.
 //! Rows are whole words, so that a core without unaligned loads reads them as fast.
 
-use zerocopy::byteorder::little_endian::{F32, F64, I16, I32, U16, U32};
-use zerocopy::{FromBytes, Immutable, IntoBytes, KnownLayout, Unaligned};
-
 use crate::binner::Binner;
 
 /// Most whiskers that are heard: on a board one, two with the feature `pair`, 24 with `array`;
@@ -81,57 +78,148 @@ pub(crate) const NO_LIMIT: u32 = u32::MAX;
 /// Bytes of the checksum at the end.
 pub const CRC_BYTES: usize = 4;
 
-#[derive(Debug, FromBytes, IntoBytes, KnownLayout, Immutable, Unaligned)]
-#[repr(C)]
+/// So many words, wherever they lie.
+pub(crate) fn words<const N: usize>(bytes: &[u8]) -> Option<[u32; N]> {
+    let (words, _) = bytes.as_chunks();
+    words
+        .first_chunk()
+        .map(|words| words.map(u32::from_le_bytes))
+}
+
+/// How a file begins, after its magic.
+#[derive(Debug)]
 pub(crate) struct Header {
-    pub(crate) magic: [u8; 4],
-    pub(crate) version: U16,
+    pub(crate) version: u16,
     pub(crate) classes: u8,
     pub(crate) channels: u8,
     pub(crate) sample_tables: u8,
     pub(crate) rough_tables: u8,
-    pub(crate) block: U16,
-    pub(crate) length: U32,
-    pub(crate) limit: U32,
-    pub(crate) gate: F32,
-    pub(crate) gap: U32,
-    pub(crate) floors: U32,
+    pub(crate) block: u16,
+    pub(crate) length: u32,
+    pub(crate) limit: u32,
+    pub(crate) gate: f32,
+    pub(crate) gap: u32,
+    pub(crate) floors: u32,
 }
 
-#[derive(Debug, FromBytes, IntoBytes, KnownLayout, Immutable, Unaligned)]
-#[repr(C)]
+impl Header {
+    pub(crate) const WORDS: usize = 8;
+    pub(crate) const BYTES: usize = 4 * Self::WORDS;
+
+    pub(crate) fn of(words: [u32; Self::WORDS]) -> Self {
+        let [_, counts, tables, length, limit, gate, gap, floors] = words;
+        let [_, _, classes, channels] = counts.to_le_bytes();
+        let [sample_tables, rough_tables, ..] = tables.to_le_bytes();
+        Self {
+            version: counts as u16,
+            classes,
+            channels,
+            sample_tables,
+            rough_tables,
+            block: (tables >> 16) as u16,
+            length,
+            limit,
+            gate: f32::from_bits(gate),
+            gap,
+            floors,
+        }
+    }
+
+    /// Words of the opinion.
+    pub(crate) const fn opinion_words(&self) -> usize {
+        (self.floors >> 8) as usize
+    }
+}
+
+#[derive(Debug)]
 pub(crate) struct ChannelRecord {
-    pub(crate) origin: F64,
-    pub(crate) low: I32,
-    pub(crate) high: I32,
-    pub(crate) exponent: I16,
+    pub(crate) origin: f64,
+    pub(crate) low: i32,
+    pub(crate) high: i32,
+    pub(crate) exponent: i16,
     /// Of the first channel samples a second, 0: not known; of others zero.
-    pub(crate) rate_hz: U16,
+    pub(crate) rate_hz: u16,
 }
 
-/// A table, as it is read in place: of whole words.
-#[derive(Debug, Clone, Copy, FromBytes, IntoBytes, KnownLayout, Immutable)]
-#[repr(C)]
-pub(crate) struct TableRecord {
-    pub(crate) source: u8,
-    pub(crate) axes: u8,
-    pub(crate) reserved: u16,
+impl ChannelRecord {
+    pub(crate) const WORDS: usize = 5;
+    pub(crate) const BYTES: usize = 4 * Self::WORDS;
+
+    pub(crate) fn of([lower, upper, low, high, last]: [u32; Self::WORDS]) -> Self {
+        Self {
+            origin: f64::from_bits(u64::from(lower) | u64::from(upper) << 32),
+            low: low.cast_signed(),
+            high: high.cast_signed(),
+            exponent: last as i16,
+            rate_hz: (last >> 16) as u16,
+        }
+    }
+}
+
+pub(crate) const TABLE_WORDS: usize = 10;
+
+/// A table, as it is read in place.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct TableRecord<'m>(pub(crate) &'m [u32; TABLE_WORDS]);
+
+impl TableRecord<'_> {
+    pub(crate) const BYTES: usize = 4 * TABLE_WORDS;
+
+    pub(crate) const fn source(self) -> u8 {
+        let [first, ..] = self.0;
+        *first as u8
+    }
+
+    #[inline]
+    pub(crate) const fn axes(self) -> u8 {
+        let [first, ..] = self.0;
+        (*first >> 8) as u8
+    }
+
+    /// Zero.
+    pub(crate) const fn reserved(self) -> u16 {
+        let [first, ..] = self.0;
+        (*first >> 16) as u16
+    }
+
     /// The word of the file at which its rows begin.
-    pub(crate) first: u32,
-    pub(crate) axis: [AxisRecord; 2],
+    #[inline]
+    pub(crate) const fn first(self) -> u32 {
+        let [_, first, ..] = self.0;
+        *first
+    }
+
+    #[inline]
+    pub(crate) const fn axis(self) -> [AxisRecord; 2] {
+        let [_, _, a, b, c, d, e, f, g, h] = *self.0;
+        [AxisRecord::of([a, b, c, d]), AxisRecord::of([e, f, g, h])]
+    }
 }
 
-#[derive(Debug, Clone, Copy, Default, FromBytes, IntoBytes, KnownLayout, Immutable)]
-#[repr(C)]
+#[derive(Debug, Clone, Copy)]
 pub(crate) struct AxisRecord {
     pub(crate) channel: u8,
+    /// Zero.
     pub(crate) reserved: u8,
     pub(crate) last_bin: u16,
     pub(crate) high: i32,
     pub(crate) binner: Binner,
 }
 
-pub(crate) const TABLE_WORDS: usize = size_of::<TableRecord>() / size_of::<u32>();
+impl AxisRecord {
+    pub(crate) const WORDS: usize = 4;
+
+    #[inline]
+    const fn of([first, high, low, slope]: [u32; Self::WORDS]) -> Self {
+        Self {
+            channel: first as u8,
+            reserved: (first >> 8) as u8,
+            last_bin: (first >> 16) as u16,
+            high: high.cast_signed(),
+            binner: Binner::new(low.cast_signed(), slope),
+        }
+    }
+}
 
 /// [`TableRecord::source`] of a table that is looked up each sample.
 pub(crate) const OF_SAMPLES: u8 = 0;

@@ -34,12 +34,9 @@ pub fn information<W: Words>(model: &Model<W>) -> Vec<f64> {
     rises.iter().enumerate().map(least).collect()
 }
 
-fn cells(table: &TableRecord) -> usize {
-    let bins = |axis: usize| {
-        let axis = table.axis.get(axis);
-        axis.map_or(1, |axis| usize::from(axis.last_bin) + 1)
-    };
-    bins(0) * bins(1)
+fn cells(table: TableRecord<'_>) -> usize {
+    let bins = table.axis().map(|axis| usize::from(axis.last_bin) + 1);
+    bins.iter().product()
 }
 
 fn bits(row: &[u32]) -> impl Iterator<Item = f64> {

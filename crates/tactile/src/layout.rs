@@ -1,15 +1,11 @@
 //! Checking the bytes of a model file, and where in it things lie.
 
-use core::mem::offset_of;
-
-use zerocopy::{FromBytes, transmute};
-
 use crate::error::ModelError;
 use crate::format::{
     CRC_BYTES, ChannelRecord, Header, MAGIC, MAX_BINS, MAX_BLOCK, MAX_BLOCK_SUM, MAX_CHANNELS,
     MAX_CLASSES, MAX_SAMPLE_AXES, MAX_SAMPLES_TIMES_CHANNELS, MAX_TABLES, NO_LIMIT, OF_ROUGHNESS,
     OF_SAMPLES, ROUGH_CHANNELS, TABLE_WORDS, TableRecord, VERSION, WITHOUT_OPINION, checksum,
-    row_words,
+    row_words, words,
 };
 use crate::name;
 use crate::opinion::Section;
@@ -49,19 +45,19 @@ pub struct TouchRule {
 }
 
 /// The word at which the channels' records begin.
-pub(crate) const RECORDS: usize = size_of::<Header>() / size_of::<u32>();
+pub(crate) const RECORDS: usize = Header::WORDS;
 
 impl Layout {
     /// Of a file that was checked before: looks only at magic, version, length and checksum.
     pub(crate) fn read(bytes: &[u8]) -> Result<Self, ModelError> {
         let header = header(bytes)?;
-        whole(header, bytes)?;
-        Ok(Self::of(header, bytes))
+        whole(&header, bytes)?;
+        Ok(Self::of(&header, bytes))
     }
 
     /// Bytes.
     pub(crate) fn length(bytes: &[u8]) -> Result<usize, ModelError> {
-        Ok(header(bytes)?.length.get() as usize)
+        Ok(header(bytes)?.length as usize)
     }
 
     /// Magic, version and header first, then length, checksum and content.
@@ -71,33 +67,34 @@ impl Layout {
         let channels = usize::from(header.channels);
         let sample_tables = usize::from(header.sample_tables);
         let count = sample_tables + usize::from(header.rough_tables);
-        let block = u32::from(header.block.get());
+        let block = u32::from(header.block);
         check_counts(classes, channels, block)?;
         let opinion_words = header.opinion_words();
         if sample_tables == 0 && opinion_words == 0 || count > MAX_TABLES {
             return Err(ModelError::Tables(count));
         }
-        check_touch_rule(header)?;
-        whole(header, bytes)?;
+        check_touch_rule(&header)?;
+        whole(&header, bytes)?;
 
-        let layout = Self::of(header, bytes);
-        let (_, rest) = bytes.split_at(size_of::<Header>());
+        let layout = Self::of(&header, bytes);
+        let (_, rest) = bytes.split_at(Header::BYTES);
         // Of a header alone the checksum is its own last word.
         let (rest, _) = rest
             .split_last_chunk::<CRC_BYTES>()
             .ok_or(ModelError::Length)?;
-        let (records, rest) = <[ChannelRecord]>::ref_from_prefix_with_elems(rest, channels)
-            .map_err(|_| ModelError::Length)?;
+        let (records, rest) = rest
+            .split_at_checked(channels * ChannelRecord::BYTES)
+            .ok_or(ModelError::Length)?;
         check_channels(records)?;
         let (records, rest) = rest
-            .split_at_checked(count * size_of::<TableRecord>())
+            .split_at_checked(count * TableRecord::BYTES)
             .ok_or(ModelError::Length)?;
-        let floor_bytes = match header.floors.get() & 0xff {
+        let floor_bytes = match header.floors & 0xff {
             0 => 0,
             1 => classes * size_of::<u32>(),
             _ => return Err(ModelError::Padding),
         };
-        if (opinion_words > 0) != (header.version.get() == VERSION) {
+        if (opinion_words > 0) != (header.version == VERSION) {
             return Err(ModelError::Padding);
         }
         let (rest, opinion) = rest
@@ -105,24 +102,29 @@ impl Layout {
             .checked_sub(opinion_words * size_of::<u32>())
             .and_then(|at| rest.split_at_checked(at))
             .ok_or(ModelError::Length)?;
-        check_opinion(opinion, header)?;
+        check_opinion(opinion, &header)?;
         let (_, rest) = rest
             .split_at_checked(floor_bytes)
             .ok_or(ModelError::Length)?;
 
         // Counts are checked: at most 2³² words a table.
-        let records = records.as_chunks().0.iter().map(record);
+        let (records, _) = records.as_chunks::<{ TableRecord::BYTES }>();
+        let records = records.iter().filter_map(|record| words(record));
         let row_words = row_words(classes);
         let mut table_words = 0;
         for (n, record) in records.clone().enumerate() {
             let source = [OF_SAMPLES, OF_ROUGHNESS][usize::from(n >= sample_tables)];
-            check_table_record(&record, source, channels)?;
-            table_words += rows(&record) * row_words as u64;
+            let record = TableRecord(&record);
+            check_table_record(record, source, channels)?;
+            table_words += rows(record) * row_words as u64;
         }
-        let axes = records.clone().map(|record| usize::from(record.axes));
+        let axes = records
+            .clone()
+            .map(|record| usize::from(TableRecord(&record).axes()));
         let of_samples: usize = axes.clone().take(sample_tables).sum();
         let of_roughness: usize = axes.skip(sample_tables).sum();
-        let mut rough = records.clone().skip(sample_tables).flat_map(|r| r.axis);
+        let rough = records.clone().skip(sample_tables);
+        let mut rough = rough.flat_map(|record| TableRecord(&record).axis());
         let is_third = rough.any(|axis| usize::from(axis.channel) >= ROUGH_CHANNELS);
         if of_samples > MAX_SAMPLE_AXES || of_roughness > ROUGH_CHANNELS || is_third {
             return Err(ModelError::Axes);
@@ -144,36 +146,30 @@ impl Layout {
     fn of(header: &Header, bytes: &[u8]) -> Self {
         let classes = usize::from(header.classes);
         let channels = usize::from(header.channels);
-        let tables = RECORDS + channels * size_of::<ChannelRecord>() / size_of::<u32>();
+        let tables = RECORDS + channels * ChannelRecord::WORDS;
         let rough_tables = tables + usize::from(header.sample_tables) * TABLE_WORDS;
         let floors = rough_tables + usize::from(header.rough_tables) * TABLE_WORDS;
-        let first = size_of::<u32>() * tables + offset_of!(TableRecord, first);
-        let first = bytes.get(first..).and_then(<[u8]>::first_chunk);
-        let limit = header.limit.get();
+        let record = bytes.get(size_of::<u32>() * tables..).and_then(words);
+        let limit = header.limit;
         let end = (bytes.len() / size_of::<u32>()).saturating_sub(1);
         let opinion = end.saturating_sub(header.opinion_words());
         // Where there is no table, there is none that says where its rows begin.
         let has_tables = floors > tables;
-        let first = first.map_or(0, |first| u32::from_le_bytes(*first) as usize);
+        let first = record.map_or(0, |record| TableRecord(&record).first() as usize);
         Self {
             classes,
             channels,
             row_words: row_words(classes),
-            block: header.block.get().into(),
-            touch: (limit != NO_LIMIT).then(|| TouchRule {
+            block: header.block.into(),
+            touch: (limit != NO_LIMIT).then_some(TouchRule {
                 limit,
-                gate: header.gate.get(),
-                gap: header.gap.get(),
+                gate: header.gate,
+                gap: header.gap,
             }),
             tables,
             rough_tables,
             floors,
-            names: floors
-                + if header.floors.get() & 1 == 0 {
-                    0
-                } else {
-                    classes
-                },
+            names: floors + if header.floors & 1 == 0 { 0 } else { classes },
             rows: if has_tables { first } else { opinion },
             opinion,
             end,
@@ -191,19 +187,13 @@ impl Layout {
     }
 }
 
-impl Header {
-    pub(crate) fn opinion_words(&self) -> usize {
-        (self.floors.get() >> 8) as usize
-    }
-}
-
 /// The opinion can be read, and a model without tables has one that names.
 fn check_opinion(bytes: &[u8], header: &Header) -> Result<(), ModelError> {
     if bytes.is_empty() {
         return Ok(());
     }
     let channels = usize::from(header.channels);
-    let is_touching = header.limit.get() != NO_LIMIT;
+    let is_touching = header.limit != NO_LIMIT;
     if channels != ROUGH_CHANNELS || !is_touching {
         return Err(ModelError::Opinion);
     }
@@ -222,31 +212,26 @@ fn check_opinion(bytes: &[u8], header: &Header) -> Result<(), ModelError> {
 impl ChannelRecord {
     pub(crate) fn quantiser(&self) -> Quantiser {
         Quantiser {
-            origin: self.origin.get(),
-            exponent: i32::from(self.exponent.get()),
-            low: self.low.get(),
-            high: self.high.get(),
+            origin: self.origin,
+            exponent: i32::from(self.exponent),
+            low: self.low,
+            high: self.high,
         }
     }
 }
 
-/// A record wherever it lies.
-fn record(bytes: &[u8; size_of::<TableRecord>()]) -> TableRecord {
-    transmute!(*bytes)
-}
-
-fn rows(record: &TableRecord) -> u64 {
-    let [a, b] = record.axis.map(|axis| u64::from(axis.last_bin) + 1);
+fn rows(record: TableRecord<'_>) -> u64 {
+    let [a, b] = record.axis().map(|axis| u64::from(axis.last_bin) + 1);
     a * b
 }
 
-fn header(bytes: &[u8]) -> Result<&Header, ModelError> {
+fn header(bytes: &[u8]) -> Result<Header, ModelError> {
     let (magic, _) = bytes.split_first_chunk::<4>().ok_or(ModelError::TooShort)?;
     if *magic != MAGIC {
         return Err(ModelError::BadMagic);
     }
-    let (header, _) = Header::ref_from_prefix(bytes).map_err(|_| ModelError::TooShort)?;
-    match header.version.get() {
+    let header = Header::of(words(bytes).ok_or(ModelError::TooShort)?);
+    match header.version {
         WITHOUT_OPINION..=VERSION => Ok(header),
         other => Err(ModelError::UnknownVersion(other)),
     }
@@ -254,7 +239,7 @@ fn header(bytes: &[u8]) -> Result<&Header, ModelError> {
 
 /// Whether a file is as long as its header says, and undamaged.
 fn whole(header: &Header, bytes: &[u8]) -> Result<(), ModelError> {
-    let length = header.length.get() as usize;
+    let length = header.length as usize;
     if bytes.len() < length {
         return Err(ModelError::TooShort);
     }
@@ -272,9 +257,9 @@ fn whole(header: &Header, bytes: &[u8]) -> Result<(), ModelError> {
 }
 
 fn check_touch_rule(header: &Header) -> Result<(), ModelError> {
-    let gate = header.gate.get();
-    let fits = if header.limit.get() == NO_LIMIT {
-        gate.to_bits() == 0 && header.gap.get() == 0
+    let gate = header.gate;
+    let fits = if header.limit == NO_LIMIT {
+        gate.to_bits() == 0 && header.gap == 0
     } else {
         (0.0..=1.0).contains(&gate)
     };
@@ -305,24 +290,31 @@ pub(crate) fn check_bins(bins: usize) -> Result<(), ModelError> {
     Ok(())
 }
 
-fn check_channels(records: &[ChannelRecord]) -> Result<(), ModelError> {
-    for (channel, record) in records.iter().enumerate() {
+fn check_channels(records: &[u8]) -> Result<(), ModelError> {
+    let (records, _) = records.as_chunks::<{ ChannelRecord::BYTES }>();
+    let records = records.iter().filter_map(|record| words(record));
+    for (channel, record) in records.map(ChannelRecord::of).enumerate() {
         record
             .quantiser()
             .check(1)
             .map_err(|reason| ModelError::Quantiser { channel, reason })?;
-        if channel > 0 && record.rate_hz.get() != 0 {
+        if channel > 0 && record.rate_hz != 0 {
             return Err(ModelError::Padding);
         }
     }
     Ok(())
 }
 
-fn check_table_record(record: &TableRecord, source: u8, channels: usize) -> Result<(), ModelError> {
-    if record.source != source || !(1..=2).contains(&record.axes) || record.reserved != 0 {
+fn check_table_record(
+    record: TableRecord<'_>,
+    source: u8,
+    channels: usize,
+) -> Result<(), ModelError> {
+    let axes = record.axes();
+    if record.source() != source || !(1..=2).contains(&axes) || record.reserved() != 0 {
         return Err(ModelError::Padding);
     }
-    for (n, axis) in record.axis.iter().enumerate() {
+    for (n, axis) in record.axis().iter().enumerate() {
         let channel = usize::from(axis.channel);
         let bins = usize::from(axis.last_bin) + 1;
         check_bins(bins)?;
@@ -338,7 +330,7 @@ fn check_table_record(record: &TableRecord, source: u8, channels: usize) -> Resu
         let binner = quantiser
             .binner(bins)
             .map_err(|reason| ModelError::Quantiser { channel, reason })?;
-        let is_unused = n >= usize::from(record.axes);
+        let is_unused = n >= usize::from(axes);
         if binner != axis.binner || is_unused && (bins, channel, axis.high) != (1, 0, 0) {
             return Err(ModelError::Padding);
         }
@@ -384,16 +376,17 @@ fn check_names(bytes: &[u8], classes: usize) -> Result<(), ModelError> {
 fn check_rows(
     mut bytes: &[u8],
     mut first: usize,
-    records: impl Iterator<Item = TableRecord>,
+    records: impl Iterator<Item = [u32; TABLE_WORDS]>,
     layout: &Layout,
 ) -> Result<(), ModelError> {
     let mut most = 0;
     for record in records {
-        if record.first as usize != first {
+        let record = TableRecord(&record);
+        if record.first() as usize != first {
             return Err(ModelError::Length);
         }
         // The length of all was checked.
-        let size = rows(&record) as usize * layout.row_words;
+        let size = rows(record) as usize * layout.row_words;
         let (entries, rest) = bytes.split_at_checked(4 * size).ok_or(ModelError::Length)?;
         most += u64::from(largest_entry(entries, layout.classes)?);
         (bytes, first) = (rest, first + size);

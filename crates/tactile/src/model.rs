@@ -5,12 +5,8 @@
 //! for the file. A model linked into a program comes by
 //! [`crate::include_model`], which also sees to its alignment.
 
-use zerocopy::{FromBytes, IntoBytes, transmute_ref};
-
 use crate::error::ModelError;
-use crate::format::{
-    AxisRecord, ChannelRecord, ENTRIES_PER_BIT, ENTRY_OFFSET_BITS, TABLE_WORDS, TableRecord,
-};
+use crate::format::{AxisRecord, ChannelRecord, ENTRIES_PER_BIT, ENTRY_OFFSET_BITS, TableRecord};
 use crate::layout::{Layout, RECORDS, TouchRule, names};
 use crate::opinion::{Section, Whisked};
 use crate::quantiser::Quantiser;
@@ -84,7 +80,7 @@ impl<'a> Model<&'a [u32]> {
     }
 
     fn placed(bytes: &'a [u8], layout: Layout) -> Result<Self, ModelError> {
-        let words = <[u32]>::ref_from_bytes(bytes).map_err(|_| ModelError::Misaligned)?;
+        let words = bytemuck::try_cast_slice(bytes).map_err(|_| ModelError::Misaligned)?;
         Ok(Self { words, layout })
     }
 }
@@ -96,7 +92,7 @@ impl<W: Words> Model<W> {
     ///
     /// As [`Model::parse`].
     pub fn from_words(words: W) -> Result<Self, ModelError> {
-        let layout = Layout::check(words.as_ref().as_bytes())?;
+        let layout = Layout::check(bytes(words.as_ref()))?;
         Ok(Self { words, layout })
     }
 
@@ -110,7 +106,7 @@ impl<W: Words> Model<W> {
 
     /// The bytes as they stand in a file.
     pub fn as_bytes(&self) -> &[u8] {
-        self.words.as_ref().as_bytes()
+        bytes(self.words.as_ref())
     }
 
     /// The checksum at the end of the file: it tells one model from another.
@@ -189,19 +185,18 @@ impl<W: Words> Model<W> {
 
     /// The scale of a channel's codes, and its range in training.
     pub fn quantiser(&self, channel: usize) -> Option<Quantiser> {
-        self.channel(channel).map(ChannelRecord::quantiser)
+        Some(self.channel(channel)?.quantiser())
     }
 
     /// The samples a second of training, where they are known.
     pub fn rate_hz(&self) -> Option<u32> {
-        let rate_hz = self.channel(0)?.rate_hz.get();
+        let rate_hz = self.channel(0)?.rate_hz;
         (rate_hz > 0).then_some(rate_hz.into())
     }
 
-    fn channel(&self, channel: usize) -> Option<&ChannelRecord> {
-        let records = self.part(RECORDS, self.layout.tables).as_bytes();
-        let records = <[ChannelRecord]>::ref_from_bytes(records).ok()?;
-        records.get(channel)
+    fn channel(&self, channel: usize) -> Option<ChannelRecord> {
+        let (records, _) = self.part(RECORDS, self.layout.tables).as_chunks();
+        records.get(channel).copied().map(ChannelRecord::of)
     }
 
     /// The floors of a class, if there are any.
@@ -220,7 +215,7 @@ impl<W: Words> Model<W> {
 
     /// The names of the classes, in order.
     pub fn names(&self) -> impl Iterator<Item = &str> {
-        names(self.part(self.layout.names, self.layout.rows).as_bytes())
+        names(bytes(self.part(self.layout.names, self.layout.rows)))
             .take(self.layout.classes)
             .map(|name| core::str::from_utf8(name).unwrap_or(""))
     }
@@ -232,7 +227,8 @@ impl<W: Words> Model<W> {
 
     /// Bins of the table of one channel's samples alone, if there is one.
     pub fn bins(&self, channel: usize) -> Option<usize> {
-        Some(usize::from(self.of_channel(channel)?.axis[0].last_bin) + 1)
+        let [axis, _] = self.of_channel(channel)?.axis();
+        Some(usize::from(axis.last_bin) + 1)
     }
 
     /// In that table, log2 of the smoothed probability of a bin, −19.93 to 0, to
@@ -247,8 +243,11 @@ impl<W: Words> Model<W> {
         Some(f32::from(entry) / ENTRIES_PER_BIT as f32 - ENTRY_OFFSET_BITS as f32)
     }
 
-    fn of_channel(&self, channel: usize) -> Option<&TableRecord> {
-        let of_it = |r: &&TableRecord| r.axes == 1 && usize::from(r.axis[0].channel) == channel;
+    fn of_channel(&self, channel: usize) -> Option<TableRecord<'_>> {
+        let of_it = |table: &TableRecord<'_>| {
+            let [axis, _] = table.axis();
+            table.axes() == 1 && usize::from(axis.channel) == channel
+        };
         self.parts().sample_tables().find(of_it)
     }
 
@@ -294,12 +293,12 @@ impl<'m> Parts<'m> {
     }
 
     #[inline]
-    pub(crate) fn sample_tables(self) -> impl Iterator<Item = &'m TableRecord> {
+    pub(crate) fn sample_tables(self) -> impl Iterator<Item = TableRecord<'m>> {
         self.tables(self.layout.tables, self.layout.rough_tables)
     }
 
     #[inline]
-    pub(crate) fn rough_tables(self) -> impl Iterator<Item = &'m TableRecord> {
+    pub(crate) fn rough_tables(self) -> impl Iterator<Item = TableRecord<'m>> {
         self.tables(self.layout.rough_tables, self.layout.floors)
     }
 
@@ -310,21 +309,21 @@ impl<'m> Parts<'m> {
     }
 
     #[inline]
-    fn tables(self, first: usize, end: usize) -> impl Iterator<Item = &'m TableRecord> {
+    fn tables(self, first: usize, end: usize) -> impl Iterator<Item = TableRecord<'m>> {
         let mut records = self.part(first, end);
         core::iter::from_fn(move || {
-            let (record, rest) = records.split_first_chunk::<TABLE_WORDS>()?;
+            let (record, rest) = records.split_first_chunk()?;
             records = rest;
-            Some(transmute_ref!(record))
+            Some(TableRecord(record))
         })
     }
 
     /// The row of a table that says of each class what a cell says of it: table entries,
     /// two classes a word, the even one in its lower half. `None` outside the model.
     #[inline]
-    pub(crate) fn row(self, table: &TableRecord, cell: usize) -> Option<&'m [u32]> {
+    pub(crate) fn row(self, table: TableRecord<'_>, cell: usize) -> Option<&'m [u32]> {
         let row_words = self.layout.row_words;
-        let first = table.first as usize + cell * row_words;
+        let first = table.first() as usize + cell * row_words;
         self.words.get(first..)?.get(..row_words)
     }
 
@@ -334,12 +333,17 @@ impl<'m> Parts<'m> {
     }
 }
 
-impl TableRecord {
+/// Of words as they lie in memory: models are little-endian, as all targets are.
+fn bytes(words: &[u32]) -> &[u8] {
+    bytemuck::try_cast_slice(words).unwrap_or_default()
+}
+
+impl TableRecord<'_> {
     #[inline]
-    pub(crate) fn cell(&self, code: impl Fn(usize) -> Option<i32>) -> Option<usize> {
-        let [a, b] = &self.axis;
+    pub(crate) fn cell(self, code: impl Fn(usize) -> Option<i32>) -> Option<usize> {
+        let [a, b] = self.axis();
         let first = a.bin(code(usize::from(a.channel))?);
-        if self.axes == 1 {
+        if self.axes() == 1 {
             return Some(first);
         }
         let second = b.bin(code(usize::from(b.channel))?);

@@ -1,16 +1,14 @@
 //! A model that owns its bytes: made by training, or read from a file on a PC.
 
-use core::mem::offset_of;
 use std::boxed::Box;
 use std::string::String;
 use std::vec::Vec;
 
-use zerocopy::{FromBytes, IntoBytes};
-
 use crate::error::ModelError;
 use crate::format::{
     AxisRecord, CRC_BYTES, ChannelRecord, Header, MAGIC, MAX_NAME_BYTES, MAX_TABLES, NO_LIMIT,
-    OF_ROUGHNESS, OF_SAMPLES, TableRecord, VERSION, WITHOUT_OPINION, checksum, row_words,
+    OF_ROUGHNESS, OF_SAMPLES, TABLE_WORDS, TableRecord, VERSION, WITHOUT_OPINION, checksum,
+    row_words, words,
 };
 use crate::layout::{Layout, TouchRule, check_bins, check_counts};
 use crate::model::{Floors, Model};
@@ -70,7 +68,7 @@ pub struct Axis {
 }
 
 impl Axis {
-    fn record(&self) -> Result<AxisRecord, ModelError> {
+    fn record(&self) -> Result<[u32; AxisRecord::WORDS], ModelError> {
         let Self { channel, bins, .. } = *self;
         check_bins(bins)?;
         let quantiser = Quantiser {
@@ -80,14 +78,17 @@ impl Axis {
             high: self.high,
         };
         let binner = quantiser.binner(bins);
-        Ok(AxisRecord {
-            channel: u8::try_from(channel).map_err(|_| ModelError::Channels(channel))?,
-            reserved: 0,
-            // Checked: at most 4095.
-            last_bin: (bins - 1) as u16,
-            high: self.high,
-            binner: binner.map_err(|reason| ModelError::Quantiser { channel, reason })?,
-        })
+        let binner = binner.map_err(|reason| ModelError::Quantiser { channel, reason })?;
+        let channel = u8::try_from(channel).map_err(|_| ModelError::Channels(channel))?;
+        // Checked: at most 4095.
+        let last_bin = (bins - 1) as u32;
+        let [low, high] = [self.low, self.high].map(i32::cast_unsigned);
+        Ok([
+            u32::from(channel) | last_bin << 16,
+            high,
+            low,
+            binner.slope(),
+        ])
     }
 }
 
@@ -102,30 +103,54 @@ impl<'p> TableParts<'p> {
     }
 
     /// Its record, whose rows begin at word `first`.
-    fn record(&self, first: usize) -> Result<TableRecord, ModelError> {
-        let mut axis = [AxisRecord::default(); 2];
-        if !(1..=axis.len()).contains(&self.axes.len()) {
-            return Err(ModelError::Length);
-        }
-        for (record, axis) in axis.iter_mut().zip(self.axes) {
-            *record = axis.record()?;
-        }
-        Ok(TableRecord {
-            source: match self.source {
-                TableSource::Samples => OF_SAMPLES,
-                TableSource::Roughness => OF_ROUGHNESS,
-            },
-            // At most two.
-            axes: self.axes.len() as u8,
-            reserved: 0,
-            first: u32::try_from(first).map_err(|_| ModelError::Length)?,
-            axis,
-        })
+    fn record(&self, first: usize) -> Result<[u32; TABLE_WORDS], ModelError> {
+        let source = match self.source {
+            TableSource::Samples => OF_SAMPLES,
+            TableSource::Roughness => OF_ROUGHNESS,
+        };
+        let (axes, [a, b, c, d], [e, f, g, h]) = match self.axes {
+            [one] => (1, one.record()?, [0; 4]),
+            [one, other] => (2, one.record()?, other.record()?),
+            _ => return Err(ModelError::Length),
+        };
+        let first = u32::try_from(first).map_err(|_| ModelError::Length)?;
+        Ok([u32::from(source) | axes << 8, first, a, b, c, d, e, f, g, h])
     }
 
     fn cells(&self) -> usize {
         self.axes.iter().map(|axis| axis.bins).product()
     }
+}
+
+impl Header {
+    const fn words(&self) -> [u32; Self::WORDS] {
+        let [a, b] = self.version.to_le_bytes();
+        let [c, d] = self.block.to_le_bytes();
+        [
+            u32::from_le_bytes(MAGIC),
+            u32::from_le_bytes([a, b, self.classes, self.channels]),
+            u32::from_le_bytes([self.sample_tables, self.rough_tables, c, d]),
+            self.length,
+            self.limit,
+            self.gate.to_bits(),
+            self.gap,
+            self.floors,
+        ]
+    }
+}
+
+impl ChannelRecord {
+    fn words(&self) -> [u32; Self::WORDS] {
+        let origin = self.origin.to_bits();
+        let [low, high] = [self.low, self.high].map(i32::cast_unsigned);
+        let exponent = u32::from(self.exponent.cast_unsigned());
+        let last = exponent | u32::from(self.rate_hz) << 16;
+        [origin as u32, (origin >> 32) as u32, low, high, last]
+    }
+}
+
+fn bytes(words: impl IntoIterator<Item = u32>) -> impl Iterator<Item = u8> {
+    words.into_iter().flat_map(u32::to_le_bytes)
 }
 
 /// A model that owns its words.
@@ -147,19 +172,19 @@ impl ModelBuf {
             return Err(ModelError::Tables(parts.tables.len()));
         }
 
-        let mut body = Vec::new();
+        let mut body: Vec<u8> = Vec::new();
         for (channel, q) in parts.channels.iter().enumerate() {
             q.check(1)
                 .map_err(|reason| ModelError::Quantiser { channel, reason })?;
             let record = ChannelRecord {
-                origin: q.origin.into(),
-                low: q.low.into(),
-                high: q.high.into(),
+                origin: q.origin,
+                low: q.low,
+                high: q.high,
                 // Checked: at most 1000 either way.
-                exponent: (q.exponent as i16).into(),
-                rate_hz: 0.into(),
+                exponent: q.exponent as i16,
+                rate_hz: 0,
             };
-            body.extend_from_slice(record.as_bytes());
+            body.extend(bytes(record.words()));
         }
         let mut tail = Vec::new();
         if let Some(floors) = parts.floors {
@@ -178,10 +203,10 @@ impl ModelBuf {
         }
         tail.resize(tail.len().next_multiple_of(4), 0);
 
-        let before_rows = body.len() + parts.tables.len() * size_of::<TableRecord>() + tail.len();
-        let mut first = (size_of::<Header>() + before_rows) / size_of::<u32>();
+        let before_rows = body.len() + parts.tables.len() * TableRecord::BYTES + tail.len();
+        let mut first = (Header::BYTES + before_rows) / size_of::<u32>();
         for table in parts.tables {
-            body.extend_from_slice(table.record(first)?.as_bytes());
+            body.extend(bytes(table.record(first)?));
             if table.entries.len() != table.cells() * classes {
                 return Err(ModelError::Length);
             }
@@ -199,32 +224,27 @@ impl ModelBuf {
             body.resize(end, 0);
         }
         body.extend(parts.opinion.iter().flat_map(|word| word.to_le_bytes()));
-        let length = size_of::<Header>() + body.len() + CRC_BYTES;
+        let length = Header::BYTES + body.len() + CRC_BYTES;
         let touch = parts.touch;
         // Counts are checked: the fields fit.
         let header = Header {
-            magic: MAGIC,
             version: if parts.opinion.is_empty() {
-                WITHOUT_OPINION.into()
+                WITHOUT_OPINION
             } else {
-                VERSION.into()
+                VERSION
             },
             classes: classes as u8,
             channels: channels as u8,
             sample_tables: (parts.tables.len() - rough_tables) as u8,
             rough_tables: rough_tables as u8,
-            block: (parts.block as u16).into(),
-            length: u32::try_from(length)
-                .map_err(|_| ModelError::Length)?
-                .into(),
-            limit: touch.map_or(NO_LIMIT, |touch| touch.limit).into(),
-            gate: touch.map_or(0.0, |touch| touch.gate).into(),
-            gap: touch.map_or(0, |touch| touch.gap).into(),
-            floors: (u32::from(parts.floors.is_some()) | (parts.opinion.len() as u32) << 8).into(),
+            block: parts.block as u16,
+            length: u32::try_from(length).map_err(|_| ModelError::Length)?,
+            limit: touch.map_or(NO_LIMIT, |touch| touch.limit),
+            gate: touch.map_or(0.0, |touch| touch.gate),
+            gap: touch.map_or(0, |touch| touch.gap),
+            floors: u32::from(parts.floors.is_some()) | (parts.opinion.len() as u32) << 8,
         };
-        let mut bytes = header.as_bytes().to_vec();
-        bytes.append(&mut body);
-        Self::summed(bytes)
+        Self::summed(bytes(header.words()).chain(body).collect())
     }
 
     /// From all bytes but the sum over them.
@@ -241,33 +261,39 @@ impl ModelBuf {
     ///
     /// None: a model stays one.
     pub fn at_rate(&self, rate_hz: u32) -> Result<Self, ModelError> {
-        let mut bytes = self.as_bytes().to_vec();
-        let rate_hz = u16::try_from(rate_hz).unwrap_or(0).to_le_bytes();
-        let at = size_of::<Header>() + offset_of!(ChannelRecord, rate_hz);
-        let sum_at = bytes.len().saturating_sub(CRC_BYTES);
-        if let Some(place) = bytes.get_mut(at..at + rate_hz.len()) {
-            place.copy_from_slice(&rate_hz);
+        let mut all = self.as_bytes().to_vec();
+        all.truncate(all.len().saturating_sub(CRC_BYTES));
+        let place = Header::BYTES..Header::BYTES + ChannelRecord::BYTES;
+        if let Some(first) = all.get_mut(place)
+            && let Some(record) = words(first).map(ChannelRecord::of)
+        {
+            let rate_hz = u16::try_from(rate_hz).unwrap_or(0);
+            let record = ChannelRecord { rate_hz, ..record };
+            for (byte, new) in first.iter_mut().zip(bytes(record.words())) {
+                *byte = new;
+            }
         }
-        bytes.truncate(sum_at);
-        Self::summed(bytes)
+        Self::summed(all)
     }
 
     /// The same model without its second opinion: as training makes it where nothing is expected
     /// to differ ([`Expect::Same`](crate::train::Expect::Same)). `None` where it has none, or
     /// names by that alone.
     pub fn without_opinion(&self) -> Option<Self> {
-        let mut bytes = self.as_bytes().to_vec();
-        let (header, _) = Header::mut_from_prefix(&mut bytes).ok()?;
-        let words = header.opinion_words();
-        if words == 0 || header.sample_tables == 0 {
+        let (first, rest) = self.as_bytes().split_at_checked(Header::BYTES)?;
+        let header = Header::of(words(first)?);
+        let opinion = header.opinion_words();
+        if opinion == 0 || header.sample_tables == 0 {
             return None;
         }
-        let length = header.length.get() - 4 * words as u32;
-        header.length = length.into();
-        header.floors = (header.floors.get() & 1).into();
-        header.version = WITHOUT_OPINION.into();
-        bytes.truncate(length as usize - CRC_BYTES);
-        Self::summed(bytes).ok()
+        let header = Header {
+            version: WITHOUT_OPINION,
+            length: header.length - 4 * opinion as u32,
+            floors: header.floors & 1,
+            ..header
+        };
+        let body = rest.get(..header.length as usize - Header::BYTES - CRC_BYTES)?;
+        Self::summed(bytes(header.words()).chain(body.iter().copied()).collect()).ok()
     }
 
     /// Copies and checks the content of a model file, however it is aligned.

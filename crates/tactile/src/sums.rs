@@ -99,7 +99,7 @@ impl Sums {
 #[inline]
 fn add(
     model: Parts<'_>,
-    table: &TableRecord,
+    table: TableRecord<'_>,
     (codes, first): (&[i32], usize),
     sums: &mut [u32; MAX_CLASSES],
 ) -> Option<()> {

@@ -13,8 +13,6 @@
 //! | per class | per state: 10 means i16, 1/256; shift; 55 of a triangle i16, and a zero; then 8 limits u32 |
 //! | per class | 9 × inverse deviation of x and y u16, 2⁻¹⁶; P × 9 × x and y i16; limit u32 |
 
-use zerocopy::{FromBytes, IntoBytes};
-
 use super::{BLOCKS, FEATURES, STAGES, STATES, Whisked, pose};
 use crate::error::ModelError;
 
@@ -227,5 +225,5 @@ impl<'m> Section<'m> {
 /// The two halves of words, the lower one first: models are little-endian, as all targets are.
 #[inline]
 pub(crate) fn halves(words: &[u32]) -> &[i16] {
-    <[i16]>::ref_from_bytes(words.as_bytes()).unwrap_or_default()
+    bytemuck::try_cast_slice(words).unwrap_or_default()
 }

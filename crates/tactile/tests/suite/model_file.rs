@@ -151,7 +151,7 @@ fn a_wrong_content_that_was_not_checked_is_harmless() {
             .iter()
             .map(|word| u32::from_le_bytes(*word))
             .collect();
-        let model = Model::linked(zerocopy::IntoBytes::as_bytes(&words[..])).unwrap();
+        let model = Model::linked(bytemuck::cast_slice(&words)).unwrap();
         let codes = vec![500; model.channels()];
         let threshold = Threshold::new(0.9).unwrap();
         let mut classifier = Sequential::new(model, threshold).unwrap();

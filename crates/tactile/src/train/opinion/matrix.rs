@@ -3,7 +3,7 @@
 use std::vec;
 use std::vec::Vec;
 
-/// A square matrix, row after row.
+/// A square matrix, row after row; of a symmetric one only what lies on the diagonal and below.
 #[derive(Debug, Clone)]
 pub(super) struct Matrix {
     size: usize,
@@ -20,8 +20,8 @@ impl Matrix {
 
     pub(super) fn add_square(&mut self, vector: &[f64], share: f64) {
         let rows = self.values.chunks_exact_mut(self.size);
-        for (row, a) in rows.zip(vector) {
-            for (value, b) in row.iter_mut().zip(vector) {
+        for (n, (row, a)) in rows.zip(vector).enumerate() {
+            for (value, b) in row.iter_mut().zip(&vector[..=n]) {
                 *value += share * a * b;
             }
         }
@@ -165,9 +165,9 @@ mod tests {
         }
         let vector = [0.7, -0.2, 1.1];
         let solved = matrix.whitening().twice(&vector);
-        let rows = matrix.values.chunks_exact(3);
-        for (row, expected) in rows.zip(vector) {
-            let found: f64 = row.iter().zip(&solved).map(|(a, b)| a * b).sum();
+        for (row, expected) in vector.into_iter().enumerate() {
+            let at = |column: usize| matrix.values[3 * row.max(column) + row.min(column)];
+            let found: f64 = (0..3).map(|column| at(column) * solved[column]).sum();
             assert_relative_eq!(found, expected, epsilon = 1e-12);
         }
     }
