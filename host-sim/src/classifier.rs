@@ -6,7 +6,7 @@ use config::rule_settings;
 use firmware::{CodeClassifier, ModelLimits, ModelState, Refusal, Sample, SampleClassifier};
 use scene::{Deciding, Rule, Scene};
 use tactile::{
-    AnyRule, Behind, ClassList, ClassSettings, Decision, MAX_STREAMS, Model, ModelBuf, NaiveBayes,
+    AnyRule, ClassList, ClassSettings, Decision, Felt, MAX_STREAMS, Model, ModelBuf, NaiveBayes,
     Pose, Posteriors, Quantiser, RuleSettings, Threshold, TouchRule,
 };
 
@@ -158,12 +158,12 @@ impl SampleClassifier for Classifier {
         self.codes.classes()
     }
 
-    fn evidence(&self) -> Option<Behind> {
+    fn evidence(&self) -> Option<Felt> {
         self.codes.evidence()
     }
 
-    fn hear(&mut self, board: usize, behind: Option<&Behind>) -> Option<Decision> {
-        self.codes.hear(board, behind)
+    fn hear(&mut self, board: usize, felt: Option<&Felt>) -> Option<Decision> {
+        self.codes.hear(board, felt)
     }
 
     fn set_led(&mut self, is_led: bool) {
@@ -259,12 +259,12 @@ impl SampleClassifier for Tap {
             .map_or(0, SampleClassifier::classes)
     }
 
-    fn evidence(&self) -> Option<Behind> {
+    fn evidence(&self) -> Option<Felt> {
         self.classifier.as_ref()?.evidence()
     }
 
-    fn hear(&mut self, board: usize, behind: Option<&Behind>) -> Option<Decision> {
-        self.classifier.as_mut()?.hear(board, behind)
+    fn hear(&mut self, board: usize, felt: Option<&Felt>) -> Option<Decision> {
+        self.classifier.as_mut()?.hear(board, felt)
     }
 
     fn set_led(&mut self, is_led: bool) {

@@ -284,6 +284,17 @@ pub(crate) fn compare_large_head(board: Board) -> Result<(), Fault> {
     emulate(&Emulated::linked(board), &scene, &["head --duration 2"])
 }
 
+/// Two that decide together.
+pub(crate) fn compare_deciding_head(board: Board) -> Result<(), Fault> {
+    let keys = [
+        "head.nodes=2",
+        "head.whiskers_per_side=2",
+        "classifier.whiskers=together",
+    ];
+    let scene = variants::with(&top().join(WORLD), &keys.map(str::to_owned))?;
+    emulate(&Emulated::linked(board), &scene, &["head --duration 10"])
+}
+
 /// [`FULL`] with priors, and besides without self-motion in its contact: what not every board has
 /// room for. Writes them and returns their paths.
 pub(crate) fn full_with_options() -> Result<[PathBuf; 2], Fault> {

@@ -96,6 +96,7 @@ fn boards() -> Result<(), Fault> {
             let both = emulate::noisiest()?;
             emulate::emulate(&linked, &both, &["compare"])?;
             emulate::compare_large_head(board)?;
+            emulate::compare_deciding_head(board)?;
             scenes.push(both);
         }
         for scene in &scenes {

@@ -11,7 +11,7 @@
 //! | 5 | arm | stamp |
 //! | 6 | contact | stamp, flags, left, right (two bytes each, Q15) |
 //! | 7 | decision | stamp, class, posterior (Q15, two bytes), samples (four bytes) |
-//! | 8 | evidence | stamp, leader and part, three deficits (two bytes each) |
+//! | 8 | evidence | stamp, leader and part; in six bytes three deficits (12 bits each) and two excesses (6 bits each) |
 
 use crate::{Frame, MAX_NODES};
 
@@ -39,8 +39,10 @@ pub struct Evidence {
     pub leader: u8,
     /// Which classes the deficits are of: from the `part` · 3-th on, the leader left out.
     pub part: u8,
-    /// By how much each lies behind the leader, 2⁻¹⁰ bits.
+    /// By how much each lies behind the leader, 2⁻⁶ bits; 12 bits.
     pub deficits: [u16; OTHERS],
+    /// By how much the leader exceeds its floors, of samples and of roughness, bits; −32 to 31.
+    pub excess: [i8; 2],
 }
 
 /// What a node says to all others.
@@ -98,6 +100,23 @@ const UNKNOWN: u8 = 0xff;
 /// |ψ| ≤ 1.5, and as much again for noise.
 const MOST_PSI: i32 = 2 * Q22_ONE - 1;
 
+/// Bits of a deficit, and of an excess.
+const DEFICIT: usize = 12;
+const EXCESS: usize = 6;
+
+/// Numbers of so many bits each, the first in the lowest.
+fn packed<const N: usize>(numbers: [u64; N], bits: usize) -> u64 {
+    let least = |number: u64| number & ((1 << bits) - 1);
+    numbers
+        .iter()
+        .rev()
+        .fold(0, |all, number| all << bits | least(*number))
+}
+
+fn unpacked<const N: usize>(all: u64, bits: usize) -> [u64; N] {
+    core::array::from_fn(|n| all >> (n * bits) & ((1 << bits) - 1))
+}
+
 fn q22([a, b, c]: [u8; 3]) -> i32 {
     i32::from_le_bytes([0, a, b, c]) >> 8
 }
@@ -141,8 +160,12 @@ impl Message {
                 leader,
                 part,
                 deficits,
+                excess,
             }) => {
-                let [[a, b], [c, d], [e, f]] = deficits.map(u16::to_le_bytes);
+                let deficits = packed(deficits.map(u64::from), DEFICIT);
+                let excess = packed(excess.map(|bits| i64::from(bits).cast_unsigned()), EXCESS);
+                let all = deficits | excess << (OTHERS * DEFICIT);
+                let [a, b, c, d, e, f, ..] = all.to_le_bytes();
                 let first = leader & 15 | part << 4;
                 frame(EVIDENCE, &[stamp, first, a, b, c, d, e, f])
             }
@@ -188,10 +211,14 @@ impl Message {
                 (stamp, decision)
             }
             (EVIDENCE, &[stamp, first, a, b, c, d, e, f]) => {
+                let all = u64::from_le_bytes([a, b, c, d, e, f, 0, 0]);
+                let of_excess = unpacked(all >> (OTHERS * DEFICIT), EXCESS);
                 let evidence = Evidence {
                     leader: first & 15,
                     part: first >> 4,
-                    deficits: [[a, b], [c, d], [e, f]].map(u16::from_le_bytes),
+                    deficits: unpacked(all, DEFICIT).map(|number| number as u16),
+                    // Of six bits the highest is the sign.
+                    excess: of_excess.map(|number| (number << 2) as i8 >> 2),
                 };
                 (stamp, Self::Evidence(evidence))
             }
@@ -205,6 +232,7 @@ impl Message {
 mod tests {
     use super::{Contact, Evidence, MOST_PSI, Message, NotAMessage};
     use crate::{Frame, MAX_NODES};
+    use proptest::array::{uniform2, uniform3};
     use proptest::prelude::*;
 
     fn any_message() -> impl Strategy<Value = Message> {
@@ -229,13 +257,20 @@ mod tests {
                     samples
                 }
             ),
-            (0_u8..16, 0_u8..16, any::<[u16; 3]>()).prop_map(|(leader, part, deficits)| {
-                Message::Evidence(Evidence {
-                    leader,
-                    part,
-                    deficits,
-                })
-            }),
+            (
+                0_u8..16,
+                0_u8..16,
+                uniform3(0_u16..4096),
+                uniform2(-32_i8..32)
+            )
+                .prop_map(|(leader, part, deficits, excess)| Message::Evidence(
+                    Evidence {
+                        leader,
+                        part,
+                        deficits,
+                        excess,
+                    }
+                )),
         ]
     }
 

@@ -7,8 +7,9 @@ use crate::any_rule::{AnyEvidence, AnyRule, RuleSettings};
 use crate::class_setting::ClassSettings;
 use crate::constants::Constants;
 use crate::decision::Decision;
-use crate::elsewhere::{Behind, Elsewhere};
+use crate::elsewhere::{Elsewhere, Felt};
 use crate::error::SetupError;
+use crate::evidence::leader;
 use crate::format::MAX_STREAMS;
 use crate::model::Model;
 use crate::naive_bayes::{Posteriors, posteriors};
@@ -30,7 +31,8 @@ pub enum Deciding {
     ///
     /// After each block of a whisker the posterior of the sum is compared with the
     /// threshold. A decision is for none of the classes if the whiskers that had a part in
-    /// it lie together below a floor of its class, each since the onset of its touch. It
+    /// it lie together below a floor of its class (those of another board of a head: of the class
+    /// that is likeliest to them), each since the onset of its touch. It
     /// bears the number of the touch whose block made it fall, and the samples of all;
     /// after it every whisker starts again from the prior. Windows cannot be added: each
     /// counts the samples of one whisker.
@@ -237,27 +239,42 @@ impl<W: Words> StreamClassifier<W> {
 
     /// What its whiskers together have felt since the last decision; none: nothing, or each
     /// decides by itself.
-    pub fn evidence(&self) -> Option<Behind> {
+    pub fn evidence(&self) -> Option<Felt> {
         let Constants { model, rule } = &self.constants;
         let AnyRule::Sequential(of_sum) = rule else {
             return None;
         };
+        let mut begun = self.streams.iter().filter(|one| one.evidence.is_begun());
+        if !self.is_sum() || begun.next().is_none() {
+            return None;
+        }
         let all = self.streams.iter();
-        let is_begun = all.clone().any(|one| one.evidence.is_begun());
         let all = all.filter_map(|one| one.evidence.sequential());
-        (self.is_sum() && is_begun)
-            .then(|| of_sum.sum(model.classes(), all).a_sample(model.block()))
+        let sum = of_sum.sum(model.classes(), all);
+        let leader = leader(&sum.deficits());
+        Some(Felt::of(&sum, self.excess(leader), model.block()))
     }
 
     /// What the whiskers of another board have felt by now; none: it does not live. A decision
     /// may fall by it.
-    pub fn hear(&mut self, board: usize, behind: Option<&Behind>) -> Option<Decision> {
+    pub fn hear(&mut self, board: usize, felt: Option<&Felt>) -> Option<Decision> {
         let block = self.constants.model.block();
-        self.elsewhere.hear(board, behind, block);
-        if behind.is_none() || !self.is_sum() || self.elsewhere.is_led() {
+        self.elsewhere.hear(board, felt, block);
+        if felt.is_none() || !self.is_sum() || self.elsewhere.is_led() {
             return None;
         }
         self.decide_by_sum(None)
+    }
+
+    /// By how much a class exceeds its floors, by the whiskers that have a part in what is felt.
+    fn excess(&self, class: usize) -> [i32; 2] {
+        let mut excess = [0_i32; 2];
+        for stream in self.streams.iter().filter(|one| one.evidence.is_begun()) {
+            for (sum, own) in excess.iter_mut().zip(stream.excess(class)) {
+                *sum = sum.saturating_add(own);
+            }
+        }
+        excess
     }
 
     /// The whiskers of the head together have decided: what led there is forgotten.
@@ -329,13 +346,13 @@ impl<W: Words> StreamClassifier<W> {
 
         let leader = decision.leader();
         let objection = stream.and_then(|one| one.objection(section, model.classes(), leader));
-        let mut excess = [0_i32; 2];
+        let mut excess = self.excess(leader);
+        let elsewhere = self.elsewhere.excess(model.block());
+        for (sum, more) in excess.iter_mut().zip(elsewhere) {
+            *sum = sum.saturating_add(more);
+        }
         for stream in &mut self.streams {
             if stream.evidence.is_begun() {
-                let own = stream.excess(leader);
-                for (sum, own) in excess.iter_mut().zip(own) {
-                    *sum = sum.saturating_add(own);
-                }
                 stream.evidence = rule.start();
                 stream.spend();
             }

@@ -112,7 +112,7 @@ pub use class_setting::{ClassList, ClassSetting, ClassSettings, MOST_THRESHOLD};
 pub use classifier::{Deciding, StreamClassifier};
 pub use constants::Constants;
 pub use decision::{Decision, Posterior, Reason};
-pub use elsewhere::Behind;
+pub use elsewhere::Felt;
 pub use error::{ModelError, QuantiserError, SetupError};
 pub use evidence::EvidenceScale;
 pub use format::{

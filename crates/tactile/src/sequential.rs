@@ -154,11 +154,8 @@ impl SequentialEvidence {
         self.blocks
     }
 
-    /// By how much each class lies behind, a sample of a block of so many.
-    pub(crate) fn a_sample(&self, block: u32) -> [u16; MAX_CLASSES] {
-        let share = |deficit: u32| deficit.checked_div(block).unwrap_or(0);
+    pub(crate) const fn deficits(&self) -> [u32; MAX_CLASSES] {
         self.deficits
-            .map(|deficit| u16::try_from(share(deficit)).unwrap_or(u16::MAX))
     }
 }
 

@@ -1,7 +1,7 @@
 //! Deciding together: one board of a head adds up what the whiskers of all have felt.
 
 use can::{Evidence, MAX_NODES, Message, OTHERS};
-use tactile::{Behind, Decision};
+use tactile::{Decision, Felt};
 
 use super::Times;
 use crate::perception::SampleClassifier;
@@ -11,8 +11,8 @@ use crate::perception::SampleClassifier;
 pub(super) struct Deciding {
     times: Times,
     /// Parts that have come, of each board.
-    heard: [Behind; MAX_NODES],
-    said: Option<Behind>,
+    heard: [Felt; MAX_NODES],
+    said: Option<Felt>,
     since_said: u16,
     /// Evidence from before this tick led to the last decision.
     begins: u32,
@@ -28,7 +28,7 @@ impl Deciding {
     pub(super) const fn new(times: Times) -> Self {
         Self {
             times,
-            heard: [[0; _]; MAX_NODES],
+            heard: [Felt::NOTHING; MAX_NODES],
             said: None,
             since_said: 0,
             begins: 0,
@@ -52,12 +52,15 @@ impl Deciding {
             leader,
             part,
             deficits,
+            excess,
         } = evidence;
+        heard.excess = excess;
         *heard
+            .behind
             .get_mut(usize::from(leader))
             .filter(|_| usize::from(leader) < classes)? = 0;
         for (class, deficit) in others(leader, part, classes).zip(deficits) {
-            *heard.get_mut(class)? = deficit;
+            *heard.behind.get_mut(class)? = deficit;
         }
         let is_last = others(leader, part + 1, classes).next().is_none();
         let heard = *heard;
@@ -83,7 +86,7 @@ impl Deciding {
         if self.since_said < self.times.contact || now == self.said {
             return;
         }
-        let Some(behind) = now else {
+        let Some(Felt { behind, excess }) = now else {
             return;
         };
         self.since_said = 0;
@@ -103,6 +106,7 @@ impl Deciding {
                 leader,
                 part,
                 deficits,
+                excess,
             }));
         }
     }

@@ -2,7 +2,7 @@
 
 use heapless::Vec;
 use serde::{Deserialize, Serialize};
-use tactile::{Behind, Deciding, Decision, Pose, RuleSettings, TouchDetector, Touching};
+use tactile::{Deciding, Decision, Felt, Pose, RuleSettings, TouchDetector, Touching};
 use whisking::{MAX_WHISKERS, Real};
 
 use crate::sensing::Reading;
@@ -70,13 +70,13 @@ pub trait SampleClassifier {
 
     /// What its whiskers have felt for the head to decide by
     /// ([`StreamClassifier::evidence`](tactile::StreamClassifier::evidence)).
-    fn evidence(&self) -> Option<Behind> {
+    fn evidence(&self) -> Option<Felt> {
         None
     }
 
     /// What those of another board have felt
     /// ([`StreamClassifier::hear`](tactile::StreamClassifier::hear)).
-    fn hear(&mut self, _board: usize, _behind: Option<&Behind>) -> Option<Decision> {
+    fn hear(&mut self, _board: usize, _felt: Option<&Felt>) -> Option<Decision> {
         None
     }
 

@@ -7,7 +7,7 @@ use tactile::{
 };
 
 #[cfg(feature = "bus")]
-use tactile::Behind;
+use tactile::Felt;
 
 use super::{ModelState, Refusal, Sample, SampleClassifier};
 use crate::config::ERASED;
@@ -263,14 +263,14 @@ impl<W: Words> SampleClassifier for CodeClassifier<W> {
     }
 
     #[cfg(feature = "bus")]
-    fn evidence(&self) -> Option<Behind> {
+    fn evidence(&self) -> Option<Felt> {
         self.classifier()?.evidence()
     }
 
     #[cfg(feature = "bus")]
-    fn hear(&mut self, board: usize, behind: Option<&Behind>) -> Option<Decision> {
+    fn hear(&mut self, board: usize, felt: Option<&Felt>) -> Option<Decision> {
         let codes = self.found.as_mut().ok()?;
-        codes.classifier.hear(board, behind)
+        codes.classifier.hear(board, felt)
     }
 
     #[cfg(feature = "bus")]
