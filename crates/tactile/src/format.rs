@@ -190,9 +190,19 @@ impl TableRecord<'_> {
     }
 
     #[inline]
+    pub(crate) const fn first_axis(self) -> AxisRecord {
+        let [_, _, a, b, c, d, ..] = *self.0;
+        AxisRecord::of([a, b, c, d])
+    }
+
+    #[inline]
+    pub(crate) const fn second_axis(self) -> AxisRecord {
+        let [.., a, b, c, d] = *self.0;
+        AxisRecord::of([a, b, c, d])
+    }
+
     pub(crate) const fn axis(self) -> [AxisRecord; 2] {
-        let [_, _, a, b, c, d, e, f, g, h] = *self.0;
-        [AxisRecord::of([a, b, c, d]), AxisRecord::of([e, f, g, h])]
+        [self.first_axis(), self.second_axis()]
     }
 }
 

@@ -227,7 +227,7 @@ impl<W: Words> Model<W> {
 
     /// Bins of the table of one channel's samples alone, if there is one.
     pub fn bins(&self, channel: usize) -> Option<usize> {
-        let [axis, _] = self.of_channel(channel)?.axis();
+        let axis = self.of_channel(channel)?.first_axis();
         Some(usize::from(axis.last_bin) + 1)
     }
 
@@ -245,7 +245,7 @@ impl<W: Words> Model<W> {
 
     fn of_channel(&self, channel: usize) -> Option<TableRecord<'_>> {
         let of_it = |table: &TableRecord<'_>| {
-            let [axis, _] = table.axis();
+            let axis = table.first_axis();
             table.axes() == 1 && usize::from(axis.channel) == channel
         };
         self.parts().sample_tables().find(of_it)
@@ -341,11 +341,12 @@ fn bytes(words: &[u32]) -> &[u8] {
 impl TableRecord<'_> {
     #[inline]
     pub(crate) fn cell(self, code: impl Fn(usize) -> Option<i32>) -> Option<usize> {
-        let [a, b] = self.axis();
+        let a = self.first_axis();
         let first = a.bin(code(usize::from(a.channel))?);
         if self.axes() == 1 {
             return Some(first);
         }
+        let b = self.second_axis();
         let second = b.bin(code(usize::from(b.channel))?);
         Some(first * (usize::from(b.last_bin) + 1) + second)
     }
