@@ -89,7 +89,7 @@ impl Elsewhere {
         };
         let before = place.as_ref().map_or(0, |board| board.evidence.blocks());
         *place = felt.map(|Felt { behind, excess }| {
-            let deficits = behind.map(|units| u32::from(units) * UNIT * block);
+            let deficits = behind.map(|units| u32::from(units).min(MOST_BEHIND) * UNIT * block);
             Board {
                 evidence: SequentialEvidence::heard(deficits, before + 1),
                 excess: *excess,
