@@ -39,10 +39,19 @@ pub struct Evidence {
     pub leader: u8,
     /// Which classes the deficits are of: from the `part` · 3-th on, the leader left out.
     pub part: u8,
-    /// By how much each lies behind the leader, 2⁻⁶ bits; 12 bits.
+    /// By how much each lies behind the leader, 2⁻⁶ bits, at most
+    /// [`MOST_DEFICIT`](Self::MOST_DEFICIT).
     pub deficits: [u16; OTHERS],
-    /// By how much the leader exceeds its floors, of samples and of roughness, bits; −32 to 31.
+    /// By how much the leader exceeds its floors, of samples and of roughness, bits, within
+    /// [`EXCESS`](Self::EXCESS).
     pub excess: [i8; 2],
+}
+
+impl Evidence {
+    /// Most that fits a message; more loses its upper bits.
+    pub const MOST_DEFICIT: u16 = (1 << DEFICIT) - 1;
+    /// Least and most excess that fit.
+    pub const EXCESS: [i8; 2] = [-(1 << (EXCESS - 1)), (1 << (EXCESS - 1)) - 1];
 }
 
 /// What a node says to all others.
@@ -304,6 +313,20 @@ mod tests {
                 Ok((from, stamp, message)) => prop_assert_eq!(message.frame(from, stamp), frame),
             }
         }
+    }
+
+    /// As the table above says, by hand.
+    #[test]
+    fn evidence_lies_where_the_page_says() {
+        let evidence = Evidence {
+            leader: 2,
+            part: 1,
+            deficits: [0x001, 0x123, 0xfff],
+            excess: [-1, 31],
+        };
+        let frame = Message::Evidence(evidence).frame(5, 7);
+        assert_eq!(frame.id(), 8 << 5 | 5);
+        assert_eq!(frame.bytes(), [7, 0x12, 0x01, 0x30, 0x12, 0xff, 0xff, 0x7f]);
     }
 
     /// A stop goes before all else, whoever says it; and of ψ the left before the right.

@@ -12,19 +12,22 @@ const ANY: usize = if cfg!(feature = "elsewhere") { 1 } else { 0 };
 /// adds up.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Felt {
-    /// By how much each class lies behind the likeliest, the *leader*, 2⁻⁶ bits, rounded down, to
-    /// 4095.
+    /// By how much each class lies behind the likeliest, the *leader*, 2⁻⁶ bits, rounded down, at
+    /// most [`MOST_BEHIND`](Self::MOST_BEHIND).
     pub behind: [u16; MAX_CLASSES],
     /// By how much the leader exceeds its floors since the touches began, of samples and of
-    /// roughness: bits, −32 to 31.
+    /// roughness: bits, rounded, within [`EXCESS`](Self::EXCESS).
     pub excess: [i8; 2],
 }
 
 /// Table units in a unit of [`Felt::behind`].
 const UNIT: u32 = ENTRIES_PER_BIT >> 6;
-const MOST_BEHIND: u32 = (1 << 12) - 1;
 
 impl Felt {
+    /// Of [`behind`](Self::behind): almost 64 bits.
+    pub const MOST_BEHIND: u16 = 4095;
+    /// Least and most of [`excess`](Self::excess), bits.
+    pub const EXCESS: [i8; 2] = [-32, 31];
     /// Nothing: all classes are alike.
     pub const NOTHING: Self = Self {
         behind: [0; MAX_CLASSES],
@@ -40,12 +43,13 @@ impl Felt {
         let bits = |units: i32| {
             let whole = units.saturating_add(ENTRIES_PER_BIT.cast_signed() / 2);
             let whole = whole.div_euclid(ENTRIES_PER_BIT.cast_signed());
-            whole.clamp(-32, 31) as i8
+            let [least, most] = Self::EXCESS.map(i32::from);
+            whole.clamp(least, most) as i8
         };
         Self {
             behind: evidence
                 .deficits()
-                .map(|deficit| share(deficit).min(MOST_BEHIND) as u16),
+                .map(|deficit| share(deficit).min(Self::MOST_BEHIND.into()) as u16),
             excess: [a_sample.unwrap_or(0), of_roughness].map(bits),
         }
     }
@@ -89,7 +93,8 @@ impl Elsewhere {
         };
         let before = place.as_ref().map_or(0, |board| board.evidence.blocks());
         *place = felt.map(|Felt { behind, excess }| {
-            let deficits = behind.map(|units| u32::from(units).min(MOST_BEHIND) * UNIT * block);
+            let deficits =
+                behind.map(|units| u32::from(units.min(Felt::MOST_BEHIND)) * UNIT * block);
             Board {
                 evidence: SequentialEvidence::heard(deficits, before + 1),
                 excess: *excess,

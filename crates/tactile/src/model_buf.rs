@@ -149,7 +149,7 @@ impl ChannelRecord {
     }
 }
 
-fn bytes(words: impl IntoIterator<Item = u32>) -> impl Iterator<Item = u8> {
+fn le_bytes(words: impl IntoIterator<Item = u32>) -> impl Iterator<Item = u8> {
     words.into_iter().flat_map(u32::to_le_bytes)
 }
 
@@ -184,7 +184,7 @@ impl ModelBuf {
                 exponent: q.exponent as i16,
                 rate_hz: 0,
             };
-            body.extend(bytes(record.words()));
+            body.extend(le_bytes(record.words()));
         }
         let mut tail = Vec::new();
         if let Some(floors) = parts.floors {
@@ -206,7 +206,7 @@ impl ModelBuf {
         let before_rows = body.len() + parts.tables.len() * TableRecord::BYTES + tail.len();
         let mut first = (Header::BYTES + before_rows) / size_of::<u32>();
         for table in parts.tables {
-            body.extend(bytes(table.record(first)?));
+            body.extend(le_bytes(table.record(first)?));
             if table.entries.len() != table.cells() * classes {
                 return Err(ModelError::Length);
             }
@@ -244,7 +244,7 @@ impl ModelBuf {
             gap: touch.map_or(0, |touch| touch.gap),
             floors: u32::from(parts.floors.is_some()) | (parts.opinion.len() as u32) << 8,
         };
-        Self::summed(bytes(header.words()).chain(body).collect())
+        Self::summed(le_bytes(header.words()).chain(body).collect())
     }
 
     /// From all bytes but the sum over them.
@@ -269,7 +269,7 @@ impl ModelBuf {
         {
             let rate_hz = u16::try_from(rate_hz).unwrap_or(0);
             let record = ChannelRecord { rate_hz, ..record };
-            for (byte, new) in first.iter_mut().zip(bytes(record.words())) {
+            for (byte, new) in first.iter_mut().zip(le_bytes(record.words())) {
                 *byte = new;
             }
         }
@@ -293,7 +293,12 @@ impl ModelBuf {
             ..header
         };
         let body = rest.get(..header.length as usize - Header::BYTES - CRC_BYTES)?;
-        Self::summed(bytes(header.words()).chain(body.iter().copied()).collect()).ok()
+        Self::summed(
+            le_bytes(header.words())
+                .chain(body.iter().copied())
+                .collect(),
+        )
+        .ok()
     }
 
     /// Copies and checks the content of a model file, however it is aligned.

@@ -6,6 +6,13 @@ use tactile::{Decision, Felt};
 use super::Times;
 use crate::perception::SampleClassifier;
 
+// What is felt fits what is said.
+const _: () = {
+    assert!(Felt::MOST_BEHIND == Evidence::MOST_DEFICIT);
+    let ([least, most], [from, to]) = (Felt::EXCESS, Evidence::EXCESS);
+    assert!(least == from && most == to);
+};
+
 /// What a board knows of the evidence of others, and has said of its own.
 #[derive(Debug)]
 pub(super) struct Deciding {
