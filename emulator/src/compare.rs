@@ -144,14 +144,7 @@ impl Pair {
         for packet in packets {
             let (tick, plain) = match packet {
                 Packet::Record(record) => {
-                    let plain = TickRecord {
-                        x: record.codes()[0],
-                        y: record.codes()[1],
-                        contact: if self.feels { record.contact } else { 0 },
-                        flags: record.flags.without(Flags::LOST),
-                        ..*record
-                    };
-                    (record.sequence, Packet::Record(plain))
+                    (record.sequence, Packet::Record(plain(record, self.feels)))
                 }
                 Packet::Event(EventRecord { sequence, event }) => match event {
                     Event::Armed | Event::Stopped | Event::Health(_) | Event::Limit(_) => continue,
@@ -162,6 +155,17 @@ impl Pair {
             ticks.entry(tick).or_default().push(plain);
         }
         ticks
+    }
+}
+
+/// What PC and board must agree about of a record.
+pub(crate) fn plain(record: &TickRecord, feels: bool) -> TickRecord {
+    TickRecord {
+        x: record.codes()[0],
+        y: record.codes()[1],
+        contact: if feels { record.contact } else { 0 },
+        flags: record.flags.without(Flags::LOST),
+        ..*record
     }
 }
 

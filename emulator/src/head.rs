@@ -7,6 +7,8 @@
 
 mod compare;
 mod disturbed;
+mod relaying;
+mod session;
 
 use std::ops::Range;
 
@@ -28,6 +30,8 @@ use crate::emulate::pwm_counts;
 use crate::program::Program;
 
 pub(crate) use compare::compare;
+pub(crate) use relaying::relay;
+pub use session::HeadSession;
 
 /// Picoseconds in a microsecond.
 const US: f64 = 1e6;

@@ -28,7 +28,7 @@ mod deploying;
 mod deployment;
 pub mod emulate;
 pub mod endurance;
-mod head;
+pub mod head;
 mod latency;
 mod loading;
 mod machine;

@@ -102,7 +102,7 @@ pub struct Scenario {
 }
 
 /// All of them.
-pub const ALL: [Scenario; 13] = [
+pub const ALL: [Scenario; 14] = [
     Scenario {
         name: "compare",
         what: "Runs the scene on PC and board and compares every tick",
@@ -127,6 +127,12 @@ pub const ALL: [Scenario; 13] = [
         how: What::Work(|given, scene, program| {
             head::compare(scene, program, given.duration, given.ppm)
         }),
+    },
+    Scenario {
+        name: "relay",
+        what: "Talks with the last board of a head by way of the first; fails if an answer is \
+               wrong, a record not that of the simulated head, or what is sent to it does not run",
+        how: What::Work(|_, scene, program| head::relay(scene, program)),
     },
     Scenario {
         name: "deadlines",

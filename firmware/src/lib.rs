@@ -41,6 +41,7 @@ mod node;
 mod packet;
 mod perception;
 mod record;
+mod relay;
 mod self_test;
 mod sensing;
 mod servo;
@@ -74,6 +75,7 @@ pub use perception::{
 pub use record::{
     NotArmed, RECORD_WORDS, RESET_WINDOW_S, RESETS, Record, StartCause, Started, Startup,
 };
+pub use relay::{Frames, Heard, RELAYED_HZ, Relay};
 pub use self_test::{READINGS, SelfTest};
 pub use sensing::{BAD_WEIGHT, Reading, Sensor, SensorHealth, SensorLimits, SwingLimits};
 pub use servo::{FAULTS, HELD, MotorRecord, Retry, Servo, ServoConfig, ServoState, TooManyFaults};

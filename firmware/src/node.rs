@@ -139,7 +139,7 @@ impl Node {
     }
 
     /// Whether another board of its head has its number.
-    const fn is_twin(&self) -> bool {
+    pub const fn is_twin(&self) -> bool {
         matches!(self.motors, Motors::Twin)
     }
 

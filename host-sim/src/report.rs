@@ -77,16 +77,37 @@ pub fn ended(program: &str, done: Result<(), Error>) -> ExitCode {
 }
 
 /// What a module says of an event, of a model of these classes, and its level in the log. How it
-/// fares it says of itself alone.
+/// fares a board says alone.
 pub fn said(event: &Event, classes: &[String]) -> Option<(&'static str, String)> {
+    said_by(event, classes, None)
+}
+
+/// The line of a log for an event at `t_s`; a board's ticks take `period_us`.
+pub fn logged(
+    t_s: f64,
+    event: &Event,
+    classes: &[String],
+    period_us: Option<u32>,
+) -> Option<String> {
+    let (level, said) = said_by(event, classes, period_us)?;
+    // As defmt pads it.
+    let level = level.to_uppercase();
+    Some(format!("{t_s:.3} {level:<5} {said}"))
+}
+
+fn said_by(
+    event: &Event,
+    classes: &[String],
+    period_us: Option<u32>,
+) -> Option<(&'static str, String)> {
     let context = Context {
         class_name: |class| classes.get(class).map_or("", String::as_str),
-        period_us: 0,
+        period_us: period_us.unwrap_or_default(),
         lost: 0,
     };
     let mut line = Line::new();
     let level = match event {
-        Event::Health(_) => None,
+        Event::Health(_) if period_us.is_none() => None,
         _ => lines::event(&mut line, event, context),
     };
     let text = String::from_utf8_lossy(line.ended());

@@ -2,7 +2,7 @@
 
 use std::collections::VecDeque;
 
-use firmware::Packet;
+use firmware::{Packet, Relay};
 use host_sim::origin::Origin;
 use host_sim::{Error, report};
 use wire::{Answer, Command, CommandStatus, TaggedCommand, WhiskerId};
@@ -23,6 +23,8 @@ pub(crate) struct Conversation {
     tag: u16,
     /// What has come while an answer was waited for.
     kept: VecDeque<Incoming>,
+    /// Ticks a second and the classes of a module whose log is made of its events.
+    logs: Option<(u32, Vec<String>)>,
 }
 
 impl Conversation {
@@ -31,6 +33,7 @@ impl Conversation {
             source,
             tag: 0,
             kept: VecDeque::new(),
+            logs: None,
         }
     }
 
@@ -40,18 +43,57 @@ impl Conversation {
 
     /// What comes next; what came while an answer was waited for comes first.
     pub(crate) fn receive(&mut self) -> Result<Incoming, Error> {
-        match self.kept.pop_front() {
-            Some(incoming) => Ok(incoming),
-            None => self.source.next(),
+        let mut incoming = match self.kept.pop_front() {
+            Some(incoming) => incoming,
+            None => self.source.next()?,
+        };
+        if let Some((tick_hz, classes)) = &self.logs {
+            let packets = incoming.packets.iter();
+            let lines = packets.filter_map(|packet| line(packet, *tick_hz, classes));
+            incoming.lines.extend(lines);
+        }
+        Ok(incoming)
+    }
+
+    /// Has its log come with what else does. That of a board which another one asks is made of the
+    /// events that it sends.
+    pub(crate) fn follow_log(&mut self) -> Result<(), Error> {
+        if self.source.node().is_none() {
+            return self.source.has_log();
+        }
+        self.ask(Command::Stream(true))?;
+        self.logs = Some((self.about()?.tick_hz, self.classes()?));
+        Ok(())
+    }
+
+    /// What [`Self::follow_log`] has begun ends.
+    pub(crate) fn leave_log(&mut self) -> Result<(), Error> {
+        match self.logs.take() {
+            Some(_) => self.ask(Command::Stream(false)).map(drop),
+            None => Ok(()),
+        }
+    }
+
+    /// Of how many of its ticks one has its records sent.
+    pub(crate) fn every(&self, tick_hz: u32) -> u32 {
+        match self.source.node() {
+            Some(_) => Relay::every(tick_hz),
+            None => 1,
         }
     }
 
     pub(crate) fn print_log(&mut self, seconds: f64) -> Result<(), Error> {
+        if seconds <= 0.0 {
+            return Ok(());
+        }
+        if self.source.node().is_some() {
+            self.follow_log()?;
+        }
         let begun = self.source.now_s();
         while self.source.now_s() - begun < seconds {
             self.receive()?.lines.iter().for_each(report::say);
         }
-        Ok(())
+        self.leave_log()
     }
 
     pub(crate) fn take_kept(&mut self) -> VecDeque<Incoming> {
@@ -150,4 +192,13 @@ impl Conversation {
         let name = String::from_utf8_lossy(&letters);
         Ok(name.replace(tactile::name::is_hidden, "\u{fffd}"))
     }
+}
+
+fn line(packet: &Packet, tick_hz: u32, classes: &[String]) -> Option<String> {
+    let Packet::Event(event) = packet else {
+        return None;
+    };
+    let tick_hz = tick_hz.max(1);
+    let t_s = f64::from(event.sequence) / f64::from(tick_hz);
+    report::logged(t_s, &event.event, classes, Some(1_000_000 / tick_hz))
 }

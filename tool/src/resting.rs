@@ -5,7 +5,6 @@ use host_sim::Error;
 use wire::{Command, CommandStatus, Flags, TickRecord, WhiskerId, degrees};
 
 use crate::conversation::Conversation;
-use crate::tally::side;
 
 /// The setpoint at rest, Q24.
 const REST: i32 = 0;
@@ -13,6 +12,8 @@ const REST: i32 = 0;
 /// as its motor goes off.
 const NEAR_DEG: f32 = 2.0;
 const NEAR_S: f64 = 0.1;
+/// Most whiskers of a side, as a head may have.
+const MOST_A_SIDE: u8 = 12;
 /// How long whiskers may take to get there, and motors to go off, s.
 const PATIENCE_S: f64 = 1.0;
 
@@ -21,14 +22,23 @@ pub(crate) fn rest(module: &mut Conversation) -> Result<(), Error> {
     let [tick_hz, whiskers] = module.ask(Command::Hello)?.values;
     let near_ticks = (NEAR_S * f64::from(tick_hz)) as u32;
     let whiskers = usize::try_from(whiskers).unwrap_or(0);
-    for side in (0..16).take(whiskers) {
-        let whisker = WhiskerId { side, number: 0 };
-        let answer = module.answer(Command::Setpoint(whisker, REST))?;
-        match answer.status {
-            // Its range may leave rest out.
-            CommandStatus::Done | CommandStatus::OutOfRange => {}
-            _ => return Ok(()),
+    // A board of a head may have any of its whiskers.
+    let all = (0..MOST_A_SIDE).flat_map(|number| [0, 1].map(|side| WhiskerId { side, number }));
+    let mut found = 0;
+    for whisker in all {
+        if found == whiskers {
+            break;
         }
+        let answer = module.answer(Command::Setpoint(whisker, REST))?;
+        // Its range may leave rest out.
+        let is_there = matches!(
+            answer.status,
+            CommandStatus::Done | CommandStatus::OutOfRange
+        );
+        found += usize::from(is_there);
+    }
+    if found == 0 {
+        return Ok(());
     }
     module.ask(Command::Stream(true))?;
     let is_near = |record: &TickRecord| (degrees(record.measured) - degrees(0)).abs() < NEAR_DEG;
@@ -45,25 +55,27 @@ pub(crate) fn rest(module: &mut Conversation) -> Result<(), Error> {
     )))
 }
 
-/// Waits until the records of each whisker have been such for so many ticks; `false` if that
-/// takes too long.
+/// Waits until all records have been such for so many ticks, with one of each whisker at least;
+/// `false` if that takes too long.
 fn until(
     module: &mut Conversation,
     whiskers: usize,
     ticks: u32,
     is_such: impl Fn(&TickRecord) -> bool,
 ) -> Result<bool, Error> {
-    let mut since: [Option<u32>; 2] = [None; 2];
-    let mut such = [false; 2];
+    let mut since: Option<(u32, usize)> = None;
     let begun = module.source().now_s();
     while module.source().now_s() - begun < PATIENCE_S {
         for record in module.receive()?.records() {
-            let (side, now) = (side(record), record.sequence);
-            since[side] = is_such(record).then(|| since[side].unwrap_or(now));
-            such[side] = since[side].is_some_and(|first| now.wrapping_sub(first) >= ticks);
-        }
-        if such.iter().filter(|such| **such).count() >= whiskers {
-            return Ok(true);
+            if !is_such(record) {
+                since = None;
+                continue;
+            }
+            let (first, count) = since.map_or((record.sequence, 1), |(first, n)| (first, n + 1));
+            since = Some((first, count));
+            if record.sequence.wrapping_sub(first) >= ticks && count >= whiskers {
+                return Ok(true);
+            }
         }
     }
     Ok(false)

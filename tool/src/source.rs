@@ -4,6 +4,7 @@
 mod altered;
 mod board;
 mod choice;
+mod elsewhere;
 mod emulated;
 mod flash;
 mod laying;
@@ -71,6 +72,17 @@ pub(crate) trait Source {
 
     /// Sends a request, whose answer is among what comes next.
     fn request(&mut self, request: TaggedCommand) -> Result<(), Error>;
+
+    /// Sends a request for another board of its head.
+    fn request_of(&mut self, node: u8, _: TaggedCommand) -> Result<(), Error> {
+        let fault = format!("--node: found {node}; allowed: a board of a head");
+        Err(Error::Input(fault))
+    }
+
+    /// The board of a head that is asked by way of another one, if it is one.
+    fn node(&self) -> Option<u8> {
+        None
+    }
 
     /// Whether its log can be read; where not, what would help.
     fn has_log(&self) -> Result<(), Error> {

@@ -14,6 +14,8 @@ pub(crate) enum Before {
 
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct Tally {
+    /// Of so many ticks there is one record; 0: of each.
+    every: u32,
     last: [Option<u32>; 2],
     pub(crate) records: u64,
     pub(crate) lost: u64,
@@ -28,6 +30,13 @@ pub(crate) fn side(record: &TickRecord) -> usize {
 }
 
 impl Tally {
+    pub(crate) fn of_every(every: u32) -> Self {
+        Self {
+            every,
+            ..Self::default()
+        }
+    }
+
     /// What comes next follows nothing: records between were not asked for.
     pub(crate) const fn skip(&mut self) {
         self.last = [None; 2];
@@ -40,11 +49,14 @@ impl Tally {
             return Before::Nothing;
         };
         // Half of all numbers are ahead of one, and half behind it.
+        let every = self.every.max(1);
         match record.sequence.wrapping_sub(last) {
-            1 => Before::Nothing,
-            ahead @ 2..0x8000_0000 => {
-                self.lost += u64::from(ahead - 1);
-                Before::Lost(ahead - 1)
+            // A board that sends more than it was expected to has lost none.
+            ahead if (1..=every).contains(&ahead) => Before::Nothing,
+            ahead @ 1..0x8000_0000 => {
+                let lost = ahead.div_ceil(every) - 1;
+                self.lost += u64::from(lost);
+                Before::Lost(lost)
             }
             _ => {
                 self.restarts += 1;
@@ -128,6 +140,14 @@ mod tests {
         assert_eq!(take(1, left), Before::Nothing);
         assert_eq!(take(1, left), Before::Restart);
         assert_eq!((tally.records, tally.lost, tally.restarts), (6, 2, 1));
+    }
+
+    #[test]
+    fn one_of_several_ticks_is_none_lost() {
+        let mut tally = Tally::of_every(20);
+        let mut take = |sequence| tally.take(&record(sequence, Flags::default()));
+        assert_eq!([20, 40, 100].map(&mut take)[2], Before::Lost(2));
+        assert_eq!((tally.records, tally.lost), (3, 2));
     }
 
     #[test]

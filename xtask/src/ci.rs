@@ -159,6 +159,7 @@ fn other_boards() -> Result<(), Fault> {
     emulate::emulate(&board, Path::new(emulate::CIA), &coupled)?;
     let both_sides = ["deadlines --minutes 0.05", "sensor-loss"];
     emulate::emulate(&board, &emulate::noisiest()?, &both_sides)?;
+    emulate::emulate(&board, &emulate::head_of_two()?, &["relay"])?;
     let talks = ["serial", "stopping --stops 10"];
     emulate::emulate(&board, Path::new(emulate::FULL), &talks)?;
     emulate::compare_with_slow_sensors(&board)?;

@@ -295,6 +295,9 @@ struct EmulateWhat {
     /// the simulated head
     #[arg(long)]
     head: bool,
+    /// Talk with the last board of the scene's head by way of the first
+    #[arg(long, requires = "any_scene")]
+    relay: bool,
     /// Stop motors by every way while the links are flooded, and see each stop obeyed and answered
     #[arg(long)]
     stopping: bool,
@@ -326,6 +329,7 @@ impl Emulate {
             (what.check, &*compare),
             (what.deadlines, &*deadlines),
             (what.head, &*head),
+            (what.relay, "relay"),
             (what.overload, "overload"),
             (what.sensor_loss, "sensor-loss"),
             (what.latency, "latency"),

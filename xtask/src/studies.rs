@@ -27,10 +27,15 @@ pub(crate) fn lints() -> Result<(), Fault> {
     run(in_workspace("clippy").args(lints))
 }
 
-/// Tests, which make two of the pages in short; with a seed, properties are tried on the same cases
-/// in each run.
+/// Tests, which make pages in short; with a seed, properties are tried on the same cases in each
+/// run, and what takes minutes is left out.
 pub(crate) fn check(seed: Option<&str>) -> Result<(), Fault> {
-    run(in_workspace("test").envs(seed.map(|seed| ("PROPTEST_RNG_SEED", seed))))
+    let all = ["--", "--include-ignored"];
+    let mut tests = in_workspace("test");
+    run(match seed {
+        Some(seed) => tests.env("PROPTEST_RNG_SEED", seed),
+        None => tests.args(all),
+    })
 }
 
 /// All experiments. CI runs LEP10's in short, which is one of the commands of the book.

@@ -10,9 +10,11 @@
 #![cfg_attr(not(test), no_std)]
 
 mod frame;
+mod letter;
 mod message;
 
 pub use frame::{Frame, MOST_BITS};
+pub use letter::{Assembly, LETTER_BYTES, Letter, LetterKind, PARTS, Part};
 pub use message::{Contact, Evidence, Message, NotAMessage, OTHERS, Q22_ONE};
 
 /// Most nodes of a head: one for each of 24 whiskers.

@@ -39,6 +39,8 @@ pub enum CommandStatus {
     Stopped,
     /// Too many faults: not before a minute after the last time.
     TooManyFaults,
+    /// The head has no such board, or that does not answer.
+    NoBoard,
     /// A number that this version does not know.
     Other(u8),
 }
@@ -57,6 +59,7 @@ impl CommandStatus {
             Self::NotWritten => 7,
             Self::Stopped => 8,
             Self::TooManyFaults => 9,
+            Self::NoBoard => 10,
             Self::Other(code) => code,
         }
     }
@@ -74,6 +77,7 @@ impl CommandStatus {
             Self::NotWritten => "the flash did not take it",
             Self::Stopped => "a stop has come since",
             Self::TooManyFaults => "too many faults, wait a minute",
+            Self::NoBoard => "no such board, or it does not answer",
             Self::Other(_) => "a status of a later version",
         }
     }
@@ -91,6 +95,7 @@ impl CommandStatus {
             7 => Self::NotWritten,
             8 => Self::Stopped,
             9 => Self::TooManyFaults,
+            10 => Self::NoBoard,
             code => Self::Other(code),
         }
     }

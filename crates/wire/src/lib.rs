@@ -34,6 +34,6 @@ pub use frame::{CONTENT_BYTES, FRAME_BYTES, Frame, RECORD_FRAME_BYTES, frame, op
 pub use line::{Field, LINE_BYTES, Line};
 pub use loading::{Load, LoadedWord};
 pub use record::{TickRecord, degrees, q13, unit};
-pub use request::{CONFIG_CHANGED, Command, TaggedCommand, UnknownCommand, WhiskerId};
+pub use request::{Addressed, CONFIG_CHANGED, Command, TaggedCommand, UnknownCommand, WhiskerId};
 pub use splitter::{Garbled, Piece, Splitter};
 pub use stop::{COMMAND_BYTES, Stop, StopWatch};

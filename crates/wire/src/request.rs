@@ -178,22 +178,30 @@ impl Command {
     }
 }
 
-impl TaggedCommand {
-    /// What a frame carries, if its sum is right: otherwise no request was meant, and there is
-    /// nothing to answer.
-    ///
-    /// # Errors
-    /// [`UnknownCommand`]: that of a later version, or with parts that it has not.
-    pub fn read(content: &[u8]) -> Option<Result<Self, UnknownCommand>> {
+/// What a frame carries that asks for something.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Addressed {
+    /// What is asked for, or a command of a later version, or with parts that it has not.
+    pub request: Result<TaggedCommand, UnknownCommand>,
+    /// Which board of a head is asked; none: the one that reads this. It stands behind the request.
+    pub to: Option<u8>,
+}
+
+impl Addressed {
+    /// `None` if the frame's sum is not right: then no request was meant, and there is nothing to
+    /// answer.
+    pub fn read(content: &[u8]) -> Option<Self> {
         let (tag, rest) = postcard::take_from_bytes(summed(content)?).ok()?;
         let number = *rest.first()?;
-        Some(match postcard::take_from_bytes(rest) {
-            Ok((command, [])) => Ok(Self { tag, command }),
-            _ => Err(UnknownCommand {
-                tag,
-                command: number,
-            }),
-        })
+        let (request, to) = match postcard::take_from_bytes(rest) {
+            Ok((command, [])) => (Ok(TaggedCommand { tag, command }), None),
+            Ok((command, &[to])) => (Ok(TaggedCommand { tag, command }), Some(to)),
+            _ => {
+                let command = number;
+                (Err(UnknownCommand { tag, command }), None)
+            }
+        };
+        Some(Self { request, to })
     }
 }
 
@@ -201,7 +209,7 @@ impl TaggedCommand {
 mod tests {
     use proptest::prelude::*;
 
-    use super::{Command, Load, TaggedCommand, UnknownCommand, WhiskerId};
+    use super::{Addressed, Command, Load, TaggedCommand, UnknownCommand, WhiskerId};
     use crate::frame::{FRAME_BYTES, frame};
     use crate::{Piece, Splitter};
 
@@ -244,12 +252,18 @@ mod tests {
         })
     }
 
-    fn read(frame: &[u8]) -> Option<Result<TaggedCommand, UnknownCommand>> {
+    fn addressed(frame: &[u8]) -> Option<Addressed> {
         let mut splitter = Splitter::<FRAME_BYTES>::new();
         frame.iter().find_map(|byte| match splitter.push(*byte)? {
-            Piece::Frame(content) => TaggedCommand::read(content),
+            Piece::Frame(content) => Addressed::read(content),
             piece => panic!("{piece:?}"),
         })
+    }
+
+    fn read(frame: &[u8]) -> Option<Result<TaggedCommand, UnknownCommand>> {
+        let Addressed { request, to } = addressed(frame)?;
+        assert_eq!(to, None);
+        Some(request)
     }
 
     proptest! {
@@ -266,8 +280,19 @@ mod tests {
         }
 
         #[test]
+        fn the_board_that_is_asked_stands_behind_a_request(
+            tag: u16,
+            command in commands(),
+            node: u8,
+        ) {
+            let request = TaggedCommand { tag, command };
+            let found = addressed(&frame(&(request, node)));
+            prop_assert_eq!(found, Some(Addressed { request: Ok(request), to: Some(node) }));
+        }
+
+        #[test]
         fn any_bytes_are_read_without_harm(bytes in prop::collection::vec(any::<u8>(), 0..30)) {
-            let _ = TaggedCommand::read(&bytes);
+            let _ = Addressed::read(&bytes);
         }
     }
 

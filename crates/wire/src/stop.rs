@@ -13,10 +13,10 @@ use crate::request::Command;
 /// Most bytes of a line that is a command.
 pub const COMMAND_BYTES: usize = 80;
 
-/// Least and most bytes of a stop between the zeros of its frame: a code, the tag, the command and
-/// the sum.
+/// Least and most bytes of a stop between the zeros of its frame: a code, the tag, the command, the
+/// board of a head that it is for, if it names one, and the sum. It stops all of them.
 const LEAST: usize = 7;
-const MOST: usize = 9;
+const MOST: usize = 10;
 
 /// How a stop has come, and so how it is answered.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -159,11 +159,13 @@ fn tag_of_stop(coded: &[u8]) -> Option<u16> {
     }
     let content = content.get(1..).filter(|_| left == 0)?;
     let (value, _) = content.split_last_chunk::<4>()?;
-    if value.last() != Some(&Command::Stop.number()) {
+    let (tag, rest) = postcard::take_from_bytes(value).ok()?;
+    let (command, board) = rest.split_first()?;
+    // A sum takes time, which is for stops alone.
+    if *command != Command::Stop.number() || board.len() > 1 {
         return None;
     }
-    let (tag, rest) = postcard::take_from_bytes(summed(content)?).ok()?;
-    (rest.len() == 1).then_some(tag)
+    summed(content).and(Some(tag))
 }
 
 #[cfg(test)]
@@ -172,7 +174,7 @@ mod tests {
 
     use super::{COMMAND_BYTES, Stop, StopWatch};
     use crate::text::{self, Spoken};
-    use crate::{Command, Piece, Splitter, TaggedCommand, WhiskerId, frame};
+    use crate::{Addressed, Command, Piece, Splitter, TaggedCommand, WhiskerId, frame};
 
     /// The stops among some bytes, and how many bytes had come with each.
     fn stops(bytes: &[u8]) -> Vec<(usize, Stop)> {
@@ -197,13 +199,11 @@ mod tests {
                     Ok(Spoken::Command(Command::Stop)) => Some(Stop::Line),
                     _ => None,
                 },
-                Some(Piece::Frame(content)) => match TaggedCommand::read(content) {
-                    Some(Ok(TaggedCommand {
-                        tag,
-                        command: Command::Stop,
-                    })) => Some(Stop::Frame(tag)),
-                    _ => None,
-                },
+                Some(Piece::Frame(content)) => {
+                    let asked = Addressed::read(content).and_then(|asked| asked.request.ok());
+                    let stop = asked.filter(|asked| asked.command == Command::Stop);
+                    stop.map(|stop| Stop::Frame(stop.tag))
+                }
                 _ => None,
             };
             found.extend(stop.map(|stop| (n, stop)));
@@ -279,9 +279,13 @@ mod tests {
         ][..];
         prop_oneof![
             6 => prop::sample::select(words).prop_map(|word| word.as_bytes().to_vec()),
-            2 => any::<u16>().prop_map(|tag| {
+            2 => any::<(u16, Option<u8>)>().prop_map(|(tag, to)| {
                 let command = Command::Stop;
-                frame(&TaggedCommand { tag, command }).to_vec()
+                let stop = TaggedCommand { tag, command };
+                match to {
+                    Some(to) => frame(&(stop, to)).to_vec(),
+                    None => frame(&stop).to_vec(),
+                }
             }),
             1 => any::<(u16, i32)>().prop_map(|(tag, gain)| {
                 let command = Command::Gain(WhiskerId::default(), gain);

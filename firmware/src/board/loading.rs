@@ -1,5 +1,5 @@
-//! The loader: takes a scene and its model by the serial port or from a probe's memory, word by
-//! word, and writes them into the flash of the slot that is not in use.
+//! The loader: takes a scene and its model by the serial port, from a probe's memory or from another
+//! board of its head, word by word, and writes them into the flash of the slot that is not in use.
 //!
 //! It has the chip for itself, from [`Command::Load`] to the reset: motors off, interrupts
 //! masked, flash read no more. When no request comes any more it resets the board, which starts by
@@ -12,6 +12,7 @@ use firmware::boards::{self, Slot, SlotHeader};
 use tactile::Model;
 use wire::{Answer, Command, CommandStatus, Load, LoadedWord, TaggedCommand};
 
+use super::bus::Post;
 use super::serial::Serial;
 use super::slots::{self, SLOTS};
 use super::telemetry::ProbeLine;
@@ -27,6 +28,7 @@ const LAST_BYTES_PART: u32 = 250;
 pub(crate) enum Line<'s> {
     Serial(&'s mut Serial),
     Probe(&'s mut ProbeLine),
+    Head(&'s mut Post),
 }
 
 impl Line<'_> {
@@ -34,11 +36,13 @@ impl Line<'_> {
     // follow.
     #[inline(never)]
     fn next(&mut self) -> Option<TaggedCommand> {
-        let request = match self {
+        let asked = match self {
             Self::Serial(serial) => serial.next(),
             Self::Probe(probe) => probe.next(),
+            Self::Head(post) => return post.next_alone(),
         };
-        request?.ok()
+        // It asks no other board any more.
+        asked.filter(|asked| asked.to.is_none())?.request.ok()
     }
 
     /// Whoever asks waits for it before they ask again: there is room.
@@ -46,6 +50,7 @@ impl Line<'_> {
         match self {
             Self::Serial(serial) => serial.reply(answer),
             Self::Probe(_) => ProbeLine::reply(answer),
+            Self::Head(post) => post.reply_alone(answer),
         }
     }
 
@@ -54,6 +59,7 @@ impl Line<'_> {
         match self {
             Self::Serial(serial) => serial.has_sent(),
             Self::Probe(_) => ProbeLine::has_sent(),
+            Self::Head(_) => Post::has_sent(),
         }
     }
 }
@@ -80,6 +86,9 @@ pub(crate) fn run(mut line: Line<'_>, order: Order) -> ! {
     cortex_m::interrupt::disable();
     outputs::off();
     leave_the_tick();
+    if let Line::Head(post) = &mut line {
+        post.begin_loading();
+    }
     let mut watchdog = Watchdog::slow();
     let Order {
         load,

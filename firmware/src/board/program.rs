@@ -28,7 +28,7 @@ use super::perception::Names;
 use super::scene::{Pace, Scene};
 use super::serial::{self, Serial};
 use super::signal_pins::SignalPins;
-use super::telemetry::{self, Configs, Exchange, Telemetry};
+use super::telemetry::{self, Configs, Exchange, Origin, Telemetry};
 use super::types::{Inner, Settings};
 use super::user_button::{self, HAS_STOPPED, REQUEST, UserButton};
 use super::watchdog::Watchdog;
@@ -144,7 +144,7 @@ pub(crate) fn start(core: cortex_m::Peripherals, queues: &'static mut Queues) ->
     #[cfg(feature = "mlx90333")]
     hardware::test_sensors(inner, settings, &pace);
     let second = settings.head.tick_hz;
-    let head = Head::start(settings, &pace, node);
+    let (head, post) = Head::start(settings, &pace, node);
     let module = Module {
         inner,
         telemetry,
@@ -159,7 +159,7 @@ pub(crate) fn start(core: cortex_m::Peripherals, queues: &'static mut Queues) ->
         button: UserButton::start(),
         serial: Serial::start(&about),
         pins: SignalPins::start(about.links.has_pins),
-        exchange: Exchange::new(idle_ends, configs, &about),
+        exchange: Exchange::new(idle_ends, configs, post, &about),
         about,
         events: of_events,
         in_use: deployed.map(|deployed| deployed.slot),
@@ -365,6 +365,7 @@ impl Idle {
         if let Some(pins) = &mut self.pins {
             pins.show(now);
         }
+        self.exchange.take_from_head(&self.names);
         if self.about.links.has_rtt {
             self.exchange.take_from_probe(&self.names);
         }
@@ -384,6 +385,7 @@ impl Idle {
         // Before the answer that may end them.
         self.exchange.send_records();
         self.exchange.answer_probe();
+        self.exchange.answer_head();
         if let Some(serial) = &mut self.serial {
             serial.serve(now, &self.about, (&mut self.exchange, &self.names));
             serial.send();
@@ -407,11 +409,12 @@ impl Idle {
         if !Part::Deploy.is_built() {
             return;
         }
-        let Some((load, answer, is_by_serial)) = self.exchange.load_due() else {
+        let Some((load, answer, origin)) = self.exchange.load_due() else {
             return;
         };
-        let line = match &mut self.serial {
-            Some(serial) if is_by_serial => Line::Serial(serial),
+        let line = match (origin, &mut self.serial) {
+            (Origin::Board(_), _) => Line::Head(&mut self.exchange.post),
+            (origin, Some(serial)) if origin.is_serial() => Line::Serial(serial),
             _ => Line::Probe(&mut self.exchange.probe),
         };
         let order = Order {

@@ -54,6 +54,7 @@ pub(crate) fn calibrate(arguments: &Arguments) -> Result<(), Error> {
         let fault = "its scene has no motor; calibrate moves the whisker by it";
         return Err(Error::Input(fault.to_owned()));
     };
+    arguments.which.source.sends_all()?;
     let file = |name: &str| Output::create(&arguments.out.join(name));
     let outputs = [
         file("calibration.toml")?,

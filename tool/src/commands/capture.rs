@@ -80,6 +80,7 @@ pub(crate) fn capture(arguments: &Arguments, verbosity: Verbosity) -> Result<(),
         ));
         return Ok(());
     }
+    arguments.source.sends_all()?;
     let source = arguments.source.open(recording.all_touches() as u64)?;
     let warnings = complete(recording, &missing, source, arguments, verbosity)?;
     if warnings > 0 {

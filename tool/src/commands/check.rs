@@ -39,6 +39,7 @@ const FAULTS: usize = 40;
 
 /// The motors are off at the end, however it ends.
 pub(crate) fn check(arguments: &Arguments) -> Result<(), Error> {
+    arguments.which.source.sends_all()?;
     let scene = arguments.which.scene_file()?;
     let simulation = SourceChoice::simulation(scene)?;
     let file = |name: &str| Output::create(&arguments.out.join(name));

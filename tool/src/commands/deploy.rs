@@ -85,6 +85,15 @@ impl Arguments {
             (_, None) => Err(Error::Input("--scene or --model is missing".to_owned())),
         }?;
         module.source().would_answer(what.config.links)?;
+        if let (Some(node), Some(loaded)) = (module.source().node(), &what.loaded)
+            && loaded.scene.head.nodes.is_none_or(|nodes| nodes <= node)
+        {
+            let fault = format!(
+                "--node {node}: found a scene without such a board; allowed: one whose head has \
+                 it, or else it could not be asked any more"
+            );
+            return Err(Error::Input(fault));
+        }
         Ok(what)
     }
 }

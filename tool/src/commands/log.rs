@@ -27,7 +27,7 @@ pub(crate) struct Arguments {
 pub(crate) fn log(arguments: &Arguments) -> Result<(), Error> {
     let mut script = Script::of(arguments.script.as_deref(), &arguments.source)?;
     let mut module = arguments.source.module()?;
-    module.source().has_log()?;
+    module.follow_log()?;
     let most = arguments.seconds.or(module.source().duration_s());
     let begun = module.source().now_s();
     // Of its answers; a module whose program takes no requests has a log all the same.
@@ -55,5 +55,6 @@ pub(crate) fn log(arguments: &Arguments) -> Result<(), Error> {
              [classifier]",
         );
     }
+    module.leave_log()?;
     script.end()
 }

@@ -121,6 +121,11 @@ fn listen(
 fn begin(arguments: &Arguments, wishes: Receiver<Wish>) -> Result<(Watching, Ready), Error> {
     let scene = arguments.source.scene();
     let known = Known::of(scene, arguments.model.as_deref())?;
+    if arguments.model.is_some() {
+        arguments.source.sends_all()?;
+    }
+    // Without every record it decides nothing here.
+    let known = known.filter(|_| arguments.source.sends_all().is_ok());
     let script = Script::of(arguments.script.as_deref(), &arguments.source)?;
     let mut module = arguments.source.module()?;
     let begun_s = module.source().now_s();
@@ -142,7 +147,8 @@ fn begin(arguments: &Arguments, wishes: Receiver<Wish>) -> Result<(Watching, Rea
     if !files.is_empty() {
         title.push_str(", recording");
     }
-    let mut history = History::new(tick_hz, whiskers, listener.transpose()?);
+    let rate = (tick_hz, module.every(tick_hz));
+    let mut history = History::new(rate, whiskers, listener.transpose()?);
     history.module_classes = classes;
     history.see(module.source().hairs());
     let shared = Arc::new(Mutex::new(Shared {

@@ -83,7 +83,10 @@ pub(crate) fn records(arguments: &Arguments, verbosity: Verbosity) -> Result<(),
 
     let origin = module.origin()?.with("scene", &about.scene);
     let mut kept = RecordFile::create(out, &origin, about.tick_hz, &classes)?;
-    let mut summary = Summary::default();
+    let mut summary = Summary {
+        tally: Tally::of_every(module.every(about.tick_hz)),
+        ..Summary::default()
+    };
     let mut progress = Progress::new(verbosity, "records", most.unwrap_or(u32::MAX).into());
     let mut first = None;
     'incoming: loop {

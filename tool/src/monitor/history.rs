@@ -69,11 +69,16 @@ pub(crate) struct History {
 }
 
 impl History {
-    pub(crate) fn new(tick_hz: u32, whiskers: usize, listener: Option<Listener>) -> Self {
+    /// Of a module that sends records of every tick, or of every so many.
+    pub(crate) fn new(
+        (tick_hz, every): (u32, u32),
+        whiskers: usize,
+        listener: Option<Listener>,
+    ) -> Self {
         Self {
             tick_hz,
             whiskers: whiskers.clamp(1, 2),
-            tally: Tally::default(),
+            tally: Tally::of_every(every),
             sides: [VecDeque::new(), VecDeque::new()],
             lines: VecDeque::new(),
             events: VecDeque::new(),
@@ -240,7 +245,7 @@ mod tests {
 
     #[test]
     fn minutes_are_held_and_no_more() {
-        let mut history = History::new(10, 2, None);
+        let mut history = History::new((10, 1), 2, None);
         let last = 2 * HELD_S * 10;
         for sequence in 1..=last {
             history.take(&incoming(sequence, Flags::default()));

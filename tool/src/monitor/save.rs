@@ -80,7 +80,7 @@ mod tests {
     fn what_is_held_is_what_is_saved_and_no_file_is_overwritten() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("s.csv");
-        let mut history = History::new(100, 2, None);
+        let mut history = History::new((100, 1), 2, None);
         let mut records = Vec::new();
         for sequence in 1..=50 {
             for flags in [Flags::VALID, Flags::RIGHT] {

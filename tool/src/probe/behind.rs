@@ -89,6 +89,19 @@ impl Behind {
             since: Instant::now(),
         })
     }
+
+    fn send(&mut self, frame: &wire::Frame) -> Result<(), Error> {
+        let sent = match self.rings {
+            Some([_, requests]) => requests.send(&mut self.memory, frame)?,
+            None => 0,
+        };
+        if sent == frame.len() {
+            return Ok(());
+        }
+        let fault = "the board takes no requests: its scene has telemetry.rtt = false, or it \
+                     stands still; whisker log --program ELF says what it does";
+        Err(Error::Work(fault.to_owned()))
+    }
 }
 
 fn find_block(memory: &mut MemoryPort, board: BoardName) -> Result<Rtt, Error> {
@@ -122,17 +135,11 @@ impl Source for Behind {
     }
 
     fn request(&mut self, request: TaggedCommand) -> Result<(), Error> {
-        let bytes = wire::frame(&request);
-        let sent = match self.rings {
-            Some([_, requests]) => requests.send(&mut self.memory, &bytes)?,
-            None => 0,
-        };
-        if sent == bytes.len() {
-            return Ok(());
-        }
-        let fault = "the board takes no requests: its scene has telemetry.rtt = false, or it \
-                     stands still; whisker log --program ELF says what it does";
-        Err(Error::Work(fault.to_owned()))
+        self.send(&wire::frame(&request))
+    }
+
+    fn request_of(&mut self, node: u8, request: TaggedCommand) -> Result<(), Error> {
+        self.send(&wire::frame(&(request, node)))
     }
 
     fn has_log(&self) -> Result<(), Error> {

@@ -3,12 +3,14 @@
 use std::path::{Path, PathBuf};
 
 use clap::Args;
+use firmware::RELAYED_HZ;
 use host_sim::Error;
 use host_sim::commands::choice::seed;
 use host_sim::loaded::Loaded;
 
 use super::Source;
-use super::emulated::Emulated;
+use super::elsewhere::Elsewhere;
+use super::emulated::{Emulated, EmulatedHead};
 use super::flash::Flash;
 use super::laying::Laying;
 use super::port::Port;
@@ -66,8 +68,9 @@ pub(crate) struct SourceChoice {
     /// the sample's name in $SAMPLE, and ends once it lies there
     #[arg(long, value_name = "COMMAND", conflicts_with_all = ["sim", "emulated"])]
     lay_by: Option<String>,
-    /// The board of a simulated head that is talked with, from 0 [default: 0]
-    #[arg(long, value_name = "N", conflicts_with_all = ["emulated", "probe", "port"])]
+    /// The board of a head that is talked with, from 0: by way of that which is connected, of
+    /// --emulated the first [default: that one]
+    #[arg(long, value_name = "N")]
     node: Option<u8>,
     /// Another seed of the world than the scene's
     #[arg(long, value_name = "N", value_parser = seed)]
@@ -92,8 +95,33 @@ impl SourceChoice {
         self.open(0).map(Conversation::new)
     }
 
+    /// Fails where not every record comes.
+    pub(crate) fn sends_all(&self) -> Result<(), Error> {
+        if self.elsewhere().is_none() {
+            return Ok(());
+        }
+        let fault = format!(
+            "--node: by way of another board {RELAYED_HZ} records a second come; this needs all: \
+             connect the board itself"
+        );
+        Err(Error::Input(fault))
+    }
+
+    /// The board that is asked by way of another one.
+    fn elsewhere(&self) -> Option<u8> {
+        self.node.filter(|_| self.sim.is_none())
+    }
+
     /// Opens it, in a world whose seed is `later` ones after its own.
     pub(crate) fn open(&self, later: u64) -> Result<Box<dyn Source>, Error> {
+        let source = self.connected(later)?;
+        Ok(match self.elsewhere() {
+            Some(node) => Box::new(Elsewhere::new(source, node)),
+            None => source,
+        })
+    }
+
+    fn connected(&self, later: u64) -> Result<Box<dyn Source>, Error> {
         let laying = || Laying::by(self.lay_by.as_deref());
         if let Some(serial) = &self.probe {
             return probe::open(serial, self.board(), self.program.as_deref(), laying());
@@ -113,10 +141,10 @@ impl SourceChoice {
         let flash = Flash::open(self.flash.as_deref())?;
         let head = &loaded.scene.head;
         let boards = head.nodes.map_or(0, usize::from);
-        let is_one_a_board = simulates && boards == loaded.scene.whiskers();
+        let is_one_a_board = boards == loaded.scene.whiskers();
         if head.whiskers_per_side > 1 && !is_one_a_board {
             let fault = "a record tells a whisker's side and not its number; found more than \
-                         one, allowed: head.whiskers_per_side = 1, or with --sim a board a whisker";
+                         one, allowed: head.whiskers_per_side = 1, or a board a whisker";
             return Err(Error::file(path, fault));
         }
         if simulates {
@@ -139,6 +167,14 @@ impl SourceChoice {
             }
             None => program::build(self.board(), path)?,
         };
+        if boards > 0 {
+            if self.flash.is_some() || self.scenario.is_some() {
+                let fault = "--flash, --scenario: found one; allowed: none with the boards of a \
+                             head, for which cargo xtask emulate --head has scenarios";
+                return Err(Error::file(path, fault));
+            }
+            return Ok(Box::new(EmulatedHead::open(loaded, &program)?));
+        }
         let emulated = Emulated::open(loaded, &program, flash, self.scenario.as_deref())?;
         Ok(Box::new(emulated))
     }

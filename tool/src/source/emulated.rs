@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use emulator::head::HeadSession;
 use emulator::session::Session;
 use firmware::Links;
 use host_sim::Error;
@@ -97,5 +98,74 @@ impl Source for Emulated {
         self.session.bear_resets(false);
         self.flash.store(&self.session.flash()?)?;
         loaded
+    }
+}
+
+/// The boards of a head, of which the first is talked with.
+pub(super) struct EmulatedHead {
+    loaded: Loaded,
+    session: HeadSession,
+}
+
+impl EmulatedHead {
+    pub(super) fn open(loaded: Loaded, program: &Path) -> Result<Self, Error> {
+        let session = HeadSession::new(&loaded.scene, program)?;
+        Ok(Self { loaded, session })
+    }
+
+    fn ask(&mut self, node: Option<u8>, request: TaggedCommand) -> Result<(), Error> {
+        if self.session.request(node, request)? {
+            return Ok(());
+        }
+        let fault = "the board has no room for more requests";
+        Err(Error::Work(fault.to_owned()))
+    }
+}
+
+impl Source for EmulatedHead {
+    fn next(&mut self) -> Result<Incoming, Error> {
+        self.session.tick()?;
+        Ok(Incoming {
+            packets: self.session.packets()?,
+            lines: self.session.log()?,
+        })
+    }
+
+    fn request(&mut self, request: TaggedCommand) -> Result<(), Error> {
+        self.ask(None, request)
+    }
+
+    fn request_of(&mut self, node: u8, request: TaggedCommand) -> Result<(), Error> {
+        self.ask(Some(node), request)
+    }
+
+    fn has(&self, sample: &str) -> Result<(), Error> {
+        texture(sample, &self.loaded.scene).map(drop)
+    }
+
+    fn lay(&mut self, sample: &str) -> Result<(), Error> {
+        self.session.lay(texture(sample, &self.loaded.scene)?);
+        Ok(())
+    }
+
+    fn is_laid(&mut self) -> Result<bool, Error> {
+        Ok(self.session.is_laid())
+    }
+
+    fn now_s(&mut self) -> f64 {
+        self.session.now_s()
+    }
+
+    fn duration_s(&self) -> Option<f64> {
+        Some(self.loaded.scene.duration_s)
+    }
+
+    fn origin(&self) -> Origin {
+        let board = self.session.board();
+        Origin::default().with("board", format_args!("{board} (emulated)"))
+    }
+
+    fn would_answer(&self, links: Links) -> Result<(), Error> {
+        by_probe(links)
     }
 }

@@ -177,6 +177,10 @@ impl Source for Port {
         self.write(&wire::frame(&request))
     }
 
+    fn request_of(&mut self, node: u8, request: TaggedCommand) -> Result<(), Error> {
+        self.write(&wire::frame(&(request, node)))
+    }
+
     fn laying(&mut self) -> Option<&mut Laying> {
         Some(&mut self.laying)
     }

@@ -6,7 +6,7 @@ use std::process::Command;
 
 use clap::ValueEnum;
 use emulator::session::Session;
-use firmware::Header;
+use firmware::{Header, Part};
 use host_sim::loaded::Loaded;
 use host_sim::output::write_whole;
 use host_sim::{Error, report};
@@ -81,11 +81,13 @@ pub(crate) fn build(board: BoardName, scene: &Path) -> Result<PathBuf, Error> {
         scene.display()
     ));
     let has_room = facts.flash.program.bytes >= ROOM_FOR_ALL;
+    // A program reads one kind of sensor, by default the other one.
+    let takes_any = has_room && !image.features.contains(&Part::Tmag5170.feature());
     let mut features = vec![feature];
-    if has_room {
-        features.push("default");
+    if takes_any {
+        features.extend(["default", Part::Bus.feature()]);
     }
-    let is_needed = |part: &&str| !has_room || *part == "fixed";
+    let is_needed = |part: &&str| !takes_any || *part == "fixed";
     features.extend(image.features.into_iter().filter(is_needed));
     let files = Files::new(&built, feature, &image.bytes, model.as_ref())?;
     // Programs of all scenes are built in the same place.

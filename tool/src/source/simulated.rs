@@ -78,10 +78,7 @@ fn run(loaded: &Loaded, node: usize) -> Result<Run, Error> {
 }
 
 fn line(t_s: f64, event: &Event, classes: &[String]) -> Option<String> {
-    let (level, said) = report::said(event, classes)?;
-    // As defmt pads it.
-    let level = level.to_uppercase();
-    Some(format!("{t_s:.3} {level:<5} {said}"))
+    report::logged(t_s, event, classes, None)
 }
 
 fn of_model(found: &Result<ModelBuf, Refusal>) -> Vec<String> {

@@ -190,3 +190,18 @@ fn a_scene_that_the_board_does_not_take_changes_nothing_in_it() {
     assert_eq!(std::fs::read(place.path("board.flash")).unwrap(), kept);
     assert_runs(&place, now, &format!("get --scene other.toml {board}"));
 }
+
+/// The second board of a head has no whisker on the left.
+#[test]
+fn a_board_of_a_head_stops_and_takes_another_scene() {
+    let place = Place::new();
+    let head = bench_with(TWO_SIDES).replace("[head]", "[head]\nnodes = 2");
+    place.write("head.toml", &head);
+    let (from, to) = OTHER;
+    place.write("other.toml", &head.replace(from, to));
+    let ran = place.done("deploy --sim head.toml --node 1 --scene other.toml");
+    ran.prints("before, the module runs scene bench (");
+    ran.prints("now it runs scene other (");
+    let few = "by way of another board 100 records a second come";
+    place.refuses("check --emulated head.toml --node 1 --out checked", few);
+}

@@ -1,6 +1,7 @@
 //! The bus of a program that has none: nothing.
 
-use firmware::Event;
+use firmware::{Event, Heard, Packet};
+use wire::{Answer, TaggedCommand};
 
 use crate::board::scene::Pace;
 use crate::board::types::{Inner, Settings};
@@ -12,9 +13,52 @@ pub(crate) const fn number(_: &Settings) -> u8 {
 
 pub(crate) struct Head;
 
+/// No other board.
+pub(crate) struct Post;
+
+impl Post {
+    pub(crate) const fn is_own(&self, _: u8) -> bool {
+        false
+    }
+
+    pub(crate) fn ask(&mut self, _: u8, _: TaggedCommand) -> bool {
+        false
+    }
+
+    pub(crate) fn next(&mut self) -> Option<Heard> {
+        None
+    }
+
+    pub(crate) fn take_request(&mut self) -> Option<(u8, TaggedCommand)> {
+        None
+    }
+
+    pub(crate) fn answer(&mut self, _: &Answer) -> bool {
+        true
+    }
+
+    pub(crate) fn packet(&mut self, _: u8, _: &Packet) {}
+
+    pub(crate) fn every(&self) -> u32 {
+        1
+    }
+
+    pub(crate) fn begin_loading(&mut self) {}
+
+    pub(crate) fn next_alone(&mut self) -> Option<TaggedCommand> {
+        None
+    }
+
+    pub(crate) fn reply_alone(&mut self, _: &Answer) {}
+
+    pub(crate) fn has_sent() -> bool {
+        true
+    }
+}
+
 impl Head {
-    pub(crate) fn start(_: &Settings, _: &Pace, _: u8) -> Self {
-        Self
+    pub(crate) fn start(_: &Settings, _: &Pace, _: u8) -> (Self, Post) {
+        (Self, Post)
     }
 
     #[inline]

@@ -5,10 +5,12 @@
 
 #[path = "bxcan.rs"]
 mod bxcan;
+#[path = "post.rs"]
+mod post;
 
-use can::Frame;
+use can::{Frame, Part};
 use firmware::boards::TickPeriod;
-use firmware::{Clock, Event, Node};
+use firmware::{Clock, Event, Node, Relay};
 use static_cell::StaticCell;
 use tactile::Decision;
 
@@ -19,6 +21,7 @@ use crate::board::types::{Inner, Settings};
 use crate::board::{pace, retained, tick_timer};
 use crate::here::Counter;
 use bxcan::Controller;
+pub(crate) use post::Post;
 
 /// Bits of the board's number, the lowest first: jumpers to ground. A board without one is node
 /// 0; a second one without stays off, and is silent, as soon as it hears the first.
@@ -51,9 +54,12 @@ pub(crate) fn number(settings: &Settings) -> u8 {
 pub(crate) struct Head(Option<&'static mut OnBus>);
 
 static ON_BUS: StaticCell<OnBus> = StaticCell::new();
+static LETTERS: StaticCell<post::Queues> = StaticCell::new();
 
 struct OnBus {
     node: Node,
+    number: u8,
+    letters: post::Ends,
     controller: Controller,
     own: Time,
     decided: Option<Decision>,
@@ -137,17 +143,25 @@ impl Time {
 impl Head {
     /// On the bus from now on, as node `number`. One whose number is none of the head's is
     /// silent, as it has no whiskers.
-    pub(crate) fn start(settings: &Settings, pace: &Pace, number: u8) -> Self {
+    pub(crate) fn start(settings: &Settings, pace: &Pace, number: u8) -> (Self, Post) {
+        let none = || (Self(None), Post::none());
         let bus = settings.head.bus.filter(|bus| number < bus.nodes);
-        let timing = bus.and(pace.bus);
-        Self(timing.and_then(|timing| {
-            ON_BUS.try_init_with(|| OnBus {
-                node: Node::new(&settings.head, number),
-                controller: Controller::start(timing),
-                own: Time::new(pace.tick),
-                decided: None,
-            })
-        }))
+        let (Some(bus), Some(timing)) = (bus, pace.bus) else {
+            return none();
+        };
+        let Some(queues) = LETTERS.try_init_with(post::Queues::new) else {
+            return none();
+        };
+        let (letters, post) = queues.split(Relay::new(number, bus, settings.head.tick_hz));
+        let on_bus = ON_BUS.try_init_with(|| OnBus {
+            node: Node::new(&settings.head, number),
+            number,
+            letters,
+            controller: Controller::start(timing),
+            own: Time::new(pace.tick),
+            decided: None,
+        });
+        (Self(on_bus), post)
     }
 
     /// Before a tick.
@@ -191,6 +205,7 @@ impl Head {
     pub(crate) fn after(&mut self, inner: &Inner, settings: &Settings) {
         let Some(OnBus {
             node,
+            letters,
             controller,
             decided,
             ..
@@ -202,15 +217,31 @@ impl Head {
         node.after((inner, settings), *decided, &mut |frame| {
             controller.say(frame);
         });
+        // One a tick, so that they keep no message of the head from its place.
+        if let Some(frame) = letters.said.dequeue().filter(|_| !node.is_twin()) {
+            controller.say(frame);
+        }
     }
 
     pub(crate) fn hear(&mut self) {
-        let Some(OnBus { node, own, .. }) = &mut self.0 else {
+        let Some(OnBus {
+            node,
+            number,
+            letters,
+            own,
+            ..
+        }) = &mut self.0
+        else {
             return bxcan::ignore();
         };
         let at_us = own.now();
-        while let Some(frame) = Controller::take() {
-            node.hear(&frame, at_us);
+        while let Some(frame) = bxcan::take() {
+            match Part::of(&frame) {
+                None => node.hear(&frame, at_us),
+                // What finds no room comes again.
+                Some(part) if part.to == *number => _ = letters.heard.enqueue(frame),
+                Some(_) => {}
+            }
         }
     }
 

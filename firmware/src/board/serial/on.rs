@@ -14,8 +14,8 @@ use firmware::{Event, NotArmed, Packet, StartCause, Startup};
 use heapless::Deque;
 use wire::text::{self, Spoken};
 use wire::{
-    Answer, COMMAND_BYTES, Command, CommandStatus, Field, Frame, Line, Piece, Splitter,
-    TaggedCommand, UnknownCommand,
+    Addressed, Answer, COMMAND_BYTES, Command, CommandStatus, Field, Frame, Line, Piece, Splitter,
+    TaggedCommand,
 };
 
 use crate::board::about::About;
@@ -37,7 +37,7 @@ const WAITING: usize = 4;
 
 #[derive(Clone, Copy)]
 struct Asked {
-    request: Result<TaggedCommand, UnknownCommand>,
+    what: Addressed,
     origin: Origin,
     /// The bytes that had come with its last one.
     at: u32,
@@ -45,7 +45,7 @@ struct Asked {
 
 impl Asked {
     const fn is_stop(&self) -> bool {
-        let Ok(request) = self.request else {
+        let Ok(request) = self.what.request else {
             return false;
         };
         matches!(request.command, Command::Stop)
@@ -164,7 +164,7 @@ impl Serial {
         self.receive(now);
         exchange.answer_stops(|origin, answer| reply(origin, answer, about));
         if let Some((origin, answer)) = exchange.answer()
-            && origin != Origin::Probe
+            && origin.is_serial()
             && reply(origin, &answer, about)
         {
             exchange.has_answered();
@@ -174,7 +174,7 @@ impl Serial {
             let Some(asked) = self.waiting.pop_front() else {
                 return;
             };
-            exchange.ask(asked.request, (asked.origin, asked.at), names);
+            exchange.ask(asked.what, (asked.origin, asked.at), names);
         }
     }
 
@@ -191,17 +191,21 @@ impl Serial {
                         sent::line(Line::new().text("ok help: ").text(text::ALLOWED).ended());
                     }
                     Ok(Spoken::Command(command)) => {
-                        self.take(Asked {
+                        let what = Addressed {
                             request: Ok(TaggedCommand { tag: 0, command }),
+                            to: None,
+                        };
+                        self.take(Asked {
+                            what,
                             origin: Origin::Line(command),
                             at,
                         });
                     }
                     Err((first, fault)) => refuse(first, fault.text()),
                 },
-                Some(Piece::Frame(content)) => match TaggedCommand::read(content) {
-                    Some(request) => self.take(Asked {
-                        request,
+                Some(Piece::Frame(content)) => match Addressed::read(content) {
+                    Some(what) => self.take(Asked {
+                        what,
                         origin: Origin::Frame,
                         at,
                     }),
@@ -221,7 +225,9 @@ impl Serial {
         if asked.is_stop() && !self.is_loading {
             return;
         }
-        if let Ok(request) = asked.request
+        // Another board sends fewer.
+        if let Ok(request) = asked.what.request
+            && asked.what.to.is_none()
             && request.command == Command::Stream(true)
             && !self.carries_records()
         {
@@ -266,13 +272,13 @@ impl Serial {
 /// What a loader uses, which has the port for itself.
 impl Serial {
     /// No tick looks for stops any more.
-    pub(crate) fn next(&mut self) -> Option<Result<TaggedCommand, UnknownCommand>> {
+    pub(crate) fn next(&mut self) -> Option<Addressed> {
         let (ring, looked) = ring();
         looked.is_at(writer(), ring.len());
         self.is_loading = true;
         // No time passes that would end a frame.
         self.receive(self.last_byte);
-        Some(self.waiting.pop_front()?.request)
+        Some(self.waiting.pop_front()?.what)
     }
 
     pub(crate) fn reply(&mut self, answer: &Answer) {

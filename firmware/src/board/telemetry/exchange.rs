@@ -2,14 +2,15 @@
 
 use core::sync::atomic::Ordering;
 
-use firmware::{EventRecord, Packet, letters};
-use wire::{Answer, Command, CommandStatus, Load, TaggedCommand, UnknownCommand};
+use firmware::{EventRecord, Heard, Packet, letters};
+use wire::{Addressed, Answer, Command, CommandStatus, Load, TaggedCommand, UnknownCommand};
 
 use super::configs::{Configs, Verdict};
 use super::probe::ProbeLine;
 use super::stops::{By, OWED, STOPPED_IN};
 use super::{Asked, IdleEnds};
 use crate::board::about::About;
+use crate::board::bus::Post;
 use crate::board::counters::TICKS;
 use crate::board::perception::Names;
 use crate::board::{log, retained, serial};
@@ -21,22 +22,38 @@ pub(crate) enum Origin {
     Frame,
     /// By a line of text there, which says this.
     Line(Command),
+    /// By another board of the head.
+    Board(u8),
 }
 
 impl Origin {
     const fn link(self) -> By {
         match self {
-            Self::Probe => By::Probe,
             Self::Frame | Self::Line(_) => By::Serial,
+            // Another board arms none by a request.
+            Self::Probe | Self::Board(_) => By::Probe,
         }
+    }
+
+    const fn reader(self) -> Reader {
+        match self {
+            Self::Probe => Reader::Probe,
+            Self::Frame | Self::Line(_) => Reader::Serial,
+            Self::Board(from) => Reader::Board(from),
+        }
+    }
+
+    pub(crate) const fn is_serial(self) -> bool {
+        matches!(self, Self::Frame | Self::Line(_))
     }
 }
 
 #[derive(Clone, Copy)]
 struct Pending {
     origin: Origin,
-    /// What it wants: unknown commands want nothing.
+    /// What it wants of this board: unknown commands want nothing.
     command: Option<Command>,
+    is_elsewhere: bool,
 }
 
 impl Pending {
@@ -53,14 +70,17 @@ impl Pending {
 enum Reader {
     Probe,
     Serial,
+    Board(u8),
 }
 
 pub(crate) struct Exchange {
     ends: IdleEnds,
     configs: Configs,
     pub(crate) probe: ProbeLine,
-    /// Whoever has asked for them last.
+    pub(crate) post: Post,
+    /// Whoever has asked for them last, and whoever has asked another board.
     reader: Option<Reader>,
+    reader_elsewhere: Option<Reader>,
     pending: Option<Pending>,
     answer: Option<Answer>,
     /// The number of the next request for the tick.
@@ -75,12 +95,14 @@ pub(crate) struct Exchange {
 }
 
 impl Exchange {
-    pub(crate) fn new(ends: IdleEnds, configs: Configs, about: &About) -> Self {
+    pub(crate) fn new(ends: IdleEnds, configs: Configs, post: Post, about: &About) -> Self {
         Self {
             ends,
             configs,
             probe: ProbeLine::new(),
+            post,
             reader: None,
+            reader_elsewhere: None,
             pending: None,
             answer: None,
             number: 0,
@@ -110,26 +132,58 @@ impl Exchange {
     pub(crate) fn take_from_probe(&mut self, names: &Names) {
         if self.is_free()
             && !self.is_serials_turn
-            && let Some(request) = self.probe.next_looked_at()
+            && let Some(asked) = self.probe.next_looked_at()
         {
+            let request = asked.request;
             let is_stop = request.is_ok_and(|request| request.command == Command::Stop);
             // The tick has seen it.
             if !is_stop {
                 self.is_serials_turn = self.has_serial;
-                self.ask(request, (Origin::Probe, self.probe.count()), names);
+                self.ask(asked, (Origin::Probe, self.probe.count()), names);
             }
         }
     }
 
+    /// Takes what has come from other boards of the head.
+    pub(crate) fn take_from_head(&mut self, names: &Names) {
+        while let Some(heard) = self.post.next() {
+            match heard {
+                Heard::Answered(answer) => {
+                    if self.pending.is_some_and(|pending| pending.is_elsewhere) {
+                        self.answer = Some(answer);
+                    }
+                }
+                Heard::Packet(packet) => {
+                    if let Some(reader) = self.reader_elsewhere {
+                        self.send(reader, &packet);
+                    }
+                }
+                Heard::Say(_) => {}
+            }
+        }
+        if self.is_free()
+            && let Some((from, request)) = self.post.take_request()
+        {
+            let asked = Addressed {
+                request: Ok(request),
+                to: None,
+            };
+            self.ask(asked, (Origin::Board(from), 0), names);
+        }
+    }
+
     /// So many bytes had come with its last one.
-    pub(crate) fn ask(
-        &mut self,
-        request: Result<TaggedCommand, UnknownCommand>,
-        (origin, at): (Origin, u32),
-        names: &Names,
-    ) {
+    pub(crate) fn ask(&mut self, asked: Addressed, (origin, at): (Origin, u32), names: &Names) {
+        let Addressed { request, to } = asked;
         let command = request.ok().map(|request| request.command);
-        self.pending = Some(Pending { origin, command });
+        // A whole head is armed.
+        let to = to.filter(|to| command != Some(Command::Arm) && !self.post.is_own(*to));
+        let is_elsewhere = to.is_some();
+        self.pending = Some(Pending {
+            origin,
+            command: command.filter(|_| !is_elsewhere),
+            is_elsewhere,
+        });
         let request = match request {
             Ok(request) => request,
             Err(unknown) => {
@@ -137,10 +191,18 @@ impl Exchange {
                 return;
             }
         };
+        if let Some(to) = to {
+            self.ask_elsewhere(to, request, origin);
+            return;
+        }
         log::requested(request.command);
         let verdict = match request.command {
             Command::Class(class, from) => class_name(names, class, from),
             Command::Started => Verdict::Done(CommandStatus::Done, retained::started().values()),
+            // That is a message of the head, which no stop can come before.
+            Command::Arm | Command::Stop if matches!(origin, Origin::Board(_)) => {
+                Verdict::Done(CommandStatus::NotHere, [0; 2])
+            }
             command => self.configs.prepare(command),
         };
         if let Verdict::Done(status, values) = verdict {
@@ -161,6 +223,14 @@ impl Exchange {
         }
     }
 
+    fn ask_elsewhere(&mut self, to: u8, request: TaggedCommand, origin: Origin) {
+        self.reader_elsewhere = Some(origin.reader());
+        if !self.post.ask(to, request) {
+            let none = (CommandStatus::NoBoard, [0; 2]);
+            self.answer = Some(firmware::answer(request, TICKS.get(), none));
+        }
+    }
+
     fn answered(&mut self) -> Option<(Pending, Answer)> {
         if self.answer.is_none() {
             self.answer = self.ends.answers.dequeue();
@@ -175,15 +245,15 @@ impl Exchange {
         is_sent.then_some((pending.origin, answer))
     }
 
-    /// What is to be loaded, once it may be, and whether that was asked for at the serial port.
-    pub(crate) fn load_due(&mut self) -> Option<(Load, Answer, bool)> {
+    /// What is to be loaded, once it may be, and how that was asked for.
+    pub(crate) fn load_due(&mut self) -> Option<(Load, Answer, Origin)> {
         // The loader answers no stop that was before it.
         if !self.has_answered_stops() {
             return None;
         }
         let (pending, answer) = self.answered()?;
         let load = pending.load(&answer)?;
-        Some((load, answer, pending.origin != Origin::Probe))
+        Some((load, answer, pending.origin))
     }
 
     pub(crate) fn has_answered(&mut self) {
@@ -193,11 +263,7 @@ impl Exchange {
         if let (true, Some(pending)) = (is_done, pending)
             && let Some(Command::Stream(on)) = pending.command
         {
-            let reader = match pending.origin {
-                Origin::Probe => Reader::Probe,
-                Origin::Frame | Origin::Line(_) => Reader::Serial,
-            };
-            self.reader = on.then_some(reader);
+            self.reader = on.then_some(pending.origin.reader());
         }
     }
 
@@ -254,14 +320,26 @@ impl Exchange {
         }
     }
 
-    pub(crate) fn send_event(&self, event: EventRecord) {
-        let Some(reader) = self.reader else {
-            return;
-        };
-        let frame = wire::frame(&Packet::Event(event));
+    pub(crate) fn answer_head(&mut self) {
+        if let Some((Origin::Board(_), answer)) = self.answer()
+            && self.post.answer(&answer)
+        {
+            self.has_answered();
+        }
+    }
+
+    pub(crate) fn send_event(&mut self, event: EventRecord) {
+        if let Some(reader) = self.reader {
+            self.send(reader, &Packet::Event(event));
+        }
+    }
+
+    /// Sends a packet if there is room for it.
+    fn send(&mut self, reader: Reader, packet: &Packet) {
         match reader {
-            Reader::Probe => _ = ProbeLine::put(&frame),
-            Reader::Serial => serial::send_event(&frame),
+            Reader::Probe => _ = ProbeLine::put(&wire::frame(packet)),
+            Reader::Serial => serial::send_event(&wire::frame(packet)),
+            Reader::Board(to) => self.post.packet(to, packet),
         }
     }
 
@@ -269,10 +347,16 @@ impl Exchange {
     /// and are lost and counted where that is full.
     pub(crate) fn send_records(&mut self) {
         while let Some(record) = self.ends.records.peek() {
-            let frame = wire::frame(&Packet::Record(*record));
+            let packet = Packet::Record(*record);
             let is_sent = match self.reader {
-                Some(Reader::Probe) => ProbeLine::record(&frame),
-                Some(Reader::Serial) => serial::send_record(&frame),
+                Some(Reader::Probe) => ProbeLine::record(&wire::frame(&packet)),
+                Some(Reader::Serial) => serial::send_record(&wire::frame(&packet)),
+                Some(Reader::Board(to)) => {
+                    if record.sequence.is_multiple_of(self.post.every()) {
+                        self.post.packet(to, &packet);
+                    }
+                    true
+                }
                 None => false,
             };
             // Those that came before the answer to who has asked for them wait for it.

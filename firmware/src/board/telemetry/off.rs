@@ -1,9 +1,10 @@
 //! The link of a program that has none: nothing.
 
 use firmware::{Event, EventRecord, ModelState};
-use wire::{Answer, Load, TaggedCommand, UnknownCommand};
+use wire::{Addressed, Answer, Load};
 
 use crate::board::about::About;
+use crate::board::bus::Post;
 use crate::board::perception::Names;
 use crate::board::scene::Deployed;
 use crate::board::types::{Inner, Number, Settings};
@@ -37,7 +38,7 @@ impl Configs {
 pub(crate) struct ProbeLine;
 
 impl ProbeLine {
-    pub(crate) fn next(&mut self) -> Option<Result<TaggedCommand, UnknownCommand>> {
+    pub(crate) fn next(&mut self) -> Option<Addressed> {
         None
     }
 
@@ -48,26 +49,47 @@ impl ProbeLine {
     }
 }
 
+/// How something was asked for, which nothing is.
+#[derive(Clone, Copy)]
+pub(crate) enum Origin {
+    Probe,
+    Board(u8),
+}
+
+impl Origin {
+    pub(crate) const fn is_serial(self) -> bool {
+        false
+    }
+}
+
 pub(crate) struct Exchange {
     pub(crate) probe: ProbeLine,
+    pub(crate) post: Post,
 }
 
 impl Exchange {
-    pub(crate) fn new(_: Ends, _: Configs, _: &About) -> Self {
-        Self { probe: ProbeLine }
+    pub(crate) fn new(_: Ends, _: Configs, post: Post, _: &About) -> Self {
+        Self {
+            probe: ProbeLine,
+            post,
+        }
     }
 
     pub(crate) fn log_changes(&mut self, _: u32) {}
 
     pub(crate) fn take_from_probe(&mut self, _: &Names) {}
 
-    pub(crate) fn load_due(&mut self) -> Option<(Load, Answer, bool)> {
+    pub(crate) fn take_from_head(&mut self, _: &Names) {}
+
+    pub(crate) fn load_due(&mut self) -> Option<(Load, Answer, Origin)> {
         None
     }
 
     pub(crate) fn answer_probe(&mut self) {}
 
-    pub(crate) fn send_event(&self, _: EventRecord) {}
+    pub(crate) fn answer_head(&mut self) {}
+
+    pub(crate) fn send_event(&mut self, _: EventRecord) {}
 
     pub(crate) fn send_records(&mut self) {}
 }

@@ -24,9 +24,7 @@ use crate::board::slots::{self, ROOM};
 use crate::board::types::{Inner, Settings};
 pub(crate) use configs::Configs;
 use configs::{Spare, Ways};
-pub(crate) use exchange::Exchange;
-#[cfg(feature = "serial")]
-pub(crate) use exchange::Origin;
+pub(crate) use exchange::{Exchange, Origin};
 pub(crate) use probe::ProbeLine;
 #[cfg(feature = "serial")]
 pub(crate) use stops::Looked;

@@ -2,7 +2,7 @@
 
 use core::sync::atomic::Ordering;
 
-use wire::{Answer, CONTENT_BYTES, Frame, Piece, Splitter, TaggedCommand, UnknownCommand};
+use wire::{Addressed, Answer, CONTENT_BYTES, Frame, Piece, Splitter};
 
 use super::stops::PROBE;
 use crate::board::rtt::{DOWN, PACKETS, REQUESTS, UP};
@@ -22,7 +22,7 @@ impl ProbeLine {
     }
 
     /// For a loader: no tick looks for stops any more.
-    pub(crate) fn next(&mut self) -> Option<Result<TaggedCommand, UnknownCommand>> {
+    pub(crate) fn next(&mut self) -> Option<Addressed> {
         PROBE.is_at(DOWN.writer() as usize, REQUESTS.len());
         self.next_looked_at()
     }
@@ -35,7 +35,7 @@ impl ProbeLine {
         PROBE.bytes_until(DOWN.reader() as usize, REQUESTS.len())
     }
 
-    pub(crate) fn next_looked_at(&mut self) -> Option<Result<TaggedCommand, UnknownCommand>> {
+    pub(crate) fn next_looked_at(&mut self) -> Option<Addressed> {
         while self.is_waiting() {
             let at = DOWN.reader() as usize;
             // Erased, lest a flipped bit in an offset has a request carried out again.
@@ -50,9 +50,9 @@ impl ProbeLine {
                 0
             });
             if let Some(Piece::Frame(content)) = self.splitter.push(byte)
-                && let Some(request) = TaggedCommand::read(content)
+                && let Some(asked) = Addressed::read(content)
             {
-                return Some(request);
+                return Some(asked);
             }
         }
         None

@@ -30,6 +30,7 @@ pub(super) struct Bench {
 
 impl Bench {
     pub(super) fn new(arguments: &Arguments) -> Result<Self, Error> {
+        arguments.source.sends_all()?;
         let mut module = arguments.source.module()?;
         let about = module.about()?;
         let running = Running::ask(&mut module)?;

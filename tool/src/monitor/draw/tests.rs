@@ -18,7 +18,7 @@ use crate::source::{Hair, Incoming};
 const PLAIN: Theme = Theme { colours: false };
 
 fn history() -> History {
-    let mut history = History::new(1000, 2, None);
+    let mut history = History::new((1000, 1), 2, None);
     for sequence in 1..=6000_u32 {
         let wave = (f64::from(sequence) / 200.0).sin();
         for flags in [Flags::ARMED | Flags::VALID | Flags::TOUCHING, Flags::RIGHT] {

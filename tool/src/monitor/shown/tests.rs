@@ -13,7 +13,7 @@ use crate::source::{Incoming, record, scene_file};
 
 /// Records of four seconds at 1 kHz, a peak of one tick in the third, with a fault.
 fn history() -> History {
-    let mut history = History::new(1000, 1, None);
+    let mut history = History::new((1000, 1), 1, None);
     for sequence in 1..=4000 {
         let measured = if sequence == 2500 { 8192 } else { 0 };
         let record = TickRecord {
@@ -65,7 +65,7 @@ fn it_is_said_that_the_classifier_has_started_again() {
         .unwrap()
         .unwrap();
     let listener = Listener::new(known, 2000, 1).unwrap();
-    let mut history = History::new(2000, 1, Some(listener));
+    let mut history = History::new((2000, 1), 1, Some(listener));
     let mut take = |sequence| {
         let record = record(sequence, Flags::VALID);
         history.take(&Incoming::of([Packet::Record(record)]));

@@ -1,0 +1,289 @@
+//! A board of a head that is asked by way of another one.
+
+use std::collections::HashMap;
+use std::path::Path;
+
+use firmware::{Header, Packet, RELAYED_HZ, Relay};
+use host_sim::Error;
+use host_sim::loaded::Loaded;
+use host_sim::run::Run;
+use scene::Scene;
+use wire::{Answer, CONFIG_CHANGED, Command, CommandStatus, Flags, TaggedCommand, TickRecord};
+
+use super::HeadSession;
+use crate::compare::{plain, same_numbers};
+use crate::deployment::{Deployment, flashed, words};
+use crate::emulate::pwm_counts;
+use crate::program::Program;
+use crate::session::answer_to;
+use crate::talk::wrong;
+
+/// For how long records are compared, s.
+const COMPARED_S: f64 = 0.5;
+
+/// Ticks that an answer may take: flash is erased in a second or two.
+const PATIENCE: u32 = 10_000;
+
+/// In how many ticks a stop takes effect on every board: that of the first, a message that waits
+/// for one which is under way, and that of the other.
+const STOPPED_TICKS: u32 = 4;
+
+struct Talk {
+    session: HeadSession,
+    /// The last board.
+    far: u8,
+    tag: u16,
+    ticks: u32,
+    records: Vec<TickRecord>,
+}
+
+impl Talk {
+    fn tick(&mut self) -> Result<Vec<Packet>, Error> {
+        self.session.tick()?;
+        self.ticks += 1;
+        let packets = self.session.packets()?;
+        self.records
+            .extend(packets.iter().filter_map(|packet| match packet {
+                Packet::Record(record) => Some(*record),
+                Packet::Answer(_) | Packet::Event(_) => None,
+            }));
+        Ok(packets)
+    }
+
+    fn ask(&mut self, node: u8, command: Command) -> Result<Answer, Error> {
+        self.tag += 1;
+        let tag = self.tag;
+        let request = TaggedCommand { tag, command };
+        if !self.session.request(Some(node), request)? {
+            return wrong(format!("{command:?}: no room for it"));
+        }
+        for _ in 0..PATIENCE {
+            if let Some(answer) = answer_to(tag, &self.tick()?) {
+                return Ok(answer);
+            }
+        }
+        wrong(format!("{command:?}: no answer from board {node}"))
+    }
+
+    fn must(&mut self, node: u8, command: Command, status: CommandStatus) -> Result<(), Error> {
+        let found = self.ask(node, command)?.status;
+        if found == status {
+            return Ok(());
+        }
+        wrong(format!(
+            "{command:?} to board {node}: found {found:?}, expected {status:?}"
+        ))
+    }
+
+    fn done(&mut self, command: Command) -> Result<(), Error> {
+        self.must(self.far, command, CommandStatus::Done)
+    }
+
+    fn runs_by(&mut self, node: u8) -> Result<[i32; 2], Error> {
+        Ok(self.ask(node, Command::Scene)?.values)
+    }
+}
+
+/// The scene that all run by, and how it is on boards.
+struct Case<'p> {
+    loaded: Loaded,
+    program: &'p Program,
+    runs: Deployment,
+    feels: bool,
+    /// Whiskers of a board.
+    each: usize,
+}
+
+impl Case<'_> {
+    fn deployment(&self, change: impl FnOnce(&mut Scene)) -> Result<Deployment, Error> {
+        let mut scene = self.loaded.scene.clone();
+        change(&mut scene);
+        Deployment::of(&scene, self.loaded.model(), self.program.model()?.facts)
+    }
+}
+
+/// The last board of the head is asked by way of the first, which a probe is connected to: it must
+/// say that it runs the scene, send records as the simulated head has them, take another
+/// configuration and another scene, and stop. Returns what was seen, a line each.
+pub(crate) fn relay(path: &Path, program: &Path) -> Result<Vec<String>, Error> {
+    let (mut loaded, program) = flashed(path, program)?;
+    let facts = program.model()?.facts;
+    let classifier = loaded.classifier()?;
+    let feels = same_numbers(&mut loaded, classifier.as_ref(), facts)?;
+    let Some(bus) = config::bus(&loaded.scene) else {
+        return wrong(format!("{}: no head of several boards", path.display()));
+    };
+    let mut talk = Talk {
+        session: HeadSession::of(&loaded.scene, &program)?,
+        far: bus.nodes - 1,
+        tag: 0,
+        ticks: 0,
+        records: Vec::new(),
+    };
+    let case = Case {
+        runs: Deployment::of(&loaded.scene, loaded.model(), facts)?,
+        each: loaded.scene.whiskers() / usize::from(bus.nodes),
+        loaded,
+        program: &program,
+        feels,
+    };
+    let took = talk.says_its_scene(&case)?;
+    talk.must(bus.nodes, Command::Hello, CommandStatus::NoBoard)?;
+    talk.must(talk.far, Command::Restart, CommandStatus::NotHere)?;
+    let records = talk.same_records(&case)?;
+    talk.takes_another_configuration(&case)?;
+    talk.stops(&case)?;
+    let deployed = talk.takes_another_scene(&case)?;
+    Ok(vec![
+        format!(
+            "board {} answers board 0 in {took} ticks; as in the simulated head {records} records",
+            talk.far
+        ),
+        deployed,
+    ])
+}
+
+impl Talk {
+    /// In how many ticks it answers.
+    fn says_its_scene(&mut self, case: &Case) -> Result<u32, Error> {
+        let begun = self.ticks;
+        let hello = self.ask(self.far, Command::Hello)?;
+        let took = self.ticks - begun;
+        if hello.values != [case.loaded.scene.tick_hz as i32, case.each as i32] {
+            return wrong(format!("hello: {hello:?}"));
+        }
+        let config = &case.runs.config;
+        for node in [self.far, 0] {
+            if self.runs_by(node)? != [crc(config)?, config.len() as i32] {
+                return wrong(format!("board {node} runs by another scene"));
+            }
+        }
+        for (at, two) in (0..).step_by(2).zip(words(config).chunks(2)) {
+            let found = self.ask(self.far, Command::Config(at))?.values;
+            if found.map(i32::cast_unsigned)[..two.len()] != *two {
+                return wrong(format!("word {at} of its configuration: {found:?}"));
+            }
+        }
+        Ok(took)
+    }
+
+    /// Records, each against that of the same tick in the simulated head; how many.
+    fn same_records(&mut self, case: &Case) -> Result<usize, Error> {
+        let Case {
+            loaded,
+            feels,
+            each,
+            ..
+        } = case;
+        let scene = &loaded.scene;
+        self.done(Command::Stream(true))?;
+        self.pass((COMPARED_S * f64::from(scene.tick_hz)) as u32)?;
+
+        let pwm = pwm_counts(scene, case.program.model()?);
+        let mut host = Run::with_pwm(scene, loaded.classifier()?, pwm)?;
+        host.module_mut().talk_with(self.far.into());
+        let command = Command::Stream(true);
+        host.module_mut().request(TaggedCommand { tag: 1, command });
+        let key = |record: &TickRecord| (record.sequence, record.flags.contains(Flags::RIGHT));
+        let mut expected = HashMap::new();
+        for _ in 0..self.ticks {
+            host.tick();
+            for packet in host.module_mut().take_packets() {
+                if let Packet::Record(record) = packet {
+                    expected.insert(key(&record), plain(&record, *feels));
+                }
+            }
+        }
+        let every = Relay::every(scene.tick_hz);
+        for found in &self.records {
+            let of_host = expected.get(&key(found));
+            if of_host != Some(&plain(found, *feels)) || !found.sequence.is_multiple_of(every) {
+                return wrong(format!("{found:?}\n  in the simulated head {of_host:?}"));
+            }
+        }
+        let least = (COMPARED_S * f64::from(RELAYED_HZ)) as usize * each - 1;
+        if self.records.len() < least {
+            return wrong(format!("{} records, expected {least}", self.records.len()));
+        }
+        Ok(self.records.len())
+    }
+
+    fn takes_another_configuration(&mut self, case: &Case) -> Result<(), Error> {
+        let tuned = case.deployment(|scene| {
+            let gains = scene.whisking.iter_mut().flat_map(|of| &mut of.gain);
+            gains.for_each(|gain| *gain *= 0.9);
+        })?;
+        let config = &tuned.config;
+        self.done(Command::Forget)?;
+        for (number, word) in words(config).into_iter().enumerate() {
+            self.done(Command::Stage(number as u8, word))?;
+        }
+        self.done(Command::Apply(config.len() as u32))?;
+        if self.runs_by(self.far)? == [crc(config)?, config.len() as i32 | CONFIG_CHANGED] {
+            return Ok(());
+        }
+        wrong("another configuration was taken, and does not run")
+    }
+
+    fn stops(&mut self, case: &Case) -> Result<(), Error> {
+        self.done(Command::Stop)?;
+        self.pass(STOPPED_TICKS)?;
+        self.records.clear();
+        self.pass(3 * Relay::every(case.loaded.scene.tick_hz))?;
+        let is_driven =
+            |record: &TickRecord| record.flags.contains(Flags::ARMED) || record.duty != 0;
+        if self.records.is_empty() || self.records.iter().any(is_driven) {
+            return wrong(format!("after a stop: {:?}", self.records));
+        }
+        self.done(Command::Stream(false))
+    }
+
+    fn takes_another_scene(&mut self, case: &Case) -> Result<String, Error> {
+        let other = case.deployment(|scene| scene.name.push_str("-2"))?;
+        self.session.bear();
+        let begun = self.ticks;
+        self.done(Command::Load(other.load()))?;
+        for (number, word) in other.words().enumerate() {
+            let word = Command::Word(number as u8, word);
+            self.done(word)?;
+            if number == 0 {
+                // Its answer was lost; and then one that is not next.
+                self.done(word)?;
+                let next = Command::Word(2, 0);
+                self.must(self.far, next, CommandStatus::OutOfRange)?;
+            }
+        }
+        self.done(Command::Restart)?;
+        let tick_hz = f64::from(case.loaded.scene.tick_hz);
+        let loaded_s = f64::from(self.ticks - begun) / tick_hz;
+        // It does not answer before it has started.
+        while self.ask(self.far, Command::Hello)?.status != CommandStatus::Done {
+            if self.ticks - begun > 10 * PATIENCE {
+                return wrong("it does not start again");
+            }
+        }
+        let [by, [first, _]] = [self.runs_by(self.far)?, self.runs_by(0)?];
+        if by[0] != crc(&other.config)? || first != crc(&case.runs.config)? {
+            return wrong("the scene that was deployed is not the one that runs");
+        }
+        let [_, missed] = self.ask(0, Command::Status)?.values;
+        if missed != 0 {
+            return wrong(format!("board 0 has missed {missed} ticks"));
+        }
+        Ok(format!(
+            "another configuration and another scene taken, that of {} words in {loaded_s:.2} s; \
+             board 0 has missed no tick",
+            other.load().words()
+        ))
+    }
+
+    fn pass(&mut self, ticks: u32) -> Result<(), Error> {
+        (0..ticks).try_for_each(|_| self.tick().map(drop))
+    }
+}
+
+fn crc(config: &[u8]) -> Result<i32, Error> {
+    let header = Header::of(config);
+    let crc = header.map(|header| header.crc.cast_signed());
+    crc.map_err(|fault| Error::Work(format!("the configuration: {fault}")))
+}

@@ -1,0 +1,124 @@
+//! A head of emulated boards, for who is connected to the first of them by a probe.
+
+use std::path::Path;
+
+use firmware::Packet;
+use host_sim::Error;
+use host_sim::run::Run;
+use rtt::LogDecoder;
+use scene::{Scene, Texture};
+use wire::TaggedCommand;
+
+use super::Head;
+use crate::board;
+use crate::program::Program;
+
+/// Picoseconds in a second.
+const PS: f64 = 1e12;
+
+/// The boards, started.
+pub struct HeadSession {
+    run: Run<Head>,
+    decoder: LogDecoder,
+    board: &'static str,
+}
+
+impl HeadSession {
+    /// All with the program in `path`, which brings `scene` with it.
+    ///
+    /// # Errors
+    /// [`Error::Input`] for a program that is none, or of another scene, and for a scene that is of
+    /// no head; [`Error::Work`] for boards that do not start.
+    pub fn new(scene: &Scene, path: &Path) -> Result<Self, Error> {
+        let program = Program::load(path)?;
+        let wrong = |fault| Error::file(path, fault);
+        program.check_of(scene).map_err(wrong)?;
+        let mut session = Self::of(scene, &program)?;
+        session.bear();
+        Ok(session)
+    }
+
+    /// From now on boards may be reset.
+    pub(crate) fn bear(&mut self) {
+        self.run.module_mut().bear();
+    }
+
+    /// Whose ticks are those of the simulated head, until it bears resets.
+    pub(crate) fn of(scene: &Scene, program: &Program) -> Result<Self, Error> {
+        let Some(bus) = config::bus(scene) else {
+            let fault = "head.nodes: found none; allowed: a head of several boards";
+            return Err(Error::Input(fault.to_owned()));
+        };
+        // Decisions are in the log, by their names.
+        Ok(Self {
+            run: super::start(scene, bus, Vec::new(), (program, 0))?,
+            decoder: program.log_decoder()?,
+            board: program.model()?.program,
+        })
+    }
+
+    /// One tick of the world.
+    ///
+    /// # Errors
+    /// [`Error::Work`] says what has stopped a board.
+    pub fn tick(&mut self) -> Result<(), Error> {
+        self.run.tick();
+        Ok(self.run.module_mut().check()?)
+    }
+
+    /// Has the first board asked, or by way of it that of this number; whether there was room.
+    ///
+    /// # Errors
+    /// [`Error::Work`] if the program's memory is not as it should be.
+    pub fn request(&mut self, node: Option<u8>, request: TaggedCommand) -> Result<bool, Error> {
+        let frame = match node {
+            Some(node) => wire::frame(&(request, node)),
+            None => wire::frame(&request),
+        };
+        Ok(self.first()?.request(&frame)?)
+    }
+
+    /// What the first board has sent since the last call.
+    ///
+    /// # Errors
+    /// As [`HeadSession::request`].
+    pub fn packets(&mut self) -> Result<Vec<Packet>, Error> {
+        // What a reset has left of one is none.
+        Ok(board::packets(&self.first()?.heard()?))
+    }
+
+    /// The lines that the first board has logged since the last call.
+    ///
+    /// # Errors
+    /// As [`HeadSession::request`].
+    pub fn log(&mut self) -> Result<Vec<String>, Error> {
+        let bytes = self.first()?.take_log();
+        Ok(self.decoder.lines(&bytes))
+    }
+
+    fn first(&mut self) -> Result<&mut board::Board, Error> {
+        let first = self.run.module_mut().nodes.first_mut();
+        let first = first.map(|node| &mut node.board);
+        first.ok_or_else(|| Error::Work("the head has no boards".to_owned()))
+    }
+
+    /// As [`Run::lay`].
+    pub const fn lay(&mut self, texture: Texture) {
+        self.run.lay(texture);
+    }
+
+    /// As [`Run::is_laid`].
+    pub const fn is_laid(&self) -> bool {
+        self.run.is_laid()
+    }
+
+    /// Time of the bus, s.
+    pub fn now_s(&mut self) -> f64 {
+        self.run.module_mut().now as f64 / PS
+    }
+
+    /// The name of the boards' program.
+    pub const fn board(&self) -> &'static str {
+        self.board
+    }
+}
