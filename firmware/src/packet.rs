@@ -38,17 +38,44 @@ const RECORD: u8 = 0;
 const ANSWER: u8 = 1;
 const EVENT: u8 = 2;
 
+/// Bytes of a packet.
+pub(crate) const PACKET_BYTES: usize = 21;
+
 type Words = [u32; 5];
 type Bytes = [[u8; 4]; 5];
 
-impl Serialize for Packet {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+impl Packet {
+    /// As it is sent.
+    pub fn bytes(&self) -> [u8; PACKET_BYTES] {
         let (kind, words) = match self {
             Self::Record(record) => (RECORD, record.words()),
             Self::Answer(answer) => (ANSWER, answer.words()),
             Self::Event(event) => (EVENT, event.words()),
         };
-        (kind, words.map(u32::to_le_bytes)).serialize(serializer)
+        let mut bytes = [kind; PACKET_BYTES];
+        let [_, rest @ ..] = &mut bytes;
+        for (place, byte) in rest
+            .iter_mut()
+            .zip(words.map(u32::to_le_bytes).as_flattened())
+        {
+            *place = *byte;
+        }
+        bytes
+    }
+
+    /// The answer that these bytes are, if they are one.
+    pub(crate) fn answer([kind, rest @ ..]: &[u8; PACKET_BYTES]) -> Option<Answer> {
+        let mut words = [0; 5];
+        for (word, bytes) in words.iter_mut().zip(rest.as_chunks().0) {
+            *word = u32::from_le_bytes(*bytes);
+        }
+        (*kind == ANSWER).then(|| Answer::from_words(words))
+    }
+}
+
+impl Serialize for Packet {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        self.bytes().serialize(serializer)
     }
 }
 

@@ -6,8 +6,11 @@
 //! go ([`RELAYED_HZ`]).
 
 use can::{Assembly, Frame, LETTER_BYTES, Letter, LetterKind, PARTS, Part};
-use wire::{Answer, Command, CommandStatus, TaggedCommand};
+use wire::{
+    Answer, COMMAND_MOST, Command, CommandStatus, ForNode, Load, TaggedCommand, UnknownCommand,
+};
 
+use crate::packet::PACKET_BYTES;
 use crate::{BusConfig, Packet};
 
 /// Records of a whisker that go to another board in a second, at most.
@@ -20,9 +23,13 @@ const TENTH: u32 = 10;
 /// For how many tenths of a second an answer is waited for; and where flash is erased for it.
 const PATIENCE: u32 = 5;
 const LONG_PATIENCE: u32 = 200;
+const LOAD: Command = Command::Load(Load {
+    config: 0,
+    model: 0,
+});
 
-/// Bytes that come before the command: the tick in which it was first said.
-const MADE_BYTES: usize = 4;
+const _: () = assert!(LETTER_BYTES == PACKET_BYTES);
+const _: () = assert!(LETTER_BYTES >= 4 + 2 + COMMAND_MOST);
 
 /// Frames of a letter.
 pub type Frames = [Frame; PARTS];
@@ -32,16 +39,15 @@ pub type Frames = [Frame; PARTS];
 pub enum Heard {
     /// The answer to what it has asked another board for, or that there is none.
     Answered(Answer),
-    /// What the board has sent that it asked last.
-    Packet(Packet),
+    /// What the board has sent that it asked last: a packet's bytes.
+    Packet([u8; LETTER_BYTES]),
     /// Nothing; these are to be said.
     Say(Frames),
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 struct Asking {
-    to: u8,
-    request: TaggedCommand,
+    request: ForNode,
     made: u32,
     said: u32,
 }
@@ -49,7 +55,7 @@ struct Asking {
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 struct Asked {
     from: u8,
-    request: TaggedCommand,
+    request: ForNode,
     made: u32,
     is_taken: bool,
     answer: Option<Answer>,
@@ -99,17 +105,16 @@ impl Relay {
     }
 
     /// Asks another board, in tick `now`; `None`: the head has no such board.
-    pub fn ask(&mut self, to: u8, request: TaggedCommand, now: u32) -> Option<Frames> {
-        if to >= self.nodes || to == self.number {
+    pub fn ask(&mut self, request: ForNode, now: u32) -> Option<Frames> {
+        if request.node >= self.nodes || request.node == self.number {
             return None;
         }
         self.asking = Some(Asking {
-            to,
             request,
             made: now,
             said: now,
         });
-        self.reads = Some(to);
+        self.reads = Some(request.node);
         self.say_request()
     }
 
@@ -119,15 +124,13 @@ impl Relay {
             request,
             made,
             said,
-            ..
         } = self.asking?;
-        let is_long = matches!(request.command, Command::Load(_));
+        let is_long = request.number() == LOAD.number();
         let patience = if is_long { LONG_PATIENCE } else { PATIENCE };
         let tenth = self.tick_hz / TENTH;
         if now.wrapping_sub(made) >= patience * tenth {
             self.asking = None;
-            let none = (CommandStatus::NoBoard, [0; 2]);
-            return Some(Heard::Answered(crate::answer(request, now, none)));
+            return Some(Heard::Answered(Self::no_board(&request, now)));
         }
         if is_long || now.wrapping_sub(said) < tenth {
             return None;
@@ -144,7 +147,7 @@ impl Relay {
         match part.kind {
             LetterKind::Packet if self.reads == Some(part.from) => {
                 let letter = self.packets.push(&part)?;
-                self.hear_packet(postcard::from_bytes(&letter.bytes).ok()?)
+                self.hear_packet(letter.bytes)
             }
             LetterKind::Packet => None,
             LetterKind::Request => {
@@ -154,14 +157,14 @@ impl Relay {
         }
     }
 
-    fn hear_packet(&mut self, packet: Packet) -> Option<Heard> {
-        let Packet::Answer(answer) = packet else {
+    fn hear_packet(&mut self, packet: [u8; LETTER_BYTES]) -> Option<Heard> {
+        let Some(answer) = Packet::answer(&packet) else {
             return Some(Heard::Packet(packet));
         };
         // That to a request which was said twice comes twice.
         let asking = self.asking.filter(|asking| {
             let request = asking.request;
-            (request.tag, request.command.number()) == (answer.tag, answer.command)
+            (request.tag, request.number()) == (answer.tag, answer.command)
         });
         asking?;
         self.asking = None;
@@ -169,19 +172,20 @@ impl Relay {
     }
 
     fn hear_request(&mut self, letter: &Letter) -> Option<Frames> {
-        let (made, rest) = letter.bytes.split_first_chunk::<MADE_BYTES>()?;
-        let made = u32::from_le_bytes(*made);
-        let (request, rest) = postcard::take_from_bytes(rest).ok()?;
-        if rest.iter().any(|byte| *byte != 0) {
-            return None;
-        }
-        let from = letter.node;
+        let (made, rest) = letter.bytes.split_first_chunk()?;
+        let (tag, rest) = rest.split_first_chunk()?;
+        let (made, from) = (u32::from_le_bytes(*made), letter.node);
+        let request = ForNode {
+            node: self.number,
+            tag: u16::from_le_bytes(*tag),
+            command: *rest.first_chunk()?,
+        };
         let last = self
             .asked
             .filter(|asked| (asked.from, asked.made, asked.request) == (from, made, request));
         if let Some(last) = last {
             let answer = last.answer?;
-            return self.packet(from, &Packet::Answer(answer));
+            return Some(self.packet(from, &Packet::Answer(answer)));
         }
         // One after the other: this comes again.
         if self
@@ -201,10 +205,21 @@ impl Relay {
     }
 
     /// What another board asks for, once, and which.
-    pub fn take_request(&mut self) -> Option<(u8, TaggedCommand)> {
+    pub fn take_request(&mut self) -> Option<(u8, Result<TaggedCommand, UnknownCommand>)> {
         let asked = self.asked.as_mut().filter(|asked| !asked.is_taken)?;
         asked.is_taken = true;
-        Some((asked.from, asked.request))
+        Some((asked.from, asked.request.here()))
+    }
+
+    /// That a head has no such board, or that it does not answer.
+    pub const fn no_board(request: &ForNode, now: u32) -> Answer {
+        Answer {
+            sequence: now,
+            tag: request.tag,
+            command: request.number(),
+            status: CommandStatus::NoBoard,
+            values: [0; 2],
+        }
     }
 
     /// Answers what another board has asked for; `None`: none has.
@@ -213,23 +228,24 @@ impl Relay {
         let asked = asked.filter(|asked| asked.is_taken && asked.request.tag == answer.tag)?;
         asked.answer = Some(*answer);
         let from = asked.from;
-        self.packet(from, &Packet::Answer(*answer))
+        Some(self.packet(from, &Packet::Answer(*answer)))
     }
 
     /// Sends another board what a PC would get.
-    pub fn packet(&mut self, to: u8, packet: &Packet) -> Option<Frames> {
-        let mut bytes = [0; LETTER_BYTES];
-        postcard::to_slice(packet, &mut bytes).ok()?;
-        Some(self.letter(LetterKind::Packet, to, bytes))
+    pub fn packet(&mut self, to: u8, packet: &Packet) -> Frames {
+        self.letter(LetterKind::Packet, to, packet.bytes())
     }
 
     fn say_request(&mut self) -> Option<Frames> {
         let asking = self.asking?;
         let mut bytes = [0; LETTER_BYTES];
-        let (made, rest) = bytes.split_first_chunk_mut::<MADE_BYTES>()?;
-        *made = asking.made.to_le_bytes();
-        postcard::to_slice(&asking.request, rest).ok()?;
-        Some(self.letter(LetterKind::Request, asking.to, bytes))
+        let ForNode { node, tag, command } = asking.request;
+        let made = asking.made.to_le_bytes().into_iter();
+        let words = made.chain(tag.to_le_bytes()).chain(command);
+        for (place, byte) in bytes.iter_mut().zip(words) {
+            *place = byte;
+        }
+        Some(self.letter(LetterKind::Request, node, bytes))
     }
 
     fn letter(&mut self, kind: LetterKind, node: u8, bytes: [u8; LETTER_BYTES]) -> Frames {
@@ -242,7 +258,9 @@ impl Relay {
 mod tests {
     use can::Frame;
     use proptest::prelude::*;
-    use wire::{Answer, Command, CommandStatus, Load, TaggedCommand, WhiskerId};
+    use wire::{
+        Answer, COMMAND_MOST, Command, CommandStatus, ForNode, Load, TaggedCommand, WhiskerId,
+    };
 
     use super::{Heard, Relay};
     use crate::{BusConfig, Packet};
@@ -273,6 +291,13 @@ mod tests {
         TaggedCommand { tag, command }
     }
 
+    fn of(node: u8, request: TaggedCommand) -> ForNode {
+        let mut command = [0; COMMAND_MOST];
+        postcard::to_slice(&request.command, &mut command).unwrap();
+        let tag = request.tag;
+        ForNode { node, tag, command }
+    }
+
     fn answer(request: TaggedCommand, count: u32) -> Answer {
         crate::answer(request, count, (CommandStatus::Done, [i32::MIN, -1]))
     }
@@ -293,7 +318,7 @@ mod tests {
             let (mut now, mut done) = (0, 0);
             for tag in tags {
                 let request = request(tag);
-                let mut down: Vec<Frame> = here.ask(2, request, now).unwrap().to_vec();
+                let mut down: Vec<Frame> = here.ask(of(2, request), now).unwrap().to_vec();
                 let mut due: Option<(u32, u8)> = None;
                 let mut carried_out = 0;
                 let answered = loop {
@@ -305,7 +330,7 @@ mod tests {
                         }
                     }
                     if let Some((from, asked)) = there.take_request() {
-                        prop_assert_eq!(asked, request);
+                        prop_assert_eq!(asked, Ok(request));
                         carried_out += 1;
                         due = Some((now + late, from));
                     }
@@ -347,14 +372,14 @@ mod tests {
     #[test]
     fn there_is_no_board_beyond_the_head_and_one_that_is_silent_is_none() {
         let mut here = relay(0);
-        assert_eq!(here.ask(3, request(0), 0), None);
-        assert_eq!(here.ask(0, request(0), 0), None);
+        assert_eq!(here.ask(of(3, request(0)), 0), None);
+        assert_eq!(here.ask(of(0, request(0)), 0), None);
         let load = TaggedCommand {
             tag: 7,
             command: Command::Load(Load::default()),
         };
         for (request, patience, says) in [(request(0), 1_000, 4), (load, 40_000, 0)] {
-            assert!(here.ask(1, request, 5).is_some());
+            assert!(here.ask(of(1, request), 5).is_some());
             let mut said = 0;
             let gave_up = (5..100_000).find(|now| match here.pass(*now) {
                 Some(Heard::Say(_)) => {
@@ -375,10 +400,10 @@ mod tests {
     #[test]
     fn packets_come_from_the_board_that_was_asked_last() {
         let mut here = relay(0);
-        here.ask(2, request(0), 0).unwrap();
+        here.ask(of(2, request(0)), 0).unwrap();
         let packet = Packet::Answer(answer(request(0), 1));
         let mut from = |number| {
-            let frames = relay(number).packet(0, &packet).unwrap();
+            let frames = relay(number).packet(0, &packet);
             frames.iter().find_map(|frame| here.hear(frame))
         };
         assert_eq!(from(1), None);

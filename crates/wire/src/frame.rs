@@ -29,16 +29,22 @@ const CRC: crc::Crc<u32, crc::NoTable> = crc::Crc::<u32, crc::NoTable>::new(&crc
 
 /// The frame of a value. One that does not fit has none, an empty one; packets and requests fit.
 pub fn frame<T: Serialize>(value: &T) -> Frame {
-    enclose(value).unwrap_or_default()
+    let mut room = [0; CONTENT_BYTES - SUM_BYTES];
+    postcard::to_slice(value, &mut room).map_or(Frame::new(), |bytes| frame_of(bytes))
 }
 
-fn enclose<T: Serialize>(value: &T) -> Option<Frame> {
+/// The same of a value's bytes.
+pub fn frame_of(bytes: &[u8]) -> Frame {
+    enclose(bytes).unwrap_or_default()
+}
+
+fn enclose(bytes: &[u8]) -> Option<Frame> {
     let mut content = [0; CONTENT_BYTES];
-    let room = content.get_mut(..CONTENT_BYTES - SUM_BYTES)?;
-    let length = postcard::to_slice(value, room).ok()?.len();
-    let sum = CRC.checksum(content.get(..length)?).to_le_bytes();
-    for (place, byte) in content.get_mut(length..)?.iter_mut().zip(sum) {
-        *place = byte;
+    let length = bytes.len();
+    let sum = CRC.checksum(bytes).to_le_bytes();
+    let room = content.get_mut(..length + SUM_BYTES)?;
+    for (place, byte) in room.iter_mut().zip(bytes.iter().chain(&sum)) {
+        *place = *byte;
     }
     let mut frame = Frame::new();
     frame.resize(FRAME_BYTES, 0).ok()?;

@@ -14,6 +14,7 @@
 #![cfg_attr(not(test), no_std)]
 
 mod answer;
+mod asked;
 mod flags;
 mod frame;
 mod line;
@@ -29,11 +30,12 @@ pub mod text;
 struct Readme;
 
 pub use answer::{Answer, CommandStatus};
+pub use asked::{COMMAND_MOST, ForNode, Request, frame_for};
 pub use flags::Flags;
-pub use frame::{CONTENT_BYTES, FRAME_BYTES, Frame, RECORD_FRAME_BYTES, frame, open};
+pub use frame::{CONTENT_BYTES, FRAME_BYTES, Frame, RECORD_FRAME_BYTES, frame, frame_of, open};
 pub use line::{Field, LINE_BYTES, Line};
 pub use loading::{Load, LoadedWord};
 pub use record::{TickRecord, degrees, q13, unit};
-pub use request::{Addressed, CONFIG_CHANGED, Command, TaggedCommand, UnknownCommand, WhiskerId};
+pub use request::{CONFIG_CHANGED, Command, TaggedCommand, UnknownCommand, WhiskerId};
 pub use splitter::{Garbled, Piece, Splitter};
 pub use stop::{COMMAND_BYTES, Stop, StopWatch};

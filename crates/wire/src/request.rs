@@ -2,7 +2,6 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::frame::summed;
 use crate::loading::Load;
 
 /// A whisker of the array.
@@ -178,42 +177,13 @@ impl Command {
     }
 }
 
-/// What a frame carries that asks for something.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Addressed {
-    /// What is asked for, or a command of a later version, or with parts that it has not.
-    pub request: Result<TaggedCommand, UnknownCommand>,
-    /// Which board of a head is asked; none: the one that reads this. It stands behind the request.
-    pub to: Option<u8>,
-}
-
-impl Addressed {
-    /// `None` if the frame's sum is not right: then no request was meant, and there is nothing to
-    /// answer.
-    pub fn read(content: &[u8]) -> Option<Self> {
-        let (tag, rest) = postcard::take_from_bytes(summed(content)?).ok()?;
-        let number = *rest.first()?;
-        let (request, to) = match postcard::take_from_bytes(rest) {
-            Ok((command, [])) => (Ok(TaggedCommand { tag, command }), None),
-            Ok((command, &[to])) => (Ok(TaggedCommand { tag, command }), Some(to)),
-            _ => {
-                let command = number;
-                (Err(UnknownCommand { tag, command }), None)
-            }
-        };
-        Some(Self { request, to })
-    }
-}
-
 #[cfg(test)]
-mod tests {
+pub(crate) mod tests {
     use proptest::prelude::*;
 
-    use super::{Addressed, Command, Load, TaggedCommand, UnknownCommand, WhiskerId};
-    use crate::frame::{FRAME_BYTES, frame};
-    use crate::{Piece, Splitter};
+    use super::{Command, Load, WhiskerId};
 
-    fn commands() -> impl Strategy<Value = Command> {
+    pub(crate) fn commands() -> impl Strategy<Value = Command> {
         let whisker = any::<(u8, u8)>().prop_map(|(side, number)| WhiskerId { side, number });
         (0..26_u8, whisker, any::<(i32, u8, u16)>()).prop_map(|(which, whisker, values)| {
             let (value, byte, half) = values;
@@ -250,59 +220,5 @@ mod tests {
                 _ => Command::Class(byte, whisker.side),
             }
         })
-    }
-
-    fn addressed(frame: &[u8]) -> Option<Addressed> {
-        let mut splitter = Splitter::<FRAME_BYTES>::new();
-        frame.iter().find_map(|byte| match splitter.push(*byte)? {
-            Piece::Frame(content) => Addressed::read(content),
-            piece => panic!("{piece:?}"),
-        })
-    }
-
-    fn read(frame: &[u8]) -> Option<Result<TaggedCommand, UnknownCommand>> {
-        let Addressed { request, to } = addressed(frame)?;
-        assert_eq!(to, None);
-        Some(request)
-    }
-
-    proptest! {
-        #[test]
-        fn a_request_is_read_as_it_was_meant_and_sent_by_its_number(
-            tag: u16,
-            command in commands(),
-        ) {
-            let request = TaggedCommand { tag, command };
-            prop_assert_eq!(read(&frame(&request)), Some(Ok(request)));
-            let later = UnknownCommand { tag, command: command.number() };
-            let alone = read(&frame(&(tag, command.number())));
-            prop_assert!(alone == Some(Err(later)) || alone == Some(Ok(request)));
-        }
-
-        #[test]
-        fn the_board_that_is_asked_stands_behind_a_request(
-            tag: u16,
-            command in commands(),
-            node: u8,
-        ) {
-            let request = TaggedCommand { tag, command };
-            let found = addressed(&frame(&(request, node)));
-            prop_assert_eq!(found, Some(Addressed { request: Ok(request), to: Some(node) }));
-        }
-
-        #[test]
-        fn any_bytes_are_read_without_harm(bytes in prop::collection::vec(any::<u8>(), 0..30)) {
-            let _ = Addressed::read(&bytes);
-        }
-    }
-
-    #[test]
-    fn a_command_of_a_later_version_is_known_by_its_tag() {
-        let later = UnknownCommand {
-            tag: 700,
-            command: 24,
-        };
-        assert_eq!(read(&frame(&(700_u16, 24_u8))), Some(Err(later)));
-        assert_eq!(read(&frame(&(700_u16, 24_u8, 7_u32))), Some(Err(later)));
     }
 }

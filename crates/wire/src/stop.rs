@@ -7,16 +7,17 @@
 
 use heapless::Vec;
 
+use crate::asked::FOR_NODE;
 use crate::frame::summed;
 use crate::request::Command;
 
 /// Most bytes of a line that is a command.
 pub const COMMAND_BYTES: usize = 80;
 
-/// Least and most bytes of a stop between the zeros of its frame: a code, the tag, the command, the
-/// board of a head that it is for, if it names one, and the sum. It stops all of them.
+/// Least and most bytes of a stop between the zeros of its frame: a code, the tag, the command and
+/// the sum; of one that names a board of a head, and stops them all, two bytes before the command.
 const LEAST: usize = 7;
-const MOST: usize = 10;
+const MOST: usize = 11;
 
 /// How a stop has come, and so how it is answered.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -160,9 +161,11 @@ fn tag_of_stop(coded: &[u8]) -> Option<u16> {
     let content = content.get(1..).filter(|_| left == 0)?;
     let (value, _) = content.split_last_chunk::<4>()?;
     let (tag, rest) = postcard::take_from_bytes(value).ok()?;
-    let (command, board) = rest.split_first()?;
+    let ([command] | [FOR_NODE, _, command]) = rest else {
+        return None;
+    };
     // A sum takes time, which is for stops alone.
-    if *command != Command::Stop.number() || board.len() > 1 {
+    if *command != Command::Stop.number() {
         return None;
     }
     summed(content).and(Some(tag))
@@ -174,7 +177,7 @@ mod tests {
 
     use super::{COMMAND_BYTES, Stop, StopWatch};
     use crate::text::{self, Spoken};
-    use crate::{Addressed, Command, Piece, Splitter, TaggedCommand, WhiskerId, frame};
+    use crate::{Command, Piece, Request, Splitter, TaggedCommand, WhiskerId, frame, frame_for};
 
     /// The stops among some bytes, and how many bytes had come with each.
     fn stops(bytes: &[u8]) -> Vec<(usize, Stop)> {
@@ -200,9 +203,8 @@ mod tests {
                     _ => None,
                 },
                 Some(Piece::Frame(content)) => {
-                    let asked = Addressed::read(content).and_then(|asked| asked.request.ok());
-                    let stop = asked.filter(|asked| asked.command == Command::Stop);
-                    stop.map(|stop| Stop::Frame(stop.tag))
+                    let stop = Request::read(content).filter(Request::is_stop);
+                    stop.map(|stop| Stop::Frame(stop.tag()))
                 }
                 _ => None,
             };
@@ -281,10 +283,9 @@ mod tests {
             6 => prop::sample::select(words).prop_map(|word| word.as_bytes().to_vec()),
             2 => any::<(u16, Option<u8>)>().prop_map(|(tag, to)| {
                 let command = Command::Stop;
-                let stop = TaggedCommand { tag, command };
                 match to {
-                    Some(to) => frame(&(stop, to)).to_vec(),
-                    None => frame(&stop).to_vec(),
+                    Some(to) => frame_for(to, tag, command).to_vec(),
+                    None => frame(&TaggedCommand { tag, command }).to_vec(),
                 }
             }),
             1 => any::<(u16, i32)>().prop_map(|(tag, gain)| {

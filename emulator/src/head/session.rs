@@ -72,7 +72,7 @@ impl HeadSession {
     /// [`Error::Work`] if the program's memory is not as it should be.
     pub fn request(&mut self, node: Option<u8>, request: TaggedCommand) -> Result<bool, Error> {
         let frame = match node {
-            Some(node) => wire::frame(&(request, node)),
+            Some(node) => wire::frame_for(node, request.tag, request.command),
             None => wire::frame(&request),
         };
         Ok(self.first()?.request(&frame)?)

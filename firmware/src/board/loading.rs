@@ -10,7 +10,7 @@ use cortex_m::peripheral::{NVIC, SCB};
 use firmware::Part;
 use firmware::boards::{self, Slot, SlotHeader};
 use tactile::Model;
-use wire::{Answer, Command, CommandStatus, Load, LoadedWord, TaggedCommand};
+use wire::{Answer, Command, CommandStatus, Load, LoadedWord, Request, TaggedCommand};
 
 use super::bus::Post;
 use super::serial::Serial;
@@ -41,8 +41,11 @@ impl Line<'_> {
             Self::Probe(probe) => probe.next(),
             Self::Head(post) => return post.next_alone(),
         };
-        // It asks no other board any more.
-        asked.filter(|asked| asked.to.is_none())?.request.ok()
+        match asked? {
+            Request::Here(request) => request.ok(),
+            // It asks no other board any more.
+            Request::For(_) => None,
+        }
     }
 
     /// Whoever asks waits for it before they ask again: there is room.

@@ -139,7 +139,7 @@ impl Source for Behind {
     }
 
     fn request_of(&mut self, node: u8, request: TaggedCommand) -> Result<(), Error> {
-        self.send(&wire::frame(&(request, node)))
+        self.send(&wire::frame_for(node, request.tag, request.command))
     }
 
     fn has_log(&self) -> Result<(), Error> {

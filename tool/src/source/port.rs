@@ -178,7 +178,7 @@ impl Source for Port {
     }
 
     fn request_of(&mut self, node: u8, request: TaggedCommand) -> Result<(), Error> {
-        self.write(&wire::frame(&(request, node)))
+        self.write(&wire::frame_for(node, request.tag, request.command))
     }
 
     fn laying(&mut self) -> Option<&mut Laying> {

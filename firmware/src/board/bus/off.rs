@@ -1,7 +1,7 @@
 //! The bus of a program that has none: nothing.
 
 use firmware::{Event, Heard, Packet};
-use wire::{Answer, TaggedCommand};
+use wire::{Answer, ForNode, TaggedCommand, UnknownCommand};
 
 use crate::board::scene::Pace;
 use crate::board::types::{Inner, Settings};
@@ -21,7 +21,7 @@ impl Post {
         false
     }
 
-    pub(crate) fn ask(&mut self, _: u8, _: TaggedCommand) -> bool {
+    pub(crate) fn ask(&mut self, _: ForNode) -> bool {
         false
     }
 
@@ -29,7 +29,7 @@ impl Post {
         None
     }
 
-    pub(crate) fn take_request(&mut self) -> Option<(u8, TaggedCommand)> {
+    pub(crate) fn take_request(&mut self) -> Option<(u8, Result<TaggedCommand, UnknownCommand>)> {
         None
     }
 

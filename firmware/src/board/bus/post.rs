@@ -4,7 +4,7 @@
 use can::{Frame, PARTS};
 use firmware::{Frames, Heard, Packet, Relay};
 use heapless::spsc::{Consumer, Producer, Queue};
-use wire::{Answer, TaggedCommand};
+use wire::{Answer, ForNode, TaggedCommand, UnknownCommand};
 
 use super::bxcan;
 use crate::board::counters::TICKS;
@@ -82,11 +82,11 @@ impl Post {
 
     /// Asks another board; whether there is one of that number. Where there is no room it is asked
     /// later.
-    pub(crate) fn ask(&mut self, to: u8, request: TaggedCommand) -> bool {
+    pub(crate) fn ask(&mut self, request: ForNode) -> bool {
         let Some(link) = &mut self.0 else {
             return false;
         };
-        let frames = link.relay.ask(to, request, TICKS.get());
+        let frames = link.relay.ask(request, TICKS.get());
         link.say(frames);
         frames.is_some()
     }
@@ -110,7 +110,7 @@ impl Post {
         }
     }
 
-    pub(crate) fn take_request(&mut self) -> Option<(u8, TaggedCommand)> {
+    pub(crate) fn take_request(&mut self) -> Option<(u8, Result<TaggedCommand, UnknownCommand>)> {
         self.0.as_mut()?.relay.take_request()
     }
 
@@ -127,7 +127,7 @@ impl Post {
     pub(crate) fn packet(&mut self, to: u8, packet: &Packet) {
         if let Some(link) = &mut self.0 {
             let frames = link.relay.packet(to, packet);
-            link.say(frames);
+            link.say(Some(frames));
         }
     }
 
@@ -149,7 +149,7 @@ impl Post {
             if let Some(Heard::Say(frames)) = relay.hear(&frame) {
                 bxcan::say_alone(&frames);
             }
-            if let Some((_, request)) = relay.take_request() {
+            if let Some((_, Ok(request))) = relay.take_request() {
                 return Some(request);
             }
         }

@@ -1,7 +1,7 @@
 //! The serial port of a program that has none: nothing.
 
 use firmware::{Event, NotArmed, StartCause, Startup};
-use wire::{Addressed, Answer, Frame};
+use wire::{Answer, Frame, Request};
 
 use crate::board::about::About;
 use crate::board::perception::Names;
@@ -34,7 +34,7 @@ impl Serial {
 
     pub(crate) fn send(&mut self) {}
 
-    pub(crate) fn next(&mut self) -> Option<Addressed> {
+    pub(crate) fn next(&mut self) -> Option<Request> {
         None
     }
 

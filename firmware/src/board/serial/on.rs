@@ -14,7 +14,7 @@ use firmware::{Event, NotArmed, Packet, StartCause, Startup};
 use heapless::Deque;
 use wire::text::{self, Spoken};
 use wire::{
-    Addressed, Answer, COMMAND_BYTES, Command, CommandStatus, Field, Frame, Line, Piece, Splitter,
+    Answer, COMMAND_BYTES, Command, CommandStatus, Field, Frame, Line, Piece, Request, Splitter,
     TaggedCommand,
 };
 
@@ -37,19 +37,10 @@ const WAITING: usize = 4;
 
 #[derive(Clone, Copy)]
 struct Asked {
-    what: Addressed,
+    what: Request,
     origin: Origin,
     /// The bytes that had come with its last one.
     at: u32,
-}
-
-impl Asked {
-    const fn is_stop(&self) -> bool {
-        let Ok(request) = self.what.request else {
-            return false;
-        };
-        matches!(request.command, Command::Stop)
-    }
 }
 
 fn line() -> Line {
@@ -191,10 +182,7 @@ impl Serial {
                         sent::line(Line::new().text("ok help: ").text(text::ALLOWED).ended());
                     }
                     Ok(Spoken::Command(command)) => {
-                        let what = Addressed {
-                            request: Ok(TaggedCommand { tag: 0, command }),
-                            to: None,
-                        };
+                        let what = Request::Here(Ok(TaggedCommand { tag: 0, command }));
                         self.take(Asked {
                             what,
                             origin: Origin::Line(command),
@@ -203,7 +191,7 @@ impl Serial {
                     }
                     Err((first, fault)) => refuse(first, fault.text()),
                 },
-                Some(Piece::Frame(content)) => match Addressed::read(content) {
+                Some(Piece::Frame(content)) => match Request::read(content) {
                     Some(what) => self.take(Asked {
                         what,
                         origin: Origin::Frame,
@@ -222,12 +210,11 @@ impl Serial {
     /// Has a request wait for its turn, unless it cannot be carried out here, or is a stop, which
     /// the tick has seen.
     fn take(&mut self, asked: Asked) {
-        if asked.is_stop() && !self.is_loading {
+        if asked.what.is_stop() && !self.is_loading {
             return;
         }
         // Another board sends fewer.
-        if let Ok(request) = asked.what.request
-            && asked.what.to.is_none()
+        if let Request::Here(Ok(request)) = asked.what
             && request.command == Command::Stream(true)
             && !self.carries_records()
         {
@@ -247,7 +234,7 @@ impl Serial {
         if origin == Origin::Frame {
             let status = CommandStatus::TooSlow;
             let answer = firmware::answer(request, TICKS.get(), (status, [0; 2]));
-            sent::line(&wire::frame(&Packet::Answer(answer)));
+            sent::line(&wire::frame_of(&Packet::Answer(answer).bytes()));
         } else {
             let mut said = Line::new();
             said.text("refused stream: records of every tick take")
@@ -272,7 +259,7 @@ impl Serial {
 /// What a loader uses, which has the port for itself.
 impl Serial {
     /// No tick looks for stops any more.
-    pub(crate) fn next(&mut self) -> Option<Addressed> {
+    pub(crate) fn next(&mut self) -> Option<Request> {
         let (ring, looked) = ring();
         looked.is_at(writer(), ring.len());
         self.is_loading = true;
@@ -282,7 +269,7 @@ impl Serial {
     }
 
     pub(crate) fn reply(&mut self, answer: &Answer) {
-        sent::answer(&wire::frame(&Packet::Answer(*answer)));
+        sent::answer(&wire::frame_of(&Packet::Answer(*answer).bytes()));
     }
 
     /// Goes on sending; whether nothing is left.
@@ -304,7 +291,7 @@ fn refuse(what: &[u8], why: &str) {
 /// Whether there was room.
 fn reply(origin: Origin, answer: &Answer, about: &About) -> bool {
     let Origin::Line(command) = origin else {
-        return sent::answer(&wire::frame(&Packet::Answer(*answer)));
+        return sent::answer(&wire::frame_of(&Packet::Answer(*answer).bytes()));
     };
     let mut said = Line::new();
     if answer.status == CommandStatus::Done {

@@ -2,8 +2,8 @@
 
 use core::sync::atomic::Ordering;
 
-use firmware::{EventRecord, Heard, Packet, letters};
-use wire::{Addressed, Answer, Command, CommandStatus, Load, TaggedCommand, UnknownCommand};
+use firmware::{EventRecord, Heard, Packet, Relay, letters};
+use wire::{Answer, Command, CommandStatus, ForNode, Load, Request, TaggedCommand, UnknownCommand};
 
 use super::configs::{Configs, Verdict};
 use super::probe::ProbeLine;
@@ -134,10 +134,8 @@ impl Exchange {
             && !self.is_serials_turn
             && let Some(asked) = self.probe.next_looked_at()
         {
-            let request = asked.request;
-            let is_stop = request.is_ok_and(|request| request.command == Command::Stop);
-            // The tick has seen it.
-            if !is_stop {
+            // The tick has seen a stop.
+            if !asked.is_stop() {
                 self.is_serials_turn = self.has_serial;
                 self.ask(asked, (Origin::Probe, self.probe.count()), names);
             }
@@ -154,8 +152,11 @@ impl Exchange {
                     }
                 }
                 Heard::Packet(packet) => {
-                    if let Some(reader) = self.reader_elsewhere {
-                        self.send(reader, &packet);
+                    // What another board asks goes to a third by itself.
+                    match self.reader_elsewhere {
+                        Some(Reader::Probe) => _ = ProbeLine::put(&wire::frame_of(&packet)),
+                        Some(Reader::Serial) => serial::send_event(&wire::frame_of(&packet)),
+                        Some(Reader::Board(_)) | None => {}
                     }
                 }
                 Heard::Say(_) => {}
@@ -164,25 +165,26 @@ impl Exchange {
         if self.is_free()
             && let Some((from, request)) = self.post.take_request()
         {
-            let asked = Addressed {
-                request: Ok(request),
-                to: None,
-            };
-            self.ask(asked, (Origin::Board(from), 0), names);
+            self.ask(Request::Here(request), (Origin::Board(from), 0), names);
         }
     }
 
     /// So many bytes had come with its last one.
-    pub(crate) fn ask(&mut self, asked: Addressed, (origin, at): (Origin, u32), names: &Names) {
-        let Addressed { request, to } = asked;
-        let command = request.ok().map(|request| request.command);
-        // A whole head is armed.
-        let to = to.filter(|to| command != Some(Command::Arm) && !self.post.is_own(*to));
-        let is_elsewhere = to.is_some();
+    pub(crate) fn ask(&mut self, asked: Request, (origin, at): (Origin, u32), names: &Names) {
+        let request = match asked {
+            Request::Here(request) => request,
+            // A whole head is armed.
+            Request::For(request)
+                if self.post.is_own(request.node) || request.number() == Command::Arm.number() =>
+            {
+                request.here()
+            }
+            Request::For(request) => return self.ask_elsewhere(request, origin),
+        };
         self.pending = Some(Pending {
             origin,
-            command: command.filter(|_| !is_elsewhere),
-            is_elsewhere,
+            command: request.ok().map(|request| request.command),
+            is_elsewhere: false,
         });
         let request = match request {
             Ok(request) => request,
@@ -191,10 +193,6 @@ impl Exchange {
                 return;
             }
         };
-        if let Some(to) = to {
-            self.ask_elsewhere(to, request, origin);
-            return;
-        }
         log::requested(request.command);
         let verdict = match request.command {
             Command::Class(class, from) => class_name(names, class, from),
@@ -223,11 +221,15 @@ impl Exchange {
         }
     }
 
-    fn ask_elsewhere(&mut self, to: u8, request: TaggedCommand, origin: Origin) {
+    fn ask_elsewhere(&mut self, request: ForNode, origin: Origin) {
+        self.pending = Some(Pending {
+            origin,
+            command: None,
+            is_elsewhere: true,
+        });
         self.reader_elsewhere = Some(origin.reader());
-        if !self.post.ask(to, request) {
-            let none = (CommandStatus::NoBoard, [0; 2]);
-            self.answer = Some(firmware::answer(request, TICKS.get(), none));
+        if !self.post.ask(request) {
+            self.answer = Some(Relay::no_board(&request, TICKS.get()));
         }
     }
 
@@ -311,10 +313,10 @@ impl Exchange {
 
     pub(crate) fn answer_probe(&mut self) {
         self.answer_stop(0, |answer| {
-            ProbeLine::put(&wire::frame(&Packet::Answer(*answer)))
+            ProbeLine::put(&wire::frame_of(&Packet::Answer(*answer).bytes()))
         });
         if let Some((Origin::Probe, answer)) = self.answer()
-            && ProbeLine::put(&wire::frame(&Packet::Answer(answer)))
+            && ProbeLine::put(&wire::frame_of(&Packet::Answer(answer).bytes()))
         {
             self.has_answered();
         }
@@ -337,8 +339,8 @@ impl Exchange {
     /// Sends a packet if there is room for it.
     fn send(&mut self, reader: Reader, packet: &Packet) {
         match reader {
-            Reader::Probe => _ = ProbeLine::put(&wire::frame(packet)),
-            Reader::Serial => serial::send_event(&wire::frame(packet)),
+            Reader::Probe => _ = ProbeLine::put(&wire::frame_of(&packet.bytes())),
+            Reader::Serial => serial::send_event(&wire::frame_of(&packet.bytes())),
             Reader::Board(to) => self.post.packet(to, packet),
         }
     }
@@ -349,8 +351,8 @@ impl Exchange {
         while let Some(record) = self.ends.records.peek() {
             let packet = Packet::Record(*record);
             let is_sent = match self.reader {
-                Some(Reader::Probe) => ProbeLine::record(&wire::frame(&packet)),
-                Some(Reader::Serial) => serial::send_record(&wire::frame(&packet)),
+                Some(Reader::Probe) => ProbeLine::record(&wire::frame_of(&packet.bytes())),
+                Some(Reader::Serial) => serial::send_record(&wire::frame_of(&packet.bytes())),
                 Some(Reader::Board(to)) => {
                     if record.sequence.is_multiple_of(self.post.every()) {
                         self.post.packet(to, &packet);

@@ -1,7 +1,7 @@
 //! The link of a program that has none: nothing.
 
 use firmware::{Event, EventRecord, ModelState};
-use wire::{Addressed, Answer, Load};
+use wire::{Answer, Load, Request};
 
 use crate::board::about::About;
 use crate::board::bus::Post;
@@ -38,7 +38,7 @@ impl Configs {
 pub(crate) struct ProbeLine;
 
 impl ProbeLine {
-    pub(crate) fn next(&mut self) -> Option<Addressed> {
+    pub(crate) fn next(&mut self) -> Option<Request> {
         None
     }
 

@@ -2,7 +2,7 @@
 
 use core::sync::atomic::Ordering;
 
-use wire::{Addressed, Answer, CONTENT_BYTES, Frame, Piece, Splitter};
+use wire::{Answer, CONTENT_BYTES, Frame, Piece, Request, Splitter};
 
 use super::stops::PROBE;
 use crate::board::rtt::{DOWN, PACKETS, REQUESTS, UP};
@@ -22,7 +22,7 @@ impl ProbeLine {
     }
 
     /// For a loader: no tick looks for stops any more.
-    pub(crate) fn next(&mut self) -> Option<Addressed> {
+    pub(crate) fn next(&mut self) -> Option<Request> {
         PROBE.is_at(DOWN.writer() as usize, REQUESTS.len());
         self.next_looked_at()
     }
@@ -35,7 +35,7 @@ impl ProbeLine {
         PROBE.bytes_until(DOWN.reader() as usize, REQUESTS.len())
     }
 
-    pub(crate) fn next_looked_at(&mut self) -> Option<Addressed> {
+    pub(crate) fn next_looked_at(&mut self) -> Option<Request> {
         while self.is_waiting() {
             let at = DOWN.reader() as usize;
             // Erased, lest a flipped bit in an offset has a request carried out again.
@@ -50,7 +50,7 @@ impl ProbeLine {
                 0
             });
             if let Some(Piece::Frame(content)) = self.splitter.push(byte)
-                && let Some(asked) = Addressed::read(content)
+                && let Some(asked) = Request::read(content)
             {
                 return Some(asked);
             }
@@ -80,7 +80,7 @@ impl ProbeLine {
 
     /// Sends an answer of a loader, which waits for nothing.
     pub(crate) fn reply(answer: &Answer) {
-        Self::put(&wire::frame(&firmware::Packet::Answer(*answer)));
+        Self::put(&wire::frame_of(&firmware::Packet::Answer(*answer).bytes()));
     }
 
     pub(crate) fn has_sent() -> bool {
