@@ -13,7 +13,7 @@ mod flash;
 mod slot;
 mod timing;
 
-pub use facts::{ALL, BoardFacts, NUCLEO_F103RB, NUCLEO_F446RE, NUCLEO_G071RB};
+pub use facts::{ALL, BoardFacts, InHead, NUCLEO_F103RB, NUCLEO_F446RE, NUCLEO_G071RB};
 pub use fits::{Misfit, Needs};
 pub use flash::{FlashMap, Region, Slot};
 pub use slot::{

@@ -3,7 +3,7 @@
 use heapless::Vec;
 use tactile::SelfMotion;
 use whisking::motor::MotorDriver;
-use whisking::{MAX_SIDES, MAX_WHISKERS, Number, Real, filter};
+use whisking::{MAX_OWN, MAX_SIDES, Number, Real, filter};
 
 use crate::config::Part;
 use crate::io::{AngleInput, Clock, WordSource};
@@ -108,7 +108,7 @@ impl<R: Real, H: Hardware> Whisker<R, H> {
 
 /// A module: its whiskers, left side first, their pattern generator, and what they decide.
 pub struct Module<R: Real, H: Hardware> {
-    whiskers: Vec<Whisker<R, H>, MAX_WHISKERS>,
+    whiskers: Vec<Whisker<R, H>, MAX_OWN>,
     contact: [R; MAX_SIDES],
     /// What the other boards of its head feel.
     elsewhere: [R; ELSEWHERE],

@@ -40,12 +40,12 @@ const STOPS: u8 = 3;
 /// By how much contact π rises before that is said at once, Q15: 1/64.
 const RISE: u16 = 1 << 9;
 
+/// A message, as the frame that it came in, which takes less room.
 #[derive(Debug, Clone, Copy)]
 struct Due {
     /// The tick before which it takes effect.
     at: u32,
-    from: u8,
-    message: Message,
+    frame: Frame,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -161,7 +161,8 @@ impl Node {
 
     fn hear_stop(&mut self) {
         self.arms = false;
-        self.due.retain(|due| due.message != Message::Arm);
+        let is_arm = |frame: &Frame| matches!(Message::of(frame), Ok((_, _, Message::Arm)));
+        self.due.retain(|due| !is_arm(&due.frame));
         if self.motors == Motors::May {
             self.motors = Motors::Stopped;
         }
@@ -214,7 +215,7 @@ impl Node {
         self.members.fits(from, is_in_time);
         let left = self.times.delay.saturating_sub(late.into());
         let at = self.tick.wrapping_add(left.into());
-        let due = Due { at, from, message };
+        let due = Due { at, frame: *frame };
         if !is_in_time || self.due.push(due).is_err() {
             self.lost = self.lost.saturating_add(1);
         }
@@ -260,26 +261,28 @@ impl Node {
         self.keep_time(now_us, config.head.tick_hz, events);
         let now = self.tick;
         let mut is_armed = false;
-        let due = core::mem::take(&mut self.due);
-        for one in due {
+        // One by one, as all together would take a thousand bytes of stack.
+        for n in 0..self.due.len() {
+            let Some(one) = self.due.get(n).copied() else {
+                break;
+            };
             match one.at.wrapping_sub(now).cast_signed() {
                 0 => {}
-                1.. => {
-                    // There was room for it.
-                    let _ = self.due.push(one);
-                    continue;
-                }
+                1.. => continue,
                 // The clock was set since.
                 _ => {
                     self.lost = self.lost.saturating_add(1);
                     continue;
                 }
             }
-            match one.message {
-                Message::Contact(contact) => self.members.feels(one.from, contact.pi),
+            let Ok((from, _, message)) = Message::of(&one.frame) else {
+                continue;
+            };
+            match message {
+                Message::Contact(contact) => self.members.feels(from, contact.pi),
                 Message::Psi { side, psi } => {
                     let leader = self.members.leader(side.into(), self.is_joined);
-                    if leader == Some(one.from)
+                    if leader == Some(from)
                         && let (Some(motion), Some(config)) = (module.motion_mut(), &config.motion)
                     {
                         let of = (&config.whisking.oscillators, &mut motion.state.oscillators);
@@ -292,7 +295,7 @@ impl Node {
                     let made = now.wrapping_sub(self.times.delay.into());
                     let decision = module.perception_mut().and_then(|perception| {
                         let classifier = perception.classifier_mut();
-                        self.deciding.hear(one.from, made, evidence, classifier)
+                        self.deciding.hear(from, made, evidence, classifier)
                     });
                     if let Some(decision) = decision {
                         self.decision = Some(decision);
@@ -300,7 +303,7 @@ impl Node {
                     }
                 }
                 Message::Decision { .. } => {
-                    if self.members.leader_of_time(self.is_joined) == Some(one.from)
+                    if self.members.leader_of_time(self.is_joined) == Some(from)
                         && let Some(perception) = module.perception_mut()
                     {
                         perception.classifier_mut().forget();
@@ -310,6 +313,8 @@ impl Node {
                 Message::Stop | Message::Time { .. } => {}
             }
         }
+        self.due
+            .retain(|one| one.at.wrapping_sub(now).cast_signed() > 0);
         let is_led = self.members.leader_of_time(self.is_joined) != Some(self.number);
         let mut classifier = module.perception_mut().map(Perception::classifier_mut);
         if let Some(classifier) = &mut classifier {
@@ -421,11 +426,8 @@ impl Node {
         if core::mem::take(&mut self.arms) {
             say(Message::Arm);
             let at = tick.wrapping_add(self.times.delay.into());
-            let due = Due {
-                at,
-                from: number,
-                message: Message::Arm,
-            };
+            let frame = Message::Arm.frame(number, stamp);
+            let due = Due { at, frame };
             // Where there is no room it is the others alone that are armed, and this one stays off.
             let _ = self.due.push(due);
         }

@@ -1,6 +1,7 @@
 //! The long runs: what CI checks in part, in full. A failure does not keep the others
 //! from running.
 
+use ::firmware::boards::InHead;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::time::{SystemTime, UNIX_EPOCH};
@@ -91,6 +92,9 @@ fn boards() -> Result<(), Fault> {
             emulate::emulate(on, Path::new(emulate::BENCH), &["deploying"])?;
         }
         let mut scenes = vec![PathBuf::from(emulate::FULL)];
+        if board.facts.in_head == InHead::Untuned {
+            emulate::compare_head(board, "")?;
+        }
         if board.facts.max_sides > 1 {
             emulate::emulate(&linked, Path::new(emulate::CIA), &["latency"])?;
             let both = emulate::noisiest()?;

@@ -8,6 +8,7 @@ mod table;
 
 use std::path::{Path, PathBuf};
 
+use ::firmware::boards::InHead;
 use scene::Scene;
 
 use crate::elf::contents;
@@ -56,7 +57,7 @@ pub(crate) fn all(csv: Option<&Path>, check: bool) -> Result<(), Fault> {
         }
         measured.take(board, &judging_poses()?, None)?;
         measured.control(board, Path::new(CONTROL))?;
-        if board.facts.has_bus {
+        if board.facts.in_head != InHead::Never {
             measured.control(board, &head_of_two()?)?;
         }
         measured.any_scene(board)?;

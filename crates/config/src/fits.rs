@@ -53,6 +53,7 @@ fn needs(scene: &Scene) -> boards::Needs {
         driver: scene.motor.as_ref().map(|motor| motor.driver),
         serial_baud: scene.telemetry.serial_baud,
         bus: bus(scene),
+        decides: scene.classifier.is_some(),
     }
 }
 
@@ -64,7 +65,7 @@ fn found(misfit: boards::Misfit, scene: &Scene) -> (&'static str, String) {
             let found = scene.head.whiskers_per_side.to_string();
             ("head.whiskers_per_side", found)
         }
-        boards::Misfit::NoBus | boards::Misfit::Share(_) => {
+        boards::Misfit::NoBus | boards::Misfit::DecidesInHead | boards::Misfit::Share(_) => {
             let nodes = scene.head.nodes.unwrap_or_default();
             ("head.nodes", nodes.to_string())
         }

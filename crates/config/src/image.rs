@@ -1,6 +1,6 @@
 //! What a board runs by: a configuration in its number format, and its model.
 
-use firmware::boards::BoardFacts;
+use firmware::boards::{BoardFacts, InHead};
 use firmware::{Config, ConfigBytes, Driver, Part, decode, encode};
 use scene::Scene;
 use tactile::{Deciding, ModelBuf, RuleSettings};
@@ -102,6 +102,9 @@ fn features<R: Real>(
     };
     if own > 1 {
         features.push("both-sides");
+    }
+    if config.head.bus.is_some() && board.in_head != InHead::Tuned {
+        features.retain(|feature| *feature != Part::Set.feature());
     }
     if board.has_fpu && R::FORMAT == FormatCode::Fixed {
         features.push("fixed");

@@ -3,8 +3,12 @@
 use crate::format::{ENTRIES_PER_BIT, MAX_CLASSES};
 use crate::sequential::SequentialEvidence;
 
-/// Most other boards.
-const MOST: usize = if cfg!(feature = "elsewhere") { 24 } else { 0 };
+/// Most other boards. Those of a program whose whiskers decide by none but the first are not asked.
+const MOST: usize = if cfg!(all(feature = "elsewhere", feature = "several")) {
+    24
+} else {
+    0
+};
 /// Whether there can be any: 1 or 0.
 const ANY: usize = if cfg!(feature = "elsewhere") { 1 } else { 0 };
 

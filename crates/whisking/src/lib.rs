@@ -68,11 +68,17 @@ pub use voted::Voted;
 
 /// Most sides of a module: left and right.
 pub const MAX_SIDES: usize = 2;
-/// Most whiskers of a module: 2 on a board, 24 in a simulation.
+/// Most whiskers of a configuration: 2 on a board that is alone, 24 of a head and in a simulation.
 pub const MAX_WHISKERS: usize = if cfg!(target_os = "none") && !cfg!(feature = "array") {
     2
 } else {
     24
+};
+/// Most whiskers of a module: 2 on a board, those of a configuration in a simulation.
+pub const MAX_OWN: usize = if cfg!(target_os = "none") {
+    2
+} else {
+    MAX_WHISKERS
 };
 
 /// Degrees of the motor per unit of protraction: θ' = 100 θ + 50 (BIOTACT section III-B).

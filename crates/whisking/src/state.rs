@@ -12,7 +12,7 @@ use crate::gate::Gate;
 use crate::list::listed;
 use crate::muscle::History;
 use crate::oscillator::Psi;
-use crate::{MAX_SIDES, MAX_WHISKERS, Real, Voted};
+use crate::{MAX_OWN, MAX_SIDES, MAX_WHISKERS, Real, Voted};
 use crate::{muscle, noise, oscillator};
 
 /// Constants of the start of a run.
@@ -76,7 +76,7 @@ pub struct State<R: Real> {
     /// The sides, left first.
     pub sides: Vec<Side<R>, MAX_SIDES>,
     /// The whiskers, the left side's first.
-    pub whiskers: Vec<WhiskerState<R>, MAX_WHISKERS>,
+    pub whiskers: Vec<WhiskerState<R>, MAX_OWN>,
     pub(crate) noise: noise::State<R>,
 }
 

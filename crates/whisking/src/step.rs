@@ -3,9 +3,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::{
-    Fix, MAX_SIDES, MAX_WHISKERS, Real, State, WhiskerState, gate, muscle, noise, oscillator,
-};
+use crate::{Fix, MAX_OWN, MAX_SIDES, Real, State, WhiskerState, gate, muscle, noise, oscillator};
 
 /// Constants of the pattern generator in number format `R`; they step a [`State`].
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
@@ -125,7 +123,7 @@ impl<R: Real> Config<R> {
             side.drive = after;
         }
         // So that a number of whiskers whose bits were flipped leads nowhere else.
-        for whisker in state.whiskers.iter_mut().take(MAX_WHISKERS) {
+        for whisker in state.whiskers.iter_mut().take(MAX_OWN) {
             let push = pushes.get(usize::from(whisker.side));
             self.move_whisker(whisker, push.unwrap_or(&Push::default()), zeta);
         }

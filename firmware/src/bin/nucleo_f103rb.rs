@@ -10,8 +10,12 @@ pub mod board;
 #[path = "../board/nucleo_f103rb.rs"]
 mod here;
 
-#[cfg(target_os = "none")]
+#[cfg(all(target_os = "none", not(feature = "bus")))]
 program!(tick: TIM3, end_of_frame: DMA1_CHANNEL2);
+#[cfg(all(target_os = "none", feature = "bus"))]
+program!(
+    tick: TIM3, end_of_frame: DMA1_CHANNEL2, bus: USB_LP_CAN1_RX0, USB_HP_CAN1_TX
+);
 
 /// On a PC there is nothing to do: this program is for the board.
 #[cfg(not(target_os = "none"))]

@@ -1,8 +1,8 @@
 //! The NUCLEO-F103RB: STM32F103RB, Cortex-M3 at 72 MHz, no FPU.
 //!
 //! One whisker: [`LEFT`] says what it hangs on. A brushless motor has TIM1's outputs PA8 to
-//! PA10, PC10 to PC12, and Halls on PA15, PB3 and PB10. TIM3 makes the ticks, SysTick
-//! measures them.
+//! PA10, PC10 to PC12, and Halls on PA15, PB3 and PB10. The bus of a head is CAN on PA11 and PA12.
+//! TIM3 makes the ticks, SysTick measures them.
 
 use firmware::boards::{self, BoardFacts, Clocks, REST_US};
 
@@ -77,6 +77,8 @@ mod chip {
     use super::dma::Route;
     use super::serial_dma::SerialRoute;
     use super::{APB1_HZ, CORE_HZ, FLASH_WAIT_STATES, PLL_MUL};
+    #[cfg(feature = "bus")]
+    use crate::board::gpio::PinName;
     use crate::board::pin_config::AlternateFunction;
     use crate::board::reset::{ClockSource, NoClock, comes, wait};
     /// Measures the ticks.
@@ -201,6 +203,19 @@ mod chip {
         RCC.ahbenr().modify(|w| w.set_dma1en(true));
         RCC.apb1enr().modify(|w| w.set_tim4en(true));
         RCC.apb2enr().modify(|w| w.set_spi1en(true));
+    }
+
+    /// The controller of a head's bus; its pins RX and TX, and their alternate function.
+    #[cfg(feature = "bus")]
+    pub(crate) const BUS: stm32_metapac::can::Can = stm32_metapac::CAN;
+    #[cfg(feature = "bus")]
+    pub(crate) const BUS_PINS: [PinName; 2] = [PinName::new('A', 11), PinName::new('A', 12)];
+    #[cfg(feature = "bus")]
+    pub(crate) const BUS_FUNCTION: AlternateFunction = ONLY;
+
+    #[cfg(feature = "bus")]
+    pub(crate) fn clock_bus() {
+        RCC.apb1enr().modify(|w| w.set_canen(true));
     }
 
     pub(crate) fn clock_serial() {

@@ -15,7 +15,7 @@
 
 use firmware::boards::TickPeriod;
 use firmware::faults::number;
-use firmware::{ConfigError, Event, EventRecord, Health, Part};
+use firmware::{ConfigError, Event, EventRecord, Health, NotArmed, Part};
 use heapless::spsc::{Consumer, Producer};
 use static_cell::StaticCell;
 
@@ -132,10 +132,7 @@ pub(crate) fn start(core: cortex_m::Peripherals, queues: &'static mut Queues) ->
         let may_arm = start.may_arm(motion.arms_at_start);
         match may_arm.and_then(|()| slots::arm_once(slot)) {
             Ok(()) => inner.arm(true),
-            Err(reason) => {
-                log::not_armed(reason);
-                serial::not_armed(reason, &about);
-            }
+            Err(reason) => say_not_armed(reason, &about),
         }
     }
 
@@ -176,6 +173,14 @@ pub(crate) fn start(core: cortex_m::Peripherals, queues: &'static mut Queues) ->
         events,
         idle,
     }
+}
+
+// Apart, as inside the start it is a jump that the stack's check cannot follow.
+#[cold]
+#[inline(never)]
+fn say_not_armed(reason: NotArmed, about: &About) {
+    log::not_armed(reason);
+    serial::not_armed(reason, about);
 }
 
 /// Why there is no scene, where there is none: what is wrong with one that is there before that

@@ -23,6 +23,15 @@ impl SysTick {
         timer.enable_counter();
         Self { last: 0, now: 0 }
     }
+
+    /// One more, from now on, of the timer that runs.
+    #[cfg(feature = "bus")]
+    pub(crate) fn running() -> Self {
+        Self {
+            last: SYST::get_current(),
+            now: 0,
+        }
+    }
 }
 
 impl Clock for SysTick {

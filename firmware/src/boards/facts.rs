@@ -2,6 +2,20 @@
 
 use super::{Clocks, FlashMap, Region};
 use crate::BoardCode;
+#[cfg(doc)]
+use crate::Part;
+
+/// What a board's program can do on the bus of a head.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum InHead {
+    /// Nothing: its chip has no CAN.
+    Never,
+    /// It whisks, feels and moves; its RAM has no room for a classifier, nor to take another
+    /// configuration while it runs ([`Part::Set`]).
+    Untuned,
+    /// All.
+    Tuned,
+}
 
 /// A board.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -24,8 +38,8 @@ pub struct BoardFacts {
     pub takes_opinion: bool,
     /// Most sides, of one whisker each.
     pub max_sides: u8,
-    /// Whether its program can speak on the bus of a head.
-    pub has_bus: bool,
+    /// Whether it can be one of a head.
+    pub in_head: InHead,
     /// What lies where in its flash.
     pub flash: FlashMap,
 }
@@ -67,7 +81,7 @@ pub const NUCLEO_F446RE: BoardFacts = BoardFacts {
     max_classes: 16,
     takes_opinion: true,
     max_sides: 2,
-    has_bus: true,
+    in_head: InHead::Tuned,
     // Sectors 0 to 5, 6, 7 (RM0390, flash module organization).
     flash: FlashMap::with_two_models(
         Region::new(0x0800_0000, 256 * KIB),
@@ -128,7 +142,7 @@ pub const NUCLEO_F103RB: BoardFacts = BoardFacts {
     max_classes: SMALL_CLASSES,
     takes_opinion: false,
     max_sides: 1,
-    has_bus: false,
+    in_head: InHead::Untuned,
     flash: SMALL_FLASH,
 };
 
@@ -155,7 +169,7 @@ pub const NUCLEO_G071RB: BoardFacts = BoardFacts {
     max_classes: SMALL_CLASSES,
     takes_opinion: false,
     max_sides: 1,
-    has_bus: false,
+    in_head: InHead::Never,
     flash: SMALL_FLASH,
 };
 

@@ -5,7 +5,7 @@ use core::fmt;
 use whisking::Real;
 
 use super::timing::serial_most;
-use super::{BoardFacts, Clocks, RECEIVED_BYTES, TICK_MIN_HZ, serial_keeps_up};
+use super::{BoardFacts, Clocks, InHead, RECEIVED_BYTES, TICK_MIN_HZ, serial_keeps_up};
 use crate::{BusConfig, Config, ConfigError, Driver, Field, Part};
 
 /// What a scene needs of a board.
@@ -27,6 +27,8 @@ pub struct Needs {
     pub serial_baud: Option<u32>,
     /// The bus of a head, whose whiskers its boards share.
     pub bus: Option<BusConfig>,
+    /// Whether it decides what its whiskers touch.
+    pub decides: bool,
 }
 
 impl Needs {
@@ -41,6 +43,7 @@ impl Needs {
             driver: config.motion.as_ref().map(|motion| motion.driver),
             serial_baud: config.links.serial_baud,
             bus: config.head.bus.filter(|_| Part::Bus.is_built()),
+            decides: config.classifier.is_some(),
         }
     }
 
@@ -68,6 +71,8 @@ pub enum Misfit {
     Whiskers,
     /// Its program has no bus.
     NoBus,
+    /// Its RAM has no room for a bus and a classifier.
+    DecidesInHead,
     /// So many whiskers at most are on a board of a head.
     Share(u8),
     /// The clock of the bus, Hz, is no multiple of its bits.
@@ -104,7 +109,7 @@ impl Misfit {
         match self {
             Self::Sides(_) => ConfigError::Room(Field::Sides),
             Self::Whiskers | Self::Share(_) => ConfigError::Room(Field::Whiskers),
-            Self::NoBus => ConfigError::Room(Field::Bus),
+            Self::NoBus | Self::DecidesInHead => ConfigError::Room(Field::Bus),
             Self::BusOfClock { .. } => ConfigError::Range(Field::Bus),
             Self::TwoBrushless => ConfigError::Room(Field::Driver),
             Self::TickHz { .. } => ConfigError::Range(Field::TickHz),
@@ -124,6 +129,9 @@ impl fmt::Display for Misfit {
             Self::Whiskers => f.write_str("1, because it carries one whisker a side"),
             Self::NoBus => f.write_str("no such key, because its chip or its program has no CAN"),
             Self::Share(most) => write!(f, "as many as make {most} whiskers a board or fewer"),
+            Self::DecidesInHead => {
+                f.write_str("no such key beside [classifier], because its RAM has no room for both")
+            }
             Self::BusOfClock { can_hz } => write!(
                 f,
                 "125 to 1000, of which {can_hz} Hz are a multiple by 8 to 18 and a whole number"
@@ -171,8 +179,11 @@ impl BoardFacts {
     pub const fn fits(&self, needs: &Needs) -> Result<(), Misfit> {
         let sides = needs.sides_of_board();
         if needs.bus.is_some() {
-            if !self.has_bus {
+            if matches!(self.in_head, InHead::Never) {
                 return Err(Misfit::NoBus);
+            }
+            if needs.decides && !matches!(self.in_head, InHead::Tuned) {
+                return Err(Misfit::DecidesInHead);
             }
             if sides > self.max_sides {
                 return Err(Misfit::Share(self.max_sides));
@@ -220,7 +231,7 @@ impl BoardFacts {
 #[cfg(test)]
 mod tests {
     use super::{Misfit, Needs};
-    use crate::boards::{NUCLEO_F446RE, NUCLEO_G071RB, REST_US};
+    use crate::boards::{NUCLEO_F103RB, NUCLEO_F446RE, NUCLEO_G071RB, REST_US};
     use crate::{BusConfig, Config, ConfigError, Driver, Field};
 
     fn still() -> Needs {
@@ -259,6 +270,14 @@ mod tests {
             Err(Misfit::BusOfClock { can_hz })
         );
         assert_eq!(NUCLEO_G071RB.fits(&head(24, 1_000)), Err(Misfit::NoBus));
+        assert_eq!(NUCLEO_F103RB.fits(&head(24, 1_000)), Ok(()));
+        assert_eq!(NUCLEO_F103RB.fits(&head(12, 1_000)), Err(Misfit::Share(1)));
+        let decides = Needs {
+            decides: true,
+            ..head(24, 1_000)
+        };
+        assert_eq!(NUCLEO_F446RE.fits(&decides), Ok(()));
+        assert_eq!(NUCLEO_F103RB.fits(&decides), Err(Misfit::DecidesInHead));
         let too_fast = [false, true].map(|is_slow| (most(is_slow) + 1, is_slow));
         for (tick_hz, is_slow) in [(199, false), (0, false)].into_iter().chain(too_fast) {
             let fast = Needs {

@@ -4,6 +4,7 @@ use can::{Evidence, MAX_NODES, Message, OTHERS};
 use tactile::{Decision, Felt};
 
 use super::Times;
+use crate::Part;
 use crate::perception::SampleClassifier;
 
 // What is felt fits what is said.
@@ -13,12 +14,19 @@ const _: () = {
     assert!(least == from && most == to);
 };
 
+/// Most boards whose evidence comes.
+const BOARDS: usize = if Part::Classifier.is_built() && Part::Several.is_built() {
+    MAX_NODES
+} else {
+    0
+};
+
 /// What a board knows of the evidence of others, and has said of its own.
 #[derive(Debug)]
 pub(super) struct Deciding {
     times: Times,
     /// Parts that have come, of each board.
-    heard: [Felt; MAX_NODES],
+    heard: [Felt; BOARDS],
     said: Option<Felt>,
     since_said: u16,
     /// Evidence from before this tick led to the last decision.
@@ -35,7 +43,7 @@ impl Deciding {
     pub(super) const fn new(times: Times) -> Self {
         Self {
             times,
-            heard: [Felt::NOTHING; MAX_NODES],
+            heard: [Felt::NOTHING; BOARDS],
             said: None,
             since_said: 0,
             begins: 0,

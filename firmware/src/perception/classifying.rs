@@ -3,7 +3,7 @@
 use heapless::Vec;
 use serde::{Deserialize, Serialize};
 use tactile::{Deciding, Decision, Felt, Pose, RuleSettings, TouchDetector, Touching};
-use whisking::{MAX_WHISKERS, Real};
+use whisking::{MAX_OWN, Real};
 
 use crate::sensing::Reading;
 use crate::{Event, Part, Place};
@@ -115,7 +115,7 @@ pub struct Sensed<R> {
 #[derive(Debug, Clone)]
 pub struct Perception<C> {
     classifier: C,
-    touches: Vec<TouchDetector, MAX_WHISKERS>,
+    touches: Vec<TouchDetector, MAX_OWN>,
     tick_hz: u32,
 }
 
@@ -123,7 +123,7 @@ impl<C: SampleClassifier> Perception<C> {
     /// Of a module of so many whiskers and ticks a second, with this classifier.
     pub fn new(classifier: C, whiskers: usize, tick_hz: u32) -> Self {
         let mut touches = Vec::new();
-        for _ in 0..whiskers.min(MAX_WHISKERS) {
+        for _ in 0..whiskers.min(MAX_OWN) {
             // There is room for them.
             let _ = touches.push(TouchDetector::at(tick_hz));
         }

@@ -14,8 +14,8 @@ use crate::chip::spi;
 use crate::chip::timers::Kind;
 use crate::chip::usart;
 use crate::chip::wiring::{
-    ByteSignal, LEFT_DIRECTION, LEFT_ENCODER, LEFT_SELECT, LEFT_SPI, Request, SERIAL, SerialPort,
-    Side, Wiring,
+    ByteSignal, CanPort, LEFT_DIRECTION, LEFT_ENCODER, LEFT_SELECT, LEFT_SPI, Pin, Request, SERIAL,
+    SerialPort, Side, Wiring,
 };
 
 const TIM2: usize = 0;
@@ -39,6 +39,7 @@ pub(crate) static F103: Model = Model {
         (Unit::Tim(TIM4), 0x4000_0800, Some((Bus::Apb1, 2))),
         (Unit::Watchdog, 0x4000_3000, None),
         (Unit::Usart, 0x4000_4400, Some((Bus::Apb1, 17))),
+        (Unit::Can, 0x4000_6400, Some((Bus::Apb1, 25))),
         (Unit::Power, 0x4000_7000, Some((Bus::Apb1, 28))),
         (Unit::Remap, 0x4001_0000, Some((Bus::Apb2, 0))),
         (Unit::Lines, 0x4001_0400, None),
@@ -96,7 +97,14 @@ pub(crate) static F103: Model = Model {
                 channel: WIRED,
             },
         },
-        can: None,
+        can: Some(CanPort {
+            bus: Bus::Apb1,
+            rx: Pin::new('A', 11),
+            tx: Pin::new('A', 12),
+            function: 0,
+            heard_irq: 20,
+            sent_irq: 19,
+        }),
     },
 };
 

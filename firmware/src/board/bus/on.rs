@@ -143,6 +143,8 @@ impl Time {
 impl Head {
     /// On the bus from now on, as node `number`. One whose number is none of the head's is
     /// silent, as it has no whiskers.
+    // Apart: a node is made on the stack, which another part of the start needs.
+    #[inline(never)]
     pub(crate) fn start(settings: &Settings, pace: &Pace, number: u8) -> (Self, Post) {
         let none = || (Self(None), Post::none());
         let bus = settings.head.bus.filter(|bus| number < bus.nodes);
