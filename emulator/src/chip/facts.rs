@@ -2,6 +2,8 @@
 //! their gates, interrupts, pins and requests, and the bits of their registers. Every value is
 //! the one that the models use.
 
+use firmware::BoardCode;
+
 use super::fields::Field;
 use super::map::Unit;
 use super::rcc::Bus;
@@ -79,6 +81,8 @@ fn name(model: &Model, unit: Unit) -> &'static str {
         Unit::Power => "PWR",
         Unit::Lines => "EXTI",
         Unit::Usart => "USART2",
+        // A chip with one of them does not number it.
+        Unit::Can if model.facts.code == BoardCode::NucleoF103rb => "CAN",
         Unit::Can => "CAN1",
     }
 }
