@@ -21,7 +21,7 @@ use crate::trial::{self, Hands};
 use rtt::LogDecoder;
 
 /// Picoseconds in a second.
-const PS: f64 = 1e12;
+pub(crate) const PS: f64 = 1e12;
 
 /// Ticks that an answer may take, as flash that is erased takes a second.
 pub(crate) const PATIENCE: u32 = 10_000;

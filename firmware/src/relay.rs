@@ -98,6 +98,11 @@ impl Relay {
         self.number
     }
 
+    /// Whether the head has a board of that number.
+    pub const fn has(&self, node: u8) -> bool {
+        node < self.nodes
+    }
+
     /// Of how many ticks one has its records sent to another board.
     pub const fn every(tick_hz: u32) -> u32 {
         let every = tick_hz / RELAYED_HZ;
@@ -106,7 +111,7 @@ impl Relay {
 
     /// Asks another board, in tick `now`; `None`: the head has no such board.
     pub fn ask(&mut self, request: ForNode, now: u32) -> Option<Frames> {
-        if request.node >= self.nodes || request.node == self.number {
+        if !self.has(request.node) || request.node == self.number {
             return None;
         }
         self.asking = Some(Asking {

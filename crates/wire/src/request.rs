@@ -2,6 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::answer::{Answer, CommandStatus};
 use crate::loading::Load;
 
 /// A whisker of the array.
@@ -107,6 +108,19 @@ pub struct UnknownCommand {
     pub tag: u16,
     /// Its number.
     pub command: u8,
+}
+
+impl UnknownCommand {
+    /// Its answer, in tick `sequence`.
+    pub const fn answer(self, sequence: u32) -> Answer {
+        Answer {
+            sequence,
+            tag: self.tag,
+            command: self.command,
+            status: CommandStatus::Unknown,
+            values: [0; 2],
+        }
+    }
 }
 
 impl Command {

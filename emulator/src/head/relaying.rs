@@ -226,12 +226,17 @@ impl Talk {
     }
 
     fn stops(&mut self, case: &Case) -> Result<(), Error> {
-        self.done(Command::Stop)?;
-        self.pass(STOPPED_TICKS)?;
-        self.records.clear();
-        self.pass(3 * Relay::every(case.loaded.scene.tick_hz))?;
         let is_driven =
             |record: &TickRecord| record.flags.contains(Flags::ARMED) || record.duty != 0;
+        if !self.records.last().is_some_and(is_driven) {
+            return wrong("it is not driven before it is to stop");
+        }
+        self.done(Command::Stop)?;
+        self.pass(STOPPED_TICKS)?;
+        // Whoever names a board that there is not arms none.
+        self.must(self.far + 1, Command::Arm, CommandStatus::NoBoard)?;
+        self.records.clear();
+        self.pass(3 * Relay::every(case.loaded.scene.tick_hz))?;
         if self.records.is_empty() || self.records.iter().any(is_driven) {
             return wrong(format!("after a stop: {:?}", self.records));
         }

@@ -12,9 +12,7 @@ use wire::TaggedCommand;
 use super::Head;
 use crate::board;
 use crate::program::Program;
-
-/// Picoseconds in a second.
-const PS: f64 = 1e12;
+use crate::session::PS;
 
 /// The boards, started.
 pub struct HeadSession {

@@ -21,6 +21,10 @@ impl Post {
         false
     }
 
+    pub(crate) const fn has(&self, _: u8) -> bool {
+        false
+    }
+
     pub(crate) fn ask(&mut self, _: ForNode) -> bool {
         false
     }

@@ -80,6 +80,11 @@ impl Post {
         own == Some(number)
     }
 
+    /// Whether the head has a board of that number.
+    pub(crate) fn has(&self, number: u8) -> bool {
+        self.0.as_ref().is_some_and(|link| link.relay.has(number))
+    }
+
     /// Asks another board; whether there is one of that number. Where there is no room it is asked
     /// later.
     pub(crate) fn ask(&mut self, request: ForNode) -> bool {
@@ -144,13 +149,16 @@ impl Post {
     }
 
     pub(crate) fn next_alone(&mut self) -> Option<TaggedCommand> {
-        let relay = &mut self.0.as_mut()?.relay;
         while let Some(frame) = bxcan::take() {
+            let relay = &mut self.0.as_mut()?.relay;
             if let Some(Heard::Say(frames)) = relay.hear(&frame) {
                 bxcan::say_alone(&frames);
             }
-            if let Some((_, Ok(request))) = relay.take_request() {
-                return Some(request);
+            match relay.take_request() {
+                Some((_, Ok(request))) => return Some(request),
+                // It would keep all others waiting.
+                Some((_, Err(unknown))) => self.reply_alone(&unknown.answer(TICKS.get())),
+                None => {}
             }
         }
         None

@@ -3,7 +3,7 @@
 use core::sync::atomic::Ordering;
 
 use firmware::{EventRecord, Heard, Packet, Relay, letters};
-use wire::{Answer, Command, CommandStatus, ForNode, Load, Request, TaggedCommand, UnknownCommand};
+use wire::{Answer, Command, CommandStatus, ForNode, Load, Request, TaggedCommand};
 
 use super::configs::{Configs, Verdict};
 use super::probe::ProbeLine;
@@ -173,9 +173,10 @@ impl Exchange {
     pub(crate) fn ask(&mut self, asked: Request, (origin, at): (Origin, u32), names: &Names) {
         let request = match asked {
             Request::Here(request) => request,
-            // A whole head is armed.
+            // A whole head is armed, by whichever of its boards.
             Request::For(request)
-                if self.post.is_own(request.node) || request.number() == Command::Arm.number() =>
+                if self.post.is_own(request.node)
+                    || request.number() == Command::Arm.number() && self.post.has(request.node) =>
             {
                 request.here()
             }
@@ -189,7 +190,7 @@ impl Exchange {
         let request = match request {
             Ok(request) => request,
             Err(unknown) => {
-                self.answer = Some(refusal(unknown));
+                self.answer = Some(unknown.answer(TICKS.get()));
                 return;
             }
         };
@@ -367,17 +368,6 @@ impl Exchange {
             }
             _ = self.ends.records.dequeue();
         }
-    }
-}
-
-/// The refusal of a command of a later version.
-fn refusal(unknown: UnknownCommand) -> Answer {
-    Answer {
-        sequence: TICKS.get(),
-        tag: unknown.tag,
-        command: unknown.command,
-        status: CommandStatus::Unknown,
-        values: [0; 2],
     }
 }
 
