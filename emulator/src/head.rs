@@ -39,23 +39,29 @@ const US: f64 = 1e6;
 /// Bits of the shortest frame, with the space behind it.
 const LEAST_BITS: Ps = 47;
 
-/// By how much the clock of a board is faster than that of the bus, millionths.
+/// The clock of a board beside that of the bus.
 #[derive(Debug, Clone, Copy)]
-struct Crystal(i32);
+struct Crystal {
+    /// By how much it is faster, millionths.
+    ppm: i32,
+    /// When its board is switched on, by the bus.
+    since: Ps,
+}
 
 impl Crystal {
     /// What its board takes `time` of the bus for.
     fn own(self, time: Ps) -> Ps {
-        scaled(time, self.millionths(), 1_000_000)
+        let since = time.saturating_sub(self.since);
+        scaled(since, self.millionths(), 1_000_000)
     }
 
     /// When by the bus it is `time` by its board.
     fn of_bus(self, time: Ps) -> Ps {
-        scaled(time, 1_000_000, self.millionths())
+        self.since + scaled(time, 1_000_000, self.millionths())
     }
 
     fn millionths(self) -> u128 {
-        1_000_000_u32.saturating_add_signed(self.0).max(1).into()
+        1_000_000_u32.saturating_add_signed(self.ppm).max(1).into()
     }
 }
 
@@ -112,7 +118,10 @@ impl Head {
             let sides = scene.head.sides.count();
             Ok(Node {
                 board: Board::of_node(program, scene, (number, own.clone()), pins)?,
-                crystal: Crystal(if number.is_multiple_of(2) { ppm } else { -ppm }),
+                crystal: Crystal {
+                    ppm: if number.is_multiple_of(2) { ppm } else { -ppm },
+                    since: 0,
+                },
                 own,
                 snapshot: Snapshot {
                     theta_deg: vec![f64::NAN; each],
@@ -127,12 +136,15 @@ impl Head {
                 ended: 0,
             })
         };
-        let nodes = (0..nodes).map(board).collect::<Result<Vec<_>, _>>()?;
-        let started = nodes
-            .iter()
-            .map(|node| node.crystal.of_bus(node.board.machine.now));
+        let mut nodes = (0..nodes).map(board).collect::<Result<Vec<_>, _>>()?;
+        let took = |node: &Node| node.crystal.of_bus(node.board.machine.now);
+        let longest = nodes.iter().map(took).max().unwrap_or_default();
+        // Who reads no model is ready sooner.
+        for node in &mut nodes {
+            node.crystal.since = longest - took(node);
+        }
         let mut head = Self {
-            now: started.max().unwrap_or_default(),
+            now: longest,
             wires: vec![Can::new(nodes.len(), kbit_s); nodes.len() + 1],
             nodes,
             bit: 1_000_000_000 / Ps::from(kbit_s),

@@ -23,6 +23,7 @@ const TENTH: u32 = 10;
 /// For how many tenths of a second an answer is waited for; and where flash is erased for it.
 const PATIENCE: u32 = 5;
 const LONG_PATIENCE: u32 = 200;
+const STREAM: Command = Command::Stream(true);
 const LOAD: Command = Command::Load(Load {
     config: 0,
     model: 0,
@@ -70,10 +71,11 @@ pub struct Relay {
     /// Letters that it has sent.
     letters: u8,
     asking: Option<Asking>,
-    /// The board that it asked last, whose packets it reads.
+    /// The board that it has asked for records, whose packets it reads.
     reads: Option<u8>,
     asked: Option<Asked>,
-    packets: Assembly,
+    /// Of that board, and of another one that is asked meanwhile.
+    packets: [Assembly; 2],
     requests: Assembly,
 }
 
@@ -88,7 +90,7 @@ impl Relay {
             asking: None,
             reads: None,
             asked: None,
-            packets: Assembly::new(),
+            packets: [Assembly::new(); 2],
             requests: Assembly::new(),
         }
     }
@@ -119,7 +121,9 @@ impl Relay {
             made: now,
             said: now,
         });
-        self.reads = Some(request.node);
+        if request.number() == STREAM.number() {
+            self.reads = Some(request.node);
+        }
         self.say_request()
     }
 
@@ -150,11 +154,13 @@ impl Relay {
     pub fn hear(&mut self, frame: &Frame) -> Option<Heard> {
         let part = Part::of(frame).filter(|part| part.to == self.number)?;
         match part.kind {
-            LetterKind::Packet if self.reads == Some(part.from) => {
-                let letter = self.packets.push(&part)?;
+            LetterKind::Packet => {
+                let asking = self.asking.map(|asking| asking.request.node);
+                let mut whose = [self.reads, asking].into_iter();
+                let place = whose.position(|node| node == Some(part.from))?;
+                let letter = self.packets.get_mut(place)?.push(&part)?;
                 self.hear_packet(letter.bytes)
             }
-            LetterKind::Packet => None,
             LetterKind::Request => {
                 let letter = self.requests.push(&part)?;
                 self.hear_request(&letter).map(Heard::Say)
@@ -403,15 +409,25 @@ mod tests {
     }
 
     #[test]
-    fn packets_come_from_the_board_that_was_asked_last() {
+    fn records_of_one_board_come_while_another_is_asked() {
         let mut here = relay(0);
-        here.ask(of(2, request(0)), 0).unwrap();
-        let packet = Packet::Answer(answer(request(0), 1));
-        let mut from = |number| {
-            let frames = relay(number).packet(0, &packet);
-            frames.iter().find_map(|frame| here.hear(frame))
+        let stream = TaggedCommand {
+            tag: 1,
+            command: Command::Stream(true),
         };
-        assert_eq!(from(1), None);
-        assert_eq!(from(2), Some(Heard::Answered(answer(request(0), 1))));
+        here.ask(of(2, stream), 0).unwrap();
+        let begun = relay(2).packet(0, &Packet::Answer(answer(stream, 1)));
+        let heard = begun.iter().find_map(|frame| here.hear(frame));
+        assert_eq!(heard, Some(Heard::Answered(answer(stream, 1))));
+        here.ask(of(1, request(0)), 0).unwrap();
+        // Their parts come by turns; what nobody has asked for comes to nobody.
+        let record = Packet::Record(wire::TickRecord::default());
+        let records = relay(2).packet(0, &record);
+        let answers = relay(1).packet(0, &Packet::Answer(answer(request(0), 2)));
+        let others = relay(3).packet(0, &record);
+        let frames = (0..3).flat_map(|n| [records[n], answers[n], others[n]]);
+        let heard: Vec<Heard> = frames.filter_map(|frame| here.hear(&frame)).collect();
+        let answered = Heard::Answered(answer(request(0), 2));
+        assert_eq!(heard, [Heard::Packet(record.bytes()), answered]);
     }
 }

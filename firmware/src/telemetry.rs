@@ -2,9 +2,11 @@
 //!
 //! Nothing waits here: a record that finds no room is dropped whole and counted.
 
-use whisking::Real;
+use tactile::Decision;
+use whisking::{MAX_OWN, Real};
 use wire::{
-    Answer, Command as Said, CommandStatus, Flags, Load, TaggedCommand, TickRecord, WhiskerId, q13,
+    Answer, Command as Said, CommandStatus, Flags, Load, Looked, TaggedCommand, TickRecord,
+    WhiskerId, q13,
 };
 
 use crate::config::Part;
@@ -37,8 +39,16 @@ const fn number(digits: &str) -> i32 {
     }
 }
 
+/// What a whisker has decided last, and how often it has.
+#[derive(Debug, Clone, Copy)]
+struct Decided {
+    place: Place,
+    class: Option<u8>,
+    count: u8,
+}
+
 /// The module's end of the link.
-#[derive(Debug, Default)]
+#[derive(Debug)]
 pub struct Link {
     streams: bool,
     /// The whiskers that touch something, a bit each.
@@ -49,6 +59,8 @@ pub struct Link {
     lost: u32,
     /// Says so, where the next record is the first after some that were lost.
     gap: Flags,
+    /// Of the whiskers of a board of a head.
+    decided: [Option<Decided>; MAX_OWN],
 }
 
 impl Link {
@@ -60,6 +72,7 @@ impl Link {
             said: Flags::NONE,
             lost: 0,
             gap: Flags::NONE,
+            decided: [None; MAX_OWN],
         }
     }
 
@@ -68,7 +81,12 @@ impl Link {
         match event {
             Event::Touch { place, .. } => self.touching |= bit(*place),
             Event::TouchEnd { place, .. } => self.touching &= !bit(*place),
-            Event::Decision(..) => self.said = self.said | Flags::DECIDED,
+            Event::Decision(place, decision) => {
+                self.said = self.said | Flags::DECIDED;
+                if Part::Bus.is_built() && Part::Classifier.is_built() {
+                    self.note_decision(*place, decision);
+                }
+            }
             Event::SensorLost(..) | Event::MotorFault(..) | Event::MotorGivenUp(_) => {
                 self.said = self.said | Flags::FAULT;
             }
@@ -83,6 +101,27 @@ impl Link {
             | Event::Health(_)
             | Event::Limit(_) => {}
         }
+    }
+
+    #[cold]
+    fn note_decision(&mut self, place: Place, decision: &Decision) {
+        let last = self.last_decision(place);
+        let count = last.map_or(0, |last| last.count);
+        let free = |decided: &Option<Decided>| decided.is_none_or(|of| of.place == place);
+        let found = self.decided.iter_mut().find(|decided| free(decided));
+        if let Some(found) = found {
+            *found = Some(Decided {
+                place,
+                class: decision.class().map(|class| class as u8),
+                // Never 0 again.
+                count: count.checked_add(1).unwrap_or(1),
+            });
+        }
+    }
+
+    fn last_decision(&self, place: Place) -> Option<Decided> {
+        let mut all = self.decided.iter().flatten();
+        all.find(|decided| decided.place == place).copied()
     }
 
     /// Whether records are sent after every tick.
@@ -156,6 +195,14 @@ impl Link {
                     .and_then(|(_, whisker)| whisker.sensor().last().ok_or(CommandStatus::NotHere));
                 last.map(|bytes| values = halves(bytes).map(u32::cast_signed))
             }
+            Said::Look(whisker) if Part::Bus.is_built() => {
+                let place = Place::new(whisker.side, whisker.number);
+                let found = module.whisker(place).ok_or(CommandStatus::NoWhisker);
+                found.map(|whisker| {
+                    let looked = self.looked(module, config, whisker);
+                    values = looked.values();
+                })
+            }
             Said::Version => {
                 values = VERSION;
                 Ok(())
@@ -182,6 +229,7 @@ impl Link {
             | Said::Load(_)
             | Said::Word(..)
             | Said::Restart
+            | Said::Look(_)
             | Said::Started => Err(CommandStatus::NotHere),
         };
         Answer {
@@ -190,6 +238,33 @@ impl Link {
             command: request.command.number(),
             status: done.err().unwrap_or(CommandStatus::Done),
             values,
+        }
+    }
+
+    /// How the `n`-th whisker is after the last tick.
+    #[cold]
+    #[inline(never)]
+    fn looked<R: Real, H: Hardware>(
+        &self,
+        module: &Module<R, H>,
+        config: &Config<R>,
+        whisker: (usize, &Whisker<R, H>),
+    ) -> Looked {
+        let tick = Tick {
+            module,
+            config,
+            sequence: 0,
+            said: Flags::NONE,
+            touching: self.touching,
+        };
+        let record = tick.record(whisker, Flags::NONE);
+        let decided = self.last_decision(whisker.1.place());
+        Looked {
+            measured: record.measured,
+            contact: record.contact,
+            flags: record.flags,
+            decisions: decided.map_or(0, |decided| decided.count),
+            class: decided.and_then(|decided| decided.class),
         }
     }
 
@@ -251,6 +326,12 @@ pub const fn may_load(load: Load, room: Load, is_armed: bool) -> Result<(), Comm
         Ok(())
     } else {
         Err(CommandStatus::OutOfRange)
+    }
+}
+
+impl Default for Link {
+    fn default() -> Self {
+        Self::new()
     }
 }
 

@@ -34,10 +34,20 @@ impl Array {
     /// Of a scene in which nothing has been said.
     pub fn new(scene: &Scene) -> Self {
         let head = &scene.head;
-        let each = head.whiskers_per_side.max(1);
-        let columns = (each / head.rows.max(1)).max(1);
-        let whiskers = each * head.sides.count();
         let boards = head.nodes.map(usize::from);
+        Self::of(
+            [head.sides.count(), head.whiskers_per_side],
+            head.rows,
+            boards,
+        )
+    }
+
+    /// Of so many sides of so many whiskers in rows, on so many boards, on which nothing has been
+    /// said.
+    pub fn of([sides, each]: [usize; 2], rows: usize, boards: Option<usize>) -> Self {
+        let each = each.max(1);
+        let columns = (each / rows.max(1)).max(1);
+        let whiskers = each * sides;
         let a_board = boards.map(|boards| (whiskers / boards.max(1)).max(1));
         let stand = |n: usize| Stand {
             side: n / each,
@@ -59,8 +69,13 @@ impl Array {
         };
         let of_side = self.said.len() / self.sides().max(1);
         let n = usize::from(place.side) * of_side + usize::from(place.whisker);
+        self.say(n, t_s, decided.decision.clone());
+    }
+
+    /// Whisker `n` has said something.
+    pub fn say(&mut self, n: usize, t_s: f64, what: String) {
         if let Some(said) = self.said.get_mut(n) {
-            *said = Some((t_s, decided.decision.clone()));
+            *said = Some((t_s, what));
         }
     }
 

@@ -117,7 +117,12 @@ pub trait HostModule: Bench + Send {
     /// number 0.
     fn talk_with(&mut self, _board: usize) {}
 
-    /// What it has sent since the last call.
+    /// Has another board of its head carry out `request`; whether it has one of that number.
+    fn request_of(&mut self, _board: usize, _request: TaggedCommand) -> bool {
+        false
+    }
+
+    /// What it has sent since the last call, and answers of other boards.
     fn take_packets(&mut self) -> Vec<Packet>;
 
     /// The bus of a head of several boards; none where one board has all whiskers.
@@ -392,9 +397,12 @@ impl<R: Number> Hosted<R> {
         pins: Vec<Pins>,
         classifier: Option<Classifier>,
     ) -> Result<Self, Error> {
-        let tap = Tap::new(classifier, heard_by_board(scene, number));
+        let heard = heard_by_board(scene, number);
+        let tap = Tap::new(classifier, heard);
         let gate = tap.touch_rule().map(|touch| touch.gate);
         let model = match (tap.model(), &scene.classifier) {
+            // The whiskers that decide are another board's.
+            _ if heard == 0 => ModelState::NotHere,
             (Some(model), _) => model,
             (None, Some(_)) => ModelState::Refused(Refusal::Absent),
             (None, None) => ModelState::NotHere,

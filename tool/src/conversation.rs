@@ -108,6 +108,22 @@ impl Conversation {
         Ok(tag)
     }
 
+    /// The same of another board of its head.
+    pub(crate) fn send_to(&mut self, node: u8, command: Command) -> Result<u16, Error> {
+        self.tag = self.tag.wrapping_add(1);
+        let tag = self.tag;
+        self.source
+            .request_of(node, TaggedCommand { tag, command })?;
+        Ok(tag)
+    }
+
+    /// Whether it is a board of a head: then that has a first one.
+    pub(crate) fn is_of_head(&mut self) -> Result<bool, Error> {
+        let tag = self.send_to(0, Command::Hello)?;
+        let answer = self.await_answer(tag, Command::Hello)?;
+        Ok(answer.status == CommandStatus::Done)
+    }
+
     /// Asks for something and waits for the answer, which must be that it is done.
     pub(crate) fn ask(&mut self, command: Command) -> Result<Answer, Error> {
         let answer = self.answer(command)?;
@@ -119,6 +135,10 @@ impl Conversation {
 
     pub(crate) fn answer(&mut self, command: Command) -> Result<Answer, Error> {
         let tag = self.send(command)?;
+        self.await_answer(tag, command)
+    }
+
+    fn await_answer(&mut self, tag: u16, command: Command) -> Result<Answer, Error> {
         let begun = self.source.now_s();
         while self.source.now_s() - begun < PATIENCE_S {
             let mut incoming = self.source.next()?;

@@ -31,7 +31,6 @@ pub(crate) use texture::texture;
 
 use firmware::{Links, Packet};
 use host_sim::Error;
-use host_sim::array::Stand;
 use host_sim::origin::Origin;
 use wire::{TaggedCommand, TickRecord};
 
@@ -51,18 +50,6 @@ impl Incoming {
             Packet::Answer(_) | Packet::Event(_) => None,
         })
     }
-}
-
-/// A whisker of a head, as somebody sees it who looks at that from above.
-#[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Hair {
-    pub(crate) stand: Stand,
-    /// In how many columns the whiskers of its side stand.
-    pub(crate) columns: usize,
-    pub(crate) angle_deg: f64,
-    pub(crate) contact: f64,
-    /// What it has decided within the last second; empty: nothing.
-    pub(crate) said: String,
 }
 
 /// A module that can be talked with.
@@ -120,11 +107,6 @@ pub(crate) trait Source {
     /// Whether that is by another clock than the module's own.
     fn has_clock(&self) -> bool {
         true
-    }
-
-    /// All whiskers of its head, left side first; none where they cannot be seen: on a board.
-    fn hairs(&mut self) -> Vec<Hair> {
-        Vec::new()
     }
 
     /// How long its scene lasts, s; none: until it is switched off.

@@ -284,15 +284,17 @@ pub(crate) fn compare_large_head(board: Board) -> Result<(), Fault> {
     emulate(&Emulated::linked(board), &scene, &["head --duration 2"])
 }
 
-/// Two that decide together.
+/// Two boards with a whisker each, of which the first decides, or each, or both together, by
+/// crystals apart.
 pub(crate) fn compare_deciding_head(board: Board) -> Result<(), Fault> {
-    let keys = [
-        "head.nodes=2",
-        "head.whiskers_per_side=2",
-        "classifier.whiskers=together",
-    ];
-    let scene = variants::with(&top().join(WORLD), &keys.map(str::to_owned))?;
-    emulate(&Emulated::linked(board), &scene, &["head --duration 10"])
+    for whiskers in ["first", "each", "together"] {
+        let whiskers = format!("classifier.whiskers={whiskers:?}");
+        let keys = ["head.nodes=2", "head.whiskers_per_side=2", &whiskers].map(str::to_owned);
+        let scene = variants::with(&top().join(WORLD), &keys)?;
+        let head = "head --duration 10 --ppm 300";
+        emulate(&Emulated::linked(board), &scene, &[head])?;
+    }
+    Ok(())
 }
 
 /// [`FULL`] with priors, and besides without self-motion in its contact: what not every board has

@@ -85,6 +85,8 @@ pub enum Command {
     Frame(WhiskerId),
     /// Says how it started: how often since power-up, and why, after which fault and by what clock.
     Started,
+    /// Says how the whisker is, as [`Looked`](crate::Looked) has it, where it is one of a head.
+    Look(WhiskerId),
 }
 
 /// In the second value of the answer to [`Command::Scene`]: the configuration is not the one of
@@ -155,6 +157,7 @@ impl Command {
             Self::Class(..) => 23,
             Self::Frame(_) => 24,
             Self::Started => 25,
+            Self::Look(_) => 26,
         }
     }
 
@@ -187,6 +190,7 @@ impl Command {
             Self::Class(..) => "class",
             Self::Frame(_) => "frame",
             Self::Started => "started",
+            Self::Look(_) => "look",
         }
     }
 }
@@ -199,7 +203,7 @@ pub(crate) mod tests {
 
     pub(crate) fn commands() -> impl Strategy<Value = Command> {
         let whisker = any::<(u8, u8)>().prop_map(|(side, number)| WhiskerId { side, number });
-        (0..26_u8, whisker, any::<(i32, u8, u16)>()).prop_map(|(which, whisker, values)| {
+        (0..27_u8, whisker, any::<(i32, u8, u16)>()).prop_map(|(which, whisker, values)| {
             let (value, byte, half) = values;
             let word = value.cast_unsigned();
             match which {
@@ -229,6 +233,7 @@ pub(crate) mod tests {
                 20 => Command::Zero(whisker),
                 24 => Command::Frame(whisker),
                 25 => Command::Started,
+                26 => Command::Look(whisker),
                 21 => Command::Scene,
                 22 => Command::Board,
                 _ => Command::Class(byte, whisker.side),

@@ -8,7 +8,10 @@ use host_sim::Error;
 use host_sim::loaded::Loaded;
 use host_sim::run::Run;
 use scene::Scene;
-use wire::{Answer, CONFIG_CHANGED, Command, CommandStatus, Flags, TaggedCommand, TickRecord};
+use wire::{
+    Answer, CONFIG_CHANGED, Command, CommandStatus, Flags, Looked, TaggedCommand, TickRecord,
+    WhiskerId,
+};
 
 use super::HeadSession;
 use crate::compare::{plain, same_numbers};
@@ -95,6 +98,16 @@ struct Case<'p> {
 }
 
 impl Case<'_> {
+    /// The first whisker of a board.
+    fn whisker(&self, node: u8) -> WhiskerId {
+        let n = usize::from(node) * self.each;
+        let of_side = self.loaded.scene.head.whiskers_per_side.max(1);
+        WhiskerId {
+            side: (n / of_side) as u8,
+            number: (n % of_side) as u8,
+        }
+    }
+
     fn deployment(&self, change: impl FnOnce(&mut Scene)) -> Result<Deployment, Error> {
         let mut scene = self.loaded.scene.clone();
         change(&mut scene);
@@ -130,13 +143,14 @@ pub(crate) fn relay(path: &Path, program: &Path) -> Result<Vec<String>, Error> {
     let took = talk.says_its_scene(&case)?;
     talk.must(bus.nodes, Command::Hello, CommandStatus::NoBoard)?;
     talk.must(talk.far, Command::Restart, CommandStatus::NotHere)?;
-    let records = talk.same_records(&case)?;
+    let [records, looks] = talk.same_records(&case)?;
     talk.takes_another_configuration(&case)?;
     talk.stops(&case)?;
     let deployed = talk.takes_another_scene(&case)?;
     Ok(vec![
         format!(
-            "board {} answers board 0 in {took} ticks; as in the simulated head {records} records",
+            "board {} answers board 0 in {took} ticks; as in the simulated head {records} records \
+             and {looks} looks at a whisker",
             talk.far
         ),
         deployed,
@@ -167,8 +181,8 @@ impl Talk {
         Ok(took)
     }
 
-    /// Records, each against that of the same tick in the simulated head; how many.
-    fn same_records(&mut self, case: &Case) -> Result<usize, Error> {
+    /// Records, and looks, each against the record of the same tick in the simulated head; how many.
+    fn same_records(&mut self, case: &Case) -> Result<[usize; 2], Error> {
         let Case {
             loaded,
             feels,
@@ -177,7 +191,8 @@ impl Talk {
         } = case;
         let scene = &loaded.scene;
         self.done(Command::Stream(true))?;
-        self.pass((COMPARED_S * f64::from(scene.tick_hz)) as u32)?;
+        let ticks = (COMPARED_S * f64::from(scene.tick_hz)) as u32;
+        let looks = self.look_meanwhile(case.whisker(self.far), ticks)?;
 
         let pwm = pwm_counts(scene, case.program.model()?);
         let mut host = Run::with_pwm(scene, loaded.classifier()?, pwm)?;
@@ -201,11 +216,46 @@ impl Talk {
                 return wrong(format!("{found:?}\n  in the simulated head {of_host:?}"));
             }
         }
+        let is_right = case.whisker(self.far).side > 0;
+        for (sequence, looked) in &looks {
+            let of_host = expected.get(&(*sequence, is_right));
+            let of_host = of_host.map(|record| Looked {
+                measured: record.measured,
+                contact: record.contact,
+                flags: record.flags.without(Flags::DECIDED),
+                ..*looked
+            });
+            let contact = if *feels { looked.contact } else { 0 };
+            let looked = Looked { contact, ..*looked };
+            if of_host != Some(looked) {
+                return wrong(format!(
+                    "in tick {sequence} {looked:?}\n  in the simulated head {of_host:?}"
+                ));
+            }
+        }
         let least = (COMPARED_S * f64::from(RELAYED_HZ)) as usize * each - 1;
         if self.records.len() < least {
             return wrong(format!("{} records, expected {least}", self.records.len()));
         }
-        Ok(self.records.len())
+        Ok([self.records.len(), looks.len()])
+    }
+
+    /// Looks at a whisker of the other board again and again, while records come from there.
+    fn look_meanwhile(
+        &mut self,
+        whisker: WhiskerId,
+        ticks: u32,
+    ) -> Result<Vec<(u32, Looked)>, Error> {
+        let mut looks = Vec::new();
+        let end = self.ticks + ticks;
+        while self.ticks < end {
+            let answer = self.ask(self.far, Command::Look(whisker))?;
+            if answer.status != CommandStatus::Done {
+                return wrong(format!("{whisker:?}: {answer:?}"));
+            }
+            looks.push((answer.sequence, Looked::of(answer.values)));
+        }
+        Ok(looks)
     }
 
     fn takes_another_configuration(&mut self, case: &Case) -> Result<(), Error> {

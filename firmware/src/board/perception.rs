@@ -12,12 +12,16 @@ use crate::here::FACTS;
 
 type Classifier = CodeClassifier<&'static [u32]>;
 
-/// The classifier of a scene that has one, before a model was [found](find) for it.
+/// The classifier of a scene that has one, before a model was [found](find) for it; none where the
+/// whiskers that decide are those of another board.
 pub(crate) fn start(settings: &Settings, node: u8) -> Option<Classifier> {
     let config = settings.classifier.as_ref();
     let config = config.filter(|_| Part::Classifier.is_built())?;
     let heard = config.deciding.heard(settings.head.whiskers());
     let heard = of_node(heard, settings, node);
+    if Part::Bus.is_built() && heard == 0 {
+        return None;
+    }
     Some(CodeClassifier::refused(Refusal::Absent, heard))
 }
 
@@ -54,11 +58,10 @@ pub(crate) fn find(inner: &mut Inner, settings: &Settings, node: u8, deployed: O
     };
     let rule = (rule, config.deciding);
     let heard = config.deciding.heard(settings.head.whiskers());
-    let whiskers = match of_node(heard, settings, node) {
-        // It decides nothing, as the first whisker alone is heard.
-        0 if Part::Bus.is_built() => return,
-        own if Part::Bus.is_built() => own,
-        _ => settings.head.whiskers(),
+    let whiskers = if Part::Bus.is_built() {
+        of_node(heard, settings, node)
+    } else {
+        settings.head.whiskers()
     };
     let model = slots::model(slot);
     classifier.find(model, limits, rule, &settings.classes, whiskers);

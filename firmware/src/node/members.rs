@@ -16,8 +16,10 @@ struct Member {
     is_joined: bool,
     /// Messages in a row with stamps that are no time of this node's clock.
     strange: u8,
-    /// Contact π of its whiskers, Q15.
+    /// Contact π of its whiskers, Q15, and ticks for which that is believed: what comes too late
+    /// shows that a node lives, and does not say what it feels.
     pi: [u16; MAX_SIDES],
+    believed: u16,
     /// Which sides it carries whiskers of.
     carries: [bool; MAX_SIDES],
 }
@@ -105,11 +107,12 @@ impl Members {
 
     pub(super) fn feels(&mut self, from: u8, pi: [u16; MAX_SIDES]) {
         if let Some(member) = self.all.get_mut(usize::from(from)) {
-            member.pi = pi;
+            (member.pi, member.believed) = (pi, self.drop);
         }
     }
 
-    /// A tick passes: who was not heard for long does not live, and feels nothing.
+    /// A tick passes: who was not heard for long does not live, and feels nothing; nor does one of
+    /// which nothing has come in time.
     pub(super) fn pass(&mut self, events: &mut impl FnMut(NodeEvent)) {
         for (number, member) in (0..).zip(&mut self.all) {
             if member.left == 1 {
@@ -120,13 +123,15 @@ impl Members {
                 };
             }
             member.left = member.left.saturating_sub(1);
+            member.believed = member.believed.saturating_sub(1);
         }
     }
 
     /// Contact π of the other nodes' whiskers of each side, the largest.
     pub(super) fn contact<R: Real>(&self) -> [R; MAX_SIDES] {
         let mut most = [0; MAX_SIDES];
-        for (_, member) in self.living() {
+        let believed = self.living().filter(|(_, member)| member.believed > 0);
+        for (_, member) in believed {
             for (most, pi) in most.iter_mut().zip(member.pi) {
                 *most = pi.max(*most);
             }

@@ -1,5 +1,6 @@
 //! A head: several boards, each with its own whiskers, joined by a simulated CAN bus.
 
+use std::collections::VecDeque;
 use std::ops::Range;
 
 use firmware::{
@@ -10,7 +11,7 @@ use scene::{Deciding, Scene};
 use whisking::{Number, Real};
 use wire::TaggedCommand;
 
-use super::can::{Can, Load};
+use super::can::{Can, Load, Sent};
 use super::{Bench, HostModule, Hosted, Snapshot};
 use crate::Error;
 use crate::bus::Slave;
@@ -54,6 +55,10 @@ pub struct Bus {
     /// Share of frames that a node misses.
     missed: f64,
     random: Noise,
+    /// How long a frame is on its way after the bus has carried it, µs, and those that are: an age
+    /// that no wire has, but a bridge between two might.
+    delay_us: f64,
+    on_their_way: VecDeque<Sent>,
 }
 
 impl Bus {
@@ -67,6 +72,8 @@ impl Bus {
             armed: vec![false; nodes],
             missed: 0.0,
             random: Noise::new(0),
+            delay_us: 0.0,
+            on_their_way: VecDeque::new(),
         }
     }
 
@@ -117,6 +124,24 @@ impl Bus {
         self.missed = missed;
         self.random = Noise::new(seed);
         self.can.corrupt(corrupted, seed.wrapping_add(1));
+    }
+
+    /// From now on others hear a frame so much later than the bus has carried it.
+    pub fn delay(&mut self, delay_s: f64) {
+        self.delay_us = 1e6 * delay_s;
+    }
+
+    /// The next frame that others hear by `until_us`, in the order in which they were carried.
+    fn next(&mut self, until_us: f64) -> Option<Sent> {
+        while let Some(sent) = self.can.next(until_us) {
+            self.on_their_way.push_back(Sent {
+                at_us: sent.at_us + self.delay_us,
+                ..sent
+            });
+        }
+        let next = self.on_their_way.front()?;
+        (next.at_us <= until_us).then_some(())?;
+        self.on_their_way.pop_front()
     }
 }
 
@@ -240,7 +265,7 @@ impl<R: Number> Head<R> {
     fn carry(&mut self) {
         let tick_us = 1e6 / self.tick_hz;
         let end_us = (self.done + 1) as f64 * tick_us;
-        while let Some(sent) = self.bus.can.next(end_us) {
+        while let Some(sent) = self.bus.next(end_us) {
             // Whole microseconds, as a board counts them.
             let at_us = sent.at_us.floor();
             let since_us = end_us - at_us;
@@ -422,11 +447,20 @@ where
         self.talking = board;
     }
 
+    fn request_of(&mut self, board: usize, request: TaggedCommand) -> bool {
+        let found = self.boards.get_mut(board);
+        found.map(|board| board.hosted.request(request)).is_some()
+    }
+
     fn take_packets(&mut self) -> Vec<Packet> {
-        let board = self.boards.get_mut(self.talking);
-        board
-            .map(|board| board.hosted.take_packets())
-            .unwrap_or_default()
+        let talking = self.talking;
+        let boards = self.boards.iter_mut().enumerate();
+        let packets = boards.flat_map(|(n, board)| {
+            let mut packets = board.hosted.take_packets();
+            packets.retain(|packet| n == talking || matches!(packet, Packet::Answer(_)));
+            packets
+        });
+        packets.collect()
     }
 
     fn bus(&mut self) -> Option<&mut Bus> {

@@ -380,3 +380,58 @@ fn nothing_on_the_bus_makes_a_setpoint_step() {
     assert!(spread < 0.5, "{left:?}");
     assert!(worst < 1.25 * calm, "{worst} {calm}");
 }
+
+/// Every frame comes late by a part of a whisk, up to a whole one, at every corner of the gains: a
+/// message that is too old counts as lost, so that no setpoint steps, and every board whisks on. The
+/// clocks of the others follow the first one's that much later, and so do their whiskers.
+#[test]
+fn a_head_bears_delays_of_up_to_a_whisk_at_every_gain() {
+    const WHISK_S: f64 = 0.25;
+    for (rcp, cia) in [(0.0, 0.0), (100.0, 0.0), (0.0, 100.0), (100.0, 100.0)] {
+        let gains = [format!("rcp.gain={rcp:?}"), format!("cia.gain={cia:?}")];
+        let gains = gains.each_ref().map(String::as_str);
+        let calm = largest_step(&whole(1, 1.0 / WHISK_S, &gains));
+        for delay_s in [0.001, 0.003, 0.01, 0.0625, 0.125, 0.127, 0.1285, WHISK_S] {
+            let mut run = Run::new(&whole(12, 1.0 / WHISK_S, &gains), None).unwrap();
+            run.bus().unwrap().delay(delay_s);
+            let (mut rows, mut last) = (Vec::new(), Vec::<f64>::new());
+            let mut worst = 0.0_f64;
+            let mut ends = [[f64::MAX, f64::MIN]; 24];
+            let mut whisks = [0; 24];
+            for tick in 0..16_000 {
+                run.tick();
+                run.look_at_whiskers(&mut rows);
+                for (n, before) in last.iter().enumerate() {
+                    let theta = rows[n].theta_deg;
+                    worst = worst.max((theta - before).abs());
+                    if tick >= 8_000 {
+                        let [least, most] = &mut ends[n];
+                        (*least, *most) = (least.min(theta), most.max(theta));
+                    }
+                    if tick >= 12_000 {
+                        let middle = (ends[n][0] + ends[n][1]) / 2.0;
+                        whisks[n] += u32::from(*before < middle && theta >= middle);
+                    }
+                }
+                last = rows.iter().map(|row| row.theta_deg).collect();
+            }
+            let least = ends.iter().map(|[least, most]| most - least);
+            let least = least.fold(f64::MAX, f64::min);
+            let joined = (0..12).filter(|node| run.bus().unwrap().is_joined(*node));
+            println!(
+                "rcp {rcp}, cia {cia}, {:.1} ms late: {} of 12 joined, θ' moves {worst:.3} degrees \
+                 a tick at most (one board {calm:.3}), a whisk {least:.0} degrees at least, \
+                 {:?} of them in 2 s",
+                1e3 * delay_s,
+                joined.count(),
+                [whisks.iter().min().unwrap(), whisks.iter().max().unwrap()],
+            );
+            assert!(worst < 1.25 * calm, "{worst} {calm}");
+            assert!(least > 10.0, "{least}");
+            assert!(
+                whisks.iter().all(|count| (7..=9).contains(count)),
+                "{whisks:?}"
+            );
+        }
+    }
+}

@@ -13,7 +13,8 @@ use wire::Command;
 
 use crate::conversation::AboutModule;
 use crate::monitor::{
-    About, History, Known, Listener, Shared, Size, Snapshot, Watching, Wish, joined, open, size,
+    About, History, Known, Listener, Looking, Shared, Size, Snapshot, Watching, Wish, joined, open,
+    size,
 };
 use crate::record_file::{self, RecordFile};
 use crate::script::Script;
@@ -137,6 +138,7 @@ fn begin(arguments: &Arguments, wishes: Receiver<Wish>) -> Result<(Watching, Rea
         whiskers,
     } = module.about()?;
     let classes = module.classes()?;
+    let looking = Looking::of(&mut module, &arguments.source)?;
     let listener = known.map(|known| Listener::new(known, tick_hz, whiskers));
     let origin: Origin = module.origin()?.with("scene", &scene);
     let files = arguments.out.iter();
@@ -150,7 +152,6 @@ fn begin(arguments: &Arguments, wishes: Receiver<Wish>) -> Result<(Watching, Rea
     let rate = (tick_hz, module.every(tick_hz));
     let mut history = History::new(rate, whiskers, listener.transpose()?);
     history.module_classes = classes;
-    history.see(module.source().hairs());
     let shared = Arc::new(Mutex::new(Shared {
         history,
         message: None,
@@ -171,6 +172,7 @@ fn begin(arguments: &Arguments, wishes: Receiver<Wish>) -> Result<(Watching, Rea
             None => arguments.speed.or(arguments.source.pace()),
         },
         begun_s,
+        looking,
         looked_s: begun_s,
         most_s: pictures.or(arguments.seconds),
     };

@@ -6,7 +6,7 @@ use firmware::{Event, EventRecord, Health, Packet};
 use wire::{Answer, Flags, TickRecord};
 
 use super::listener::{Decided, Listener};
-use crate::source::Hair;
+use super::looking::Hair;
 use crate::source::Incoming;
 use crate::tally::{Before, Tally, TickCount, side};
 

@@ -5,10 +5,10 @@ use host_sim::{decisions, report};
 use wire::{Flags, TickRecord};
 
 use super::history::{Entry, History, by, until};
+use super::looking::Hair;
 use super::view::{Extent, Shows, View};
 use crate::faults::{Fault, fault, number};
 use crate::sample::Sample;
-use crate::source::Hair;
 use crate::tally::{self, SIDES};
 
 const PARTS: usize = 160;

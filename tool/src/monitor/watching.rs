@@ -10,6 +10,7 @@ use host_sim::Error;
 use wire::{Answer, Command, CommandStatus, Flags};
 
 use super::history::{History, LOOKS_HZ};
+use super::looking::Looking;
 use crate::conversation::Conversation;
 use crate::record_file::RecordFile;
 use crate::script::Script;
@@ -62,7 +63,8 @@ pub(crate) struct Watching {
     /// Seconds of the module in a second; none: as fast as it goes.
     pub(crate) speed: Option<f64>,
     pub(crate) begun_s: f64,
-    /// When the whiskers of a head were looked at last, s.
+    /// At the whiskers of a head, and when they were shown last, s.
+    pub(crate) looking: Option<Looking>,
     pub(crate) looked_s: f64,
     /// How long to listen, s of the module; none: until it is ended.
     pub(crate) most_s: Option<f64>,
@@ -131,7 +133,7 @@ impl Watching {
             {
                 self.say(line);
             }
-            let incoming = self.module.receive()?;
+            let incoming = self.receive()?;
             let answers = self.take(&incoming)?;
             for answer in &answers {
                 self.tell(answer);
@@ -140,11 +142,6 @@ impl Watching {
                 }
             }
             let now_s = self.module.source().now_s();
-            if now_s - self.looked_s >= 1.0 / f64::from(LOOKS_HZ) {
-                self.looked_s = now_s;
-                let hairs = self.module.source().hairs();
-                lock(&self.shared).history.see(hairs);
-            }
             if stopping
                 .as_ref()
                 .is_some_and(|stopping| stopping.is_answered)
@@ -166,6 +163,23 @@ impl Watching {
                 return Ok(());
             }
         }
+    }
+
+    /// What comes next, without what is looked at.
+    fn receive(&mut self) -> Result<Incoming, Error> {
+        let Some(looking) = &mut self.looking else {
+            return self.module.receive();
+        };
+        looking.ask(&mut self.module)?;
+        let mut incoming = self.module.receive()?;
+        let now_s = self.module.source().now_s();
+        let history = &mut lock(&self.shared).history;
+        looking.take(&mut incoming, &history.module_classes, now_s);
+        if now_s - self.looked_s >= 1.0 / f64::from(LOOKS_HZ) {
+            self.looked_s = now_s;
+            history.see(looking.hairs(now_s));
+        }
+        Ok(incoming)
     }
 
     /// Tells the module to stop, again and again until it has answered.

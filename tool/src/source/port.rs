@@ -62,6 +62,8 @@ pub(super) struct Port {
     last: Instant,
     time: BoardTime,
     tick_hz: Option<u32>,
+    /// The tag of what another board was asked for last, whose ticks are its own.
+    elsewhere: Option<u16>,
 }
 
 impl Port {
@@ -78,6 +80,7 @@ impl Port {
             last: Instant::now(),
             time: BoardTime::default(),
             tick_hz: None,
+            elsewhere: None,
         };
         port.greet().map_err(|error| {
             Error::Work(format!(
@@ -132,7 +135,10 @@ impl Port {
                 return time.parse().ok().filter(|t_s: &f64| t_s.is_finite());
             }
             Received::Packet(Packet::Record(record)) => record.sequence,
-            Received::Packet(Packet::Answer(answer)) => answer.sequence,
+            Received::Packet(Packet::Answer(answer)) => {
+                let is_own = self.elsewhere != Some(answer.tag);
+                is_own.then_some(answer.sequence)?
+            }
             Received::Packet(Packet::Event(event)) => event.sequence,
             Received::Garbled => return None,
         };
@@ -178,6 +184,7 @@ impl Source for Port {
     }
 
     fn request_of(&mut self, node: u8, request: TaggedCommand) -> Result<(), Error> {
+        self.elsewhere = Some(request.tag);
         self.write(&wire::frame_for(node, request.tag, request.command))
     }
 

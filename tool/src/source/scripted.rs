@@ -84,6 +84,10 @@ impl Source for Scripted {
         Ok(())
     }
 
+    fn request_of(&mut self, _: u8, request: TaggedCommand) -> Result<(), Error> {
+        self.request(request)
+    }
+
     fn now_s(&mut self) -> f64 {
         self.now_s
     }

@@ -3,19 +3,17 @@
 use firmware::boards::NUCLEO_F446RE;
 use firmware::faults::number;
 use firmware::{Event, Refusal};
-use host_sim::array::Array;
 use host_sim::classifier::deployed;
 use host_sim::loaded::Loaded;
 use host_sim::origin::Origin;
 use host_sim::run::Run;
-use host_sim::trace::WhiskerRow;
 use host_sim::{Error, report};
 use tactile::ModelBuf;
 use wire::TaggedCommand;
 
 use super::flash::Flash;
 use super::texture::texture;
-use super::{Hair, Incoming, Source};
+use super::{Incoming, Source};
 use crate::decides::Decides;
 use crate::deployment::Deployment;
 
@@ -23,10 +21,8 @@ pub(super) struct Simulated {
     loaded: Loaded,
     flash: Flash,
     run: Run,
-    /// Of a head of several boards, and the one that is talked with.
-    array: Option<Array>,
+    /// Of a head of several boards the one that is talked with.
     node: usize,
-    whiskers: Vec<WhiskerRow>,
     /// Lines that it has logged before its first tick.
     first: Vec<String>,
 }
@@ -45,9 +41,7 @@ impl Simulated {
         }
         Ok(Self {
             run: run(&loaded, node)?,
-            array: array(&loaded),
             node,
-            whiskers: Vec::new(),
             loaded,
             flash,
             first,
@@ -64,11 +58,6 @@ impl Simulated {
     fn now(&self) -> f64 {
         self.run.row().t_s
     }
-}
-
-fn array(loaded: &Loaded) -> Option<Array> {
-    let is_head = loaded.scene.head.nodes.is_some();
-    is_head.then(|| Array::new(&loaded.scene))
 }
 
 fn run(loaded: &Loaded, node: usize) -> Result<Run, Error> {
@@ -98,11 +87,6 @@ fn of_model(found: &Result<ModelBuf, Refusal>) -> Vec<String> {
 impl Source for Simulated {
     fn next(&mut self) -> Result<Incoming, Error> {
         self.run.tick();
-        if let Some(array) = &mut self.array {
-            self.run
-                .decisions()
-                .for_each(|decided| array.take(&decided));
-        }
         let mut lines = std::mem::take(&mut self.first);
         lines.extend(self.lines());
         Ok(Incoming {
@@ -114,6 +98,14 @@ impl Source for Simulated {
     fn request(&mut self, request: TaggedCommand) -> Result<(), Error> {
         self.run.module_mut().request(request);
         Ok(())
+    }
+
+    fn request_of(&mut self, node: u8, request: TaggedCommand) -> Result<(), Error> {
+        if self.run.module_mut().request_of(node.into(), request) {
+            return Ok(());
+        }
+        let fault = format!("--node: found {node}; allowed: a board of a head");
+        Err(Error::Input(fault))
     }
 
     fn has(&self, sample: &str) -> Result<(), Error> {
@@ -131,23 +123,6 @@ impl Source for Simulated {
 
     fn now_s(&mut self) -> f64 {
         self.now()
-    }
-
-    fn hairs(&mut self) -> Vec<Hair> {
-        let Some(array) = &self.array else {
-            return Vec::new();
-        };
-        self.run.look_at_whiskers(&mut self.whiskers);
-        let t_s = self.run.t_s();
-        let stands = array.stands().iter().zip(&self.whiskers).enumerate();
-        let hair = |(n, (stand, row)): (usize, (&_, &WhiskerRow))| Hair {
-            stand: *stand,
-            columns: array.columns(),
-            angle_deg: row.angle_deg,
-            contact: row.contact,
-            said: array.said(n, t_s).to_owned(),
-        };
-        stands.map(hair).collect()
     }
 
     fn duration_s(&self) -> Option<f64> {
@@ -177,7 +152,6 @@ impl Source for Simulated {
             Some(model) => of_model(&Ok(model.clone())),
             None => of_model(&Err(Refusal::Absent)),
         };
-        self.array = array(loaded);
         self.loaded = loaded.clone();
         self.run = run;
         Ok(())

@@ -228,7 +228,9 @@ impl Exchange {
             command: None,
             is_elsewhere: true,
         });
-        self.reader_elsewhere = Some(origin.reader());
+        if request.number() == Command::Stream(true).number() {
+            self.reader_elsewhere = Some(origin.reader());
+        }
         if !self.post.ask(request) {
             self.answer = Some(Relay::no_board(&request, TICKS.get()));
         }

@@ -9,7 +9,7 @@ use ratatui::widgets::Block;
 use ratatui::widgets::canvas::{Canvas, Circle, Context, Line as Stroke};
 
 use super::theme::{Theme, bold};
-use crate::source::Hair;
+use crate::monitor::looking::Hair;
 
 /// The angle that is drawn level, degrees.
 const LEVEL_DEG: f64 = 84.0;

@@ -10,10 +10,11 @@ use wire::{Flags, TickRecord};
 
 use super::{Theme, draw};
 use crate::monitor::history::History;
+use crate::monitor::looking::Hair;
 use crate::monitor::shown::Shown;
 use crate::monitor::svg::{svg, text};
 use crate::monitor::view::{Key, View};
-use crate::source::{Hair, Incoming};
+use crate::source::Incoming;
 
 const PLAIN: Theme = Theme { colours: false };
 
