@@ -54,6 +54,8 @@ pub struct Bus {
     armed: Vec<bool>,
     /// Share of frames that a node misses.
     missed: f64,
+    /// Share of those that come to it twice: of an error that it alone did not see, in the last bit.
+    repeated: f64,
     random: Noise,
     /// How long a frame is on its way after the bus has carried it, µs, and those that are: an age
     /// that no wire has, but a bridge between two might.
@@ -71,6 +73,7 @@ impl Bus {
             joined: vec![false; nodes],
             armed: vec![false; nodes],
             missed: 0.0,
+            repeated: 0.0,
             random: Noise::new(0),
             delay_us: 0.0,
             on_their_way: VecDeque::new(),
@@ -124,6 +127,11 @@ impl Bus {
         self.missed = missed;
         self.random = Noise::new(seed);
         self.can.corrupt(corrupted, seed.wrapping_add(1));
+    }
+
+    /// From now on a node hears this share of the frames twice.
+    pub const fn repeat(&mut self, repeated: f64) {
+        self.repeated = repeated;
     }
 
     /// From now on others hear a frame so much later than the bus has carried it.
@@ -278,12 +286,15 @@ impl<R: Number> Head<R> {
                     board.node.said(&sent.frame, own_us);
                     continue;
                 }
-                let is_missed =
-                    self.bus.missed > 0.0 && self.bus.random.uniform() < self.bus.missed;
-                if self.bus.cut[n] || is_missed {
+                let bus = &mut self.bus;
+                let mut is_one_of = |share: f64| share > 0.0 && bus.random.uniform() < share;
+                let [is_missed, comes_twice] = [bus.missed, bus.repeated].map(&mut is_one_of);
+                if bus.cut[n] || is_missed {
                     continue;
                 }
-                board.node.hear(&sent.frame, own_us);
+                for _ in 0..=u8::from(comes_twice) {
+                    board.node.hear(&sent.frame, own_us);
+                }
             }
         }
     }

@@ -35,6 +35,7 @@ fn decided(name: &str, model: ModelBuf, overrides: &[&str], missed: f64) -> Said
     let mut run = Run::new(&scene, Some(classifier)).unwrap();
     if let Some(bus) = run.bus() {
         bus.disturb(missed, 0.0, 5);
+        bus.repeat(missed / 10.0);
     }
     let mut said = Said::default();
     for _ in 0..run.ticks() {

@@ -309,8 +309,8 @@ fn a_head_bears_a_restart_of_all_and_the_loss_of_half_at_every_gain() {
     }
 }
 
-/// Ten thousand disturbances: boards that are reset, cut off and joined again, frames missed and
-/// destroyed. Setpoints never step, and in the end all whisk together again.
+/// Ten thousand disturbances: boards that are reset, cut off and joined again, frames missed,
+/// destroyed and heard twice. Setpoints never step, and in the end all whisk together again.
 #[test]
 fn nothing_on_the_bus_makes_a_setpoint_step() {
     let calm = largest_step(&whole(1, 4.0, &[]));
@@ -333,6 +333,7 @@ fn nothing_on_the_bus_makes_a_setpoint_step() {
                 _ => {
                     let missed = random.uniform() * 0.3;
                     bus.disturb(missed, random.uniform() * 0.2, tick.into());
+                    bus.repeat(random.uniform() * 0.1);
                 }
             }
         }
@@ -354,6 +355,7 @@ fn nothing_on_the_bus_makes_a_setpoint_step() {
         bus.cut(node, false);
     }
     bus.disturb(0.0, 0.0, 0);
+    bus.repeat(0.0);
     for _ in 0..4_000 {
         run.tick();
     }
