@@ -114,6 +114,29 @@ fn boards_together_name_no_texture_that_was_not_trained() {
     );
 }
 
+/// Two dozen boards, a whisker each, a dozen a side, name textures together.
+#[test]
+fn a_head_of_two_dozen_boards_names_textures() {
+    let overrides = [
+        "head.sides=both",
+        "head.whiskers_per_side=12",
+        "head.nodes=24",
+        "whisking.start=[[1.0, 0.0], [1.0, 0.0]]",
+        "plant.obstacle_deg=[100.0, 100.0]",
+        "classifier.whiskers=together",
+        "duration_s=10.0",
+        "seed=31",
+    ];
+    let said = decided("textures.toml", shipped("textures"), &overrides, 0.0);
+    println!(
+        "24 boards: {} decisions in 10 s, {} name a class, {} of them the right one",
+        said.decisions, said.named, said.right
+    );
+    assert!(said.named > 100, "{}", said.named);
+    assert!(said.named * 10 > said.decisions * 9, "{}", said.decisions);
+    assert!(said.right * 100 > said.named * 98, "{}", said.right);
+}
+
 /// A model that was trained to tell a texture from itself; without a second opinion, with which
 /// boards do not decide together.
 fn placebo() -> ModelBuf {

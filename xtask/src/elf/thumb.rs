@@ -35,9 +35,10 @@ pub(super) fn steps(body: &[u8], begin: u64, is_instruction: impl Fn(u64) -> boo
         let frame = before.and_then(|before| code.frame(before, |at| word(body, begin, at)));
         let called = || called(&instructions[..number], *code, |at| word(body, begin, at));
         let step = frame.map(Step::Push).or_else(|| called().map(Step::Go));
-        steps.extend(step.or_else(|| code.step()));
         let before = &instructions[number.saturating_sub(4)..number];
-        if let Some(jump) = code.jump(before) {
+        let jump = code.jump(before);
+        steps.extend(step.or_else(|| code.step().filter(|_| jump.is_none())));
+        if let Some(jump) = jump {
             let table = jump::table(body, &place, code.end(), &is_instruction, is_literal);
             let stays = jump.stays(table, code.address, |to| place.contains(&to));
             steps.extend((!stays).then_some(Step::Open));
@@ -152,7 +153,10 @@ impl Instruction {
     /// If it jumps by a table: `before` is the code before it.
     fn jump(self, before: &[Self]) -> Option<Jump> {
         if let Some(second) = self.second {
-            return Jump::wide(self.first, second);
+            // A table that stands behind constants has its address taken just before.
+            let base = self.first & 0xF;
+            let is_known = base == 15 || before.last()?.is_address_to(base);
+            return Jump::wide(self.first, second).filter(|_| is_known);
         }
         // MOV PC, register, to whose address the choice is added.
         let register = self.first >> 3 & 0xF;

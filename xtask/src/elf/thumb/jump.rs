@@ -36,11 +36,11 @@ impl Jump {
         }
     }
 
-    /// TBB and TBH with the table behind them.
+    /// TBB and TBH.
     pub(super) fn wide(first: u16, second: u16) -> Option<Self> {
-        match (first, second & 0xFFF0) {
-            (0xE8DF, 0xF000) => Some(Self::Bytes),
-            (0xE8DF, 0xF010) => Some(Self::Halves),
+        match (first & 0xFFF0, second & 0xFFF0) {
+            (0xE8D0, 0xF000) => Some(Self::Bytes),
+            (0xE8D0, 0xF010) => Some(Self::Halves),
             _ => None,
         }
     }

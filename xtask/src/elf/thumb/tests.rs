@@ -116,7 +116,7 @@ fn what_goes_anywhere_is_told_from_what_goes_back() {
 #[test]
 fn a_jump_by_a_table_stays_or_is_open() {
     // Code, and the bytes of its table; four more of code follow.
-    let cases: [(&[u16], &[u8], bool); 10] = [
+    let cases: [(&[u16], &[u8], bool); 12] = [
         (&[0xE8DF, 0xF00E], &[2, 1], true),    // tbb [pc, lr]
         (&[0xE8DF, 0xF00E], &[2, 200], false), // beyond the end
         // ldr r0, [pc, #4] loads what stands behind the table.
@@ -132,6 +132,17 @@ fn a_jump_by_a_table_stays_or_is_open() {
         ),
         (&[0xE8DF, 0xF016], &[2, 0, 1, 0], true), // tbh [pc, r6, lsl #1]
         (&[0xE8DF, 0xF016], &[2, 0, 0, 1], false), // beyond the end
+        // ldr r0; adr.w r1 or r2; tbh [r1, r5, lsl #1]; the table stands behind a literal.
+        (
+            &[0x4802, 0xBF00, 0xF20F, 0x0108, 0xE8D1, 0xF015],
+            &[200, 0, 0, 32, 4, 0, 5, 0],
+            true,
+        ),
+        (
+            &[0x4802, 0xBF00, 0xF20F, 0x0208, 0xE8D1, 0xF015],
+            &[200, 0, 0, 32, 4, 0, 5, 0],
+            false,
+        ),
         (&[0x792D, 0x006D, 0x44AF], &[0, 1], true), // ldrb, lsls, add pc, r5
         // adr r1; ldrh r0, [r1, r0]; lsls; add pc, r0; the table stands behind a literal.
         (
