@@ -411,7 +411,7 @@ fn a_head_bears_delays_of_up_to_a_whisk_at_every_gain() {
                         (*least, *most) = (least.min(theta), most.max(theta));
                     }
                     if tick >= 12_000 {
-                        let middle = (ends[n][0] + ends[n][1]) / 2.0;
+                        let middle = f64::midpoint(ends[n][0], ends[n][1]);
                         whisks[n] += u32::from(*before < middle && theta >= middle);
                     }
                 }
