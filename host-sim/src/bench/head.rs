@@ -3,6 +3,7 @@
 use std::collections::VecDeque;
 use std::ops::Range;
 
+use can::Frame;
 use firmware::{
     Command, Event, Module, Motion, NoActiveWhisker, Node, NodeEvent, NotDone, Packet, Whisker,
 };
@@ -22,6 +23,10 @@ use crate::motor::Pins;
 /// Share of a tick after which a board has computed what it says: the rest of the papers' 500 µs
 /// is left for the bus.
 const READY_SHARE: f64 = 0.6;
+
+/// Frames that a node which floods the bus has ready in each tick: more than a queue has room for,
+/// and than go in one at 250 ticks a second and more.
+const FLOOD: usize = 32;
 
 /// What became of a node.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -61,6 +66,8 @@ pub struct Bus {
     /// that no wire has, but a bridge between two might.
     delay_us: f64,
     on_their_way: VecDeque<Sent>,
+    /// Who sends frames all the time that mean nothing and go before all others.
+    floods: Option<usize>,
 }
 
 impl Bus {
@@ -77,6 +84,7 @@ impl Bus {
             random: Noise::new(0),
             delay_us: 0.0,
             on_their_way: VecDeque::new(),
+            floods: None,
         }
     }
 
@@ -132,6 +140,13 @@ impl Bus {
     /// From now on a node hears this share of the frames twice.
     pub const fn repeat(&mut self, repeated: f64) {
         self.repeated = repeated;
+    }
+
+    /// From now on a node leaves no room on the bus for anybody; none: for all.
+    pub fn flood(&mut self, by: Option<usize>) {
+        if let Some(before) = std::mem::replace(&mut self.floods, by) {
+            self.can.clear(before);
+        }
     }
 
     /// From now on others hear a frame so much later than the bus has carried it.
@@ -273,6 +288,12 @@ impl<R: Number> Head<R> {
     fn carry(&mut self) {
         let tick_us = 1e6 / self.tick_hz;
         let end_us = (self.done + 1) as f64 * tick_us;
+        if let Some(node) = self.bus.floods {
+            let begin_us = self.done as f64 * tick_us;
+            for _ in 0..FLOOD {
+                self.bus.can.queue(node, Frame::new(0, &[0; 8]), begin_us);
+            }
+        }
         while let Some(sent) = self.bus.next(end_us) {
             // Whole microseconds, as a board counts them.
             let at_us = sent.at_us.floor();

@@ -383,6 +383,60 @@ fn nothing_on_the_bus_makes_a_setpoint_step() {
     assert!(worst < 1.25 * calm, "{worst} {calm}");
 }
 
+/// A board floods the bus for eight whisks, and nobody hears another: all whisk on, and one that is
+/// reset meanwhile is beside the others. Two whisks after the flood they whisk as one, and no
+/// setpoint of a motor steps.
+#[test]
+fn a_flooded_head_whisks_on_and_is_one_again_after_it() {
+    const RESET: usize = 3;
+    let free = ["plant.obstacle_deg=[300.0, 300.0]"];
+    let calm = largest_step(&whole(1, 4.0, &free));
+    let mut run = Run::new(&whole(12, 4.0, &free), None).unwrap();
+    let (mut rows, mut last) = (Vec::new(), Vec::<f64>::new());
+    let (mut worst, mut apart) = (0.0_f64, [0.0_f64; 2]);
+    for tick in 0..11_000 {
+        let bus = run.bus().unwrap();
+        match tick {
+            4_000 => bus.flood(Some(5)),
+            5_100 => bus.reset(RESET),
+            8_000 => bus.flood(None),
+            8_500 => bus.arm(0, true),
+            _ => {}
+        }
+        let is_armed: Vec<bool> = (0..12).map(|node| bus.is_armed(node)).collect();
+        run.tick();
+        run.look_at_whiskers(&mut rows);
+        let theta: Vec<f64> = rows.iter().map(|row| row.theta_deg).collect();
+        let bus = run.bus().unwrap();
+        for (n, before) in last.iter().enumerate() {
+            if is_armed[n / 2] && bus.is_armed(n / 2) {
+                worst = worst.max((theta[n] - before).abs());
+            }
+        }
+        let of_left = theta[..12].iter().map(|of| (of - theta[0]).abs());
+        match tick {
+            6_000..8_000 => apart[0] = of_left.fold(apart[0], f64::max),
+            9_000.. => apart[1] = of_left.fold(apart[1], f64::max),
+            _ => {}
+        }
+        last = theta;
+        let are_armed = (0..12).all(|node| node == RESET || bus.is_armed(node));
+        assert!(are_armed || tick < 10, "{tick}");
+        match tick {
+            5_100..8_500 => assert!(!bus.is_armed(RESET), "{tick}"),
+            8_520.. => assert!(bus.is_armed(RESET), "{tick}"),
+            _ => {}
+        }
+    }
+    println!(
+        "flooded for 2 s: θ' moves {worst:.3} degrees a tick at most (one board {calm:.3}); up to \
+         {:.2} degrees apart, from 0.5 s after it up to {:.3}",
+        apart[0], apart[1]
+    );
+    assert!(worst < 1.25 * calm, "{worst} {calm}");
+    assert!(apart[0] > 20.0 && apart[1] < 0.5, "{apart:?}");
+}
+
 /// Every frame comes late by a part of a whisk, up to a whole one, at every corner of the gains: a
 /// message that is too old counts as lost, so that no setpoint steps, and every board whisks on. The
 /// clocks of the others follow the first one's that much later, and so do their whiskers.
