@@ -1,5 +1,6 @@
 //! Scenes made from others, most for the emulated board, each in a file of its own in target/variants.
 
+use std::hash::{DefaultHasher, Hash, Hasher};
 use std::path::{Path, PathBuf};
 
 use scene::Scene;
@@ -95,6 +96,9 @@ pub(crate) fn with_ticks(path: &Path, ticks: u32) -> Result<PathBuf, Fault> {
     })
 }
 
+/// Most letters that a file is named by keys with: with the rest, file systems take 255.
+const MOST_NAME: usize = 200;
+
 /// The scene with other values, each `KEY=VALUE`: a key with its sections, and TOML or a word.
 pub(crate) fn with(path: &Path, keys: &[String]) -> Result<PathBuf, Fault> {
     if keys.is_empty() {
@@ -108,9 +112,15 @@ pub(crate) fn with(path: &Path, keys: &[String]) -> Result<PathBuf, Fault> {
         let parsed = parsed.and_then(|mut table| table.remove("value"));
         values.push((key, parsed.unwrap_or_else(|| value.into())));
     }
-    let name = keys
+    let mut name = keys
         .join("-")
         .replace(|c: char| !c.is_ascii_alphanumeric(), "-");
+    if name.len() > MOST_NAME {
+        let mut sum = DefaultHasher::new();
+        name.hash(&mut sum);
+        name.truncate(MOST_NAME);
+        name = format!("{name}-{:x}", sum.finish());
+    }
     variant(path, &name, |_, table| {
         for (key, value) in values {
             let (parts, key) = key.rsplit_once('.').unwrap_or(("", key));
