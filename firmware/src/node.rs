@@ -211,7 +211,12 @@ impl Node {
         }
         // One, where this node has done the same tick as the one that says it.
         let late = (self.tick as u8).wrapping_sub(stamp);
-        let is_in_time = u16::from(late) <= self.times.delay;
+        let made = self.tick.wrapping_sub(late.into());
+        let is_of_round = match message {
+            Message::Contact(contact) => contact.round == Contact::round(made),
+            _ => true,
+        };
+        let is_in_time = is_of_round && u16::from(late) <= self.times.delay;
         self.members.fits(from, is_in_time);
         let left = self.times.delay.saturating_sub(late.into());
         let at = self.tick.wrapping_add(left.into());
@@ -490,6 +495,8 @@ impl Node {
                 pi,
                 is_joined: self.is_joined,
                 is_armed: module.is_armed(),
+                // After its tick.
+                round: Contact::round(self.tick.wrapping_sub(1)),
             };
             say(Message::Contact(self.said));
         }

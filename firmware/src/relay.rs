@@ -420,7 +420,7 @@ mod tests {
         let heard = begun.iter().find_map(|frame| here.hear(frame));
         assert_eq!(heard, Some(Heard::Answered(answer(stream, 1))));
         here.ask(of(1, request(0)), 0).unwrap();
-        // Their parts come by turns; what nobody has asked for comes to nobody.
+        // Their parts come by turns; those of a board that was not asked are dropped.
         let record = Packet::Record(wire::TickRecord::default());
         let records = relay(2).packet(0, &record);
         let answers = relay(1).packet(0, &Packet::Answer(answer(request(0), 2)));

@@ -48,7 +48,7 @@ struct Decided {
 }
 
 /// The module's end of the link.
-#[derive(Debug)]
+#[derive(Debug, Default)]
 pub struct Link {
     streams: bool,
     /// The whiskers that touch something, a bit each.
@@ -326,12 +326,6 @@ pub const fn may_load(load: Load, room: Load, is_armed: bool) -> Result<(), Comm
         Ok(())
     } else {
         Err(CommandStatus::OutOfRange)
-    }
-}
-
-impl Default for Link {
-    fn default() -> Self {
-        Self::new()
     }
 }
 

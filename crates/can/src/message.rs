@@ -9,7 +9,7 @@
 //! | 2 | time | number, time of the one before (µs, six bytes) |
 //! | 3, 4 | ψ of the left, of the right | stamp, ψ₁, ψ₂ (three bytes each, Q22) |
 //! | 5 | arm | stamp |
-//! | 6 | contact | stamp, flags, left, right (two bytes each, Q15) |
+//! | 6 | contact | stamp, flags and above them the round (6 bits), left, right (two bytes each, Q15) |
 //! | 7 | decision | stamp, class, posterior (Q15, two bytes), samples (four bytes) |
 //! | 8 | evidence | stamp, leader and part; in six bytes three deficits (12 bits each) and two excesses (6 bits each) |
 
@@ -30,6 +30,16 @@ pub struct Contact {
     pub is_joined: bool,
     /// Whether its motors are armed.
     pub is_armed: bool,
+    /// Which round of 256 ticks its stamp is in ([`Contact::round`]): what is felt must not be believed
+    /// a round later.
+    pub round: u8,
+}
+
+impl Contact {
+    /// The round of a tick, 0 to 63: at 2 kHz they are 8.2 s.
+    pub const fn round(tick: u32) -> u8 {
+        (tick >> 8) as u8 & 63
+    }
 }
 
 /// What a node's whiskers have felt of what they touch, all since the last decision.
@@ -104,6 +114,8 @@ const EVIDENCE: u16 = 8;
 
 const JOINED: u8 = 1;
 const ARMED: u8 = 2;
+/// The lowest bit of a round.
+const ROUND: u8 = 2;
 const UNKNOWN: u8 = 0xff;
 
 /// |ψ| ≤ 1.5, and as much again for noise.
@@ -150,8 +162,10 @@ impl Message {
                 pi,
                 is_joined,
                 is_armed,
+                round,
             }) => {
                 let flags = u8::from(is_joined) * JOINED + u8::from(is_armed) * ARMED;
+                let flags = flags | round << ROUND;
                 let [[a, b], [c, d]] = pi.map(u16::to_le_bytes);
                 frame(CONTACT, &[stamp, flags, a, b, c, d])
             }
@@ -203,11 +217,12 @@ impl Message {
                 (stamp, Self::Psi { side, psi })
             }
             (ARM, &[stamp]) => (stamp, Self::Arm),
-            (CONTACT, &[stamp, flags, a, b, c, d]) if flags <= JOINED | ARMED => {
+            (CONTACT, &[stamp, flags, a, b, c, d]) => {
                 let contact = Contact {
                     pi: [[a, b], [c, d]].map(u16::from_le_bytes),
                     is_joined: flags & JOINED > 0,
                     is_armed: flags & ARMED > 0,
+                    round: flags >> ROUND,
                 };
                 (stamp, Self::Contact(contact))
             }
@@ -252,11 +267,12 @@ mod tests {
             (any::<u8>(), 0_u64..1 << 48)
                 .prop_map(|(number, last_us)| Message::Time { number, last_us }),
             (0_u8..2, psi.clone(), psi).prop_map(|(side, a, b)| Message::Psi { side, psi: [a, b] }),
-            (any::<[u16; 2]>(), any::<bool>(), any::<bool>()).prop_map(
-                |(pi, is_joined, is_armed)| Message::Contact(Contact {
+            (any::<[u16; 2]>(), any::<bool>(), any::<bool>(), 0_u8..64).prop_map(
+                |(pi, is_joined, is_armed, round)| Message::Contact(Contact {
                     pi,
                     is_joined,
-                    is_armed
+                    is_armed,
+                    round
                 })
             ),
             (proptest::option::of(0_u8..8), any::<u16>(), any::<u32>()).prop_map(

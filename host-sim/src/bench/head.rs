@@ -1,18 +1,15 @@
 //! A head: several boards, each with its own whiskers, joined by a simulated CAN bus.
 
-use std::collections::VecDeque;
+mod bus;
+
 use std::ops::Range;
 
-use can::Frame;
-use firmware::{
-    Command, Event, Module, Motion, NoActiveWhisker, Node, NodeEvent, NotDone, Packet, Whisker,
-};
-use physics::Noise;
+pub use bus::{Bus, Happened};
+use firmware::{Command, Event, Module, Motion, NoActiveWhisker, Node, NotDone, Packet, Whisker};
 use scene::{Deciding, Scene};
 use whisking::{Number, Real};
 use wire::TaggedCommand;
 
-use super::can::{Can, Load, Sent};
 use super::{Bench, HostModule, Hosted, Snapshot};
 use crate::Error;
 use crate::bus::Slave;
@@ -23,150 +20,6 @@ use crate::motor::Pins;
 /// Share of a tick after which a board has computed what it says: the rest of the papers' 500 µs
 /// is left for the bus.
 const READY_SHARE: f64 = 0.6;
-
-/// Frames that a node which floods the bus has ready in each tick: more than a queue has room for,
-/// and than go in one at 250 ticks a second and more.
-const FLOOD: usize = 32;
-
-/// What became of a node.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Happened {
-    /// When, s.
-    pub t_s: f64,
-    /// Of which.
-    pub node: u8,
-    /// What.
-    pub what: NodeEvent,
-}
-
-/// What is to be done to a node before the next tick.
-#[derive(Debug, Clone, Copy, Default)]
-struct Asked {
-    reset: bool,
-    arm: bool,
-    stop: bool,
-}
-
-/// The bus of a simulated head: to look at it, and to disturb it.
-#[derive(Debug)]
-pub struct Bus {
-    can: Can,
-    happened: Vec<Happened>,
-    asked: Vec<Asked>,
-    /// Nodes that neither hear nor are heard.
-    cut: Vec<bool>,
-    joined: Vec<bool>,
-    armed: Vec<bool>,
-    /// Share of frames that a node misses.
-    missed: f64,
-    /// Share of those that come to it twice: of an error that it alone did not see, in the last bit.
-    repeated: f64,
-    random: Noise,
-    /// How long a frame is on its way after the bus has carried it, µs, and those that are: an age
-    /// that no wire has, but a bridge between two might.
-    delay_us: f64,
-    on_their_way: VecDeque<Sent>,
-    /// Who sends frames all the time that mean nothing and go before all others.
-    floods: Option<usize>,
-}
-
-impl Bus {
-    fn new(nodes: usize, kbit_s: u16) -> Self {
-        Self {
-            can: Can::new(nodes, kbit_s),
-            happened: Vec::new(),
-            asked: vec![Asked::default(); nodes],
-            cut: vec![false; nodes],
-            joined: vec![false; nodes],
-            armed: vec![false; nodes],
-            missed: 0.0,
-            repeated: 0.0,
-            random: Noise::new(0),
-            delay_us: 0.0,
-            on_their_way: VecDeque::new(),
-            floods: None,
-        }
-    }
-
-    /// What it has carried.
-    pub const fn load(&self) -> Load {
-        self.can.load()
-    }
-
-    /// What became of its nodes so far.
-    pub fn happened(&self) -> &[Happened] {
-        &self.happened
-    }
-
-    /// Whether a node shares clock and oscillators of the head.
-    pub fn is_joined(&self, node: usize) -> bool {
-        self.joined.get(node) == Some(&true)
-    }
-
-    /// Whether the motors of a node are armed.
-    pub fn is_armed(&self, node: usize) -> bool {
-        self.armed.get(node) == Some(&true)
-    }
-
-    /// Takes a node off the bus, or puts it on again.
-    pub fn cut(&mut self, node: usize, is_cut: bool) {
-        if let Some(cut) = self.cut.get_mut(node) {
-            *cut = is_cut;
-        }
-    }
-
-    /// Resets a node before the next tick: it begins again, its motors not armed.
-    pub fn reset(&mut self, node: usize) {
-        if let Some(asked) = self.asked.get_mut(node) {
-            asked.reset = true;
-        }
-    }
-
-    /// Has a node arm the motors of the head, or stop them.
-    pub fn arm(&mut self, node: usize, is_armed: bool) {
-        if let Some(asked) = self.asked.get_mut(node) {
-            (asked.arm, asked.stop) = (is_armed, !is_armed);
-        }
-    }
-
-    /// From now on each node misses this share of the frames, and an error on the bus destroys
-    /// another, which are sent again.
-    pub fn disturb(&mut self, missed: f64, corrupted: f64, seed: u64) {
-        self.missed = missed;
-        self.random = Noise::new(seed);
-        self.can.corrupt(corrupted, seed.wrapping_add(1));
-    }
-
-    /// From now on a node hears this share of the frames twice.
-    pub const fn repeat(&mut self, repeated: f64) {
-        self.repeated = repeated;
-    }
-
-    /// From now on a node leaves no room on the bus for anybody; none: for all.
-    pub fn flood(&mut self, by: Option<usize>) {
-        if let Some(before) = std::mem::replace(&mut self.floods, by) {
-            self.can.clear(before);
-        }
-    }
-
-    /// From now on others hear a frame so much later than the bus has carried it.
-    pub fn delay(&mut self, delay_s: f64) {
-        self.delay_us = 1e6 * delay_s;
-    }
-
-    /// The next frame that others hear by `until_us`, in the order in which they were carried.
-    fn next(&mut self, until_us: f64) -> Option<Sent> {
-        while let Some(sent) = self.can.next(until_us) {
-            self.on_their_way.push_back(Sent {
-                at_us: sent.at_us + self.delay_us,
-                ..sent
-            });
-        }
-        let next = self.on_their_way.front()?;
-        (next.at_us <= until_us).then_some(())?;
-        self.on_their_way.pop_front()
-    }
-}
 
 struct Board<R: Number> {
     hosted: Hosted<R>,
@@ -288,34 +141,30 @@ impl<R: Number> Head<R> {
     fn carry(&mut self) {
         let tick_us = 1e6 / self.tick_hz;
         let end_us = (self.done + 1) as f64 * tick_us;
-        if let Some(node) = self.bus.floods {
-            let begin_us = self.done as f64 * tick_us;
-            for _ in 0..FLOOD {
-                self.bus.can.queue(node, Frame::new(0, &[0; 8]), begin_us);
+        self.bus.begin(self.done as f64 * tick_us);
+        // Whole microseconds, as a board counts them.
+        let own_us = |board: &Board<R>, at_us: f64| {
+            let since_us = end_us - at_us.floor();
+            (board.ticks as f64).mul_add(tick_us, -since_us).max(0.0) as u64
+        };
+        loop {
+            let carried = self.bus.carry(end_us);
+            let by = carried.and_then(|sent| Some((self.boards.get_mut(sent.from)?, sent)));
+            if let Some((board, sent)) = by {
+                let own_us = own_us(board, sent.at_us);
+                board.node.said(&sent.frame, own_us);
             }
-        }
-        while let Some(sent) = self.bus.next(end_us) {
-            // Whole microseconds, as a board counts them.
-            let at_us = sent.at_us.floor();
-            let since_us = end_us - at_us;
-            if self.bus.cut[sent.from] {
-                continue;
+            while let Some(sent) = self.bus.next(end_us) {
+                let boards = self.boards.iter_mut().enumerate();
+                for (n, board) in boards.filter(|(n, _)| *n != sent.from) {
+                    let own_us = own_us(board, sent.at_us);
+                    for _ in 0..self.bus.comes_to(n) {
+                        board.node.hear(&sent.frame, own_us);
+                    }
+                }
             }
-            for (n, board) in self.boards.iter_mut().enumerate() {
-                let own_us = (board.ticks as f64).mul_add(tick_us, -since_us).max(0.0) as u64;
-                if n == sent.from {
-                    board.node.said(&sent.frame, own_us);
-                    continue;
-                }
-                let bus = &mut self.bus;
-                let mut is_one_of = |share: f64| share > 0.0 && bus.random.uniform() < share;
-                let [is_missed, comes_twice] = [bus.missed, bus.repeated].map(&mut is_one_of);
-                if bus.cut[n] || is_missed {
-                    continue;
-                }
-                for _ in 0..=u8::from(comes_twice) {
-                    board.node.hear(&sent.frame, own_us);
-                }
+            if carried.is_none() {
+                break;
             }
         }
     }
@@ -336,16 +185,19 @@ impl<R: Number> Bench for Head<R> {
             } = board;
             let bus = &mut self.bus;
             let now_us = *ticks as f64 * tick_us;
-            node.before(
-                now_us as u64,
-                (&mut hosted.module, &hosted.config),
-                &mut |event| {
-                    if let Event::Node(node, what) = event {
-                        bus.happened.push(Happened { t_s, node, what });
-                    }
-                    events.push(event);
-                },
-            );
+            let Hosted {
+                module,
+                config,
+                line,
+                ..
+            } = &mut *hosted;
+            node.before(now_us as u64, (module, config), &mut |event| {
+                line.note(&event);
+                if let Event::Node(node, what) = event {
+                    bus.happened.push(Happened { t_s, node, what });
+                }
+                events.push(event);
+            });
             let first = events.len();
             hosted.tick(events);
             let decided = events.iter().skip(first).find_map(|event| match event {
