@@ -181,7 +181,26 @@ mod tests {
 
     use super::{Hair, Looking};
     use crate::conversation::Conversation;
-    use crate::source::Scripted;
+    use crate::source::{Scripted, chosen};
+
+    /// Of a board on a port no scene is known: it says by which it runs.
+    #[test]
+    fn a_board_says_itself_which_head_it_is_of() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("head.toml");
+        let cia = include_str!("../../../scenes/cia.toml");
+        let [one, each] = ["whiskers_per_side = 1", "whiskers_per_side = 3\nnodes = 6"];
+        let port = chosen(&["--port", "nowhere"]);
+        std::fs::write(&path, cia.replace(one, each)).unwrap();
+        let mut module = chosen(&["--sim", path.to_str().unwrap()]).module().unwrap();
+        let looking = Looking::of(&mut module, &port).unwrap().unwrap();
+        let stands = looking.array.stands();
+        let last = stands.last().unwrap();
+        assert_eq!((stands.len(), last.side, last.board), (6, 1, Some(5)));
+        let answering = |_| Some((CommandStatus::NoBoard, [0; 2]));
+        let mut alone = Conversation::new(Box::new(Scripted::new(answering)));
+        assert!(Looking::of(&mut alone, &port).unwrap().is_none());
+    }
 
     #[test]
     fn whiskers_are_looked_at_in_turn_and_say_what_they_decide() {
