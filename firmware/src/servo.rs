@@ -366,9 +366,12 @@ impl<R: Real, M: MotorDriver, A: AngleInput> Servo<R, M, A> {
             }
             ServoState::Off => {
                 let measured = config.pd.measured(at);
+                // Where its range ends, homing leaves it on its way.
+                let is_moving = self.is_homed && self.since_home == 0;
+                let pd = config.pd.at_speed(if is_moving { moved } else { 0 });
                 self.state = ServoState::Running {
-                    pd: pd::State::default(),
-                    guards: self.guards(&config.guards),
+                    guards: self.guards(&config.guards, pd.velocity),
+                    pd,
                     behind: setpoint - measured,
                     has_new_aim: false,
                 };
@@ -434,9 +437,9 @@ impl<R: Real, M: MotorDriver, A: AngleInput> Servo<R, M, A> {
     }
 
     /// Guards of a motor that begins to run: one that did not move is tested, each way in turn.
-    fn guards(&self, config: &GuardConfig<R>) -> Guards<R> {
+    fn guards(&self, config: &GuardConfig<R>, velocity: R) -> Guards<R> {
         if self.held == 0 {
-            Guards::default()
+            Guards::at_speed(velocity)
         } else {
             Guards::doubtful(config, self.held.is_multiple_of(2))
         }

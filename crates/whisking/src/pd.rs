@@ -138,6 +138,17 @@ impl<R: Real> Config<R> {
         self.follow(state, self.clamp(setpoint), counts, moved)
     }
 
+    /// The state of a motor that was off, of a whisker that has `moved` by so many counts since
+    /// the last tick.
+    #[inline]
+    pub fn at_speed(&self, moved: i32) -> State<R> {
+        let velocity = R::from_counts(moved, self.theta_per_count);
+        State {
+            velocity: velocity.clamp(-R::ONE, R::ONE),
+            ..State::default()
+        }
+    }
+
     /// The protraction at `counts` from θ = 0.
     #[inline]
     pub fn measured(&self, counts: i32) -> R {

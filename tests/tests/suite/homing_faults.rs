@@ -71,6 +71,17 @@ fn a_hand_near_the_stop_is_found_where_the_far_stop_is_known() {
     assert!(farthest(&sound, 3 * TICK_HZ) < 25.0);
 }
 
+/// Homing leaves a whisker at the end of its range, 160°, at full speed. It is braked there, and not
+/// tested, which would drive it on.
+#[test]
+fn a_whisker_that_was_homed_is_braked() {
+    let played = undisturbed(&finds(""), 2 * TICK_HZ);
+    let angles = played.rows.iter().map(|row| row.angle_deg[0]);
+    let highest = angles.fold(0.0, f64::max);
+    println!("{highest} degrees");
+    assert!((160.0..166.0).contains(&highest), "{highest}");
+}
+
 /// What became of an encoder that loses this share of the counts of protraction.
 fn slips(slip: f64, motor: &str, ticks: u64) -> Played {
     let none = EncoderFlaws::NONE;

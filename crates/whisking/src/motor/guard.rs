@@ -161,6 +161,14 @@ pub struct Moved<R> {
 }
 
 impl<R: Real> Guards<R> {
+    /// Those of a motor that was off, or followed something else, at a speed in protraction a tick.
+    pub fn at_speed(velocity: R) -> Self {
+        Self {
+            expected: Expected::at_speed(velocity),
+            ..Self::default()
+        }
+    }
+
     /// Those of a motor that did not move when it ran last: it is tested first.
     pub fn doubtful(config: &GuardConfig<R>, is_forward: bool) -> Self {
         let expected = config.model.as_ref();

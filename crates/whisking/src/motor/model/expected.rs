@@ -75,6 +75,13 @@ pub(in crate::motor) enum Unturned {
 }
 
 impl<R: Real> Expected<R> {
+    pub(in crate::motor) fn at_speed(speed: R) -> Self {
+        Self {
+            speed,
+            ..Self::default()
+        }
+    }
+
     /// That of a motor which did not turn when it ran last: it is tested first.
     pub(in crate::motor) fn doubtful(config: &ModelConfig<R>, is_forward: bool) -> Self {
         Self {
