@@ -1,11 +1,6 @@
-//! For a board: tells the linker about the memory, and lays out a first scene for a program that
-//! brings one with it. Without a board (no feature names one) it does nothing.
+//! For a board: tells the linker about the memory. Without one (no feature names it) it does nothing.
 //!
-//! - `WHISKER_CONFIG` names the bytes of a configuration, `WHISKER_MODEL` those of its model; both
-//!   relative to the workspace's root. Without the first the program brings no scene, and leaves
-//!   alone what was deployed.
-//!
-//! No code comes from here: a scene is data, of which the program knows nothing.
+//! No code comes from here: a scene is data, of which a program knows nothing.
 
 use std::error::Error;
 use std::path::PathBuf;
@@ -20,10 +15,6 @@ const BOARDS: [(&str, &str); 3] = [
 
 fn main() {
     println!("cargo::rerun-if-changed=build.rs");
-    println!("cargo::rerun-if-env-changed=WHISKER_CONFIG");
-    println!("cargo::rerun-if-env-changed=WHISKER_MODEL");
-    println!("cargo::rustc-check-cfg=cfg(linked_scene)");
-    println!("cargo::rustc-check-cfg=cfg(linked_model)");
     if env::var("CARGO_CFG_TARGET_OS").as_deref() != Ok("none") {
         return;
     }
@@ -32,7 +23,7 @@ fn main() {
     let boards: Vec<_> = BOARDS.iter().filter(asked).collect();
     let done = match boards[..] {
         [] => Ok(()),
-        [(_, map)] => link(map).and_then(|()| scene()),
+        [(_, map)] => link(map),
         _ => Err("two boards at once: give one feature".into()),
     };
     if let Err(error) = done {
@@ -62,21 +53,6 @@ fn link(map: &str) -> Result<(), Box<dyn Error>> {
     println!("cargo::rerun-if-changed=../memory.x");
     for argument in ["--nmagic", "-Tlink.x", "-Tdefmt.x"] {
         println!("cargo::rustc-link-arg-bins={argument}");
-    }
-    Ok(())
-}
-
-/// A scene, and a model, that the program brings with it.
-fn scene() -> Result<(), Box<dyn Error>> {
-    let named = |variable| env::var_os(variable).filter(|path| !path.is_empty());
-    let Some(config) = named("WHISKER_CONFIG") else {
-        return Ok(());
-    };
-    copy(&workspace()?.join(config), "scene.config")?;
-    println!("cargo::rustc-cfg=linked_scene");
-    if let Some(model) = named("WHISKER_MODEL") {
-        copy(&workspace()?.join(model), "scene.model")?;
-        println!("cargo::rustc-cfg=linked_model");
     }
     Ok(())
 }

@@ -124,10 +124,7 @@ fn fill(folder: &Path) -> Result<(), Fault> {
         )?;
     }
     for board in Board::ALL {
-        run(cargo(&["build"])
-            .args(board.build_arguments(board.every_part))
-            .env_remove("WHISKER_CONFIG")
-            .env_remove("WHISKER_MODEL"))?;
+        run(cargo(&["build"]).args(board.build_arguments(board.every_part)))?;
         let elf = firmware::elf_in(board, &target());
         put(&elf, &format!("boards/{}.elf", board.name))?;
     }

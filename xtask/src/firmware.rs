@@ -5,6 +5,7 @@ use std::ffi::{OsStr, OsString};
 use std::fmt::Display;
 use std::path::{Path, PathBuf};
 use std::process::Command;
+use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Mutex, PoisonError};
 
 use config::Image;
@@ -101,38 +102,41 @@ pub(crate) fn build_checked(board: Board, scene: &Path) -> Result<PathBuf, Fault
 }
 
 pub(crate) fn build_any_scene(board: Board) -> Result<PathBuf, Fault> {
-    kept(board, compiler(board, board.every_part), Vec::new())
+    kept(board, compiler(board, board.every_part))
 }
 
 fn try_built(board: Board, scene: &Path, more: &[&str]) -> Result<Result<PathBuf, String>, Fault> {
+    static LINKED: AtomicUsize = AtomicUsize::new(0);
     let scene = find(scene)?;
     let linked = match linked(board, &scene)? {
         Ok(linked) => linked,
         Err(reason) => return Ok(Err(format!("{}: {reason}", scene.display()))),
     };
-    let mut compiler = linked.compiler(board);
+    let mut compiler = compiler(board, &linked.image.features);
     compiler.args(more);
-    let model = linked.model.as_deref().map(read_bytes).transpose()?;
-    let data = vec![linked.image.bytes.to_vec(), model.unwrap_or_default()];
-    kept(board, compiler, data).map(Ok)
+    let program = kept(board, compiler)?;
+    let elf = linked.with(board, &read_bytes(&program)?)?;
+    let number = LINKED.fetch_add(1, Ordering::Relaxed);
+    let path = target().join(format!("kept/{}-{}-{number}.elf", linked.name, board.name));
+    write(&path, elf)?;
+    Ok(Ok(path))
 }
 
-/// Programs by the arguments of their compiler and what they link.
-type Built = BTreeMap<(Vec<OsString>, Vec<Vec<u8>>), PathBuf>;
+/// Programs by the arguments of their compiler.
+type Built = BTreeMap<Vec<OsString>, PathBuf>;
 
-fn kept(board: Board, mut compiler: Command, linked: Vec<Vec<u8>>) -> Result<PathBuf, Fault> {
+fn kept(board: Board, mut compiler: Command) -> Result<PathBuf, Fault> {
     static BUILT: Mutex<Built> = Mutex::new(Built::new());
     // A build that has panicked has left nothing that another needs.
     let mut built = BUILT.lock().unwrap_or_else(PoisonError::into_inner);
     let arguments = compiler.get_args().map(OsStr::to_owned).collect();
-    let made_of = (arguments, linked);
-    if let Some(kept) = built.get(&made_of) {
+    if let Some(kept) = built.get(&arguments) {
         return Ok(kept.clone());
     }
     run(&mut compiler)?;
     let kept = target().join(format!("kept/{}.elf", built.len() + 1));
     write(&kept, read_bytes(&elf(board))?)?;
-    built.insert(made_of, kept.clone());
+    built.insert(arguments, kept.clone());
     Ok(kept)
 }
 
@@ -144,23 +148,16 @@ pub(crate) fn flash(elf: &Path) -> Result<(), Fault> {
 pub(crate) struct Linked {
     /// The configuration, and the features that it needs.
     pub(crate) image: Image,
-    config: PathBuf,
-    model: Option<PathBuf>,
+    name: String,
+    model: Option<ModelBuf>,
 }
 
 impl Linked {
-    fn compiler(&self, board: Board) -> Command {
-        let mut command = compiler(board, &self.image.features);
-        self.name_files(&mut command);
-        command
-    }
-
-    /// Has a compiler link it.
-    pub(crate) fn name_files(&self, command: &mut Command) {
-        command.env("WHISKER_CONFIG", &self.config);
-        if let Some(model) = &self.model {
-            command.env("WHISKER_MODEL", model);
-        }
+    /// The program's ELF file with the scene and its model.
+    pub(crate) fn with(&self, board: Board, program: &[u8]) -> Result<Vec<u8>, Fault> {
+        let flash = &board.facts.flash;
+        config::linked(program, &self.image, self.model.as_ref(), flash)
+            .map_err(|fault| format!("{}: {fault}", self.name))
     }
 }
 
@@ -170,26 +167,20 @@ pub(crate) fn linked(board: Board, path: &Path) -> Result<Result<Linked, String>
     let folder = path.parent().unwrap_or(Path::new(""));
     let model = scene
         .model_path(folder)
-        .map(|path| top().join(path))
-        .map(|path| -> Result<_, Fault> {
-            let bytes = read_bytes(&path)?;
-            let model = ModelBuf::from_bytes(&bytes);
-            let model = model.map_err(|error| format!("{}: {error}", path.display()))?;
-            Ok((path, model))
+        .map(|path| {
+            let path = top().join(path);
+            let model = ModelBuf::from_bytes(&read_bytes(&path)?);
+            model.map_err(|error| format!("{}: {error}", path.display()))
         })
         .transpose()?;
-    let of_model = model.as_ref().map(|(_, model)| model);
-    let image = match config::image(&scene, of_model, board.facts, "") {
-        Ok(image) => image,
-        Err(misfit) => return Ok(Err(misfit.to_string())),
-    };
-    let config = target().join(format!("images/{}-{}.config", scene.name, board.name));
-    write(&config, &image.bytes)?;
-    Ok(Ok(Linked {
-        image,
-        config,
-        model: model.map(|(path, _)| path),
-    }))
+    let image = config::image(&scene, model.as_ref(), board.facts, "");
+    Ok(image
+        .map(|image| Linked {
+            image,
+            name: scene.name,
+            model,
+        })
+        .map_err(|misfit| misfit.to_string()))
 }
 
 /// A scene, seen from here or from the top of the workspace.
@@ -205,8 +196,6 @@ fn compiler(board: Board, parts: &[&str]) -> Command {
     let mut command = cargo(&["build"]);
     command
         .args(board.build_arguments(parts))
-        .env_remove("WHISKER_CONFIG")
-        .env_remove("WHISKER_MODEL")
         .env("RUSTFLAGS", "-D warnings");
     command
 }
@@ -238,7 +227,7 @@ impl Size {
     const FLASH: [&str; 5] = [".vector_table", ".text", ".rodata", ".data", ".gnu.sgstubs"];
     /// Sections that stand in RAM.
     const RAM: [&str; 3] = [".data", ".bss", ".uninit"];
-    /// A scene that is linked, and its model.
+    /// A scene that the program brings with it, and its model.
     const SCENE: [&str; 3] = [".scene", ".model", ".scene_b"];
 
     pub(crate) fn of(elf: &Path) -> Result<Self, Fault> {

@@ -360,9 +360,10 @@ fn main() -> ExitCode {
         Command::Firmware {
             build: Build { board, .. },
             any_scene: true,
-        } => firmware::build_any_scene(board).and_then(|_| size::print(board, size::ANY_SCENE)),
+        } => firmware::build_any_scene(board)
+            .and_then(|elf| size::print(board, size::ANY_SCENE, &elf)),
         Command::Firmware { build, .. } => firmware::build(build.board, &build.scene)
-            .and_then(|_| size::print(build.board, &build.scene.display().to_string())),
+            .and_then(|elf| size::print(build.board, &build.scene.display().to_string(), &elf)),
         Command::Nucleo { scene } => {
             firmware::build(firmware::Board::ALL[0], &scene).and_then(|elf| firmware::flash(&elf))
         }

@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use object::{Object, ObjectSection, SectionFlags};
 
 use crate::firmware::{self, Board, with_elf};
-use crate::run::{Fault, cargo, output, read_bytes, remove, run, target, top};
+use crate::run::{Fault, cargo, output, read_bytes, remove, run, target, top, write};
 
 /// Where the copies stand, below the target folder: names of other lengths.
 const COPIES: [&str; 2] = ["reproducible/a", "reproducible/another/place"];
@@ -64,13 +64,15 @@ fn build(board: Board, scene: &Path, folder: &Path) -> Result<PathBuf, Fault> {
     let remap = format!("-D warnings --remap-path-prefix={}=.", folder.display());
     let linked = firmware::linked(board, &folder.join(scene))??;
     let mut compiler = cargo(&["build", "--quiet"]);
-    linked.name_files(&mut compiler);
     run(compiler
         .args(board.build_arguments(&linked.image.features))
         .current_dir(folder)
         .env("CARGO_TARGET_DIR", &built)
         .env("RUSTFLAGS", remap))?;
-    Ok(firmware::elf_in(board, &built))
+    let program = read_bytes(&firmware::elf_in(board, &built))?;
+    let elf = built.join("linked.elf");
+    write(&elf, linked.with(board, &program)?)?;
+    Ok(elf)
 }
 
 fn flashed(elf: &Path) -> Result<Vec<(String, Vec<u8>)>, Fault> {

@@ -71,9 +71,8 @@ pub(crate) fn all(csv: Option<&Path>, check: bool) -> Result<(), Fault> {
     }
 }
 
-/// Prints what the program takes that was built last, and where it is.
-pub(crate) fn print(board: Board, scene: &str) -> Result<(), Fault> {
-    let elf = &firmware::elf(board);
+/// Prints what a program takes, and where it is.
+pub(crate) fn print(board: Board, scene: &str, elf: &Path) -> Result<(), Fault> {
     let Size { flash, ram } = Size::of(elf)?;
     println!(
         "{scene} on {}: flash {flash} bytes, scene and model {} bytes more, static RAM {ram} bytes, \

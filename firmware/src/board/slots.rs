@@ -1,5 +1,6 @@
 //! The flash in which scenes and models lie apart from the program: two slots, of which the
-//! newest valid one counts (`firmware::boards`). A program may bring a first scene with it.
+//! newest valid one counts (`firmware::boards`). A program may bring a first scene with it, in the
+//! first (`config::linked`).
 
 use firmware::boards::{self, Region, Slot, SlotHeader, has_armed};
 use firmware::{ConfigError, HEADER_BYTES, NotArmed, Part};
@@ -105,54 +106,4 @@ pub(crate) fn arm_once(slot: usize) -> Result<(), NotArmed> {
         .all(|at| writer.write(at as usize, 0));
     writer.close();
     is_noted.then_some(()).ok_or(NotArmed::Before)
-}
-
-/// What the program brings with it: it lies where it would have been deployed to, and counts
-/// until something else is.
-#[cfg(linked_scene)]
-mod linked {
-    use firmware::boards::{SLOT_HEADER_BYTES, SlotHeader};
-
-    const CONFIG: &[u8] = include_bytes!(concat!(env!("OUT_DIR"), "/scene.config"));
-
-    #[cfg(linked_model)]
-    const MODEL: &[u8] = include_bytes!(concat!(env!("OUT_DIR"), "/scene.model"));
-    #[cfg(not(linked_model))]
-    const MODEL: &[u8] = &[];
-
-    /// The sum at the end of the model's file.
-    const MODEL_CRC: u32 = match MODEL.last_chunk() {
-        Some(crc) => u32::from_le_bytes(*crc),
-        None => 0,
-    };
-
-    #[repr(C)]
-    struct Scene {
-        header: [u8; SLOT_HEADER_BYTES],
-        config: [u8; CONFIG.len()],
-    }
-
-    #[allow(unsafe_code, reason = "the memory map has a place for it")]
-    // SAFETY: the section is the beginning of slot A, in which is nothing else.
-    #[unsafe(link_section = ".scene")]
-    #[used]
-    static SCENE: Scene = Scene {
-        header: SlotHeader::linked(MODEL_CRC).bytes(),
-        config: *include_bytes!(concat!(env!("OUT_DIR"), "/scene.config")),
-    };
-
-    #[cfg(linked_model)]
-    #[allow(unsafe_code, reason = "the memory map has a place for it")]
-    // SAFETY: the section is the place of the model of slot A, in which is nothing else.
-    #[unsafe(link_section = ".model")]
-    #[used]
-    static LINKED_MODEL: [u8; MODEL.len()] =
-        *include_bytes!(concat!(env!("OUT_DIR"), "/scene.model"));
-
-    /// As erased: what was deployed there is no more.
-    #[allow(unsafe_code, reason = "the memory map has a place for it")]
-    // SAFETY: the section is the beginning of slot B, in which is nothing else.
-    #[unsafe(link_section = ".scene_b")]
-    #[used]
-    static NO_SCENE: [u8; SLOT_HEADER_BYTES] = [u8::MAX; SLOT_HEADER_BYTES];
 }

@@ -10,6 +10,7 @@ use firmware::{Header, Part};
 use host_sim::loaded::Loaded;
 use host_sim::output::write_whole;
 use host_sim::{Error, report};
+use scene::file;
 use tactile::ModelBuf;
 
 use super::board::Board;
@@ -88,21 +89,17 @@ pub(crate) fn build(board: BoardName, scene: &Path) -> Result<PathBuf, Error> {
         features.extend(["default", Part::Bus.feature()]);
     }
     let is_needed = |part: &&str| !takes_any || *part == "fixed";
-    features.extend(image.features.into_iter().filter(is_needed));
-    let files = Files::new(&built, feature, &image.bytes, model.as_ref())?;
-    // Programs of all scenes are built in the same place.
-    let _lock = files.lock()?;
+    features.extend(image.features.iter().copied().filter(is_needed));
+    let folder = built.join("scenes");
+    std::fs::create_dir_all(&folder).map_err(|error| Error::write(&folder, error))?;
+    // All programs of a board are built in the same place.
+    let _lock = lock(&folder.join("lock"))?;
     let mut cargo = Command::new(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
     cargo
         .args(["build", "--quiet", "--locked", "--profile", "firmware"])
         .args(["-p", "firmware", "--no-default-features"])
         .args(["--features", &features.join(",")])
         .args(["--bin", program, "--target", target])
-        .env("WHISKER_CONFIG", files.path("config"))
-        .env(
-            "WHISKER_MODEL",
-            model.map_or_else(PathBuf::new, |_| files.path("model")),
-        )
         // As all programs of boards are built: others would be compiled again.
         .env("RUSTFLAGS", "-D warnings")
         .current_dir(top);
@@ -117,52 +114,21 @@ pub(crate) fn build(board: BoardName, scene: &Path) -> Result<PathBuf, Error> {
              {target}"
         )));
     }
-    let (elf, kept) = (
-        built.join(target).join("firmware").join(program),
-        files.path("elf"),
-    );
-    let copied = std::fs::copy(&elf, &kept).map_err(|error| Error::write(&kept, error));
-    copied.map(|_| kept)
+    let elf = built.join(target).join("firmware").join(program);
+    let elf = file::read(&elf, file::BINARY_BYTES).map_err(|error| Error::file(&elf, error))?;
+    let linked = config::linked(&elf, &image, model.as_ref(), &facts.flash);
+    let linked = linked.map_err(|fault| Error::file(scene, fault))?;
+    // Another one for each scene and model.
+    let sum = Header::of(&image.bytes).map_or(0, |header| header.crc);
+    let of_model = model.as_ref().map_or(0, ModelBuf::crc);
+    let kept = folder.join(format!("{feature}-{sum:08x}-{of_model:08x}.elf"));
+    write_whole(&kept, &linked)?;
+    Ok(kept)
 }
 
-/// What a program brings with it, and the program, in the folder that is built in.
-struct Files {
-    folder: PathBuf,
-    /// Another one for each scene and model.
-    name: String,
-}
-
-impl Files {
-    fn new(
-        built: &Path,
-        board: &str,
-        config: &[u8],
-        model: Option<&ModelBuf>,
-    ) -> Result<Self, Error> {
-        let sum = Header::of(config).map_or(0, |header| header.crc);
-        let of_model = model.map_or(0, ModelBuf::crc);
-        let files = Self {
-            folder: built.join("scenes"),
-            name: format!("{board}-{sum:08x}-{of_model:08x}"),
-        };
-        let folder = &files.folder;
-        std::fs::create_dir_all(folder).map_err(|error| Error::write(folder, error))?;
-        write_whole(&files.path("config"), config)?;
-        if let Some(model) = model {
-            write_whole(&files.path("model"), model.as_bytes())?;
-        }
-        Ok(files)
-    }
-
-    fn path(&self, kind: &str) -> PathBuf {
-        self.folder.join(format!("{}.{kind}", self.name))
-    }
-
-    fn lock(&self) -> Result<File, Error> {
-        let path = self.folder.join("lock");
-        let wrong = |error| Error::write(&path, error);
-        let file = File::create(&path).map_err(wrong)?;
-        file.lock().map_err(wrong)?;
-        Ok(file)
-    }
+fn lock(path: &Path) -> Result<File, Error> {
+    let wrong = |error| Error::write(path, error);
+    let file = File::create(path).map_err(wrong)?;
+    file.lock().map_err(wrong)?;
+    Ok(file)
 }
