@@ -5,7 +5,8 @@ use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use rsemu::core::space::{
-    AddressSpace, Mapping, MemAttrs, MemOps, MemResult, Perms, RamStore, Region, UnassignedPolicy,
+    AddressSpace, DispatchPolicy, Mapping, MemAttrs, MemOps, MemResult, Perms, RamStore, Region,
+    UnassignedPolicy,
 };
 
 use crate::chip::{Chip, Fault, Memory, Model, Ps};
@@ -173,7 +174,13 @@ impl Memories {
     }
 
     pub(crate) fn space(&self, shared: &Arc<Shared>) -> Result<AddressSpace, Fault> {
-        let space = AddressSpace::new("chip", 32).with_unassigned(UnassignedPolicy::FAULT);
+        // Of nine tenths of what is read, flash and RAM, the place is found without a search.
+        let space = AddressSpace::new("chip", 32)
+            .with_unassigned(UnassignedPolicy::FAULT)
+            .with_dispatch(DispatchPolicy::Dense {
+                page_bits: 12,
+                cover: u64::from(RAM) + u64::from(self.ram_len),
+            });
         {
             let registers = |base| {
                 Arc::new(Registers {
