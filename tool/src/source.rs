@@ -23,7 +23,7 @@ pub(crate) use choice::{SourceChoice, seconds};
 #[cfg(unix)]
 pub(crate) use flash::Flash;
 pub(crate) use laying::Laying;
-pub(crate) use program::{BoardName, build, is_of, workspace};
+pub(crate) use program::{BoardName, build, is_of, with_scene, workspace};
 #[cfg(test)]
 pub(crate) use scripted::{Scripted, chosen, record, scene_file};
 #[cfg(unix)]

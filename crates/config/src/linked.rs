@@ -29,6 +29,9 @@ pub enum Unlinked {
     /// It is no ELF file of a board.
     #[error("found no program of a board: no whole ELF file of 32 bits, little-endian")]
     NotElf,
+    /// It brings a scene with it already.
+    #[error("found a program that brings a scene with it, allowed: one for any scene")]
+    Brings,
     /// Scene or model are larger than their place in flash.
     #[error("found {found} bytes of {what}, allowed on this board: at most {room}")]
     Room {
@@ -87,6 +90,9 @@ pub fn linked(
 ) -> Result<Vec<u8>, Unlinked> {
     let mut elf = Elf::of(program).ok_or(Unlinked::NotElf)?;
     for (name, address, bytes) in parts(image, model, flash)? {
+        if elf.has(address) {
+            return Err(Unlinked::Brings);
+        }
         elf.add(name, address, &bytes);
     }
     elf.end().ok_or(Unlinked::NotElf)
@@ -128,6 +134,11 @@ impl Elf {
         let at = self.bytes.len();
         self.bytes.extend(bytes);
         at as u32
+    }
+
+    fn has(&self, address: u32) -> bool {
+        let mut segments = self.segments.iter();
+        segments.any(|segment| u32_at(segment, 12) == Some(address))
     }
 
     fn add(&mut self, name: &str, address: u32, bytes: &[u8]) {
@@ -243,6 +254,8 @@ mod tests {
             assert_eq!(segment.unwrap().data(), Ok(data), "{name}");
         }
         assert_eq!(file.sections().count(), 4);
+        let again = linked(&elf, &image, None, &flash);
+        assert_eq!(again, Err(Unlinked::Brings));
     }
 
     proptest! {

@@ -8,16 +8,16 @@ use host_sim::progress::Verbosity;
 
 use crate::conversation::Conversation;
 use crate::probe;
-use crate::source::{BoardName, Laying, build, is_of};
+use crate::source::{BoardName, Laying, build, is_of, with_scene};
 
 /// Which program, and onto which board.
 #[derive(Debug, Args)]
 pub(crate) struct Arguments {
-    /// The scene whose program is built and flashed
+    /// The scene whose program is built and flashed, or that --program is to bring with it
     #[arg(required_unless_present = "program")]
     scene: Option<PathBuf>,
-    /// The program's file instead, built before
-    #[arg(long, value_name = "ELF", conflicts_with = "scene")]
+    /// A program that was built before, for any scene; with SCENE it brings that one with it
+    #[arg(long, value_name = "ELF")]
     program: Option<PathBuf>,
     /// The board
     #[arg(long, value_enum, default_value = "nucleo-f446re")]
@@ -41,7 +41,8 @@ pub(crate) fn flash(arguments: &Arguments, verbosity: Verbosity) -> Result<(), E
     // What cannot be flashed need not be built.
     probe::is_there(probe)?;
     let elf = match (&arguments.program, &arguments.scene) {
-        (Some(program), _) => program.clone(),
+        (Some(program), Some(scene)) => with_scene(*board, program, scene)?,
+        (Some(program), None) => program.clone(),
         (None, Some(scene)) => build(*board, scene)?,
         (None, None) => return Err(Error::Input("SCENE is missing".to_owned())),
     };

@@ -5,7 +5,9 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use clap::ValueEnum;
+use config::Image;
 use emulator::session::Session;
+use firmware::boards::BoardFacts;
 use firmware::{Header, Part};
 use host_sim::loaded::Loaded;
 use host_sim::output::write_whole;
@@ -55,14 +57,52 @@ pub(crate) fn workspace() -> Option<&'static Path> {
     }
 }
 
+/// What a program brings with it.
+struct Brought {
+    image: Image,
+    model: Option<ModelBuf>,
+}
+
+impl Brought {
+    fn of(scene: &Path, facts: &BoardFacts) -> Result<Self, Error> {
+        let loaded = Loaded::new(scene)?;
+        let model = model_of(scene, &loaded.scene)?;
+        let image = config::image(&loaded.scene, model.as_ref(), facts, "");
+        let image = image.map_err(|misfit| Error::file(scene, misfit))?;
+        Ok(Self { image, model })
+    }
+
+    /// A copy of the program with it, in a folder: another one for each scene and model.
+    fn put_into(&self, program: &Path, board: &Board, folder: &Path) -> Result<PathBuf, Error> {
+        let bytes = file::read(program, file::BINARY_BYTES);
+        let bytes = bytes.map_err(|error| Error::file(program, error))?;
+        let (model, flash) = (self.model.as_ref(), &board.facts.flash);
+        let linked = config::linked(&bytes, &self.image, model, flash);
+        let linked = linked.map_err(|fault| Error::file(program, fault))?;
+        let sum = Header::of(&self.image.bytes).map_or(0, |header| header.crc);
+        let of_model = model.map_or(0, ModelBuf::crc);
+        let path = folder.join(format!("{}-{sum:08x}-{of_model:08x}.elf", board.name));
+        write_whole(&path, &linked)?;
+        Ok(path)
+    }
+}
+
+/// A copy of a program that takes any scene, which brings this one with it.
+pub(crate) fn with_scene(board: BoardName, program: &Path, scene: &Path) -> Result<PathBuf, Error> {
+    let board = board.board();
+    let folder = std::env::temp_dir();
+    Brought::of(scene, board.facts)?.put_into(program, &board, &folder)
+}
+
 pub(crate) fn build(board: BoardName, scene: &Path) -> Result<PathBuf, Error> {
+    let board = board.board();
     let Board {
         name: feature,
         program,
         target,
         facts,
         ..
-    } = board.board();
+    } = board;
     let Some(top) = workspace() else {
         let fault = format!(
             "a released whisker builds no programs; allowed: --program boards/{feature}.elf, of \
@@ -73,23 +113,21 @@ pub(crate) fn build(board: BoardName, scene: &Path) -> Result<PathBuf, Error> {
     let built = std::env::var_os("CARGO_TARGET_DIR").map_or_else(|| top.join("target"), Into::into);
     let built: PathBuf = std::path::absolute(built)
         .map_err(|error| Error::Work(format!("the folder that is built in: {error}")))?;
-    let loaded = Loaded::new(scene)?;
-    let model = model_of(scene, &loaded.scene)?;
-    let image = config::image(&loaded.scene, model.as_ref(), facts, "");
-    let image = image.map_err(|misfit| Error::file(scene, misfit))?;
+    let brought = Brought::of(scene, facts)?;
+    let parts = &brought.image.features;
     report::warn(format_args!(
         "building the {feature}'s program of {}",
         scene.display()
     ));
     let has_room = facts.flash.program.bytes >= ROOM_FOR_ALL;
     // A program reads one kind of sensor, by default the other one.
-    let takes_any = has_room && !image.features.contains(&Part::Tmag5170.feature());
+    let takes_any = has_room && !parts.contains(&Part::Tmag5170.feature());
     let mut features = vec![feature];
     if takes_any {
         features.extend(["default", Part::Bus.feature()]);
     }
     let is_needed = |part: &&str| !takes_any || *part == "fixed";
-    features.extend(image.features.iter().copied().filter(is_needed));
+    features.extend(parts.iter().copied().filter(is_needed));
     let folder = built.join("scenes");
     std::fs::create_dir_all(&folder).map_err(|error| Error::write(&folder, error))?;
     // All programs of a board are built in the same place.
@@ -115,15 +153,7 @@ pub(crate) fn build(board: BoardName, scene: &Path) -> Result<PathBuf, Error> {
         )));
     }
     let elf = built.join(target).join("firmware").join(program);
-    let elf = file::read(&elf, file::BINARY_BYTES).map_err(|error| Error::file(&elf, error))?;
-    let linked = config::linked(&elf, &image, model.as_ref(), &facts.flash);
-    let linked = linked.map_err(|fault| Error::file(scene, fault))?;
-    // Another one for each scene and model.
-    let sum = Header::of(&image.bytes).map_or(0, |header| header.crc);
-    let of_model = model.as_ref().map_or(0, ModelBuf::crc);
-    let kept = folder.join(format!("{feature}-{sum:08x}-{of_model:08x}.elf"));
-    write_whole(&kept, &linked)?;
-    Ok(kept)
+    brought.put_into(&elf, &board, &folder)
 }
 
 fn lock(path: &Path) -> Result<File, Error> {
