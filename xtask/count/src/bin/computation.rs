@@ -10,7 +10,7 @@ use count::{Format, kernel, model};
 use heapless::Vec;
 use mlx90333::Decoder;
 use tactile::Sequential;
-use whisking::{Fix, Integrator, MAX_SIDES, MAX_WHISKERS, Number, Real, State, filter, pd};
+use whisking::{Fix, Integrator, MAX_OWN, MAX_SIDES, Number, Real, State, filter, pd};
 
 count::program!(computation);
 
@@ -22,7 +22,7 @@ fn computation() {
 #[inline(never)]
 fn each<R: Format>() {
     let (name, sides, whiskers) = if cfg!(feature = "array") {
-        ("computation of 24 whiskers", 2, 12)
+        ("computation of 2 whiskers", 2, 1)
     } else {
         ("computation of 1 whisker", 1, 1)
     };
@@ -75,7 +75,7 @@ impl<R: Real> Channel<R> {
 #[derive(Debug)]
 struct Pipeline<R: Real> {
     state: State<R>,
-    channels: Vec<Channel<R>, MAX_WHISKERS>,
+    channels: Vec<Channel<R>, MAX_OWN>,
     /// Duties and decisions, so that nothing is computed in vain.
     said: u32,
 }
