@@ -174,7 +174,7 @@ impl Memories {
     }
 
     pub(crate) fn space(&self, shared: &Arc<Shared>) -> Result<AddressSpace, Fault> {
-        // Of nine tenths of what is read, flash and RAM, the place is found without a search.
+        // Flash and RAM, which are read most, are found without a search.
         let space = AddressSpace::new("chip", 32)
             .with_unassigned(UnassignedPolicy::FAULT)
             .with_dispatch(DispatchPolicy::Dense {

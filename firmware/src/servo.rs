@@ -2,13 +2,14 @@
 //! setpoint, and what it does about faults.
 
 mod failing;
+mod finding;
 mod leaps;
 #[cfg(test)]
 mod tests;
 
 use serde::{Deserialize, Serialize};
 use whisking::motor::{
-    self, Duty, GuardConfig, Guards, Heat, Homed, Homing, HomingConfig, MotorDriver, Moved,
+    self, Duty, GuardConfig, Guards, Heat, Homing, HomingConfig, MotorDriver, Moved,
 };
 use whisking::{Real, Voted, pd};
 use wire::{Flags, q13};
@@ -252,35 +253,6 @@ impl<R: Real, M: MotorDriver, A: AngleInput> Servo<R, M, A> {
         }
     }
 
-    /// Finds rest again with the next tick, where it is found; a motor that rests after a
-    /// fault rests on.
-    pub fn home(&mut self) {
-        self.off();
-        self.is_homed = false;
-    }
-
-    /// Looks for home again where it was found long ago: in the air, or where a whisker that feels
-    /// so much contact has not been there for as long again.
-    #[inline]
-    pub(crate) fn check_home(&mut self, config: &ServoConfig<R>, felt: R) {
-        let Some(how) = config.homing() else {
-            return;
-        };
-        if let ServoState::Running { .. } = self.state {
-            self.since_home = self.since_home.saturating_add(1);
-            let is_calm = felt.to_q24() < how.calm;
-            self.calm = if is_calm {
-                self.calm.saturating_add(1)
-            } else {
-                0
-            };
-            let is_due = self.since_home > how.every && self.calm >= how.still;
-            if is_due || self.since_home > how.every.saturating_mul(2) {
-                self.home();
-            }
-        }
-    }
-
     /// What a tick towards protraction `theta` has done.
     #[inline]
     pub fn record(&self, config: &ServoConfig<R>, theta: R) -> MotorRecord {
@@ -442,29 +414,6 @@ impl<R: Real, M: MotorDriver, A: AngleInput> Servo<R, M, A> {
             Guards::at_speed(velocity)
         } else {
             Guards::doubtful(config, self.held.is_multiple_of(2))
-        }
-    }
-
-    /// One tick of homing: what is to be driven; nothing where it is at home.
-    #[cold]
-    fn find_home(
-        &mut self,
-        config: &ServoConfig<R>,
-        moved: i32,
-    ) -> Result<Option<Duty>, motor::Fault> {
-        let (ServoState::Homing(homing), Some(how)) = (&mut self.state, config.homing()) else {
-            return Ok(None);
-        };
-        match homing.step(how, &config.guards, self.counts, moved)? {
-            Homed::Not(duty) => Ok(Some(duty)),
-            Homed::At(home) => {
-                self.home = Voted::new(home);
-                self.is_homed = true;
-                self.is_known = true;
-                self.since_home = 0;
-                self.off();
-                Ok(None)
-            }
         }
     }
 

@@ -1,5 +1,8 @@
 //! A program that brings a scene with it: what would be deployed stands in its ELF file, where it
 //! would lie in flash, so that programs of two scenes differ in data alone and are compiled once.
+//!
+//! An own writer, as that of the crate `object` (0.36) keeps the table of segments where it is, with
+//! no room for more.
 
 use firmware::boards::{FlashMap, Region, SLOT_HEADER_BYTES, SlotHeader};
 use tactile::ModelBuf;
@@ -29,9 +32,9 @@ pub enum Unlinked {
     /// It is no ELF file of a board.
     #[error("found no program of a board: no whole ELF file of 32 bits, little-endian")]
     NotElf,
-    /// It brings a scene with it already.
+    /// It brings a scene with it.
     #[error("found a program that brings a scene with it, allowed: one for any scene")]
-    Brings,
+    HasScene,
     /// Scene or model are larger than their place in flash.
     #[error("found {found} bytes of {what}, allowed on this board: at most {room}")]
     Room {
@@ -47,8 +50,7 @@ pub enum Unlinked {
 /// The name of a section, its address, and what it holds.
 type Placed = (&'static str, u32, Vec<u8>);
 
-/// What lies where in flash. The second slot is as erased: what was
-/// deployed there counts no more.
+/// What lies where in flash. The second slot is as erased: what was deployed there counts no more.
 fn parts(
     image: &Image,
     model: Option<&ModelBuf>,
@@ -90,8 +92,8 @@ pub fn linked(
 ) -> Result<Vec<u8>, Unlinked> {
     let mut elf = Elf::of(program).ok_or(Unlinked::NotElf)?;
     for (name, address, bytes) in parts(image, model, flash)? {
-        if elf.has(address) {
-            return Err(Unlinked::Brings);
+        if elf.loads(address) {
+            return Err(Unlinked::HasScene);
         }
         elf.add(name, address, &bytes);
     }
@@ -136,7 +138,7 @@ impl Elf {
         at as u32
     }
 
-    fn has(&self, address: u32) -> bool {
+    fn loads(&self, address: u32) -> bool {
         let mut segments = self.segments.iter();
         segments.any(|segment| u32_at(segment, 12) == Some(address))
     }
@@ -255,7 +257,7 @@ mod tests {
         }
         assert_eq!(file.sections().count(), 4);
         let again = linked(&elf, &image, None, &flash);
-        assert_eq!(again, Err(Unlinked::Brings));
+        assert_eq!(again, Err(Unlinked::HasScene));
     }
 
     proptest! {

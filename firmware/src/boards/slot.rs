@@ -31,20 +31,19 @@ impl SlotHeader {
     }
 
     /// As it lies in flash: magic, sequence, CRC of the model, CRC-32 of the three.
-    pub const fn words(self) -> [u32; SLOT_HEADER_WORDS] {
+    pub fn words(self) -> [u32; SLOT_HEADER_WORDS] {
         let Self { sequence, model } = self;
         [MAGIC, sequence, model, sum([MAGIC, sequence, model])]
     }
 
     /// The same byte by byte, little-endian, and a mark that is not set.
-    pub const fn bytes(self) -> [u8; SLOT_HEADER_BYTES] {
-        let [a, b, c, d] = self.words();
-        let ([a0, a1, a2, a3], [b0, b1, b2, b3]) = (a.to_le_bytes(), b.to_le_bytes());
-        let ([c0, c1, c2, c3], [d0, d1, d2, d3]) = (c.to_le_bytes(), d.to_le_bytes());
-        let e = u8::MAX;
-        [
-            a0, a1, a2, a3, b0, b1, b2, b3, c0, c1, c2, c3, d0, d1, d2, d3, e, e, e, e, e, e, e, e,
-        ]
+    pub fn bytes(self) -> [u8; SLOT_HEADER_BYTES] {
+        let mut bytes = [u8::MAX; SLOT_HEADER_BYTES];
+        let (places, _) = bytes.as_chunks_mut::<4>();
+        for (place, word) in places.iter_mut().zip(self.words()) {
+            *place = word.to_le_bytes();
+        }
+        bytes
     }
 
     /// That at the start of `bytes`; `None` where there is none, or a damaged one.
@@ -73,12 +72,10 @@ pub fn has_armed(bytes: &[u8]) -> bool {
     mark.any(|word| *word != [u8::MAX; 4])
 }
 
-const fn sum([a, b, c]: [u32; 3]) -> u32 {
+fn sum(words: [u32; 3]) -> u32 {
     const CRC: crc::Crc<u32, crc::NoTable> =
         crc::Crc::<u32, crc::NoTable>::new(&crc::CRC_32_ISO_HDLC);
-    let ([a0, a1, a2, a3], [b0, b1, b2, b3]) = (a.to_le_bytes(), b.to_le_bytes());
-    let [c0, c1, c2, c3] = c.to_le_bytes();
-    CRC.checksum(&[a0, a1, a2, a3, b0, b1, b2, b3, c0, c1, c2, c3])
+    CRC.checksum(words.map(u32::to_le_bytes).as_flattened())
 }
 
 /// The two slots, newest first: the order in which a start looks at them. One whose header is

@@ -40,8 +40,12 @@ pub(crate) fn flash(arguments: &Arguments, verbosity: Verbosity) -> Result<(), E
     }
     // What cannot be flashed need not be built.
     probe::is_there(probe)?;
+    let copy;
     let elf = match (&arguments.program, &arguments.scene) {
-        (Some(program), Some(scene)) => with_scene(*board, program, scene)?,
+        (Some(program), Some(scene)) => {
+            copy = with_scene(*board, program, scene)?;
+            copy.path().to_owned()
+        }
         (Some(program), None) => program.clone(),
         (None, Some(scene)) => build(*board, scene)?,
         (None, None) => return Err(Error::Input("SCENE is missing".to_owned())),

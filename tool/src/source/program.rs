@@ -1,6 +1,7 @@
-//! Building the program of a board.
+//! The program of a board: built, and with a scene that it brings with it.
 
 use std::fs::File;
+use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
@@ -14,6 +15,7 @@ use host_sim::output::write_whole;
 use host_sim::{Error, report};
 use scene::file;
 use tactile::ModelBuf;
+use tempfile::NamedTempFile;
 
 use super::board::Board;
 use crate::deployment::model_of;
@@ -72,26 +74,30 @@ impl Brought {
         Ok(Self { image, model })
     }
 
-    /// A copy of the program with it, in a folder: another one for each scene and model.
-    fn put_into(&self, program: &Path, board: &Board, folder: &Path) -> Result<PathBuf, Error> {
+    /// The program's file with it.
+    fn put_into(&self, program: &Path, board: &Board) -> Result<Vec<u8>, Error> {
         let bytes = file::read(program, file::BINARY_BYTES);
         let bytes = bytes.map_err(|error| Error::file(program, error))?;
         let (model, flash) = (self.model.as_ref(), &board.facts.flash);
         let linked = config::linked(&bytes, &self.image, model, flash);
-        let linked = linked.map_err(|fault| Error::file(program, fault))?;
-        let sum = Header::of(&self.image.bytes).map_or(0, |header| header.crc);
-        let of_model = model.map_or(0, ModelBuf::crc);
-        let path = folder.join(format!("{}-{sum:08x}-{of_model:08x}.elf", board.name));
-        write_whole(&path, &linked)?;
-        Ok(path)
+        linked.map_err(|fault| Error::file(program, fault))
     }
 }
 
-/// A copy of a program that takes any scene, which brings this one with it.
-pub(crate) fn with_scene(board: BoardName, program: &Path, scene: &Path) -> Result<PathBuf, Error> {
+/// A copy of a program that takes any scene, which brings this one with it; it is there until
+/// dropped.
+pub(crate) fn with_scene(
+    board: BoardName,
+    program: &Path,
+    scene: &Path,
+) -> Result<NamedTempFile, Error> {
     let board = board.board();
-    let folder = std::env::temp_dir();
-    Brought::of(scene, board.facts)?.put_into(program, &board, &folder)
+    let bytes = Brought::of(scene, board.facts)?.put_into(program, &board)?;
+    let written = NamedTempFile::new().and_then(|mut copy| {
+        copy.write_all(&bytes)?;
+        Ok(copy)
+    });
+    written.map_err(|error| Error::Work(format!("a copy of {}: {error}", program.display())))
 }
 
 pub(crate) fn build(board: BoardName, scene: &Path) -> Result<PathBuf, Error> {
@@ -153,7 +159,13 @@ pub(crate) fn build(board: BoardName, scene: &Path) -> Result<PathBuf, Error> {
         )));
     }
     let elf = built.join(target).join("firmware").join(program);
-    brought.put_into(&elf, &board, &folder)
+    let linked = brought.put_into(&elf, &board)?;
+    // Another one for each scene and model.
+    let sum = Header::of(&brought.image.bytes).map_or(0, |header| header.crc);
+    let of_model = brought.model.as_ref().map_or(0, ModelBuf::crc);
+    let kept = folder.join(format!("{feature}-{sum:08x}-{of_model:08x}.elf"));
+    write_whole(&kept, &linked)?;
+    Ok(kept)
 }
 
 fn lock(path: &Path) -> Result<File, Error> {
