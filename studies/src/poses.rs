@@ -13,6 +13,7 @@
 //! nothing is chosen by what comes of them.
 
 mod asked;
+mod bound;
 mod condition;
 mod extent;
 mod five;
@@ -28,12 +29,16 @@ mod unknown;
 use anyhow::Result;
 use host_sim::progress::Verbosity;
 use host_sim::training::Expected;
+use tactile::ModelBuf;
 
 use crate::page::{Files, Page};
+use bound::Case;
+use condition::Change;
 pub(crate) use extent::Extent;
 use five::Five;
 use one::One;
 use output::Output;
+use trained::Trained;
 
 pub(crate) fn page(extent: &Extent, verbosity: Verbosity) -> Result<Files> {
     let mut output = Output::new();
@@ -41,7 +46,7 @@ pub(crate) fn page(extent: &Extent, verbosity: Verbosity) -> Result<Files> {
     one.section(&mut output, extent, verbosity)?;
     let five = Five::new(extent, verbosity)?;
     five.section(&mut output, extent, verbosity)?;
-    let spread = scenes::section(&mut output, extent, verbosity)?;
+    let (spread, spread_models) = scenes::section(&mut output, extent, verbosity)?;
     placebo::section(&mut output, (&one, &five), extent, verbosity)?;
     let all = [
         ("one pose", Expected::Bench, &one.trained),
@@ -51,6 +56,9 @@ pub(crate) fn page(extent: &Extent, verbosity: Verbosity) -> Result<Files> {
     ];
     unknown::section(&mut output, &all, extent, verbosity)?;
     one.thresholds(&mut output, &five)?;
+    let cases = cases((&one, &five), (&spread, &spread_models));
+    let cases = cases.get(..extent.conditions).unwrap_or(&cases);
+    bound::section(&mut output, cases, verbosity)?;
 
     let mut page = Page::new("poses");
     introduction(&mut page, extent);
@@ -61,6 +69,45 @@ pub(crate) fn page(extent: &Extent, verbosity: Verbosity) -> Result<Files> {
         ("poses.md".to_owned(), format!("{}\n", page.text)),
         ("poses.csv".to_owned(), output.table),
     ])
+}
+
+/// Where a goal of what is decided or right was missed at some time, and the poses of training.
+fn cases<'c>(
+    (one, five): (&'c One, &'c Five),
+    (spread, spread_models): (&'c Trained<'static>, &'c [ModelBuf]),
+) -> Vec<Case<'c>> {
+    use Change::{CrossTalk, Friction, Obstacle, Turned};
+    let of_one = |name, change, asked| Case {
+        name,
+        trained: &one.trained,
+        models: &one.bench,
+        change,
+        asked,
+    };
+    let of_five = |name, change, asked| Case {
+        name,
+        trained: &five.trained,
+        models: &five.models,
+        change,
+        asked,
+    };
+    vec![
+        of_one("one pose, as trained", None, 80.0),
+        of_one("one pose, friction × 0.7", Some(Friction(0.7)), 5.0),
+        of_one("one pose, friction × 1.3", Some(Friction(1.3)), 5.0),
+        of_five("five poses, tilt 20°", None, 90.0),
+        of_five("five poses, turned +5°", Some(Turned(5.0)), 70.0),
+        of_five("five poses, cross-talk +3 %", Some(CrossTalk(0.03)), 70.0),
+        of_five("five poses, obstacle 96°", Some(Obstacle(96.0)), 5.0),
+        of_five("five poses, obstacle 104°", Some(Obstacle(104.0)), 5.0),
+        Case {
+            name: "`bench-textures`",
+            trained: spread,
+            models: spread_models,
+            change: None,
+            asked: 85.0,
+        },
+    ]
 }
 
 fn introduction(page: &mut Page, extent: &Extent) {

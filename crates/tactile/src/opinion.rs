@@ -7,7 +7,8 @@
 //! differs between poses is a nuisance and is weighed down. A class is named only if
 //!
 //! 1. the way of the touch, mean deflections of x and y a block, lies near the way of that class
-//!    in one of the poses of training, or between two that are neighbours;
+//!    in one of the poses of training, or between two that are neighbours ([path]), by a sensor
+//!    that may be turned and scaled a little;
 //! 2. the features are *typical* of the class: a sum over states of squared distances, each by
 //!    the class's own covariance;
 //! 3. the opinion agrees.
@@ -21,6 +22,7 @@
 //! What is refused has a [`Reason`](crate::Reason): 1 the pose, 2 unknown, 3 between two classes.
 
 pub(crate) mod differences;
+pub(crate) mod path;
 pub(crate) mod pose;
 pub(crate) mod section;
 
@@ -85,8 +87,6 @@ const DEVIATION_MOST: i32 = 128;
 pub(crate) const PATH_BITS: u32 = 5;
 /// Of one of a state.
 pub(crate) const STATE_BITS: u32 = 4;
-/// How far beyond the outermost poses a path may lie, in steps to the next pose; 1/256.
-pub(crate) const BEYOND: i32 = 128;
 
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct Opinion {
@@ -187,7 +187,9 @@ impl Opinion {
         classes: usize,
         class: usize,
     ) -> Option<Reason> {
-        if !self.is_on_path(section.path(class)) {
+        let path = self.path.get(..self.blocks).unwrap_or_default();
+        let rest = section.rest().map(|rest| rest >> 8);
+        if !path::is_near(path, section.path(class), rest, section.bounds()) {
             return Some(Reason::Pose);
         }
         if !self.is_typical(section.typical(class), section.stages()) {
@@ -223,46 +225,6 @@ impl Opinion {
             odds = odds.saturating_add(scale.term(behind.min(MAX_DEFICIT), 0));
         }
         (odds > most_odds).then_some(rival)
-    }
-
-    /// Whether the mean squared deviation from the way of a class, or from between two of its
-    /// ways, is within its limit.
-    fn is_on_path(&self, (inverse, means, limit): (&[u32], &[u32], u32)) -> bool {
-        let blocks = self.blocks.min(BLOCKS);
-        let poses = means.len() / BLOCKS;
-        let mut least = i64::MAX;
-        for pose in 0..poses.max(2) - 1 {
-            let own = means.get(pose * BLOCKS..).unwrap_or_default();
-            let next = means.get((pose + 1) * BLOCKS..).unwrap_or_default();
-            // From this pose: squares of the touch and of the next pose, and their product.
-            let [mut touch2, mut step2, mut both] = [0_i32; 3];
-            for (block, felt) in self.path.iter().take(blocks).enumerate() {
-                let word = |words: &[u32]| words.get(block).copied();
-                let scales = word(inverse).unwrap_or(0);
-                let own = word(own).unwrap_or(0);
-                // There is no next of one pose: then it is the same.
-                let next = word(next).unwrap_or(own);
-                for (channel, felt) in felt.iter().enumerate() {
-                    let half = |word: u32| (word >> (16 * channel)) as u16;
-                    let scale = i32::from(half(scales));
-                    let mean = i32::from(half(own).cast_signed());
-                    let deviation = |code: i16| deviation(i32::from(code) - mean, scale);
-                    let (felt, step) = (deviation(*felt), deviation(half(next).cast_signed()));
-                    // Each product is below 2²⁴, and there are 18.
-                    touch2 += felt * felt;
-                    step2 += step * step;
-                    both += felt * step;
-                }
-            }
-            let first = if pose == 0 { -BEYOND } else { 0 };
-            let last = if pose + 2 >= poses { 256 + BEYOND } else { 256 };
-            let along = (both * 4) / (step2 >> 6).max(1);
-            let along = i64::from(along.clamp(first, last));
-            let [touch2, step2, both] = [touch2, step2, both].map(i64::from);
-            let rest = touch2 - ((along * (2 * both - ((along * step2) >> 8))) >> 8);
-            least = least.min(rest);
-        }
-        least <= i64::from(limit) * 2 * blocks as i64
     }
 
     /// Whether the features of the states are as near to a class as its limit says.
@@ -401,12 +363,3 @@ pub(crate) type Rise = [i32; MAX_CLASSES];
 
 /// The largest size of a score: 1024 bits.
 const SCORE_MOST: i64 = 1 << 20;
-
-/// A difference of codes in deviations, 2^−[`PATH_BITS`]; `scale` is 2¹⁶ over the deviation.
-#[inline]
-fn deviation(difference: i32, scale: i32) -> i32 {
-    // 17 bits by 16: wraps only of a scale that no trainer writes.
-    let size = difference.wrapping_mul(scale) >> (16 - PATH_BITS);
-    let most = (DEVIATION_MOST << PATH_BITS) - 1;
-    size.clamp(-most, most)
-}

@@ -57,7 +57,7 @@ fn conditions() -> [Vec<Change>; 2] {
 /// The trainings, and their models with a second opinion and without.
 pub(super) struct One {
     pub(super) trained: Trained<'static>,
-    bench: Vec<ModelBuf>,
+    pub(super) bench: Vec<ModelBuf>,
     same: Vec<ModelBuf>,
 }
 
@@ -237,9 +237,7 @@ impl One {
         output.page.heading(2, "Thresholds");
         output.page.say(
             "What more silence would give: right and decided in the pose of training, of five \
-             poses in the middle one. A discriminant that has to answer is right in 87 to 90 % \
-             of touches between five poses (the study that this page repeats), in 95 to 97 % of \
-             the surest four fifths.",
+             poses in the middle one.",
         );
         let mut rows = Vec::new();
         for threshold in [0.8, 0.9, 0.95, 0.99, 0.999] {

@@ -3,6 +3,7 @@
 use anyhow::Result;
 use host_sim::progress::Verbosity;
 use host_sim::training::Expected;
+use tactile::ModelBuf;
 
 use super::asked::Asked;
 use super::condition::{SPREAD, Setting, TEXTURES};
@@ -15,12 +16,12 @@ use crate::page::row;
 /// Seconds of the training of what is spread.
 const SPREAD_S: f64 = 240.0;
 
-/// Measures both; the trainings of what is spread.
+/// Measures both; the trainings of what is spread, and their models.
 pub(super) fn section(
     output: &mut Output,
     extent: &Extent,
     verbosity: Verbosity,
-) -> Result<Trained<'static>> {
+) -> Result<(Trained<'static>, Vec<ModelBuf>)> {
     output.page.heading(2, "Scenes");
     let [_, trainings] = extent.trainings;
     let [_, test_s] = extent.test_s;
@@ -69,7 +70,7 @@ pub(super) fn section(
             found(&tally),
             asked.verdict(&tally),
         );
-        last = Some(trained);
+        last = Some((trained, models));
     }
     output
         .page

@@ -23,7 +23,8 @@ pub(super) type Relabel<'r> = &'r (dyn Fn(&mut Vec<Stream>, u64) + Sync);
 pub(super) struct Trained<'s> {
     /// The first seed of each training: a recording each from there on.
     pub(super) seeds: Vec<u64>,
-    recordings: Vec<Recordings>,
+    /// Of each training, by pose.
+    pub(super) recordings: Vec<Recordings>,
     /// What is tested, its changes left out.
     test: Setting<'s>,
     /// Of each training some presentations in the pose of training, or the middle one.
@@ -81,6 +82,15 @@ impl<'s> Trained<'s> {
         })
     }
 
+    /// Presentations with these changes.
+    pub(super) fn presentations(&self, changes: &[Change], seed: u64) -> Result<Vec<Stream>> {
+        Setting {
+            changes,
+            ..self.test
+        }
+        .record(seed)
+    }
+
     pub(super) fn fresh(&self, models: &[ModelBuf], threshold: f64) -> Result<Vec<Tally>> {
         self.fresh_of(models, threshold, |_| true)
     }
@@ -114,12 +124,8 @@ impl<'s> Trained<'s> {
             .flat_map(|condition| (0..trainings).map(move |training| (condition, training)))
             .collect();
         let found = each(verbosity, "conditions", &jobs, |&(condition, training)| {
-            let setting = Setting {
-                changes: &conditions[condition..=condition],
-                ..self.test
-            };
             let seed = first_test + (condition * trainings + training) as u64;
-            let streams = setting.record(seed)?;
+            let streams = self.presentations(&conditions[condition..=condition], seed)?;
             let of_kind = kinds
                 .iter()
                 .map(|models| judge(&models[training], THRESHOLD, &streams));

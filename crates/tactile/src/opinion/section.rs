@@ -2,7 +2,7 @@
 //!
 //! | words | content |
 //! |---|---|
-//! | 1 | kind u8 (bit 0: names, otherwise it objects; bit 1: touches longer than nine blocks begin again; bit 2: poses are estimated), poses of paths P u8 (1 to 12), stages u8 (1 to 8), patience u8 (1 to 9) |
+//! | 1 | kind u8 (bit 0: names, otherwise it objects; bit 1: touches longer than nine blocks begin again; bit 2: poses are estimated; bit 3: paths allow for another sensor), poses of paths P u8 (1 to 12), stages u8 (1 to 8), patience u8 (1 to 9) |
 //! | 1 | most odds against the leader by the opinion, 2⁻²⁶ |
 //! | 1, 1 | code that becomes zero i32; bits that are left off a code |
 //! | 2 | rest of x and y where no air was felt yet, i32, 1/256 narrow codes |
@@ -10,9 +10,11 @@
 //! | per stage | shift; K × bias i32, 1/1024 bit; K × weights i16, ten a state begun |
 //! | only with poses: 2 | least and most tilt, then depth, i16, 1/100 |
 //! | per class and stage from the first that decides | errors of tilt and depth u16, 1/100; shifts u16; for each bias i32, 1/100, and [weights](super::pose) i32 |
+//! | only with another sensor: 1 | most turn of one u16, 1/256 of 1/32 rad; most change of y's scale u16, 1/256 of 1/16 |
 //! | per class | per state: 10 means i16, 1/256; shift; 55 of a triangle i16, and a zero; then 8 limits u32 |
 //! | per class | 9 × inverse deviation of x and y u16, 2⁻¹⁶; P × 9 × x and y i16; limit u32 |
 
+use super::path::Paths;
 use super::{BLOCKS, FEATURES, STAGES, STATES, Whisked, pose};
 use crate::error::ModelError;
 
@@ -36,6 +38,14 @@ pub(crate) const fn path_words(poses: usize) -> usize {
     BLOCKS * (1 + poses) + 1
 }
 
+/// By how much the sensor may be turned, and its scale in y be another, in use; 1/256 of the units of
+/// [`super::path`].
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub(crate) struct Bounds {
+    pub(crate) turn: i32,
+    pub(crate) scale: i32,
+}
+
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Section<'m> {
     words: &'m [u32],
@@ -52,7 +62,7 @@ impl<'m> Section<'m> {
     /// Whether one of so many words that begins with `head` can be read.
     pub(crate) fn check(head: &[u32], words: usize, classes: usize) -> Result<(), ModelError> {
         let section = Section::new(head, classes);
-        let fits = section.byte(0) <= 7
+        let fits = section.byte(0) <= 15
             && (1..=MAX_POSES).contains(&section.poses())
             && (1..=STAGES).contains(&section.stages())
             && (1..=BLOCKS).contains(&section.patience())
@@ -63,7 +73,10 @@ impl<'m> Section<'m> {
     /// Words that the counts in its head ask for.
     pub(crate) fn length(self) -> usize {
         let of_classes = self.classes * (TYPICAL_WORDS + path_words(self.poses()));
-        self.before_stage(self.stages() + 1) + self.pose_words() + of_classes
+        self.before_stage(self.stages() + 1)
+            + self.pose_words()
+            + usize::from(self.has_bounds())
+            + of_classes
     }
 
     /// Words before the weights of a stage (from 1).
@@ -78,6 +91,22 @@ impl<'m> Section<'m> {
         }
         let of_class: usize = self.pose_stages().map(pose::stage_words).sum();
         pose::LIMIT_WORDS + self.classes * of_class
+    }
+
+    fn has_bounds(self) -> bool {
+        self.byte(0) & 8 != 0
+    }
+
+    /// By how much a sensor may be other than in training.
+    pub(crate) fn bounds(self) -> Bounds {
+        if !self.has_bounds() {
+            return Bounds::default();
+        }
+        let word = self.word(self.before_stage(self.stages() + 1) + self.pose_words());
+        Bounds {
+            turn: i32::from(word as u16),
+            scale: (word >> 16).cast_signed(),
+        }
     }
 
     pub(crate) fn has_pose(self) -> bool {
@@ -208,8 +237,7 @@ impl<'m> Section<'m> {
             .unwrap_or_default()
     }
 
-    /// The paths of a class: inverse deviations, means of each pose, limit.
-    pub(crate) fn path(self, class: usize) -> (&'m [u32], &'m [u32], u32) {
+    pub(crate) fn path(self, class: usize) -> Paths<'m> {
         let one = path_words(self.poses());
         let of_others = self.classes.saturating_sub(class) * one;
         let words = self.words.get(self.words.len().wrapping_sub(of_others)..);

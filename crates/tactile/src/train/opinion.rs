@@ -7,7 +7,8 @@
 //!
 //! Values that were chosen, on recordings of the scene `whisker` with seeds that no page uses:
 //! α 1 and 1 + 4/(poses − 1), s 0.1 and 0.03, the 0.8 of an objection, the shares 0.95, 0.98 and
-//! 0.95 of `typical` and `paths`, their shrinking and least deviations, and the gains of copies.
+//! 0.95 of `typical` and `paths`, their shrinking and least deviations, the gains of copies, and
+//! by how much a sensor may be turned and scaled.
 
 mod linear;
 mod matrix;
@@ -17,6 +18,7 @@ pub(super) mod poses;
 mod stands;
 mod touches;
 mod typical;
+mod written;
 
 use std::string::String;
 use std::vec;
@@ -24,17 +26,15 @@ use std::vec::Vec;
 
 use self::linear::{Covariance, HeldOut, Linear, temperature};
 use self::matrix::quantile;
-use self::paths::Paths;
+use self::paths::{Paths, Sensor};
 use self::poses::Poses;
-use self::stands::{Fit, Stands};
+use self::stands::Stands;
 use self::touches::{Sense, Touch};
 use self::typical::Typical;
-use crate::format::ENTRIES_PER_BIT;
 use crate::opinion::Whisked;
-use crate::opinion::differences::FEATURE_BITS;
 use crate::opinion::pose::TARGETS;
-use crate::opinion::section::{MAX_POSES, Section, begun};
-use crate::opinion::{BLOCKS, FEATURES, PATH_BITS, STAGES, STATE_BITS, STATES, blocks_of};
+use crate::opinion::section::{MAX_POSES, Section};
+use crate::opinion::{BLOCKS, STAGES};
 use crate::quantiser::Quantiser;
 use crate::train::joint::{CHANNELS, Trial, Warning};
 
@@ -58,6 +58,15 @@ impl Expect {
             Self::Same => &[],
             Self::Bench => &[0.8, 1.25],
             Self::Other => &[0.5, 0.7, 1.4, 2.0],
+        }
+    }
+
+    /// By how much the sensor may be turned, radians, and its scale in y be another.
+    const fn sensor(self) -> [f64; 2] {
+        match self {
+            Self::Same => [0.0, 0.0],
+            Self::Bench => [6_f64.to_radians(), 0.2],
+            Self::Other => [15_f64.to_radians(), 0.5],
         }
     }
 }
@@ -117,6 +126,8 @@ struct Felt {
     /// Recordings in which every class was felt.
     poses: Vec<usize>,
     stages: usize,
+    /// By how much it may differ in use.
+    sensor: Sensor,
 }
 
 /// Trains from what there is; none where a class was not touched often enough, or nothing is
@@ -185,16 +196,19 @@ fn of_felt(
     });
     for (n, (linear, held_out)) in fits.into_iter().enumerate() {
         let of_stage = of_all.unwrap_or_else(|| temperature(&held_out));
-        write_stage(&mut words, n + 1, &linear.at(of_stage));
+        written::stage(&mut words, n + 1, &linear.at(of_stage));
     }
     if let Some(stands) = stands {
-        write_stands(&mut words, stands);
+        written::stands(&mut words, stands);
+    }
+    if names && felt.poses.len() <= MAX_POSES {
+        written::bounds(&mut words, felt.sensor);
     }
     for (typical, _) in &classes {
-        write_typical(&mut words, typical);
+        written::typical(&mut words, typical);
     }
     for (_, paths) in &classes {
-        write_paths(&mut words, paths);
+        written::paths(&mut words, paths);
     }
     Some(Opinion {
         words,
@@ -253,6 +267,12 @@ impl Felt {
         let stages = (1..=STAGES)
             .take_while(|stage| all(LEAST_OF_STAGE, &|touch| touch.len() >= *stage))
             .count();
+        let [turn, scale] = material.expect.sensor();
+        let sensor = Sensor {
+            turn,
+            scale,
+            rest: sense.rest.map(|rest| f64::from(rest) / 256.0),
+        };
         Self {
             sense,
             classes,
@@ -261,6 +281,7 @@ impl Felt {
             with_copies,
             poses,
             stages,
+            sensor,
         }
     }
 
@@ -356,7 +377,7 @@ impl Felt {
                 .collect()
         };
         let poses: Vec<Vec<&Touch>> = self.poses.iter().map(pose).collect();
-        (typical, Paths::of_several(&poses))
+        (typical, Paths::of_several(&poses, self.sensor))
     }
 
     /// Blocks after which most touches have not yet ended.
@@ -385,121 +406,4 @@ impl Felt {
             whisked.has_rcp.map_or(0, |has_rcp| 1 + u32::from(has_rcp)),
         ]
     }
-}
-
-/// Two halves a word, the first below; a zero after an odd one.
-fn write_halves(words: &mut Vec<u32>, halves: &[i16]) {
-    let half = |half: Option<&i16>| u32::from(half.copied().unwrap_or(0).cast_unsigned());
-    let pairs = halves.chunks(2);
-    words.extend(pairs.map(|pair| half(pair.first()) | half(pair.get(1)) << 16));
-}
-
-/// How often numbers can be doubled so that all fit 16 bits, at most 40 times; and they.
-fn scaled(numbers: &[f64]) -> (u32, Vec<i16>) {
-    let most = numbers.iter().fold(0.0_f64, |most, n| most.max(n.abs()));
-    let fits = |shift: &u32| most * f64::from(*shift).exp2() <= f64::from(i16::MAX);
-    let shift = (0..=40).rev().find(fits).unwrap_or(0);
-    let unit = f64::from(shift).exp2();
-    // `as` saturates: only what is beyond 16 bits without a shift.
-    (
-        shift,
-        numbers.iter().map(|n| (n * unit).round() as i16).collect(),
-    )
-}
-
-/// Weights of means of states, so much a mean; written for their sums. What all classes have
-/// in common is left off.
-fn write_stage(words: &mut Vec<u32>, stage: usize, linear: &Linear) {
-    let classes = linear.weights.len();
-    let numbers = begun(stage) * FEATURES;
-    let mean = |of: &dyn Fn(usize) -> f64| (0..classes).map(of).sum::<f64>() / classes as f64;
-    let weight = |class: usize, n: usize| linear.weights[class].get(n).copied().unwrap_or(0.0);
-    let mut all = Vec::with_capacity(classes * numbers);
-    for class in 0..classes {
-        for n in 0..numbers {
-            let own = weight(class, n) - mean(&|class| weight(class, n));
-            let blocks = blocks_of(STATES[n / FEATURES], stage).max(1);
-            let unit = f64::from(ENTRIES_PER_BIT) / f64::from(1 << FEATURE_BITS);
-            all.push(own * unit / blocks as f64);
-        }
-    }
-    let (shift, all) = scaled(&all);
-    words.push(shift);
-    let common = mean(&|class| linear.biases[class]);
-    let bias = |bias: &f64| ((bias - common) * f64::from(ENTRIES_PER_BIT)).round() as i32;
-    words.extend(linear.biases.iter().map(|of| bias(of).cast_unsigned()));
-    write_halves(words, &all);
-}
-
-/// Bit 2 of the kind, and what poses are estimated by, of the stages in which a decision may fall.
-fn write_stands(words: &mut Vec<u32>, stands: &Stands) {
-    const KIND: u32 = 4;
-    if let Some(head) = words.first_mut() {
-        *head |= KIND;
-    }
-    let first = *Section::new(words, 0).pose_stages().start();
-    // `as` saturates: what a target cannot be is the nearest that it can.
-    let hundredths = |value: f64| (100.0 * value).round();
-    let halves = |[low, high]: [u16; 2]| u32::from(low) | u32::from(high) << 16;
-    let limits = |limits: &[f64; 2]| limits.map(|of| (hundredths(of) as i16).cast_unsigned());
-    words.extend(stands.limits.iter().map(limits).map(halves));
-    let fits = stands
-        .classes
-        .iter()
-        .flat_map(|of| of.iter().skip(first - 1));
-    for Fit { weights, errors } in fits {
-        words.push(halves(
-            errors.map(|error| hundredths(error).max(1.0) as u16),
-        ));
-        let scaled = weights.each_ref().map(|(weights, _)| scaled_words(weights));
-        words.push(halves(scaled.each_ref().map(|(shift, _)| *shift as u16)));
-        for ((_, weights), (_, bias)) in scaled.iter().zip(weights) {
-            words.push((hundredths(*bias) as i32).cast_unsigned());
-            words.extend(weights);
-        }
-    }
-}
-
-/// As [`scaled`], of numbers that have a word each, in hundredths.
-fn scaled_words(numbers: &[f64]) -> (u32, Vec<u32>) {
-    let most = numbers.iter().fold(0.0_f64, |most, n| most.max(n.abs()));
-    let fits = |shift: &u32| 100.0 * most * f64::from(*shift).exp2() <= f64::from(i32::MAX);
-    let shift = (0..=60).rev().find(fits).unwrap_or(0);
-    let unit = 100.0 * f64::from(shift).exp2();
-    let word = |n: &f64| ((n * unit).round() as i32).cast_unsigned();
-    (shift, numbers.iter().map(word).collect())
-}
-
-fn write_typical(words: &mut Vec<u32>, typical: &Typical) {
-    for state in &typical.states {
-        let unit = f64::from(1 << FEATURE_BITS);
-        let means: Vec<i16> = state
-            .mean
-            .iter()
-            .map(|m| (m * unit).round() as i16)
-            .collect();
-        write_halves(words, &means);
-        let unit = f64::from(1 << STATE_BITS) / unit;
-        let rows = state.whitening.triangle().flatten();
-        let (shift, triangle) = scaled(&rows.map(|value| value * unit).collect::<Vec<_>>());
-        words.push(shift);
-        write_halves(words, &triangle);
-    }
-    let square = f64::from(1 << (2 * STATE_BITS));
-    words.extend(typical.limits.map(|limit| (limit * square).round() as u32));
-}
-
-fn write_paths(words: &mut Vec<u32>, paths: &Paths) {
-    // Deviations are at least four.
-    let inverse = |deviation: &f64| (65_536.0 / deviation).round() as i16;
-    write_halves(
-        words,
-        &paths.deviations.iter().map(inverse).collect::<Vec<_>>(),
-    );
-    for mean in &paths.means {
-        let codes: Vec<i16> = mean.iter().map(|code| code.round() as i16).collect();
-        write_halves(words, &codes);
-    }
-    let square = f64::from(1 << (2 * PATH_BITS));
-    words.push((paths.limit * square).round() as u32);
 }

@@ -1,6 +1,6 @@
 //! The way of a touch: mean deflections of x and y, block after block. Of one pose, its mean and
 //! deviations; of several, the mean of each, in order along the first principal direction, so
-//! that a touch may lie between two neighbours.
+//! that a touch may lie between two neighbours, and what another sensor may make of it.
 
 use std::vec;
 use std::vec::Vec;
@@ -8,6 +8,8 @@ use std::vec::Vec;
 use super::matrix::{quantile, square};
 use super::touches::Touch;
 use crate::opinion::BLOCKS;
+use crate::opinion::path::{EIGHTHS, ROUNDS, SCALE_BITS, TURN_BITS};
+use crate::opinion::section::Bounds;
 use crate::train::joint::CHANNELS;
 
 /// Numbers of a path: x and y of each block.
@@ -20,6 +22,26 @@ const SHARE: [f64; 2] = [0.98, 0.95];
 /// where a pose is held out.
 const BEYOND: [f64; 2] = [0.5, 1.0];
 
+/// By how much the sensor may differ in use, and its rest, narrow codes.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Sensor {
+    /// Radians.
+    pub(super) turn: f64,
+    pub(super) scale: f64,
+    pub(super) rest: [f64; CHANNELS],
+}
+
+impl Sensor {
+    /// As a model has them.
+    pub(super) fn bounds(self) -> Bounds {
+        let units = |value: f64, bits: u32| (256.0 * value * f64::from(1 << bits)).round() as i32;
+        Bounds {
+            turn: units(self.turn, TURN_BITS),
+            scale: units(self.scale, SCALE_BITS),
+        }
+    }
+}
+
 #[derive(Debug, Clone)]
 pub(super) struct Paths {
     /// Of each number; infinite where no touch reached.
@@ -28,6 +50,7 @@ pub(super) struct Paths {
     pub(super) means: Vec<Vec<f64>>,
     /// On the mean square of deviations.
     pub(super) limit: f64,
+    sensor: Sensor,
 }
 
 impl Paths {
@@ -55,8 +78,11 @@ impl Paths {
     }
 
     /// Of the touches of one class in several poses.
-    pub(super) fn of_several(poses: &[Vec<&Touch>]) -> Self {
-        let mut paths = Self::pooled(poses);
+    pub(super) fn of_several(poses: &[Vec<&Touch>], sensor: Sensor) -> Self {
+        let mut paths = Self {
+            sensor,
+            ..Self::pooled(poses)
+        };
         let order = paths.order();
         let poses: Vec<Vec<&Touch>> = order.iter().map(|at| poses[*at].clone()).collect();
         paths.means = order.iter().map(|at| paths.means[*at].clone()).collect();
@@ -122,6 +148,7 @@ impl Paths {
             deviations: variances.iter().zip(&reached).map(deviation).collect(),
             means,
             limit: 0.0,
+            sensor: Sensor::default(),
         }
     }
 
@@ -136,18 +163,28 @@ impl Paths {
     fn distance(&self, path: &[[f64; CHANNELS]], beyond: f64) -> f64 {
         let numbers = path.len() * CHANNELS;
         let last = self.means.len().max(2) - 2;
+        let Sensor { turn, scale, rest } = self.sensor;
         let from = |pose: usize| {
             let own = &self.means[pose];
             let next = self.means.get(pose + 1).unwrap_or(own);
             let felt = self.whitened(own, path.iter().flatten().copied());
-            let step = self.whitened(own, next.iter().copied());
-            let step = &step[..numbers];
-            let both: f64 = felt.iter().zip(step).map(|(a, b)| a * b).sum();
+            let deflected = |n: usize| own[n] - rest[n % CHANNELS];
+            let turned = (0..NUMBERS).map(|n| {
+                let other = deflected(n ^ 1);
+                if n % CHANNELS == 0 { -other } else { other }
+            });
+            let is_y = |n: usize| n % CHANNELS == 1;
+            let scaled = (0..NUMBERS).map(|n| if is_y(n) { deflected(n) } else { 0.0 });
+            let still = [0.0; NUMBERS];
+            let ways = [
+                self.whitened(own, next.iter().copied()),
+                self.whitened(&still, turned),
+                self.whitened(&still, scaled),
+            ];
             let first = if pose == 0 { -beyond } else { 0.0 };
             let most = if pose == last { 1.0 + beyond } else { 1.0 };
-            let along = (both / square(step).max(1e-9)).clamp(first, most);
-            let rest = square(&felt) - 2.0 * along * both + along * along * square(step);
-            rest / numbers.max(1) as f64
+            let bounds = [[first, most], [-turn, turn], [-scale, scale]];
+            left(felt, &ways, bounds) / numbers.max(1) as f64
         };
         (0..=last).map(from).fold(f64::INFINITY, f64::min)
     }
@@ -185,5 +222,55 @@ impl Paths {
         let place: Vec<f64> = apart.iter().map(|pose| along(&way, pose)).collect();
         order.sort_by(|a, b| place[*a].total_cmp(&place[*b]));
         order
+    }
+}
+
+/// The square that is left of what was felt, once the ways have their best shares within bounds.
+fn left<const N: usize>(mut felt: Vec<f64>, ways: &[Vec<f64>; N], bounds: [[f64; 2]; N]) -> f64 {
+    let mut shares = [0.0; N];
+    for _ in 0..ROUNDS {
+        for ((way, [first, last]), share) in ways.iter().zip(bounds).zip(&mut shares) {
+            let way = &way[..felt.len()];
+            let both: f64 = way.iter().zip(&felt).map(|(a, b)| a * b).sum();
+            let by = f64::from(EIGHTHS) / 8.0 * both / square(way).max(1e-9);
+            let best = (*share + by).clamp(first, last);
+            for (felt, way) in felt.iter_mut().zip(way) {
+                *felt -= (best - *share) * way;
+            }
+            *share = best;
+        }
+    }
+    square(&felt)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Bounds, Sensor, left};
+
+    #[test]
+    fn a_sensor_is_bounded_in_degrees_and_shares() {
+        let sensor = Sensor {
+            turn: 6_f64.to_radians(),
+            scale: 0.2,
+            ..Sensor::default()
+        };
+        // 6 π/180 · 32 · 256, and 0.2 · 16 · 256.
+        let expected = Bounds {
+            turn: 858,
+            scale: 819,
+        };
+        assert_eq!(sensor.bounds(), expected);
+    }
+
+    #[test]
+    fn shares_take_what_they_can_within_their_bounds() {
+        // Two ways at 60 degrees, and twice each of them.
+        let sine = 0.75_f64.sqrt();
+        let ways = [vec![1.0, 0.0], vec![0.5, sine]];
+        let felt = vec![3.0, 2.0 * sine];
+        assert!(left(felt.clone(), &ways, [[-3.0, 3.0]; 2]) < 1e-4);
+        // With nothing of the first only what lies along the second goes: 9 + 3 − 3².
+        let one = left(felt, &ways, [[0.0, 0.0], [-9.0, 9.0]]);
+        assert!((one - 3.0).abs() < 1e-4, "{one}");
     }
 }
