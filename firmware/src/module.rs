@@ -372,7 +372,7 @@ impl<R: Real, H: Hardware> Module<R, H> {
     /// [may become](Config::may_become).
     pub fn retune(&mut self, config: &Config<R>) {
         if let (Some(perception), Some(classifier)) = (&mut self.perception, &config.classifier) {
-            perception.retune(classifier.rule.as_ref());
+            perception.retune(classifier.rule.as_ref(), &config.classes);
         }
     }
 

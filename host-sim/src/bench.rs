@@ -433,7 +433,7 @@ impl<R: Number> Hosted<R> {
         let perception = self.module.take_perception();
         let mut perception = perception.map(Perception::restarted);
         if let (Some(perception), Some(classifier)) = (&mut perception, &self.config.classifier) {
-            perception.retune(classifier.rule.as_ref());
+            perception.retune(classifier.rule.as_ref(), &self.config.classes);
         }
         self.module = module(&self.config, self.number, &self.sensor, (seed, pins), None)?;
         self.module.set_perception(perception);

@@ -6,8 +6,8 @@ use config::rule_settings;
 use firmware::{CodeClassifier, ModelLimits, ModelState, Refusal, Sample, SampleClassifier};
 use scene::{Deciding, Rule, Scene};
 use tactile::{
-    AnyRule, ClassList, ClassSettings, Decision, Felt, MAX_STREAMS, Model, ModelBuf, NaiveBayes,
-    Pose, Posteriors, Quantiser, RuleSettings, Threshold, TouchRule,
+    AnyRule, ClassList, ClassSetting, ClassSettings, Decision, Felt, MAX_STREAMS, Model, ModelBuf,
+    NaiveBayes, Pose, Posteriors, Quantiser, RuleSettings, Threshold, TouchRule,
 };
 
 use crate::Error;
@@ -174,8 +174,8 @@ impl SampleClassifier for Classifier {
         self.codes.forget();
     }
 
-    fn set_rule(&mut self, settings: &RuleSettings) {
-        self.codes.set_rule(settings);
+    fn set_rule(&mut self, settings: &RuleSettings, classes: &[ClassSetting]) {
+        self.codes.set_rule(settings, classes);
     }
 }
 
@@ -279,9 +279,9 @@ impl SampleClassifier for Tap {
         }
     }
 
-    fn set_rule(&mut self, settings: &RuleSettings) {
+    fn set_rule(&mut self, settings: &RuleSettings, classes: &[ClassSetting]) {
         if let Some(classifier) = &mut self.classifier {
-            classifier.set_rule(settings);
+            classifier.set_rule(settings, classes);
         }
     }
 }

@@ -161,8 +161,13 @@ impl Running {
     }
 
     /// That of a scene for the same module with the same model, with these keys in place of the
-    /// scene file's own.
-    pub(crate) fn remade(&self, scene: &Scene, overrides: &str) -> Result<Self, Error> {
+    /// scene file's own, and these priors and thresholds of the model's classes.
+    pub(crate) fn remade(
+        &self,
+        scene: &Scene,
+        overrides: &str,
+        classes: &ClassList,
+    ) -> Result<Self, Error> {
         let board = self.program.board;
         let (runs_on, is_recording) = match board {
             BoardCode::Simulation => {
@@ -180,7 +185,7 @@ impl Running {
                 .contact_min
                 .filter(|_| is_models)
                 .map(|gate| gate as f32),
-            classes: Some(&self.classes),
+            classes: Some(classes),
             overrides,
         };
         Self::of_scene(scene, board, target)

@@ -8,13 +8,15 @@ use firmware::{ConfigError, OVERRIDES_BYTES, Part};
 use host_sim::Error;
 use host_sim::loaded::Loaded;
 use scene::{Override, Scene, file};
+use tactile::ClassList;
+use wire::Command;
 
 use crate::configuration::{Running, not_built};
 use crate::conversation::Conversation;
 use crate::exchange::Taken;
 use crate::source::SourceChoice;
 
-pub(crate) use live::{LIVE, live_key};
+pub(crate) use live::{LIVE, Value, is_of_classes, live_key};
 
 #[derive(Debug)]
 pub(crate) struct Tuner {
@@ -28,7 +30,7 @@ pub(crate) struct Has {
     running: Running,
     scene: Scene,
     /// The keys whose values differ from the scene file's, with the module's.
-    pub(crate) differing: Vec<(&'static str, f64)>,
+    pub(crate) differing: Vec<(&'static str, Value)>,
     /// Why the module's configuration is not that of the scene file with these values.
     pub(crate) other: Option<String>,
 }
@@ -84,7 +86,7 @@ impl Tuner {
         let found = found.collect::<Result<Vec<_>, _>>().map_err(Error::Input);
         let remade = found.and_then(|found| {
             let scene = self.with(&found)?.scene;
-            let remade = running.remade(&scene, overrides)?;
+            let remade = running.remade(&scene, overrides, &running.classes)?;
             Ok((scene, found, running.differs_in(&remade)))
         });
         let (scene, keys, why) = match remade {
@@ -114,10 +116,15 @@ impl Tuner {
     }
 
     /// The configuration of what a module has, and of `set` in place of that.
-    fn wanted(&self, has: &Has, set: &[Override]) -> Result<Running, Error> {
+    fn wanted(
+        &self,
+        module: &mut Conversation,
+        has: &Has,
+        set: &[Override],
+    ) -> Result<Running, Error> {
         for one in set {
             let live = live_key(one.key(), &self.scene).map_err(Error::Input)?;
-            if (live.place)(&mut self.scene.clone()).is_none() {
+            if (live.value)(&self.scene).is_none() {
                 return Err(Error::Input(format!(
                     "{}: its part is not in the module's scene: add it to {}, then {}",
                     one.key(),
@@ -146,7 +153,41 @@ impl Tuner {
                 self.remedy()
             )));
         }
-        has.running.remade(&loaded.scene, &overrides)
+        let is_of_classes = set.iter().any(|one| is_of_classes(one.key()));
+        let classes = is_of_classes.then(|| self.classes(module, has, &loaded));
+        let classes = classes.transpose()?;
+        let classes = classes.as_ref().unwrap_or(&has.running.classes);
+        has.running.remade(&loaded.scene, &overrides, classes)
+    }
+
+    /// The priors and thresholds of the classes of a module's model, by a scene that is wanted.
+    fn classes(
+        &self,
+        module: &mut Conversation,
+        has: &Has,
+        wanted: &Loaded,
+    ) -> Result<ClassList, Error> {
+        let names = module.classes()?;
+        let names: Vec<&str> = names.iter().map(String::as_str).collect();
+        if names.is_empty() {
+            let fault = "the module decides by no model, and so has no classes";
+            return Err(Error::Work(fault.to_owned()));
+        }
+        let [crc, _] = module.ask(Command::Model)?.values;
+        let model = wanted.model();
+        let model = model.filter(|model| model.crc() == crc.cast_unsigned());
+        let of = |scene| {
+            let classes = config::classes_of(scene, &names, model);
+            classes.map_err(|fault| Error::Input(fault.to_string()))
+        };
+        if of(&has.scene)? != has.running.classes {
+            return Err(Error::Work(format!(
+                "the module has other priors or thresholds of classes than {}; {} renews them",
+                self.path.display(),
+                self.remedy()
+            )));
+        }
+        of(&wanted.scene)
     }
 
     /// All between the same two ticks; where it fails, nothing has changed.
@@ -155,7 +196,7 @@ impl Tuner {
         if let Some(other) = has.other {
             return Err(Error::Work(other));
         }
-        let wanted = self.wanted(&has, set)?;
+        let wanted = self.wanted(module, &has, set)?;
         if wanted == has.running {
             return Ok(has);
         }
@@ -184,7 +225,7 @@ fn named(key: &str, value: &str) -> Override {
     Override::new(format!("{key}={value}"), key, value)
 }
 
-fn differing(file: &Scene, module: &Scene, keys: &[&str]) -> Vec<(&'static str, f64)> {
+fn differing(file: &Scene, module: &Scene, keys: &[&str]) -> Vec<(&'static str, Value)> {
     let values = values(file, module).into_iter();
     let values = values.filter(|(key, own, has)| own != has && keys.contains(key));
     values.map(|(key, _, has)| (key, has)).collect()
@@ -192,17 +233,16 @@ fn differing(file: &Scene, module: &Scene, keys: &[&str]) -> Vec<(&'static str, 
 
 /// Keys in their order: with the values of the file and of the module; none where the scene has
 /// no part for it.
-fn values(file: &Scene, module: &Scene) -> Vec<(&'static str, f64, f64)> {
+fn values(file: &Scene, module: &Scene) -> Vec<(&'static str, Value, Value)> {
     let values = LIVE.iter().filter_map(|live| {
-        let own = *(live.place)(&mut file.clone())?;
-        let has = *(live.place)(&mut module.clone())?;
+        let (own, has) = ((live.value)(file)?, (live.value)(module)?);
         Some((live.key, own, has))
     });
     values.collect()
 }
 
 impl Has {
-    pub(crate) fn values(&self, file: &Scene) -> Vec<(&'static str, f64, f64)> {
+    pub(crate) fn values(&self, file: &Scene) -> Vec<(&'static str, Value, Value)> {
         values(file, &self.scene)
     }
 }

@@ -11,21 +11,32 @@ use crate::Mismatch;
 /// [`Mismatch::Classes`]: a class that the model does not have, shares of more or less than one,
 /// costs for a model that names by its opinion.
 pub fn classes(scene: &Scene, model: &ModelBuf) -> Result<ClassList, Mismatch> {
+    classes_of(scene, &model.names().collect::<Vec<_>>(), Some(model))
+}
+
+/// The same of classes of these names; costs need the model itself.
+///
+/// # Errors
+/// As [`classes`], and for costs without a model.
+pub fn classes_of(
+    scene: &Scene,
+    names: &[&str],
+    model: Option<&ModelBuf>,
+) -> Result<ClassList, Mismatch> {
     let Some(classifier) = &scene.classifier else {
         return Ok(ClassList::new());
     };
     if !names_classes(classifier) {
         return Ok(ClassList::new());
     }
-    let names: Vec<&str> = model.names().collect();
-    let prior = named("prior", classifier.prior.as_deref(), &names)?;
+    let prior = named("prior", classifier.prior.as_deref(), names)?;
     let prior = shares(&prior)?;
     let thresholds = match classifier.rule {
         Rule::Costs { error, delay_per_s } => {
             let costs = [error, delay_per_s];
             of_costs(costs, model, scene.tick_hz)?
         }
-        _ => named("thresholds", classifier.thresholds.as_deref(), &names)?,
+        _ => named("thresholds", classifier.thresholds.as_deref(), names)?,
     };
     let most = prior.iter().copied().fold(0.0, f64::max);
     let settings = prior.iter().zip(thresholds);
@@ -109,12 +120,16 @@ fn shares(given: &[Option<f64>]) -> Result<Vec<f64>, Mismatch> {
 /// lie between ½ and 1 − 10⁻¹².
 fn of_costs(
     [error, delay_per_s]: [f64; 2],
-    model: &ModelBuf,
+    model: Option<&ModelBuf>,
     tick_hz: u32,
 ) -> Result<Vec<Option<f64>>, Mismatch> {
+    let refused = |allowed: &str| refused("cost_error", error.to_string(), allowed.to_owned());
+    let Some(model) = model else {
+        return Err(refused("where the file of the module's model is at hand"));
+    };
     if model.names_between_poses() {
         let allowed = "a model with tables: one of several poses does not say how fast it learns";
-        return Err(refused("cost_error", error.to_string(), allowed.to_owned()));
+        return Err(refused(allowed));
     }
     let blocks_per_s = f64::from(tick_hz) / f64::from(model.block());
     let of_rise = |rise: f64| {

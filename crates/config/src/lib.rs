@@ -16,7 +16,7 @@ mod settling;
 mod stability;
 
 pub use bearable::Unbearable;
-pub use classes::classes;
+pub use classes::{classes, classes_of};
 pub use fits::Unfit;
 pub use image::{AnyConfig, Image, image};
 pub use linked::{Unlinked, linked};

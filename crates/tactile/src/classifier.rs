@@ -217,6 +217,13 @@ impl<W: Words> StreamClassifier<W> {
         self.restart();
     }
 
+    /// The same where they are others; else evidence stays.
+    pub fn change_classes(&mut self, classes: &ClassSettings) {
+        if self.constants.rule.classes() != classes {
+            self.set_classes(classes);
+        }
+    }
+
     /// Forgets all evidence.
     pub fn restart(&mut self) {
         const UNSTARTED: StreamState<AnyEvidence> = StreamState::unstarted(AnyEvidence::NONE);

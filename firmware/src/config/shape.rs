@@ -54,10 +54,6 @@ impl<R: Real> Config<R> {
             (None, None) => {}
             _ => return Err(ConfigError::Shape(Field::Classifier)),
         }
-        same(
-            Field::Classes,
-            !Part::Priors.is_built() || self.classes == new.classes,
-        )?;
         if is_armed && Part::Motion.is_built() {
             self.protects_as(new)?;
         }

@@ -2,7 +2,9 @@
 
 use heapless::Vec;
 use serde::{Deserialize, Serialize};
-use tactile::{Deciding, Decision, Felt, Pose, RuleSettings, TouchDetector, Touching};
+use tactile::{
+    ClassSetting, Deciding, Decision, Felt, Pose, RuleSettings, TouchDetector, Touching,
+};
 use whisking::{MAX_OWN, Real};
 
 use crate::sensing::Reading;
@@ -86,9 +88,9 @@ pub trait SampleClassifier {
     /// The head has decided.
     fn forget(&mut self) {}
 
-    /// Other settings of its rule take effect; evidence stays. What does not fit changes
-    /// nothing.
-    fn set_rule(&mut self, settings: &RuleSettings);
+    /// Other settings of its rule, and of its classes, take effect. Evidence stays unless those of
+    /// its classes are others. What does not fit changes nothing.
+    fn set_rule(&mut self, settings: &RuleSettings, classes: &[ClassSetting]);
 }
 
 /// A whisker in one tick.
@@ -155,9 +157,9 @@ impl<C: SampleClassifier> Perception<C> {
     }
 
     /// The settings of the rule have changed between two ticks.
-    pub fn retune(&mut self, rule: Option<&RuleSettings>) {
+    pub fn retune(&mut self, rule: Option<&RuleSettings>, classes: &[ClassSetting]) {
         if let Some(rule) = rule {
-            self.classifier.set_rule(rule);
+            self.classifier.set_rule(rule, classes);
         }
     }
 

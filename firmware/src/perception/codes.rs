@@ -10,6 +10,7 @@ use tactile::{
 use tactile::Felt;
 
 use super::{ModelState, Refusal, Sample, SampleClassifier};
+use crate::Part;
 use crate::config::ERASED;
 
 /// The model was not trained on the integer codes of a sensor's two channels,
@@ -287,8 +288,11 @@ impl<W: Words> SampleClassifier for CodeClassifier<W> {
         }
     }
 
-    fn set_rule(&mut self, settings: &RuleSettings) {
+    fn set_rule(&mut self, settings: &RuleSettings, classes: &[ClassSetting]) {
         if let Ok(codes) = &mut self.found {
+            if Part::Priors.is_built() {
+                codes.classifier.change_classes(&ClassSettings::of(classes));
+            }
             // What does not fit the model changes nothing.
             let _ = codes.classifier.set_rule(*settings);
         }

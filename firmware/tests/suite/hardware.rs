@@ -5,7 +5,7 @@ use firmware::{
     SensingConfig, SensorKind, SensorLimits, WhiskerParts, WordSource,
 };
 use mlx90333::{FRAME_LEN, Faults, SumRule, Word, encode};
-use tactile::{Decision, RuleSettings};
+use tactile::{ClassSetting, Decision, RuleSettings};
 use whisking::{Real, filter};
 
 use crate::command::{Kept, Still};
@@ -73,7 +73,7 @@ impl SampleClassifier for NoClassifier {
 
     fn reset(&mut self) {}
 
-    fn set_rule(&mut self, _: &RuleSettings) {}
+    fn set_rule(&mut self, _: &RuleSettings, _: &[ClassSetting]) {}
 }
 
 pub(crate) struct Bent(pub(crate) u16);

@@ -213,11 +213,13 @@ pub(crate) fn model(channels: usize, block: u32, whole: bool) -> Vec<u8> {
 
 /// A run of a scene, whose classifier, if it has one, has such a model.
 pub(crate) fn run(scene: &Scene) -> Run {
-    let classifier = scene.classifier.as_ref().map(|classifier| {
-        let model = ModelBuf::from_bytes(&model(2, 20, true)).unwrap();
-        Classifier::new(model, classifier.rule).unwrap()
-    });
+    let classifier = scene.classifier.as_ref();
+    let classifier = classifier.map(|_| Classifier::of_scene(its_model(), scene).unwrap());
     Run::new(scene, classifier).unwrap()
+}
+
+pub(crate) fn its_model() -> ModelBuf {
+    ModelBuf::from_bytes(&model(2, 20, true)).unwrap()
 }
 
 pub(crate) fn cells(text: &str) -> Vec<Vec<&str>> {

@@ -10,7 +10,7 @@ use scene::{Override, Scene};
 use whisking::{Fix, Number};
 use wire::{Answer, CONFIG_CHANGED, Command, CommandStatus, TaggedCommand};
 
-use crate::common::{SEQUENTIAL, TEXTURED, run};
+use crate::common::{SEQUENTIAL, TEXTURED, its_model, run};
 
 const CIA: &str = "[cia]\ngain = 0.5\ntau_s = 0.2\n";
 
@@ -29,7 +29,8 @@ fn scene(numbers: &str, set: &[&str]) -> Scene {
 }
 
 fn bytes_for<R: Number>(scene: &Scene, board: BoardCode) -> ConfigBytes {
-    let config = config_of::<R>(scene, (None, None), false, "").unwrap();
+    let classes = config::classes(scene, &its_model()).unwrap();
+    let config = config_of::<R>(scene, (None, Some(&classes)), false, "").unwrap();
     encode(&config, board).unwrap()
 }
 
@@ -125,7 +126,7 @@ fn a_module_says_the_configuration_of_its_scene() {
 /// Keys that can be set while a module runs, some of a scene that differs by others; and the
 /// field of those whose limit protects. But for what the scene's start is computed from, of
 /// which there is a test of its own, and of the stop, which the world has too.
-const FREE: [(&[&str], &[&str], Option<Field>); 19] = [
+const FREE: [(&[&str], &[&str], Option<Field>); 22] = [
     (&[], &["motor.kp=0.08"], None),
     (&[], &["motor.kd=0.0009"], None),
     (
@@ -139,6 +140,17 @@ const FREE: [(&[&str], &[&str], Option<Field>); 19] = [
     (&[], &["whisking.noise=0.2"], None),
     (&[], &["classifier.contact_min=0.2"], None),
     (&[], &["classifier.threshold=0.9999999"], None),
+    (&[], &["classifier.prior={smooth=0.999}"], None),
+    (
+        &["classifier.prior={smooth=0.999}"],
+        &["classifier.prior={smooth=0.2}"],
+        None,
+    ),
+    (
+        &["classifier.threshold=0.6"],
+        &["classifier.thresholds={smooth=0.9999999,carpet=0.9999999}"],
+        None,
+    ),
     (
         &[],
         &["motor.duty_limit=0.3", "motor.homing_duty=0.12"],

@@ -9,7 +9,7 @@ use scene::key_facts;
 
 use crate::configuration::RunsBy;
 use crate::source::SourceChoice;
-use crate::tuning::{LIVE, Tuner, live_key};
+use crate::tuning::{LIVE, Tuner, Value, live_key};
 
 /// Which module, and which scene it runs.
 #[derive(Debug, Args)]
@@ -94,7 +94,7 @@ fn list() -> String {
     text
 }
 
-pub(super) fn table(values: &[(&str, f64, f64)], keys: &[&str]) -> String {
+pub(super) fn table(values: &[(&str, Value, Value)], keys: &[&str]) -> String {
     let mut text = format!("{:<26}{:>12}{:>12}", "key", "scene", "module");
     for (key, file, module) in values {
         if !keys.is_empty() && !keys.contains(key) {
@@ -102,7 +102,8 @@ pub(super) fn table(values: &[(&str, f64, f64)], keys: &[&str]) -> String {
         }
         let unit = key_facts(key).map_or("", |facts| facts.unit);
         let differs = if file == module { "" } else { "differs" };
-        let line = format!("{key:<26}{file:>12}{module:>12}  {differs:<8}{unit}");
+        let [file, module] = [file, module].map(Value::to_string);
+        let line = format!("{key:<26}{file:>12} {module:>11}  {differs:<8}{unit}");
         // Writing to a string does not fail.
         let _ = write!(text, "\n{}", line.trim_end());
     }

@@ -89,7 +89,7 @@ fn values(arguments: &Arguments) -> Result<Vec<Override>, Error> {
     let is_asked = |key: &str| arguments.all || arguments.keys.iter().any(|asked| asked == key);
     let differing = has.differing.iter().filter(|(key, _)| is_asked(key));
     let found = differing.map(|(key, value)| {
-        let value = format!("{value:?}");
+        let value = format!("{value:#}");
         Override::new(format!("{key}={value}"), key, &value)
     });
     Ok(found.chain(given.into_iter().flatten()).collect())

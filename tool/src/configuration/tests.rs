@@ -31,7 +31,9 @@ fn a_configuration_is_made_again_from_its_scene() {
                 continue;
             };
             let running = Running::of(image.bytes.to_vec()).unwrap();
-            let again = running.remade(scene, "motor.kp=0.05").unwrap();
+            let again = running
+                .remade(scene, "motor.kp=0.05", &running.classes)
+                .unwrap();
             assert_eq!(again, running, "{} on {}", file.display(), board.name);
             assert_eq!(running.program().board, board.code);
             count += 1;
@@ -48,7 +50,7 @@ fn a_configuration_is_made_again_from_its_scene() {
             overrides: "",
         };
         let running = Running::of_scene(scene, BoardCode::Simulation, target).unwrap();
-        let again = running.remade(scene, "").unwrap();
+        let again = running.remade(scene, "", &running.classes).unwrap();
         assert_eq!(again, running, "{}", file.display());
         if running.program().format == FormatCode::Single {
             // As host-sim has it.

@@ -1,13 +1,58 @@
 //! The keys of a scene that can be set while a module runs.
 
+use std::fmt;
+
 use scene::{Driver, MotorSection, Rest, Rule, Scene};
 
 pub(crate) struct LiveKey {
     pub(crate) key: &'static str,
     /// Its value in a scene; none where the scene leaves its part out.
-    pub(crate) place: fn(&mut Scene) -> Option<&mut f64>,
+    pub(crate) value: fn(&Scene) -> Option<Value>,
     /// What to look at when it is changed.
     pub(crate) watch: &'static str,
+}
+
+/// The value of a key. Written without spaces, as a configuration keeps it; by `{:#}` as in a file.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) enum Value {
+    Number(f64),
+    /// Of classes by name; of none where the scene says nothing.
+    PerClass(Vec<(String, f64)>),
+}
+
+impl fmt::Display for Value {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Number(number) if f.alternate() => write!(f, "{number:?}"),
+            Self::Number(number) => write!(f, "{number}"),
+            Self::PerClass(classes) if classes.is_empty() => f.write_str("-"),
+            Self::PerClass(classes) => {
+                let space = if f.alternate() { " " } else { "" };
+                write!(f, "{{{space}")?;
+                for (n, (class, number)) in classes.iter().enumerate() {
+                    let comma = if n == 0 { "" } else { "," };
+                    let gap = if n == 0 { "" } else { space };
+                    let class = toml_key(class);
+                    write!(f, "{comma}{gap}{class}{space}={space}{number}")?;
+                }
+                write!(f, "{space}}}")
+            }
+        }
+    }
+}
+
+/// A name as a key of TOML, without spaces.
+fn toml_key(name: &str) -> String {
+    let is_bare = |c: char| c.is_ascii_alphanumeric() || c == '-' || c == '_';
+    if !name.is_empty() && name.chars().all(is_bare) {
+        return name.to_owned();
+    }
+    let letters = name.chars().map(|c| match c {
+        '"' | '\\' => format!("\\{c}"),
+        c if c.is_whitespace() || c.is_control() => format!("\\U{:08X}", u32::from(c)),
+        c => c.to_string(),
+    });
+    format!("\"{}\"", letters.collect::<String>())
 }
 
 /// A table of keys: of sections that a scene may leave out, of one that it has `always`, and
@@ -16,18 +61,21 @@ macro_rules! live {
     ($($section:ident.$key:ident $($how:ident)*: $watch:literal;)*) => {
         &[$(LiveKey {
             key: concat!(stringify!($section), ".", stringify!($key)),
-            place: live!(@ $section $key $($how)*),
+            value: live!(@ $section $key $($how)*),
             watch: $watch,
         }),*]
     };
     (@ $section:ident $key:ident) => {
-        |scene| Some(&mut scene.$section.as_mut()?.$key)
+        |scene| Some(Value::Number(scene.$section.as_ref()?.$key))
     };
     (@ $section:ident $key:ident always) => {
-        |scene| Some(&mut scene.$section.$key)
+        |scene| Some(Value::Number(scene.$section.$key))
     };
-    (@ $section:ident $key:ident by $place:ident) => {
-        $place
+    (@ $section:ident $key:ident by $value:ident) => {
+        |scene| $value(scene).map(Value::Number)
+    };
+    (@ $section:ident $key:ident classes $value:ident) => {
+        |scene| $value(scene).map(Value::PerClass)
     };
 }
 
@@ -54,43 +102,80 @@ pub(crate) const LIVE: &[LiveKey] = live! {
     whisking.frequency_hz: "whisks a second; the following error grows with it";
     whisking.noise by noise: "how much one whisk differs from another";
     classifier.threshold by threshold: "errors against decision time";
+    classifier.thresholds classes thresholds: "the same of single classes";
+    classifier.prior classes prior: "decision time, and errors, of what is frequent";
+    classifier.cost_error by cost_error: "errors, and time to decide, of each class";
+    classifier.cost_delay_per_s by cost_delay_per_s: "errors, and time to decide, of each class";
     classifier.contact_min by contact_min: "how much of a touch counts";
     sensor.frozen_s always: "frozen-sensor faults";
     sensor.jump_per_s always: "jump faults";
 };
 
-fn homed(scene: &mut Scene) -> Option<&mut MotorSection> {
-    scene
-        .motor
-        .as_mut()
-        .filter(|motor| motor.rest == Rest::Find)
+fn homed(scene: &Scene) -> Option<&MotorSection> {
+    let motor = scene.motor.as_ref();
+    motor.filter(|motor| motor.rest == Rest::Find)
 }
 
-fn homing_duty(scene: &mut Scene) -> Option<&mut f64> {
-    homed(scene).map(|motor| &mut motor.homing_duty)
+fn homing_duty(scene: &Scene) -> Option<f64> {
+    homed(scene).map(|motor| motor.homing_duty)
 }
 
-fn stop_deg(scene: &mut Scene) -> Option<&mut f64> {
+fn stop_deg(scene: &Scene) -> Option<f64> {
     let motor = homed(scene)?;
-    let stop_deg = motor.retracted_deg();
-    Some(motor.stop_deg.get_or_insert(stop_deg))
+    Some(motor.stop_deg.unwrap_or_else(|| motor.retracted_deg()))
 }
 
-fn noise(scene: &mut Scene) -> Option<&mut f64> {
-    let whisking = scene.whisking.as_mut();
-    let noise = whisking.map(|whisking| &mut whisking.noise);
-    noise.filter(|noise| **noise > 0.0)
+fn noise(scene: &Scene) -> Option<f64> {
+    let noise = scene.whisking.as_ref()?.noise;
+    (noise > 0.0).then_some(noise)
 }
 
-fn threshold(scene: &mut Scene) -> Option<&mut f64> {
-    match &mut scene.classifier.as_mut()?.rule {
+fn threshold(scene: &Scene) -> Option<f64> {
+    match scene.classifier.as_ref()?.rule {
         Rule::Sequential { threshold } => Some(threshold),
         Rule::Costs { .. } | Rule::Window { .. } => None,
     }
 }
 
-fn contact_min(scene: &mut Scene) -> Option<&mut f64> {
-    scene.classifier.as_mut()?.contact_min.as_mut()
+fn costs(scene: &Scene) -> Option<[f64; 2]> {
+    match scene.classifier.as_ref()?.rule {
+        Rule::Costs { error, delay_per_s } => Some([error, delay_per_s]),
+        Rule::Sequential { .. } | Rule::Window { .. } => None,
+    }
+}
+
+fn cost_error(scene: &Scene) -> Option<f64> {
+    costs(scene).map(|[error, _]| error)
+}
+
+fn cost_delay_per_s(scene: &Scene) -> Option<f64> {
+    costs(scene).map(|[_, delay]| delay)
+}
+
+fn thresholds(scene: &Scene) -> Option<Vec<(String, f64)>> {
+    let classifier = scene.classifier.as_ref()?;
+    let has = matches!(classifier.rule, Rule::Sequential { .. });
+    has.then(|| classifier.thresholds.clone().unwrap_or_default())
+}
+
+fn prior(scene: &Scene) -> Option<Vec<(String, f64)>> {
+    let prior = &scene.classifier.as_ref()?.prior;
+    Some(prior.clone().unwrap_or_default())
+}
+
+fn contact_min(scene: &Scene) -> Option<f64> {
+    scene.classifier.as_ref()?.contact_min
+}
+
+/// Whether it comes to priors or thresholds of the classes of a model.
+pub(crate) fn is_of_classes(key: &str) -> bool {
+    [
+        "classifier.prior",
+        "classifier.thresholds",
+        "classifier.cost_error",
+        "classifier.cost_delay_per_s",
+    ]
+    .contains(&key)
 }
 
 pub(crate) fn live_key(key: &str, scene: &Scene) -> Result<&'static LiveKey, String> {
@@ -127,4 +212,32 @@ pub(crate) fn live_key(key: &str, scene: &Scene) -> Result<&'static LiveKey, Str
         return Err(format!("{key}: {why}; {needs}"));
     }
     Ok(live)
+}
+
+#[cfg(test)]
+mod tests {
+    use scene::Override;
+
+    use super::Value;
+
+    #[test]
+    fn classes_of_any_name_are_read_as_they_are_written() {
+        let classes = ["p600", "a \"b\" \\c", "Samt, grün", "\u{2003}"];
+        let classes = classes.map(|name| (name.to_owned(), 0.125));
+        let value = Value::PerClass(classes.to_vec());
+        let text = value.to_string();
+        assert!(!text.contains(char::is_whitespace), "{text}");
+        for text in [text, format!("{value:#}")] {
+            let table: toml_edit::DocumentMut = format!("prior = {text}").parse().unwrap();
+            let table = table["prior"].as_inline_table().unwrap();
+            let read: Vec<_> = table
+                .iter()
+                .map(|(name, number)| (name.to_owned(), number.as_float().unwrap()))
+                .collect();
+            assert_eq!(Value::PerClass(read), value);
+            let given: Override = format!("classifier.prior={text}").parse().unwrap();
+            assert_eq!(given.value(), text);
+        }
+        assert_eq!(format!("{:#}", Value::Number(2.0)), "2.0");
+    }
 }

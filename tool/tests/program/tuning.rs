@@ -57,6 +57,60 @@ fn it_says_what_differs() {
     }
 }
 
+/// By name, though a module knows its classes by number.
+#[test]
+fn priors_and_thresholds_of_classes_are_set_by_name() {
+    let place = Place::new();
+    let own = std::fs::read_to_string(scenes("textures.toml")).unwrap();
+    let models = scenes("models").display().to_string();
+    let own = own.replace("\"models/", &format!("\"{models}/"));
+    place.write("own.toml", &own);
+    let set = "classifier.prior={smooth=0.7} classifier.thresholds={carpet=0.999,p600=0.99}";
+    let ran = place.done(&format!("set {set} --sim own.toml"));
+    for row in [
+        ["classifier.thresholds", "-", "{carpet=0.999,p600=0.99}"],
+        ["classifier.prior", "-", "{smooth=0.7}"],
+    ] {
+        let words = |line: &str| {
+            line.split_whitespace()
+                .map(str::to_owned)
+                .collect::<Vec<_>>()
+        };
+        let is_it = |line: &str| words(line).starts_with(&row.map(str::to_owned));
+        assert!(ran.stdout.lines().any(is_it), "{row:?}: {}", ran.stdout);
+    }
+    // What was set stays, whatever is set then.
+    let more = "0.1 set classifier.prior {smooth=0.7}\n0.3 set classifier.thresholds {p240=0.999}\n\
+                0.5 set classifier.prior {smooth=0.25}\n";
+    place.write("more.txt", more);
+    let ran = place.done("log --sim own.toml --script more.txt --seconds 0.8");
+    assert_eq!(ran.stdout.matches(": done").count(), 3, "{}", ran.stdout);
+    for (set, why) in [
+        (
+            "classifier.prior={felt=0.5}",
+            "found \"felt\"; allowed: the model's classes, smooth",
+        ),
+        ("classifier.prior={smooth=1.5}", "classifier.prior"),
+        (
+            "classifier.cost_error=3",
+            "its part is not in the module's scene",
+        ),
+    ] {
+        place.refuses(&format!("set {set} --sim own.toml"), why);
+    }
+    let line = own
+        .lines()
+        .find(|line| line.starts_with("threshold"))
+        .unwrap();
+    let costs = own.replace(line, "cost_error = 20\ncost_delay_per_s = 1");
+    place.write("costs.toml", &costs);
+    let ran = place.done("set classifier.cost_error=2000 --sim costs.toml");
+    ran.prints("2000  differs");
+    place.done("save classifier.prior={smooth=0.7,carpet=0.1} --scene own.toml");
+    let saved = place.text("own.toml");
+    assert!(saved.contains("prior = {smooth=0.7,carpet=0.1}"), "{saved}");
+}
+
 const RESTART: &str = "it needs a restart: whisker deploy --scene";
 const AT_START: &str =
     "the module is built from it at its start; it needs a restart: whisker deploy";
