@@ -6,7 +6,7 @@
 //! until it is forgotten, so that a request whose answer was lost can be repeated.
 
 use whisking::Real;
-use wire::{Answer, CONFIG_CHANGED, Command, CommandStatus, TaggedCommand};
+use wire::{Answer, CONFIG_CHANGED, Command, CommandStatus, HAS_OPINIONS, TaggedCommand};
 
 use crate::config::{
     BoardCode, CONFIG_BYTES, ConfigError, HEADER_BYTES, Header, VERSION, decode_into,
@@ -147,7 +147,8 @@ impl<B: AsRef<[u8]>> Tuning<B> {
             },
             Command::Board => {
                 let program = u16::from_le_bytes([self.board as u8, R::FORMAT as u8]);
-                [i32::from(program), i32::from(VERSION)]
+                let opinions = if tactile::OPINION { HAS_OPINIONS } else { 0 };
+                [i32::from(program), i32::from(VERSION) | opinions]
             }
             _ => return None,
         };

@@ -3,6 +3,7 @@
 use std::fmt::Display;
 
 use config::rule_settings;
+use firmware::boards::BoardFacts;
 use firmware::{CodeClassifier, ModelLimits, ModelState, Refusal, Sample, SampleClassifier};
 use scene::{Deciding, Rule, Scene};
 use tactile::{
@@ -300,21 +301,22 @@ pub(crate) fn bayes(model: ModelBuf, rule: Rule) -> Result<NaiveBayes<AnyRule, W
     NaiveBayes::new(model, settings(rule)?).map_err(of_rule)
 }
 
-/// The model at the beginning of a board's flash for one, for the classifier of `scene` on a
-/// board that takes so many classes, or why the board refuses it.
+/// The model at the beginning of a board's flash for one, for the classifier of `scene`, or why
+/// the board refuses it.
 ///
 /// # Errors
 /// [`Error::Input`] for a rule that no model can do.
 pub fn deployed(
     flash: &[u8],
     scene: &Scene,
-    classes: usize,
+    board: &BoardFacts,
 ) -> Result<Result<ModelBuf, Refusal>, Error> {
     let Some(classifier) = &scene.classifier else {
         return Ok(Err(Refusal::Absent));
     };
     let limits = ModelLimits {
-        classes,
+        classes: board.max_classes,
+        poses: board.max_poses,
         contact_min: classifier.contact_min.map(|least| least as f32),
         whisked: config::whisked(scene),
         tick_hz: scene.tick_hz,

@@ -60,8 +60,13 @@ fn with_model<R: Real>(
     let Some((classifier, rule)) = classifier.and_then(|of| of.rule.map(|rule| (of, rule))) else {
         return Err("it has no [classifier], and so no use for a model".to_owned());
     };
+    let boards = config.head.bus.map_or(1, |bus| bus.nodes);
+    let deciding = classifier
+        .deciding
+        .heard(whiskers / usize::from(boards).max(1));
     let limits = ModelLimits {
         classes: board.max_classes,
+        poses: board.max_poses / deciding.max(1),
         contact_min: classifier.contact_min.map(|least| least.to_f64() as f32),
         whisked,
         tick_hz,

@@ -2,7 +2,8 @@
 
 use firmware::{ConfigError, VERSION, refusal_of};
 use host_sim::Error;
-use wire::{CONFIG_CHANGED, Command, CommandStatus};
+use tactile::ModelBuf;
+use wire::{CONFIG_CHANGED, Command, CommandStatus, HAS_OPINIONS};
 
 use crate::configuration::{Program, Running, RunsBy, builds};
 use crate::conversation::Conversation;
@@ -20,7 +21,7 @@ impl Program {
     pub(crate) fn ask(module: &mut Conversation) -> Result<Self, Error> {
         let answer = module.answer(Command::Board)?;
         let [program, version] = answer.values;
-        if answer.status != CommandStatus::Done || version != i32::from(VERSION) {
+        if answer.status != CommandStatus::Done || version as u16 != VERSION {
             return Err(Error::Work(format!(
                 "the module's program does not take scenes of version {VERSION}: whisker flash \
                  gives it one that does"
@@ -100,6 +101,14 @@ impl Deployment {
     /// refuses by name. Nothing is written. An image that takes no configuration so says it after
     /// its restart, and goes on by the scene before.
     pub(crate) fn try_out(&self, module: &mut Conversation) -> Result<(), Error> {
+        if self.model.as_ref().is_some_and(ModelBuf::has_opinion) {
+            let [_, flags] = module.ask(Command::Board)?.values;
+            if flags & HAS_OPINIONS == 0 {
+                let fault = "the model has a second opinion, and the module's image was built \
+                             without: cargo xtask firmware --scene SCENE builds one for it";
+                return Err(Error::Work(fault.to_owned()));
+            }
+        }
         let refused = match self.config.send(module)? {
             // Another scene is what a restart is for.
             Taken::Refused(ConfigError::Shape(_) | ConfigError::Armed(_))

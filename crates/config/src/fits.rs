@@ -107,10 +107,13 @@ fn model_fits(scene: &Scene, model: &ModelBuf, board: &BoardFacts) -> Result<(),
     StreamClassifier::new(model.view(), rule, Deciding::First, 1)
         .map_err(|fault| Unfit::Model(fault.to_string()))?;
     suits(scene, model)?;
-    if model.has_opinion() && !board.takes_opinion {
+    let boards = scene.head.nodes.map_or(1, usize::from).max(1);
+    let deciding = classifier.whiskers.heard(scene.whiskers() / boards);
+    let (found, most) = (model.poses(), board.max_poses / deciding.max(1));
+    if found > most {
         return Err(Unfit::Model(format!(
-            "found a second opinion; allowed on the {}: none, because its core has no time for \
-             it within a tick; host-sim train --expect same makes a model without",
+            "it was trained in {found} poses; allowed on the {} for {deciding} whiskers that \
+             decide: up to {most}, because its core has no time for more within a tick",
             board.name
         )));
     }

@@ -88,10 +88,7 @@ fn features<R: Real>(
         let any_that = |asks: fn(&ModelBuf) -> bool| model.is_none_or(asks);
         let of_models = [
             (any_that(ModelBuf::is_joint), "joint"),
-            (
-                board.takes_opinion && any_that(ModelBuf::has_opinion),
-                "opinion",
-            ),
+            (any_that(ModelBuf::has_opinion), "opinion"),
         ];
         let needed = of_models.into_iter().filter(|(is_needed, _)| *is_needed);
         features.extend(needed.map(|(_, feature)| feature));

@@ -25,6 +25,7 @@ pub(crate) mod differences;
 pub(crate) mod path;
 pub(crate) mod pose;
 pub(crate) mod section;
+mod typical;
 
 use crate::decision::{Decision, Reason};
 use crate::evidence::{EvidenceScale, MAX_DEFICIT};
@@ -97,6 +98,8 @@ pub(crate) struct Opinion {
     blocks: usize,
     /// Of each class, 1/1024 bit.
     scores: [i32; MAX_CLASSES],
+    /// How far the states that have ended are from each class, where it is known.
+    ended: [typical::Ended; MAX_CLASSES],
 }
 
 impl Opinion {
@@ -107,14 +110,26 @@ impl Opinion {
             path: [[0; 2]; BLOCKS],
             blocks: 0,
             scores: [0; MAX_CLASSES],
+            ended: [typical::NONE; MAX_CLASSES],
         }
     }
 
     // As fast as this crate is built, which a board's program for size is not.
     #[inline(never)]
-    pub(crate) fn push(&mut self, narrow: Narrow, codes: &[i32], counts: bool) {
+    pub(crate) fn push(
+        &mut self,
+        (section, classes): (Section<'_>, usize),
+        codes: &[i32],
+        counts: bool,
+    ) {
+        let narrow = section.narrow();
         if let [x, y, ..] = *codes {
             self.differences.push([narrow.of(x), narrow.of(y)], counts);
+        }
+        // By a class after each of the first samples.
+        let class = self.differences.counted().wrapping_sub(1) as usize;
+        if counts && class < classes {
+            self.look_back(section, class);
         }
     }
 
@@ -124,6 +139,7 @@ impl Opinion {
         self.states = [[0; FEATURES]; STATES.len()];
         self.blocks = 0;
         self.scores = [0; MAX_CLASSES];
+        self.ended = [typical::NONE; MAX_CLASSES];
     }
 
     pub(crate) const fn blocks(&self) -> usize {
@@ -161,7 +177,7 @@ impl Opinion {
         let mut weights = weights.chunks((begun * FEATURES / 2).max(1));
         let classes = self.scores.iter_mut().zip(&mut rise).take(classes);
         for ((score, rise), bias) in classes.zip(biases) {
-            let sums = self.states.iter().flatten();
+            let sums = self.states.as_flattened().iter();
             let weighed = sums.zip(halves(weights.next().unwrap_or_default()));
             let sum: i64 = weighed
                 .map(|(sum, weight)| i64::from(i32::from(*sum) * i32::from(*weight)))
@@ -192,7 +208,7 @@ impl Opinion {
         if !path::is_near(path, section.path(class), rest, section.bounds()) {
             return Some(Reason::Pose);
         }
-        if !self.is_typical(section.typical(class), section.stages()) {
+        if !self.is_typical(class, section) {
             return Some(Reason::Unknown);
         }
         if section.names() {
@@ -228,49 +244,34 @@ impl Opinion {
     }
 
     /// Whether the features of the states are as near to a class as its limit says.
-    fn is_typical(&self, (states, limits): (&[u32], &[u32]), stages: usize) -> bool {
-        /// Of a trained model below 2¹⁵; 2¹⁶ by 2¹⁵ is what a word holds.
-        const MOST: i32 = u16::MAX as i32;
-        let mut distance = 0_u64;
-        for ((words, of_class), sums) in STATES
-            .iter()
-            .zip(states.chunks(STATE_WORDS))
-            .zip(&self.states)
-        {
-            let blocks = blocks_of(*words, self.blocks);
-            if blocks == 0 {
-                break;
-            }
-            let (means, rest) = of_class.split_at_checked(FEATURES / 2).unwrap_or_default();
-            let Some((shift, triangle)) = rest.split_first() else {
-                break;
-            };
-            let mut from = [0_i32; FEATURES];
-            for ((from, sum), mean) in from.iter_mut().zip(sums).zip(halves(means)) {
-                // At most three blocks.
-                let off = i32::from(*sum) - i32::from(*mean) * blocks as i32;
-                *from = off.clamp(-MOST, MOST);
-            }
-            let mut triangle = halves(triangle).iter();
-            let mut squares = 0_u64;
-            for row in 1..=FEATURES {
-                let weighed = from.iter().take(row).zip(&mut triangle);
-                let sum: i64 = weighed
-                    .map(|(from, weight)| i64::from(from * i32::from(*weight)))
-                    .sum();
-                let most = i64::from(DEVIATION_MOST) << STATE_BITS;
-                let size = (sum >> shift.min(&63)).clamp(-most, most);
-                squares += (size * size).unsigned_abs();
-            }
-            // Of a mean over blocks: by their square, in 2⁻¹⁶.
-            let share = [65_536, 16_384, 7_282]
-                .get(blocks - 1)
-                .copied()
-                .unwrap_or(0);
-            distance += (squares * share) >> 16;
+    fn is_typical(&self, class: usize, section: Section<'_>) -> bool {
+        let (states, limits) = section.typical(class);
+        let ended = self.ended.get(class).unwrap_or(&typical::NONE);
+        let words = states.chunks(STATE_WORDS);
+        let of_states = words.zip(&self.states).zip(STATES).enumerate();
+        let squares = of_states.map(|(n, ((words, sums), state))| match ended.get(n) {
+            Some(square) if *square != typical::UNKNOWN => *square,
+            _ => typical::square(words, sums, blocks_of(state, self.blocks)),
+        });
+        let distance = squares.fold(0, u32::saturating_add);
+        let stage = self.blocks.clamp(1, section.stages().max(1));
+        distance <= limits.get(stage - 1).copied().unwrap_or(0)
+    }
+
+    /// Works out what a decision will ask of the state that has ended last, of the class of this
+    /// number: with all of them at once a small core would not be done within a tick.
+    #[inline(never)]
+    fn look_back(&mut self, section: Section<'_>, class: usize) {
+        let state = STATES.iter().position(|[_, end]| *end == self.blocks);
+        let Some((n, state)) = state.and_then(|n| Some((n, STATES.get(n)?))) else {
+            return;
+        };
+        let (words, _) = section.typical(class);
+        let words = words.chunks(STATE_WORDS).nth(n).unwrap_or_default();
+        let ended = self.ended.get_mut(class).and_then(|of| of.get_mut(n));
+        if let (Some(ended), Some(sums)) = (ended, self.states.get(n)) {
+            *ended = typical::square(words, sums, blocks_of(*state, self.blocks));
         }
-        let stage = self.blocks.clamp(1, stages.max(1));
-        distance <= limits.get(stage - 1).copied().unwrap_or(0).into()
     }
 }
 

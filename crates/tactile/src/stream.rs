@@ -160,7 +160,8 @@ impl<E> StreamState<E> {
     #[inline]
     fn feel<W: Words>(&mut self, model: &Model<W>, codes: &[i32], counts: bool) {
         if let (Some(section), [judge, ..]) = (model.opinion(), self.judges.as_mut_slice()) {
-            judge.opinion.push(section.narrow(), codes, counts);
+            let section = (section, model.classes());
+            judge.opinion.push(section, codes, counts);
         }
     }
 

@@ -38,6 +38,8 @@ pub use line::{Field, LINE_BYTES, Line};
 pub use loading::{Load, LoadedWord};
 pub use looked::Looked;
 pub use record::{TickRecord, degrees, q13, unit};
-pub use request::{CONFIG_CHANGED, Command, TaggedCommand, UnknownCommand, WhiskerId};
+pub use request::{
+    CONFIG_CHANGED, Command, HAS_OPINIONS, TaggedCommand, UnknownCommand, WhiskerId,
+};
 pub use splitter::{Garbled, Piece, Splitter};
 pub use stop::{COMMAND_BYTES, Stop, StopWatch};

@@ -93,6 +93,10 @@ pub enum Command {
 /// the start.
 pub const CONFIG_CHANGED: i32 = 1 << 24;
 
+/// In the second value of the answer to [`Command::Board`]: the image has the code for models with
+/// a second opinion.
+pub const HAS_OPINIONS: i32 = 1 << 16;
+
 /// A command with its tag.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub struct TaggedCommand {

@@ -49,20 +49,21 @@ pub(crate) fn find(inner: &mut Inner, settings: &Settings, node: u8, deployed: O
         return;
     };
     let classifier = perception.classifier_mut();
-    let limits = ModelLimits {
-        classes: FACTS.max_classes,
-        // Compared below, in the number format of the settings.
-        contact_min: None,
-        whisked: settings.whisked(),
-        tick_hz: settings.head.tick_hz,
-    };
-    let rule = (rule, config.deciding);
     let heard = config.deciding.heard(settings.head.whiskers());
     let whiskers = if Part::Bus.is_built() {
         of_node(heard, settings, node)
     } else {
         settings.head.whiskers()
     };
+    let limits = ModelLimits {
+        classes: FACTS.max_classes,
+        poses: FACTS.max_poses / config.deciding.heard(whiskers).max(1),
+        // Compared below, in the number format of the settings.
+        contact_min: None,
+        whisked: settings.whisked(),
+        tick_hz: settings.head.tick_hz,
+    };
+    let rule = (rule, config.deciding);
     let model = slots::model(slot);
     classifier.find(model, limits, rule, &settings.classes, whiskers);
     let crc = classifier.model().map(Model::crc);

@@ -32,10 +32,11 @@ pub struct BoardFacts {
     pub has_fpu: bool,
     /// Most classes of a model.
     pub max_classes: usize,
-    /// Whether its core has time for a model's second opinion: the end of a block takes some
-    /// 17,000 instructions on an M4, and 46,900 cycles on an M0+, of whose tick at 2 kHz there
-    /// are 32,000.
-    pub takes_opinion: bool,
+    /// In how many poses a model with a second opinion was trained at most, of one whisker that
+    /// decides: each makes the tick of a decision longer. By `cargo xtask emulate --deadlines`
+    /// that of the NUCLEO-G071RB takes 24,000 of 32,000 cycles with one, of the NUCLEO-F103RB
+    /// 26,000 of 36,000 with four, and 56,000 of 72,000 with twelve of the NUCLEO-F446RE.
+    pub max_poses: usize,
     /// Most sides, of one whisker each.
     pub max_sides: u8,
     /// Whether it can be one of a head.
@@ -79,7 +80,7 @@ pub const NUCLEO_F446RE: BoardFacts = BoardFacts {
     has_fpu: true,
     // Two tables of 24 by 24 bins then take 36 KiB of the 124 KiB for a model.
     max_classes: 16,
-    takes_opinion: true,
+    max_poses: 12,
     max_sides: 2,
     in_head: InHead::Tuned,
     // Sectors 0 to 5, 6, 7 (RM0390, flash module organization).
@@ -140,7 +141,7 @@ pub const NUCLEO_F103RB: BoardFacts = BoardFacts {
     clocks_internal: F103_INTERNAL,
     has_fpu: false,
     max_classes: SMALL_CLASSES,
-    takes_opinion: false,
+    max_poses: 4,
     max_sides: 1,
     in_head: InHead::Untuned,
     flash: SMALL_FLASH,
@@ -167,7 +168,7 @@ pub const NUCLEO_G071RB: BoardFacts = BoardFacts {
     clocks_internal: G071_CLOCKS,
     has_fpu: false,
     max_classes: SMALL_CLASSES,
-    takes_opinion: false,
+    max_poses: 1,
     max_sides: 1,
     in_head: InHead::Never,
     flash: SMALL_FLASH,

@@ -47,6 +47,8 @@ fn factors<W: Words>(model: &Model<W>) -> Result<Factors, NotCodes> {
 pub struct ModelLimits {
     /// Most classes that the board takes.
     pub classes: usize,
+    /// Most poses that a model with a second opinion was trained in.
+    pub poses: usize,
     /// The scene's contact π from which samples count, if it has one.
     pub contact_min: Option<f32>,
     /// How the scene whisks.
@@ -139,6 +141,9 @@ fn find(place: &[u8], limits: ModelLimits) -> Result<Model<&[u32]>, Refusal> {
     let model = Model::at_start(place).map_err(Refusal::of_model)?;
     if model.classes() > limits.classes {
         return Err(Refusal::Classes);
+    }
+    if model.poses() > limits.poses {
+        return Err(Refusal::Poses);
     }
     let gate = model.touch_rule().map(|touch| touch.gate);
     if let (Some(least), Some(gate)) = (limits.contact_min, gate)

@@ -56,6 +56,8 @@ refusals! {
     Touches = 14: "it decides in touches, and the scene by windows";
     /// Its blocks, gaps and roughness hold for the samples a second of its training.
     Rate = 15: "it was trained at another tick rate";
+    /// The core has no time for it within a tick.
+    Poses = 16: "it was trained in more poses than the board takes";
 }
 
 impl Refusal {

@@ -8,6 +8,7 @@ const MODEL: &[u8] = include_bytes!("../../../scenes/models/textures.model");
 
 const LIMITS: ModelLimits = ModelLimits {
     classes: 6,
+    poses: 1,
     contact_min: None,
     whisked: Whisked {
         frequency_mhz: None,
@@ -92,7 +93,7 @@ fn whatever_is_wrong_has_its_reason() {
     };
     refused(right, few, Refusal::Classes);
     let codes: Vec<_> = Refusal::ALL.iter().map(|why| why.code()).collect();
-    assert_eq!(codes, (1..=15).collect::<Vec<u8>>());
+    assert_eq!(codes, (1..=16).collect::<Vec<u8>>());
     for why in Refusal::ALL {
         assert_eq!(Refusal::from_code(why.code()), Some(*why));
     }
@@ -114,6 +115,14 @@ fn objecting(whisked: [u32; 2]) -> Vec<u8> {
     bytes[29..31].copy_from_slice(&(WORDS as u16).to_le_bytes());
     bytes.extend(checksum(&bytes).to_le_bytes());
     bytes
+}
+
+#[test]
+fn a_board_has_time_for_so_many_poses() {
+    let place = Place::with(&objecting([0, 0]));
+    let with = |poses| place.state(ModelLimits { poses, ..LIMITS });
+    assert!(matches!(with(1), ModelState::Runs { .. }));
+    assert_eq!(with(0), ModelState::Refused(Refusal::Poses));
 }
 
 #[test]

@@ -133,6 +133,32 @@ fn more_classes_than_a_board_has_are_refused() {
     }
 }
 
+fn judged() -> ModelBuf {
+    ModelBuf::from_bytes(include_bytes!(
+        "../../../scenes/models/bench-textures.model"
+    ))
+    .unwrap()
+}
+
+#[test]
+fn a_model_with_a_second_opinion_is_refused_by_an_image_without() {
+    let scene = loaded("bench-textures.toml", &[]);
+    let what = on(&NUCLEO_G071RB, scene, Some(judged())).unwrap();
+    let tried = |flags: i32| {
+        let mut module = Conversation::new(Box::new(Scripted::new(move |_| {
+            let values = [3 + 768, i32::from(firmware::VERSION) | flags];
+            Some((CommandStatus::Done, values))
+        })));
+        what.try_out(&mut module).map_err(|error| error.to_string())
+    };
+    let fault = tried(0).unwrap_err();
+    assert!(
+        fault.contains("the module's image was built without"),
+        "{fault}"
+    );
+    assert_eq!(tried(wire::HAS_OPINIONS), Ok(()));
+}
+
 #[test]
 fn another_number_format_than_the_programs_is_refused() {
     let bench = loaded("bench.toml", &[]);

@@ -35,7 +35,7 @@ impl Simulated {
         let flash = flash.of_size(ROOM)?;
         let mut first = Vec::new();
         if loaded.scene.awaits_model() {
-            let found = deployed(flash.contents(), &loaded.scene, NUCLEO_F446RE.max_classes)?;
+            let found = deployed(flash.contents(), &loaded.scene, &NUCLEO_F446RE)?;
             first = of_model(&found);
             loaded = loaded.with_deployed(flash.name(), found.ok());
         }

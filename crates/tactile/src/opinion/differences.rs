@@ -10,7 +10,6 @@
 //! about the whisker's axis turns (a, b) and the differences alike and changes neither.
 
 use super::FEATURES;
-use crate::divide::divide;
 
 /// Lags of the differences, samples: at 2 kHz they are largest at 500 to 31 Hz.
 const LAGS: [usize; FEATURES / 2] = [2, 4, 8, 16, 32];
@@ -89,6 +88,11 @@ impl Differences {
         self.filled = (self.filled + 1).min(KEPT);
     }
 
+    /// Samples of the open block.
+    pub(crate) const fn counted(&self) -> u32 {
+        self.counted
+    }
+
     /// Adds a sample that is not yet kept.
     fn add(&mut self, sample: [i16; 2]) {
         self.counted = self.counted.wrapping_add(1);
@@ -141,10 +145,13 @@ impl Differences {
         let frame = Frame::of(if x.abs() < LEAST { LEAST } else { x }, y);
         let mut features = [0; FEATURES];
         let (along, across) = features.split_at_mut(LAGS.len());
+        let of_one = log2(counted.into());
         for ((along, across), sums) in along.iter_mut().zip(across).zip(&self.sums) {
-            let [u, w] = frame.powers(*sums);
-            *along = half_octaves(u, counted);
-            *across = half_octaves(w, counted);
+            [*along, *across] = frame.powers(*sums).map(|power| {
+                // ½ log₂(1 + power / counted), of 2^10 units an octave; below 2¹³ of 64 bits.
+                let octaves = log2(power.saturating_add(counted.into())) - of_one;
+                (octaves >> (10 + 1 - FEATURE_BITS)) as i16
+            });
         }
         self.clear();
         // Within 15 bits.
@@ -152,60 +159,66 @@ impl Differences {
     }
 }
 
-/// The way of a deflection (a, b), as squares of the cosine and sine of its angle and their
-/// product, in units of 2⁻²⁴.
+/// The way of a deflection (a, b), as the square of the cosine of its angle and the product of that
+/// with its sine, in units of 2⁻²⁴.
 struct Frame {
     cos2: i64,
-    sin2: i64,
     cos_sin: i64,
 }
 
 impl Frame {
+    /// Each below 2¹⁵ in size.
     fn of(a: i32, b: i32) -> Self {
-        let (a, b) = (i64::from(a), i64::from(b));
         let length2 = (a * a + b * b).unsigned_abs().max(1);
-        // 2²⁴ x / length2, for x up to length2.
-        let share = |x: u64| -> i64 {
-            let scaled = x << 24;
-            i64::from(divide((scaled >> 32) as u32, scaled as u32, length2))
-        };
-        let cos2 = share((a * a).unsigned_abs());
         let product = a * b;
+        let cos_sin = i64::from(share(product.unsigned_abs(), length2));
         Self {
-            cos2,
-            sin2: (1 << 24) - cos2,
-            cos_sin: share(product.unsigned_abs()) * product.signum(),
+            cos2: share((a * a).unsigned_abs(), length2).into(),
+            cos_sin: if product < 0 { -cos_sin } else { cos_sin },
         }
     }
 
     /// Sums of the squares along and across, of the sums of dx², dx dy, dy².
     fn powers(&self, [xx, xy, yy]: [i64; 3]) -> [u64; 2] {
         // Sums are below 2³⁷ in blocks of 128 samples; of longer ones bits are lost.
-        let lost = (u64::BITS - (xx | yy).unsigned_abs().leading_zeros()).saturating_sub(37);
+        let beyond = (xx | yy).unsigned_abs() >> 37;
+        let lost = beyond.checked_ilog2().map_or(0, |bits| bits + 1);
         let [xx, xy, yy] = [xx >> lost, xy >> lost, yy >> lost];
-        let mixed = self.cos_sin.wrapping_mul(2 * xy);
-        let along = (self.cos2 * xx)
-            .wrapping_add(mixed)
-            .wrapping_add(self.sin2 * yy);
-        let across = (self.cos2 * yy)
-            .wrapping_sub(mixed)
-            .wrapping_add(self.sin2 * xx);
+        // The square of the sine is what the cosine's leaves of one.
+        let turned = self.cos2.wrapping_mul(xx - yy);
+        let turned = turned.wrapping_add(self.cos_sin.wrapping_mul(2 * xy));
+        let along = (yy << 24).wrapping_add(turned);
+        let across = (xx << 24).wrapping_sub(turned);
         [along, across].map(|power| ((power >> 24).max(0).unsigned_abs()) << lost)
     }
 }
 
-/// ½ log₂(1 + sum / counted) in units of 2^−[`FEATURE_BITS`].
-fn half_octaves(sum: u64, counted: u32) -> i16 {
-    let counted = u64::from(counted);
-    let octaves = log2(sum.saturating_add(counted)) - log2(counted);
-    // Of 2^10 units an octave; below 2¹³ of 64 bits.
-    (octaves >> (10 + 1 - FEATURE_BITS)) as i16
+/// ⌊2²⁴ `part` / `whole`⌋ of a part up to the whole, which is below 2³¹. Bit by bit: a core
+/// without a division takes longer for one of 64 bits.
+fn share(part: u32, whole: u32) -> u32 {
+    let (mut rest, mut share) = (part, 0);
+    for _ in 0..25 {
+        share *= 2;
+        if rest >= whole {
+            rest -= whole;
+            share += 1;
+        }
+        rest *= 2;
+    }
+    share
 }
 
 /// 1024 log₂ x for x ≥ 1, with the fraction of x's leading bit taken as its logarithm: at most
 /// 0.086 octaves too low, and rising.
 fn log2(x: u64) -> i32 {
-    let whole = u64::BITS - 1 - x.leading_zeros().min(u64::BITS - 1);
+    let upper = (x >> 32) as u32;
+    // Of the half that has it: a core may have to count.
+    let (half, below) = if upper == 0 {
+        (x as u32, 0)
+    } else {
+        (upper, 32)
+    };
+    let whole = below + half.max(1).ilog2();
     let below = (x << (u64::BITS - 1 - whole)) << 1;
     ((whole << 10) | (below >> (u64::BITS - 10)) as u32) as i32
 }

@@ -49,7 +49,11 @@ pub(crate) fn is_near(
     bounds: Bounds,
 ) -> bool {
     let poses = means.len() / BLOCKS;
-    let mut least = i64::MAX;
+    let most = i64::from(limit) * 2 * path.len() as i64;
+    if poses == 1 && bounds == Bounds::default() {
+        // There is no way in which to differ.
+        return i64::from(square(path, inverse, means)) <= most;
+    }
     for pose in 0..poses.max(2) - 1 {
         let own = means.get(pose * BLOCKS..).unwrap_or_default();
         let next = means.get((pose + 1) * BLOCKS..).unwrap_or_default();
@@ -61,9 +65,25 @@ pub(crate) fn is_near(
             [-bounds.scale, bounds.scale],
         ];
         let products = Products::of(path, inverse, [own, next], rest);
-        least = least.min(products.least(bounds));
+        if products.least(bounds) <= most {
+            return true;
+        }
     }
-    least <= i64::from(limit) * 2 * path.len() as i64
+    false
+}
+
+/// That of a way from that of a pose.
+fn square(path: &[[i16; 2]], inverse: &[u32], means: &[u32]) -> i32 {
+    let blocks = path.iter().zip(inverse).zip(means);
+    let squares = blocks.map(|((felt, scales), mean)| {
+        let [x, y] = [0, 1].map(|n| {
+            let [scale, mean] = [*scales, *mean].map(|word| (word >> (16 * n)) as u16);
+            let off = i32::from(felt[n]) - i32::from(mean.cast_signed());
+            deviation(off, scale.into(), 0)
+        });
+        x * x + y * y
+    });
+    squares.sum()
 }
 
 impl Products {
@@ -108,7 +128,7 @@ impl Products {
     fn least(&self, bounds: [[i32; 2]; WAYS]) -> i64 {
         let mut shares = [0_i32; WAYS];
         for _ in 0..ROUNDS {
-            let before = shares;
+            let mut has_moved = false;
             for (n, [first, last]) in bounds.into_iter().enumerate() {
                 let own = self.ways[n][n];
                 // All others as they are: what is left of the product with this one.
@@ -116,9 +136,11 @@ impl Products {
                 let left = left.clamp(-PRODUCT_MOST, PRODUCT_MOST) as i32;
                 let best = (left * 4) / (own >> 6).max(1);
                 let by = (best.clamp(-SHARE_MOST, SHARE_MOST) - shares[n]) * EIGHTHS / 8;
-                shares[n] = (shares[n] + by).clamp(first, last);
+                let share = (shares[n] + by).clamp(first, last);
+                has_moved |= share != shares[n];
+                shares[n] = share;
             }
-            if shares == before {
+            if !has_moved {
                 break;
             }
         }
@@ -163,15 +185,30 @@ mod tests {
 
     use super::*;
 
-    /// The least square over shares of 1/64 of each bound.
-    fn searched(felt: [f64; 2], ways: [[f64; 2]; 2], bounds: [f64; 2]) -> f64 {
-        let shares = |bound: f64| (-64..=64).map(move |n| bound * f64::from(n) / 64.0);
-        let all = shares(bounds[0]).flat_map(|a| shares(bounds[1]).map(move |b| [a, b]));
-        let left = |[a, b]: [f64; 2]| -> f64 {
-            let of = |n: usize| felt[n] - a * ways[0][n] - b * ways[1][n];
-            [0, 1].map(|n| of(n).powi(2)).iter().sum()
+    /// The least square over shares within their bounds: where both are free, or on an edge.
+    fn least_of(felt: [f64; 2], ways: [[f64; 2]; 2], bounds: [f64; 2]) -> f64 {
+        let dot = |a: [f64; 2], b: [f64; 2]| a[0] * b[0] + a[1] * b[1];
+        let left = |[a, b]: [f64; 2]| {
+            let off = [0, 1].map(|n| felt[n] - a * ways[0][n] - b * ways[1][n]);
+            dot(off, off)
         };
-        all.map(left).fold(f64::INFINITY, f64::min)
+        let on_edge = |fixed: usize, at: f64| {
+            let (free, way) = (1 - fixed, ways[1 - fixed]);
+            let off = [0, 1].map(|n| felt[n] - at * ways[fixed][n]);
+            let best = dot(off, way) / dot(way, way).max(1e-9);
+            let mut shares = [at; 2];
+            shares[free] = best.clamp(-bounds[free], bounds[free]);
+            left(shares)
+        };
+        let edges = [0, 1].map(|n| on_edge(n, bounds[n]).min(on_edge(n, -bounds[n])));
+        let det = ways[0][0] * ways[1][1] - ways[0][1] * ways[1][0];
+        let free = [
+            (felt[0] * ways[1][1] - felt[1] * ways[1][0]) / det,
+            (ways[0][0] * felt[1] - ways[0][1] * felt[0]) / det,
+        ];
+        let is_within = [0, 1].iter().all(|n| free[*n].abs() <= bounds[*n]);
+        let inner = if is_within { 0.0 } else { f64::INFINITY };
+        edges[0].min(edges[1]).min(inner)
     }
 
     proptest! {
@@ -193,9 +230,10 @@ mod tests {
             let found = products.least([[0, 0], bounds[0], bounds[1]]) as f64 / 1024.0;
             let [x, y] = own.map(|code| f64::from(code) / 16.0);
             let ways = [[-y / 32.0, x / 32.0], [0.0, y / 16.0]];
-            let expected = searched(off.map(|code| f64::from(code) / 16.0), ways, most);
-            // In deviations: shares are right to 1/256 of a way, and the search to 1/64 of a bound.
-            let (found, expected) = (found.max(0.0).sqrt(), expected.sqrt());
+            let expected = least_of(off.map(|code| f64::from(code) / 16.0), ways, most);
+            // In deviations, less than one of which whole codes and shares of 1/256 leave.
+            let size = |square: f64| (1.0 + square.max(0.0)).sqrt();
+            let (found, expected) = (size(found), size(expected));
             prop_assert!((found - expected).abs() < 0.6, "{found}, not {expected}");
         }
     }

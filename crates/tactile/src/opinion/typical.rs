@@ -1,0 +1,49 @@
+//! How far the features of a state are from those of a class.
+
+use super::section::halves;
+use super::{DEVIATION_MOST, FEATURES, STATE_BITS, STATES};
+
+/// How far the states that have ended are from a class; the last never ends.
+pub(super) type Ended = [u32; STATES.len() - 1];
+/// Above what a [`square`] can be.
+pub(super) const UNKNOWN: u32 = u32::MAX;
+pub(super) const NONE: Ended = [UNKNOWN; STATES.len() - 1];
+
+/// The largest deviation of a sum. Of a trained model below 2¹⁵; 2¹⁶ by 2¹⁵ is what a word holds.
+const MOST: i32 = u16::MAX as i32;
+
+/// The squared distance of the sums over so many blocks, three at most, from a class whose mean
+/// and triangle these words are: below 2²⁶. Of no blocks it is 0.
+pub(super) fn square(words: &[u32], sums: &[i16; FEATURES], blocks: usize) -> u32 {
+    // Of a mean over blocks: by their square, in 2⁻¹⁶.
+    let share = match blocks {
+        1 => 65_536,
+        2 => 16_384,
+        3 => 7_282,
+        _ => return 0,
+    };
+    let Some(([means @ .., shift], triangle)) = words.split_first_chunk::<{ FEATURES / 2 + 1 }>()
+    else {
+        return 0;
+    };
+    let mut from = [0_i32; FEATURES];
+    for ((from, sum), mean) in from.iter_mut().zip(sums).zip(halves(means)) {
+        let off = i32::from(*sum) - i32::from(*mean) * blocks as i32;
+        *from = off.clamp(-MOST, MOST);
+    }
+    let mut triangle = halves(triangle);
+    let mut squares = 0;
+    for row in 0..FEATURES {
+        let (weights, below) = triangle.split_at_checked(row + 1).unwrap_or_default();
+        triangle = below;
+        let weighed = from.iter().zip(weights);
+        let sum: i64 = weighed
+            .map(|(from, weight)| i64::from(from * i32::from(*weight)))
+            .sum();
+        let most = i64::from(DEVIATION_MOST) << STATE_BITS;
+        let size = (sum >> shift.min(&63)).clamp(-most, most) as i32;
+        // Ten of them are below 2²⁶.
+        squares += (size * size).unsigned_abs();
+    }
+    ((u64::from(squares) * share) >> 16) as u32
+}
