@@ -88,7 +88,10 @@ fn features<R: Real>(
         let any_that = |asks: fn(&ModelBuf) -> bool| model.is_none_or(asks);
         let of_models = [
             (any_that(ModelBuf::is_joint), "joint"),
-            (any_that(ModelBuf::has_opinion), "opinion"),
+            (
+                model.map_or(board.awaits_opinion, ModelBuf::has_opinion),
+                "opinion",
+            ),
         ];
         let needed = of_models.into_iter().filter(|(is_needed, _)| *is_needed);
         features.extend(needed.map(|(_, feature)| feature));

@@ -6,9 +6,9 @@
 //! and what differs between poses is learnt from them.
 //!
 //! Values that were chosen, on recordings of the scene `whisker` with seeds that no page uses:
-//! α 1 and 1 + 4/(poses − 1), s 0.1 and 0.03, the 0.8 of an objection, the shares 0.95, 0.98 and
-//! 0.95 of `typical` and `paths`, their shrinking and least deviations, the gains of copies, and
-//! by how much a sensor may be turned and scaled.
+//! α 1 and 1 + 4/(poses − 1), s 0 and 0.03, what no copy shows, the 0.8 of an objection, the shares
+//! of `typical`, `paths` and patience, their shrinking and least deviations, the gains of copies,
+//! and by how much a sensor may be turned and scaled.
 
 mod linear;
 mod matrix;
@@ -93,8 +93,8 @@ const LEAST_TOUCHES: [usize; 2] = [12, 4];
 const LEAST_OF_STAGE: usize = 6;
 /// The least posterior by which it does not object to a name.
 const LEAST_POSTERIOR: f64 = 0.8;
-/// The share of touches that end before patience does.
-const IMPATIENT: f64 = 0.1;
+/// The share of touches that end before patience does: where it objects, and names.
+const IMPATIENT: [f64; 2] = [0.02, 0.1];
 /// Parts in which the touches of one pose are held out.
 const PARTS: usize = 8;
 
@@ -171,11 +171,13 @@ fn of_felt(
         Covariance {
             between: 1.0 + 4.0 / freedom as f64,
             shrink: 0.03,
+            has_unseen: false,
         }
     } else {
         Covariance {
             between: 1.0,
-            shrink: 0.1,
+            shrink: 0.0,
+            has_unseen: true,
         }
     };
     let recordings = felt.with_copies.iter().map(|touch| touch.recording + 1);
@@ -361,12 +363,12 @@ impl Felt {
         let parts: Vec<usize> = of.iter().enumerate().map(part).collect();
         if !names {
             return (
-                Typical::of(&of, &parts, self.stages),
+                Typical::of(&of, &parts, (self.stages, typical::SHARE[0])),
                 Paths::of_one(&of, &parts),
             );
         }
         let by_recording: Vec<usize> = of.iter().map(|touch| touch.recording).collect();
-        let typical = Typical::of(&of, &by_recording, self.stages);
+        let typical = Typical::of(&of, &by_recording, (self.stages, typical::SHARE[1]));
         if self.poses.len() > MAX_POSES {
             return (typical, Paths::of_one(&of, &by_recording));
         }
@@ -381,9 +383,9 @@ impl Felt {
     }
 
     /// Blocks after which most touches have not yet ended.
-    fn patience(&self) -> u8 {
+    fn patience(&self, names: bool) -> u8 {
         let mut lengths: Vec<f64> = self.touches.iter().map(|t| t.len() as f64).collect();
-        let patience = quantile(&mut lengths, IMPATIENT).unwrap_or(1.0);
+        let patience = quantile(&mut lengths, IMPATIENT[usize::from(names)]).unwrap_or(1.0);
         // At most nine.
         patience.floor().clamp(1.0, BLOCKS as f64) as u8
     }
@@ -392,7 +394,7 @@ impl Felt {
         // One that names says what it has to say of a touch once: what would follow depends on it.
         let kind = u8::from(names) | u8::from(self.begins_again && !names) << 1;
         // At most twelve, and eight.
-        let head = [kind, poses as u8, self.stages as u8, self.patience()];
+        let head = [kind, poses as u8, self.stages as u8, self.patience(names)];
         let odds = (1.0 / LEAST_POSTERIOR - 1.0) * f64::from(1 << 26);
         let Sense { narrow, rest, .. } = self.sense;
         vec![

@@ -1,6 +1,8 @@
 //! The linear opinion of a stage: one Gaussian a class over the means of the states that have
 //! begun, with one covariance S = W + αB, W within recordings and B between recordings of one
-//! class, all classes together; its correlations times 1 − s.
+//! class, all classes together; its correlations times 1 − s. Where it objects, S has as well what no
+//! copy of a recording shows: each feature may differ by a quarter of an octave, and all together as
+//! another [friction](FRICTION) moves them.
 //!
 //! Scores are T (w_c f + b_c), w_c = S⁻¹ μ_c, b_c = −½ μ_c S⁻¹ μ_c. The T ≤ 1 minimises the log
 //! loss of touches that were held out: where it objects, with their recording, or copy of one, and
@@ -12,6 +14,7 @@ use std::vec::Vec;
 
 use super::matrix::{Matrix, less, mean, square};
 use super::touches::Touch;
+use crate::opinion::{FEATURES, STATES};
 
 /// Least variance of a feature: that of its rounding and of its logarithm, octaves².
 pub(super) const LEAST_VARIANCE: f64 = 1e-3;
@@ -22,7 +25,16 @@ pub(super) struct Covariance {
     pub(super) between: f64,
     /// s.
     pub(super) shrink: f64,
+    /// Whether features may differ by more than recordings and their copies show.
+    pub(super) has_unseen: bool,
 }
+
+/// What each feature may differ by from what was felt, octaves².
+const UNSEEN: f64 = 0.06;
+/// By how much a third more of friction moves the features along and across the mean deflection in
+/// each state, octaves: there is less across while the whisker bends, as it is held in y, and more
+/// along while it slides back.
+const FRICTION: [[f64; 2]; STATES.len()] = [[0.0, -0.4], [0.0, -0.4], [0.25, -0.4], [0.25, 0.0]];
 
 #[derive(Debug, Clone)]
 pub(super) struct Linear {
@@ -140,6 +152,12 @@ impl Linear {
         within.scale(1.0 / freedom_within.max(1) as f64);
         within.add(&between, how.between / freedom_between.max(1) as f64);
         within.shrink(how.shrink, LEAST_VARIANCE);
+        if how.has_unseen {
+            within.raise(UNSEEN);
+            let of_friction = FRICTION.iter().flatten();
+            let moved = of_friction.flat_map(|by| [*by; FEATURES / 2]);
+            within.add_square(&moved.take(size).collect::<Vec<_>>(), 1.0);
+        }
         let whitening = within.whitening();
         let bias = |centre: &Vec<f64>| -0.5 * square(&whitening.of(centre));
         Some(Self {

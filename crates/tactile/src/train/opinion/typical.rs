@@ -11,8 +11,8 @@ use crate::opinion::{FEATURES, STAGES, STATES};
 
 /// Off the diagonal a covariance counts so much less.
 const SHRINK: f64 = 0.3;
-/// The share of held-out touches of a class that are typical of it.
-const SHARE: f64 = 0.95;
+/// The share of held-out touches of a class that are typical of it: of one pose, of several.
+pub(super) const SHARE: [f64; 2] = [0.98, 0.95];
 
 #[derive(Debug, Clone)]
 pub(super) struct State {
@@ -28,8 +28,9 @@ pub(super) struct Typical {
 }
 
 impl Typical {
-    /// Of the touches of one class, with the part that each is held out with.
-    pub(super) fn of(touches: &[&Touch], parts: &[usize], stages: usize) -> Self {
+    /// Of the touches of one class, with the part that each is held out with; of so many stages,
+    /// and with the share that is to be typical.
+    pub(super) fn of(touches: &[&Touch], parts: &[usize], (stages, share): (usize, f64)) -> Self {
         let states = |kept: &dyn Fn(usize) -> bool| -> Vec<State> {
             let of = touches.iter().zip(parts);
             let kept: Vec<&Touch> = of
@@ -54,7 +55,7 @@ impl Typical {
         let mut limits = [0.0; STAGES];
         let mut last = 0.0;
         for (limit, distances) in limits.iter_mut().zip(&mut distances) {
-            last = quantile(distances, SHARE).unwrap_or(last);
+            last = quantile(distances, share).unwrap_or(last);
             *limit = last;
         }
         Self {
