@@ -164,6 +164,11 @@ fn other_boards() -> Result<(), Fault> {
     emulate::emulate(&board, Path::new(emulate::FULL), &talks)?;
     emulate::compare_with_slow_sensors(&board)?;
     emulate::compare_with_options(&board)?;
+    for board in [small, smallest] {
+        // What their programs for any scene have no room for.
+        let judged = Path::new(emulate::JUDGED);
+        emulate::emulate(&Emulated::linked(board), judged, &["compare --duration 4"])?;
+    }
     let in_short = ["compare --probe pulled", "sensor-loss"];
     let [small, smallest] = [Emulated::deployed(small)?, Emulated::deployed(smallest)?];
     let [likely, learning] = emulate::full_with_options()?;

@@ -213,7 +213,7 @@ const MODEL: &str = "scenes/models/textures.model";
 /// Both sides, where contact on one excites the other.
 pub(crate) const CIA: &str = "scenes/cia.toml";
 
-/// One whose model has a second opinion, for the board that has time for it.
+/// One whose model has a second opinion.
 pub(crate) const JUDGED: &str = "scenes/bench-textures.toml";
 
 /// The main job with TMAG5170s.

@@ -29,7 +29,7 @@ const CONTROL: &str = "xtask/src/size/control.toml";
 const SHORT: [&str; 2] = ["scenes/full.toml", "scenes/passive.toml"];
 /// Those that are built without a link too, so that the table says what the link costs.
 const SILENT: [&str; 2] = ["scenes/passive.toml", "scenes/rcp.toml"];
-/// One whose model has a second opinion, for the board that has time for it.
+/// One whose model has a second opinion.
 const JUDGED: &str = crate::emulate::JUDGED;
 
 /// Measures everything; prints it and writes the table to `csv` (or to the
@@ -220,7 +220,7 @@ fn misfits(
         scene,
         model: model.as_ref(),
     };
-    let mut wrong = seen.compare(&functions, holds, board.facts.has_fpu)?;
+    let mut wrong = seen.compare(&functions, holds, board.facts)?;
     for path in listing(&top().join("scenes/models"), "model")? {
         let (name, model) = (path.display(), read_bytes(&path)?);
         let found = contents::occurrences(elf, &model)?;

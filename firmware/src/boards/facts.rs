@@ -37,6 +37,9 @@ pub struct BoardFacts {
     /// that of the NUCLEO-G071RB takes 24,000 of 32,000 cycles with one, of the NUCLEO-F103RB
     /// 26,000 of 36,000 with four, and 56,000 of 72,000 with twelve of the NUCLEO-F446RE.
     pub max_poses: usize,
+    /// Whether a program whose model is deployed has room for what a second opinion keeps, beside
+    /// the links. One with such a model linked has.
+    pub awaits_opinion: bool,
     /// Most sides, of one whisker each.
     pub max_sides: u8,
     /// Whether it can be one of a head.
@@ -81,6 +84,7 @@ pub const NUCLEO_F446RE: BoardFacts = BoardFacts {
     // Two tables of 24 by 24 bins then take 36 KiB of the 124 KiB for a model.
     max_classes: 16,
     max_poses: 12,
+    awaits_opinion: true,
     max_sides: 2,
     in_head: InHead::Tuned,
     // Sectors 0 to 5, 6, 7 (RM0390, flash module organization).
@@ -142,6 +146,7 @@ pub const NUCLEO_F103RB: BoardFacts = BoardFacts {
     has_fpu: false,
     max_classes: SMALL_CLASSES,
     max_poses: 4,
+    awaits_opinion: false,
     max_sides: 1,
     in_head: InHead::Untuned,
     flash: SMALL_FLASH,
@@ -169,6 +174,7 @@ pub const NUCLEO_G071RB: BoardFacts = BoardFacts {
     has_fpu: false,
     max_classes: SMALL_CLASSES,
     max_poses: 1,
+    awaits_opinion: true,
     max_sides: 1,
     in_head: InHead::Never,
     flash: SMALL_FLASH,

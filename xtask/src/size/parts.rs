@@ -4,6 +4,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use config::NumberFormat;
+use firmware::boards::BoardFacts;
 use scene::{Deciding, Driver, Integrator, Rule, Scene, SensorModel};
 use tactile::ModelBuf;
 
@@ -23,8 +24,9 @@ pub(super) struct Named<'a> {
     pub(super) model: Option<&'a ModelBuf>,
 }
 
-/// Whether a scene on a board, with an FPU or without, has a part.
-fn is_named(part: &str, named: Named<'_>, has_fpu: bool) -> Result<bool, Fault> {
+/// Whether a scene on a board has a part.
+fn is_named(part: &str, named: Named<'_>, board: &BoardFacts) -> Result<bool, Fault> {
+    let has_fpu = board.has_fpu;
     let Named { scene, model } = named;
     // A program whose model is deployed has the code for all that a model can ask for.
     let awaits = scene.awaits_model();
@@ -59,11 +61,10 @@ fn is_named(part: &str, named: Named<'_>, has_fpu: bool) -> Result<bool, Fault> 
         "TMAG5170" => scene.sensor.model == SensorModel::Tmag5170,
         "roughness" | "roughness or floors" => !is_single,
         "second opinion" => {
-            // Only boards with an FPU have time for it.
-            let may = awaits || model.is_some_and(ModelBuf::has_opinion);
-            has_fpu && classifier.is_some() && may
+            let may = model.map_or(awaits && board.awaits_opinion, ModelBuf::has_opinion);
+            classifier.is_some() && may
         }
-        "poses" => has_fpu && classifier.is_some_and(|classifier| classifier.pose),
+        "poses" => classifier.is_some_and(|classifier| classifier.pose),
         "sequential rule" => matches!(rule, Some(Rule::Sequential { .. } | Rule::Costs { .. })),
         "window rule" => matches!(rule, Some(Rule::Window { .. })),
         // What a model says of touches is in single precision, and read at the start.
@@ -89,7 +90,7 @@ impl Seen {
         &mut self,
         functions: &BTreeSet<String>,
         named: Named<'_>,
-        has_fpu: bool,
+        board: &BoardFacts,
     ) -> Result<Vec<String>, Fault> {
         let mut wrong = Vec::new();
         for (part, code) in parts()? {
@@ -102,7 +103,7 @@ impl Seen {
                 .filter(is_its)
                 .map(String::as_str)
                 .collect();
-            match (found.is_empty(), is_named(&part, named, has_fpu)?) {
+            match (found.is_empty(), is_named(&part, named, board)?) {
                 (false, false) => {
                     wrong.push(format!(
                         "{part}: not named, but linked: {}",
@@ -127,6 +128,8 @@ impl Seen {
 
 #[cfg(test)]
 mod tests {
+    use firmware::boards::NUCLEO_F446RE;
+
     use super::{Named, Seen, parts};
     use scene::Scene;
     use std::collections::BTreeSet;
@@ -141,9 +144,9 @@ mod tests {
         let mut seen = Seen::default();
         let tests = "firmware::self_test::SelfTest::of".to_owned();
         let sound = BTreeSet::from(["firmware::sensing::decode".to_owned(), tests.clone()]);
-        assert_eq!(seen.compare(&sound, scene, true), Ok(Vec::new()));
+        assert_eq!(seen.compare(&sound, scene, &NUCLEO_F446RE), Ok(Vec::new()));
         let gate = BTreeSet::from(["whisking::gate::Rcp<R>::step".to_owned(), tests]);
-        let wrong = seen.compare(&gate, scene, true).unwrap();
+        let wrong = seen.compare(&gate, scene, &NUCLEO_F446RE).unwrap();
         assert_eq!(
             wrong,
             ["RCP: not named, but linked: whisking::gate::Rcp<R>::step"]
