@@ -165,7 +165,7 @@ mod tests {
         let scene = &Scene::from_str("a.toml", &text).unwrap();
         let scene = Named { scene, model: None };
         let wrong = Seen::default()
-            .compare(&BTreeSet::new(), scene, true)
+            .compare(&BTreeSet::new(), scene, &NUCLEO_F446RE)
             .unwrap();
         assert!(wrong.contains(&"muscles: named, but not found".to_owned()));
         assert!(wrong.contains(&"single precision: named, but not found".to_owned()));
