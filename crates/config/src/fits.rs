@@ -112,7 +112,7 @@ fn model_fits(scene: &Scene, model: &ModelBuf, board: &BoardFacts) -> Result<(),
     let (found, most) = (model.poses(), board.max_poses / deciding.max(1));
     if found > most {
         return Err(Unfit::Model(format!(
-            "it was trained in {found} poses; allowed on the {} for {deciding} whiskers that \
+            "it was trained in {found} poses; allowed on the {}, where {deciding} of its whiskers \
              decide: up to {most}, because its core has no time for more within a tick",
             board.name
         )));
@@ -135,4 +135,32 @@ fn model_fits(scene: &Scene, model: &ModelBuf, board: &BoardFacts) -> Result<(),
         )));
     }
     Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::fits;
+    use firmware::boards::{BoardFacts, NUCLEO_F446RE};
+    use scene::Scene;
+    use tactile::ModelBuf;
+
+    /// By a board that has time for one pose, and by one for none.
+    #[test]
+    fn whiskers_that_decide_share_the_time_for_poses() {
+        let text = include_str!("../../../scenes/bench-textures.toml");
+        let model = include_bytes!("../../../scenes/models/bench-textures.model");
+        let model = ModelBuf::from_bytes(model).unwrap();
+        let scene = Scene::from_str("bench-textures.toml", text).unwrap();
+        let fits = |max_poses| {
+            let board = BoardFacts {
+                max_poses,
+                ..NUCLEO_F446RE
+            };
+            fits(&scene, Some(&model), &board).map_err(|unfit| unfit.to_string())
+        };
+        assert_eq!(fits(1), Ok(()));
+        let says = "classifier.model: it was trained in 1 poses; allowed on the NUCLEO-F446RE, \
+                    where 1 of its whiskers decide: up to 0, because";
+        assert!(fits(0).unwrap_err().starts_with(says));
+    }
 }
