@@ -316,7 +316,7 @@ pub fn deployed(
     };
     let limits = ModelLimits {
         classes: board.max_classes,
-        poses: board.max_poses,
+        poses: board.poses_of_each(classifier.whiskers.heard(scene.whiskers())),
         contact_min: classifier.contact_min.map(|least| least as f32),
         whisked: config::whisked(scene),
         tick_hz: scene.tick_hz,

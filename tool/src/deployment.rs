@@ -66,7 +66,7 @@ fn with_model<R: Real>(
         .heard(whiskers / usize::from(boards).max(1));
     let limits = ModelLimits {
         classes: board.max_classes,
-        poses: board.max_poses / deciding.max(1),
+        poses: board.poses_of_each(deciding),
         contact_min: classifier.contact_min.map(|least| least.to_f64() as f32),
         whisked,
         tick_hz,

@@ -109,7 +109,7 @@ fn model_fits(scene: &Scene, model: &ModelBuf, board: &BoardFacts) -> Result<(),
     suits(scene, model)?;
     let boards = scene.head.nodes.map_or(1, usize::from).max(1);
     let deciding = classifier.whiskers.heard(scene.whiskers() / boards);
-    let (found, most) = (model.poses(), board.max_poses / deciding.max(1));
+    let (found, most) = (model.poses(), board.poses_of_each(deciding));
     if found > most {
         return Err(Unfit::Model(format!(
             "it was trained in {found} poses; allowed on the {}, where {deciding} of its whiskers \

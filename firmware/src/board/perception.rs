@@ -57,7 +57,7 @@ pub(crate) fn find(inner: &mut Inner, settings: &Settings, node: u8, deployed: O
     };
     let limits = ModelLimits {
         classes: FACTS.max_classes,
-        poses: FACTS.max_poses / config.deciding.heard(whiskers).max(1),
+        poses: FACTS.poses_of_each(config.deciding.heard(whiskers)),
         // Compared below, in the number format of the settings.
         contact_min: None,
         whisked: settings.whisked(),

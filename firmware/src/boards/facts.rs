@@ -56,6 +56,11 @@ impl BoardFacts {
     pub fn of(code: BoardCode) -> Option<&'static Self> {
         ALL.iter().find(|board| board.code == code)
     }
+
+    /// [`Self::max_poses`] where so many of its whiskers decide, which may be in the same tick.
+    pub const fn poses_of_each(&self, deciding: usize) -> usize {
+        self.max_poses / if deciding == 0 { 1 } else { deciding }
+    }
 }
 
 const KIB: u32 = 1024;

@@ -28,14 +28,12 @@ impl fmt::Display for Value {
             Self::PerClass(classes) if classes.is_empty() => f.write_str("-"),
             Self::PerClass(classes) => {
                 let space = if f.alternate() { " " } else { "" };
-                write!(f, "{{{space}")?;
-                for (n, (class, number)) in classes.iter().enumerate() {
-                    let comma = if n == 0 { "" } else { "," };
-                    let gap = if n == 0 { "" } else { space };
-                    let class = toml_key(class);
-                    write!(f, "{comma}{gap}{class}{space}={space}{number}")?;
-                }
-                write!(f, "{space}}}")
+                let entry = |(class, number): &(String, f64)| {
+                    format!("{}{space}={space}{number}", toml_key(class))
+                };
+                let entries: Vec<_> = classes.iter().map(entry).collect();
+                let entries = entries.join(&format!(",{space}"));
+                write!(f, "{{{space}{entries}{space}}}")
             }
         }
     }

@@ -47,3 +47,30 @@ pub(super) fn square(words: &[u32], sums: &[i16; FEATURES], blocks: usize) -> u3
     }
     ((u64::from(squares) * share) >> 16) as u32
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// By hand: one weight, in the second row and the first column, of 16 a deviation.
+    #[test]
+    fn a_row_weighs_the_features_before_it() {
+        let mut words = [0; FEATURES / 2 + 1 + 28];
+        // Means of 1 of the first feature and 2 of the second; no shift.
+        words[0] = 1 | 2 << 16;
+        words[FEATURES / 2 + 1] = 16 << 16;
+        let of = |sums: [i16; 2], blocks| {
+            let mut all = [0; FEATURES];
+            all[..2].copy_from_slice(&sums);
+            square(&words, &all, blocks)
+        };
+        // Three off, of one block, and of a mean over three: a ninth.
+        assert_eq!(of([4, 2], 1), (3 * 16) * (3 * 16));
+        assert_eq!(of([-2, 99], 1), (3 * 16) * (3 * 16));
+        assert_eq!(of([6, 6], 3), 256);
+        assert_eq!(of([1, 2], 1), 0);
+        // A deviation counts 128 at most.
+        assert_eq!(of([9_999, 2], 1), (128 * 16) * (128 * 16));
+        assert_eq!(of([4, 2], 0), 0);
+    }
+}
