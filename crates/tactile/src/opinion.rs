@@ -168,7 +168,7 @@ impl Opinion {
         }
         self.blocks = (self.blocks + 1).min(BLOCKS);
         let mut rise = [0; MAX_CLASSES];
-        if self.blocks > section.stages() {
+        if !(section.first_stage()..=section.stages()).contains(&self.blocks) {
             return rise;
         }
         let (shift, biases, weights) = section.stage(self.blocks);

@@ -3,7 +3,7 @@
 mod results;
 
 use std::fmt::Write as _;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::Args;
 use firmware::allowed;
@@ -91,7 +91,19 @@ pub(crate) fn calibrate(arguments: &Arguments) -> Result<(), Error> {
         "in {}: calibration.toml, steps.csv, steps.svg, steps.png",
         arguments.out.display()
     ));
+    if !arguments.which.source.is_simulated() {
+        report::say(next(&arguments.out));
+    }
     Ok(())
+}
+
+/// What comes next where somebody holds the samples: textures, in several poses.
+fn next(out: &Path) -> String {
+    format!(
+        "next: whisker capture --label NAME --pose NAME --calibration {}; in three to five poses, each \
+         time with the samples held some degrees otherwise, from the second on with --resume",
+        out.join("calibration.toml").display()
+    )
 }
 
 fn all(

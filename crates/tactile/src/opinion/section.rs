@@ -2,12 +2,12 @@
 //!
 //! | words | content |
 //! |---|---|
-//! | 1 | kind u8 (bit 0: names, otherwise it objects; bit 1: touches longer than nine blocks begin again; bit 2: poses are estimated; bit 3: paths allow for another sensor), poses of paths P u8 (1 to 12), stages u8 (1 to 8), patience u8 (1 to 9) |
+//! | 1 | kind u8 (bit 0: names, otherwise it objects; bit 1: touches longer than nine blocks begin again; bit 2: poses are estimated; bit 3: paths allow for another sensor; bit 4: there are no weights of stages before the first that decides), poses of paths P u8 (1 to 12), stages u8 (1 to 8), patience u8 (1 to 9) |
 //! | 1 | most odds against the leader by the opinion, 2⁻²⁶ |
 //! | 1, 1 | code that becomes zero i32; bits that are left off a code |
 //! | 2 | rest of x and y where no air was felt yet, i32, 1/256 narrow codes |
 //! | 2 | frequency of the whisk, 1/1000 Hz, 0: not known; 1 without RCP, 2 with, 0: not known |
-//! | per stage | shift; K × bias i32, 1/1024 bit; K × weights i16, ten a state begun |
+//! | per stage, all or from the first that decides | shift; K × bias i32, 1/1024 bit; K × weights i16, ten a state begun |
 //! | only with poses: 2 | least and most tilt, then depth, i16, 1/100 |
 //! | per class and stage from the first that decides | errors of tilt and depth u16, 1/100; shifts u16; for each bias i32, 1/100, and [weights](super::pose) i32 |
 //! | only with another sensor: 1 | most turn of one u16, 1/256 of 1/32 rad; most change of y's scale u16, 1/256 of 1/16 |
@@ -21,6 +21,8 @@ use crate::error::ModelError;
 /// Most poses between which a path may lie.
 pub(crate) const MAX_POSES: usize = 12;
 pub(crate) const HEAD_WORDS: usize = 8;
+/// Bit 4 of the kind.
+pub(crate) const LATE: u8 = 16;
 const TRIANGLE_WORDS: usize = (FEATURES * (FEATURES + 1) / 2).div_ceil(2);
 pub(crate) const STATE_WORDS: usize = FEATURES / 2 + 1 + TRIANGLE_WORDS;
 pub(crate) const TYPICAL_WORDS: usize = STATES.len() * STATE_WORDS + STAGES;
@@ -62,7 +64,7 @@ impl<'m> Section<'m> {
     /// Whether one of so many words that begins with `head` can be read.
     pub(crate) fn check(head: &[u32], words: usize, classes: usize) -> Result<(), ModelError> {
         let section = Section::new(head, classes);
-        let fits = section.byte(0) <= 15
+        let fits = section.byte(0) <= 31
             && (1..=MAX_POSES).contains(&section.poses())
             && (1..=STAGES).contains(&section.stages())
             && (1..=BLOCKS).contains(&section.patience())
@@ -81,8 +83,8 @@ impl<'m> Section<'m> {
 
     /// Words before the weights of a stage (from 1).
     fn before_stage(self, stage: usize) -> usize {
-        let before: usize = (1..stage).map(|s| stage_words(s, self.classes)).sum();
-        HEAD_WORDS + before
+        let before = (self.first_stage()..stage).map(|s| stage_words(s, self.classes));
+        HEAD_WORDS + before.sum::<usize>()
     }
 
     fn pose_words(self) -> usize {
@@ -107,6 +109,15 @@ impl<'m> Section<'m> {
             turn: i32::from(word as u16),
             scale: (word >> 16).cast_signed(),
         }
+    }
+
+    /// The first stage that has weights.
+    #[inline]
+    pub(crate) fn first_stage(self) -> usize {
+        if self.byte(0) & LATE == 0 {
+            return 1;
+        }
+        self.least().min(self.stages())
     }
 
     pub(crate) fn has_pose(self) -> bool {
@@ -213,7 +224,7 @@ impl<'m> Section<'m> {
         }
     }
 
-    /// Of a stage (from 1): shift, biases and weights of all classes.
+    /// Of a stage, from [the first](Self::first_stage) on: shift, biases and weights of all classes.
     pub(crate) fn stage(self, stage: usize) -> (u32, &'m [u32], &'m [u32]) {
         let words = self.words.get(self.before_stage(stage)..);
         let words = words.unwrap_or_default();
@@ -254,4 +265,41 @@ impl<'m> Section<'m> {
 #[inline]
 pub(crate) fn halves(words: &[u32]) -> &[i16] {
     bytemuck::try_cast_slice(words).unwrap_or_default()
+}
+
+#[cfg(test)]
+mod tests {
+    use std::vec::Vec;
+
+    use super::*;
+
+    const CLASSES: usize = 3;
+
+    /// Any words behind a head of seven stages, a patience of seven blocks and this kind.
+    fn words(kind: u8) -> Vec<u32> {
+        let head = u32::from_le_bytes([kind, 2, 7, 7]);
+        let length = Section::new(&[head], CLASSES).length();
+        core::iter::once(head).chain(1..length as u32).collect()
+    }
+
+    #[test]
+    fn without_early_weights_all_else_is_where_it_was() {
+        let whole = words(4 | 8);
+        let early: usize = (1..5).map(|stage| stage_words(stage, CLASSES)).sum();
+        let mut late = whole.clone();
+        late.drain(HEAD_WORDS..HEAD_WORDS + early);
+        late[0] |= u32::from(LATE);
+        assert_eq!(Section::check(&late, late.len(), CLASSES), Ok(()));
+        let [whole, late] = [&whole, &late].map(|words| Section::new(words, CLASSES));
+        assert_eq!([whole.first_stage(), late.first_stage()], [1, 5]);
+        assert_eq!(late.bounds(), whole.bounds());
+        for stage in 5..=7 {
+            assert_eq!(late.stage(stage), whole.stage(stage));
+        }
+        for class in 0..CLASSES {
+            assert_eq!(late.pose(class, 6), whole.pose(class, 6));
+            assert_eq!(late.typical(class), whole.typical(class));
+            assert_eq!(late.path(class), whole.path(class));
+        }
+    }
 }

@@ -33,7 +33,7 @@ use self::touches::{Sense, Touch};
 use self::typical::Typical;
 use crate::opinion::Whisked;
 use crate::opinion::pose::TARGETS;
-use crate::opinion::section::{MAX_POSES, Section};
+use crate::opinion::section::{LATE, MAX_POSES, Section};
 use crate::opinion::{BLOCKS, STAGES};
 use crate::quantiser::Quantiser;
 use crate::train::joint::{CHANNELS, Trial, Warning};
@@ -191,14 +191,15 @@ fn of_felt(
         .collect();
     let classes = felt.of_classes(names);
     let mut words = felt.head(names, material.whisked, classes.first()?.1.means.len());
+    // What is said earlier is not heeded.
+    let first = Section::new(&words, 0).first_stage();
     let of_all = names.then(|| {
-        let first = *Section::new(&words, 0).pose_stages().start();
         let held_out = fits.iter().skip(first - 1).flat_map(|(_, of)| of);
         temperature(&felt.named(held_out.cloned().collect(), apart))
     });
-    for (n, (linear, held_out)) in fits.into_iter().enumerate() {
+    for (stage, (linear, held_out)) in (1..).zip(fits).skip(first - 1) {
         let of_stage = of_all.unwrap_or_else(|| temperature(&held_out));
-        written::stage(&mut words, n + 1, &linear.at(of_stage));
+        written::stage(&mut words, stage, &linear.at(of_stage));
     }
     if let Some(stands) = stands {
         written::stands(&mut words, stands);
@@ -392,7 +393,7 @@ impl Felt {
 
     fn head(&self, names: bool, whisked: Whisked, poses: usize) -> Vec<u32> {
         // One that names says what it has to say of a touch once: what would follow depends on it.
-        let kind = u8::from(names) | u8::from(self.begins_again && !names) << 1;
+        let kind = u8::from(names) | u8::from(self.begins_again && !names) << 1 | LATE;
         // At most twelve, and eight.
         let head = [kind, poses as u8, self.stages as u8, self.patience(names)];
         let odds = (1.0 / LEAST_POSTERIOR - 1.0) * f64::from(1 << 26);

@@ -84,6 +84,27 @@ static MODELS: LazyLock<[ModelBuf; 3]> = LazyLock::new(|| {
     [trained(&[-300.0]), named, learnt(0.0).1]
 });
 
+#[test]
+fn six_classes_with_a_second_opinion_fit_a_small_board() {
+    const ROOM: usize = 20 * 1024;
+    let classes = ["a", "b", "c", "d", "e", "f"].into_iter().zip(1..);
+    let trials = classes.flat_map(|(label, n)| {
+        [0, 1].map(|more| {
+            trial(
+                label,
+                f64::from(15 * n),
+                [900.0, -300.0],
+                2 * n as u64 + more,
+            )
+        })
+    });
+    let trained = train(&trials.collect::<Vec<_>>(), &Options::default()).unwrap();
+    let model = trained.model().unwrap();
+    assert!(model.has_opinion());
+    let bytes = model.as_bytes().len();
+    assert!(bytes <= ROOM, "{bytes} bytes");
+}
+
 /// A trial that says how what it touches stands: where rough turns a deflection by as much more as
 /// `friction`, as friction does, the tilt is y over x, and the depth the size of both.
 fn standing(label: &str, friction: f64, n: u64) -> Trial {
