@@ -17,6 +17,7 @@ pub(crate) use history::History;
 pub(crate) use known::Known;
 pub(crate) use listener::Listener;
 pub(crate) use looking::Looking;
-pub(crate) use snapshot::{Size, Snapshot, size};
+pub(crate) use snapshot::{Size, size, snapshot};
+pub(crate) use svg::{svg, text};
 pub(crate) use watching::{Shared, Watching, Wish, joined};
 pub(crate) use window::{About, open};

@@ -13,8 +13,8 @@ use wire::Command;
 
 use crate::conversation::AboutModule;
 use crate::monitor::{
-    About, History, Known, Listener, Looking, Shared, Size, Snapshot, Watching, Wish, joined, open,
-    size,
+    About, History, Known, Listener, Looking, Shared, Size, Watching, Wish, joined, open, size,
+    snapshot, svg, text,
 };
 use crate::record_file::{self, RecordFile};
 use crate::script::Script;
@@ -22,7 +22,6 @@ use crate::source::{SourceChoice, seconds};
 
 const PICTURES_HZ: f64 = 20.0;
 
-/// What to watch, and where it is kept.
 #[derive(Debug, Clone, Args)]
 #[command(group(clap::ArgGroup::new("source").required(true)))]
 pub(crate) struct Arguments {
@@ -89,11 +88,11 @@ pub(crate) fn monitor(arguments: &Arguments) -> Result<(), Error> {
         return open(&shared, about, listener, &wish);
     }
     joined(listener)?;
-    let snapshot = Snapshot::of(&shared, &about, arguments.size)?;
+    let picture = snapshot(&shared, &about, arguments.size)?;
     if let Some(path) = &arguments.snapshot {
-        return output::write_whole(path, snapshot.svg().as_bytes());
+        return output::write_whole(path, svg(&picture).as_bytes());
     }
-    report::say(snapshot.text().trim_end());
+    report::say(text(&picture).trim_end());
     Ok(())
 }
 

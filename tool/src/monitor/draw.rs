@@ -20,17 +20,9 @@ use theme::bold;
 const WIDE: u16 = 68;
 const HIGH: u16 = 14;
 
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-struct Places {
-    head: Rect,
-    states: Rect,
-    charts: Rect,
-    side: Rect,
-    foot: Rect,
-}
-
-fn places(area: Rect, whiskers: u16) -> Places {
-    let [head, states, body, foot] = Layout::vertical([
+/// Where head, states, charts, the panes beside them, and foot are.
+fn places(area: Rect, whiskers: u16) -> [Rect; 5] {
+    let [top, states, body, foot] = Layout::vertical([
         Constraint::Length(1),
         Constraint::Length(whiskers),
         Constraint::Min(0),
@@ -45,32 +37,26 @@ fn places(area: Rect, whiskers: u16) -> Places {
     };
     let [charts, side] =
         Layout::horizontal([Constraint::Min(0), Constraint::Length(side)]).areas(body);
-    Places {
-        head,
-        states,
-        charts,
-        side,
-        foot,
-    }
+    [top, states, charts, side, foot]
 }
 
 pub(crate) fn draw(frame: &mut Frame<'_>, shown: &Shown, theme: Theme) {
     let area = frame.area();
-    let places = places(area, shown.whiskers.len() as u16);
-    frame.render_widget(head(shown, places.head.width), places.head);
-    panes::states(frame, places.states, shown, theme);
+    let [top, states, charts, side, foot] = places(area, shown.whiskers.len() as u16);
+    frame.render_widget(head(shown, top.width), top);
+    panes::states(frame, states, shown, theme);
     if shown.hairs.is_empty() {
-        charts::charts(frame, places.charts, shown, theme);
+        charts::charts(frame, charts, shown, theme);
     } else {
-        hairs::hairs(frame, places.charts, &shown.hairs, theme);
+        hairs::hairs(frame, charts, &shown.hairs, theme);
     }
-    panes::panes(frame, places.side, shown, theme);
-    let foot = if shown.message.is_empty() {
+    panes::panes(frame, side, shown, theme);
+    let line = if shown.message.is_empty() {
         "x stop  a arm  p pause  Tab side  +- time  s save  q end  ^C stop, end  ? help"
     } else {
         &shown.message
     };
-    frame.render_widget(Line::from(foot).style(bold()), places.foot);
+    frame.render_widget(Line::from(line).style(bold()), foot);
     if shown.has_help {
         help(frame, area);
     }

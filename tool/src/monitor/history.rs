@@ -3,9 +3,10 @@
 use std::collections::{VecDeque, vec_deque};
 
 use firmware::{Event, EventRecord, Health, Packet};
+use tactile::Decision;
 use wire::{Answer, Flags, TickRecord};
 
-use super::listener::{Decided, Listener};
+use super::listener::Listener;
 use super::looking::Hair;
 use crate::source::Incoming;
 use crate::tally::{Before, Tally, TickCount, side};
@@ -22,21 +23,7 @@ const BELIEFS_HZ: u32 = 20;
 /// How often the whiskers of a head are looked at in a second, as often as a picture is drawn.
 pub(crate) const LOOKS_HZ: u32 = 20;
 
-/// A record, and the tick that it is of: counted on where the module starts again.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct Entry {
-    pub(crate) ticks: u64,
-    pub(crate) record: TickRecord,
-}
-
-/// How sure the PC's classifier was of each class after a tick.
-#[derive(Debug, Clone)]
-pub(crate) struct Belief {
-    pub(crate) ticks: u64,
-    pub(crate) posteriors: Vec<f32>,
-}
-
-/// Something that was said, and the tick by then.
+/// Something that was said, and the tick by then: counted on where the module starts again.
 #[derive(Debug, Clone)]
 pub(crate) struct Said<T> {
     pub(crate) ticks: u64,
@@ -48,12 +35,13 @@ pub(crate) struct History {
     /// How many of its whiskers are watched: 1, or one a side.
     pub(crate) whiskers: usize,
     pub(crate) tally: Tally,
-    pub(crate) sides: [VecDeque<Entry>; 2],
+    pub(crate) sides: [VecDeque<Said<TickRecord>>; 2],
     pub(crate) lines: VecDeque<Said<String>>,
     pub(crate) events: VecDeque<Said<EventRecord>>,
     pub(crate) module_classes: Vec<String>,
-    pub(crate) beliefs: [VecDeque<Belief>; 2],
-    pub(crate) decided: [VecDeque<Said<Decided>>; 2],
+    /// How sure the PC's classifier was of each class, and what it decided.
+    pub(crate) beliefs: [VecDeque<Said<Vec<f32>>>; 2],
+    pub(crate) decided: [VecDeque<Said<Decision>>; 2],
     pub(crate) health: Option<Health>,
     /// Ticks in which the module decided, and in how many of them so did the PC.
     pub(crate) agreed: [u64; 2],
@@ -154,9 +142,9 @@ impl History {
         // A board of a head may have one of the right.
         let side = if self.whiskers == 1 { 0 } else { side(record) };
         let entries = &mut self.sides[side];
-        entries.push_back(Entry {
+        entries.push_back(Said {
             ticks,
-            record: *record,
+            what: *record,
         });
         let held = u64::from(HELD_S) * u64::from(self.tick_hz);
         while entries
@@ -187,13 +175,13 @@ impl History {
         if is_due || !decided.is_empty() {
             self.last_belief = ticks;
             for (side, beliefs) in self.beliefs.iter_mut().enumerate().take(self.whiskers) {
-                let posteriors = listener.posteriors(side);
-                beliefs.push_back(Belief { ticks, posteriors });
+                let what = listener.posteriors(side);
+                beliefs.push_back(Said { ticks, what });
                 bound(beliefs, (HELD_S * BELIEFS_HZ) as usize);
             }
         }
-        for decided in decided {
-            say(&mut self.decided[decided.side.min(1)], ticks, decided);
+        for (side, decision) in decided {
+            say(&mut self.decided[side.min(1)], ticks, decision);
         }
     }
 
@@ -203,7 +191,7 @@ impl History {
         side: usize,
         from: u64,
         to: u64,
-    ) -> impl Iterator<Item = &Entry> + '_ {
+    ) -> impl Iterator<Item = &Said<TickRecord>> + '_ {
         let entries = &self.sides[side.min(1)];
         let first = entries.partition_point(|entry| entry.ticks < from);
         let last = entries.partition_point(|entry| entry.ticks <= to);

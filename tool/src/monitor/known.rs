@@ -8,7 +8,7 @@ use host_sim::{Error, files};
 use scene::Rule;
 
 /// How sure a classifier must be where no scene says it.
-const THRESHOLD: f64 = 0.99;
+const RULE: Rule = Rule::Sequential { threshold: 0.99 };
 
 /// A classifier, and what it takes for a sample.
 #[derive(Debug, Clone)]
@@ -30,12 +30,7 @@ impl Known {
                 let (_, model) = files::load_model(path)?;
                 let classifier = match said {
                     Some(scene) => Classifier::of_scene(model, scene),
-                    None => Classifier::new(
-                        model,
-                        Rule::Sequential {
-                            threshold: THRESHOLD,
-                        },
-                    ),
+                    None => Classifier::new(model, RULE),
                 };
                 Some(classifier.map_err(|fault| Error::file(path, fault))?)
             }

@@ -20,13 +20,6 @@ use crate::tally::{Before, SIDES, side};
 /// Ticks at a module's start by which a record is asked for, where one listens from the start.
 const UNSEEN: u32 = 100;
 
-/// A decision that fell here.
-#[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Decided {
-    pub(crate) side: usize,
-    pub(crate) decision: Decision,
-}
-
 #[derive(Debug, Clone, Copy, Default)]
 struct Track {
     filter: filter::State<f32>,
@@ -84,7 +77,8 @@ pub(crate) struct Listener {
     /// How many whiskers a tick has records of, and those of the tick that have come.
     whiskers: usize,
     pending: [Option<TickRecord>; 2],
-    decided: Vec<Decided>,
+    /// Side and decision of what fell in the tick.
+    decided: Vec<(usize, Decision)>,
     has_begun: bool,
 }
 
@@ -122,8 +116,9 @@ impl Listener {
         posteriors.to_f64().map(|p| p as f32).collect()
     }
 
-    /// Restarts after lost records or another start of the module.
-    pub(crate) fn take(&mut self, record: &TickRecord, before: Before) -> Vec<Decided> {
+    /// Side and decision of what falls with it. Restarts after lost records or another start of the
+    /// module.
+    pub(crate) fn take(&mut self, record: &TickRecord, before: Before) -> Vec<(usize, Decision)> {
         if before != Before::Nothing {
             self.perception = self.perception.take().map(Perception::restarted);
             self.pending = [None; 2];
@@ -174,7 +169,6 @@ impl Listener {
         let Some(perception) = &mut self.perception else {
             return;
         };
-        let mut fell = Vec::new();
         for (n, (track, record)) in self.tracks.iter_mut().zip(records).enumerate() {
             let (contact, reading) = track.follow(record, &self.h50, self.limits);
             let sensed = Sensed {
@@ -186,15 +180,10 @@ impl Listener {
             };
             perception.step(n, sensed, &mut |event| {
                 if let Event::Decision(place, decision) = event {
-                    fell.push((place, decision));
+                    self.decided.push((place.side.into(), decision));
                 }
             });
         }
-        let decided = fell.into_iter().map(|(place, decision)| Decided {
-            side: usize::from(place.side),
-            decision,
-        });
-        self.decided.extend(decided);
     }
 }
 

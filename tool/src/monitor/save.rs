@@ -21,7 +21,7 @@ pub(crate) struct Held {
 impl Held {
     pub(crate) fn of(history: &History) -> Self {
         let records = history.sides.iter().flatten();
-        let records = records.map(|entry| (entry.ticks, Packet::Record(entry.record)));
+        let records = records.map(|entry| (entry.ticks, Packet::Record(entry.what)));
         let mut packets: Vec<_> = records.collect();
         let count = packets.len();
         let events = history.events.iter();

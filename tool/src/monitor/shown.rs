@@ -4,7 +4,7 @@ use firmware::{Event, EventRecord, Place};
 use host_sim::{decisions, report};
 use wire::{Flags, TickRecord};
 
-use super::history::{Entry, History, by, until};
+use super::history::{History, Said, by, until};
 use super::looking::Hair;
 use super::view::{Extent, Shows, View};
 use crate::faults::{Fault, fault, number};
@@ -140,12 +140,12 @@ impl History {
         let hz = f64::from(self.tick_hz);
         let mut curves: [Vec<(f64, f64)>; SIGNALS] = Default::default();
         let ticks = ((end - from) / PARTS as u64).max(1);
-        let part_of = |entry: &Entry| entry.ticks / ticks;
-        let entries: Vec<&Entry> = self.between(side, from, end).collect();
+        let part_of = |entry: &Said<TickRecord>| entry.ticks / ticks;
+        let entries: Vec<&Said<TickRecord>> = self.between(side, from, end).collect();
         for part in entries.chunk_by(|one, next| part_of(one) == part_of(next)) {
             let mut ends = [[f64::INFINITY, f64::NEG_INFINITY]; SIGNALS];
             for entry in part {
-                for ([least, most], value) in ends.iter_mut().zip(signals(&entry.record)) {
+                for ([least, most], value) in ends.iter_mut().zip(signals(&entry.what)) {
                     (*least, *most) = (least.min(value), most.max(value));
                 }
             }
@@ -154,11 +154,8 @@ impl History {
                 curve.extend(ends.map(|value| (at_s, value)));
             }
         }
-        let record = entries.last().map(|entry| entry.record);
-        let beliefs = &self.beliefs[side];
-        let after = beliefs.partition_point(|belief| belief.ticks <= end);
-        let belief = after.checked_sub(1).and_then(|at| beliefs.get(at));
-        let posteriors = belief.map_or(&[][..], |belief| &belief.posteriors);
+        let record = entries.last().map(|entry| entry.what);
+        let posteriors = by(&self.beliefs[side], end).map_or(&[][..], |belief| &belief.what);
         Whisker {
             side: SIDES[record.as_ref().map_or(side, tally::side)],
             record,
@@ -205,7 +202,7 @@ impl History {
         for side in view.sides() {
             if let Some(said) = by(&self.decided[*side], end) {
                 let at_s = said.ticks as f64 / hz;
-                let stated = decisions::stated(said.what.decision, self.classes());
+                let stated = decisions::stated(said.what, self.classes());
                 lines.push(format!("{stated} at {at_s:.3} s"));
             }
         }
@@ -228,7 +225,6 @@ pub(crate) const STATES: [(&str, Flags); 6] = [
     ("valid", Flags::VALID),
 ];
 
-#[cfg(test)]
 impl Shown {
     /// What is shown before a key is pressed.
     pub(crate) fn first(history: &History, title: &str) -> Self {

@@ -9,8 +9,7 @@ use ratatui::backend::TestBackend;
 use ratatui::buffer::Buffer;
 
 use super::draw::{Theme, draw};
-use super::svg;
-use super::view::View;
+use super::shown::Shown;
 use super::watching::{Shared, lock};
 use super::window::About;
 
@@ -31,30 +30,16 @@ pub(crate) fn size(text: &str) -> Result<Size, String> {
     Ok(Size { columns, rows })
 }
 
-pub(crate) struct Snapshot(Buffer);
+/// The window's cells before a key is pressed.
+pub(crate) fn snapshot(shared: &Mutex<Shared>, about: &About, size: Size) -> Result<Buffer, Error> {
+    let shown = Shown::first(&lock(shared).history, &about.title);
+    drawn(&shown, Theme::of_environment(), size.columns, size.rows)
+}
 
-impl Snapshot {
-    pub(crate) fn of(shared: &Mutex<Shared>, about: &About, size: Size) -> Result<Self, Error> {
-        let shown = {
-            let history = &lock(shared).history;
-            let view = View::new(history.extent());
-            history.shown(&view, &about.title, String::new())
-        };
-        let failed = |error: Infallible| Error::Work(error.to_string());
-        let mut terminal =
-            Terminal::new(TestBackend::new(size.columns, size.rows)).map_err(failed)?;
-        let theme = Theme::of_environment();
-        terminal
-            .draw(|frame| draw(frame, &shown, theme))
-            .map_err(failed)?;
-        Ok(Self(terminal.backend().buffer().clone()))
-    }
-
-    pub(crate) fn text(&self) -> String {
-        svg::text(&self.0)
-    }
-
-    pub(crate) fn svg(&self) -> String {
-        svg::svg(&self.0)
-    }
+pub(super) fn drawn(shown: &Shown, theme: Theme, columns: u16, rows: u16) -> Result<Buffer, Error> {
+    let failed = |error: Infallible| Error::Work(error.to_string());
+    let mut terminal = Terminal::new(TestBackend::new(columns, rows)).map_err(failed)?;
+    let done = terminal.draw(|frame| draw(frame, shown, theme));
+    done.map_err(failed)?;
+    Ok(terminal.backend().buffer().clone())
 }

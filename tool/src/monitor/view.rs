@@ -1,5 +1,9 @@
 //! What of the history is looked at, and what each key does.
 
+use crossterm::event::{KeyCode, KeyEvent, KeyModifiers};
+
+use super::watching::Wish;
+
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Shows {
     Left,
@@ -7,32 +11,6 @@ pub(crate) enum Shows {
     Both,
     /// All whiskers of a head, from above.
     Head,
-}
-
-/// A key, whatever terminal it comes from.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Key {
-    Letter(char),
-    Control(char),
-    Tab,
-    Escape,
-    Back,
-    Forward,
-    PageBack,
-    PageForward,
-    First,
-    Last,
-}
-
-/// What is to be done that is not a matter of looking.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Deed {
-    Arm,
-    Stop,
-    /// Ends; the module goes on.
-    Quit,
-    StopAndQuit,
-    Save,
 }
 
 pub(crate) const KEYS: [(&str, &str); 10] = [
@@ -69,16 +47,25 @@ pub(crate) struct Extent {
     pub(crate) has_head: bool,
 }
 
+/// Whether it is a letter with Ctrl.
+const fn is_control(key: KeyEvent) -> bool {
+    matches!(key.code, KeyCode::Char(_)) && key.modifiers.contains(KeyModifiers::CONTROL)
+}
+
 /// What a key means that must not wait for a picture.
-pub(crate) const fn deed(key: Key) -> Option<Deed> {
-    Some(match key {
-        Key::Letter('x' | 'X' | ' ') => Deed::Stop,
-        Key::Letter('a') => Deed::Arm,
-        Key::Letter('s') => Deed::Save,
-        Key::Letter('q') => Deed::Quit,
-        Key::Control('c') => Deed::StopAndQuit,
+pub(crate) const fn wish(key: KeyEvent) -> Option<Wish> {
+    Some(match (key.code, is_control(key)) {
+        (KeyCode::Char('x' | 'X' | ' '), false) => Wish::Stop,
+        (KeyCode::Char('a'), false) => Wish::Arm,
+        (KeyCode::Char('q'), false) => Wish::End,
+        (KeyCode::Char('c' | 'C'), true) => Wish::StopAndEnd,
         _ => return None,
     })
+}
+
+/// Whether the last minutes are to be saved.
+pub(crate) const fn saves(key: KeyEvent) -> bool {
+    matches!(key.code, KeyCode::Char('s')) && !is_control(key)
 }
 
 impl View {
@@ -112,11 +99,12 @@ impl View {
         held.clamp(extent.oldest.min(extent.now), extent.now)
     }
 
-    pub(crate) fn press(&mut self, key: Key, extent: Extent) {
-        match key {
-            Key::Letter('?' | 'h') => self.has_help = !self.has_help,
-            Key::Escape => self.has_help = false,
-            Key::Tab => {
+    pub(crate) fn press(&mut self, key: KeyEvent, extent: Extent) {
+        match key.code {
+            _ if is_control(key) => {}
+            KeyCode::Char('?' | 'h') => self.has_help = !self.has_help,
+            KeyCode::Esc => self.has_help = false,
+            KeyCode::Tab => {
                 self.shows = match self.shows {
                     Shows::Left if extent.whiskers > 1 => Shows::Right,
                     Shows::Right => Shows::Both,
@@ -124,20 +112,15 @@ impl View {
                     Shows::Left | Shows::Both | Shows::Head => Shows::Left,
                 };
             }
-            Key::Letter('p') => {
-                self.held = match self.held {
-                    Some(_) => None,
-                    None => Some(extent.now),
-                };
-            }
-            Key::Letter('+' | '=') => self.span = self.span.saturating_sub(1),
-            Key::Letter('-') => self.span = (self.span + 1).min(SPANS_S.len() - 1),
-            Key::Back => self.go(extent, -0.2),
-            Key::Forward => self.go(extent, 0.2),
-            Key::PageBack => self.go(extent, -1.0),
-            Key::PageForward => self.go(extent, 1.0),
-            Key::First => self.go(extent, f64::NEG_INFINITY),
-            Key::Last => self.go(extent, f64::INFINITY),
+            KeyCode::Char('p') => self.held = self.held.xor(Some(extent.now)),
+            KeyCode::Char('+' | '=') => self.span = self.span.saturating_sub(1),
+            KeyCode::Char('-') => self.span = (self.span + 1).min(SPANS_S.len() - 1),
+            KeyCode::Left => self.go(extent, -0.2),
+            KeyCode::Right => self.go(extent, 0.2),
+            KeyCode::PageUp => self.go(extent, -1.0),
+            KeyCode::PageDown => self.go(extent, 1.0),
+            KeyCode::Home => self.go(extent, f64::NEG_INFINITY),
+            KeyCode::End => self.go(extent, f64::INFINITY),
             _ => {}
         }
     }
@@ -156,7 +139,7 @@ impl View {
 
 #[cfg(test)]
 mod tests {
-    use super::{Deed, Extent, Key, Shows, View, deed};
+    use super::*;
 
     const EXTENT: Extent = Extent {
         oldest: 1000,
@@ -169,25 +152,25 @@ mod tests {
     #[test]
     fn a_held_picture_stays_and_is_moved_within_what_is_held() {
         let mut view = View::new(EXTENT);
-        view.press(Key::Back, EXTENT);
+        view.press(KeyCode::Left.into(), EXTENT);
         assert_eq!(view.end(EXTENT), 101_000);
-        view.press(Key::Letter('p'), EXTENT);
+        view.press(KeyCode::Char('p').into(), EXTENT);
         let later = Extent {
             now: 150_000,
             ..EXTENT
         };
         assert_eq!(view.end(later), 101_000);
-        view.press(Key::Back, later);
+        view.press(KeyCode::Left.into(), later);
         assert_eq!(view.end(later), 100_000);
-        view.press(Key::PageBack, later);
+        view.press(KeyCode::PageUp.into(), later);
         assert_eq!(view.end(later), 95_000);
-        view.press(Key::First, later);
+        view.press(KeyCode::Home.into(), later);
         assert_eq!(view.end(later), 6000);
-        view.press(Key::PageBack, later);
+        view.press(KeyCode::PageUp.into(), later);
         assert_eq!(view.end(later), 6000);
-        view.press(Key::Last, later);
+        view.press(KeyCode::End.into(), later);
         assert_eq!(view.end(later), 150_000);
-        view.press(Key::First, later);
+        view.press(KeyCode::Home.into(), later);
         // What was looked at is no longer there.
         let much_later = Extent {
             oldest: 50_000,
@@ -195,7 +178,7 @@ mod tests {
             ..EXTENT
         };
         assert_eq!(view.end(much_later), 50_000);
-        view.press(Key::Letter('p'), much_later);
+        view.press(KeyCode::Char('p').into(), much_later);
         assert_eq!(view.end(much_later), 350_000);
     }
 
@@ -209,7 +192,7 @@ mod tests {
         let mut seen = Vec::new();
         for _ in 0..4 {
             seen.push(view.shows);
-            view.press(Key::Tab, head);
+            view.press(KeyCode::Tab.into(), head);
         }
         assert_eq!(seen, [Shows::Head, Shows::Left, Shows::Right, Shows::Both]);
         assert_eq!(view.shows, Shows::Head);
@@ -218,16 +201,19 @@ mod tests {
             ..EXTENT
         };
         let mut view = View::new(one);
-        view.press(Key::Tab, one);
+        view.press(KeyCode::Tab.into(), one);
         assert_eq!(view.shows, Shows::Left);
     }
 
     #[test]
     fn motors_are_stopped_by_the_keys_that_say_so() {
-        let stops = |key| deed(key) == Some(Deed::Stop);
-        assert!(stops(Key::Letter('x')) && stops(Key::Letter(' ')));
-        assert_eq!(deed(Key::Control('c')), Some(Deed::StopAndQuit));
-        assert_eq!(deed(Key::Letter('c')), None);
-        assert_eq!(deed(Key::Letter('q')), Some(Deed::Quit));
+        for key in ['x', 'X', ' '] {
+            assert_eq!(wish(KeyCode::Char(key).into()), Some(Wish::Stop));
+        }
+        let control = |letter| KeyEvent::new(KeyCode::Char(letter), KeyModifiers::CONTROL);
+        assert_eq!(wish(control('c')), Some(Wish::StopAndEnd));
+        assert_eq!(wish(control('x')), None);
+        assert_eq!(wish(KeyCode::Char('c').into()), None);
+        assert_eq!(wish(KeyCode::Char('q').into()), Some(Wish::End));
     }
 }

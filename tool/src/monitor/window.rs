@@ -9,7 +9,7 @@ use std::sync::{Arc, Mutex};
 use std::thread::{self, JoinHandle};
 use std::time::{Duration, Instant};
 
-use crossterm::event::{self, Event, KeyCode, KeyEvent, KeyEventKind, KeyModifiers};
+use crossterm::event::{self, Event};
 use crossterm::terminal;
 use host_sim::Error;
 use host_sim::origin::Origin;
@@ -17,7 +17,7 @@ use ratatui::DefaultTerminal;
 
 use super::draw::{Theme, draw};
 use super::save::Held;
-use super::view::{Deed, Key, View, deed};
+use super::view::{View, saves, wish};
 use super::watching::{Shared, Wish, joined, lock};
 use crate::interrupt::on_signal;
 
@@ -33,11 +33,6 @@ pub(crate) struct About {
     pub(crate) title: String,
     pub(crate) origin: Origin,
     pub(crate) save: PathBuf,
-}
-
-enum Look {
-    Key(Key),
-    Resized,
 }
 
 /// Opens a window on what `listener` hears, until that has ended; `wishes` reach it.
@@ -117,7 +112,7 @@ pub(crate) fn open(
 }
 
 /// Reads the keyboard; stopping does not wait for a picture.
-fn keyboard(look: &Sender<Look>, wishes: &Sender<Wish>, shared: &Mutex<Shared>) {
+fn keyboard(look: &Sender<Event>, wishes: &Sender<Wish>, shared: &Mutex<Shared>) {
     loop {
         let event = match event::poll(PICTURE) {
             Ok(false) => {
@@ -129,63 +124,29 @@ fn keyboard(look: &Sender<Look>, wishes: &Sender<Wish>, shared: &Mutex<Shared>) 
             Ok(true) => event::read(),
             Err(error) => Err(error),
         };
-        let looked = match event {
-            Ok(Event::Key(pressed)) => {
-                let Some(key) = key(&pressed) else {
-                    continue;
-                };
-                let wish = match deed(key) {
-                    Some(Deed::Arm) => Some(Wish::Arm),
-                    Some(Deed::Stop) => Some(Wish::Stop),
-                    Some(Deed::Quit) => Some(Wish::End),
-                    Some(Deed::StopAndQuit) => Some(Wish::StopAndEnd),
-                    Some(Deed::Save) | None => None,
-                };
-                if let Some(wish) = wish {
-                    // Whoever listens no longer has stopped what was to be stopped.
-                    let _ = wishes.send(wish);
-                }
-                Look::Key(key)
-            }
-            Ok(Event::Resize(..)) => Look::Resized,
-            Ok(_) => continue,
+        let Ok(event) = event else {
             // No key can stop the motors any more.
-            Err(_) => {
-                let _ = wishes.send(Wish::StopAndEnd);
-                return;
-            }
+            let _ = wishes.send(Wish::StopAndEnd);
+            return;
         };
-        if look.send(looked).is_err() {
+        if event.is_key_release() {
+            continue;
+        }
+        if let Some(wish) = event.as_key_event().and_then(wish) {
+            // Whoever listens no longer has stopped what was to be stopped.
+            let _ = wishes.send(wish);
+        }
+        if look.send(event).is_err() {
             return;
         }
     }
-}
-
-fn key(event: &KeyEvent) -> Option<Key> {
-    if event.kind == KeyEventKind::Release {
-        return None;
-    }
-    let has_control = event.modifiers.contains(KeyModifiers::CONTROL);
-    Some(match event.code {
-        KeyCode::Char(letter) if has_control => Key::Control(letter.to_ascii_lowercase()),
-        KeyCode::Char(letter) => Key::Letter(letter),
-        KeyCode::Tab => Key::Tab,
-        KeyCode::Esc => Key::Escape,
-        KeyCode::Left => Key::Back,
-        KeyCode::Right => Key::Forward,
-        KeyCode::PageUp => Key::PageBack,
-        KeyCode::PageDown => Key::PageForward,
-        KeyCode::Home => Key::First,
-        KeyCode::End => Key::Last,
-        _ => return None,
-    })
 }
 
 fn pictures(
     mut window: DefaultTerminal,
     shared: &Arc<Mutex<Shared>>,
     about: &About,
-    looks: &Receiver<Look>,
+    looks: &Receiver<Event>,
 ) -> std::io::Result<()> {
     let theme = Theme::of_environment();
     let mut view = View::new(lock(shared).history.extent());
@@ -207,12 +168,12 @@ fn pictures(
         }
         // Keys are answered at once, and a picture is drawn in time without any.
         while let Ok(look) = looks.recv_timeout(PICTURE.saturating_sub(begun.elapsed())) {
-            let Look::Key(key) = look else {
+            let Event::Key(key) = look else {
                 break;
             };
             let extent = lock(shared).history.extent();
             view.press(key, extent);
-            if deed(key) == Some(Deed::Save) {
+            if saves(key) {
                 save(shared, about);
             }
             if begun.elapsed() >= PICTURE / 2 {

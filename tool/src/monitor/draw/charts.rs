@@ -12,63 +12,40 @@ use super::theme::Theme;
 
 struct Kind {
     quantity: &'static str,
-    curves: &'static [Curve],
+    /// Signals with their names, the first of them a line.
+    curves: &'static [(usize, &'static str)],
     /// Least range that is shown.
     least: f64,
     fixed: Option<[f64; 2]>,
     decimals: usize,
 }
 
-/// A signal in a chart: its marker distinguishes it from the others.
-struct Curve {
-    signal: usize,
-    name: &'static str,
-    sign: char,
-    colour: Color,
-}
-
-const LINE: char = '⣀';
-
-/// The first signal of a chart, the second and the third.
-const fn first(signal: usize, name: &'static str) -> Curve {
-    curve(signal, name, LINE, Color::Cyan)
-}
-
-const fn second(signal: usize, name: &'static str) -> Curve {
-    curve(signal, name, '•', Color::Yellow)
-}
-
-const fn third(signal: usize, name: &'static str) -> Curve {
-    curve(signal, name, '+', Color::Magenta)
-}
-
-const fn curve(signal: usize, name: &'static str, sign: char, colour: Color) -> Curve {
-    Curve {
-        signal,
-        name,
-        sign,
-        colour,
-    }
-}
+/// How the first, second and third signal of a chart are marked, which distinguishes them without
+/// colour too.
+const MARKS: [(char, Color, Marker, GraphType); 3] = [
+    ('⣀', Color::Cyan, Marker::Braille, GraphType::Line),
+    ('•', Color::Yellow, Marker::Dot, GraphType::Scatter),
+    ('+', Color::Magenta, Marker::Custom('+'), GraphType::Scatter),
+];
 
 const KINDS: [Kind; 3] = [
     Kind {
         quantity: "deg",
-        curves: &[first(1, "measured"), second(0, "setpoint")],
+        curves: &[(1, "measured"), (0, "setpoint")],
         least: 10.0,
         fixed: None,
         decimals: 1,
     },
     Kind {
         quantity: "codes",
-        curves: &[first(2, "x"), second(3, "y")],
+        curves: &[(2, "x"), (3, "y")],
         least: 200.0,
         fixed: None,
         decimals: 0,
     },
     Kind {
         quantity: "of 1",
-        curves: &[first(4, "contact"), second(5, "z"), third(6, "duty")],
+        curves: &[(4, "contact"), (5, "z"), (6, "duty")],
         least: 0.0,
         fixed: Some([-1.0, 1.0]),
         decimals: 2,
@@ -102,12 +79,12 @@ fn chart(
 ) {
     let now = whisker.record.as_ref().map(signals);
     let mut title = vec![Span::raw(format!(" {} ", whisker.side))];
-    for curve in kind.curves {
+    for ((signal, name), (sign, colour, ..)) in kind.curves.iter().zip(MARKS) {
         let value = now.map_or("-".to_owned(), |now| {
-            format!("{:.*}", kind.decimals, now[curve.signal])
+            format!("{:.*}", kind.decimals, now[*signal])
         });
-        let text = format!("{}{} {value} ", curve.sign, curve.name);
-        title.push(Span::styled(text, theme.style(curve.colour)));
+        let text = format!("{sign}{name} {value} ");
+        title.push(Span::styled(text, theme.style(colour)));
     }
     title.push(Span::raw(format!("{} ", kind.quantity)));
 
@@ -116,8 +93,8 @@ fn chart(
         .curves
         .iter()
         .enumerate()
-        .map(|(n, curve)| {
-            let points = &whisker.curves[curve.signal];
+        .map(|(n, (signal, _))| {
+            let points = &whisker.curves[*signal];
             if n == 0 {
                 return points.clone();
             }
@@ -130,16 +107,12 @@ fn chart(
                 .collect()
         })
         .collect();
-    let datasets = kind.curves.iter().zip(&sparse).map(|(curve, points)| {
-        let (marker, graph) = match curve.sign {
-            LINE => (Marker::Braille, GraphType::Line),
-            '•' => (Marker::Dot, GraphType::Scatter),
-            sign => (Marker::Custom(sign), GraphType::Scatter),
-        };
+    let marked = sparse.iter().zip(MARKS);
+    let datasets = marked.map(|(points, (_, colour, marker, graph))| {
         Dataset::default()
             .marker(marker)
             .graph_type(graph)
-            .style(theme.style(curve.colour))
+            .style(theme.style(colour))
             .data(points)
     });
     let range = range(kind, whisker);
@@ -163,10 +136,8 @@ fn range(kind: &Kind, whisker: &Whisker) -> [f64; 2] {
     if let Some(fixed) = kind.fixed {
         return fixed;
     }
-    let values = kind
-        .curves
-        .iter()
-        .flat_map(|curve| &whisker.curves[curve.signal]);
+    let signals = kind.curves.iter();
+    let values = signals.flat_map(|(signal, _)| &whisker.curves[*signal]);
     let (mut least, mut most) = (f64::INFINITY, f64::NEG_INFINITY);
     for (_, value) in values {
         (least, most) = (least.min(*value), most.max(*value));

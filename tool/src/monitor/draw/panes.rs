@@ -70,20 +70,15 @@ pub(super) fn panes(frame: &mut Frame<'_>, area: Rect, shown: &Shown, theme: The
     .areas(rest);
     events_pane(frame, events, shown);
     faults_pane(frame, faults, shown, theme);
-    let lines: Vec<Line<'_>> = shown
-        .load
-        .iter()
-        .map(|line| Line::from(line.as_str()))
-        .collect();
-    pane(
-        frame,
-        load,
-        " ticks and records ".to_owned(),
-        Paragraph::new(lines),
-    );
+    let lines: Vec<Line<'_>> = plain(&shown.load).collect();
+    pane(frame, load, " ticks and records ", Paragraph::new(lines));
 }
 
-fn pane(frame: &mut Frame<'_>, area: Rect, title: String, text: Paragraph<'_>) {
+fn plain(lines: &[String]) -> impl Iterator<Item = Line<'_>> {
+    lines.iter().map(|line| Line::from(line.as_str()))
+}
+
+fn pane(frame: &mut Frame<'_>, area: Rect, title: &str, text: Paragraph<'_>) {
     frame.render_widget(text.block(Block::bordered().title(title)), area);
 }
 
@@ -115,13 +110,8 @@ fn posteriors(frame: &mut Frame<'_>, area: Rect, shown: &Shown, theme: Theme) {
             ]));
         }
     }
-    lines.extend(
-        shown
-            .classifying
-            .iter()
-            .map(|line| Line::from(line.as_str())),
-    );
-    pane(frame, area, " posterior ".to_owned(), Paragraph::new(lines));
+    lines.extend(plain(&shown.classifying));
+    pane(frame, area, " posterior ", Paragraph::new(lines));
 }
 
 /// A bar of `room` characters for 1, in eighths of one.
@@ -135,24 +125,15 @@ fn bar(share: f32, room: usize) -> String {
 fn events_pane(frame: &mut Frame<'_>, area: Rect, shown: &Shown) {
     let room = usize::from(area.height.saturating_sub(2));
     let old = shown.events.len().saturating_sub(room);
-    let lines: Vec<Line<'_>> = shown.events[old..]
-        .iter()
-        .map(|line| {
-            // Decisions have a percentage, touches none.
-            let style = if line.contains('%') {
-                bold()
-            } else {
-                Style::new()
-            };
-            Line::from(line.as_str()).style(style)
-        })
-        .collect();
-    pane(
-        frame,
-        area,
-        " touches and decisions ".to_owned(),
-        Paragraph::new(lines),
-    );
+    let mut lines: Vec<Line<'_>> = plain(&shown.events[old..]).collect();
+    for (line, text) in lines.iter_mut().zip(&shown.events[old..]) {
+        // Decisions have a percentage, touches none.
+        if text.contains('%') {
+            line.style = bold();
+        }
+    }
+    let text = Paragraph::new(lines);
+    pane(frame, area, " touches and decisions ", text);
 }
 
 fn faults_pane(frame: &mut Frame<'_>, area: Rect, shown: &Shown, theme: Theme) {
@@ -166,10 +147,6 @@ fn faults_pane(frame: &mut Frame<'_>, area: Rect, shown: &Shown, theme: Theme) {
         lines.push(Line::from("none"));
     }
     let title = format!(" faults: {} ", shown.fault_count);
-    pane(
-        frame,
-        area,
-        title,
-        Paragraph::new(lines).wrap(Wrap { trim: true }),
-    );
+    let text = Paragraph::new(lines).wrap(Wrap { trim: true });
+    pane(frame, area, &title, text);
 }

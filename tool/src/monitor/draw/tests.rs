@@ -1,19 +1,19 @@
 //! The window at all sizes, without a terminal.
 
+use crossterm::event::KeyCode;
 use firmware::{Event, EventRecord, Health, Packet, Place};
 use host_sim::array::Stand;
-use ratatui::Terminal;
-use ratatui::backend::TestBackend;
 use tactile::Decision;
 use whisking::motor;
 use wire::{Flags, TickRecord};
 
-use super::{Theme, draw};
+use super::Theme;
 use crate::monitor::history::History;
 use crate::monitor::looking::Hair;
 use crate::monitor::shown::Shown;
+use crate::monitor::snapshot::drawn;
 use crate::monitor::svg::{svg, text};
-use crate::monitor::view::{Key, View};
+use crate::monitor::view::View;
 use crate::source::Incoming;
 
 const PLAIN: Theme = Theme { colours: false };
@@ -54,16 +54,10 @@ fn history() -> History {
     history
 }
 
-fn drawn(shown: &Shown, theme: Theme, width: u16, height: u16) -> ratatui::buffer::Buffer {
-    let mut terminal = Terminal::new(TestBackend::new(width, height)).unwrap();
-    terminal.draw(|frame| draw(frame, shown, theme)).unwrap();
-    terminal.backend().buffer().clone()
-}
-
 #[test]
 fn all_is_there_in_the_smallest_usual_window() {
     let shown = Shown::first(&history(), "bench, simulated");
-    let buffer = drawn(&shown, PLAIN, 80, 24);
+    let buffer = drawn(&shown, PLAIN, 80, 24).unwrap();
     let text = text(&buffer);
     for word in [
         "bench, simulated",
@@ -123,8 +117,8 @@ fn any_window_can_be_drawn() {
     let history = history();
     let mut view = View::new(history.extent());
     for press in ['n', '?', 'p'] {
-        view.press(Key::Letter(press), history.extent());
-        view.press(Key::Tab, history.extent());
+        view.press(KeyCode::Char(press).into(), history.extent());
+        view.press(KeyCode::Tab.into(), history.extent());
         let shown = history.shown(&view, "a title that is longer than some", String::new());
         for (width, height) in [
             (1, 1),
@@ -135,7 +129,7 @@ fn any_window_can_be_drawn() {
             (68, 14),
             (200, 60),
         ] {
-            drawn(&shown, PLAIN, width, height);
+            drawn(&shown, PLAIN, width, height).unwrap();
         }
     }
 }
@@ -143,7 +137,7 @@ fn any_window_can_be_drawn() {
 #[test]
 fn a_picture_has_every_word_and_dot_of_the_window() {
     let shown = Shown::first(&history(), "t < & \"");
-    let buffer = drawn(&shown, Theme { colours: true }, 100, 30);
+    let buffer = drawn(&shown, Theme { colours: true }, 100, 30).unwrap();
     let picture = svg(&buffer);
     for word in ["t &lt; &amp;", "[ARMED]", "carpet 99.50 % 640"] {
         assert!(picture.contains(word), "{word}: {picture}");
@@ -181,7 +175,10 @@ fn a_head_is_seen_from_above_with_who_feels_and_who_decides_what() {
         hair(1, 1, 0.9, ""),
     ];
     history.see(hairs.clone());
-    let drawn_now = |history: &History| text(&drawn(&Shown::first(history, "t"), PLAIN, 120, 40));
+    let drawn_now = |history: &History| {
+        let shown = Shown::first(history, "t");
+        text(&drawn(&shown, PLAIN, 120, 40).unwrap())
+    };
     // Without what stands beside it.
     let head = |all: &str| -> String {
         let line = |line: &str| line.chars().take(70).chain(['\n']).collect::<String>();

@@ -7,7 +7,7 @@ use host_sim::decisions;
 use tactile::Decision;
 use wire::{Command, TickRecord};
 
-use super::{Decided, Listener};
+use super::Listener;
 use crate::monitor::known::Known;
 use crate::source::{chosen, scene_file};
 use crate::tally::Tally;
@@ -57,7 +57,7 @@ fn listened(
                 continue;
             }
             let before = tally.take(record);
-            for Decided { side, decision } in listener.take(record, before) {
+            for (side, decision) in listener.take(record, before) {
                 own.push(row(record.sequence, side, decision, &classes));
             }
         }
