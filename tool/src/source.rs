@@ -26,12 +26,12 @@ pub(crate) use laying::Laying;
 pub(crate) use program::{BoardName, build, is_of, with_scene, workspace};
 #[cfg(test)]
 pub(crate) use scripted::{Scripted, chosen, record, scene_file};
-#[cfg(unix)]
 pub(crate) use texture::texture;
 
 use firmware::{Links, Packet};
 use host_sim::Error;
 use host_sim::origin::Origin;
+use scene::Scene;
 use wire::{TaggedCommand, TickRecord};
 
 use crate::deployment::Deployment;
@@ -62,8 +62,7 @@ pub(crate) trait Source {
 
     /// Sends a request for another board of its head.
     fn request_of(&mut self, node: u8, _: TaggedCommand) -> Result<(), Error> {
-        let fault = format!("--node: found {node}; allowed: a board of a head");
-        Err(Error::Input(fault))
+        Err(no_board(node))
     }
 
     /// The board of a head that is asked by way of another one, if it is one.
@@ -81,9 +80,15 @@ pub(crate) trait Source {
         None
     }
 
+    /// The scene in whose world it is; none: on a real bench.
+    fn scene(&self) -> Option<&Scene> {
+        None
+    }
+
     /// Whether it has a sample of that name; on a real bench any name will do.
-    fn has(&self, _sample: &str) -> Result<(), Error> {
-        Ok(())
+    fn has(&self, sample: &str) -> Result<(), Error> {
+        let found = self.scene().map(|scene| texture(sample, scene));
+        found.transpose().map(drop)
     }
 
     /// Has a sample laid before the whisker, in place of what lies there.
@@ -111,7 +116,7 @@ pub(crate) trait Source {
 
     /// How long its scene lasts, s; none: until it is switched off.
     fn duration_s(&self) -> Option<f64> {
-        None
+        self.scene().map(|scene| scene.duration_s)
     }
 
     /// Where it is: its board.
@@ -133,6 +138,10 @@ pub(crate) trait Source {
     fn deploy(&mut self, what: &Deployment) -> Result<(), Error> {
         load(self, what)
     }
+}
+
+fn no_board(node: u8) -> Error {
+    Error::Input(format!("--node: found {node}; allowed: a board of a head"))
 }
 
 /// Whether a probe can talk with a module of these links.

@@ -10,7 +10,7 @@ use host_sim::loaded::Loaded;
 
 use super::Source;
 use super::elsewhere::Elsewhere;
-use super::emulated::{Emulated, EmulatedHead};
+use super::emulated::Emulated;
 use super::flash::Flash;
 use super::laying::Laying;
 use super::port::Port;
@@ -19,7 +19,6 @@ use super::simulated::Simulated;
 use crate::conversation::Conversation;
 use crate::probe;
 
-/// Which module.
 #[derive(Debug, Clone, Args)]
 pub(crate) struct SourceChoice {
     /// A simulated module, in the world of this scene
@@ -173,7 +172,7 @@ impl SourceChoice {
                              head, for which cargo xtask emulate --head has scenarios";
                 return Err(Error::file(path, fault));
             }
-            return Ok(Box::new(EmulatedHead::open(loaded, &program)?));
+            return Ok(Box::new(Emulated::head(loaded, &program)?));
         }
         let emulated = Emulated::open(loaded, &program, flash, self.scenario.as_deref())?;
         Ok(Box::new(emulated))

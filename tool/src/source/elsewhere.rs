@@ -2,9 +2,9 @@
 
 use std::time::Instant;
 
-use firmware::Links;
 use host_sim::Error;
 use host_sim::origin::Origin;
+use scene::Scene;
 use wire::{Command, TaggedCommand};
 
 use super::{Incoming, Laying, Source};
@@ -71,8 +71,8 @@ impl Source for Elsewhere {
         self.by.laying()
     }
 
-    fn has(&self, sample: &str) -> Result<(), Error> {
-        self.by.has(sample)
+    fn scene(&self) -> Option<&Scene> {
+        self.by.scene()
     }
 
     fn lay(&mut self, sample: &str) -> Result<(), Error> {
@@ -92,16 +92,8 @@ impl Source for Elsewhere {
         }
     }
 
-    fn duration_s(&self) -> Option<f64> {
-        self.by.duration_s()
-    }
-
     fn origin(&self) -> Origin {
         self.by.origin().with("node", self.node)
-    }
-
-    fn would_answer(&self, _: Links) -> Result<(), Error> {
-        Ok(())
     }
 }
 

@@ -1,4 +1,5 @@
-//! A board's own program on an emulated chip.
+//! A board's own program on an emulated chip, or on those of a head, whose first board is talked
+//! with.
 
 use std::path::Path;
 
@@ -8,28 +9,32 @@ use firmware::Links;
 use host_sim::Error;
 use host_sim::loaded::Loaded;
 use host_sim::origin::Origin;
+use scene::Scene;
 use wire::TaggedCommand;
 
 use super::flash::Flash;
 use super::texture::texture;
-use super::{Incoming, Source, by_probe};
+use super::{Incoming, Source, by_probe, no_board};
 use crate::deployment::Deployment;
 use crate::loading::load;
 
 pub(super) struct Emulated {
     loaded: Loaded,
-    session: Session,
-    flash: Flash,
+    boards: Boards,
+}
+
+enum Boards {
+    One(Session, Flash),
+    Head(HeadSession),
 }
 
 impl Emulated {
     pub(super) fn open(
         loaded: Loaded,
         program: &Path,
-        flash: Flash,
+        mut flash: Flash,
         scenario: Option<&Path>,
     ) -> Result<Self, Error> {
-        let mut flash = flash;
         let mut session = Session::flashed(&loaded.scene, program, flash.contents())?;
         if flash.contents().is_empty() {
             flash.store(&session.flash()?)?;
@@ -37,54 +42,85 @@ impl Emulated {
         if let Some(scenario) = scenario {
             session.befall(scenario, &loaded.scene)?;
         }
-        Ok(Self {
-            loaded,
-            session,
-            flash,
-        })
+        let boards = Boards::One(session, flash);
+        Ok(Self { loaded, boards })
+    }
+
+    pub(super) fn head(loaded: Loaded, program: &Path) -> Result<Self, Error> {
+        let boards = Boards::Head(HeadSession::new(&loaded.scene, program)?);
+        Ok(Self { loaded, boards })
     }
 }
 
+fn room(is_there: bool, fault: &str) -> Result<(), Error> {
+    let room = is_there.then_some(());
+    room.ok_or_else(|| Error::Work(fault.to_owned()))
+}
+
+const FULL: &str = "the board has no room for more requests";
+
 impl Source for Emulated {
     fn next(&mut self) -> Result<Incoming, Error> {
-        self.session.tick()?;
-        Ok(Incoming {
-            packets: self.session.packets()?,
-            lines: self.session.log(),
-        })
+        let (packets, lines) = match &mut self.boards {
+            Boards::One(board, _) => {
+                board.tick()?;
+                (board.packets()?, board.log())
+            }
+            Boards::Head(head) => {
+                head.tick()?;
+                (head.packets()?, head.log()?)
+            }
+        };
+        Ok(Incoming { packets, lines })
     }
 
     fn request(&mut self, request: TaggedCommand) -> Result<(), Error> {
-        if self.session.request(request)? {
-            return Ok(());
-        }
         let fault = "the board takes no requests; has its scene telemetry.rtt = false?";
-        Err(Error::Work(fault.to_owned()))
+        match &mut self.boards {
+            Boards::One(board, _) => room(board.request(request)?, fault),
+            Boards::Head(head) => room(head.request(None, request)?, FULL),
+        }
     }
 
-    fn has(&self, sample: &str) -> Result<(), Error> {
-        texture(sample, &self.loaded.scene).map(drop)
+    fn request_of(&mut self, node: u8, request: TaggedCommand) -> Result<(), Error> {
+        match &mut self.boards {
+            Boards::One(..) => Err(no_board(node)),
+            Boards::Head(head) => room(head.request(Some(node), request)?, FULL),
+        }
+    }
+
+    fn scene(&self) -> Option<&Scene> {
+        Some(&self.loaded.scene)
     }
 
     fn lay(&mut self, sample: &str) -> Result<(), Error> {
-        self.session.lay(texture(sample, &self.loaded.scene)?);
+        let texture = texture(sample, &self.loaded.scene)?;
+        match &mut self.boards {
+            Boards::One(board, _) => board.lay(texture),
+            Boards::Head(head) => head.lay(texture),
+        }
         Ok(())
     }
 
     fn is_laid(&mut self) -> Result<bool, Error> {
-        Ok(self.session.is_laid())
+        Ok(match &self.boards {
+            Boards::One(board, _) => board.is_laid(),
+            Boards::Head(head) => head.is_laid(),
+        })
     }
 
     fn now_s(&mut self) -> f64 {
-        self.session.now_s()
-    }
-
-    fn duration_s(&self) -> Option<f64> {
-        Some(self.loaded.scene.duration_s)
+        match &mut self.boards {
+            Boards::One(board, _) => board.now_s(),
+            Boards::Head(head) => head.now_s(),
+        }
     }
 
     fn origin(&self) -> Origin {
-        let board = self.session.board();
+        let board = match &self.boards {
+            Boards::One(board, _) => board.board(),
+            Boards::Head(head) => head.board(),
+        };
         Origin::default().with("board", format_args!("{board} (emulated)"))
     }
 
@@ -93,79 +129,21 @@ impl Source for Emulated {
     }
 
     fn deploy(&mut self, what: &Deployment) -> Result<(), Error> {
-        self.session.bear_resets(true);
+        self.bear_resets(true);
         let loaded = load(self, what);
-        self.session.bear_resets(false);
-        self.flash.store(&self.session.flash()?)?;
+        self.bear_resets(false);
+        if let Boards::One(board, flash) = &mut self.boards {
+            flash.store(&board.flash()?)?;
+        }
         loaded
     }
 }
 
-/// The boards of a head, of which the first is talked with.
-pub(super) struct EmulatedHead {
-    loaded: Loaded,
-    session: HeadSession,
-}
-
-impl EmulatedHead {
-    pub(super) fn open(loaded: Loaded, program: &Path) -> Result<Self, Error> {
-        let session = HeadSession::new(&loaded.scene, program)?;
-        Ok(Self { loaded, session })
-    }
-
-    fn ask(&mut self, node: Option<u8>, request: TaggedCommand) -> Result<(), Error> {
-        if self.session.request(node, request)? {
-            return Ok(());
+impl Emulated {
+    /// Those of a head always may be reset.
+    fn bear_resets(&mut self, bears: bool) {
+        if let Boards::One(board, _) = &mut self.boards {
+            board.bear_resets(bears);
         }
-        let fault = "the board has no room for more requests";
-        Err(Error::Work(fault.to_owned()))
-    }
-}
-
-impl Source for EmulatedHead {
-    fn next(&mut self) -> Result<Incoming, Error> {
-        self.session.tick()?;
-        Ok(Incoming {
-            packets: self.session.packets()?,
-            lines: self.session.log()?,
-        })
-    }
-
-    fn request(&mut self, request: TaggedCommand) -> Result<(), Error> {
-        self.ask(None, request)
-    }
-
-    fn request_of(&mut self, node: u8, request: TaggedCommand) -> Result<(), Error> {
-        self.ask(Some(node), request)
-    }
-
-    fn has(&self, sample: &str) -> Result<(), Error> {
-        texture(sample, &self.loaded.scene).map(drop)
-    }
-
-    fn lay(&mut self, sample: &str) -> Result<(), Error> {
-        self.session.lay(texture(sample, &self.loaded.scene)?);
-        Ok(())
-    }
-
-    fn is_laid(&mut self) -> Result<bool, Error> {
-        Ok(self.session.is_laid())
-    }
-
-    fn now_s(&mut self) -> f64 {
-        self.session.now_s()
-    }
-
-    fn duration_s(&self) -> Option<f64> {
-        Some(self.loaded.scene.duration_s)
-    }
-
-    fn origin(&self) -> Origin {
-        let board = self.session.board();
-        Origin::default().with("board", format_args!("{board} (emulated)"))
-    }
-
-    fn would_answer(&self, links: Links) -> Result<(), Error> {
-        by_probe(links)
     }
 }

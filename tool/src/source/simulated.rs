@@ -8,12 +8,13 @@ use host_sim::loaded::Loaded;
 use host_sim::origin::Origin;
 use host_sim::run::Run;
 use host_sim::{Error, report};
+use scene::Scene;
 use tactile::ModelBuf;
 use wire::TaggedCommand;
 
 use super::flash::Flash;
 use super::texture::texture;
-use super::{Incoming, Source};
+use super::{Incoming, Source, no_board};
 use crate::decides::Decides;
 use crate::deployment::Deployment;
 
@@ -101,15 +102,12 @@ impl Source for Simulated {
     }
 
     fn request_of(&mut self, node: u8, request: TaggedCommand) -> Result<(), Error> {
-        if self.run.module_mut().request_of(node.into(), request) {
-            return Ok(());
-        }
-        let fault = format!("--node: found {node}; allowed: a board of a head");
-        Err(Error::Input(fault))
+        let is_there = self.run.module_mut().request_of(node.into(), request);
+        is_there.then_some(()).ok_or_else(|| no_board(node))
     }
 
-    fn has(&self, sample: &str) -> Result<(), Error> {
-        texture(sample, &self.loaded.scene).map(drop)
+    fn scene(&self) -> Option<&Scene> {
+        Some(&self.loaded.scene)
     }
 
     fn lay(&mut self, sample: &str) -> Result<(), Error> {
@@ -123,10 +121,6 @@ impl Source for Simulated {
 
     fn now_s(&mut self) -> f64 {
         self.now()
-    }
-
-    fn duration_s(&self) -> Option<f64> {
-        Some(self.loaded.scene.duration_s)
     }
 
     fn origin(&self) -> Origin {
