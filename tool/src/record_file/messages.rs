@@ -25,7 +25,7 @@ const NS: u64 = 1_000_000_000;
 /// goes on where the module starts again.
 pub(super) struct Messages {
     writer: Writer<NoSeek<Output>>,
-    channels: Channels,
+    channels: Vec<u16>,
     count: u32,
     tick_hz: u32,
     ticks: TickCount,
@@ -33,14 +33,12 @@ pub(super) struct Messages {
     classes: Vec<String>,
 }
 
-struct Channels {
-    records: [u16; 2],
-    answers: u16,
-    decisions: u16,
-    poses: u16,
-    events: u16,
-    log: u16,
-}
+/// Places among [`channels`], behind the records of the left and of the right.
+const ANSWERS: usize = 2;
+const DECISIONS: usize = 3;
+const POSES: usize = 4;
+const EVENTS: usize = 5;
+const LOG: usize = 6;
 
 impl Messages {
     pub(super) fn new(
@@ -62,27 +60,13 @@ impl Messages {
                 metadata: metadata.collect(),
             })
             .map_err(failed)?;
-        let mut channel = |topic: &str, schema: &str, properties: Value| {
+        let channel = |(topic, schema, properties): (&str, &str, Value)| {
             let schema_text = json!({"type": "object", "properties": properties}).to_string();
             let schema = writer.add_schema(schema, "jsonschema", schema_text.as_bytes())?;
             writer.add_channel(schema, topic, "json", &BTreeMap::new())
         };
-        let mut channels = || {
-            let record = table::schema();
-            Ok(Channels {
-                records: [
-                    channel("/left/records", "whisker.Record", record.clone())?,
-                    channel("/right/records", "whisker.Record", record)?,
-                ],
-                answers: channel("/answers", "whisker.Answer", answer_schema())?,
-                decisions: channel("/decisions", "whisker.Decision", decision_schema())?,
-                poses: channel("/poses", "whisker.Pose", pose_schema())?,
-                events: channel("/events", "whisker.Event", event_schema())?,
-                // The one that Foxglove's panel of logs reads.
-                log: channel("/log", "foxglove.Log", log_schema())?,
-            })
-        };
-        let channels = channels().map_err(failed)?;
+        let channels = channels().into_iter().map(channel);
+        let channels = channels.collect::<Result<_, _>>().map_err(failed)?;
         Ok(Self {
             writer,
             channels,
@@ -98,9 +82,8 @@ impl Messages {
         match packet {
             Packet::Record(record) => self.record(record),
             Packet::Answer(answer) => {
-                let channel = self.channels.answers;
                 let message = answer_message(answer, self.t_s(answer.sequence));
-                self.write(channel, message.to_string().as_bytes())
+                self.write(ANSWERS, message.to_string().as_bytes())
             }
             Packet::Event(event) => self.event(event),
         }
@@ -120,7 +103,7 @@ impl Messages {
                     "reason": decision.reason().map_or("", Reason::name),
                     "among": among.as_ref().map_or(&[][..], |among| among),
                 });
-                (self.channels.decisions, message)
+                (DECISIONS, message)
             }
             Event::Pose(place, Pose { tilt, depth }) => {
                 let message = json!({
@@ -131,7 +114,7 @@ impl Messages {
                     "depth_deg": depth.value(),
                     "depth_error_deg": depth.error(),
                 });
-                (self.channels.poses, message)
+                (POSES, message)
             }
             event => {
                 let Some((_, said)) = report::said(event, &self.classes) else {
@@ -139,7 +122,7 @@ impl Messages {
                 };
                 let fault = number(event).unwrap_or(0);
                 let message = json!({"t_s": t_s, "fault": fault, "said": said});
-                (self.channels.events, message)
+                (EVENTS, message)
             }
         };
         self.write(channel, message.to_string().as_bytes())
@@ -147,9 +130,8 @@ impl Messages {
 
     fn record(&mut self, record: &TickRecord) -> io::Result<()> {
         self.ticks.take(record.sequence);
-        let channel = self.channels.records[side(record)];
         let message = table::json(record, self.t_s(record.sequence));
-        self.write(channel, message.as_bytes())
+        self.write(side(record), message.as_bytes())
     }
 
     fn t_s(&mut self, sequence: u32) -> f64 {
@@ -172,7 +154,7 @@ impl Messages {
             "file": "",
             "line": 0,
         });
-        self.write(self.channels.log, message.to_string().as_bytes())
+        self.write(LOG, message.to_string().as_bytes())
     }
 
     fn now(&self) -> u64 {
@@ -182,10 +164,10 @@ impl Messages {
         ticks / hz * NS + ticks % hz * NS / hz
     }
 
-    fn write(&mut self, channel_id: u16, data: &[u8]) -> io::Result<()> {
+    fn write(&mut self, channel: usize, data: &[u8]) -> io::Result<()> {
         let now = self.now();
         let header = MessageHeader {
-            channel_id,
+            channel_id: self.channels[channel],
             sequence: self.count,
             log_time: now,
             publish_time: now,
@@ -221,66 +203,81 @@ fn answer_message(answer: &Answer, t_s: f64) -> Value {
     })
 }
 
-fn answer_schema() -> Value {
-    json!({
-        "t_s": {"type": "number", "description": "when it was carried out, s"},
-        "tag": {"type": "integer", "description": "that of the request"},
-        "command": {"type": "integer", "description": "its number (docs/protocol.md)"},
-        "status": {"type": "integer", "description": "0 done, otherwise refused"},
-        "said": {"type": "string", "description": "the status in words"},
-        "values": {"type": "array", "items": {"type": "integer"}},
-    })
-}
-
-fn decision_schema() -> Value {
-    json!({
-        "t_s": {"type": "number", "description": "when it fell, s"},
-        "side": {"type": "string"},
-        "decision": {"type": "string", "description": "the class, or unknown"},
-        "posterior": {"type": "number", "description": "its probability, 0 to 1"},
-        "samples": {"type": "integer", "description": "samples that it used"},
-        "reason": {
-            "type": "string",
-            "description": "why no class is named: unknown, pose or between; otherwise empty",
-        },
-        "among": {
-            "type": "array",
-            "items": {"type": "string"},
-            "description": "the two classes of between, the likelier one first; otherwise empty",
-        },
-    })
-}
-
-fn pose_schema() -> Value {
-    json!({
-        "t_s": {"type": "number", "description": "when its decision fell, s"},
-        "side": {"type": "string"},
-        "tilt_deg": {"type": "number", "description": "tilt of what was named"},
-        "tilt_error_deg": {"type": "number", "description": "root mean square of its error"},
-        "depth_deg": {"type": "number", "description": "depth of contact"},
-        "depth_error_deg": {"type": "number", "description": "root mean square of its error"},
-    })
-}
-
-fn event_schema() -> Value {
-    json!({
-        "t_s": {"type": "number", "description": "when it was, s"},
-        "fault": {"type": "integer", "description": "its number (docs/faults.md); 0: none"},
-        "said": {"type": "string", "description": "what (docs/protocol.md)"},
-    })
-}
-
-fn log_schema() -> Value {
-    json!({
-        "timestamp": {
-            "type": "object",
-            "title": "time",
-            "properties": {"sec": {"type": "integer"}, "nsec": {"type": "integer"}},
-        },
-        "level": {"type": "integer", "description": "1 debug, 2 info, 3 warning, 4 error"},
-        "message": {"type": "string"},
-        "name": {"type": "string"},
-        "file": {"type": "string"},
-        "line": {"type": "integer"},
-    })
+/// Topic, schema, and what is in its messages, of each channel.
+fn channels() -> [(&'static str, &'static str, Value); 7] {
+    let record = table::schema();
+    [
+        ("/left/records", "whisker.Record", record.clone()),
+        ("/right/records", "whisker.Record", record),
+        (
+            "/answers",
+            "whisker.Answer",
+            json!({
+                "t_s": {"type": "number", "description": "when it was carried out, s"},
+                "tag": {"type": "integer", "description": "that of the request"},
+                "command": {"type": "integer", "description": "its number (docs/protocol.md)"},
+                "status": {"type": "integer", "description": "0 done, otherwise refused"},
+                "said": {"type": "string", "description": "the status in words"},
+                "values": {"type": "array", "items": {"type": "integer"}},
+            }),
+        ),
+        (
+            "/decisions",
+            "whisker.Decision",
+            json!({
+                "t_s": {"type": "number", "description": "when it fell, s"},
+                "side": {"type": "string"},
+                "decision": {"type": "string", "description": "the class, or unknown"},
+                "posterior": {"type": "number", "description": "its probability, 0 to 1"},
+                "samples": {"type": "integer", "description": "samples that it used"},
+                "reason": {
+                    "type": "string",
+                    "description": "why no class is named: unknown, pose or between; otherwise empty",
+                },
+                "among": {
+                    "type": "array",
+                    "items": {"type": "string"},
+                    "description": "the two classes of between, the likelier one first; otherwise empty",
+                },
+            }),
+        ),
+        (
+            "/poses",
+            "whisker.Pose",
+            json!({
+                "t_s": {"type": "number", "description": "when its decision fell, s"},
+                "side": {"type": "string"},
+                "tilt_deg": {"type": "number", "description": "tilt of what was named"},
+                "tilt_error_deg": {"type": "number", "description": "root mean square of its error"},
+                "depth_deg": {"type": "number", "description": "depth of contact"},
+                "depth_error_deg": {"type": "number", "description": "root mean square of its error"},
+            }),
+        ),
+        (
+            "/events",
+            "whisker.Event",
+            json!({
+                "t_s": {"type": "number", "description": "when it was, s"},
+                "fault": {"type": "integer", "description": "its number (docs/faults.md); 0: none"},
+                "said": {"type": "string", "description": "what (docs/protocol.md)"},
+            }),
+        ),
+        // The one that Foxglove's panel of logs reads.
+        (
+            "/log",
+            "foxglove.Log",
+            json!({
+                "timestamp": {
+                    "type": "object",
+                    "title": "time",
+                    "properties": {"sec": {"type": "integer"}, "nsec": {"type": "integer"}},
+                },
+                "level": {"type": "integer", "description": "1 debug, 2 info, 3 warning, 4 error"},
+                "message": {"type": "string"},
+                "name": {"type": "string"},
+                "file": {"type": "string"},
+                "line": {"type": "integer"},
+            }),
+        ),
+    ]
 }
