@@ -31,6 +31,7 @@ mod source;
 mod table;
 mod tally;
 mod tuning;
+mod typed;
 
 use std::process::ExitCode;
 
@@ -79,16 +80,8 @@ enum Command {
     Flash(commands::flash::Arguments),
     /// Says what this PC lacks to work with a board, and the command that mends it
     Doctor(commands::doctor::Arguments),
-    /// Arms a module: its motors may be driven
-    Arm(commands::order::ToAll),
-    /// Stops a module: its motors are off until it is armed
-    Stop(commands::order::ToAll),
-    /// Runs a motor again that is off after faults, or was given up
-    Clear(commands::order::ToSide),
-    /// Finds a whisker's rest again, where motor.rest is "find"
-    Home(commands::order::ToSide),
-    /// Says what a module is and what it has lost and missed
-    Status(commands::order::ToAll),
+    #[command(flatten)]
+    Order(commands::order::Order),
     /// Gives a module another scene, a model to decide by, or both; its program stays
     Deploy(commands::deploy::Arguments),
     /// Runs a board's program on an emulated chip, with its serial port as a pseudo-terminal
@@ -125,11 +118,7 @@ fn run(command: &Command, verbosity: Verbosity) -> Result<(), Error> {
         Command::Bringup(arguments) => commands::bringup::bringup(arguments),
         Command::Flash(arguments) => commands::flash::flash(arguments, verbosity),
         Command::Doctor(arguments) => commands::doctor::doctor(arguments),
-        Command::Arm(to) => commands::order::arm(to),
-        Command::Stop(to) => commands::order::stop(to),
-        Command::Clear(to) => commands::order::clear(to),
-        Command::Home(to) => commands::order::home(to),
-        Command::Status(of) => commands::order::status(of),
+        Command::Order(order) => commands::order::order(order),
         Command::Deploy(arguments) => commands::deploy::deploy(arguments),
         #[cfg(unix)]
         Command::Board(arguments) => commands::board::board(arguments),

@@ -1,11 +1,10 @@
 //! `whisker board`: an emulated board whose serial port is a pseudo-terminal.
 
 use std::ffi::{CString, OsStr};
-use std::io::{BufRead, ErrorKind};
+use std::io::ErrorKind;
 use std::os::fd::OwnedFd;
 use std::os::unix::ffi::OsStrExt;
 use std::path::{Path, PathBuf};
-use std::sync::mpsc::{self, Receiver};
 
 use clap::Args;
 use emulator::session::Session;
@@ -16,8 +15,8 @@ use rustix::io::Errno;
 use rustix::pty::OpenptFlags;
 
 use crate::source::{BoardName, Flash, build, texture};
+use crate::typed::Typed;
 
-/// Which board.
 #[derive(Debug, Args)]
 pub(crate) struct Arguments {
     /// The scene, whose telemetry has a serial_baud
@@ -118,18 +117,6 @@ impl Terminal {
     }
 }
 
-fn lines() -> Receiver<String> {
-    let (send, lines) = mpsc::channel();
-    std::thread::spawn(move || {
-        for line in std::io::stdin().lock().lines().map_while(Result::ok) {
-            if send.send(line).is_err() {
-                break;
-            }
-        }
-    });
-    lines
-}
-
 pub(crate) fn board(arguments: &Arguments) -> Result<(), Error> {
     let path = &arguments.scene;
     let mut loaded = Loaded::new(path)?;
@@ -161,7 +148,7 @@ pub(crate) fn board(arguments: &Arguments) -> Result<(), Error> {
     }
     report::say(format_args!("{} {baud}", terminal.path.to_string_lossy()));
     report::warn("lines `lay NAME` lay a texture before the whisker; Ctrl-C ends it");
-    let commands = lines();
+    let commands = Typed::at_standard_input();
     loop {
         session.tick()?;
         if session.was_reset() {
@@ -173,7 +160,7 @@ pub(crate) fn board(arguments: &Arguments) -> Result<(), Error> {
         if !received.is_empty() {
             session.serial_write(&received);
         }
-        for line in commands.try_iter() {
+        while let Ok(Some(line)) = commands.line() {
             let laid = match line.split_whitespace().collect::<Vec<_>>()[..] {
                 ["lay", name] => texture(name, scene).map(|found| session.lay(found)),
                 [] => Ok(()),

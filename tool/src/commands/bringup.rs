@@ -18,9 +18,8 @@ use host_sim::output::Output;
 use crate::interrupt;
 use crate::source::SourceChoice;
 use bench::Bench;
-use report::{Part, Report};
+use report::{Done, Report, part_of};
 
-/// Which module, what is done with it, and where the report goes.
 #[derive(Debug, Args)]
 #[command(group(clap::ArgGroup::new("source").required(true)))]
 pub(crate) struct Arguments {
@@ -49,7 +48,6 @@ pub(crate) struct Arguments {
     json: Option<PathBuf>,
 }
 
-/// A step.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 enum Name {
     /// What it is, how it started, its clock and supply; its motors are stopped
@@ -69,12 +67,12 @@ enum Name {
 }
 
 /// What is done of a whisker, of this side.
-type OfSide = fn(&mut Bench, u8) -> Result<Part, Error>;
+type OfSide = fn(&mut Bench, u8) -> Done;
 
 /// The steps but for the first, in their order.
 const STEPS: [(Name, OfSide); 6] = [
     (Name::Frames, sensor::frames),
-    (Name::Rest, |bench, side| Ok(sensor::rest(bench, side))),
+    (Name::Rest, sensor::rest),
     (Name::Rate, readings::rate),
     (Name::Noise, readings::noise),
     (Name::Encoder, moving::encoder),
@@ -102,7 +100,7 @@ fn steps(arguments: &Arguments, bench: &mut Bench, report: &mut Report) -> Resul
     let is_asked = |name| arguments.steps.is_empty() || arguments.steps.contains(&name);
     bench.stop()?;
     if let Some(scene) = &arguments.find_rest {
-        report.add(search::find(bench, scene)?.named("find-rest"));
+        report.add(part_of(search::find(bench, scene))?.named("find-rest"));
         return Ok(());
     }
     if is_asked(Name::Module) {
@@ -110,7 +108,7 @@ fn steps(arguments: &Arguments, bench: &mut Bench, report: &mut Report) -> Resul
     }
     for (name, step) in STEPS.into_iter().filter(|(name, _)| is_asked(*name)) {
         for side in bench.sides() {
-            let part = step(bench, side)?;
+            let part = part_of(step(bench, side))?;
             report.add(part.of(name, side));
         }
     }

@@ -1,6 +1,6 @@
 //! `whisker arm`, `stop`, `clear`, `home` and `status`: one command, and its answer.
 
-use clap::{Args, ValueEnum};
+use clap::{Args, Subcommand, ValueEnum};
 use host_sim::{Error, report};
 use wire::{Command, WhiskerId};
 
@@ -8,7 +8,20 @@ use crate::configuration::RunsBy;
 use crate::decides::Decides;
 use crate::source::SourceChoice;
 
-/// Which module.
+#[derive(Debug, Subcommand)]
+pub(crate) enum Order {
+    /// Arms a module: its motors may be driven
+    Arm(ToAll),
+    /// Stops a module: its motors are off until it is armed
+    Stop(ToAll),
+    /// Runs a motor again that is off after faults, or was given up
+    Clear(ToSide),
+    /// Finds a whisker's rest again, where motor.rest is "find"
+    Home(ToSide),
+    /// Says what a module is and what it has lost and missed
+    Status(ToAll),
+}
+
 #[derive(Debug, Args)]
 #[command(group(clap::ArgGroup::new("source").required(true)))]
 pub(crate) struct ToAll {
@@ -16,7 +29,6 @@ pub(crate) struct ToAll {
     source: SourceChoice,
 }
 
-/// Which module, and which of its whiskers.
 #[derive(Debug, Args)]
 #[command(group(clap::ArgGroup::new("source").required(true)))]
 pub(crate) struct ToSide {
@@ -38,10 +50,7 @@ pub(super) enum SideName {
 
 impl SideName {
     pub(super) const fn number(self) -> u8 {
-        match self {
-            Self::Left => 0,
-            Self::Right => 1,
-        }
+        self as u8
     }
 }
 
@@ -54,31 +63,22 @@ impl ToSide {
     }
 }
 
-/// Arms the motors. Nothing of it is undone at the end.
-pub(crate) fn arm(to: &ToAll) -> Result<(), Error> {
-    order(&to.source, Command::Arm, "armed")
-}
-
-pub(crate) fn stop(to: &ToAll) -> Result<(), Error> {
-    order(&to.source, Command::Stop, "motors off until armed")
-}
-
-pub(crate) fn clear(to: &ToSide) -> Result<(), Error> {
-    order(&to.source, Command::Clear(to.whisker()), "faults cleared")
-}
-
-pub(crate) fn home(to: &ToSide) -> Result<(), Error> {
-    order(&to.source, Command::Home(to.whisker()), "is being homed")
-}
-
-fn order(source: &SourceChoice, command: Command, done: &str) -> Result<(), Error> {
+/// Has it carried out; nothing of it is undone at the end.
+pub(crate) fn order(order: &Order) -> Result<(), Error> {
+    let (source, command, done) = match order {
+        Order::Arm(to) => (&to.source, Command::Arm, "armed"),
+        Order::Stop(to) => (&to.source, Command::Stop, "motors off until armed"),
+        Order::Clear(to) => (&to.source, Command::Clear(to.whisker()), "faults cleared"),
+        Order::Home(to) => (&to.source, Command::Home(to.whisker()), "is being homed"),
+        Order::Status(of) => return status(&of.source),
+    };
     let answer = source.module()?.ask(command)?;
     report::say(format_args!("{done}, after tick {}", answer.sequence));
     Ok(())
 }
 
-pub(crate) fn status(of: &ToAll) -> Result<(), Error> {
-    let mut module = of.source.module()?;
+fn status(source: &SourceChoice) -> Result<(), Error> {
+    let mut module = source.module()?;
     let about = module.about()?;
     let status = module.ask(Command::Status)?;
     let [lost, missed] = status.values.map(i32::cast_unsigned);

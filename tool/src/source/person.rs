@@ -1,16 +1,15 @@
 //! Whoever is at the bench, who lays samples before the whisker when asked to.
 
-use std::io::{self, BufRead, IsTerminal};
-use std::sync::mpsc::{self, Receiver, TryRecvError};
-use std::thread;
+use std::io::{self, IsTerminal};
 
 use host_sim::{Error, report};
 
-/// A person before a keyboard. Their answers are read beside the work: the module goes on while
-/// a sample is exchanged, and what it tells must be fetched.
+use crate::typed::Typed;
+
+/// A person before a keyboard.
 #[derive(Debug)]
 pub(crate) struct Person {
-    answers: Receiver<io::Result<()>>,
+    answers: Typed,
     /// Whether answers that come before they are asked for are a key pressed once too often;
     /// otherwise they were written down beforehand.
     forgets: bool,
@@ -20,19 +19,10 @@ pub(crate) struct Person {
 
 impl Person {
     pub(crate) fn at_standard_input() -> Self {
-        Self::new(|| Box::new(io::stdin().lock()), io::stdin().is_terminal())
+        Self::new(Typed::at_standard_input(), io::stdin().is_terminal())
     }
 
-    fn new(input: impl FnOnce() -> Box<dyn BufRead> + Send + 'static, forgets: bool) -> Self {
-        let (answer, answers) = mpsc::channel();
-        thread::spawn(move || {
-            // Until the end of the input, or of whoever listens.
-            for line in input().lines() {
-                if answer.send(line.map(drop)).is_err() {
-                    break;
-                }
-            }
-        });
+    const fn new(answers: Typed, forgets: bool) -> Self {
         Self {
             answers,
             forgets,
@@ -43,7 +33,7 @@ impl Person {
     pub(crate) fn lay(&mut self, sample: &str) {
         if self.forgets {
             // All that has come by now; a closed input is reported when it counts.
-            while let Ok(Ok(())) = self.answers.try_recv() {}
+            while let Ok(Some(_)) = self.answers.line() {}
         }
         report::warn(format_args!(
             "lay {sample} before the whisker, within its reach, and press Enter"
@@ -55,19 +45,17 @@ impl Person {
         let Some(sample) = &self.asked else {
             return Ok(true);
         };
-        let gone = |why: &str| {
+        let gone = |why: String| {
             Error::Work(format!(
                 "{sample}: standard input {why} before somebody said that the sample lies there; \
                  run this in a terminal, or give it a line for each sample"
             ))
         };
-        match self.answers.try_recv() {
-            Ok(Ok(())) => self.asked = None,
-            Ok(Err(error)) => return Err(gone(&format!("failed ({error})"))),
-            Err(TryRecvError::Disconnected) => return Err(gone("was closed")),
-            Err(TryRecvError::Empty) => {}
+        let is_laid = self.answers.line().map_err(gone)?.is_some();
+        if is_laid {
+            self.asked = None;
         }
-        Ok(self.asked.is_none())
+        Ok(is_laid)
     }
 }
 
@@ -77,7 +65,7 @@ mod tests {
     use std::sync::mpsc::{self, Receiver, Sender};
     use std::time::{Duration, Instant};
 
-    use super::Person;
+    use super::{Person, Typed};
 
     struct Keys(Receiver<u8>);
 
@@ -93,7 +81,8 @@ mod tests {
 
     fn at_keys(forgets: bool) -> (Sender<u8>, Person) {
         let (press, keys) = mpsc::channel();
-        let person = Person::new(|| Box::new(BufReader::new(Keys(keys))), forgets);
+        let answers = Typed::of(|| Box::new(BufReader::new(Keys(keys))));
+        let person = Person::new(answers, forgets);
         (press, person)
     }
 

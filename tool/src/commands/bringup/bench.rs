@@ -1,18 +1,16 @@
 //! The module, and whoever stands before it.
 
-use std::io::{self, BufRead};
-use std::sync::mpsc::{self, Receiver, TryRecvError};
-use std::thread;
-
 use host_sim::{Error, report};
 use wire::{Command, CommandStatus};
 
 use super::Arguments;
+use super::report::{Ended, not_done};
 use crate::calibrate::Listening;
 use crate::configuration::Running;
 use crate::conversation::{AboutModule, Conversation};
 use crate::frames::Seen;
 use crate::interrupt;
+use crate::typed::Typed;
 
 pub(super) struct Bench {
     pub(super) module: Conversation,
@@ -24,7 +22,7 @@ pub(super) struct Bench {
     pub(super) seen: [Option<Seen>; 2],
     pub(super) counts_up: [Option<bool>; 2],
     /// What is typed; none: nothing is asked.
-    typed: Option<Receiver<io::Result<String>>>,
+    typed: Option<Typed>,
     may_drive: bool,
 }
 
@@ -41,7 +39,7 @@ impl Bench {
             frames: arguments.frames,
             seen: [None, None],
             counts_up: [None; 2],
-            typed: (!arguments.yes).then(typed),
+            typed: (!arguments.yes).then(Typed::at_standard_input),
             may_drive: arguments.motor,
         })
     }
@@ -88,31 +86,30 @@ impl Bench {
 
     /// What is typed next. What the module tells meanwhile is fetched.
     fn answer(&mut self) -> Result<String, Error> {
-        let gone = |why: &str| {
-            Err(Error::Work(format!(
+        let gone = |why: String| {
+            Error::Work(format!(
                 "standard input {why} before an answer came: run this in a terminal, or with --yes"
-            )))
+            ))
         };
-        loop {
+        while let Some(typed) = &self.typed {
             interrupt::check()?;
-            match self.typed.as_ref().map(Receiver::try_recv) {
-                Some(Ok(Ok(line))) => return Ok(line),
-                Some(Ok(Err(error))) => return gone(&format!("failed ({error})")),
-                Some(Err(TryRecvError::Disconnected)) => return gone("was closed"),
-                Some(Err(TryRecvError::Empty)) => drop(self.module.source().next()?),
-                None => return Ok(String::new()),
+            if let Some(line) = typed.line().map_err(gone)? {
+                return Ok(line);
             }
+            self.module.source().next()?;
         }
+        Ok(String::new())
     }
 
-    pub(super) fn no_records(&mut self) -> Result<Option<String>, Error> {
-        let status = self.module.answer(Command::Stream(true))?.status;
-        Ok((status != CommandStatus::Done).then(|| {
-            format!(
+    /// Has records of every tick sent.
+    pub(super) fn stream(&mut self) -> Result<(), Ended> {
+        match self.module.answer(Command::Stream(true))?.status {
+            CommandStatus::Done => Ok(()),
+            status => not_done(format!(
                 "not done, as no records of every tick can be had: {status}; by a probe, or with a \
                  higher telemetry.serial_baud, as scenes/bringup.toml has it"
-            )
-        }))
+            )),
+        }
     }
 
     pub(super) fn whisker(&mut self, side: u8) -> Result<Listening<'_>, Error> {
@@ -120,18 +117,4 @@ impl Bench {
         whisker.go_on()?;
         Ok(whisker)
     }
-}
-
-/// What is typed, line by line, beside the work.
-fn typed() -> Receiver<io::Result<String>> {
-    let (say, typed) = mpsc::channel();
-    thread::spawn(move || {
-        // Until the end of the input, or of whoever listens.
-        for line in io::stdin().lock().lines() {
-            if say.send(line).is_err() {
-                break;
-            }
-        }
-    });
-    typed
 }

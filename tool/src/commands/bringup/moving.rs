@@ -7,7 +7,7 @@ use serde::Serialize;
 
 use super::bench::Bench;
 use super::module::of_fault;
-use super::report::Part;
+use super::report::{Done, Part, not_done};
 use crate::calibrate::{Listening, Push, REST_DEG, push};
 use crate::exchange::Taken;
 use crate::interrupt;
@@ -23,17 +23,14 @@ const STILL_DEG: f64 = 0.5;
 
 const NO_MOTOR: &str = "not done: the scene has no motor; scenes/bringup.toml has one";
 
-pub(super) fn encoder(bench: &mut Bench, side: u8) -> Result<Part, Error> {
+pub(super) fn encoder(bench: &mut Bench, side: u8) -> Done {
     if !bench.running.has_motor {
-        return Ok(Part::not_done(NO_MOTOR));
+        return not_done(NO_MOTOR);
     }
     if bench.running.program().facts().is_none() {
-        let why = "not done: no hand turns a simulated whisker";
-        return Ok(Part::not_done(why));
+        return not_done("not done: no hand turns a simulated whisker");
     }
-    if let Some(why) = bench.no_records()? {
-        return Ok(Part::not_done(why));
-    }
+    bench.stream()?;
     bench.ask("turn the whisker forward by hand, by a quarter of a turn, within five seconds")?;
     let mut whisker = bench.whisker(side)?;
     let mut from = None;
@@ -75,29 +72,25 @@ enum Turns {
     Fault(u8),
 }
 
-pub(super) fn motor(bench: &mut Bench, side: u8) -> Result<Part, Error> {
+pub(super) fn motor(bench: &mut Bench, side: u8) -> Done {
     if !bench.running.has_motor {
-        return Ok(Part::not_done(NO_MOTOR));
+        return not_done(NO_MOTOR);
     }
     if bench.counts_up[usize::from(side)] == Some(false) {
-        let why = "not done: the encoder must be right before a motor follows it";
-        return Ok(Part::not_done(why));
+        return not_done("not done: the encoder must be right before a motor follows it");
     }
-    if let Some(why) = bench.no_records()? {
-        return Ok(Part::not_done(why));
-    }
+    bench.stream()?;
     let warning = "the motor is to turn the whisker by three degrees, at a fifth of its duty: bring the \
                    whisker to rest, keep fingers and things away, set the supply's current limit low and \
                    switch it on";
     if !bench.may_drive(warning)? {
-        let why = "not done: no yes was given (--motor says it for a script)";
-        return Ok(Part::not_done(why));
+        return not_done("not done: no yes was given (--motor says it for a script)");
     }
     let gentle = bench.running.gentle(FIFTH)?;
     if gentle != bench.running
         && let Some(why) = refused(&gentle.send(&mut bench.module)?)
     {
-        return Ok(Part::not_done(why));
+        return not_done(why);
     }
     let turned = tried(bench, side);
     bench.stop()?;

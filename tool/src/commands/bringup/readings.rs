@@ -1,11 +1,10 @@
 //! What the sensor's readings are: how often there is a new one, and how much they scatter.
 
-use host_sim::Error;
 use serde::Serialize;
 use wire::Flags;
 
 use super::bench::Bench;
-use super::report::Part;
+use super::report::{Done, Ended, Part, not_done};
 use crate::calibrate::Zero;
 use crate::sample::Sample;
 
@@ -18,11 +17,9 @@ const NOISY_CODES: f64 = 9.0;
 const INVALID: &str = "not done: no reading counts; the step frames comes first, and whisker log names \
                        the fault";
 
-/// Readings that count, of so many ticks; or why there are none.
-fn watched(bench: &mut Bench, side: u8) -> Result<Result<Vec<Sample>, Part>, Error> {
-    if let Some(why) = bench.no_records()? {
-        return Ok(Err(Part::not_done(why)));
-    }
+/// Readings that count, of so many ticks.
+fn watched(bench: &mut Bench, side: u8) -> Result<Vec<Sample>, Ended> {
+    bench.stream()?;
     let frames = f64::from(bench.frames);
     let mut whisker = bench.whisker(side)?;
     let seconds = frames * whisker.tick_s();
@@ -31,11 +28,10 @@ fn watched(bench: &mut Bench, side: u8) -> Result<Result<Vec<Sample>, Part>, Err
         .into_iter()
         .filter(|sample| sample.is_valid() && sample.flags.contains(Flags::FRESH));
     let counts: Vec<Sample> = counts.collect();
-    Ok(if counts.len() < 2 {
-        Err(Part::not_done(INVALID))
-    } else {
-        Ok(counts)
-    })
+    if counts.len() < 2 {
+        return not_done(INVALID);
+    }
+    Ok(counts)
 }
 
 #[derive(Serialize)]
@@ -46,12 +42,9 @@ struct Rate {
     update_hz: f64,
 }
 
-pub(super) fn rate(bench: &mut Bench, side: u8) -> Result<Part, Error> {
+pub(super) fn rate(bench: &mut Bench, side: u8) -> Done {
     bench.ask("move the whisker to and fro, by hand, until the next step")?;
-    let samples = match watched(bench, side)? {
-        Ok(samples) => samples,
-        Err(part) => return Ok(part),
-    };
+    let samples = watched(bench, side)?;
     let pairs = samples.windows(2);
     let new = pairs.filter(|pair| pair[0].words != pair[1].words).count();
     let new = new as f64 / (samples.len() - 1) as f64;
@@ -79,14 +72,11 @@ pub(super) fn rate(bench: &mut Bench, side: u8) -> Result<Part, Error> {
     Ok(part.means("readings repeat: the sensor converts less often than the module reads it"))
 }
 
-pub(super) fn noise(bench: &mut Bench, side: u8) -> Result<Part, Error> {
+pub(super) fn noise(bench: &mut Bench, side: u8) -> Done {
     bench.ask("let go of the whisker, and of the bench")?;
-    let samples = match watched(bench, side)? {
-        Ok(samples) => samples,
-        Err(part) => return Ok(part),
-    };
+    let samples = watched(bench, side)?;
     let Some(Zero { channels, .. }) = Zero::of(&samples) else {
-        return Ok(Part::not_done(INVALID));
+        return not_done(INVALID);
     };
     let noise = channels.map(|channel| channel.sd);
     let mut part = Part::new(format!("watched {} readings at rest", samples.len())).with(&noise);

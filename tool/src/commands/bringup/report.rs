@@ -26,19 +26,41 @@ pub(super) struct Part {
     seen: Value,
 }
 
+/// What has become of a step.
+pub(super) type Done = Result<Part, Ended>;
+
+/// Why a step has ended early.
+pub(super) enum Ended {
+    /// There was nothing to do, for this reason.
+    NotDone(String),
+    Failed(Error),
+}
+
+impl From<Error> for Ended {
+    fn from(error: Error) -> Self {
+        Self::Failed(error)
+    }
+}
+
+pub(super) fn not_done<T>(why: impl Into<String>) -> Result<T, Ended> {
+    Err(Ended::NotDone(why.into()))
+}
+
+/// What is reported of a step that was done or was not.
+pub(super) fn part_of(done: Done) -> Result<Part, Error> {
+    match done {
+        Ok(part) => Ok(part),
+        Err(Ended::NotDone(why)) => Ok(Part::new("nothing").means(why)),
+        Err(Ended::Failed(error)) => Err(error),
+    }
+}
+
 impl Part {
     pub(super) fn new(did: impl Into<String>) -> Self {
         Self {
             step: "module".to_owned(),
             did: did.into(),
             ..Self::default()
-        }
-    }
-
-    pub(super) fn not_done(why: impl Into<String>) -> Self {
-        Self {
-            means: why.into(),
-            ..Self::new("nothing")
         }
     }
 

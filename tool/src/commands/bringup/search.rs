@@ -3,14 +3,13 @@
 
 use std::path::Path;
 
-use firmware::boards::BoardFacts;
 use host_sim::Error;
 use host_sim::loaded::Loaded;
 use scene::Override;
 
 use super::bench::Bench;
-use super::report::Part;
-use super::sensor::{Leaves, read};
+use super::report::{Done, Ended, Part, not_done};
+use super::sensor::{Leaves, NO_FRAMES, read};
 use crate::deployment::{Deployment, model_of};
 use crate::frames::Seen;
 
@@ -18,21 +17,15 @@ use crate::frames::Seen;
 const RATES: [u32; 6] = [2_000, 1_800, 1_600, 1_500, 1_000, 500];
 
 /// Leaves the module at the first rate at which each frame is answered.
-pub(super) fn find(bench: &mut Bench, scene: &Path) -> Result<Part, Error> {
-    let Some(facts) = bench.running.program().facts() else {
-        let why = "not done: no time passes between the frames of a simulated module";
-        return Ok(Part::not_done(why));
-    };
+pub(super) fn find(bench: &mut Bench, scene: &Path) -> Done {
+    bench.facts()?;
     let mut part = Part::new(format!(
         "deployed {} at slower and slower ticks, and read frames at each",
         scene.display()
     ));
     for tick_hz in RATES {
         deploy(bench, scene, tick_hz)?;
-        let Some(found) = tried(bench, facts)? else {
-            return Ok(Part::not_done(super::sensor::NO_FRAMES));
-        };
-        let Tried { leaves, answered } = found;
+        let (leaves, answered) = tried(bench)?;
         part.saw(format!(
             "{} us at {tick_hz} Hz: {answered} of {} frames were answered",
             leaves.rest_us, bench.frames
@@ -64,20 +57,13 @@ fn deploy(bench: &mut Bench, scene: &Path, tick_hz: u32) -> Result<(), Error> {
     bench.stop()
 }
 
-struct Tried {
-    leaves: Leaves,
-    /// Frames that were answered, of the side that answers least.
-    answered: usize,
-}
-
-fn tried(bench: &mut Bench, facts: &BoardFacts) -> Result<Option<Tried>, Error> {
+/// The rest, and how many frames were answered, of the side that answers least.
+fn tried(bench: &mut Bench) -> Result<(Leaves, usize), Ended> {
     let mut answered = usize::MAX;
     for side in bench.sides() {
-        let Some(frames) = read(bench, side, bench.frames)? else {
-            return Ok(None);
-        };
+        let frames = read(bench, side, bench.frames)?;
         answered = answered.min(Seen::of(&frames).begun());
     }
-    let leaves = bench.leaves(facts, bench.about.tick_hz);
-    Ok(leaves.map(|leaves| Tried { leaves, answered }))
+    let leaves = bench.leaves(bench.facts()?, bench.about.tick_hz);
+    leaves.map_or_else(|| not_done(NO_FRAMES), |leaves| Ok((leaves, answered)))
 }

@@ -7,7 +7,7 @@ use serde::Serialize;
 use wire::{Command, CommandStatus, WhiskerId};
 
 use super::bench::Bench;
-use super::report::Part;
+use super::report::{Done, Ended, Part, not_done};
 use crate::frames::Seen;
 use crate::interrupt;
 
@@ -15,13 +15,9 @@ pub(super) const NO_FRAMES: &str = "not done: its sensor has no frames of its ow
                          names faults 27 to 31, and the steps below look at its readings";
 
 /// Reads frames, whatever the module takes them for, and says how the sensor sends them.
-pub(super) fn frames(bench: &mut Bench, side: u8) -> Result<Part, Error> {
-    let count = bench.frames;
+pub(super) fn frames(bench: &mut Bench, side: u8) -> Done {
     bench.ask("move the whisker a little, to and fro, by hand, until the next step")?;
-    let Some(frames) = read(bench, side, count)? else {
-        return Ok(Part::not_done(NO_FRAMES));
-    };
-    let seen = Seen::of(&frames);
+    let seen = Seen::of(&read(bench, side, bench.frames)?);
     let mut part = Part::new(format!("read {} frames, with motors off", seen.frames));
     part.saw(seen.text());
     for finding in seen.findings(bench.running.decoder) {
@@ -39,12 +35,8 @@ pub(super) fn frames(bench: &mut Bench, side: u8) -> Result<Part, Error> {
     })
 }
 
-/// The last frame of a sensor, so many times; `None`: it has none.
-pub(super) fn read(
-    bench: &mut Bench,
-    side: u8,
-    count: u32,
-) -> Result<Option<Vec<[u8; FRAME_LEN]>>, Error> {
+/// The last frame of a sensor, so many times.
+pub(super) fn read(bench: &mut Bench, side: u8, count: u32) -> Result<Vec<[u8; FRAME_LEN]>, Ended> {
     let whisker = WhiskerId { side, number: 0 };
     let mut frames = Vec::new();
     for n in 0..count {
@@ -62,11 +54,11 @@ pub(super) fn read(
                 let [high, low] = answer.values.map(i32::cast_unsigned);
                 frames.push((u64::from(high) << 32 | u64::from(low)).to_be_bytes());
             }
-            CommandStatus::NotHere => return Ok(None),
-            status => return Err(Error::Work(format!("frame: {status}"))),
+            CommandStatus::NotHere => return not_done(NO_FRAMES),
+            status => return Err(Error::Work(format!("frame: {status}")).into()),
         }
     }
-    Ok(Some(frames))
+    Ok(frames)
 }
 
 #[derive(Debug, Clone, Copy, Serialize)]
@@ -79,21 +71,17 @@ pub(super) struct Leaves {
 const RATES: [u32; 4] = [2_000, 1_000, 500, 200];
 
 /// From the frames that were read: whether the rest between them is enough.
-pub(super) fn rest(bench: &mut Bench, side: u8) -> Part {
+pub(super) fn rest(bench: &mut Bench, side: u8) -> Done {
     let Some(seen) = &bench.seen[usize::from(side)] else {
-        let why = "not done: no frames were read, by the step before";
-        return Part::not_done(why);
+        return not_done("not done: no frames were read, by the step before");
     };
-    let Some(facts) = bench.running.program().facts() else {
-        let why = "not done: no time passes between the frames of a simulated module";
-        return Part::not_done(why);
-    };
+    let facts = bench.facts()?;
     let tick_hz = bench.about.tick_hz;
     let leaves = |tick_hz| bench.leaves(facts, tick_hz);
     let mut part =
         Part::new("worked out the rest between two frames, and looked at the frames again");
     let Some(now) = leaves(tick_hz) else {
-        return part.means("this rate of ticks leaves no rest that the scene allows");
+        return Ok(part.means("this rate of ticks leaves no rest that the scene allows"));
     };
     part.saw(format!(
         "/SS is high for {} us between two frames at tick_hz = {tick_hz}; {} of {} frames are all \
@@ -113,7 +101,7 @@ pub(super) fn rest(bench: &mut Bench, side: u8) -> Part {
         part.saw(format!("slower ticks leave more: {named}"));
     }
     part = part.with(&(now, &others));
-    if seen.is_silent_at_times() {
+    Ok(if seen.is_silent_at_times() {
         part.find(format!(
             "the sensor answers some frames and not others: {} us may be too short a rest. \
              --find-rest scenes/bringup.toml finds the shortest that is long enough; then set \
@@ -128,10 +116,17 @@ pub(super) fn rest(bench: &mut Bench, side: u8) -> Part {
             "a rest of {} us is enough for this sensor; a shorter one needs a scene with faster ticks",
             now.rest_us
         ))
-    }
+    })
 }
 
 impl Bench {
+    /// Of its board.
+    pub(super) fn facts(&self) -> Result<&'static BoardFacts, Ended> {
+        let facts = self.running.program().facts();
+        let why = "not done: no time passes between the frames of a simulated module";
+        facts.map_or_else(|| not_done(why), Ok)
+    }
+
     /// The rest that a rate of ticks leaves the sensors of this board; `None`: one that the scene
     /// does not allow.
     pub(super) fn leaves(&self, facts: &BoardFacts, tick_hz: u32) -> Option<Leaves> {
