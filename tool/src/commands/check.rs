@@ -18,7 +18,6 @@ use crate::conversation::Conversation;
 use crate::interrupt;
 use crate::source::{Source, SourceChoice, seconds};
 
-/// Which whisker, for how long, and where the report goes.
 #[derive(Debug, Args)]
 #[command(group(clap::ArgGroup::new("source").required(true)))]
 pub(crate) struct Arguments {

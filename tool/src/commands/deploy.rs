@@ -18,7 +18,6 @@ use crate::deployment::{Deployment, model_of};
 use crate::resting::rest;
 use crate::source::{SourceChoice, seconds};
 
-/// What, and to which module.
 #[derive(Debug, Args)]
 #[command(group(clap::ArgGroup::new("source").required(true)))]
 #[command(group(clap::ArgGroup::new("what").required(true).multiple(true).args(["scene", "model"])))]

@@ -6,7 +6,6 @@ use host_sim::{Error, report};
 use crate::doctor::{Facts, Purpose, checks, is_well};
 use crate::source::BoardName;
 
-/// For what.
 #[derive(Debug, Args)]
 pub(crate) struct Arguments {
     /// What the PC is to be ready for; may be given several times; left out: everything

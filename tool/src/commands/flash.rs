@@ -10,7 +10,6 @@ use crate::conversation::Conversation;
 use crate::probe;
 use crate::source::{BoardName, Laying, build, is_of, with_scene};
 
-/// Which program, and onto which board.
 #[derive(Debug, Args)]
 pub(crate) struct Arguments {
     /// The scene whose program is built and flashed, or that --program is to bring with it

@@ -11,7 +11,6 @@ use crate::configuration::RunsBy;
 use crate::source::SourceChoice;
 use crate::tuning::{LIVE, Tuner, Value, live_key};
 
-/// Which module, and which scene it runs.
 #[derive(Debug, Args)]
 pub(crate) struct Which {
     #[command(flatten)]
@@ -35,7 +34,6 @@ impl Which {
     }
 }
 
-/// What is asked for.
 #[derive(Debug, Args)]
 #[command(group(clap::ArgGroup::new("source").required(true)))]
 pub(crate) struct Arguments {

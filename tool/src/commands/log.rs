@@ -8,7 +8,6 @@ use host_sim::{Error, report};
 use crate::script::Script;
 use crate::source::{SourceChoice, seconds};
 
-/// Whose log, and for how long.
 #[derive(Debug, Args)]
 #[command(group(clap::ArgGroup::new("source").required(true)))]
 pub(crate) struct Arguments {

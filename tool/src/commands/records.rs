@@ -15,7 +15,6 @@ use crate::script::Script;
 use crate::source::{SourceChoice, seconds};
 use crate::tally::{Tally, side};
 
-/// Whose records, for how long, and where they go.
 #[derive(Debug, Args)]
 #[command(group(clap::ArgGroup::new("source").required(true)))]
 pub(crate) struct Arguments {

@@ -9,7 +9,6 @@ use super::get::Which;
 use crate::scene_file;
 use crate::tuning::live_key;
 
-/// What is saved, and from where.
 #[derive(Debug, Args)]
 pub(crate) struct Arguments {
     /// Keys whose values the module has, or keys with their values (KEY=VALUE), which need no

@@ -7,7 +7,6 @@ use scene::Override;
 use super::get::{Which, table};
 use crate::source::seconds;
 
-/// What is set, and where.
 #[derive(Debug, Args)]
 #[command(group(clap::ArgGroup::new("source").required(true)))]
 pub(crate) struct Arguments {
