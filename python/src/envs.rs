@@ -10,13 +10,14 @@ use host_sim::run::Run;
 use host_sim::trace::WhiskerRow;
 use numpy::{IntoPyArray, PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray1, PyReadonlyArray2};
 use parking_lot::Mutex;
-use pyo3::exceptions::{PyRuntimeError, PyValueError};
+use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use rayon::prelude::*;
 use rayon::{ThreadPool, ThreadPoolBuilder};
 use scene::Scene;
 
+use crate::outside::wrong;
 use crate::recipe::{Parts, Recipe};
 use crate::scenes::{Given, raised};
 
@@ -89,7 +90,12 @@ impl Member {
         if self.left > 0 {
             self.acts.extend_from_slice(values);
         }
-        self.advance(ticks);
+        let ticks = ticks.min(self.left);
+        // No row of the trace: what is observed of a whisker does without it.
+        for _ in 0..ticks {
+            self.run.pass();
+        }
+        self.left -= ticks;
         Ok(())
     }
 
@@ -101,15 +107,6 @@ impl Member {
             }
         }
         Ok(())
-    }
-
-    fn advance(&mut self, ticks: u64) {
-        let ticks = ticks.min(self.left);
-        // No row of the trace: what is observed of a whisker does without it.
-        for _ in 0..ticks {
-            self.run.pass();
-        }
-        self.left -= ticks;
     }
 
     fn observe(&mut self, seen: &mut [f32]) {
@@ -166,7 +163,7 @@ pub(crate) fn restored_envs(
             })
         })
     });
-    replayed.map_err(|error: Error| PyValueError::new_err(error.to_string()))?;
+    replayed.map_err(|error: Error| wrong(error))?;
     Ok(envs)
 }
 
@@ -187,14 +184,14 @@ impl Envs {
             "gain" => Action::Gain,
             _ => {
                 let fault = format!("action: found {action:?}, allowed: setpoint, gain");
-                return Err(PyValueError::new_err(fault));
+                return Err(wrong(fault));
             }
         };
         if count == 0 {
-            return Err(PyValueError::new_err("count: found 0, allowed: above 0"));
+            return Err(wrong("count: found 0, allowed: above 0"));
         }
         if ticks == 0 {
-            return Err(PyValueError::new_err("ticks: found 0, allowed: above 0"));
+            return Err(wrong("ticks: found 0, allowed: above 0"));
         }
         let raise = |error| raised(py, error);
         let classifier = loaded.classifier().map_err(raise)?;
@@ -203,7 +200,7 @@ impl Envs {
             (Action::Gain, Some(_)) => [0.0, 2.0],
             (Action::Setpoint, Some(motor)) => [motor.min_deg, motor.max_deg],
             (_, None) => {
-                return Err(PyValueError::new_err(
+                return Err(wrong(
                     "scene: its whiskers are passive; an action needs [whisking]",
                 ));
             }
@@ -276,14 +273,14 @@ impl Envs {
             || seeds.len() != self.count
         {
             let fault = format!("actions: allowed: the shape ({}, {each})", self.count);
-            return Err(PyValueError::new_err(fault));
+            return Err(wrong(fault));
         }
         let mut seen = vec![0.0; self.count * width];
         let mut ended = vec![false; self.count];
         for (values, begin) in actions.chunks_exact(each).zip(begin) {
             if !begin && let Some(value) = values.iter().find(|value| !value.is_finite()) {
                 let fault = format!("actions: found {value}, allowed: finite numbers");
-                return Err(PyValueError::new_err(fault));
+                return Err(wrong(fault));
             }
         }
         let pool = pool()?;
@@ -309,7 +306,7 @@ impl Envs {
                 })
             })
         })
-        .map_err(|error: Error| PyValueError::new_err(error.to_string()))?;
+        .map_err(|error: Error| wrong(error))?;
         let seen = seen.into_pyarray(py).reshape((self.count, width))?;
         Ok((seen, ended.into_pyarray(py)))
     }
@@ -336,7 +333,7 @@ impl Envs {
             }
             Ok(())
         });
-        restarted.map_err(|error: Error| PyValueError::new_err(error.to_string()))?;
+        restarted.map_err(|error: Error| wrong(error))?;
         seen.into_pyarray(py).reshape((self.count, width))
     }
 

@@ -9,7 +9,6 @@ use host_sim::replay::Replay;
 use host_sim::run::Run;
 use host_sim::training::{Expected, How, Tables};
 use numpy::PyArray2;
-use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use scene::Rule;
@@ -17,14 +16,10 @@ use tactile::score::Interval;
 use tactile::train::TrainError;
 
 use crate::model::{self, Model};
-use crate::outside;
+use crate::outside::{self, wrong};
 use crate::recordings::{self, Prepared};
 use crate::scenes::{Given, raised};
 use crate::table::{self, Kind, Layout, Packed};
-
-fn wrong(fault: impl std::fmt::Display) -> PyErr {
-    PyValueError::new_err(fault.to_string())
-}
 
 /// Runs a scene and returns what its whiskers feel that are heard, the air included: a recording
 /// to train on. The scene's classifier is not used. Its type knows the rate,

@@ -7,12 +7,11 @@ use std::time::Duration;
 use host_sim::Error;
 use host_sim::decisions::Decided;
 use host_sim::run::Run;
-use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use scene::Scene;
 
-use crate::outside;
+use crate::outside::{self, wrong};
 use crate::scenes::{Given, raised};
 use crate::table::{self, Packed, RunTables};
 
@@ -76,9 +75,7 @@ pub(crate) fn run_many<'py>(
     let count = loaded.scene.ticks().checked_div(every).unwrap_or(0) as usize;
     let each = count * tables.trace.bytes();
     let Some(size) = each.checked_mul(seeds.len()) else {
-        return Err(PyValueError::new_err(
-            "seeds: more rows than there is memory",
-        ));
+        return Err(wrong("seeds: more rows than there is memory"));
     };
     let mut rows = outside::zeros(size)?;
     let new = |seed: u64| {

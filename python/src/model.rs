@@ -4,14 +4,14 @@ use std::path::PathBuf;
 
 use host_sim::classifier;
 use host_sim::training::TrainedModel;
-use pyo3::exceptions::{PyTypeError, PyValueError};
+use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyType};
 use scene::file;
 use tactile::ModelBuf;
 use tactile::train::joint::Report;
 
-use crate::outside::file_error;
+use crate::outside::{self, file_error};
 use crate::table::{Kind, Layout, Packed};
 
 /// A model, of its bytes or its file; `train` makes one. `bytes(model)` are what a board runs.
@@ -133,7 +133,7 @@ pub(crate) fn given(model: &Bound<'_, PyAny>) -> PyResult<ModelBuf> {
     }
     if let Ok(bytes) = model.cast::<PyBytes>() {
         let model = ModelBuf::from_bytes(bytes.as_bytes());
-        return model.map_err(|error| PyValueError::new_err(format!("model: {error}")));
+        return model.map_err(|error| outside::wrong(format_args!("model: {error}")));
     }
     let path: PathBuf = model.extract().map_err(|_| {
         let found = model.get_type();
@@ -142,6 +142,6 @@ pub(crate) fn given(model: &Bound<'_, PyAny>) -> PyResult<ModelBuf> {
         ))
     })?;
     let bytes = file::read(&path, file::BINARY_BYTES).map_err(|error| file_error(&path, error))?;
-    let wrong = |error| PyValueError::new_err(format!("model: {}: {error}", path.display()));
+    let wrong = |error| outside::wrong(format_args!("model: {}: {error}", path.display()));
     ModelBuf::from_bytes(&bytes).map_err(wrong)
 }

@@ -13,6 +13,11 @@ pub(crate) fn file_error(path: &Path, error: std::io::Error) -> PyErr {
     std::io::Error::new(error.kind(), format!("{}: {error}", path.display())).into()
 }
 
+/// A `ValueError`.
+pub(crate) fn wrong(fault: impl std::fmt::Display) -> PyErr {
+    PyValueError::new_err(fault.to_string())
+}
+
 /// So many bytes, all zero.
 ///
 /// # Errors
@@ -55,6 +60,8 @@ pub(crate) fn within(name: &str, found: f64, least: f64, most: f64) -> PyResult<
     if (least..=most).contains(&found) {
         return Ok(());
     }
-    let fault = format!("{name}: found {found}, allowed: {least} to {most}");
-    Err(PyValueError::new_err(fault))
+    let range = format_args!("{least} to {most}");
+    Err(wrong(format_args!(
+        "{name}: found {found}, allowed: {range}"
+    )))
 }

@@ -1,10 +1,10 @@
 //! A whisker pressed slowly against a plate: `host-sim press` on arrays.
 
 use host_sim::pressing::{COLUMNS, Pressing};
-use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
+use crate::outside::wrong;
 use crate::table::{Kind, Layout, Packed};
 
 /// How a tapered whisker bends that is pressed slowly against a plate, solved exactly: a row a
@@ -41,8 +41,7 @@ pub(crate) fn press<'py>(
     } else {
         pressing.shaft = Some(shaft.extract()?);
     }
-    let pressed = py.detach(|| pressing.press());
-    let pressed = pressed.map_err(|refused| PyValueError::new_err(refused.to_string()))?;
+    let pressed = py.detach(|| pressing.press()).map_err(wrong)?;
     let mut rows = Packed::default();
     for (push, pressed) in pressing.push_deg.iter().zip(&pressed) {
         rows.numbers(Pressing::cells(*push, pressed));
@@ -64,7 +63,7 @@ fn give(pressing: &mut Pressing, numbers: &Bound<'_, PyDict>) -> PyResult<()> {
             _ => {
                 let allowed = "length_m, hub_m, taper, youngs_pa, follicle_nm_rad";
                 let fault = format!("shaft: found {key:?}, allowed: {allowed}");
-                return Err(PyValueError::new_err(fault));
+                return Err(wrong(fault));
             }
         };
         *slot = Some(value.extract()?);

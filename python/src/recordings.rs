@@ -5,12 +5,11 @@ use std::path::PathBuf;
 use host_sim::doubts;
 use host_sim::recording::{self, COLUMNS, Stream, Tokens, touches};
 use numpy::{PyReadonlyArray1, PyReadonlyArray2};
-use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use scene::file;
 
-use crate::outside::file_error;
+use crate::outside::{self, file_error};
 use crate::table::{Kind, Layout, Packed};
 
 /// A recording as the Python side has prepared it.
@@ -38,20 +37,14 @@ impl Prepared<'_> {
     /// Its name and its streams.
     pub(crate) fn read(&self) -> PyResult<(String, Vec<Stream>)> {
         let wrong = |row: usize, fault: &str| {
-            PyValueError::new_err(format!("{}: row {row}: {fault}", self.name))
+            outside::wrong(format_args!("{}: row {row}: {fault}", self.name))
         };
         let samples: &[f64] = self.samples.as_slice()?;
         let (samples, _) = samples.as_chunks::<2>();
-        let contact = self
-            .contact
-            .as_ref()
-            .map(PyReadonlyArray1::as_slice)
-            .transpose()?;
-        let touch = self
-            .touch
-            .as_ref()
-            .map(PyReadonlyArray1::as_slice)
-            .transpose()?;
+        let contact = self.contact.as_ref().map(PyReadonlyArray1::as_slice);
+        let contact = contact.transpose()?;
+        let touch = self.touch.as_ref().map(PyReadonlyArray1::as_slice);
+        let touch = touch.transpose()?;
         if let Some(row) = samples
             .iter()
             .position(|xy| !xy.iter().all(|v| v.is_finite()))
@@ -66,7 +59,7 @@ impl Prepared<'_> {
             ));
         }
         if samples.is_empty() {
-            return Err(PyValueError::new_err(format!("{}: no samples", self.name)));
+            return Err(outside::wrong(format_args!("{}: no samples", self.name)));
         }
         let stream = |(label, trial, first, end, pose, stands): &Rows| {
             let tokens = Tokens {
@@ -200,12 +193,12 @@ pub(crate) fn read(
     channels: [String; 2],
 ) -> PyResult<Bound<'_, PyAny>> {
     let channels = channels.each_ref().map(String::as_str);
-    let wrong = |fault: String| PyValueError::new_err(format!("{}: {fault}", path.display()));
+    let wrong = |error| outside::wrong(format_args!("{}: {error}", path.display()));
     let recording = py.detach(|| {
         let bytes =
             file::read(&path, file::TABLE_BYTES).map_err(|error| file_error(&path, error))?;
         let read = recording::read_whole(bytes.as_slice(), channels);
-        read.map_err(|error| wrong(error.to_string()))
+        read.map_err(wrong)
     })?;
     let rows = array(py, &recording.streams, channels)?;
     match recording.tick_hz {

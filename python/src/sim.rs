@@ -5,18 +5,18 @@ use host_sim::columns::Column;
 use host_sim::decisions::Decided;
 use host_sim::loaded::Loaded;
 use host_sim::run::Run;
-use host_sim::trace::{self, TraceShape, TraceWriter, WhiskerRow};
+use host_sim::trace::{self, TraceLine, TraceShape, TraceWriter, WhiskerRow};
 use host_sim::{decisions, pressing, recording};
 use numpy::PyArray2;
 use parking_lot::{Mutex, MutexGuard};
 use physics::Bent;
-use pyo3::exceptions::{PyRuntimeError, PyValueError};
+use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyDict};
 use scene::Texture;
 use tactile::Posteriors;
 
-use crate::outside;
+use crate::outside::{self, wrong};
 use crate::recipe::{Call, GAIN, LAY, Parts, Recipe, SETPOINT, Script};
 use crate::scenes::{Given, raised};
 use crate::table::{self, Kind, Layout, Packed, RunTables};
@@ -80,6 +80,13 @@ impl State {
             self.last = now;
         }
         first
+    }
+
+    /// The row of the last tick, whose decisions begin at the index.
+    fn line(&mut self, first: usize) -> TraceLine<'_> {
+        self.run.look_at_whiskers(&mut self.whiskers);
+        let fell = self.decided.get(first..).unwrap_or_default();
+        self.run.trace_line(fell, &self.whiskers)
     }
 
     fn left(&self) -> u64 {
@@ -162,7 +169,7 @@ impl Sim {
             from = until;
             let mut state = self.state();
             let repeated = state.call(call.1, call.2, call.3);
-            repeated.map_err(|error| PyValueError::new_err(error.to_string()))?;
+            repeated.map_err(wrong)?;
         }
         self.pass(done - from)
     }
@@ -210,9 +217,7 @@ impl Sim {
             let has_row = n.is_multiple_of(every);
             let first = state.tick(has_row);
             if has_row {
-                state.run.look_at_whiskers(&mut state.whiskers);
-                let fell = state.decided.get(first..).unwrap_or_default();
-                tables.row(&mut rows, &state.run.trace_line(fell, &state.whiskers));
+                tables.row(&mut rows, &state.line(first));
             }
             Ok(())
         })?;
@@ -226,7 +231,7 @@ impl Sim {
                 "whisker {whisker}, counted from 0, left side first: scene {:?} has none that bends",
                 self.name
             );
-            PyValueError::new_err(fault)
+            wrong(fault)
         })
     }
 }
@@ -268,7 +273,7 @@ impl Sim {
     #[pyo3(signature = (n=1, *, every=1))]
     fn step<'py>(&self, py: Python<'py>, n: u64, every: u64) -> PyResult<Bound<'py, PyAny>> {
         if every == 0 {
-            return Err(PyValueError::new_err("every: found 0, allowed: above 0"));
+            return Err(wrong("every: found 0, allowed: above 0"));
         }
         let rows = py.detach(|| self.rows(n, every))?;
         self.tables.trace.array(py, rows)
@@ -309,7 +314,7 @@ impl Sim {
         }
         let value = degrees.unwrap_or(f64::NAN);
         let set = py.detach(|| self.state().call(SETPOINT, whisker, value));
-        set.map_err(|error| PyValueError::new_err(error.to_string()))
+        set.map_err(wrong)
     }
 
     /// Sets the nominal gain g of a whisker from the next tick on, 0 to 2.
@@ -317,7 +322,7 @@ impl Sim {
     fn gain(&self, py: Python<'_>, gain: f64, whisker: usize) -> PyResult<()> {
         outside::within("gain", gain, 0.0, 2.0)?;
         let set = py.detach(|| self.state().call(GAIN, whisker, gain));
-        set.map_err(|error| PyValueError::new_err(error.to_string()))
+        set.map_err(wrong)
     }
 
     /// Has a texture laid in place of the present one, once that is not touched, and left there.
@@ -325,14 +330,14 @@ impl Sim {
         let Some(place) = Texture::NAMES.iter().position(|name| *name == texture) else {
             let allowed = Texture::NAMES.join(", ");
             let fault = format!("texture: found {texture:?}, allowed: {allowed}");
-            return Err(PyValueError::new_err(fault));
+            return Err(wrong(fault));
         };
         if !self.has_textures {
             let fault = format!("texture: scene {:?} has none to exchange", self.name);
-            return Err(PyValueError::new_err(fault));
+            return Err(wrong(fault));
         }
         let laid = py.detach(|| self.state().call(LAY, place, 0.0));
-        laid.map_err(|error| PyValueError::new_err(error.to_string()))
+        laid.map_err(wrong)
     }
 
     /// Points of a whisker's shaft as it is bent now, from base to tip, m: an array of shape
@@ -368,10 +373,7 @@ impl Sim {
             let left = self.state().left();
             self.each_tick(left, |state, _| {
                 let first = state.tick(true);
-                state.run.look_at_whiskers(&mut state.whiskers);
-                let fell = state.decided.get(first..).unwrap_or_default();
-                table.line(&state.run.trace_line(fell, &state.whiskers))?;
-                Ok(())
+                Ok(table.line(&state.line(first))?)
             })?;
             PyResult::Ok(table.into_inner())
         });
@@ -481,7 +483,7 @@ pub(crate) fn columns<'py>(py: Python<'py>, table: &str) -> PyResult<Bound<'py, 
         _ => {
             let fault =
                 format!("table: found {table:?}, allowed: trace, decisions, recording, press");
-            return Err(PyValueError::new_err(fault));
+            return Err(wrong(fault));
         }
     };
     let dict = PyDict::new(py);
