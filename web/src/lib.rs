@@ -13,7 +13,8 @@ pub use player::Player;
 pub use tracer::Tracer;
 
 use host_sim::loaded::Loaded;
-use scene::Override;
+use host_sim::run::Run;
+use scene::{Override, Scene};
 use wasm_bindgen::prelude::wasm_bindgen;
 
 /// Checks a scene's text, with the lines `key=value` of `set` in place of its own keys; what is
@@ -30,6 +31,14 @@ fn loaded(text: &str, set: &str) -> Result<Loaded, String> {
         found.ok_or_else(|| "not on this page".to_owned())
     });
     read.map_err(|error| error.to_string())
+}
+
+/// Such a scene, and its run before the first tick.
+fn started(text: &str, set: &str) -> Result<(Scene, Run), String> {
+    let loaded = loaded(text, set)?;
+    let run = loaded.classifier();
+    let run = run.and_then(|classifier| Run::new(&loaded.scene, classifier));
+    Ok((loaded.scene, run.map_err(|error| error.to_string())?))
 }
 
 /// What is wrong with a scene's text and the lines `key=value` of `set`; empty: nothing.

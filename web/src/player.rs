@@ -8,7 +8,7 @@ use physics::{At, Bent};
 use scene::{PlantKind, Rule, Scene, Texture};
 use wasm_bindgen::prelude::wasm_bindgen;
 
-use crate::loaded;
+use crate::started;
 
 fn line(t_s: f64, d: &Decided, classes: &[String], are_several: bool) -> String {
     let whisker = d.place.map_or(String::new(), |place| {
@@ -60,14 +60,11 @@ impl Player {
     /// What is wrong with it, a line each.
     #[wasm_bindgen(constructor)]
     pub fn new(text: &str, set: &str) -> Result<Self, String> {
-        let loaded = loaded(text, set)?;
-        let text_of = |error: host_sim::Error| error.to_string();
-        let run =
-            Run::new(&loaded.scene, loaded.classifier().map_err(text_of)?).map_err(text_of)?;
+        let (scene, run) = started(text, set)?;
         Ok(Self {
             run,
-            array: Array::new(&loaded.scene),
-            scene: loaded.scene,
+            array: Array::new(&scene),
+            scene,
             done: 0,
             whiskers: Vec::new(),
             decided: Vec::new(),
@@ -279,11 +276,6 @@ impl Player {
     /// Ticks a second.
     pub fn tick_hz(&self) -> u32 {
         self.scene.tick_hz
-    }
-
-    /// How long the scene lasts, s.
-    pub fn duration_s(&self) -> f64 {
-        self.scene.duration_s
     }
 
     /// The scene's number for the key of a slider; none where it has none.

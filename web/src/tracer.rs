@@ -5,7 +5,7 @@ use host_sim::trace::{TraceShape, TraceWriter, WhiskerRow};
 use sha2::{Digest, Sha256};
 use wasm_bindgen::prelude::wasm_bindgen;
 
-use crate::loaded;
+use crate::started;
 
 /// The bytes of a trace: hashed, and kept where they are wanted.
 #[derive(Default)]
@@ -47,15 +47,12 @@ impl Tracer {
     /// What is wrong with the scene, a line each.
     #[wasm_bindgen(constructor)]
     pub fn new(text: &str, set: &str, keeps: bool) -> Result<Self, String> {
-        let loaded = loaded(text, set)?;
-        let text_of = |error: host_sim::Error| error.to_string();
-        let run =
-            Run::new(&loaded.scene, loaded.classifier().map_err(text_of)?).map_err(text_of)?;
+        let (scene, run) = started(text, set)?;
         let sink = Sink {
             keeps,
             ..Sink::default()
         };
-        let table = TraceWriter::new(sink, TraceShape::of(&loaded.scene));
+        let table = TraceWriter::new(sink, TraceShape::of(&scene));
         Ok(Self {
             left: run.ticks(),
             run,
