@@ -22,13 +22,9 @@ pub(crate) fn edit(file: &str, text: &str, values: &[Override]) -> Result<String
     }
     let edited = with_ends_of(text, &document.to_string());
     let found = Scene::from_str(file, &edited).map_err(refused)?;
-    if found == wanted {
-        Ok(edited)
-    } else {
-        Err(wrong(
-            "its text could not be edited as it should be".to_owned(),
-        ))
-    }
+    let fault = "its text could not be edited as it should be";
+    let is_so = (found == wanted).then_some(edited);
+    is_so.ok_or_else(|| wrong(fault.to_owned()))
 }
 
 /// The edited text with the byte-order mark and the ends of lines that `text` has: of a line that
@@ -36,16 +32,14 @@ pub(crate) fn edit(file: &str, text: &str, values: &[Override]) -> Result<String
 fn with_ends_of(text: &str, edited: &str) -> String {
     const MARK: char = '\u{feff}';
     let bare = |line: &str| line.trim_end_matches(['\r', '\n']).to_owned();
-    let lines = |text: &str| {
-        text.trim_start_matches(MARK)
-            .lines()
-            .map(bare)
-            .collect::<Vec<_>>()
+    let lines = |text: &str| -> Vec<String> {
+        let text = text.trim_start_matches(MARK);
+        text.lines().map(bare).collect()
     };
-    let has_return: Vec<bool> = text
+    let has_return = text
         .split_inclusive('\n')
-        .map(|line| line.ends_with("\r\n"))
-        .collect();
+        .map(|line| line.ends_with("\r\n"));
+    let has_return: Vec<bool> = has_return.collect();
     let (before, after) = (lines(text), lines(edited));
     let mut ends = vec![has_return.first() == Some(&true); after.len()];
     for change in TextDiff::from_slices(&as_refs(&before), &as_refs(&after)).iter_all_changes() {
@@ -56,12 +50,7 @@ fn with_ends_of(text: &str, edited: &str) -> String {
             *new = *old;
         }
     }
-    let mark = if text.starts_with(MARK) {
-        "\u{feff}"
-    } else {
-        ""
-    };
-    let mut whole = mark.to_owned();
+    let mut whole = String::from_iter(text.starts_with(MARK).then_some(MARK));
     for (line, has_return) in after.iter().zip(ends) {
         whole.push_str(line);
         whole.push_str(if has_return { "\r\n" } else { "\n" });

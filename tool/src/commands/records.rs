@@ -68,17 +68,16 @@ pub(crate) fn records(arguments: &Arguments, verbosity: Verbosity) -> Result<(),
     };
     let mut script = Script::of(arguments.script.as_deref(), &arguments.source)?;
     let mut module = arguments.source.module()?;
-    let most = arguments.seconds.or(module.source().duration_s());
-    if most.is_none() {
+    let Some(most) = arguments.seconds.or(module.source().duration_s()) else {
         // Whoever ends it by an interrupt has no file.
         let fault = "--seconds is missing: a module on a bench goes on until it is switched off";
         return Err(Error::Input(fault.to_owned()));
-    }
+    };
     module.ask(Command::Stream(true))?;
     let lost_before = module.ask(Command::Status)?.values[0];
     let about = module.about()?;
     let classes = module.classes()?;
-    let most = most.map(|most| (most * f64::from(about.tick_hz)).ceil() as u32);
+    let most = (most * f64::from(about.tick_hz)).ceil() as u32;
 
     let origin = module.origin()?.with("scene", &about.scene);
     let mut kept = RecordFile::create(out, &origin, about.tick_hz, &classes)?;
@@ -86,7 +85,7 @@ pub(crate) fn records(arguments: &Arguments, verbosity: Verbosity) -> Result<(),
         tally: Tally::of_every(module.every(about.tick_hz)),
         ..Summary::default()
     };
-    let mut progress = Progress::new(verbosity, "records", most.unwrap_or(u32::MAX).into());
+    let mut progress = Progress::new(verbosity, "records", most.into());
     let mut first = None;
     'incoming: loop {
         if let Some(line) = script.play(&mut module)? {
@@ -100,7 +99,7 @@ pub(crate) fn records(arguments: &Arguments, verbosity: Verbosity) -> Result<(),
             if let Packet::Record(record) = packet {
                 let first = *first.get_or_insert(record.sequence);
                 let ticks = record.sequence.wrapping_sub(first);
-                if most.is_some_and(|most| ticks >= most) {
+                if ticks >= most {
                     break 'incoming;
                 }
                 summary.take(record);

@@ -30,6 +30,7 @@ pub(crate) struct Said<T> {
     pub(crate) what: T,
 }
 
+#[derive(Default)]
 pub(crate) struct History {
     pub(crate) tick_hz: u32,
     /// How many of its whiskers are watched: 1, or one a side.
@@ -67,20 +68,8 @@ impl History {
             tick_hz,
             whiskers: whiskers.clamp(1, 2),
             tally: Tally::of_every(every),
-            sides: [VecDeque::new(), VecDeque::new()],
-            lines: VecDeque::new(),
-            events: VecDeque::new(),
-            module_classes: Vec::new(),
-            beliefs: [VecDeque::new(), VecDeque::new()],
-            decided: [VecDeque::new(), VecDeque::new()],
-            health: None,
-            agreed: [0; 2],
-            restarted: None,
             listener,
-            ticks: TickCount::default(),
-            deciding: [false; 2],
-            last_belief: 0,
-            hairs: VecDeque::new(),
+            ..Self::default()
         }
     }
 

@@ -98,16 +98,9 @@ fn cells(svg: &mut String, cells: &[Cell], left: f32, top: f32) {
         return;
     }
     let length = trimmed.chars().count() as f32 * WIDTH;
-    let weight = if first.modifier.contains(Modifier::BOLD) {
-        " font-weight=\"bold\""
-    } else {
-        ""
-    };
-    let dim = if first.modifier.contains(Modifier::DIM) {
-        " opacity=\"0.6\""
-    } else {
-        ""
-    };
+    let marked = |modifier, mark| first.modifier.contains(modifier).then_some(mark);
+    let weight = marked(Modifier::BOLD, " font-weight=\"bold\"").unwrap_or_default();
+    let dim = marked(Modifier::DIM, " opacity=\"0.6\"").unwrap_or_default();
     let escaped = trimmed
         .replace('&', "&amp;")
         .replace('<', "&lt;")

@@ -48,27 +48,12 @@ impl Simulated {
             first,
         })
     }
-
-    fn lines(&self) -> Vec<String> {
-        let t_s = self.now();
-        let events = self.run.events().iter();
-        let lines = events.filter_map(|event| line(t_s, event, self.run.classes()));
-        lines.collect()
-    }
-
-    fn now(&self) -> f64 {
-        self.run.row().t_s
-    }
 }
 
 fn run(loaded: &Loaded, node: usize) -> Result<Run, Error> {
     let mut run = Run::new(&loaded.scene, loaded.classifier()?)?;
     run.module_mut().talk_with(node);
     Ok(run)
-}
-
-fn line(t_s: f64, event: &Event, classes: &[String]) -> Option<String> {
-    report::logged(t_s, event, classes, None)
 }
 
 fn of_model(found: &Result<ModelBuf, Refusal>) -> Vec<String> {
@@ -78,7 +63,7 @@ fn of_model(found: &Result<ModelBuf, Refusal>) -> Vec<String> {
             vec![format!("0.000 INFO  {decides}")]
         }
         Err(refusal) => {
-            let limit = line(0.0, &Event::Limit(number::NO_MODEL), &[]);
+            let limit = report::logged(0.0, &Event::Limit(number::NO_MODEL), &[], None);
             let why = format!("0.000 WARN  - {}", refusal.text());
             limit.into_iter().chain([why]).collect()
         }
@@ -89,7 +74,9 @@ impl Source for Simulated {
     fn next(&mut self) -> Result<Incoming, Error> {
         self.run.tick();
         let mut lines = std::mem::take(&mut self.first);
-        lines.extend(self.lines());
+        let (t_s, classes) = (self.now_s(), self.run.classes());
+        let events = self.run.events().iter();
+        lines.extend(events.filter_map(|event| report::logged(t_s, event, classes, None)));
         Ok(Incoming {
             packets: self.run.module_mut().take_packets(),
             lines,
@@ -120,7 +107,7 @@ impl Source for Simulated {
     }
 
     fn now_s(&mut self) -> f64 {
-        self.now()
+        self.run.row().t_s
     }
 
     fn origin(&self) -> Origin {

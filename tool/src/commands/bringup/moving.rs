@@ -42,25 +42,21 @@ pub(super) fn encoder(bench: &mut Bench, side: u8) -> Done {
     drop(whisker);
     let mut part = Part::new("watched the encoder while the whisker was turned forward by hand");
     part.saw(format!("it counts {turned:+.1} degrees"));
-    let part = part.with(&turned);
     bench.counts_up[usize::from(side)] = Some(turned >= TURNED_DEG);
-    Ok(if turned >= TURNED_DEG {
-        part.means(
-            "forward counts up, as it must. Degrees that are too many or too few: motor.gear, \
-                    or motor.counts_per_rev, which has all four edges of a line",
-        )
+    let means = if turned >= TURNED_DEG {
+        "forward counts up, as it must. Degrees that are too many or too few: motor.gear, or \
+         motor.counts_per_rev, which has all four edges of a line"
     } else if turned <= -TURNED_DEG {
-        let mut part = part;
         part.find("exchange the encoder's channels A and B: forward counts down");
-        part.means("the encoder is the wrong way round: a motor that follows it would run away")
+        "the encoder is the wrong way round: a motor that follows it would run away"
     } else {
-        let mut part = part;
         part.find(
             "the encoder's supply, and A and B at the board's pins with an oscilloscope: both must \
              change as the whisker turns. If it was not turned, do this step again",
         );
-        part.means("the encoder does not count, or the whisker was not turned")
-    })
+        "the encoder does not count, or the whisker was not turned"
+    };
+    Ok(part.with(&turned).means(means))
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]

@@ -74,60 +74,38 @@ fn missing(facts: &Facts) -> String {
 
 #[test]
 fn each_lack_is_reported_with_what_mends_it() {
-    let lacks = |change: fn(&mut Facts)| {
+    let lacks = |change: fn(&mut Facts), says: &str| {
         let mut facts = complete();
         change(&mut facts);
-        missing(&facts)
-    };
-    for (change, says) in [
-        (
-            (|facts| facts.rustup = None) as fn(&mut Facts),
-            "rustup: curl ",
-        ),
-        (
-            |facts| drop(facts.fetched.remove(1)),
-            "target thumbv7m-none-eabi: rustup target add --toolchain 1.95.0 thumbv7m-none-eabi",
-        ),
-        (
-            |facts| facts.free_mib = Some(3071),
-            "free disk, 3.0 GiB (needed: 3 GiB): cargo clean",
-        ),
-        (
-            |facts| facts.ports.clear(),
-            "serial port of an ST-LINK: plug",
-        ),
-        (
-            |facts| facts.ports[0].may_open = false,
-            "serial port /dev/ttyACM0: sudo usermod -aG dialout $USER",
-        ),
-        (|facts| facts.probes = Ok(Vec::new()), "debug probe: plug"),
-        (
-            |facts| facts.probes = Err("built without probes".to_owned()),
-            "debug probe: built without probes",
-        ),
-        (
-            |facts| only_probe(facts).chip = Ok(0x410),
-            "chip STM32F446RETx (found identity 0x410): --board",
-        ),
-        (
-            |facts| only_probe(facts).chip = Err("no answer".to_owned()),
-            "chip STM32F446RETx: no answer",
-        ),
-        (
-            |facts| only_probe(facts).may_open = false,
-            "permission for debug probes: sudo usermod -aG plugdev $USER",
-        ),
-        (
-            |facts| {
-                facts.has_rules = false;
-                only_probe(facts).may_open = false;
-            },
-            "permission for debug probes: echo 'SUBSYSTEM",
-        ),
-    ] {
-        let line = lacks(change);
+        let line = missing(&facts);
         assert!(line.starts_with(&format!("missing  {says}")), "{line}");
-    }
+    };
+    lacks(|of| of.rustup = None, "rustup: curl ");
+    let target = "rustup target add --toolchain 1.95.0 thumbv7m-none-eabi";
+    lacks(
+        |of| drop(of.fetched.remove(1)),
+        &format!("target thumbv7m-none-eabi: {target}"),
+    );
+    let room = "free disk, 3.0 GiB (needed: 3 GiB): cargo clean";
+    lacks(|of| of.free_mib = Some(3071), room);
+    lacks(|of| of.ports.clear(), "serial port of an ST-LINK: plug");
+    let port = "serial port /dev/ttyACM0: sudo usermod -aG dialout $USER";
+    lacks(|of| of.ports[0].may_open = false, port);
+    lacks(|of| of.probes = Ok(Vec::new()), "debug probe: plug");
+    lacks(|of| of.probes = Err("built".into()), "debug probe: built");
+    let other = "chip STM32F446RETx (found identity 0x410): --board";
+    lacks(|of| only_probe(of).chip = Ok(0x410), other);
+    let silent = "chip STM32F446RETx: no answer";
+    lacks(|of| only_probe(of).chip = Err("no answer".into()), silent);
+    let group = "permission for debug probes: sudo usermod -aG plugdev $USER";
+    lacks(|of| only_probe(of).may_open = false, group);
+    lacks(
+        |of| {
+            of.has_rules = false;
+            only_probe(of).may_open = false;
+        },
+        "permission for debug probes: echo 'SUBSYSTEM",
+    );
 }
 
 #[test]
