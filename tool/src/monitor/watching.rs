@@ -7,7 +7,7 @@ use std::thread::JoinHandle;
 use std::time::{Duration, Instant};
 
 use host_sim::Error;
-use wire::{Answer, Command, CommandStatus, Flags};
+use wire::{Answer, Command, Flags};
 
 use super::history::{History, LOOKS_HZ};
 use super::looking::Looking;
@@ -33,6 +33,12 @@ pub(crate) struct Shared {
     /// What is said at the bottom, and the tick by then.
     pub(crate) message: Option<(u64, String)>,
     pub(crate) has_ended: bool,
+}
+
+impl Shared {
+    pub(crate) fn say(&mut self, line: String) {
+        self.message = Some((self.history.now(), line));
+    }
 }
 
 /// Whoever holds it has it whole: no step leaves it half done.
@@ -76,19 +82,17 @@ struct Stopping {
     /// When the first and the last was sent, s; none: not yet.
     first_s: Option<f64>,
     last_s: f64,
-    is_answered: bool,
 }
 
 impl Watching {
     /// Listens until it is ended. Whatever ends it but [`Wish::End`] and time stops the motors
     /// first, and what was recorded until then is kept.
     pub(crate) fn run(mut self) -> Result<(), Error> {
-        let ended = self.watch();
-        if ended.is_err() {
+        let mut done = self.watch();
+        if done.is_err() {
             // It may still take a request.
             let _ = self.module.send(Command::Stop);
         }
-        let mut done = ended;
         for file in std::mem::take(&mut self.files) {
             let finished = file.finish();
             done = done.and(finished);
@@ -137,29 +141,21 @@ impl Watching {
             let answers = self.take(&incoming)?;
             for answer in &answers {
                 self.tell(answer);
-                if let Some(stopping) = &mut stopping {
-                    stopping.is_answered |= stopping.tags.contains(&answer.tag);
-                }
             }
+            let is_done = |stopping: &mut Stopping| {
+                let mut tags = answers.iter().map(|answer| answer.tag);
+                tags.any(|tag| stopping.tags.contains(&tag))
+            };
             let now_s = self.module.source().now_s();
-            if stopping
-                .as_ref()
-                .is_some_and(|stopping| stopping.is_answered)
-            {
-                stopping = None;
-                if is_ending {
-                    ends_at_s = Some(now_s + AFTER_S);
-                }
+            if stopping.take_if(is_done).is_some() && is_ending {
+                ends_at_s = Some(now_s + AFTER_S);
             }
             let is_off = ends_at_s.is_some() && is_unarmed(&incoming);
             if is_off || ends_at_s.is_some_and(|end_s| now_s >= end_s) {
                 return Ok(());
             }
-            if !is_ending
-                && self
-                    .most_s
-                    .is_some_and(|most_s| now_s - self.begun_s >= most_s)
-            {
+            let most_s = self.most_s.filter(|_| !is_ending);
+            if most_s.is_some_and(|most_s| now_s - self.begun_s >= most_s) {
                 return Ok(());
             }
         }
@@ -221,22 +217,14 @@ impl Watching {
     }
 
     fn say(&self, line: String) {
-        let mut shared = lock(&self.shared);
-        let now = shared.history.now();
-        shared.message = Some((now, line));
+        lock(&self.shared).say(line);
     }
 
     fn tell(&self, answer: &Answer) {
-        let name = match answer.command {
-            number if number == Command::Arm.number() => "arm",
-            number if number == Command::Stop.number() => "stop",
-            _ => return,
-        };
-        let status = match answer.status {
-            CommandStatus::Done => "done".to_owned(),
-            status => status.to_string(),
-        };
-        self.say(format!("{name}: {status}"));
+        let mut told = [Command::Arm, Command::Stop].into_iter();
+        if let Some(command) = told.find(|one| one.number() == answer.command) {
+            self.say(format!("{}: {}", command.name(), answer.status));
+        }
     }
 }
 

@@ -193,8 +193,6 @@ fn save(shared: &Arc<Mutex<Shared>>, about: &About) {
             Ok((path, records)) => format!("saved {}: {records} records", path.display()),
             Err(error) => format!("not saved: {error}"),
         };
-        let mut shared = lock(&shared);
-        let now = shared.history.now();
-        shared.message = Some((now, message));
+        lock(&shared).say(message);
     });
 }
