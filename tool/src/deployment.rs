@@ -165,4 +165,4 @@ impl Deployment {
 }
 
 #[cfg(test)]
-mod tests;
+pub(crate) mod tests;

@@ -25,7 +25,7 @@ pub(crate) use flash::Flash;
 pub(crate) use laying::Laying;
 pub(crate) use program::{BoardName, build, is_of, with_scene, workspace};
 #[cfg(test)]
-pub(crate) use scripted::{Scripted, chosen, record, scene_file};
+pub(crate) use scripted::{Scripted, chosen, parsed, record, scene_file};
 pub(crate) use texture::texture;
 
 use firmware::{Links, Packet};

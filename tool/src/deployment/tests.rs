@@ -9,20 +9,23 @@ use super::{BoardFacts, Deployment, Loaded, ModelBuf, Program, Running, files};
 use crate::conversation::Conversation;
 use crate::source::{Scripted, scene_file};
 
-fn textures() -> ModelBuf {
-    files::load_model(&scene_file("models/textures.model"))
-        .unwrap()
-        .1
+pub(crate) fn model(name: &str) -> ModelBuf {
+    let path = scene_file(&format!("models/{name}.model"));
+    files::load_model(&path).unwrap().1
 }
 
-fn loaded(name: &str, keys: &[&str]) -> Loaded {
+fn textures() -> ModelBuf {
+    model("textures")
+}
+
+pub(crate) fn loaded(name: &str, keys: &[&str]) -> Loaded {
     let text = std::fs::read_to_string(scene_file(name)).unwrap();
     let keys: Vec<_> = keys.iter().map(|key| key.parse().unwrap()).collect();
     let model = |path: &Path| Ok(std::fs::read(scene_file("").join(path)).unwrap());
     Loaded::from_text(name, &text, &keys, model).unwrap()
 }
 
-fn on(
+pub(crate) fn on(
     board: &BoardFacts,
     loaded: Loaded,
     model: Option<ModelBuf>,
@@ -133,17 +136,10 @@ fn more_classes_than_a_board_has_are_refused() {
     }
 }
 
-fn judged() -> ModelBuf {
-    ModelBuf::from_bytes(include_bytes!(
-        "../../../scenes/models/bench-textures.model"
-    ))
-    .unwrap()
-}
-
 #[test]
 fn a_model_with_a_second_opinion_is_refused_by_an_image_without() {
     let scene = loaded("bench-textures.toml", &[]);
-    let what = on(&NUCLEO_G071RB, scene, Some(judged())).unwrap();
+    let what = on(&NUCLEO_G071RB, scene, Some(model("bench-textures"))).unwrap();
     let tried = |flags: i32| {
         let mut module = Conversation::new(Box::new(Scripted::new(move |_| {
             let values = [3 + 768, i32::from(firmware::VERSION) | flags];

@@ -1,21 +1,16 @@
 use std::cell::RefCell;
-use std::path::Path;
 use std::rc::Rc;
 
-use firmware::BoardCode;
-use host_sim::files;
-use host_sim::loaded::Loaded;
+use firmware::boards::NUCLEO_F446RE;
 use wire::{Command, CommandStatus, Load, LoadedWord};
 
 use super::{Deployment, load};
-use crate::configuration::Program;
-use crate::source::{Scripted, scene_file};
+use crate::deployment::tests::{loaded, model, on};
+use crate::source::Scripted;
 
 fn bench() -> Deployment {
-    let loaded = Loaded::new(&scene_file("bench.toml")).unwrap();
-    let (_, model) = files::load_model(&scene_file("models/textures.model")).unwrap();
-    let program = Program::for_scene(BoardCode::NucleoF446re, &loaded.scene).unwrap();
-    Deployment::of(Path::new("bench.toml"), loaded, Some(model), program).unwrap()
+    let (loaded, model) = (loaded("bench.toml", &[]), model("textures"));
+    on(&NUCLEO_F446RE, loaded, Some(model)).unwrap()
 }
 
 #[test]

@@ -23,14 +23,19 @@ pub(crate) fn scene_file(name: &str) -> PathBuf {
         .join(name)
 }
 
-pub(crate) fn chosen(words: &[&str]) -> SourceChoice {
+/// Arguments of a command, read from these words behind its name.
+pub(crate) fn parsed<A: clap::Args>(words: &[&str]) -> A {
     #[derive(clap::Parser)]
-    struct Line {
+    struct Line<A: clap::Args> {
         #[command(flatten)]
-        source: SourceChoice,
+        arguments: A,
     }
     let words = ["whisker"].iter().chain(words);
-    <Line as clap::Parser>::parse_from(words).source
+    <Line<A> as clap::Parser>::parse_from(words).arguments
+}
+
+pub(crate) fn chosen(words: &[&str]) -> SourceChoice {
+    parsed(words)
 }
 
 impl Incoming {

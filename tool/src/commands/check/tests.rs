@@ -3,26 +3,18 @@
 use std::f64::consts::TAU;
 use std::path::PathBuf;
 
-use clap::Parser;
 use wire::{Flags, TickRecord};
 
 use super::*;
 use crate::commands::calibrate::tests::SCENE;
-use crate::source::{Alter, Altered, GOOD};
-
-#[derive(Parser)]
-struct Line {
-    #[command(flatten)]
-    arguments: Arguments,
-}
+use crate::source::{Alter, Altered, GOOD, parsed};
 
 fn signs(alter: Alter) -> Vec<&'static str> {
     let folder = tempfile::tempdir().unwrap();
     let scene: PathBuf = folder.path().join("scene.toml");
     std::fs::write(&scene, SCENE).unwrap();
-    let words = ["check", "--seconds", "12", "--out", "unused", "--sim"];
-    let words = words.iter().map(std::ffi::OsString::from);
-    let Line { arguments } = Line::parse_from(words.chain([scene.clone().into_os_string()]));
+    let words = ["--seconds", "12", "--out", "unused", "--sim"];
+    let arguments: Arguments = parsed(&[&words[..], &[scene.to_str().unwrap()]].concat());
     let simulation = || SourceChoice::simulation(&scene).unwrap();
     let module = Box::new(Altered {
         module: simulation(),
