@@ -8,7 +8,6 @@ mod motor_guard;
 mod motor_hall;
 mod motor_hbridge;
 mod motor_homing;
-mod motor_order;
 mod motor_rotor;
 mod motor_six_step;
 mod motor_stall;

@@ -5,12 +5,11 @@
 //! sensor k high where cos(α − 120° (k − 1)) > 0; the field is the sum of the
 //! driven phases' axes, plus for a phase at its PWM, minus for one at ground.
 
-use crate::pins::{FREE_RUNNING, MAX, Wire};
+use crate::pins::{FREE_RUNNING, MAX, Motor, wired};
 use core::f64::consts::TAU;
 use proptest::prelude::*;
 use whisking::motor::{
-    COMMUTATION, CommutationStep, Duty, Fault, MotorDriver, Pair, Phase, SixStep, SixStepConfig,
-    StallConfig,
+    COMMUTATION, CommutationStep, Duty, Fault, MotorDriver, Pair, Phase, SixStepConfig, StallConfig,
 };
 
 const ORDERS: [[usize; 3]; 6] = [
@@ -22,41 +21,16 @@ const ORDERS: [[usize; 3]; 6] = [
     [2, 1, 0],
 ];
 
-type Wires = (Wire, Wire, Wire);
-
-/// The motor's terminals, wired to a driver in a given order.
-struct Bench {
-    inputs: [Wire; 3],
-    enables: [Wire; 3],
-    halls: [Wire; 3],
-    driver: SixStep<Wires, Wires, Wires>,
-}
-
 fn axis(phase: usize) -> f64 {
     TAU * phase as f64 / 3.0
 }
 
-impl Bench {
-    /// `phases[k]` is the winding on the driver's output k, `sensors[k]` the
-    /// sensor on its input k.
-    fn new(phases: [usize; 3], sensors: [usize; 3], config: SixStepConfig) -> Self {
-        let inputs: [Wire; 3] = Default::default();
-        let enables: [Wire; 3] = Default::default();
-        let halls: [Wire; 3] = Default::default();
-        let driver = SixStep::new(
-            phases.map(|i| inputs[i].clone()).into(),
-            phases.map(|i| enables[i].clone()).into(),
-            sensors.map(|i| halls[i].clone()).into(),
-            config,
-        );
-        Self {
-            inputs,
-            enables,
-            halls,
-            driver,
-        }
-    }
+/// A driver and its motor, wired as they should be.
+fn motor(config: SixStepConfig) -> Motor {
+    wired((ORDERS[0], ORDERS[0]), config, "")
+}
 
+impl Motor {
     fn place(&self, angle: f64) {
         for (k, hall) in self.halls.iter().enumerate() {
             hall.value.set(u16::from((angle - axis(k)).cos() > 0.0));
@@ -66,8 +40,9 @@ impl Bench {
     /// The field's components, for a supply of one: two phases at full drive
     /// make a length of √3.
     fn field(&self) -> [f64; 2] {
-        let enabled = || (0..3).filter(|&k| self.enables[k].value.get() != 0);
-        let pulse = |k: usize| f64::from(self.inputs[k].value.get()) / f64::from(MAX);
+        let value = |n: usize| self.outputs[n].value.get();
+        let enabled = || (0..3).filter(|&k| value(3 + k) != 0);
+        let pulse = |k: usize| f64::from(value(k)) / f64::from(MAX);
         let mean = enabled().map(pulse).sum::<f64>() / (enabled().count().max(1)) as f64;
         // Star point at the mean of the driven phases; twice, for ±1.
         enabled().fold([0.0; 2], |[x, y], k| {
@@ -90,7 +65,7 @@ fn drives(field: [f64; 2], angle: f64, forward: bool) -> bool {
 }
 
 fn wiring_works(phases: [usize; 3], sensors: [usize; 3]) -> bool {
-    let mut bench = Bench::new(phases, sensors, FREE_RUNNING);
+    let mut bench = wired((phases, sensors), FREE_RUNNING, "");
     (0..360).all(|degree| {
         let angle = (f64::from(degree) + 0.5).to_radians();
         bench.place(angle);
@@ -164,7 +139,7 @@ proptest! {
         turns in -100.0_f64..100.0,
         q15 in prop_oneof![-32_767_i16..-40, 40_i16..=32_767],
     ) {
-        let mut bench = Bench::new(ORDERS[0], ORDERS[0], FREE_RUNNING);
+        let mut bench = motor(FREE_RUNNING);
         let (angle, duty) = (turns * TAU, Duty::from_q15(q15));
         bench.place(angle);
         bench.driver.drive(duty).unwrap();
@@ -179,7 +154,7 @@ proptest! {
     /// the count follows it.
     #[test]
     fn rotor_runs_up_both_ways(start in 0.0..TAU, forward: bool) {
-        let mut bench = Bench::new(ORDERS[0], ORDERS[0], SixStepConfig::DEFAULT);
+        let mut bench = motor(SixStepConfig::DEFAULT);
         let sign = if forward { 1.0 } else { -1.0 };
         let duty = Duty::from_q15(if forward { 16_384 } else { -16_384 });
         let (mut angle, mut speed) = (start, 0.0_f64);
@@ -214,7 +189,7 @@ fn a_rotor_blocked_after_some_turns_is_stalled() {
         stall,
         ..SixStepConfig::DEFAULT
     };
-    let mut bench = Bench::new(ORDERS[0], ORDERS[0], config);
+    let mut bench = motor(config);
     // A sector every fourth tick: two sectors well within the ten ticks.
     for tick in 0..200 {
         bench.place(f64::from(tick) * TAU / 24.0 + 0.01);
@@ -223,8 +198,7 @@ fn a_rotor_blocked_after_some_turns_is_stalled() {
     let stalled = (1..100).find(|_| bench.driver.drive(Duty::FULL).is_err());
     assert!(stalled.is_some_and(|ticks| ticks <= 10), "{stalled:?}");
     assert_eq!(bench.driver.fault(), Some(Fault::Stall));
-    assert!(bench.enables.iter().all(|enable| enable.value.get() == 0));
-    assert!(bench.inputs.iter().all(|input| input.value.get() == 0));
+    assert!(bench.outputs.iter().all(|output| output.value.get() == 0));
 }
 
 #[test]
@@ -233,7 +207,7 @@ fn clear_allows_the_skips_again() {
         skip_limit: 2,
         ..SixStepConfig::DEFAULT
     };
-    let mut bench = Bench::new(ORDERS[0], ORDERS[0], config);
+    let mut bench = motor(config);
     let mut skip_to = |sector: i32| {
         bench.place(f64::from(sector) * TAU / 6.0);
         let result = bench.driver.drive(Duty::FULL);

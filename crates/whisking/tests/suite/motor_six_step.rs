@@ -1,114 +1,26 @@
-//! The six-step driver against mock pins: exact values, faults, what is tried
-//! when a pin fails. The order between pins is in `motor_order.rs`, torque in
-//! `motor_rotor.rs`.
+//! The six-step driver: every value written, in its order, faults, and what is tried when a pin
+//! fails. Torque is in `motor_rotor.rs`.
 
-use embedded_hal_mock::eh1::MockError;
-use embedded_hal_mock::eh1::digital::{Mock as Pin, State, Transaction as Level};
-use embedded_hal_mock::eh1::pwm::{Mock as Pwm, Transaction as Pulse};
-use std::io::ErrorKind;
+use crate::pins::{FREE_RUNNING, HALF, MAX, MINUS_HALF, six_step};
+use proptest::prelude::*;
 use whisking::motor::{
     COMMUTATION, Duty, Fault, MotorDriver, SixStep, SixStepConfig, SixStepState, StallConfig,
     StallGuard,
 };
 
-type Motor = SixStep<(Pwm, Pwm, Pwm), (Pin, Pin, Pin), (Pin, Pin, Pin)>;
+/// The writes that switch the stage off.
+const OFF: &str = "EN1=0 EN2=0 EN3=0 IN1=0 IN2=0 IN3=0";
 
-const HALF: Duty = Duty::from_q15(16_384);
-
-/// What a test expects of nine pins, written down in the order of ticks.
-#[derive(Default)]
-struct Bench {
-    inputs: [Vec<Pulse>; 3],
-    enables: [Vec<Level>; 3],
-    halls: [Vec<Level>; 3],
+/// The first step after off at half drive: all floated, inputs set, the pair raised.
+fn first_step(high: usize, low: usize) -> String {
+    let others = (1..=3).filter(|&phase| phase != high);
+    let zeros: Vec<String> = others.map(|phase| format!("IN{phase}=0")).collect();
+    let zeros = zeros.join(" ");
+    format!("EN1=0 EN2=0 EN3=0 {zeros} IN{high}=500 EN{low}=1 EN{high}=1")
 }
 
-impl Bench {
-    /// A bench that has seen the driver's start.
-    fn new() -> Self {
-        let mut bench = Self::default();
-        bench.off();
-        bench
-    }
-
-    fn hall(&mut self, code: u8) -> &mut Self {
-        for (bit, pin) in self.halls.iter_mut().enumerate() {
-            let high = code >> bit & 1 == 1;
-            pin.push(Level::get(if high { State::High } else { State::Low }));
-        }
-        self
-    }
-
-    fn enable(&mut self, phase: usize, on: bool) -> &mut Self {
-        let state = if on { State::High } else { State::Low };
-        self.enables[phase - 1].push(Level::set(state));
-        self
-    }
-
-    fn zero(&mut self, phase: usize) -> &mut Self {
-        self.inputs[phase - 1].push(Pulse::set_duty_cycle(0));
-        self
-    }
-
-    fn pulse(&mut self, phase: usize, max: u16, duty: u16) -> &mut Self {
-        self.inputs[phase - 1].extend([Pulse::max_duty_cycle(max), Pulse::set_duty_cycle(duty)]);
-        self
-    }
-
-    fn off(&mut self) -> &mut Self {
-        for phase in 1..=3 {
-            self.enable(phase, false).zero(phase);
-        }
-        self
-    }
-
-    /// The first step after off: all floated, inputs set, the pair raised.
-    fn first_step(&mut self, high: usize, low: usize, max: u16, duty: u16) -> &mut Self {
-        for phase in 1..=3 {
-            self.enable(phase, false);
-            if phase != high {
-                self.zero(phase);
-            }
-        }
-        self.pulse(high, max, duty)
-            .enable(low, true)
-            .enable(high, true)
-    }
-
-    /// Lets the last write to an enable fail.
-    fn break_enable(&mut self, phase: usize) -> &mut Self {
-        let last = self.enables[phase - 1].pop().unwrap();
-        self.enables[phase - 1].push(last.with_error(broken()));
-        self
-    }
-
-    /// Lets the last write to a PWM fail.
-    fn break_input(&mut self, phase: usize) -> &mut Self {
-        let last = self.inputs[phase - 1].pop().unwrap();
-        self.inputs[phase - 1].push(last.with_error(broken()));
-        self
-    }
-
-    /// Runs `test` and checks that exactly the expected happened.
-    fn run(&self, config: SixStepConfig, test: impl FnOnce(&mut Motor)) {
-        let mut inputs = self.inputs.each_ref().map(Pwm::new);
-        let mut enables = self.enables.each_ref().map(Pin::new);
-        let mut halls = self.halls.each_ref().map(Pin::new);
-        let mut motor = SixStep::new(
-            inputs.clone().into(),
-            enables.clone().into(),
-            halls.clone().into(),
-            config,
-        );
-        test(&mut motor);
-        inputs.iter_mut().for_each(Pwm::done);
-        enables.iter_mut().for_each(Pin::done);
-        halls.iter_mut().for_each(Pin::done);
-    }
-}
-
-fn broken() -> MockError {
-    MockError::Io(ErrorKind::NotConnected)
+fn off(fault: Fault) -> (Fault, String) {
+    (fault, OFF.to_owned())
 }
 
 fn stall_after(ticks: u16) -> SixStepConfig {
@@ -130,162 +42,173 @@ fn each_code_drives_its_pair() {
         (4, 1, 2),
         (5, 1, 3),
     ] {
-        for (duty, high, low) in [(HALF, high, low), (Duty::from_q15(-16_384), low, high)] {
-            let mut bench = Bench::new();
-            bench.hall(code).first_step(high, low, 2000, 1000);
-            bench.run(SixStepConfig::DEFAULT, |motor| {
-                assert_eq!(motor.drive(duty), Ok(()));
-                assert_eq!(motor.counts(), 0);
-            });
+        for (duty, high, low) in [(HALF, high, low), (MINUS_HALF, low, high)] {
+            let mut motor = six_step(SixStepConfig::DEFAULT, "");
+            motor.turn(code);
+            assert_eq!(motor.written(), OFF);
+            assert_eq!(motor.drive(duty), first_step(high, low));
+            assert_eq!(motor.driver.counts(), 0);
         }
     }
 }
 
 #[test]
+fn it_breaks_before_it_makes() {
+    let mut motor = six_step(FREE_RUNNING, "");
+    motor.drive(HALF);
+    // Same step: the duty alone.
+    assert_eq!(motor.drive(Duty::FULL), "IN2=1000");
+    // Next sector: low moves from 3 to 1.
+    motor.turn(3);
+    assert_eq!(motor.drive(HALF), "EN3=0 IN1=0 IN3=0 IN2=500 EN1=1");
+    // Next sector: high moves from 2 to 3.
+    motor.turn(2);
+    assert_eq!(motor.drive(HALF), "EN2=0 IN2=0 IN3=500 EN3=1");
+    // Reversal: both float while their inputs change places.
+    let reversal = "EN1=0 EN3=0 IN3=0 IN1=500 EN3=1 EN1=1";
+    assert_eq!(motor.drive(MINUS_HALF), reversal);
+    // Zero keeps the direction, either one.
+    assert_eq!(motor.drive(Duty::ZERO), "IN1=0");
+    motor.drive(HALF);
+    assert_eq!(motor.drive(Duty::ZERO), "IN3=0");
+    assert_eq!(motor.off(), OFF);
+}
+
+#[test]
+fn buffered_it_coasts_a_tick_before_it_reverses() {
+    let mut motor = six_step(FREE_RUNNING, "").map(SixStep::with_buffered_pwm);
+    motor.drive(HALF);
+    assert_eq!(motor.drive(MINUS_HALF), OFF);
+    assert_eq!(motor.drive(MINUS_HALF), first_step(3, 2));
+    // Reverse 1 to 3 (high 3 to 1, low stays 2): no phase goes from high to low.
+    motor.turn(3);
+    assert_eq!(motor.drive(MINUS_HALF), "EN3=0 IN3=0 IN1=500 EN1=1");
+    // After a tick at zero there is nothing to wait for.
+    assert_eq!(motor.drive(Duty::ZERO), "IN1=0");
+    let forward = "EN1=0 EN2=0 IN1=0 IN2=500 EN1=1 EN2=1";
+    assert_eq!(motor.drive(HALF), forward);
+}
+
+#[test]
 fn each_channel_is_scaled_to_its_own_range() {
-    let mut bench = Bench::new();
-    bench.hall(1).first_step(2, 3, 65_535, 65_535);
-    // Next sector but one: high moves to phase 3, low to phase 1.
-    bench.hall(2).enable(1, true);
-    bench.enable(2, false).zero(2).zero(1);
-    bench.enable(3, false).pulse(3, 7, 7).enable(3, true);
-    bench.run(SixStepConfig::DEFAULT, |motor| {
-        assert_eq!(motor.drive(Duty::FULL), Ok(()));
-        assert_eq!(motor.drive(Duty::FULL), Ok(()));
-        assert_eq!(motor.counts(), 2);
-    });
+    let mut motor = six_step(SixStepConfig::DEFAULT, "");
+    motor.output("IN2").max.set(Some(65_535));
+    motor.output("IN3").max.set(Some(7));
+    assert!(motor.drive(Duty::FULL).contains("IN2=65535"));
+    // Next sector but one: high moves to phase 3.
+    motor.turn(2);
+    assert!(motor.drive(Duty::FULL).contains("IN3=7"));
+    assert_eq!(motor.driver.counts(), 2);
 }
 
 #[test]
 fn impossible_codes_switch_off_until_clear() {
     for code in [0, 7] {
-        let mut bench = Bench::new();
-        bench.hall(1).first_step(2, 3, 100, 50);
-        bench.hall(code).off();
+        let mut motor = six_step(SixStepConfig::DEFAULT, "");
+        motor.drive(HALF);
+        motor.turn(code);
+        let fault = Fault::InvalidHall(code);
+        assert_eq!(motor.fails(HALF), off(fault));
         // Held off although the sensors are well again, and still counting.
-        bench.hall(3).off();
-        bench.hall(3).first_step(2, 1, 100, 50);
-        bench.run(SixStepConfig::DEFAULT, |motor| {
-            assert_eq!(motor.drive(HALF), Ok(()));
-            assert_eq!(motor.drive(HALF), Err(Fault::InvalidHall(code)));
-            assert_eq!(motor.drive(HALF), Err(Fault::InvalidHall(code)));
-            assert_eq!(motor.counts(), 1);
-            motor.clear();
-            assert_eq!(motor.drive(HALF), Ok(()));
-        });
+        motor.turn(3);
+        assert_eq!(motor.fails(HALF), off(fault));
+        assert_eq!(motor.driver.counts(), 1);
+        motor.driver.clear();
+        assert_eq!(motor.drive(HALF), first_step(2, 1));
     }
 }
 
 #[test]
 fn unreadable_sensor_switches_off() {
-    let mut bench = Bench::new();
-    bench.off();
-    bench.halls[0].push(Level::get(State::High).with_error(broken()));
-    bench.run(SixStepConfig::DEFAULT, |motor| {
-        assert_eq!(motor.drive(HALF), Err(Fault::Pin));
-    });
+    let mut motor = six_step(SixStepConfig::DEFAULT, "");
+    motor.written();
+    motor.unreadable();
+    assert_eq!(motor.fails(HALF), off(Fault::Pin));
 }
 
 #[test]
 fn off_tries_every_pin_though_all_fail() {
-    let mut bench = Bench::new();
-    bench.off();
-    for phase in 1..=3 {
-        bench.break_enable(phase).break_input(phase);
+    let mut motor = six_step(SixStepConfig::DEFAULT, "");
+    motor.written();
+    for name in ["IN1", "IN2", "IN3", "EN1", "EN2", "EN3"] {
+        motor.fail(name, 1);
     }
-    bench.run(SixStepConfig::DEFAULT, |motor| {
-        motor.off();
-        assert_eq!(motor.fault(), Some(Fault::Pin));
-    });
+    assert_eq!(motor.off(), "EN1=0! EN2=0! EN3=0! IN1=0! IN2=0! IN3=0!");
+    assert_eq!(motor.driver.fault(), Some(Fault::Pin));
 }
 
 #[test]
 fn a_failing_enable_or_pwm_switches_all_off() {
     // The last enable to rise fails.
-    let mut bench = Bench::new();
-    bench.hall(1).first_step(2, 3, 100, 50).break_enable(2);
-    bench.off();
-    bench.run(SixStepConfig::DEFAULT, |motor| {
-        assert_eq!(motor.drive(HALF), Err(Fault::Pin));
-    });
+    let mut motor = six_step(SixStepConfig::DEFAULT, "");
+    motor.written();
+    motor.fail("EN2", 0b10);
+    let written = format!("{}! {OFF}", first_step(2, 3));
+    assert_eq!(motor.fails(HALF), (Fault::Pin, written));
     // The duty of a later tick fails; the step after clear sets everything.
-    let mut bench = Bench::new();
-    bench.hall(1).first_step(2, 3, 100, 50);
-    bench.hall(1).pulse(2, 100, 50).break_input(2);
-    bench.off();
-    bench.hall(1).first_step(2, 3, 100, 50);
-    bench.run(SixStepConfig::DEFAULT, |motor| {
-        assert_eq!(motor.drive(HALF), Ok(()));
-        assert_eq!(motor.drive(HALF), Err(Fault::Pwm));
-        motor.clear();
-        assert_eq!(motor.drive(HALF), Ok(()));
-    });
+    let mut motor = six_step(SixStepConfig::DEFAULT, "");
+    motor.drive(HALF);
+    motor.fail("IN2", 1);
+    let written = format!("IN2=500! {OFF}");
+    assert_eq!(motor.fails(HALF), (Fault::Pwm, written));
+    motor.driver.clear();
+    assert_eq!(motor.drive(HALF), first_step(2, 3));
 }
 
 #[test]
 fn a_failing_start_is_reported_by_the_first_drive() {
-    let mut bench = Bench::new();
-    bench.break_input(3);
-    bench.off().hall(1);
-    bench.run(SixStepConfig::DEFAULT, |motor| {
-        assert_eq!(motor.drive(HALF), Err(Fault::Pwm));
-    });
+    let mut motor = six_step(SixStepConfig::DEFAULT, "IN3");
+    assert_eq!(motor.written(), format!("{OFF}!"));
+    assert_eq!(motor.fails(HALF), off(Fault::Pwm));
 }
 
 #[test]
 fn stall_is_reported_after_the_ticks_and_clear_starts_over() {
-    let mut bench = Bench::new();
-    bench.hall(1).first_step(2, 3, 100, 50);
-    bench.hall(1).pulse(2, 100, 50);
-    bench.hall(1).off();
-    bench.hall(1).first_step(2, 3, 100, 50);
-    bench.run(stall_after(3), |motor| {
-        assert_eq!(motor.state(), SixStepState::Off);
-        assert_eq!(motor.drive(HALF), Ok(()));
-        assert_eq!(motor.drive(HALF), Ok(()));
-        let pair = COMMUTATION[0].forward;
-        assert_eq!(motor.state(), SixStepState::Driving { pair, duty: HALF });
-        assert_eq!(motor.guard(), StallGuard::Still { ticks: 2 });
-        assert_eq!(motor.drive(HALF), Err(Fault::Stall));
-        let fault = Fault::Stall;
-        assert_eq!(motor.state(), SixStepState::Faulted { fault });
-        motor.clear();
-        assert_eq!(motor.state(), SixStepState::Off);
-        assert_eq!(motor.drive(HALF), Ok(()));
-    });
+    let mut motor = six_step(stall_after(3), "");
+    assert_eq!(motor.driver.state(), SixStepState::Off);
+    motor.drive(HALF);
+    motor.drive(HALF);
+    let pair = COMMUTATION[0].forward;
+    let driving = SixStepState::Driving { pair, duty: HALF };
+    assert_eq!(motor.driver.state(), driving);
+    assert_eq!(motor.driver.guard(), StallGuard::Still { ticks: 2 });
+    let fault = Fault::Stall;
+    assert_eq!(motor.fails(HALF), off(fault));
+    assert_eq!(motor.driver.state(), SixStepState::Faulted { fault });
+    motor.driver.clear();
+    assert_eq!(motor.driver.state(), SixStepState::Off);
+    assert_eq!(motor.drive(HALF), first_step(2, 3));
 }
 
 #[test]
 fn a_blocked_rotor_flickering_on_a_hall_edge_is_stalled() {
-    let mut bench = Bench::new();
-    bench.hall(1).first_step(2, 3, 100, 50);
-    bench.hall(3).enable(3, false).zero(1).zero(3);
-    bench.pulse(2, 100, 50).enable(1, true);
-    bench.hall(1).off();
-    bench.run(stall_after(3), |motor| {
-        assert_eq!(motor.drive(HALF), Ok(()));
-        assert_eq!(motor.drive(HALF), Ok(()));
-        assert_eq!(motor.drive(HALF), Err(Fault::Stall));
-    });
+    let mut motor = six_step(stall_after(3), "");
+    for code in [1, 3] {
+        motor.turn(code);
+        motor.drive(HALF);
+    }
+    motor.turn(1);
+    assert_eq!(motor.fails(HALF), off(Fault::Stall));
 }
 
 #[test]
 fn observing_counts_without_driving() {
-    let mut bench = Bench::new();
-    for code in [1, 3, 2, 6, 2] {
-        bench.hall(code);
+    let mut motor = six_step(SixStepConfig::DEFAULT, "");
+    motor.written();
+    for (code, counts) in [(1, 0), (3, 1), (2, 2), (6, 3), (2, 2)] {
+        motor.turn(code);
+        assert_eq!(motor.driver.observe(), Ok(()));
+        assert_eq!(motor.driver.counts(), counts);
     }
-    bench.hall(7).off();
-    bench.hall(3);
-    bench.run(SixStepConfig::DEFAULT, |motor| {
-        for counts in [0, 1, 2, 3, 2] {
-            assert_eq!(motor.observe(), Ok(()));
-            assert_eq!(motor.counts(), counts);
-        }
-        assert_eq!(motor.observe(), Err(Fault::InvalidHall(7)));
-        assert_eq!(motor.observe(), Err(Fault::InvalidHall(7)));
-        assert_eq!(motor.counts(), 1);
-    });
+    assert_eq!(motor.written(), "");
+    let fault = Err(Fault::InvalidHall(7));
+    motor.turn(7);
+    assert_eq!(motor.driver.observe(), fault);
+    assert_eq!(motor.written(), OFF);
+    motor.turn(3);
+    assert_eq!(motor.driver.observe(), fault);
+    assert_eq!(motor.written(), "");
+    assert_eq!(motor.driver.counts(), 1);
 }
 
 #[test]
@@ -293,4 +216,40 @@ fn biotact_resolution() {
     let config = SixStepConfig::DEFAULT;
     assert_eq!(config.counts_per_turn() * 11, 66);
     assert!((config.degrees_per_count(11.0) - 5.4545).abs() < 1e-4);
+}
+
+proptest! {
+    /// From write to write the stage drives the old pair, the new pair or
+    /// nothing: never a third pair, never two phases high at once.
+    #[test]
+    fn it_drives_no_pattern_in_between(
+        ticks in proptest::collection::vec((0_usize..6, any::<i16>()), 1..40),
+    ) {
+        let mut motor = six_step(FREE_RUNNING, "");
+        motor.written();
+        let (mut en, mut inputs) = ([0; 3], [0; 3]);
+        let mut before = None;
+        for (sector, q15) in ticks {
+            motor.turn([1, 3, 2, 6, 4, 5][sector]);
+            let mut passed = Vec::new();
+            for word in motor.drive(Duty::from_q15(q15)).split_whitespace() {
+                let (name, value) = word.split_once('=').unwrap();
+                let (kind, phase) = name.split_at(2);
+                let phase: usize = phase.parse().unwrap();
+                let states = if kind == "EN" { &mut en } else { &mut inputs };
+                states[phase - 1] = value.parse::<u16>().unwrap();
+                let high: Vec<_> = (0..3).filter(|&i| en[i] == 1 && inputs[i] > 0).collect();
+                let low: Vec<_> = (0..3).filter(|&i| en[i] == 1 && inputs[i] == 0).collect();
+                prop_assert!(high.len() <= 1, "two phases high");
+                prop_assert!(high.is_empty() || low.len() <= 1, "two phases low");
+                passed.push(high.first().copied().zip(low.first().copied()));
+            }
+            let after = passed.last().copied().flatten();
+            prop_assert_eq!(after.is_some(), Duty::from_q15(q15).scaled_to(MAX) > 0);
+            for pair in passed {
+                prop_assert!(pair.is_none() || pair == before || pair == after);
+            }
+            before = after;
+        }
+    }
 }
