@@ -141,37 +141,13 @@ mod tests {
 
     const ONE: f64 = 268_435_456.0;
 
-    fn points() -> impl Iterator<Item = i32> {
-        (-300_000..=300_000).map(|n| (f64::from(n) * 5e-6 * ONE) as i32)
-    }
-
-    #[test]
-    fn half_tanh_is_within_its_stated_error() {
-        let error = |x: i32| {
-            let exact = (2.0 * f64::from(x) / ONE).tanh() / 2.0;
-            (f64::from(half_tanh(x)) / ONE - exact).abs()
-        };
-        let worst = points().map(error).fold(0.0, f64::max);
-        assert!(worst < 6e-7, "{worst:e}");
-    }
-
-    #[test]
-    fn exponential_is_within_its_stated_error() {
-        let error = |x: i32| {
-            let exact = (-(f64::from(x) / ONE).powi(2)).exp();
-            (f64::from(exp_neg_square(x)) / ONE - exact).abs()
-        };
-        let worst = points().map(error).fold(0.0, f64::max);
-        assert!(worst < 6e-7, "{worst:e}");
-        assert_eq!(exp_neg_square(i32::MIN), exp_neg_square(3 << 27));
-    }
-
     #[test]
     fn functions_end_in_the_values_at_their_ends() {
         for beyond in [3 << 27, i32::MAX, i32::MIN, -(2 << 28), 5 << 28] {
             assert!((f64::from(exp_neg_square(beyond)) / ONE - (-2.25_f64).exp()).abs() < 5e-7);
             let end = 3.0_f64.tanh().copysign(f64::from(beyond)) / 2.0;
             assert!((f64::from(half_tanh(beyond)) / ONE - end).abs() < 5e-7);
+            assert_eq!(exp_neg_square(beyond), exp_neg_square(3 << 27));
         }
     }
 

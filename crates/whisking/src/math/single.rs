@@ -68,26 +68,10 @@ pub(crate) fn inv_sqrt(x: f32) -> f32 {
 
 #[cfg(test)]
 mod tests {
-    use super::{exp_neg_square, half_tanh, inv_sqrt, one_minus_inv_sqrt};
-
-    fn points() -> impl Iterator<Item = f32> {
-        (0..=300_000).map(|i| -1.5 + i as f32 * 1e-5)
-    }
+    use super::{exp_neg_square, inv_sqrt, one_minus_inv_sqrt};
 
     #[test]
-    fn half_tanh_is_within_its_stated_error() {
-        let worst = points()
-            .map(|x| (f64::from(half_tanh(x)) - libm::tanh(2.0 * f64::from(x)) / 2.0).abs())
-            .fold(0.0, f64::max);
-        assert!(worst < 2e-7, "{worst:e}");
-    }
-
-    #[test]
-    fn exponential_is_within_its_stated_error() {
-        let worst = points()
-            .map(|x| (f64::from(exp_neg_square(x)) - libm::exp(-f64::from(x).powi(2))).abs())
-            .fold(0.0, f64::max);
-        assert!(worst < 3e-7, "{worst:e}");
+    fn beyond_its_range_the_exponential_is_that_at_its_end() {
         assert_eq!(exp_neg_square(9.0), exp_neg_square(1.5));
         assert_eq!(exp_neg_square(f32::NAN), exp_neg_square(1.5));
     }

@@ -62,16 +62,6 @@ fn the_limit_cycle_is_the_unit_circle_at_any_step_and_in_any_format() {
     check::<Fix>(2e-6);
 }
 
-#[test]
-fn a_start_inside_or_outside_relaxes_with_two_whisk_periods() {
-    for start in [0.3, 1.4] {
-        let mut running = Running::<f64, 2>::exact(1e-3, [[start, 0.0]; 2]);
-        let [left, _] = running.run(2_000);
-        let expected = 1.0 + (start - 1.0) * (-1.0_f64).exp();
-        assert!((radius(left) - expected).abs() < 1e-7, "{start}");
-    }
-}
-
 /// Of one side and of two, half a tick of `cycles` behind where the integrator keeps that.
 #[test]
 fn the_phase_runs_with_the_angle_in_every_format() {
@@ -92,16 +82,6 @@ fn the_phase_runs_with_the_angle_in_every_format() {
     check(Running::<Fix, 2>::exact(1e-3, starts), 1e-3);
     check(Running::<Fix, 1>::exact(4e-3, [[0.0, 1.0]]), 4e-3);
     check(Running::<f64, 2>::euler(1e-3, starts), 1e-3);
-}
-
-#[test]
-fn protraction_comes_first_and_recovery_follows() {
-    let [left, _] = Running::<f64, 2>::exact(1e-3, [[1.0, 0.0]; 2]).run(125);
-    let eighth = core::f64::consts::FRAC_1_SQRT_2;
-    assert!(
-        (left[0] - eighth).abs() < 1e-12 && (left[1] - eighth).abs() < 1e-12,
-        "{left:?}"
-    );
 }
 
 /// The text's "time constant of one whisking period" is 2.0 T_W of the phase

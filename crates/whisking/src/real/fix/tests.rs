@@ -115,15 +115,3 @@ fn counts_become_numbers_and_saturate() {
     }
     assert!(Fix::from_counts(3, Fix::coefficient(1e9)).to_f64() > 3.99);
 }
-
-#[test]
-fn a_share_too_small_for_one_step_still_arrives() {
-    let (mut z, mut carry) = (Fix::from_f64(0.25), 0);
-    let approach = Fix::fine(2e-9);
-    for _ in 0..10_000_000 {
-        z.decay(&mut carry, approach);
-    }
-    let expected = 0.25 * (-0.02_f64).exp();
-    let error = (z.to_f64() - expected).abs();
-    assert!(error < 1e-8, "{error:e}");
-}
