@@ -79,16 +79,6 @@ impl Decision {
         }
     }
 
-    /// The same for another leader: of a model that numbers its classes otherwise.
-    #[cfg(feature = "std")]
-    pub(crate) fn of_class(self, class: usize) -> Self {
-        let odds = self.packed % (1 << ODDS_BITS);
-        Self {
-            packed: odds | ((class as u32) << ODDS_BITS),
-            ..self
-        }
-    }
-
     #[inline]
     pub(crate) fn in_touch(self, touch: u16, reason: Option<Reason>) -> Self {
         Self {

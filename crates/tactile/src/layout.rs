@@ -327,12 +327,7 @@ fn check_table_record(
         if axis.reserved != 0 || channel >= channels {
             return Err(ModelError::Padding);
         }
-        let quantiser = Quantiser {
-            origin: 0.0,
-            exponent: 0,
-            low: axis.binner.low(),
-            high: axis.high,
-        };
+        let quantiser = Quantiser::of_codes(axis.binner.low(), axis.high);
         let binner = quantiser
             .binner(bins)
             .map_err(|reason| ModelError::Quantiser { channel, reason })?;

@@ -14,8 +14,8 @@ use crate::layout::{Layout, TouchRule, check_bins, check_counts};
 use crate::model::{Floors, Model};
 use crate::quantiser::Quantiser;
 
-/// What a model is made of.
-#[derive(Debug, Clone, Copy)]
+/// What a model is made of; by default nothing.
+#[derive(Debug, Clone, Copy, Default)]
 pub struct ModelParts<'p> {
     /// Class names, in order.
     pub names: &'p [String],
@@ -68,15 +68,20 @@ pub struct Axis {
 }
 
 impl Axis {
+    /// Of so many bins from one code to another.
+    pub const fn new(channel: usize, bins: usize, [low, high]: [i32; 2]) -> Self {
+        Self {
+            channel,
+            bins,
+            low,
+            high,
+        }
+    }
+
     fn record(&self) -> Result<[u32; AxisRecord::WORDS], ModelError> {
         let Self { channel, bins, .. } = *self;
         check_bins(bins)?;
-        let quantiser = Quantiser {
-            origin: 0.0,
-            exponent: 0,
-            low: self.low,
-            high: self.high,
-        };
+        let quantiser = Quantiser::of_codes(self.low, self.high);
         let binner = quantiser.binner(bins);
         let binner = binner.map_err(|reason| ModelError::Quantiser { channel, reason })?;
         let channel = u8::try_from(channel).map_err(|_| ModelError::Channels(channel))?;

@@ -189,18 +189,8 @@ mod tests {
         entries: &[u16],
     ) -> ModelBuf {
         let names: Vec<String> = (0..classes).map(|k| std::format!("class {k}")).collect();
-        let quantiser = Quantiser {
-            origin: 0.0,
-            exponent: 0,
-            low: 0,
-            high: 1000,
-        };
-        let axis = |channel| Axis {
-            channel,
-            bins,
-            low: 0,
-            high: 1000,
-        };
+        let quantiser = Quantiser::of_codes(0, 1000);
+        let axis = |channel| Axis::new(channel, bins, [0, 1000]);
         let axes: Vec<Axis> = (0..channels).map(axis).collect();
         let rows = |channel| entries.chunks(classes).skip(channel).step_by(channels);
         let of_channels: Vec<Vec<u16>> = (0..channels)
@@ -216,9 +206,7 @@ mod tests {
             block,
             channels: &std::vec![quantiser; channels],
             tables: &tables,
-            floors: None,
-            touch: None,
-            opinion: &[],
+            ..ModelParts::default()
         })
         .unwrap()
     }

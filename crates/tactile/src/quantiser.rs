@@ -28,6 +28,16 @@ pub struct Quantiser {
 }
 
 impl Quantiser {
+    /// Of whole codes as they come, from `low` to `high`.
+    pub const fn of_codes(low: i32, high: i32) -> Self {
+        Self {
+            origin: 0.0,
+            exponent: 0,
+            low,
+            high,
+        }
+    }
+
     /// Checks the ranges for a number of bins.
     ///
     /// # Errors
@@ -69,21 +79,12 @@ impl Quantiser {
         code.clamp(i64::from(i32::MIN), i64::from(i32::MAX)) as i32
     }
 
-    /// Whether raw integers can be turned into codes by [`Self::code_from_raw`]:
-    /// always so for a model trained on integers of 31 bits, unless they are
-    /// huge beside their range.
+    /// Whether the code of a raw integer is raw · 2^exponent: always so for a model trained on
+    /// integers of 31 bits, unless they are huge beside their range. The exponent is zero unless
+    /// the training data had two raw steps a bin or fewer.
     pub fn takes_raw(&self) -> bool {
         // Zero of either sign, without a comparison in double precision.
         self.origin.to_bits() << 1 == 0 && self.exponent >= 0
-    }
-
-    /// The code of a raw integer, raw · 2^exponent, saturated. The exponent is
-    /// zero, and this the identity, unless the training data had two raw
-    /// steps a bin or fewer. Meaningful where [`Self::takes_raw`].
-    pub fn code_from_raw(&self, raw: i32) -> i32 {
-        let factor = 1_i64 << self.exponent.clamp(0, 31);
-        let code = i64::from(raw) * factor;
-        code.clamp(i64::from(i32::MIN), i64::from(i32::MAX)) as i32
     }
 
     /// The division-free form for the streaming step; see [`Binner`].
@@ -122,25 +123,7 @@ mod tests {
     use proptest::prelude::*;
 
     fn raw(low: i32, high: i32) -> Quantiser {
-        Quantiser {
-            origin: 0.0,
-            exponent: 0,
-            low,
-            high,
-        }
-    }
-
-    #[test]
-    fn edges_fall_where_the_definition_says() {
-        let b = raw(-50, 50).binner(10).unwrap();
-        let bin = |code| b.bin(code, 9);
-        assert_eq!(
-            [bin(-50), bin(-41), bin(-40), bin(-1), bin(0)],
-            [0, 0, 1, 4, 5]
-        );
-        // The upper edge is in the last bin; outside goes to the edges.
-        assert_eq!([bin(49), bin(50), bin(51), bin(i32::MAX)], [9; 4]);
-        assert_eq!([bin(-51), bin(i32::MIN)], [0; 2]);
+        Quantiser::of_codes(low, high)
     }
 
     #[test]
@@ -188,9 +171,7 @@ mod tests {
         assert_eq!(q.code_from_f64(f64::NAN), -8);
         let shifted = Quantiser { origin: 0.0, ..q };
         assert!(shifted.takes_raw() && !q.takes_raw());
-        assert_eq!(shifted.code_from_raw(-3), -12);
-        assert_eq!(shifted.code_from_raw(i32::MIN), i32::MIN);
-        assert_eq!(shifted.code_from_raw(-3), shifted.code_from_f64(-3.0));
+        assert_eq!(shifted.code_from_f64(-3.0), -12);
     }
 
     proptest! {
@@ -206,11 +187,13 @@ mod tests {
             prop_assume!(span as usize > 2 * bins);
             let high = low + span;
             let b = raw(low, high).binner(bins).unwrap();
-            // Near every edge, inside at random, and outside.
+            // Near every edge, inside at random, and outside. The upper edge is in the last bin.
             let inside = low + (place * f64::from(span)) as i32;
             let edge = low + ((place * bins as f64).floor() * f64::from(span) / bins as f64).ceil() as i32;
-            for code in [low, high, inside, edge - 1, edge, edge + 1, low + outside] {
-                let exact = (f64::from(code - low) * bins as f64 / f64::from(span)).floor();
+            let far = [low + outside, i32::MIN, i32::MAX];
+            for code in [low, high, inside, edge - 1, edge, edge + 1].into_iter().chain(far) {
+                let above = f64::from(code) - f64::from(low);
+                let exact = (above * bins as f64 / f64::from(span)).floor();
                 let expected = exact.clamp(0.0, bins as f64 - 1.0) as usize;
                 prop_assert_eq!(b.bin(code, bins - 1), expected);
             }

@@ -197,15 +197,10 @@ impl Trainer {
             .zip(&quantisers)
             .enumerate()
             .map(|(channel, (counts, q))| {
-                let axis = Axis {
-                    channel,
-                    bins,
-                    low: q.low,
-                    high: q.high,
-                };
+                let axis = Axis::new(channel, bins, [q.low, q.high]);
                 let mut entries = vec![0; bins * classes];
                 for (class, histogram) in counts.iter().enumerate() {
-                    for (bin, &p) in smoothed(histogram, &kernel).iter().enumerate() {
+                    for (bin, &p) in smoothed(histogram, bins, &kernel).iter().enumerate() {
                         entries[bin * classes + class] = entry(p);
                     }
                 }
@@ -221,9 +216,7 @@ impl Trainer {
             block,
             channels: &quantisers,
             tables: &tables,
-            floors: None,
-            touch: None,
-            opinion: &[],
+            ..ModelParts::default()
         })?)
     }
 
@@ -298,27 +291,37 @@ fn gaussian(sd: f64) -> Vec<f64> {
         .collect()
 }
 
-/// Convolution with a symmetric kernel, zero outside, normalised to sum one.
-fn smoothed(histogram: &[f64], kernel: &[f64]) -> Vec<f64> {
-    let mut out = vec![0.0; histogram.len()];
-    for (at, &count) in histogram.iter().enumerate() {
-        if count == 0.0 {
-            continue;
-        }
-        for (k, &weight) in kernel.iter().enumerate() {
-            if let Some(below) = at.checked_sub(k).and_then(|i| out.get_mut(i)) {
-                *below += count * weight;
+/// A histogram of so many columns a row, convolved along both axes with a symmetric kernel, zero
+/// outside; sum one.
+fn smoothed(histogram: &[f64], columns: usize, kernel: &[f64]) -> Vec<f64> {
+    let rows = histogram.len() / columns;
+    let along = |from: &[f64], stride: usize, length: usize, place: &dyn Fn(usize) -> usize| {
+        let mut to = vec![0.0; from.len()];
+        for (cell, &count) in from.iter().enumerate() {
+            if count == 0.0 {
+                continue;
             }
-            if k > 0
-                && let Some(above) = out.get_mut(at + k)
-            {
-                *above += count * weight;
+            let at = place(cell);
+            to[cell] += count * kernel[0];
+            for (k, &weight) in kernel.iter().enumerate().skip(1) {
+                if at >= k {
+                    to[cell - k * stride] += count * weight;
+                }
+                if at + k < length {
+                    to[cell + k * stride] += count * weight;
+                }
             }
         }
-    }
-    // Every class has a sample of each channel and the kernel has its centre: not zero.
-    let sum: f64 = out.iter().sum();
-    out.iter().map(|x| x / sum).collect()
+        to
+    };
+    let within = along(histogram, 1, columns, &|cell| cell % columns);
+    let both = along(&within, columns, rows, &|cell| cell / columns);
+    let sum: f64 = both.iter().sum();
+    // A class may have nothing left when a fold is taken out: nothing is known then.
+    let even = 1.0 / both.len() as f64;
+    both.iter()
+        .map(|x| if sum > 0.0 { x / sum } else { even })
+        .collect()
 }
 
 fn entry(p: f64) -> u16 {

@@ -16,18 +16,8 @@ const AGREES: [u32; 347] = {
 
 /// Two classes that differ by two bits a sample.
 fn model(touch: Option<TouchRule>, opinion: &[u32]) -> ModelBuf {
-    let axis = [Axis {
-        channel: 0,
-        bins: 1,
-        low: 0,
-        high: 0,
-    }];
-    let quantiser = Quantiser {
-        origin: 0.0,
-        exponent: 0,
-        low: 0,
-        high: 0,
-    };
+    let axis = [Axis::new(0, 1, [0, 0])];
+    let quantiser = Quantiser::of_codes(0, 0);
     ModelBuf::new(&ModelParts {
         names: &["a", "b"].map(str::to_owned),
         block: 1,

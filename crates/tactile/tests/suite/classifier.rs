@@ -65,19 +65,9 @@ fn together(model: ModelBuf, theta: f64, whiskers: usize) -> Owned {
 /// Three classes over four cells of x and y together, and two of the roughness of x.
 fn joint(entries: &[u16], floor: u16) -> ModelBuf {
     let names = ["a", "b", "c"].map(str::to_owned);
-    let axis = |channel, high| Axis {
-        channel,
-        bins: 2,
-        low: 0,
-        high,
-    };
+    let axis = |channel, high| Axis::new(channel, 2, [0, high]);
     let (both, rough) = ([axis(0, 1000), axis(1, 1000)], [axis(0, 1024)]);
-    let quantiser = Quantiser {
-        origin: 0.0,
-        exponent: 0,
-        low: 0,
-        high: 1000,
-    };
+    let quantiser = Quantiser::of_codes(0, 1000);
     let tables = [
         TableParts {
             source: TableSource::Samples,
@@ -195,18 +185,8 @@ fn fresh(model: &ModelBuf) -> Posteriors {
 /// Two classes that differ by a bit a sample at code 0 and against it at code 900.
 fn coin(floors: Option<&[Floors]>, touch: Option<TouchRule>) -> ModelBuf {
     let names = ["low", "high"].map(str::to_owned);
-    let axis = [Axis {
-        channel: 0,
-        bins: 2,
-        low: 0,
-        high: 1000,
-    }];
-    let quantiser = Quantiser {
-        origin: 0.0,
-        exponent: 0,
-        low: 0,
-        high: 1000,
-    };
+    let axis = [Axis::new(0, 2, [0, 1000])];
+    let quantiser = Quantiser::of_codes(0, 1000);
     let (near, far) = (entry(-1.0), entry(-2.0));
     ModelBuf::new(&ModelParts {
         names: &names,

@@ -1,8 +1,16 @@
-//! Shared by the tests: models made to measure.
+//! Shared by the tests: models made to measure, and chance.
 
 use tactile::{
     Axis, ENTRIES_PER_BIT, ENTRY_OFFSET_BITS, ModelBuf, ModelParts, Quantiser, TableParts,
 };
+
+/// Uniform in 0 to 1.
+pub(crate) fn roll(state: &mut u64) -> f64 {
+    *state = state
+        .wrapping_mul(6_364_136_223_846_793_005)
+        .wrapping_add(1);
+    (*state >> 11) as f64 / (1_u64 << 53) as f64
+}
 
 pub(crate) fn entry(log2_p: f64) -> u16 {
     ((log2_p + f64::from(ENTRY_OFFSET_BITS)) * f64::from(ENTRIES_PER_BIT)).round() as u16
@@ -18,18 +26,8 @@ pub(crate) fn model(
     log2_p: impl Fn(usize, usize, usize) -> f64,
 ) -> ModelBuf {
     let names: Vec<String> = (0..classes).map(|k| format!("class {k}")).collect();
-    let quantiser = Quantiser {
-        origin: 0.0,
-        exponent: 0,
-        low: 0,
-        high: 1000,
-    };
-    let axis = |channel| Axis {
-        channel,
-        bins,
-        low: quantiser.low,
-        high: quantiser.high,
-    };
+    let quantiser = Quantiser::of_codes(0, 1000);
+    let axis = |channel| Axis::new(channel, bins, [quantiser.low, quantiser.high]);
     let axes: Vec<Axis> = (0..channels).map(axis).collect();
     let entries: Vec<Vec<u16>> = (0..channels)
         .map(|channel| {
@@ -50,9 +48,7 @@ pub(crate) fn model(
         block,
         channels: &vec![quantiser; channels],
         tables: &tables,
-        floors: None,
-        touch: None,
-        opinion: &[],
+        ..ModelParts::default()
     })
     .unwrap()
 }

@@ -1,17 +1,10 @@
 //! The joint trainer on problems whose answer is known.
 
+use crate::common::roll;
 use tactile::train::Expect;
 use tactile::train::TrainError;
 use tactile::train::joint::{Options, Trial, Warning, train};
 use tactile::{Sequential, TableSource, Threshold};
-
-/// Uniform in 0 to 1.
-fn roll(state: &mut u64) -> f64 {
-    *state = state
-        .wrapping_mul(6_364_136_223_846_793_005)
-        .wrapping_add(1);
-    (*state >> 11) as f64 / (1_u64 << 53) as f64
-}
 
 fn normal(state: &mut u64) -> f64 {
     (0..12).map(|_| roll(state)).sum::<f64>() - 6.0

@@ -207,27 +207,15 @@ fn aligned_wrapper_aligns_included_bytes() {
 #[test]
 fn what_could_not_be_read_is_not_written() {
     let names = ["a".to_owned(), "b".to_owned()];
-    let quantiser = Quantiser {
-        origin: 0.0,
-        exponent: 0,
-        low: 0,
-        high: 10,
-    };
-    let axis = Axis {
-        channel: 0,
-        bins: 2,
-        low: 0,
-        high: 10,
-    };
+    let quantiser = Quantiser::of_codes(0, 10);
+    let axis = Axis::new(0, 2, [0, 10]);
     let tables = [TableParts::of_channel(&axis, &[1, 2, 3, 4])];
     let parts = ModelParts {
         names: &names,
         block: 10_000,
         channels: &[quantiser],
         tables: &tables,
-        floors: None,
-        touch: None,
-        opinion: &[],
+        ..ModelParts::default()
     };
     assert!(ModelBuf::new(&parts).is_ok());
     let long = ["a".to_owned(), "b".repeat(256)];

@@ -10,6 +10,8 @@ use tactile::{
     StreamClassifier, Threshold, Whisked, checksum,
 };
 
+use crate::common;
+
 const WHISKED: Whisked = Whisked {
     frequency_mhz: Some(2000),
     has_rcp: Some(false),
@@ -17,10 +19,7 @@ const WHISKED: Whisked = Whisked {
 
 /// Uniform in −1 to 1.
 fn roll(state: &mut u64) -> f64 {
-    *state = state
-        .wrapping_mul(6_364_136_223_846_793_005)
-        .wrapping_add(1);
-    (*state >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
+    2.0 * common::roll(state) - 1.0
 }
 
 /// Eight touches, some longer than others, with air between; the tip trembles by `amplitude`
@@ -126,14 +125,23 @@ fn standing(label: &str, friction: f64, n: u64) -> Trial {
     }
 }
 
+/// Two classes in 24 poses each, with what is said of how they stand changed.
+fn standings(friction: f64, change: impl Fn([f64; 2]) -> [f64; 2]) -> Vec<Trial> {
+    let trial = |n| {
+        let trial = standing(["smooth", "rough"][n as usize % 2], friction, n);
+        let stands = trial.stands.map(&change);
+        Trial { stands, ..trial }
+    };
+    (0..48).map(trial).collect()
+}
+
 /// A model of 24 poses of two classes, and the errors that it expects after six blocks.
 fn learnt(friction: f64) -> (Vec<[f64; 2]>, ModelBuf) {
-    let trials = (0..48).map(|n| standing(["smooth", "rough"][n as usize % 2], friction, n));
     let options = Options {
         whisked: WHISKED,
         ..Options::default()
     };
-    let trained = train(&trials.collect::<Vec<_>>(), &options).unwrap();
+    let trained = train(&standings(friction, |as_it_is| as_it_is), &options).unwrap();
     let errors = &trained.opinion.as_ref().unwrap().pose_errors;
     let at_six = errors.iter().map(|stages| stages[5]).collect();
     (at_six, trained.model().unwrap())
@@ -320,9 +328,7 @@ fn poses_are_estimated_of_the_class_that_is_named() {
 /// those of guessing the middle of ±5 and ±2 of even chance.
 #[test]
 fn poses_of_others_are_only_guessed() {
-    let all: Vec<Trial> = (0..48)
-        .map(|n| standing(["smooth", "rough"][n as usize % 2], 0.0, n))
-        .collect();
+    let all = standings(0.0, |as_it_is| as_it_is);
     let permuted = (0..all.len()).map(|n| Trial {
         stands: all[(n + 18) % all.len()].stands,
         ..all[n].clone()
@@ -338,13 +344,7 @@ fn poses_of_others_are_only_guessed() {
 
 #[test]
 fn a_depth_that_cannot_be_said_is_not_learnt() {
-    let trials: Vec<Trial> = (0..48)
-        .map(|n| {
-            let trial = standing(["smooth", "rough"][n as usize % 2], 0.0, n);
-            let stands = trial.stands.map(|[tilt, depth]| [tilt, 320.0 + depth]);
-            Trial { stands, ..trial }
-        })
-        .collect();
+    let trials = standings(0.0, |[tilt, depth]| [tilt, 320.0 + depth]);
     let trained = train(&trials, &Options::default()).unwrap();
     let is_wide = |warning: &Warning| matches!(warning, Warning::WidePose { .. });
     assert!(trained.report.warnings.iter().any(is_wide));
@@ -353,14 +353,7 @@ fn a_depth_that_cannot_be_said_is_not_learnt() {
 
 #[test]
 fn few_values_of_a_pose_are_said_to_be_too_few() {
-    let trials: Vec<Trial> = (0..48)
-        .map(|n| {
-            let label = ["smooth", "rough"][n as usize % 2];
-            let trial = standing(label, 0.0, n);
-            let stands = trial.stands.map(|[tilt, _]| [tilt, 8.0]);
-            Trial { stands, ..trial }
-        })
-        .collect();
+    let trials = standings(0.0, |[tilt, _]| [tilt, 8.0]);
     let trained = train(&trials, &Options::default()).unwrap();
     let warned = trained.report.warnings.iter();
     let lacks = Warning::NoPose {

@@ -224,24 +224,18 @@ fn priors_are_where_evidence_starts() {
 #[test]
 fn a_touch_leaves_priors_to_the_next() {
     let quantiser = coins().quantiser(0).unwrap();
-    let axis = [tactile::Axis {
-        channel: 0,
-        bins: 1,
-        low: quantiser.low,
-        high: quantiser.high,
-    }];
+    let axis = [tactile::Axis::new(0, 1, [quantiser.low, quantiser.high])];
     let model = ModelBuf::new(&tactile::ModelParts {
         names: &["a", "b"].map(str::to_owned),
         block: 1,
         channels: &[quantiser],
         tables: &[tactile::TableParts::of_channel(&axis[0], &[18_000, 18_512])],
-        floors: None,
         touch: Some(TouchRule {
             limit: 1024,
             gate: 0.0,
             gap: 1,
         }),
-        opinion: &[],
+        ..tactile::ModelParts::default()
     });
     let mut c = NaiveBayes::<AnyRule, _>::new(model.unwrap(), sequential(0.9999)).unwrap();
     c.set_classes(&of([0.2, 0.8], [None; 2]));

@@ -3,45 +3,22 @@
 
 use crate::common::entry;
 use tactile::{
-    Axis, Floors, ModelBuf, ModelError, ModelParts, Quantiser, Roughness, Sequential, TableParts,
-    TableSource, Threshold, TouchRule,
+    Axis, Floors, ModelBuf, ModelError, ModelParts, Quantiser, Sequential, TableParts, TableSource,
+    Threshold, TouchRule,
 };
 
 const BLOCK: u32 = 2;
 const LIMIT_BITS: u32 = 2;
 
 /// Two bins an axis over codes 0 to 99.
-const AXES: [Axis; 2] = [
-    Axis {
-        channel: 0,
-        bins: 2,
-        low: 0,
-        high: 100,
-    },
-    Axis {
-        channel: 1,
-        bins: 2,
-        low: 0,
-        high: 100,
-    },
-];
+const AXES: [Axis; 2] = [Axis::new(0, 2, [0, 100]), Axis::new(1, 2, [0, 100])];
 /// Smooth below an S of 2⁴ − 1, rough from there on.
-const ROUGH: [Axis; 1] = [Axis {
-    channel: 0,
-    bins: 2,
-    low: 0,
-    high: 512,
-}];
+const ROUGH: [Axis; 1] = [Axis::new(0, 2, [0, 512])];
 
 /// Two classes: both channels in the same half, or not; smooth, or rough.
 fn model(floors: Option<&[Floors]>, touch: Option<TouchRule>) -> ModelBuf {
     let names = ["same".to_owned(), "other".to_owned()];
-    let quantiser = Quantiser {
-        origin: 0.0,
-        exponent: 0,
-        low: 0,
-        high: 100,
-    };
+    let quantiser = Quantiser::of_codes(0, 100);
     let (often, rarely) = (entry(-1.0), entry(-3.0));
     let joint = [
         [often, rarely],
@@ -217,16 +194,6 @@ fn floors_look_back_to_the_onset_of_the_touch() {
 }
 
 #[test]
-fn roughness_is_that_of_the_samples_that_count() {
-    let mut roughness = Roughness::new();
-    for n in 0..40 {
-        roughness.push(&[10 * (n % 4), 0], n % 2 == 0);
-    }
-    // A period of four samples: all differences are zero.
-    assert_eq!((roughness.code(0), roughness.code(1)), (0, 0));
-}
-
-#[test]
 fn roughness_is_of_the_first_two_channels() {
     let quantiser = model(None, None).quantiser(0).unwrap();
     let refused = |channel| {
@@ -247,9 +214,7 @@ fn roughness_is_of_the_first_two_channels() {
             block: BLOCK,
             channels: &[quantiser; 3],
             tables: &tables,
-            floors: None,
-            touch: None,
-            opinion: &[],
+            ..ModelParts::default()
         };
         ModelBuf::new(&parts).err()
     };

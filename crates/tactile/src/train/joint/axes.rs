@@ -22,12 +22,7 @@ impl Axes {
     pub(super) fn of(pieces: &[Piece<'_>], bins: usize) -> Self {
         let axis = |channel: usize, codes: Vec<i32>| {
             let (low, high) = range(codes, bins);
-            Axis {
-                channel,
-                bins,
-                low,
-                high,
-            }
+            Axis::new(channel, bins, [low, high])
         };
         let samples = |channel: usize| {
             let codes = pieces.iter().flat_map(|piece| &piece.blocks.samples);
@@ -75,12 +70,7 @@ impl Shape {
             source,
             axes,
             binners: axes.map(|axis| {
-                let codes = Quantiser {
-                    origin: 0.0,
-                    exponent: 0,
-                    low: axis.low,
-                    high: axis.high,
-                };
+                let codes = Quantiser::of_codes(axis.low, axis.high);
                 // The span is wide enough for the bins.
                 codes.binner(axis.bins).unwrap_or_default()
             }),

@@ -75,12 +75,7 @@ impl Blocks {
 /// The codes of each channel: integers keep theirs; other data is scaled so that
 /// its range spans above 2¹⁸ codes.
 pub(super) fn scales(trials: &[Trial]) -> Result<[Quantiser; CHANNELS], TrainError> {
-    let mut scales = [Quantiser {
-        origin: 0.0,
-        exponent: 0,
-        low: 0,
-        high: 0,
-    }; CHANNELS];
+    let mut scales = [Quantiser::of_codes(0, 0); CHANNELS];
     for (channel, scale) in scales.iter_mut().enumerate() {
         let values = || {
             let samples = trials.iter().flat_map(|trial| &trial.samples);

@@ -1,7 +1,6 @@
 //! What the rule does with trials that its tables have not seen.
 
 use std::string::String;
-use std::vec;
 use std::vec::Vec;
 
 use super::floors::Floor;
@@ -84,6 +83,84 @@ pub struct Report {
     pub warnings: Vec<Warning>,
 }
 
+/// What was said of a part that was held out, by tables and floors or by the whole model.
+pub(super) struct Said {
+    /// Which of the parts.
+    pub(super) of: usize,
+    pub(super) truth: usize,
+    pub(super) leader: usize,
+    pub(super) posterior: f64,
+    pub(super) samples: u32,
+    /// Not unknown.
+    pub(super) is_named: bool,
+}
+
+impl Said {
+    pub(super) const fn is_right(&self) -> bool {
+        self.leader == self.truth
+    }
+}
+
+/// The share of parts in which no class was named.
+pub(super) fn undecided(said: &[Said], parts: impl Iterator<Item = usize>) -> Interval {
+    let is_decided = |part: usize| said.iter().any(|said| said.of == part && said.is_named);
+    let (mut silent, mut count) = (0, 0);
+    for part in parts {
+        count += 1;
+        silent += usize::from(!is_decided(part));
+    }
+    Interval::of(silent, count)
+}
+
+impl AtThreshold {
+    pub(super) fn of(threshold: f64, said: &[Said], parts: usize) -> Self {
+        let named = || said.iter().filter(|said| said.is_named);
+        let count = named().count();
+        let mean = |of: &dyn Fn(&Said) -> f64| named().map(of).sum::<f64>() / count as f64;
+        Self {
+            threshold,
+            stated: mean(&|said| said.posterior),
+            found: Interval::of(named().filter(|said| said.is_right()).count(), count),
+            samples: mean(&|said| f64::from(said.samples)),
+            unknown: Interval::of(said.len() - count, said.len()),
+            undecided: undecided(said, 0..parts),
+        }
+    }
+}
+
+impl ClassReport {
+    /// `parts`: those of the class.
+    pub(super) fn of(
+        class: usize,
+        names: &[String],
+        trials: &[Trial],
+        noticed: Interval,
+        said: &[Said],
+        parts: impl Iterator<Item = usize>,
+    ) -> Self {
+        let of = || said.iter().filter(|said| said.truth == class);
+        let named = || of().filter(|said| said.is_named);
+        let count = named().count();
+        let right = of().filter(|said| said.is_right()).count();
+        let right_named = named().filter(|said| said.is_right()).count();
+        let as_other = |n| named().filter(|said| said.leader == n).count();
+        let samples = named().map(|said| f64::from(said.samples));
+        let silent = undecided(said, parts);
+        let own = trials.iter().filter(|trial| trial.label == names[class]);
+        Self {
+            name: names[class].clone(),
+            trials: own.count(),
+            undecided: (silent.share * silent.count as f64).round() as usize,
+            named: (0..names.len()).map(as_other).collect(),
+            unknown: of().count() - count,
+            hits: Interval::of(right_named, count),
+            refused: Interval::of(right - right_named, right),
+            noticed,
+            samples: samples.sum::<f64>() / count as f64,
+        }
+    }
+}
+
 pub(super) struct Maker<'a> {
     pub(super) names: &'a [String],
     pub(super) trials: &'a [Trial],
@@ -96,19 +173,14 @@ pub(super) struct Maker<'a> {
 impl Maker<'_> {
     pub(super) fn report(self, rule: &Rule) -> Report {
         let threshold = rule.threshold;
-        let run = |threshold| {
-            let rule = Rule {
-                threshold,
-                ..rule.clone()
-            };
-            decisions(&self.folded.pieces, self.evidence, &rule)
-        };
-        let calibration = THRESHOLDS.map(|threshold| self.at(threshold, &run(threshold)));
-        let found = run(threshold);
+        let parts = self.folded.pieces.len();
+        let calibration = THRESHOLDS
+            .map(|threshold| AtThreshold::of(threshold, &self.said(rule, threshold), parts));
+        let said = self.said(rule, threshold);
         Report {
             threshold,
             classes: (0..self.names.len())
-                .map(|class| self.class(class, &found, rule))
+                .map(|class| self.class(class, &said, rule))
                 .collect(),
             calibration: calibration.to_vec(),
             poses: Vec::new(),
@@ -116,67 +188,34 @@ impl Maker<'_> {
         }
     }
 
+    fn said(&self, rule: &Rule, threshold: f64) -> Vec<Said> {
+        let rule = Rule {
+            threshold,
+            ..rule.clone()
+        };
+        let decided = decisions(&self.folded.pieces, self.evidence, &rule);
+        let said = decided.iter().map(|decided| Said {
+            of: decided.piece,
+            truth: decided.truth,
+            leader: decided.class,
+            posterior: decided.posterior,
+            samples: decided.samples,
+            is_named: !self.refused(decided),
+        });
+        said.collect()
+    }
+
     fn refused(&self, decided: &Decided) -> bool {
         let floor = self.floors.and_then(|floors| floors.get(decided.class));
         floor.is_some_and(|floor| floor.refuses(decided.entries))
     }
 
-    fn undecided(&self, found: &[Decided], class: Option<usize>) -> Interval {
-        let of = |n: usize| class.is_none_or(|class| self.folded.pieces[n].class == class);
-        let mut silent = vec![true; self.folded.pieces.len()];
-        for decided in found.iter().filter(|d| !self.refused(d)) {
-            silent[decided.piece] = false;
-        }
-        let all = (0..silent.len()).filter(|&n| of(n));
-        Interval::of(all.clone().filter(|&n| silent[n]).count(), all.count())
-    }
-
-    fn at(&self, threshold: f64, found: &[Decided]) -> AtThreshold {
-        let named = || found.iter().filter(|d| !self.refused(d));
-        let count = named().count();
-        AtThreshold {
-            threshold,
-            stated: named().map(|d| d.posterior).sum::<f64>() / count as f64,
-            found: Interval::of(named().filter(|d| d.class == d.truth).count(), count),
-            samples: named().map(|d| f64::from(d.samples)).sum::<f64>() / count as f64,
-            unknown: Interval::of(found.len() - count, found.len()),
-            undecided: self.undecided(found, None),
-        }
-    }
-
-    fn class(&self, class: usize, found: &[Decided], rule: &Rule) -> ClassReport {
-        let of_class = || found.iter().filter(|d| d.truth == class);
-        let right = || of_class().filter(|d| d.class == class);
-        let mut named = vec![0; self.names.len()];
-        let mut samples = 0.0;
-        for decided in of_class().filter(|d| !self.refused(d)) {
-            named[decided.class] += 1;
-            samples += f64::from(decided.samples);
-        }
-        let count: usize = named.iter().sum();
-        ClassReport {
-            name: self.names[class].clone(),
-            trials: self.trials_of(class).count(),
-            undecided: {
-                let Interval { share, count, .. } = self.undecided(found, Some(class));
-                (share * count as f64).round() as usize
-            },
-            unknown: of_class().count() - count,
-            hits: Interval::of(named[class], count),
-            refused: Interval::of(right().filter(|d| self.refused(d)).count(), right().count()),
-            noticed: {
-                let found = of_unknown(class, &self.folded.pieces, self.evidence, rule);
-                let noticed = found.iter().filter(|d| self.refused(d)).count();
-                Interval::of(noticed, found.len())
-            },
-            samples: samples / count as f64,
-            named,
-        }
-    }
-
-    fn trials_of(&self, class: usize) -> impl Iterator<Item = &Trial> {
-        self.trials
-            .iter()
-            .filter(move |trial| trial.label == self.names[class])
+    fn class(&self, class: usize, said: &[Said], rule: &Rule) -> ClassReport {
+        let pieces = &self.folded.pieces;
+        let found = of_unknown(class, pieces, self.evidence, rule);
+        let noticed = found.iter().filter(|decided| self.refused(decided)).count();
+        let noticed = Interval::of(noticed, found.len());
+        let own = (0..pieces.len()).filter(|part| pieces[*part].class == class);
+        ClassReport::of(class, self.names, self.trials, noticed, said, own)
     }
 }

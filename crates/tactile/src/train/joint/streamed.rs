@@ -7,9 +7,8 @@ use std::thread;
 use std::vec::Vec;
 
 use super::model::JointModel;
-use super::report::{AtThreshold, ClassReport, PoseReport};
+use super::report::{AtThreshold, ClassReport, PoseReport, Said, undecided};
 use super::trial::Trial;
-use crate::decision::Decision;
 use crate::error::ModelError;
 use crate::score::Interval;
 use crate::sequential::{Sequential, Threshold};
@@ -21,22 +20,6 @@ const FOLDS: usize = 4;
 
 /// In how many at most, of poses.
 const MOST_FOLDS: usize = 8;
-
-struct Said {
-    trial: usize,
-    truth: usize,
-    decision: Decision,
-}
-
-impl Said {
-    fn is_named(&self) -> bool {
-        self.decision.class().is_some()
-    }
-
-    fn is_right(&self) -> bool {
-        self.decision.leader() == self.truth
-    }
-}
 
 /// What was said of a part that was held out.
 struct OfFold {
@@ -86,10 +69,11 @@ pub(super) fn report(model: &mut JointModel, trials: &[Trial]) -> Result<(), Tra
     }
     let report = &mut model.report;
     for (at, said) in report.calibration.iter_mut().zip(&said) {
-        *at = at_threshold(at.threshold, said, trials.len());
+        *at = AtThreshold::of(at.threshold, said, trials.len());
     }
     for (class, report) in report.classes.iter_mut().enumerate() {
-        of_class(report, class, &own, trials);
+        let of_class = (0..trials.len()).filter(|part| trials[*part].label == report.name);
+        *report = ClassReport::of(class, &model.names, trials, report.noticed, &own, of_class);
     }
     if let Some(poses) = poses {
         report.poses = of_poses(&poses, &own, trials, &model.names);
@@ -177,66 +161,17 @@ fn stream(
                 // Folds may meet classes in another order.
                 let leader = model.names.get(decision.leader()).map_or(0, number);
                 said.push(Said {
-                    trial: *trial,
+                    of: *trial,
                     truth: number(&of.label),
-                    decision: decision.of_class(leader),
+                    leader,
+                    posterior: f64::from(decision.posterior().q32()) / 4_294_967_296.0,
+                    samples: decision.samples(),
+                    is_named: decision.class().is_some(),
                 });
             }
         }
     }
     Ok(said)
-}
-
-fn undecided(said: &[Said], trials: impl Iterator<Item = usize>) -> Interval {
-    let silent = |trial: &usize| {
-        !said
-            .iter()
-            .any(|said| said.trial == *trial && said.is_named())
-    };
-    let (mut count, mut of) = (0, 0);
-    for trial in trials {
-        of += 1;
-        count += usize::from(silent(&trial));
-    }
-    Interval::of(count, of)
-}
-
-fn at_threshold(threshold: f64, said: &[Said], trials: usize) -> AtThreshold {
-    let named = || said.iter().filter(|said| said.is_named());
-    let count = named().count();
-    let mean = |of: &dyn Fn(&Said) -> f64| named().map(of).sum::<f64>() / count as f64;
-    AtThreshold {
-        threshold,
-        stated: mean(&|said| f64::from(said.decision.posterior().q32()) / 4_294_967_296.0),
-        found: Interval::of(named().filter(|said| said.is_right()).count(), count),
-        samples: mean(&|said| f64::from(said.decision.samples())),
-        unknown: Interval::of(said.len() - count, said.len()),
-        undecided: undecided(said, 0..trials),
-    }
-}
-
-fn of_class(report: &mut ClassReport, class: usize, said: &[Said], trials: &[Trial]) {
-    let of = || said.iter().filter(|said| said.truth == class);
-    let named = || of().filter(|said| said.is_named());
-    for (n, count) in report.named.iter_mut().enumerate() {
-        *count = named().filter(|said| said.decision.leader() == n).count();
-    }
-    let count = named().count();
-    let right = of().filter(|said| said.is_right()).count();
-    let right_named = named().filter(|said| said.is_right()).count();
-    report.unknown = of().count() - count;
-    report.hits = Interval::of(right_named, count);
-    report.refused = Interval::of(right - right_named, right);
-    let samples = named().map(|said| f64::from(said.decision.samples()));
-    report.samples = samples.sum::<f64>() / count as f64;
-    let own = trials
-        .iter()
-        .enumerate()
-        .filter(|(_, trial)| trial.label == report.name);
-    let own: Vec<usize> = own.map(|(n, _)| n).collect();
-    let silent = undecided(said, own.iter().copied());
-    report.trials = own.len();
-    report.undecided = (silent.share * own.len() as f64).round() as usize;
 }
 
 /// What was said of each pose that has a name.
@@ -251,7 +186,7 @@ fn of_poses(poses: &Poses, said: &[Said], trials: &[Trial], names: &[String]) ->
             let silent = (share * count as f64).round() as usize;
             Interval::of(count - silent, count)
         };
-        let named = || said.iter().filter(|s| s.is_named() && is_of(&s.trial));
+        let named = || said.iter().filter(|s| s.is_named && is_of(&s.of));
         Some(PoseReport {
             name: name.clone()?,
             decided: decided(None),

@@ -8,7 +8,7 @@ use super::pieces::Piece;
 use super::trial::CHANNELS;
 use crate::format::LOG_FLOOR;
 use crate::model_buf::{Axis, TableSource};
-use crate::train::gaussian;
+use crate::train::{gaussian, smoothed};
 
 /// A table of log₂ p.
 #[derive(Debug, Clone, PartialEq)]
@@ -146,36 +146,4 @@ impl<'l> Tables<'l> {
         }
         log2_p
     }
-}
-
-/// Convolution along both axes with a symmetric kernel, zero outside; sum one.
-fn smoothed(histogram: &[f64], columns: usize, kernel: &[f64]) -> Vec<f64> {
-    let rows = histogram.len() / columns;
-    let along = |from: &[f64], stride: usize, length: usize, place: &dyn Fn(usize) -> usize| {
-        let mut to = vec![0.0; from.len()];
-        for (cell, &count) in from.iter().enumerate() {
-            if count == 0.0 {
-                continue;
-            }
-            let at = place(cell);
-            to[cell] += count * kernel[0];
-            for (k, &weight) in kernel.iter().enumerate().skip(1) {
-                if at >= k {
-                    to[cell - k * stride] += count * weight;
-                }
-                if at + k < length {
-                    to[cell + k * stride] += count * weight;
-                }
-            }
-        }
-        to
-    };
-    let within = along(histogram, 1, columns, &|cell| cell % columns);
-    let both = along(&within, columns, rows, &|cell| cell / columns);
-    let sum: f64 = both.iter().sum();
-    // A class may have nothing left when a fold is taken out: nothing is known then.
-    let even = 1.0 / both.len() as f64;
-    both.iter()
-        .map(|x| if sum > 0.0 { x / sum } else { even })
-        .collect()
 }
