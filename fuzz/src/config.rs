@@ -190,12 +190,7 @@ mod tests {
     fn bytes<R: Number>(scene: &str) -> Vec<u8> {
         let scene = Path::new("../scenes").join(scene).with_extension("toml");
         let scene = Scene::load(&scene).unwrap();
-        let target = Target {
-            runs_on: RunsOn::Board,
-            gate: None,
-            classes: None,
-            overrides: "",
-        };
+        let target = Target::of(RunsOn::Board);
         let config = build::<R>(&scene, target).unwrap();
         let bytes = encode(&config, BOARD).unwrap();
         bytes.to_vec()

@@ -39,12 +39,7 @@ pub fn scene(data: &[u8]) {
 }
 
 fn build<R: Real>(scene: &Scene, runs_on: RunsOn) {
-    let target = Target {
-        runs_on,
-        gate: None,
-        classes: None,
-        overrides: "",
-    };
+    let target = Target::of(runs_on);
     if let Ok(config) = config::build::<R>(scene, target) {
         assert_eq!(config.check(), Ok(()));
         let _ = encode(&config, BoardCode::Simulation);

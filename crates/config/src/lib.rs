@@ -274,12 +274,7 @@ mod tests {
     use scene::Scene;
     use whisking::{Fix, State};
 
-    const BOARD: Target<'static> = Target {
-        runs_on: RunsOn::Board,
-        gate: None,
-        classes: None,
-        overrides: "",
-    };
+    const BOARD: Target<'static> = Target::of(RunsOn::Board);
 
     fn motion(scene: &Scene) -> MotionConfig<f64> {
         build::<f64>(scene, BOARD).unwrap().motion.unwrap()

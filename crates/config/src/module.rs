@@ -47,6 +47,18 @@ pub struct Target<'t> {
     pub overrides: &'t str,
 }
 
+impl Target<'_> {
+    /// With nothing beside the scene.
+    pub const fn of(runs_on: RunsOn) -> Self {
+        Self {
+            runs_on,
+            gate: None,
+            classes: None,
+            overrides: "",
+        }
+    }
+}
+
 /// The configuration of a scene's module.
 ///
 /// # Errors

@@ -31,12 +31,7 @@ fn is_clean(scene: &Scene) -> bool {
 }
 
 fn built(scene: &Scene) -> Result<Config<f64>, Mismatch> {
-    let target = Target {
-        runs_on: RunsOn::Board,
-        gate: None,
-        classes: None,
-        overrides: "",
-    };
+    let target = Target::of(RunsOn::Board);
     build(scene, target)
 }
 
