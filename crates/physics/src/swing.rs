@@ -30,9 +30,7 @@ impl Facing {
         tilt_deg: 20.0,
         elevation_deg: 0.0,
     };
-}
 
-impl Facing {
     /// The whisker at the angle θ, rad: with an elevation e it points along
     /// (cos e cos θ, cos e sin θ, sin e).
     #[inline]

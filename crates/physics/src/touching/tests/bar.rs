@@ -1,9 +1,9 @@
 //! Whiskers pushed around a round bar, against exact elasticas, which another program solved
 //! (`tests/truth/bar.py`), and swept past the end of a plate.
 
-use super::elastica::{Row, table};
-use super::{QUIET, flat};
-use crate::{Biotact, Facing, Outline, Plate, Pose, Shaft, TouchingWhisker};
+use super::elastica::{Pushed, same, table};
+use super::flat;
+use crate::{Biotact, Facing, Outline, Plate, Shaft};
 
 /// What is allowed: shares of the base moment and of the normal force, and of the length for
 /// the place.
@@ -15,38 +15,6 @@ const STRAIGHT: Facing = Facing {
     tilt_deg: 0.0,
     elevation_deg: 0.0,
 };
-
-/// Of the same case: what stands before the push.
-fn same(a: &Row, b: &Row) -> bool {
-    let given = |row: &Row| -> Vec<f64> { row.0.iter().take(8).map(|cell| cell.1).collect() };
-    given(a) == given(b)
-}
-
-/// A whisker that is pushed by 5° a second, from 1° before it touches on.
-struct Pushed {
-    whisker: TouchingWhisker,
-    plate: Plate,
-    tick: u32,
-}
-
-impl Pushed {
-    fn new(shaft: &Shaft, plate: Plate) -> Self {
-        Self {
-            whisker: TouchingWhisker::new(shaft, &QUIET, 1).unwrap(),
-            plate,
-            tick: 0,
-        }
-    }
-
-    fn to(&mut self, push_deg: f64) {
-        while f64::from(self.tick) * 0.0025 < 1.0 + push_deg {
-            let push = (f64::from(self.tick) * 0.0025 - 1.0).to_radians();
-            self.whisker
-                .step(&Pose::swung(1.0 + push), Some(&self.plate), 5e-4);
-            self.tick += 1;
-        }
-    }
-}
 
 #[test]
 fn around_a_bar_moments_forces_and_places_are_those_of_elasticas_until_it_lets_go() {

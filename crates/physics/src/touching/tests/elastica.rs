@@ -42,13 +42,39 @@ pub(super) fn table(text: &'static str) -> Vec<Row> {
 }
 
 /// What is pushed: the columns before the push.
-fn same(a: &Row, b: &Row) -> bool {
+pub(super) fn same(a: &Row, b: &Row) -> bool {
     let given = |row: &Row| -> Vec<f64> { row.0.iter().take(8).map(|cell| cell.1).collect() };
     given(a) == given(b)
 }
 
+/// A whisker that is pushed by 5° a second, from 1° before it touches on.
+pub(super) struct Pushed {
+    pub(super) whisker: TouchingWhisker,
+    plate: Plate,
+    tick: u32,
+}
+
+impl Pushed {
+    pub(super) fn new(shaft: &Shaft, plate: Plate) -> Self {
+        Self {
+            whisker: TouchingWhisker::new(shaft, &QUIET, 1).unwrap(),
+            plate,
+            tick: 0,
+        }
+    }
+
+    pub(super) fn to(&mut self, push_deg: f64) {
+        while f64::from(self.tick) * 0.0025 < 1.0 + push_deg {
+            let push = (f64::from(self.tick) * 0.0025 - 1.0).to_radians();
+            self.whisker
+                .step(&Pose::swung(1.0 + push), Some(&self.plate), 5e-4);
+            self.tick += 1;
+        }
+    }
+}
+
 /// Base moments in and across the plane of whisking (N m), normal force (N) and place of
-/// the contact (m) at each push of a case, while it is pushed at 5° a second.
+/// the contact (m) at each push of a case.
 fn pushed(case: &[Row]) -> Vec<[f64; 4]> {
     let first = &case[0];
     let shaft = first.shaft();
@@ -60,33 +86,24 @@ fn pushed(case: &[Row]) -> Vec<[f64; 4]> {
     };
     let friction = first.get("friction");
     let ground = flat(1e6, 1.0, friction, friction);
-    let plate = Plate::in_the_way(1.0, shaft.length_m, &facing, ground);
-    let mut whisker = TouchingWhisker::new(&shaft, &QUIET, 1).unwrap();
-    let mut tick = 0_u32;
+    let plate = Plate::in_the_way(1.0, length_m, &facing, ground);
+    let mut pushed = Pushed::new(&shaft, plate);
     let mut until = |push_deg: f64| {
-        while f64::from(tick) * 0.0025 < 1.0 + push_deg {
-            let push = (f64::from(tick) * 0.0025 - 1.0).to_radians();
-            whisker.step(&Pose::swung(1.0 + push), Some(&plate), 5e-4);
-            tick += 1;
-        }
+        pushed.to(push_deg);
+        let whisker = &pushed.whisker;
         let pose = Pose::swung(1.0 + push_deg.to_radians());
         for [x, y, z] in whisker.bent().points_m {
             let along = add(add(scale(x, pose.x), y, pose.y), z, pose.z());
-            let above = dot(
-                sub(add(pose.base_m, 1.0, along), plate.point_m),
-                plate.normal,
-            );
-            assert!(
-                above > -0.005 * length_m,
-                "{push_deg} {above} {:?}",
-                first.0
-            );
+            let at = sub(add(pose.base_m, 1.0, along), plate.point_m);
+            let above = dot(at, plate.normal);
+            let is_before = above > -0.005 * length_m;
+            assert!(is_before, "{push_deg} {above} {:?}", first.0);
         }
-        let moments = whisker
+        let [x, y] = whisker
             .rotation_rad()
             .map(|turned| turned * shaft.follicle.rotation_n_m_rad);
         let at_m = whisker.contact_at().map_or(0.0, |at| at.arc_m);
-        [moments[0], moments[1], whisker.force_n()[0], at_m]
+        [x, y, whisker.force_n()[0], at_m]
     };
     case.iter().map(|row| until(row.get("push_deg"))).collect()
 }
