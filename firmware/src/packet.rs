@@ -364,7 +364,7 @@ mod tests {
     fn event() -> impl Strategy<Value = Event> {
         let place = any::<(u8, u8)>().prop_map(|(side, whisker)| Place::new(side, whisker));
         let health = any::<(u16, u32, u32)>();
-        let parts = (0..14, place, any::<(u16, [i16; 2], u8)>());
+        let parts = (0..19, place, any::<(u16, [i16; 2], u8)>());
         let faults = (decision(), sensor_fault(), motor_fault());
         (parts, faults, health).prop_map(|((which, place, values), faults, health)| {
             let (number, codes, limit) = values;

@@ -6,13 +6,13 @@ use embedded_hal_mock::eh1::pwm::{Mock as Pwm, Transaction as Pulse};
 use embedded_hal_mock::eh1::spi::{Mock as Spi, Transaction as Transfer};
 use firmware::{
     AngleInput, Clock, Config, Driver, Event, Hardware, Module, MotionConfig, Place, Polled, Retry,
-    SensingConfig, SensorFault, SensorKind, SensorLimits, ServoConfig, WhiskerParts,
+    SensingConfig, SensorFault, SensorLimits, ServoConfig, WhiskerParts,
 };
 use mlx90333::{Decoder, FrameError, Mlx90333};
 use whisking::motor::{GuardSettings, HBridge};
 use whisking::{GateSettings, Integrator, Settings, filter, pd};
 
-use crate::hardware::NoClassifier;
+use crate::hardware::{AT_ONCE, NoClassifier, feeling};
 
 /// A frame at rest: alpha and beta 0x8000, no error; 0x80 + 0x80 = 0x100.
 const REST: [u8; 8] = [0xFF, 0x00, 0x80, 0x00, 0x80, 0x00, 0x00, 0x00];
@@ -100,15 +100,11 @@ fn config() -> Config<f32> {
     };
     Config {
         sensor: SensingConfig {
-            kind: SensorKind::FastMlx90333,
-            rest_us: 50,
-            decoder: mlx90333::Decoder::new(),
-            self_motion: None,
             limits: SensorLimits {
-                hold: 1,
                 recover: 2,
-                ..SensorLimits::ANY
+                ..AT_ONCE
             },
+            ..feeling::<f32>(None).sensor
         },
         contact: Some(filter::Config::new(50.0, 2000.0).unwrap()),
         motion: Some(MotionConfig {
