@@ -77,12 +77,22 @@ mod tests {
         longest: 10,
     };
 
-    /// After which samples a press has ended; `-` is down.
     fn presses(levels: &str) -> Vec<usize> {
+        presses_after_stop(levels, usize::MAX)
+    }
+
+    /// After which samples a press has ended, where the `at`-th has stopped the motors; `-` is
+    /// down.
+    fn presses_after_stop(levels: &str, at: usize) -> Vec<usize> {
         let mut button = Button::new();
         let samples = levels.chars().enumerate();
         samples
-            .filter_map(|(n, level)| button.sample(LIMITS, level == '-').then_some(n))
+            .filter_map(|(n, level)| {
+                if n == at {
+                    button.has_stopped(LIMITS);
+                }
+                button.sample(LIMITS, level == '-').then_some(n)
+            })
             .collect()
     }
 
@@ -96,20 +106,6 @@ mod tests {
     fn bounces_are_no_presses() {
         assert_eq!(presses("''''-'--''-'--''''"), []);
         assert_eq!(presses("'''-'----'-''-''''"), [16]);
-    }
-
-    /// After which samples a press has ended, where the `at`-th has stopped the motors.
-    fn presses_after_stop(levels: &str, at: usize) -> Vec<usize> {
-        let mut button = Button::new();
-        let samples = levels.chars().enumerate();
-        samples
-            .filter_map(|(n, level)| {
-                if n == at {
-                    button.has_stopped(LIMITS);
-                }
-                button.sample(LIMITS, level == '-').then_some(n)
-            })
-            .collect()
     }
 
     #[test]

@@ -321,14 +321,7 @@ mod tests {
 
     #[test]
     fn a_stop_outlives_every_reset_until_somebody_arms() {
-        for cause in [
-            StartCause::Pin,
-            StartCause::Software,
-            StartCause::Watchdog,
-            StartCause::BrownOut,
-            StartCause::Power,
-            StartCause::Other,
-        ] {
+        for cause in StartCause::ALL {
             let mut record = powered();
             record.set_stopped(true);
             let (record, start) = after(record, 100, cause);
