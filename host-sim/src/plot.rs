@@ -11,6 +11,10 @@ mod whiskers;
 pub use sides::{Panel, sides};
 pub use strips::{Ink, Points, Strip, Strips};
 
+use std::fmt::Display;
+
+use pixels::Pixels;
+use plotters::coord::Shift;
 use plotters::prelude::*;
 use tactile::score::Interval;
 
@@ -99,8 +103,32 @@ pub struct Picture<'a> {
 
 type Fault = Box<dyn std::error::Error>;
 
-fn failed(fault: &dyn std::error::Error) -> Error {
+fn failed(fault: impl Display) -> Error {
     Error::Work(format!("plot: {fault}"))
+}
+
+/// What is drawn on an area of this size, as an SVG document.
+fn svg_of(
+    size: (u32, u32),
+    draw: impl FnOnce(&DrawingArea<SVGBackend<'_>, Shift>) -> Result<(), Fault>,
+) -> Result<String, Error> {
+    let mut svg = String::new();
+    let root = SVGBackend::with_string(&mut svg, size).into_drawing_area();
+    draw(&root).map_err(failed)?;
+    drop(root);
+    Ok(svg)
+}
+
+/// The same as a PNG file.
+fn png_of(
+    size: (u32, u32),
+    draw: impl FnOnce(&DrawingArea<&mut Pixels, Shift>) -> Result<(), Fault>,
+) -> Result<Vec<u8>, Error> {
+    let mut pixels = Pixels::new(size)?;
+    let root = (&mut pixels).into_drawing_area();
+    draw(&root).map_err(failed)?;
+    drop(root);
+    pixels.png()
 }
 
 const SIZE: (u32, u32) = (1000, 760);
@@ -124,17 +152,11 @@ const LEAST: f64 = 4.0;
 /// # Errors
 /// [`Error::Work`] if the drawing library fails.
 pub fn calibration(title: &str, points: &[(f64, Interval)]) -> Result<String, Error> {
-    calibrated(title, points).map_err(|fault| Error::Work(format!("plot: {fault}")))
-}
-
-fn calibrated(title: &str, points: &[(f64, Interval)]) -> Result<String, Fault> {
     let place = |share: f64| -(1.0 - share).max(f64::MIN_POSITIVE).log10().max(-LEAST);
     let percent = |place: &f64| format!("{} %", 100.0 - 10_f64.powf(2.0 - place));
-    let mut svg = String::new();
-    {
-        let root = SVGBackend::with_string(&mut svg, (560, 560)).into_drawing_area();
+    svg_of((560, 560), |root| {
         root.fill(&WHITE)?;
-        let mut chart = ChartBuilder::on(&root)
+        let mut chart = ChartBuilder::on(root)
             .caption(title, ("sans-serif", 20))
             .margin(12)
             .x_label_area_size(44)
@@ -173,7 +195,6 @@ fn calibrated(title: &str, points: &[(f64, Interval)]) -> Result<String, Fault> 
             };
             chart.draw_series([Circle::new(point, 4, style)])?;
         }
-        root.present()?;
-    }
-    Ok(svg)
+        Ok(root.present()?)
+    })
 }

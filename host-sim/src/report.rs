@@ -18,10 +18,10 @@ use wire::Line;
 use crate::Error;
 use crate::decisions::{self, Decided, Score, UNKNOWN};
 use crate::output::remove_on_interrupt;
-use evaluation::Over;
+use evaluation::over;
 pub use evaluation::{Doubts, Figures, Thresholds};
-pub use poses::{SecondOpinion, of_model};
-pub use runs::{OverRuns, SeedRange};
+pub use poses::{of_model, second_opinion};
+pub use runs::{OverRuns, seed_range};
 pub use training::TrainingReport;
 
 /// A line on standard output. A closed pipe does not stop the work: what
@@ -181,7 +181,7 @@ impl fmt::Display for Summary<'_> {
         write!(
             f,
             "{score}{decisions} decisions, hit rate {hits:.1} % (mean over {}), mean ",
-            Over(&score.left_out())
+            over(&score.left_out())
         )?;
         match tick_hz {
             Some(tick_hz) => {

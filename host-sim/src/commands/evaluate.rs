@@ -15,7 +15,7 @@ use crate::output::{self, write_whole};
 use crate::plot;
 use crate::progress::{Progress, Verbosity};
 use crate::rate::{self, Said};
-use crate::report::{self, Doubts, Figures, SecondOpinion, Thresholds};
+use crate::report::{self, Doubts, Figures, Thresholds};
 
 /// What to evaluate.
 #[derive(Debug, Args)]
@@ -97,7 +97,7 @@ pub fn evaluate(arguments: &Arguments, verbosity: Verbosity) -> Result<String, E
     if let Some(same) = model.without_opinion() {
         let presented = evaluation::presentations(&same, *threshold, &streams).map_err(wrong)?;
         let same = Evaluation::new(&classes, &presented);
-        sections.push(format!("\n{}", SecondOpinion(&evaluation, &same)));
+        sections.push(format!("\n{}", report::second_opinion(&evaluation, &same)));
     }
     sections.push(format!("\n{doubts}"));
     sections.extend(otherwise.map(|note| format!("\nnote: {note}")));

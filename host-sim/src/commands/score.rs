@@ -14,7 +14,7 @@ use crate::commands::record;
 use crate::commands::train::of_option;
 use crate::evaluation::{Evaluation, Shown};
 use crate::progress::{SharedProgress, Verbosity};
-use crate::report::{OverRuns, SeedRange};
+use crate::report::{OverRuns, seed_range};
 use crate::scoring::{self, Scored};
 use crate::training::{How, TrainedModel};
 use crate::{Error, report};
@@ -75,7 +75,7 @@ pub fn score(arguments: &Arguments, verbosity: Verbosity) -> Result<String, Erro
     if seeds.contains(&train_seed) {
         return Err(Error::Input(format!(
             "--train-seed: found {train_seed}, allowed: none of {}, which are scored",
-            SeedRange(seeds)
+            seed_range(seeds)
         )));
     }
     if let Some(threshold) = arguments.threshold {
@@ -105,7 +105,7 @@ pub fn score(arguments: &Arguments, verbosity: Verbosity) -> Result<String, Erro
         "{}: trained on seed {train_seed}, {} runs with seeds {}\n\n{over_runs}",
         scene.name,
         runs.len(),
-        SeedRange(seeds)
+        seed_range(seeds)
     ))
 }
 

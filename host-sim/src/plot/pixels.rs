@@ -8,6 +8,7 @@ use plotters::prelude::DrawingBackend;
 use plotters_backend::text_anchor::{HPos, VPos};
 use plotters_backend::{BackendColor, BackendCoord, BackendTextStyle, DrawingErrorKind};
 
+use super::failed;
 use crate::Error;
 
 /// Letters of DejaVu Sans; its licence lies beside it.
@@ -31,12 +32,11 @@ impl Pixels {
         Ok(Self {
             size,
             bytes: vec![255; 3 * size.0 as usize * size.1 as usize],
-            font: font.map_err(|error| Error::Work(format!("plot: {error}")))?,
+            font: font.map_err(failed)?,
         })
     }
 
     pub(super) fn png(&self) -> Result<Vec<u8>, Error> {
-        let failed = |error: png::EncodingError| Error::Work(format!("plot: {error}"));
         let mut file = Vec::new();
         let mut encoder = png::Encoder::new(&mut file, self.size.0, self.size.1);
         encoder.set_color(png::ColorType::Rgb);

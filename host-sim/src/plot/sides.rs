@@ -4,7 +4,7 @@ use plotters::coord::Shift;
 use plotters::prelude::*;
 
 use super::curves::{Axes, Curve, Stroke, curves, entries, envelope, with_legend};
-use super::{Fault, MEASURED, OTHER};
+use super::{Fault, MEASURED, OTHER, svg_of};
 use crate::Error;
 use crate::trace::Row;
 
@@ -30,21 +30,13 @@ pub struct Panel {
 /// # Errors
 /// [`Error::Work`] if the drawing library fails.
 pub fn sides(panels: &[Panel]) -> Result<String, Error> {
-    drawn(panels).map_err(|fault| Error::Work(format!("plot: {fault}")))
-}
-
-fn drawn(panels: &[Panel]) -> Result<String, Fault> {
-    let mut svg = String::new();
-    {
-        let size = (PANEL.0, PANEL.1 * panels.len() as u32);
-        let root = SVGBackend::with_string(&mut svg, size).into_drawing_area();
+    svg_of((PANEL.0, PANEL.1 * panels.len() as u32), |root| {
         root.fill(&WHITE)?;
         for (area, panel) in root.split_evenly((panels.len(), 1)).iter().zip(panels) {
             draw(area, panel)?;
         }
-        root.present()?;
-    }
-    Ok(svg)
+        Ok(root.present()?)
+    })
 }
 
 fn draw(area: &DrawingArea<SVGBackend<'_>, Shift>, panel: &Panel) -> Result<(), Fault> {

@@ -4,8 +4,7 @@ use plotters::coord::Shift;
 use plotters::prelude::*;
 
 use super::curves::{Axes, Curve, Stroke, curves, entries, range, with_legend};
-use super::pixels::Pixels;
-use super::{Fault, MEASURED, SETPOINT, failed};
+use super::{Fault, MEASURED, SETPOINT, png_of, svg_of};
 use crate::Error;
 
 /// Width of the picture, and height of a strip, pixels.
@@ -52,11 +51,7 @@ impl Strips {
     /// # Errors
     /// [`Error::Work`] if the drawing library fails.
     pub fn svg(&self) -> Result<String, Error> {
-        let mut svg = String::new();
-        let area = SVGBackend::with_string(&mut svg, self.size()).into_drawing_area();
-        self.drawn(&area).map_err(|fault| failed(&*fault))?;
-        drop(area);
-        Ok(svg)
+        svg_of(self.size(), |root| self.drawn(root))
     }
 
     /// As a PNG file.
@@ -64,11 +59,7 @@ impl Strips {
     /// # Errors
     /// [`Error::Work`] if the drawing library fails.
     pub fn png(&self) -> Result<Vec<u8>, Error> {
-        let mut pixels = Pixels::new(self.size())?;
-        let area = (&mut pixels).into_drawing_area();
-        self.drawn(&area).map_err(|fault| failed(&*fault))?;
-        drop(area);
-        pixels.png()
+        png_of(self.size(), |root| self.drawn(root))
     }
 
     fn size(&self) -> (u32, u32) {
@@ -107,8 +98,7 @@ impl Strips {
             };
             curves(&area, axes, span, range(&shown, strip.least), shown)?;
         }
-        root.present()?;
-        Ok(())
+        Ok(root.present()?)
     }
 }
 

@@ -6,8 +6,7 @@ use plotters::prelude::*;
 
 use super::curves::{Axes, Curve, Stroke, curves, entries, envelope, range, with_legend};
 use super::decided::{decisions, names_width};
-use super::pixels::Pixels;
-use super::{Fault, MEASURED, OTHER, Picture, SETPOINT, SIZE, failed};
+use super::{Fault, MEASURED, OTHER, Picture, SETPOINT, SIZE, png_of, svg_of};
 use crate::Error;
 use crate::trace::Row;
 
@@ -20,11 +19,7 @@ impl Picture<'_> {
     /// # Errors
     /// [`Error::Work`] if the drawing library fails.
     pub fn svg(&self) -> Result<String, Error> {
-        let mut svg = String::new();
-        let area = SVGBackend::with_string(&mut svg, SIZE).into_drawing_area();
-        self.drawn(&area).map_err(|fault| failed(&*fault))?;
-        drop(area);
-        Ok(svg)
+        svg_of(SIZE, |root| self.drawn(root))
     }
 
     /// As a PNG file.
@@ -32,11 +27,7 @@ impl Picture<'_> {
     /// # Errors
     /// [`Error::Work`] if the drawing library fails.
     pub fn png(&self) -> Result<Vec<u8>, Error> {
-        let mut pixels = Pixels::new(SIZE)?;
-        let area = (&mut pixels).into_drawing_area();
-        self.drawn(&area).map_err(|fault| failed(&*fault))?;
-        drop(area);
-        pixels.png()
+        png_of(SIZE, |root| self.drawn(root))
     }
 
     fn drawn<DB: DrawingBackend>(&self, root: &DrawingArea<DB, Shift>) -> Result<(), Fault>
@@ -82,65 +73,40 @@ impl Picture<'_> {
         if let [classes] = classes {
             decisions(classes, self, span, room)?;
         }
-        root.present()?;
-        Ok(())
+        Ok(root.present()?)
     }
 }
 
 /// A quantity of each side: its names, its colours and where it is in a row.
-struct Quantity {
-    names: [&'static str; 2],
-    colours: [RGBColor; 2],
-    of: fn(&Row) -> [f64; 2],
-}
+type Quantity = ([&'static str; 2], [RGBColor; 2], fn(&Row) -> [f64; 2]);
+
+const STRONG: [RGBColor; 2] = [MEASURED, OTHER];
+const FAINT: [RGBColor; 2] = [SETPOINT, PALE];
 
 const ANGLES: [Quantity; 2] = [
-    Quantity {
-        names: ["setpoint", "setpoint, right"],
-        colours: [SETPOINT, PALE],
-        of: |row| row.theta_deg,
-    },
-    Quantity {
-        names: ["angle", "angle, right"],
-        colours: [MEASURED, OTHER],
-        of: |row| row.angle_deg,
-    },
+    (["setpoint", "setpoint, right"], FAINT, |row| row.theta_deg),
+    (["angle", "angle, right"], STRONG, |row| row.angle_deg),
 ];
-
 const SENSORS: [Quantity; 2] = [
-    Quantity {
-        names: ["y", "y, right"],
-        colours: [SETPOINT, PALE],
-        of: |row| row.y,
-    },
-    Quantity {
-        names: ["x", "x, right"],
-        colours: [MEASURED, OTHER],
-        of: |row| row.x,
-    },
+    (["y", "y, right"], FAINT, |row| row.y),
+    (["x", "x, right"], STRONG, |row| row.x),
 ];
-
 const CONTACTS: [Quantity; 2] = [
-    Quantity {
-        names: ["contact π", "contact π, right"],
-        colours: [MEASURED, OTHER],
-        of: |row| row.contact,
-    },
-    Quantity {
-        names: ["suppression z", "suppression z, right"],
-        colours: [SETPOINT, PALE],
-        of: |row| row.z,
-    },
+    (["contact π", "contact π, right"], STRONG, |row| {
+        row.contact
+    }),
+    (["suppression z", "suppression z, right"], FAINT, |row| {
+        row.z
+    }),
 ];
 
 fn of_sides(rows: &[Row], quantities: &[Quantity]) -> Vec<Curve> {
     let has_right = rows.first().is_some_and(|row| !row.angle_deg[1].is_nan());
     let sides = 0..1 + usize::from(has_right);
     let curve = |side: usize| {
-        quantities.iter().map(move |quantity| {
-            let points = envelope(rows, |row| (quantity.of)(row)[side]);
-            let stroke = Stroke::Whole(quantity.colours[side]);
-            (quantity.names[side], stroke, points)
+        quantities.iter().map(move |(names, colours, of)| {
+            let points = envelope(rows, |row| of(row)[side]);
+            (names[side], Stroke::Whole(colours[side]), points)
         })
     };
     sides.flat_map(curve).collect()

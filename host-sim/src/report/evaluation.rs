@@ -5,56 +5,34 @@ use std::fmt;
 use tactile::score::{Calibration, Interval};
 use tactile::train::joint::Warning;
 
-use super::warnings::InWords;
+use super::warnings::in_words;
 use crate::evaluation::{Candidate, ClassFigures, Evaluation};
 
-pub(crate) struct Percent(pub(crate) Interval);
-
-impl fmt::Display for Percent {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Interval {
-            share,
-            low,
-            high,
-            count,
-        } = self.0;
-        if count == 0 {
-            return write!(f, "of none");
-        }
-        let [share, low, high] = [share, low, high].map(|x| 100.0 * x);
-        write!(f, "{share:.1} % ({low:.1} to {high:.1}) of {count}")
+pub(super) fn percent(of: Interval) -> String {
+    if of.count == 0 {
+        return "of none".to_owned();
     }
+    let [share, low, high] = [of.share, of.low, of.high].map(|x| 100.0 * x);
+    format!("{share:.1} % ({low:.1} to {high:.1}) of {}", of.count)
 }
 
 /// What a mean is over: all classes but these.
-pub(crate) struct Over<'a>(pub(crate) &'a [&'a str]);
-
-impl fmt::Display for Over<'_> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "classes")?;
-        if !self.0.is_empty() {
-            let names = self.0.join(", ");
-            write!(f, " without {names}: no decision names a class there")?;
-        }
-        Ok(())
+pub(super) fn over(left_out: &[&str]) -> String {
+    if left_out.is_empty() {
+        return "classes".to_owned();
     }
+    let names = left_out.join(", ");
+    format!("classes without {names}: no decision names a class there")
 }
 
 /// The share of decisions that named no class, with its name, and below it that of each reason.
-pub(crate) struct Refused<'a>(pub(crate) &'a Evaluation);
-
-impl fmt::Display for Refused<'_> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Evaluation {
-            refused, reasons, ..
-        } = self.0;
-        writeln!(f, "refused            {}", Percent(*refused))?;
-        for (reason, count) in reasons.apart() {
-            let share = Interval::of(count, refused.count);
-            writeln!(f, "- {reason:<16} {}", Percent(share))?;
-        }
-        Ok(())
-    }
+pub(super) fn refused(of: &Evaluation) -> String {
+    let reasons = of.reasons.apart().map(|(reason, count)| {
+        let share = Interval::of(count, of.refused.count);
+        format!("- {reason:<16} {}\n", percent(share))
+    });
+    let reasons = reasons.collect::<Vec<_>>().concat();
+    format!("refused            {}\n{reasons}", percent(of.refused))
 }
 
 /// The figures of an evaluation; times by samples a second.
@@ -79,14 +57,14 @@ impl fmt::Display for Figures<'_> {
         let width = classes.iter().map(|class| class.name.chars().count()).max();
         for class in classes {
             write!(f, "{:>1$}: ", class.name, width.unwrap_or(0))?;
-            writeln!(f, "{}", OfClass(class, *tick_hz))?;
+            writeln!(f, "{}", of_class(class, *tick_hz))?;
         }
         writeln!(f)?;
         match hits {
             Some(hits) => {
                 let hits = 100.0 * hits;
                 let ms = samples * 1000.0 / tick_hz;
-                let over = Over(&evaluation.left_out()).to_string();
+                let over = over(&evaluation.left_out());
                 writeln!(f, "hit rate           {hits:.1} % (mean over {over})")?;
                 let error = samples_error * 1000.0 / tick_hz;
                 writeln!(
@@ -94,42 +72,28 @@ impl fmt::Display for Figures<'_> {
                     "decision time      {samples:.0} samples ({ms:.0} ms), standard error \
                      {error:.1} ms"
                 )?;
-                write!(f, "{}", Stated(calibration))?;
+                write!(f, "{}", stated(calibration))?;
             }
             None => writeln!(f, "no decision for a class")?,
         }
-        write!(f, "{}", Refused(evaluation))?;
+        write!(f, "{}", refused(evaluation))?;
         if strange.count > 0 {
-            writeln!(f, "refused, new       {}", Percent(*strange))?;
+            writeln!(f, "refused, new       {}", percent(*strange))?;
         }
-        write!(f, "without a decision {}", Percent(*undecided))
+        write!(f, "without a decision {}", percent(*undecided))
     }
 }
 
-/// The row of a class, and samples a second.
-struct OfClass<'a>(&'a ClassFigures, f64);
-
-impl fmt::Display for OfClass<'_> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self(class, tick_hz) = self;
-        if let Some(samples) = class.samples {
-            let ms = 1000.0 / tick_hz;
-            let error = samples.sd / (samples.count as f64).sqrt();
-            write!(
-                f,
-                "right {}; after {:.0} ± {:.1} ms; ",
-                Percent(class.hits),
-                ms * samples.mean,
-                ms * error
-            )?;
-        }
-        write!(
-            f,
-            "refused {}; without a decision {}",
-            Percent(class.refused),
-            Percent(class.undecided)
-        )
-    }
+/// The row of a class.
+fn of_class(class: &ClassFigures, tick_hz: f64) -> String {
+    let decided = class.samples.map_or_else(String::new, |samples| {
+        let ms = 1000.0 / tick_hz;
+        let error = ms * (samples.sd / (samples.count as f64).sqrt());
+        let (hits, ms) = (percent(class.hits), ms * samples.mean);
+        format!("right {hits}; after {ms:.0} ± {error:.1} ms; ")
+    });
+    let [refused, undecided] = [class.refused, class.undecided].map(percent);
+    format!("{decided}refused {refused}; without a decision {undecided}")
 }
 
 /// What a user has to know before trusting the figures of a recording.
@@ -174,11 +138,8 @@ impl fmt::Display for Doubts<'_> {
                 0 => write!(f, "\nwarning: {name}: nothing of it is in the recording")?,
                 trials if trials < FEW => {
                     let name = name.clone();
-                    write!(
-                        f,
-                        "\nwarning: {}",
-                        InWords(&Warning::FewTrials { name, trials })
-                    )?;
+                    let few = Warning::FewTrials { name, trials };
+                    write!(f, "\nwarning: {}", in_words(&few))?;
                 }
                 _ => {}
             }
@@ -187,17 +148,14 @@ impl fmt::Display for Doubts<'_> {
             let mistaken = f64::midpoint(score.mistaken(a, b), score.mistaken(b, a));
             if mistaken > MISTAKEN {
                 let names = [a, b].map(|class| classes[class].clone());
-                write!(
-                    f,
-                    "\nwarning: {}",
-                    InWords(&Warning::Alike { names, mistaken })
-                )?;
+                let alike = Warning::Alike { names, mistaken };
+                write!(f, "\nwarning: {}", in_words(&alike))?;
             }
         }
         for misfit in misfits {
             write!(f, "\n{misfit}")?;
         }
-        write!(f, "\nwarning: {}", InWords(&Warning::OneRecording))
+        write!(f, "\nwarning: {}", in_words(&Warning::OneRecording))
     }
 }
 
@@ -206,30 +164,19 @@ fn pairs(count: usize) -> impl Iterator<Item = (usize, usize)> {
 }
 
 /// Stated against found, by bins of the posterior.
-pub(crate) struct Stated<'a>(pub(crate) &'a Calibration);
-
-impl fmt::Display for Stated<'_> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let calibration = self.0;
-        let stated = 100.0 * calibration.stated;
-        writeln!(f, "stated             {stated:.2} %")?;
-        writeln!(f, "found              {}", Percent(calibration.found))?;
-        let error = 100.0 * calibration.error();
-        writeln!(
-            f,
-            "calibration error  {error:.2} % (mean over decisions, by bins)"
-        )?;
-        for bin in &calibration.bins {
-            let stated = 100.0 * bin.stated;
-            let range = format!("{} to {}", bin.low, bin.high);
-            writeln!(
-                f,
-                "    {range:<15} stated {stated:6.2} %, found {}",
-                Percent(bin.found)
-            )?;
-        }
-        Ok(())
-    }
+pub(super) fn stated(calibration: &Calibration) -> String {
+    let bins = calibration.bins.iter().map(|bin| {
+        let range = format!("{} to {}", bin.low, bin.high);
+        let (stated, found) = (100.0 * bin.stated, percent(bin.found));
+        format!("    {range:<15} stated {stated:6.2} %, found {found}\n")
+    });
+    let [stated, error] = [calibration.stated, calibration.error()].map(|x| 100.0 * x);
+    format!(
+        "stated             {stated:.2} %\nfound              {}\n\
+         calibration error  {error:.2} % (mean over decisions, by bins)\n{}",
+        percent(calibration.found),
+        bins.collect::<Vec<_>>().concat()
+    )
 }
 
 /// What each threshold gives; times by samples a second.

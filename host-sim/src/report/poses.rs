@@ -1,11 +1,9 @@
 //! In what poses a model can be trusted, for people.
 
-use std::fmt;
-
 use tactile::ModelBuf;
 use tactile::train::joint::{JointModel, PoseReport};
 
-use super::evaluation::Percent;
+use super::evaluation::percent;
 use crate::evaluation::Evaluation;
 
 fn poses(count: usize) -> String {
@@ -59,71 +57,50 @@ fn names_between(poses: &str) -> String {
 }
 
 /// What a second opinion costs and gains on a recording: figures with it, and without.
-pub struct SecondOpinion<'a>(pub &'a Evaluation, pub &'a Evaluation);
-
-impl fmt::Display for SecondOpinion<'_> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let of = |evaluation: &Evaluation| {
-            let stated = 100.0 * evaluation.calibration.stated;
-            let [found, undecided] =
-                [evaluation.calibration.found, evaluation.undecided].map(Percent);
-            format!("right {found}, stated {stated:.1} %; without a decision {undecided}")
-        };
-        writeln!(f, "second opinion     with:    {}", of(self.0))?;
-        write!(
-            f,
-            "                   without: {} (`train --expect same`)",
-            of(self.1)
-        )
-    }
+pub fn second_opinion(with: &Evaluation, without: &Evaluation) -> String {
+    let of = |evaluation: &Evaluation| {
+        let stated = 100.0 * evaluation.calibration.stated;
+        let [found, undecided] = [evaluation.calibration.found, evaluation.undecided].map(percent);
+        format!("right {found}, stated {stated:.1} %; without a decision {undecided}")
+    };
+    format!(
+        "second opinion     with:    {}\n                   without: {} (`train --expect same`)",
+        of(with),
+        of(without)
+    )
 }
 
 /// Share of presentations from which on a class was decided often enough.
 const ENOUGH: f64 = 0.9;
 
+/// The pose and class that were decided least often, if that is not often enough.
+fn least<'r>(poses: &'r [PoseReport], classes: &[&'r str]) -> Option<(&'r str, &'r str, f64)> {
+    let all = poses.iter().flat_map(|pose| {
+        let of_class = pose.classes.iter().zip(classes);
+        let of_class = of_class.filter(|(decided, _)| decided.count > 0);
+        of_class.map(|(decided, class)| (pose.name.as_str(), *class, decided.share))
+    });
+    let least = all.min_by(|(.., a), (.., b)| a.total_cmp(b));
+    least.filter(|(.., share)| *share < ENOUGH)
+}
+
 /// What to expect of each pose, and what to record next.
-pub(super) struct HeldOut<'a> {
-    pub(super) poses: &'a [PoseReport],
-    pub(super) classes: Vec<&'a str>,
-}
-
-impl HeldOut<'_> {
-    fn least(&self) -> Option<(&str, &str, f64)> {
-        let all = self.poses.iter().flat_map(|pose| {
-            let of_class = pose.classes.iter().zip(&self.classes);
-            let of_class = of_class.filter(|(decided, _)| decided.count > 0);
-            of_class.map(|(decided, class)| (pose.name.as_str(), *class, decided.share))
-        });
-        let least = all.min_by(|(.., a), (.., b)| a.total_cmp(b));
-        least.filter(|(.., share)| *share < ENOUGH)
-    }
-}
-
-impl fmt::Display for HeldOut<'_> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let width = self.poses.iter().map(|pose| pose.name.chars().count());
-        let width = width.max().unwrap_or(0);
-        writeln!(
-            f,
-            "Each pose when it was held out, as what to expect of another one like it:\n"
-        )?;
-        for pose in self.poses {
-            writeln!(
-                f,
-                "{:>width$}: decided {}; right {}",
-                pose.name,
-                Percent(pose.decided),
-                Percent(pose.hits)
-            )?;
-        }
-        if let Some((pose, class, share)) = self.least() {
-            writeln!(
-                f,
-                "\nleast decided: {pose}, {class} ({:.0} % of presentations): a recording \
-                 between it and its neighbours would help {class} most",
-                100.0 * share
-            )?;
-        }
-        Ok(())
-    }
+pub(super) fn held_out(poses: &[PoseReport], classes: &[&str]) -> String {
+    let width = poses.iter().map(|pose| pose.name.chars().count());
+    let width = width.max().unwrap_or(0);
+    let each = poses.iter().map(|pose| {
+        let [decided, right] = [pose.decided, pose.hits].map(percent);
+        format!("{:>width$}: decided {decided}; right {right}\n", pose.name)
+    });
+    let least = least(poses, classes).map_or_else(String::new, |(pose, class, share)| {
+        format!(
+            "\nleast decided: {pose}, {class} ({:.0} % of presentations): a recording between it \
+             and its neighbours would help {class} most\n",
+            100.0 * share
+        )
+    });
+    format!(
+        "Each pose when it was held out, as what to expect of another one like it:\n\n{}{least}",
+        each.collect::<Vec<_>>().concat()
+    )
 }

@@ -5,19 +5,13 @@ use std::ops::Range;
 
 use tactile::score::Statistics;
 
-use super::evaluation::{Percent, Refused, Stated};
+use super::evaluation::{percent, refused, stated};
 use crate::evaluation::Evaluation;
 use crate::scoring::Scored;
 
 /// The first and the last of some seeds.
-#[derive(Debug)]
-pub struct SeedRange<'a>(pub &'a Range<u64>);
-
-impl fmt::Display for SeedRange<'_> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Range { start, end } = self.0;
-        write!(f, "{start} to {}", end.saturating_sub(1))
-    }
+pub fn seed_range(Range { start, end }: &Range<u64>) -> String {
+    format!("{start} to {}", end.saturating_sub(1))
 }
 
 /// The figures of runs: of each the mean, its standard error and the worst, then all
@@ -65,17 +59,17 @@ impl OverRuns<'_> {
 
 impl fmt::Display for OverRuns<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let percent = |x: f64| 100.0 * x;
+        let share = |x: f64| 100.0 * x;
         let ms = 1000.0 / self.tick_hz;
         writeln!(f, "{:<36}     mean  standard error     worst", "over runs")?;
         self.row(f, "hit rate, %", Worst::Low, |run| {
-            percent(run.evaluation.hits.unwrap_or(f64::NAN))
+            share(run.evaluation.hits.unwrap_or(f64::NAN))
         })?;
         self.row(f, "stated, %", Worst::Low, |run| {
-            percent(run.evaluation.calibration.stated)
+            share(run.evaluation.calibration.stated)
         })?;
         self.row(f, "calibration error, %", Worst::High, |run| {
-            percent(run.evaluation.calibration.error())
+            share(run.evaluation.calibration.error())
         })?;
         self.row(f, "time of contact, ms", Worst::High, |run| {
             ms * run.evaluation.samples
@@ -85,10 +79,10 @@ impl fmt::Display for OverRuns<'_> {
             f,
             "presentations without a decision, %",
             Worst::High,
-            |run| percent(run.evaluation.undecided.share),
+            |run| share(run.evaluation.undecided.share),
         )?;
         self.row(f, "refused, %", Worst::High, |run| {
-            percent(run.evaluation.refused.share)
+            share(run.evaluation.refused.share)
         })?;
         let Evaluation {
             score,
@@ -99,18 +93,17 @@ impl fmt::Display for OverRuns<'_> {
         } = self.together;
         if strange.count > 0 {
             self.row(f, "refused of the unknown texture, %", Worst::Low, |run| {
-                percent(run.evaluation.strange.share)
+                share(run.evaluation.strange.share)
             })?;
         }
         writeln!(
             f,
             "\nall runs together (in brackets 95 % intervals)\n\n{score}"
         )?;
-        write!(f, "{}", Stated(calibration))?;
-        write!(f, "{}", Refused(self.together))?;
+        write!(f, "{}{}", stated(calibration), refused(self.together))?;
         if strange.count > 0 {
-            writeln!(f, "refused, unknown   {}", Percent(*strange))?;
+            writeln!(f, "refused, unknown   {}", percent(*strange))?;
         }
-        write!(f, "without a decision {}", Percent(*undecided))
+        write!(f, "without a decision {}", percent(*undecided))
     }
 }

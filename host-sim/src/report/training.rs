@@ -4,9 +4,9 @@ use std::fmt;
 
 use tactile::train::joint::JointModel;
 
-use super::evaluation::Percent;
-use super::poses::{HeldOut, of_training};
-use super::warnings::InWords;
+use super::evaluation::percent;
+use super::poses::{held_out, of_training};
+use super::warnings::in_words;
 
 /// What held-out trials say of a model.
 #[derive(Debug)]
@@ -43,9 +43,9 @@ impl fmt::Display for TrainingReport<'_> {
                 write!(
                     f,
                     "right {}; mean {:.0} samples; right but refused {}; ",
-                    Percent(class.hits),
+                    percent(class.hits),
                     class.samples,
-                    Percent(class.refused)
+                    percent(class.refused)
                 )?;
             }
             writeln!(
@@ -53,7 +53,7 @@ impl fmt::Display for TrainingReport<'_> {
                 "nothing decided in {} of {} trials; were it not trained, unknown {}",
                 class.undecided,
                 class.trials,
-                Percent(class.noticed)
+                percent(class.noticed)
             )?;
         }
         let decided = report.calibration.iter().filter(|at| at.found.count > 0);
@@ -80,42 +80,35 @@ impl fmt::Display for TrainingReport<'_> {
         }
         if !report.poses.is_empty() {
             let classes = report.classes.iter().map(|class| class.name.as_str());
-            let held_out = HeldOut {
-                poses: &report.poses,
-                classes: classes.collect(),
-            };
-            write!(f, "\n{held_out}")?;
+            let classes: Vec<&str> = classes.collect();
+            write!(f, "\n{}", held_out(&report.poses, &classes))?;
         }
-        write!(f, "{}", Standing(self.0))?;
+        write!(f, "{}", standing(self.0))?;
         for warning in &report.warnings {
-            write!(f, "\nwarning: {}", InWords(warning))?;
+            write!(f, "\nwarning: {}", in_words(warning))?;
         }
         Ok(())
     }
 }
 
 /// By how much estimates of tilt and depth were wrong; nothing where none were learnt.
-struct Standing<'a>(&'a JointModel);
-
-impl fmt::Display for Standing<'_> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let opinion = self.0.opinion.as_ref();
-        let classes = opinion.map_or(&[][..], |opinion| &opinion.pose_errors);
-        let errors = self.0.names.iter().zip(classes);
-        let errors = errors.filter_map(|(name, stages)| Some((name, stages.last()?, stages.len())));
-        for (n, (name, [tilt, depth], blocks)) in errors.enumerate() {
-            if n == 0 {
-                let samples = blocks * self.0.options.block as usize;
-                write!(
-                    f,
-                    "\nErrors of tilt and depth after {samples} samples, in poses that were held out:"
-                )?;
-            }
-            write!(f, " {name} {tilt:.2}, {depth:.2};")?;
-        }
-        if !classes.is_empty() {
-            writeln!(f, " for this sensor and these surfaces")?;
-        }
-        Ok(())
+fn standing(model: &JointModel) -> String {
+    let opinion = model.opinion.as_ref();
+    let classes = opinion.map_or(&[][..], |opinion| &opinion.pose_errors);
+    if classes.is_empty() {
+        return String::new();
     }
+    let errors = model.names.iter().zip(classes);
+    let errors = errors.filter_map(|(name, stages)| Some((name, stages.last()?, stages.len())));
+    let each = errors
+        .enumerate()
+        .map(|(n, (name, [tilt, depth], blocks))| {
+            let samples = blocks * model.options.block as usize;
+            let first = format!(
+                "\nErrors of tilt and depth after {samples} samples, in poses that were held out:"
+            );
+            let first = if n == 0 { &first } else { "" };
+            format!("{first} {name} {tilt:.2}, {depth:.2};")
+        });
+    each.collect::<Vec<_>>().concat() + " for this sensor and these surfaces\n"
 }
