@@ -11,9 +11,9 @@ use firmware::{
     Command, Config, Event, ModelState, Module, NoActiveWhisker, NotDone, Packet, Perception,
     Place, Refusal, ServoState, Whisker, WhiskerParts,
 };
-use scene::{Deciding, Scene, SensorSection};
+use scene::{Scene, SensorSection};
 use tactile::ClassList;
-use whisking::{Fix, Number, Real};
+use whisking::{Fix, Number};
 use wire::TaggedCommand;
 
 use crate::Error;
@@ -106,9 +106,6 @@ pub trait HostModule: Bench + Send {
 
     /// What the classifier gets.
     fn tap(&mut self) -> Option<&mut Tap>;
-
-    /// Contact of each whisker, left side first.
-    fn felt(&self) -> Vec<f64>;
 
     /// Carries out `request` before the next tick.
     fn request(&mut self, request: TaggedCommand);
@@ -255,11 +252,6 @@ where
         Some(self.module.perception_mut()?.classifier_mut())
     }
 
-    fn felt(&self) -> Vec<f64> {
-        let felt = self.module.whiskers().iter().map(Whisker::felt);
-        felt.map(Real::to_f64).collect()
-    }
-
     fn request(&mut self, request: TaggedCommand) {
         let (line, module) = (&mut self.line, &mut self.module);
         line.carry_out(module, &mut self.config, request);
@@ -313,14 +305,9 @@ fn module<R: Number>(
 
 /// How many whiskers of a scene are heard by its classifier.
 pub fn heard(scene: &Scene) -> usize {
-    match scene
-        .classifier
-        .as_ref()
-        .map(|classifier| classifier.whiskers)
-    {
-        None | Some(Deciding::First) => 1,
-        Some(Deciding::Each | Deciding::Together) => scene.whiskers(),
-    }
+    let all = scene.whiskers();
+    let classifier = scene.classifier.as_ref();
+    classifier.map_or(1, |classifier| classifier.whiskers.heard(all))
 }
 
 /// Makes the module of `scene`: its motors on `pins`, left side first (none

@@ -23,7 +23,7 @@ pub mod tmag5170;
 mod wire;
 
 use embedded_hal::spi::{ErrorType, Operation, SpiDevice};
-use mlx90333::{Decoder, FRAME_LEN, Faults, Mode, SumRule, Word, encode};
+use mlx90333::{Decoder, FRAME_LEN, Faults, Mode, Word, encode};
 use rand_core::{Rng, SeedableRng};
 use rand_xoshiro::Xoshiro256PlusPlus;
 use wire::{Injected, RELEASED};
@@ -103,18 +103,8 @@ pub struct Slave {
 }
 
 impl Slave {
-    /// A sensor in alpha-beta mode that sends the default sum.
-    pub fn new() -> Self {
-        Self::with(Mode::AlphaBeta, SumRule::SumB1B6)
-    }
-
-    /// A sensor programmed to `mode` that sums by `sum_rule`. In XYZ mode Z
-    /// stays at mid-scale and there is no error word.
-    pub fn with(mode: Mode, sum_rule: SumRule) -> Self {
-        Self::of(Decoder::with(mode, sum_rule))
-    }
-
-    /// A sensor whose frames are to be read by `decoder`.
+    /// A sensor whose frames are to be read by `decoder`. In XYZ mode Z stays at mid-scale and
+    /// there is no error word.
     pub fn of(decoder: Decoder) -> Self {
         Self {
             decoder,
@@ -261,12 +251,6 @@ impl Slave {
             _ => {}
         }
         frame
-    }
-}
-
-impl Default for Slave {
-    fn default() -> Self {
-        Self::new()
     }
 }
 

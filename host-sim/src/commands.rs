@@ -42,12 +42,7 @@ pub fn rate(text: &str) -> Result<u32, String> {
 /// # Errors
 /// What is allowed instead.
 pub fn picture(text: &str) -> Result<PathBuf, String> {
-    let path = PathBuf::from(text);
-    if ends_in(&path, "svg") {
-        Ok(path)
-    } else {
-        Err("allowed: a name that ends in .svg".to_owned())
-    }
+    ending(text, &["svg"])
 }
 
 /// The same of one that may be of pixels.
@@ -55,12 +50,16 @@ pub fn picture(text: &str) -> Result<PathBuf, String> {
 /// # Errors
 /// What is allowed instead.
 pub fn any_picture(text: &str) -> Result<PathBuf, String> {
+    ending(text, &["svg", "png"])
+}
+
+fn ending(text: &str, endings: &[&str]) -> Result<PathBuf, String> {
     let path = PathBuf::from(text);
-    if ends_in(&path, "svg") || ends_in(&path, "png") {
-        Ok(path)
-    } else {
-        Err("allowed: a name that ends in .svg or .png".to_owned())
+    if endings.iter().any(|ending| ends_in(&path, ending)) {
+        return Ok(path);
     }
+    let endings = endings.join(" or .");
+    Err(format!("allowed: a name that ends in .{endings}"))
 }
 
 fn ends_in(path: &Path, extension: &str) -> bool {

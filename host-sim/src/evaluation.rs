@@ -107,9 +107,7 @@ impl Evaluation {
             undecided: undecided(known()),
         }
     }
-}
 
-impl Evaluation {
     /// The classes that were presented and of which no decision named a class: there is no share
     /// of right ones.
     pub fn left_out(&self) -> Vec<&str> {

@@ -13,7 +13,6 @@ use crate::origin::{Origin, TICK_HZ};
 use crate::output::Output;
 use crate::rate::{Said, USUAL_HZ};
 use crate::recording::{self, Recording, Stream};
-use crate::trace::{TraceLine, TraceShape, TraceWriter};
 
 /// Reads a recording whose channels are the columns `channels`.
 ///
@@ -68,7 +67,8 @@ pub fn write_decisions(
     })
 }
 
-fn write(
+/// Fills a file and finishes it.
+pub(crate) fn write(
     mut output: Output,
     fill: impl FnOnce(&mut Output) -> io::Result<()>,
 ) -> Result<(), Error> {
@@ -83,42 +83,4 @@ fn write(
 pub fn load_model(path: &Path) -> Result<(PathBuf, ModelBuf), Error> {
     let bytes = file::read(path, file::BINARY_BYTES).map_err(|error| Error::file(path, error))?;
     model_of(path, &bytes)
-}
-
-/// A trace that is written to a file; it leaves nothing behind unless finished.
-#[derive(Debug)]
-pub struct TraceFile {
-    path: PathBuf,
-    trace: TraceWriter<Output>,
-}
-
-impl TraceFile {
-    /// Opens a trace and writes its header.
-    ///
-    /// # Errors
-    /// [`Error::Write`].
-    pub fn create(path: &Path, shape: TraceShape) -> Result<Self, Error> {
-        let trace = TraceWriter::new(Output::create(path)?, shape);
-        Ok(Self {
-            trace: trace.map_err(|source| Error::write(path, source))?,
-            path: path.to_owned(),
-        })
-    }
-
-    /// One line.
-    ///
-    /// # Errors
-    /// [`Error::Write`].
-    pub fn line(&mut self, line: &TraceLine<'_>) -> Result<(), Error> {
-        let written = self.trace.line(line);
-        written.map_err(|source| Error::write(&self.path, source))
-    }
-
-    /// Renames the complete trace to its path.
-    ///
-    /// # Errors
-    /// [`Error::Write`].
-    pub fn finish(self) -> Result<(), Error> {
-        self.trace.into_inner().finish()
-    }
 }

@@ -147,8 +147,12 @@ impl SimMotor {
 
     fn new(settings: MotorSettings, stage: Stage) -> Result<Self, BadMotorSetting> {
         settings.check()?;
+        Ok(Self::at_rest(settings, stage))
+    }
+
+    fn at_rest(settings: MotorSettings, stage: Stage) -> Self {
         let counts_per_rad = f64::from(settings.counts_per_rev) / core::f64::consts::TAU;
-        Ok(Self {
+        Self {
             settings,
             derived: Derived::of(&settings),
             stage,
@@ -161,21 +165,13 @@ impl SimMotor {
             supply_v: settings.supply_v,
             friction: 1.0,
             play: Play::default(),
-        })
+        }
     }
 
     /// Starts again as newly made, without load and with every wire intact. Returns
     /// new pins; the old ones are no longer connected.
     pub fn restart(&mut self) -> Pins {
-        self.rotor = Rotor::default();
-        self.wires = Arc::new(self.wires.renewed());
-        self.blocked = false;
-        self.load_nm = 0.0;
-        self.flaws = EncoderFlaws::NONE;
-        self.jitter = Jitter::default();
-        self.supply_v = self.settings.supply_v;
-        self.friction = 1.0;
-        self.play = Play::default();
+        *self = Self::at_rest(self.settings, self.stage);
         self.pins()
     }
 

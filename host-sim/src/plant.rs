@@ -64,12 +64,6 @@ impl Head {
             .iter()
             .flat_map(move |&limit| core::iter::repeat_n(limit, each))
     }
-
-    /// Place of a whisker in the list of all, left side first.
-    fn index(&self, side: usize, whisker: usize) -> Option<usize> {
-        let known = side < self.obstacle_deg.len() && whisker < self.whiskers_per_side;
-        known.then(|| side * self.whiskers_per_side + whisker)
-    }
 }
 
 /// How a surface stands while it is presented, and how sensors then read: off what the scene
@@ -111,11 +105,11 @@ pub trait Plant: Debug + Send {
         false
     }
 
-    /// Deflection of a whisker now, `[x, y]`, each within ±1; zero for a whisker
-    /// that is not there.
-    fn deflection(&self, side: usize, whisker: usize) -> [f64; 2];
+    /// Deflection of whisker `n` now, counted from 0, left side first: `[x, y]`, each within ±1;
+    /// zero for a whisker that is not there.
+    fn deflection(&self, n: usize) -> [f64; 2];
 
-    /// How whisker `n` is bent, counted from 0, left side first; none where shafts have no shape.
+    /// How whisker `n` is bent; none where shafts have no shape.
     fn bent(&self, _n: usize) -> Option<Bent> {
         None
     }

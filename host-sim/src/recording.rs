@@ -135,14 +135,16 @@ pub struct Recorder {
 impl Recorder {
     /// Takes the samples of the run's last tick, if there were any.
     pub fn take(&mut self, run: &mut Run) {
-        let felt = run.felt();
+        let heard = run.samples().len();
+        let felt: Vec<Option<f64>> = (0..heard).map(|n| run.felt_by(n)).collect();
         let (label, trial) = run.presented();
         let pose = run.pose().map(|pose| pose.to_string());
         let stands = run.stands();
         let samples = run.samples();
-        self.streams.resize_with(samples.len(), Vec::new);
-        for (n, (streams, sample)) in self.streams.iter_mut().zip(samples).enumerate() {
-            let contact = felt.get(n).copied().unwrap_or(0.0);
+        self.streams.resize_with(heard, Vec::new);
+        let each = self.streams.iter_mut().zip(samples).zip(felt);
+        for (n, ((streams, sample), contact)) in each.enumerate() {
+            let contact = contact.unwrap_or(0.0);
             let cells = sample.map(|sample| Cells {
                 channels: sample.codes.map(f64::from),
                 // As the board computes it, or nearer: more digits say nothing.

@@ -144,10 +144,10 @@ impl Run {
         tap.map(|tap| tap.samples.as_slice()).unwrap_or_default()
     }
 
-    /// Contact of each whisker in the last tick, left side first; that of a side is the
-    /// largest of its whiskers'.
-    pub fn felt(&self) -> Vec<f64> {
-        self.bench.felt()
+    /// Contact of whisker `n` in the last tick, counted from 0, left side first; that of a side
+    /// is the largest of its whiskers'. None of one that is not there.
+    pub fn felt_by(&self, n: usize) -> Option<f64> {
+        self.bench.felt_by(n)
     }
 
     /// The bus of a head of several boards; none where one board has all whiskers.
@@ -320,13 +320,8 @@ impl<B: Bench + ?Sized> Run<B> {
     pub fn pass(&mut self) {
         self.events.clear();
         self.exchange();
-        for side in 0..self.sides {
-            for whisker in 0..self.whiskers {
-                let n = side * self.whiskers + whisker;
-                if let Some(last) = self.deflections.get_mut(n) {
-                    *last = self.world.deflection(side, whisker);
-                }
-            }
+        for (n, last) in self.deflections.iter_mut().enumerate() {
+            *last = self.world.deflection(n);
         }
         self.sensed.clone_from(&self.deflections);
         if self.flaws.are_there() {

@@ -21,10 +21,9 @@ pub struct World {
 
 #[derive(Debug)]
 enum Motors {
-    /// No motors: the angles stay.
-    None,
     /// Angles are θ' exactly.
     Ideal(Vec<IdealMotor>),
+    /// None where whiskers are passive: the angles stay.
     Real(Vec<SimMotor>),
 }
 
@@ -96,7 +95,6 @@ impl World {
         self.angles_deg.fill(whisking::REST_DEG);
         self.speeds_deg_s.fill(0.0);
         match &mut self.motors {
-            Motors::None => Vec::new(),
             Motors::Ideal(motors) => motors
                 .iter()
                 .map(|motor| {
@@ -128,9 +126,9 @@ impl World {
         self.plant.touches()
     }
 
-    /// Deflection at the sensor of a whisker now: x and y, each within ±1.
-    pub fn deflection(&self, side: usize, whisker: usize) -> [f64; 2] {
-        self.plant.deflection(side, whisker)
+    /// Deflection at the sensor of whisker `n` now: x and y, each within ±1.
+    pub fn deflection(&self, n: usize) -> [f64; 2] {
+        self.plant.deflection(n)
     }
 
     /// How whisker `n` is bent; none where shafts have no shape.
@@ -152,7 +150,7 @@ impl World {
     pub fn speed_deg_s(&self, n: usize) -> f64 {
         match &self.motors {
             Motors::Real(motors) => motors.get(n).map_or(0.0, SimMotor::speed_deg_s),
-            Motors::None | Motors::Ideal(_) => self.speeds_deg_s.get(n).copied().unwrap_or(0.0),
+            Motors::Ideal(_) => self.speeds_deg_s.get(n).copied().unwrap_or(0.0),
         }
     }
 
@@ -160,7 +158,7 @@ impl World {
     pub fn duty(&self, n: usize) -> Option<f64> {
         match &self.motors {
             Motors::Real(motors) => motors.get(n).map(SimMotor::duty),
-            Motors::None | Motors::Ideal(_) => None,
+            Motors::Ideal(_) => None,
         }
     }
 
@@ -168,7 +166,7 @@ impl World {
     pub fn motor_mut(&mut self, n: usize) -> Option<&mut SimMotor> {
         match &mut self.motors {
             Motors::Real(motors) => motors.get_mut(n),
-            Motors::None | Motors::Ideal(_) => None,
+            Motors::Ideal(_) => None,
         }
     }
 
@@ -180,7 +178,6 @@ impl World {
     /// Advances by `dt_s`; `theta_deg` are the module's setpoints, used by ideal motors.
     pub fn advance(&mut self, theta_deg: &[f64], dt_s: f64) {
         match &mut self.motors {
-            Motors::None => {}
             Motors::Ideal(motors) => {
                 for (motor, theta) in motors.iter().zip(theta_deg) {
                     motor.set_deg(*theta);
@@ -259,7 +256,7 @@ fn own_surfaces(textured: &Presentation, all: &mut [Surface; 4]) {
 
 fn ideal_motors(scene: &Scene) -> (Motors, Vec<Pins>) {
     let Some(motor) = &scene.motor else {
-        return (Motors::None, Vec::new());
+        return (Motors::Real(Vec::new()), Vec::new());
     };
     let counts_per_deg = f64::from(motor.counts_per_rev) * motor.gear / 360.0;
     let motors: Vec<_> = (0..scene.whiskers())
@@ -289,7 +286,7 @@ fn stops_deg(motor: &scene::MotorSection) -> [f64; 2] {
 
 fn real_motors(scene: &Scene, pwm_counts: u16) -> Result<(Motors, Vec<Pins>), Error> {
     let Some(motor) = &scene.motor else {
-        return Ok((Motors::None, Vec::new()));
+        return Ok((Motors::Real(Vec::new()), Vec::new()));
     };
     let settings = MotorSettings {
         gear: motor.gear,
@@ -298,21 +295,12 @@ fn real_motors(scene: &Scene, pwm_counts: u16) -> Result<(Motors, Vec<Pins>), Er
         pwm_counts,
         ..MotorSettings::default()
     };
-    let refused = |error| Error::Work(format!("motor: {error}"));
-    let (mut motors, mut all): (Vec<SimMotor>, Vec<Pins>) = (Vec::new(), Vec::new());
-    for _ in 0..scene.whiskers() {
-        let (sim, pins) = match motor.driver {
-            Driver::HBridge => {
-                let (sim, pins) = SimMotor::brushed(settings).map_err(refused)?;
-                (sim, Pins::Brushed(pins))
-            }
-            Driver::SixStep => {
-                let (sim, pins) = SimMotor::brushless(settings).map_err(refused)?;
-                (sim, Pins::Brushless(pins))
-            }
-        };
-        motors.push(sim);
-        all.push(pins);
-    }
-    Ok((Motors::Real(motors), all))
+    let motor = |_| match motor.driver {
+        Driver::HBridge => SimMotor::brushed(settings).map(|(motor, _)| motor),
+        Driver::SixStep => SimMotor::brushless(settings).map(|(motor, _)| motor),
+    };
+    let motors: Result<Vec<SimMotor>, _> = (0..scene.whiskers()).map(motor).collect();
+    let motors = motors.map_err(|error| Error::Work(format!("motor: {error}")))?;
+    let pins = motors.iter().map(SimMotor::pins).collect();
+    Ok((Motors::Real(motors), pins))
 }

@@ -5,9 +5,9 @@ mod bus;
 use std::ops::Range;
 
 pub use bus::{Bus, Happened};
-use firmware::{Command, Event, Module, Motion, NoActiveWhisker, Node, NotDone, Packet, Whisker};
+use firmware::{Command, Event, Motion, NoActiveWhisker, Node, NotDone, Packet};
 use scene::{Deciding, Scene};
-use whisking::{Number, Real};
+use whisking::Number;
 use wire::TaggedCommand;
 
 use super::{Bench, HostModule, Hosted, Snapshot};
@@ -115,12 +115,8 @@ impl<R: Number> Head<R> {
         for (n, board) in self.boards.iter_mut().enumerate() {
             let asked = std::mem::take(&mut self.bus.asked[n]);
             if asked.reset {
-                let seed = board
-                    .hosted
-                    .config
-                    .motion
-                    .as_ref()
-                    .map_or(0, |motion| motion.seed);
+                let motion = board.hosted.config.motion.as_ref();
+                let seed = motion.map_or(0, |motion| motion.seed);
                 // As it could be made once, it can be again.
                 let _ = board.hosted.begin_again(seed, board.pins.clone());
                 board.hosted.module.arm(false);
@@ -313,12 +309,6 @@ where
 
     fn tap(&mut self) -> Option<&mut Tap> {
         self.boards.first_mut()?.hosted.tap()
-    }
-
-    fn felt(&self) -> Vec<f64> {
-        let modules = self.boards.iter().map(|board| &board.hosted.module);
-        let felt = modules.flat_map(Module::whiskers).map(Whisker::felt);
-        felt.map(Real::to_f64).collect()
     }
 
     fn request(&mut self, request: TaggedCommand) {

@@ -12,7 +12,7 @@ use super::{SimSpiError, Slave, WireFault};
 const REST: [u8; 8] = [0xFF, 0x00, 0x80, 0x00, 0x80, 0x00, 0x00, 0x00];
 
 fn still() -> Slave {
-    Slave::new().without_noise()
+    Slave::of(Decoder::new()).without_noise()
 }
 
 fn read(slave: &mut Slave) -> [u8; 8] {
@@ -41,7 +41,7 @@ fn deflections_become_these_bytes() {
 
 #[test]
 fn mode_and_sum_rule_are_the_sensor_s() {
-    let mut slave = Slave::with(Mode::Xyz, SumRule::ComplementB1B6).without_noise();
+    let mut slave = Slave::of(Decoder::with(Mode::Xyz, SumRule::ComplementB1B6)).without_noise();
     slave.set([0.25, 0.0]);
     let frame = [0xFF, 0x00, 0xA0, 0x00, 0x80, 0x00, 0x80, !0xA0];
     assert_eq!(read(&mut slave), frame);
@@ -180,7 +180,7 @@ fn disturbances_come_as_often_as_asked_and_again_by_seed() {
 
 #[test]
 fn noise_changes_every_frame_and_no_code() {
-    let mut noisy = Slave::new();
+    let mut noisy = Slave::of(Decoder::new());
     let frames: Vec<[u8; 8]> = (0..4).map(|_| read(&mut noisy)).collect();
     assert!(frames.windows(2).all(|two| two[0] != two[1]));
     for frame in &frames {

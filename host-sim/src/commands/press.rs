@@ -1,11 +1,11 @@
 //! `host-sim press`: how a whisker bends that is pressed slowly against a plate.
 
-use std::io;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use clap::Args;
 
 use crate::Error;
+use crate::files;
 use crate::output::{Output, check_or_stdout, is_stdout};
 use crate::pressing::Pressing;
 
@@ -46,18 +46,14 @@ pub fn press(arguments: &Arguments) -> Result<Option<String>, Error> {
         Error::Input(format!("--{option}: {}", refused.fault))
     })?;
     if let Some(shape) = shape {
-        write(shape, |file| pressing.write_shapes(file, &pressed))?;
+        let output = Output::create_or_stdout(shape)?;
+        files::write(output, |file| pressing.write_shapes(file, &pressed))?;
     }
-    write(out, |file| pressing.write(file, &pressed))?;
+    let output = Output::create_or_stdout(out)?;
+    files::write(output, |file| pressing.write(file, &pressed))?;
     let summary = || {
         let count = pressed.len();
         format!("{}: {count} pushes; columns: docs/files.md", out.display())
     };
     Ok((!is_stdout(out)).then(summary))
-}
-
-fn write(to: &Path, table: impl FnOnce(&mut Output) -> io::Result<()>) -> Result<(), Error> {
-    let mut output = Output::create_or_stdout(to)?;
-    table(&mut output).map_err(|source| output.failed(source))?;
-    output.finish()
 }

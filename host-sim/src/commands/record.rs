@@ -2,11 +2,12 @@
 
 use std::path::Path;
 
-use scene::{Deciding, Scene};
+use scene::Scene;
 
 use super::ahead;
 use super::choice::SceneChoice;
 use crate::Error;
+use crate::bench;
 use crate::files;
 use crate::output::{Output, check_or_stdout};
 use crate::progress::{Progress, Verbosity};
@@ -34,12 +35,7 @@ pub fn record(
     config::check(&scene).map_err(|refused| Error::file(path, refused))?;
     scene.seed = seed.unwrap_or(scene.seed);
     let output = Output::create_or_stdout(out)?;
-    let listened = scene.classifier.as_ref().map(|c| c.whiskers);
-    let rows = match listened {
-        None | Some(Deciding::First) => 1,
-        Some(Deciding::Each | Deciding::Together) => scene.whiskers() as u64,
-    };
-    let recording = ("the recording", ROW_BYTES * rows);
+    let recording = ("the recording", ROW_BYTES * bench::heard(&scene) as u64);
     ahead::tell(&scene, 1, Some(recording), verbosity);
     let streams = streams(&scene, verbosity)?;
     files::write_recording(output, &streams, scene.tick_hz)?;

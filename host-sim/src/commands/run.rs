@@ -10,13 +10,13 @@ use super::choice::{SceneChoice, seed};
 use super::{ahead, any_picture, ends_in};
 use crate::bench::Bench;
 use crate::decisions::{Columns, Decided, Score};
-use crate::files::{self, TraceFile};
+use crate::files;
 use crate::loaded::Loaded;
 use crate::output::{self, Output, is_stdout};
 use crate::plot::{self, Film};
 use crate::progress::{Progress, Verbosity};
 use crate::run::Run;
-use crate::trace::TraceShape;
+use crate::trace::{TraceShape, TraceWriter};
 use crate::{Error, report};
 
 /// What to run, and where to write.
@@ -229,7 +229,10 @@ pub fn play<B: Bench + ?Sized>(
     verbosity: Verbosity,
     mut after: impl FnMut(&mut Run<B>, &Progress) -> Result<(), Error>,
 ) -> Result<Played, Error> {
-    let mut trace = TraceFile::create(&out.join("trace.csv"), TraceShape::of(scene))?;
+    let path = out.join("trace.csv");
+    let failed = |source| Error::write(&path, source);
+    let trace = TraceWriter::new(Output::create(&path)?, TraceShape::of(scene));
+    let mut trace = trace.map_err(failed)?;
     let decides = scene.classifier.is_some() && !run.classes().is_empty();
     let table = decides.then(|| Output::create(&out.join("decisions.csv")));
     let table = table.transpose()?;
@@ -243,7 +246,8 @@ pub fn play<B: Bench + ?Sized>(
         decided.extend(run.decisions());
         run.look_at_whiskers(&mut whiskers);
         let fell = decided.get(first..).unwrap_or_default();
-        trace.line(&run.trace_line(fell, &whiskers))?;
+        let line = run.trace_line(fell, &whiskers);
+        trace.line(&line).map_err(failed)?;
         for event in run.events() {
             report::limits_and_faults(row.t_s, event);
         }
@@ -255,7 +259,7 @@ pub fn play<B: Bench + ?Sized>(
     if let Some(table) = table {
         files::write_decisions(table, &decided, Columns::of_scene(scene))?;
     }
-    trace.finish()?;
+    trace.into_inner().finish()?;
     Ok(Played {
         decided,
         classes: run.classes().to_vec(),

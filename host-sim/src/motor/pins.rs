@@ -84,11 +84,6 @@ impl Wires {
         }
     }
 
-    /// Wires of the same motor, intact and at rest.
-    pub(super) fn renewed(&self) -> Self {
-        Self::new(self.counts_per_rad, self.pwm_counts)
-    }
-
     /// The rotor has turned to `angle`, of which an encoder with these flaws sees a part.
     pub(super) fn set_angle(&self, angle: f64, flaws: EncoderFlaws) {
         let turned = angle - self.angle.get();

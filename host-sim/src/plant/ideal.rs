@@ -22,9 +22,8 @@ impl Ideal {
 }
 
 impl Plant for Ideal {
-    fn deflection(&self, side: usize, whisker: usize) -> [f64; 2] {
-        let x = self.head.index(side, whisker).and_then(|i| self.x.get(i));
-        [x.copied().unwrap_or(0.0), 0.0]
+    fn deflection(&self, n: usize) -> [f64; 2] {
+        [self.x.get(n).copied().unwrap_or(0.0), 0.0]
     }
 
     fn advance(&mut self, angles_deg: &[f64], dt_s: f64) {

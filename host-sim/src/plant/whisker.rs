@@ -294,9 +294,8 @@ impl Plant for Elastic {
         self.whiskers.iter().any(|swung| swung.whisker.contact())
     }
 
-    fn deflection(&self, side: usize, whisker: usize) -> [f64; 2] {
-        let whisker = self.head.index(side, whisker);
-        let whisker = whisker.and_then(|i| self.whiskers.get(i));
+    fn deflection(&self, n: usize) -> [f64; 2] {
+        let whisker = self.whiskers.get(n);
         whisker.map_or([0.0; 2], |swung| swung.whisker.reading())
     }
 

@@ -110,17 +110,6 @@ impl TraceShape {
         }
     }
 
-    /// The whiskers beyond the first of each side, left side first: place in the list of all,
-    /// and its name, such as `left_2`.
-    pub(super) fn further(self) -> impl Iterator<Item = (usize, String)> {
-        let each = self.whiskers_per_side;
-        let sides = ["left", "right"].into_iter().enumerate().take(self.sides);
-        sides.flat_map(move |(side, name)| {
-            let further = 1..each;
-            further.map(move |n| (side * each + n, format!("{name}_{}", n + 1)))
-        })
-    }
-
     /// How many sides have whiskers that bend.
     pub fn elastic_sides(self) -> usize {
         if self.is_elastic { self.sides } else { 0 }
@@ -142,8 +131,11 @@ impl TraceShape {
         let right: &[Column] = if self.hears_right { &OF_RIGHT } else { &[] };
         let common = FIRST.iter().chain(right).chain(&SECOND);
         let mut names: Vec<String> = common.map(|column| column.name.to_owned()).collect();
-        for (_, place) in self.further() {
-            names.extend(OF_WHISKER.map(|column| column.name.replace('*', &place)));
+        for side in ["left", "right"].into_iter().take(self.sides) {
+            for n in 2..=self.whiskers_per_side {
+                let place = format!("{side}_{n}");
+                names.extend(OF_WHISKER.map(|column| column.name.replace('*', &place)));
+            }
         }
         let elastic = OF_ELASTIC.iter().take(2 * self.elastic_sides());
         names.extend(elastic.map(|column| column.name.to_owned()));

@@ -82,7 +82,7 @@ impl Found {
         let (mut contact, mut noticeable) = (false, None);
         for n in 0..run.ticks() {
             let touches = run.touches();
-            let [with, without] = [&whisker, &free].map(|plant| plant.deflection(0, 0));
+            let [with, without] = [&whisker, &free].map(|plant| plant.deflection(0));
             let added = (0..2).map(|i| (with[i] - without[i]).abs() * 8191.0);
             let row = run.tick();
             if run.presented().0 != label {

@@ -2,13 +2,10 @@
 //! module runs.
 
 use crate::played::{
-    Played, TICK_HZ, angles, apart, extent, free, play, scene, textured, undisturbed,
+    HOLD, Played, TICK_HZ, angles, apart, extent, free, play, scene, textured, undisturbed,
 };
 use firmware::Event;
-use firmware::design_parameters::{HOLD_S, Plausible, sensor_limits, ticks};
-
-/// Bad frames that are bridged.
-const HOLD: usize = ticks(HOLD_S, TICK_HZ as u32) as usize;
+use firmware::design_parameters::{Plausible, sensor_limits};
 
 /// What the module took for the readings of the left whisker, tick by tick:
 /// frames as they were, frames bridged, and what no sensor sent.
@@ -72,7 +69,7 @@ fn a_disturbed_line_is_borne() {
 
     // One bit inverted in every frame: none is believed.
     let [taken, bridged, invented] = readings(&disturbed(0.0, 1.0));
-    assert_eq!([taken + bridged, invented], [HOLD, 0]);
+    assert_eq!([taken + bridged, invented], [HOLD as usize, 0]);
 }
 
 /// Half of all frames bad: lost once, and not up and down from then on.

@@ -2,18 +2,15 @@
 //! switch the motor of that whisker off, and nothing else suffers.
 
 use crate::played::{
-    LEFT, TICK_HZ, angles, apart, extent, free, is_unaffected, play, scene, undisturbed,
+    HOLD, LEFT, RECOVER, TICK_HZ, angles, apart, extent, free, is_unaffected, play, scene,
+    setpoints, undisturbed,
 };
-use firmware::design_parameters::{HOLD_S, Plausible, RECOVER_S, sensor_limits, ticks};
+use firmware::design_parameters::{Plausible, sensor_limits};
 use firmware::{Event, Place, SensorFault};
 use host_sim::bus::{Slave, WireFault};
 use host_sim::run::Run;
 use mlx90333::{Faults, FrameError};
 use scene::Scene;
-
-/// Bad frames that are bridged, and good ones before a whisker moves again.
-const HOLD: u64 = ticks(HOLD_S, TICK_HZ as u32) as u64;
-const RECOVER: u64 = ticks(RECOVER_S, TICK_HZ as u32) as u64;
 
 /// Bad frames in succession that are bridged: each takes a tick, and those after it in which
 /// the sensor is left alone.
@@ -109,8 +106,7 @@ fn long_faults_switch_the_motor_off_until_the_sensor_is_back() {
             extent(&course[off.clone()]) < 0.01,
             "{fault:?}: it is driven"
         );
-        let theta: Vec<f64> = played.rows.iter().map(|row| row.theta_deg[0]).collect();
-        assert!(extent(&theta[off]) > 40.0);
+        assert!(extent(&setpoints(&played)[off]) > 40.0);
 
         // Back: within 0.3 s it whisks as if nothing had been.
         let again = back as usize + 600..;
@@ -156,30 +152,22 @@ fn the_sensor_s_own_report_is_logged_bit_by_bit() {
 fn a_faulty_sensor_feels_nothing() {
     let scene = touching();
     let sound = undisturbed(&scene, 2000);
-    let start = sound
-        .rows
-        .iter()
-        .position(|row| row.contact[0] > 0.5)
-        .unwrap() as u64;
+    let start = sound.rows.iter().position(|row| row.contact[0] > 0.5);
+    let start = start.unwrap() as u64;
     for (fault, code) in WIRE {
         let played = play(&scene, 2000, |tick, run| match tick {
             _ if tick == start => slave(run, 0).set_fault(Some(fault)),
             _ if tick == start + 300 => slave(run, 0).set_fault(None),
             _ => {}
         });
-        let codes: Vec<u8> = played
-            .events
-            .iter()
-            .filter_map(|(_, event)| match event {
-                Event::SensorLost(LEFT, fault) => Some(fault.code()),
-                _ => None,
-            })
-            .collect();
-        assert_eq!(
-            (codes.as_slice(), played.events.len()),
-            (&[code][..], 2),
-            "{fault:?}"
-        );
+        let [
+            (_, Event::SensorLost(LEFT, found)),
+            (_, Event::SensorBack(LEFT)),
+        ] = played.events[..]
+        else {
+            panic!("{fault:?}: {:?}", played.events);
+        };
+        assert_eq!(found.code(), code);
         let contact = |tick: u64| played.rows[tick as usize].contact[0];
         // The last good reading is held, then there is none, and contact starts from zero.
         let (lost, back) = (start + HOLD, start + 300 + RECOVER - 1);
@@ -188,13 +176,8 @@ fn a_faulty_sensor_feels_nothing() {
         assert!((lost..lost + 100).all(|tick| sound.rows[tick as usize].contact[0] > 0.5));
         is_unaffected(&played, &sound, 1);
         // The classifier gets nothing while the sensor is not believed.
-        let is_lost = |tick| (lost..back).contains(&tick);
-        let heard = played
-            .heard
-            .iter()
-            .filter(|(tick, _)| is_lost(*tick))
-            .count();
-        assert_eq!(heard, 0);
+        let mut heard = played.heard.iter();
+        assert!(!heard.any(|(tick, _)| (lost..back).contains(tick)));
         assert_eq!(played.heard.len() as u64, 2000 - (300 - HOLD + RECOVER - 1));
     }
 }

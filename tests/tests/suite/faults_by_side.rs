@@ -2,18 +2,14 @@
 //! stop; and what is left of the lost side's touch: nothing.
 
 use crate::played::{
-    Played, TICK_HZ, angles, extent, is_unaffected, play, scene, textured, undisturbed,
+    HOLD, Played, TICK_HZ, angles, extent, is_unaffected, of, play, scene, textured, undisturbed,
 };
-use firmware::design_parameters::{HOLD_S, RETRY_S, ticks};
+use firmware::design_parameters::RETRY_S;
 use firmware::{Event, Place};
 use host_sim::bus::WireFault;
 use host_sim::run::Run;
 use scene::Scene;
 use whisking::motor::{Fault, STALL_S};
-
-const fn of(seconds: f64) -> u64 {
-    ticks(seconds, TICK_HZ as u32) as u64
-}
 
 const SIDES: [Place; 2] = [Place::new(0, 0), Place::new(1, 0)];
 const RCP: &str = "[rcp]\ngain = 0.7\ntau_s = 0.0625\n";
@@ -94,7 +90,7 @@ fn a_lost_side_excites_no_other() {
         }
     });
     let gain = |played: &Played, tick: u64| played.rows[tick as usize].g;
-    let lost = start + of(HOLD_S);
+    let lost = start + HOLD;
     assert!(gain(&played, lost - 1)[1] > 1.1);
     // From the tick of the loss on it only returns, with its time constant; in single
     // precision.
@@ -159,9 +155,9 @@ fn a_touch_is_over_when_its_sensor_is_lost() {
     };
     run.slave_mut(0).unwrap().set_fault(Some(WireFault::Silent));
     let place = SIDES[0];
-    for tick in 0..=of(HOLD_S) {
+    for tick in 0..=HOLD {
         run.tick();
-        let is_last = tick == of(HOLD_S);
+        let is_last = tick == HOLD;
         let expected = is_last.then_some(Event::TouchEnd { place, number });
         assert_eq!(touches(&run), Vec::from_iter(expected));
     }

@@ -2,7 +2,7 @@
 //! encoder, and switched off.
 
 use crate::played::{
-    LEFT, Played, TICK_HZ, angles, error_deg, extent, play, scene, textured, undisturbed,
+    LEFT, Played, TICK_HZ, angles, error_deg, extent, free_with, play, undisturbed,
 };
 use firmware::{Event, FAULTS, HELD};
 use host_sim::motor::Wire;
@@ -10,7 +10,7 @@ use scene::Scene;
 use whisking::motor::{FOLLOWING_S, Fault};
 
 fn free_at(frequency_hz: f64, motor: &str) -> Scene {
-    let mut scene = scene(1, &textured(300.0), &format!("[motor]\n{motor}"));
+    let mut scene = free_with(motor);
     scene.whisking.as_mut().unwrap().frequency_hz = frequency_hz;
     scene
 }

@@ -1,5 +1,6 @@
 //! A scene played tick by tick, with a hand on its sensors.
 
+use firmware::design_parameters::{HOLD_S, RECOVER_S, ticks};
 use firmware::{Event, Place};
 use host_sim::run::Run;
 use host_sim::trace::Row;
@@ -9,6 +10,15 @@ use whisking::motor::Fault;
 
 /// Ticks a second of [`scene`].
 pub(crate) const TICK_HZ: u64 = 2000;
+
+/// Ticks for which a reading is held, and good ones before a whisker moves again.
+pub(crate) const HOLD: u64 = of(HOLD_S);
+pub(crate) const RECOVER: u64 = of(RECOVER_S);
+
+/// So many seconds, in ticks.
+pub(crate) const fn of(seconds: f64) -> u64 {
+    ticks(seconds, TICK_HZ as u32) as u64
+}
 
 /// The first whisker of the left side.
 pub(crate) const LEFT: Place = Place::new(0, 0);
@@ -95,6 +105,11 @@ pub(crate) fn undisturbed(scene: &Scene, ticks: u64) -> Played {
     play(scene, ticks, |_, _| {})
 }
 
+/// Motors that whisk freely, with these keys of theirs.
+pub(crate) fn free_with(motor: &str) -> Scene {
+    scene(1, &textured(300.0), &format!("[motor]\n{motor}"))
+}
+
 /// Motors that whisk freely; contact suppresses, but there is none.
 pub(crate) fn free(whiskers_per_side: usize) -> Scene {
     let rcp = "[rcp]\ngain = 0.7\ntau_s = 0.0625\n";
@@ -124,6 +139,11 @@ pub(crate) fn faults(played: &Played) -> Vec<(u64, Fault)> {
         _ => None,
     };
     played.events.iter().filter_map(fault).collect()
+}
+
+/// θ′ of the left whisker, tick by tick.
+pub(crate) fn setpoints(played: &Played) -> Vec<f64> {
+    played.rows.iter().map(|row| row.theta_deg[0]).collect()
 }
 
 pub(crate) fn extent(values: &[f64]) -> f64 {

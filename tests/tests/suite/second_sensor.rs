@@ -73,8 +73,11 @@ impl Whisker {
 
     /// One tick with the whisker's base turned by this, rad.
     fn tick(&mut self, tilt_rad: [f64; 2]) -> Reading {
-        let field = self.magnet.field_mt(tilt_rad);
-        self.slave().set_field(field);
+        self.tick_in(self.magnet.field_mt(tilt_rad))
+    }
+
+    fn tick_in(&mut self, field_mt: [f64; 3]) -> Reading {
+        self.slave().set_field(field_mt);
         let events = &mut self.events;
         let mut note = |event| events.push(event);
         self.sensor.read(Decoder::new(), &LIMITS, PLACE, &mut note)
@@ -213,12 +216,7 @@ fn a_magnet_that_is_gone_or_upside_down_is_a_fault() {
         whisker.tick([0.0; 2]);
         let mut fault = None;
         for _ in 0..=LIMITS.hold {
-            whisker.slave().set_field([0.0, 0.0, axial_mt]);
-            let events = &mut whisker.events;
-            let mut note = |event| events.push(event);
-            whisker
-                .sensor
-                .read(Decoder::new(), &LIMITS, PLACE, &mut note);
+            whisker.tick_in([0.0, 0.0, axial_mt]);
             fault = whisker.events.pop();
         }
         let expected = SensorFault::Tilt(TiltFault::NoMagnet);
@@ -235,12 +233,7 @@ fn a_field_at_the_end_of_its_range_is_no_tilt_and_no_fault() {
         *whisker.slave() = whisker.slave().clone().with_noise(1);
         whisker.tick([0.0; 2]);
         for _ in 0..2 * LIMITS.frozen {
-            whisker.slave().set_field(field);
-            let events = &mut whisker.events;
-            let mut note = |event| events.push(event);
-            let reading = whisker
-                .sensor
-                .read(Decoder::new(), &LIMITS, PLACE, &mut note);
+            let reading = whisker.tick_in(field);
             assert!(reading.fresh && reading.current);
             assert_eq!([reading.x, reading.y].map(Word::signed14), [8191; 2]);
         }

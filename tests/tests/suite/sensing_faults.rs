@@ -2,9 +2,8 @@
 //! stuck, or too often missing. The motor goes off, and nothing is decided.
 
 use crate::played::{
-    LEFT, Played, TICK_HZ, angles, extent, free, play, scene, textured, undisturbed,
+    HOLD, LEFT, Played, RECOVER, TICK_HZ, angles, extent, free, play, scene, textured, undisturbed,
 };
-use firmware::design_parameters::{HOLD_S, RECOVER_S, ticks};
 use firmware::{Event, SensorFault};
 use host_sim::bus::{Slave, WireFault};
 use host_sim::loaded::Loaded;
@@ -12,9 +11,6 @@ use host_sim::run::Run;
 use mlx90333::FrameError;
 use scene::Scene;
 
-/// Ticks for which a reading is held, and good ones before a whisker moves again.
-const HOLD: u64 = ticks(HOLD_S, TICK_HZ as u32) as u64;
-const RECOVER: u64 = ticks(RECOVER_S, TICK_HZ as u32) as u64;
 /// Ticks of `frozen_s` by default.
 const FROZEN: u64 = TICK_HZ / 4;
 /// When a fault begins, while the left side protracts.

@@ -1,18 +1,13 @@
 //! How a module starts: armed or not, where its whiskers are, and how softly they set off.
 
 use crate::played::{
-    LEFT, Played, TICK_HZ, angles, extent, farthest, faults, play, textured, undisturbed,
+    LEFT, Played, TICK_HZ, angles, extent, farthest, faults, free_with, play, setpoints,
+    undisturbed,
 };
 use firmware::{Event, FAULTS};
 use host_sim::bus::WireFault;
 use host_sim::motor::Wire;
-use scene::Scene;
 use whisking::motor::Fault;
-
-fn free(motor: &str) -> Scene {
-    let plant = textured(300.0);
-    crate::played::scene(1, &plant, &format!("[motor]\n{motor}"))
-}
 
 /// Whiskers that look for their stop once they are armed, in tick [`ARMED`].
 const FIND: &str = "rest = \"find\"\narm = \"on-command\"\n";
@@ -27,22 +22,15 @@ fn speeds_deg_s(played: &Played) -> Vec<f64> {
 #[test]
 fn a_module_that_is_not_armed_computes_on_with_its_motors_off() {
     let second = TICK_HZ as usize;
-    let played = play(
-        &free("arm = \"on-command\"\n"),
-        6 * TICK_HZ,
-        |tick, run| match tick / TICK_HZ {
-            0..2 | 4.. => run.arm(false),
-            _ => run.arm(true),
-        },
-    );
+    let scene = free_with("arm = \"on-command\"\n");
+    let played = play(&scene, 6 * TICK_HZ, |tick, run| {
+        run.arm((2..4).contains(&(tick / TICK_HZ)));
+    });
     assert_eq!(played.events, []);
     let angles = angles(&played, 0);
     assert_eq!(extent(&angles[..2 * second]), 0.0, "it is driven");
-    let generator: Vec<f64> = played.rows[..2 * second]
-        .iter()
-        .map(|row| row.theta_deg[0])
-        .collect();
-    assert!(extent(&generator) > 20.0, "the pattern generator goes on");
+    let generator = &setpoints(&played)[..2 * second];
+    assert!(extent(generator) > 20.0, "the pattern generator goes on");
     assert_eq!(played.heard.len(), 6 * second, "it is listened to");
     assert!(extent(&angles[3 * second..4 * second]) > 20.0, "it whisks");
     assert!(extent(&angles[4 * second + 400..]) < 0.01, "it is driven");
@@ -51,7 +39,7 @@ fn a_module_that_is_not_armed_computes_on_with_its_motors_off() {
 /// Whoever arms a motor that is off says that its whisker is at rest.
 #[test]
 fn rest_is_where_the_whisker_is_when_it_is_armed() {
-    let scene = free("arm = \"on-command\"\n");
+    let scene = free_with("arm = \"on-command\"\n");
     let played = play(&scene, 4 * TICK_HZ, |tick, run| match tick {
         // Somebody plays with it, and brings it back.
         10 => run.motor_mut(0).unwrap().turn_to_deg(120.0),
@@ -67,7 +55,7 @@ fn rest_is_where_the_whisker_is_when_it_is_armed() {
 /// approaches its setpoint.
 #[test]
 fn a_whisker_sets_off_softly_from_where_it_is() {
-    let scene = free("");
+    let scene = free_with("");
     let fastest = |played: &Played| speeds_deg_s(played).into_iter().fold(0.0, f64::max);
     let sound = fastest(&undisturbed(&scene, 4 * TICK_HZ));
     let (lost, turned, back) = (2 * TICK_HZ, 2 * TICK_HZ + 400, 2 * TICK_HZ + 600);
@@ -78,16 +66,9 @@ fn a_whisker_sets_off_softly_from_where_it_is() {
             run.motor_mut(0).unwrap().turn_to_deg(150.0);
         }
     });
-    let events = played.events.iter().map(|(_, event)| event);
-    assert!(
-        !events
-            .clone()
-            .any(|event| matches!(event, Event::MotorFault(..)))
-    );
-    assert!(matches!(
-        events.clone().next_back(),
-        Some(Event::SensorBack(LEFT))
-    ));
+    assert_eq!(faults(&played), []);
+    let last = played.events.last().map(|(_, event)| *event);
+    assert_eq!(last, Some(Event::SensorBack(LEFT)));
     let after = speeds_deg_s(&played).split_off(turned as usize + 1);
     let after = after.into_iter().fold(0.0, f64::max);
     assert!(after < sound + 600.0, "{after} of {sound} degrees a second");
@@ -96,7 +77,7 @@ fn a_whisker_sets_off_softly_from_where_it_is() {
 
 #[test]
 fn rest_is_found_wherever_a_whisker_is() {
-    let scene = free(FIND);
+    let scene = free_with(FIND);
     for start_deg in [30.0, 31.0, 50.0, 100.0, 160.0] {
         let played = play(&scene, 4 * TICK_HZ, |tick, run| {
             if tick == 0 {
@@ -109,27 +90,19 @@ fn rest_is_found_wherever_a_whisker_is() {
         assert_eq!(played.events, [], "{start_deg}");
         let mut heard = played.heard.iter().map(|(tick, _)| *tick);
         let first = heard.find(|tick| *tick > ARMED).unwrap();
-        assert!(
-            (ARMED + TICK_HZ / 10..2 * TICK_HZ).contains(&first),
-            "heard in tick {first}"
-        );
+        let expected = ARMED + TICK_HZ / 10..2 * TICK_HZ;
+        assert!(expected.contains(&first), "heard in tick {first}");
         let error = farthest(&played, 5 * TICK_HZ / 2);
-        assert!(
-            error < 25.0,
-            "{start_deg}: {error} degrees from its setpoint"
-        );
+        assert!(error < 25.0, "{start_deg}: {error} from its setpoint");
         // Not as if rest were where it was.
         let lowest = angles(&played, 0).into_iter().fold(f64::MAX, f64::min);
-        assert!(
-            (lowest - 30.0).abs() < 0.1,
-            "{start_deg}: the stop at {lowest}"
-        );
+        assert!((lowest - 30.0).abs() < 0.1, "{start_deg}: {lowest}");
     }
 }
 
 #[test]
 fn homing_ends_by_a_fault_where_the_encoder_does_not_tell_the_truth() {
-    let scene = free(FIND);
+    let scene = free_with(FIND);
     for wire in [Wire::Encoder, Wire::EncoderChannels, Wire::Winding(0)] {
         let played = play(&scene, 10 * TICK_HZ, |tick, run| {
             if tick == 0 {
@@ -157,7 +130,7 @@ fn homing_ends_by_a_fault_where_the_encoder_does_not_tell_the_truth() {
 
 #[test]
 fn homing_restarts_after_a_sensor_was_lost() {
-    let scene = free("rest = \"find\"\n");
+    let scene = free_with("rest = \"find\"\n");
     let (lost, back) = (100, 400);
     let played = play(&scene, 4 * TICK_HZ, |tick, run| {
         let slave = run.slave_mut(0).unwrap();

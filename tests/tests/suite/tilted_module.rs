@@ -1,8 +1,7 @@
 //! A module whose whiskers have TMAG5170s: it feels what they are bent by, as noisily as such a
 //! sensor does, and a broken wire switches the motor off until it is mended.
 
-use crate::played::{LEFT, TICK_HZ, play, scene, textured, undisturbed};
-use firmware::design_parameters::{HOLD_S, RECOVER_S, ticks};
+use crate::played::{HOLD, LEFT, RECOVER, angles, extent, play, scene, textured, undisturbed};
 use firmware::{Event, SensorFault, TiltFault};
 use host_sim::bus::tmag5170::LineFault;
 use scene::Scene;
@@ -51,7 +50,6 @@ fn it_feels_what_it_is_bent_by() {
 
 #[test]
 fn a_cut_wire_switches_it_off_until_it_is_mended() {
-    let of = |seconds: f64| u64::from(ticks(seconds, TICK_HZ as u32));
     let [cut, mended] = [2000, 3000];
     let played = play(&tilted(), 4000, |tick, run| {
         assert!(run.slave_mut(0).is_none(), "it is no MLX90333");
@@ -65,32 +63,22 @@ fn a_cut_wire_switches_it_off_until_it_is_mended() {
     let fault = SensorFault::Tilt(TiltFault::Reply(ReplyError::NoSensor));
     assert_eq!(fault.code(), 27);
     let sensors = |event: &Event| matches!(event, Event::SensorLost(..) | Event::SensorBack(_));
-    let of_sensor: Vec<_> = played
-        .events
-        .iter()
-        .filter(|(_, event)| sensors(event))
-        .collect();
+    let of_sensor = played.events.iter().filter(|(_, event)| sensors(event));
+    let of_sensor: Vec<_> = of_sensor.collect();
     let [(lost, loss), (back, recovery)] = of_sensor[..] else {
         panic!("{of_sensor:?}");
     };
-    assert_eq!(
-        (*lost, *loss),
-        (cut + of(HOLD_S), Event::SensorLost(LEFT, fault))
-    );
+    let expected = (cut + HOLD, Event::SensorLost(LEFT, fault));
+    assert_eq!((*lost, *loss), expected);
     assert_eq!(*recovery, Event::SensorBack(LEFT));
     // It is asked every few ticks while it is lost, and may have to be set up again.
-    let earliest = mended + of(RECOVER_S) - 1;
+    let earliest = mended + RECOVER - 1;
     assert!(
         (earliest..earliest + 10).contains(back),
         "{back} {earliest}"
     );
     // The other side whisks on.
-    let right = &played.rows[2100..2900];
-    let angles = right.iter().map(|row| row.angle_deg[1]);
-    let (low, high) = angles.fold((f64::MAX, f64::MIN), |(low, high), angle| {
-        (low.min(angle), high.max(angle))
-    });
-    assert!(high - low > 20.0, "{low} {high}");
+    assert!(extent(&angles(&played, 1)[2100..2900]) > 20.0);
 }
 
 /// What the end of the range means is said once, as a limit, and the whisker feels nothing.

@@ -7,6 +7,7 @@ use crate::Error;
 use crate::bench::HostModule;
 use crate::columns::{self, Column, columns};
 use crate::decisions::{Decided, Score, Verdict};
+use crate::files;
 use crate::output::Output;
 use crate::run::Run;
 
@@ -106,17 +107,13 @@ pub(super) fn write<'r>(
     keys: impl Iterator<Item = &'r str>,
     rows: impl Iterator<Item = (&'r [String], u64, &'r Measured)>,
 ) -> Result<(), Error> {
-    let mut table = csv::Writer::from_writer(Vec::new());
-    let failed = |error: csv::Error| Error::Work(error.to_string());
-    let header = keys.chain(["seed"]).chain(columns::names(&COLUMNS));
-    table.write_record(header).map_err(failed)?;
-    for (values, seed, measured) in rows {
-        let values = values.iter().cloned();
-        let cells = values.chain([seed.to_string()]).chain(measured.cells());
-        table.write_record(cells).map_err(failed)?;
-    }
-    let bytes = table
-        .into_inner()
-        .map_err(|error| Error::Work(error.to_string()))?;
-    output.whole(&bytes)
+    files::write(output, |output| {
+        let mut table = csv::Writer::from_writer(output);
+        table.write_record(keys.chain(["seed"]).chain(columns::names(&COLUMNS)))?;
+        for (values, seed, measured) in rows {
+            let values = values.iter().cloned();
+            table.write_record(values.chain([seed.to_string()]).chain(measured.cells()))?;
+        }
+        table.flush()
+    })
 }

@@ -38,7 +38,7 @@ fn sweep(plant: &mut Textured, from: f64, to: f64, seconds: f64) -> [f64; 2] {
     for n in 1..=ticks as u32 {
         plant.advance(&[from + (to - from) * f64::from(n) / ticks], TICK_S);
     }
-    plant.deflection(0, 0)
+    plant.deflection(0)
 }
 
 #[test]
@@ -89,7 +89,7 @@ fn released_whiskers_ring_at_their_frequencies() {
     for n in 0..100_000 {
         plant.advance(&[90.0; 3], step_s);
         for w in 0..3 {
-            let [x, _] = plant.deflection(0, w);
+            let [x, _] = plant.deflection(w);
             // Falling through zero: once a period.
             if last[w] > 0.0 && x <= 0.0 && crossings[w].len() < 5 {
                 crossings[w].push(f64::from(n) * step_s);
@@ -121,7 +121,7 @@ fn a_free_whisker_only_sways_with_its_base() {
     for n in 1..=4000 {
         let wave = -(TAU * 2.0 * f64::from(n) * TICK_S).cos();
         plant.advance(&[70.0 + 20.0 * wave], TICK_S);
-        let [x, y] = plant.deflection(0, 0);
+        let [x, y] = plant.deflection(0);
         assert!(x.abs() < 0.01 && y == 0.0, "{x} {y}");
         if n > 2000 {
             product += x * wave / 1000.0;
@@ -139,7 +139,7 @@ fn the_sensor_s_noise_is_as_set() {
     let mut squares = [0.0; 2];
     for _ in 0..20_000 {
         plant.advance(&[60.0], TICK_S);
-        for (square, v) in squares.iter_mut().zip(plant.deflection(0, 0)) {
+        for (square, v) in squares.iter_mut().zip(plant.deflection(0)) {
             *square += (v * 8191.0).powi(2) / 20_000.0;
         }
     }
@@ -163,7 +163,7 @@ fn vibration(surface: SurfaceSettings, speed: f64, tick_s: f64, seconds: f64) ->
         angle += if forth { speed } else { -speed } * tick_s;
         forth = if forth { angle < 160.0 } else { angle < 110.0 };
         plant.advance(&[angle], tick_s);
-        variance += plant.deflection(0, 0)[1].powi(2) / f64::from(ticks);
+        variance += plant.deflection(0)[1].powi(2) / f64::from(ticks);
     }
     variance
 }

@@ -39,7 +39,7 @@ fn settled(shaft: Shaft, surface: Surface, overlap: f64) -> [f64; 2] {
         let share = (f64::from(n) / 4000.0).min(1.0);
         plant.advance(&[99.0 + share * (1.0 + overlap)], TICK_S);
         if n >= 6000 {
-            for (mean, now) in mean.iter_mut().zip(plant.deflection(0, 0)) {
+            for (mean, now) in mean.iter_mut().zip(plant.deflection(0)) {
                 *mean += now / 2000.0;
             }
         }
@@ -131,7 +131,7 @@ fn whisked(head: Head, settings: &ElasticSettings, at: usize, pose: SurfacePose)
         }
         let angle = 70.0 - 36.0 * (TAU * 2.0 * n as f64 * TICK_S).cos();
         plant.advance(&[angle], TICK_S);
-        plant.deflection(0, 0)
+        plant.deflection(0)
     };
     (0..4000).map(tick).collect()
 }
@@ -247,10 +247,7 @@ fn a_free_whisker_reads_nothing_at_rest() {
     for _ in 0..100 {
         plant.advance(&[120.0, 20.0], TICK_S);
     }
-    assert_eq!(
-        [plant.deflection(0, 0), plant.deflection(1, 0)],
-        [[0.0; 2]; 2]
-    );
+    assert_eq!([plant.deflection(0), plant.deflection(1)], [[0.0; 2]; 2]);
 }
 
 fn shown(

@@ -5,26 +5,26 @@ use std::sync::Mutex;
 use whisking::{GateSettings, Integrator, Settings, oscillator::Psi};
 
 /// f_W, Hz.
-pub(crate) const FREQUENCIES_HZ: [f64; 8] = [0.05, 0.2, 1.0, 2.0, 5.0, 8.0, 12.5, 25.0];
+const FREQUENCIES_HZ: [f64; 8] = [0.05, 0.2, 1.0, 2.0, 5.0, 8.0, 12.5, 25.0];
 /// 1/T, Hz.
 pub(crate) const TICKS_HZ: [f64; 7] = [200.0, 500.0, 1_000.0, 2_000.0, 5_000.0, 10_000.0, 20_000.0];
 /// σ_z: off, the papers', the largest.
-pub(crate) const SIGMA_Z: [f64; 3] = [0.0, 0.7, 100.0];
+const SIGMA_Z: [f64; 3] = [0.0, 0.7, 100.0];
 /// σ_g: off, the papers', the largest.
-pub(crate) const SIGMA_G: [f64; 3] = [0.0, 0.5, 100.0];
+const SIGMA_G: [f64; 3] = [0.0, 0.5, 100.0];
 /// g_nominal of the whiskers, two a side: every level in every run.
 pub(crate) const NOMINAL: [[f64; 2]; 2] = [[0.0, 2.0], [1.0, 2.0]];
-pub(crate) const INTEGRATORS: [Integrator; 2] = [Integrator::Exact, Integrator::Euler];
+const INTEGRATORS: [Integrator; 2] = [Integrator::Exact, Integrator::Euler];
 
 /// τ of a gate: a share of the tick, or of the whisk.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) enum Tau {
+enum Tau {
     Ticks(f64),
     Whisks(f64),
 }
 
 /// τ_z and τ_g.
-pub(crate) const TAUS: [Tau; 7] = [
+const TAUS: [Tau; 7] = [
     Tau::Ticks(0.1),
     Tau::Ticks(1.0),
     Tau::Ticks(10.0),
@@ -35,7 +35,7 @@ pub(crate) const TAUS: [Tau; 7] = [
 ];
 
 /// Where the oscillators start, left and right.
-pub(crate) const STARTS: [[Psi<f64>; 2]; 6] = [
+const STARTS: [[Psi<f64>; 2]; 6] = [
     // The origin, where eq. 3 has no direction.
     [[0.0, 0.0], [0.0, 0.0]],
     // So near to it that squares underflow in some format or in all.
@@ -95,8 +95,6 @@ const LEVELS: [usize; 9] = [
     SIGMA_Z.len(),
     SIGMA_G.len(),
 ];
-/// Axes whose product is run in full; the others are dealt.
-const FULL: usize = 5;
 
 impl Case {
     pub(crate) fn frequency_hz(self) -> f64 {
@@ -183,7 +181,7 @@ fn product(levels: &[usize]) -> Vec<Vec<usize>> {
 }
 
 /// Deals all places of a product of `levels`; shuffles them again when the pack is empty.
-pub(crate) fn dealt(levels: &[usize], seed: u64) -> impl FnMut() -> Vec<usize> {
+fn dealt(levels: &[usize], seed: u64) -> impl FnMut() -> Vec<usize> {
     let all = product(levels);
     let mut random = Random(seed);
     let mut pack = Vec::new();
@@ -198,11 +196,11 @@ pub(crate) fn dealt(levels: &[usize], seed: u64) -> impl FnMut() -> Vec<usize> {
     }
 }
 
-/// The full product of frequency, tick, integrator, start and input, with time
-/// constants and gains dealt to it.
-pub(crate) fn cases() -> Vec<Case> {
-    let mut deal = dealt(&LEVELS[FULL..], 1);
-    let places = product(&LEVELS[..FULL]);
+/// The full product of the first `full` axes, with levels of the others dealt to it, shuffled by
+/// `seed`.
+pub(crate) fn cases(full: usize, seed: u64) -> Vec<Case> {
+    let mut deal = dealt(&LEVELS[full..], seed);
+    let places = product(&LEVELS[..full]);
     let place = |full: Vec<usize>| [full, deal()].concat().try_into().unwrap();
     places.into_iter().map(place).map(Case).collect()
 }
@@ -223,7 +221,7 @@ impl Worst {
 
 #[test]
 fn every_pair_of_levels_of_any_two_axes_occurs() {
-    let cases = cases();
+    let cases = cases(5, 1);
     assert_eq!(cases.len(), 8 * 7 * 2 * 6 * 7);
     for (a, &levels_a) in LEVELS.iter().enumerate() {
         for (b, &levels_b) in LEVELS.iter().enumerate().skip(a + 1) {

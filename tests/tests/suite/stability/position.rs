@@ -109,16 +109,12 @@ fn control<R: Extreme>(settings: &pd::Settings, tick_hz: f64) {
 
 #[test]
 fn position_control_keeps_its_limits_and_comes_back() {
-    let mut cases = Vec::new();
-    for settings in settings() {
+    settings().par_iter().for_each(|settings| {
         for tick_hz in TICKS_HZ {
-            cases.push((settings, tick_hz));
+            control::<f64>(settings, tick_hz);
+            control::<f32>(settings, tick_hz);
+            control::<Fix>(settings, tick_hz);
         }
-    }
-    cases.par_iter().for_each(|(settings, tick_hz)| {
-        control::<f64>(settings, *tick_hz);
-        control::<f32>(settings, *tick_hz);
-        control::<Fix>(settings, *tick_hz);
     });
 }
 
