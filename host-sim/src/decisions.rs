@@ -164,41 +164,31 @@ impl Decided {
     }
 }
 
-/// What decisions were made on.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Source {
-    /// A recording, which has no clock.
-    Recording,
-    /// A scene: the time of the tick, as in the trace.
-    Scene,
-    /// One of several whiskers that are heard: also the whisker, by its side and its number from 1.
-    Whiskers,
-}
-
 /// Which columns a table of decisions has.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Columns {
-    /// What they were made on.
-    pub source: Source,
+    /// How many before those that all have.
+    first: usize,
     /// Whether poses are estimated.
-    pub has_pose: bool,
+    has_pose: bool,
 }
 
 impl Columns {
     /// Of a recording, and a model that estimates poses or not.
     pub const fn of_recording(has_pose: bool) -> Self {
         Self {
-            source: Source::Recording,
+            first: OF_RECORDING,
             has_pose,
         }
     }
 
-    /// Of a scene.
+    /// Of a scene: also the time of the tick, as in the trace, and of several whiskers that are
+    /// heard the whisker, by its side and its number from 1.
     pub fn of_scene(scene: &Scene) -> Self {
         Self {
-            source: match bench::heard(scene) {
-                1 => Source::Scene,
-                _ => Source::Whiskers,
+            first: match bench::heard(scene) {
+                1 => OF_SCENE,
+                _ => OF_SEVERAL,
             },
             has_pose: scene.classifier.as_ref().is_some_and(|of| of.pose),
         }
@@ -206,17 +196,12 @@ impl Columns {
 
     /// Which of [`COLUMNS`].
     pub fn indices(self) -> impl Iterator<Item = usize> {
-        let count = match self.source {
-            Source::Recording => OF_RECORDING,
-            Source::Scene => OF_SCENE,
-            Source::Whiskers => OF_SEVERAL,
-        };
         let end = if self.has_pose {
             COLUMNS.len()
         } else {
             OF_POSE
         };
-        (0..count).chain(OF_SEVERAL..end)
+        (0..self.first).chain(OF_SEVERAL..end)
     }
 }
 
@@ -443,8 +428,8 @@ mod tests {
     use tactile::Estimate;
 
     use super::{
-        Columns, Decided, Decision, Place, Pose, Reason, Score, Source, UNKNOWN, Verdict, words,
-        write,
+        Columns, Decided, Decision, OF_SCENE, OF_SEVERAL, Place, Pose, Reason, Score, UNKNOWN,
+        Verdict, words, write,
     };
 
     fn decided(label: &str, decision: &str, samples: u32) -> Decided {
@@ -515,8 +500,8 @@ mod tests {
     #[test]
     fn names_with_commas_survive_the_file_and_a_scene_tells_the_time() {
         let decisions = [decided("sand, wet", "ice", 20)];
-        let of = |source| Columns {
-            source,
+        let of = |first| Columns {
+            first,
             has_pose: false,
         };
         let written = |columns| {
@@ -536,12 +521,12 @@ mod tests {
              \"sand, wet\",1,ice,20,0.995000000,3,,,-1.50,0.20,22.04,0.07\n"
         );
         assert_eq!(
-            written(of(Source::Scene)),
+            written(of(OF_SCENE)),
             "label,trial,decision,samples,posterior,touch,t_s,reason,among\n\
              \"sand, wet\",1,ice,20,0.995000000,3,0.250000000,,\n"
         );
         assert_eq!(
-            written(of(Source::Whiskers)),
+            written(of(OF_SEVERAL)),
             "label,trial,decision,samples,posterior,touch,t_s,side,whisker,reason,among\n\
              \"sand, wet\",1,ice,20,0.995000000,3,0.250000000,right,1,,\n"
         );

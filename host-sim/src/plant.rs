@@ -66,6 +66,12 @@ impl Head {
     }
 }
 
+/// Another seed for each n.
+const fn apart(seed: u64, n: u64) -> u64 {
+    // Not the constant by which generators step from seed to state.
+    seed.wrapping_add(n.wrapping_mul(0xD134_2543_DE82_EF95))
+}
+
 /// How a surface stands while it is presented, and how sensors then read: off what the scene
 /// says.
 #[derive(Debug, Clone, Copy, PartialEq)]

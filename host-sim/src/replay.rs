@@ -110,10 +110,7 @@ mod tests {
             label: label.to_owned(),
             trial: format!("1 whisker {whisker}"),
             samples: samples.collect(),
-            contact: None,
-            touch: None,
-            pose: None,
-            stands: None,
+            ..Stream::default()
         }
     }
 

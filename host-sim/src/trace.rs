@@ -195,7 +195,9 @@ fn text(line: &mut Vec<u8>, text: &str) {
 
 #[cfg(test)]
 mod tests {
-    use super::{FIRST, OF_WHISKER, Row, SECOND, TraceLine, TraceShape, TraceWriter, WhiskerRow};
+    use super::{
+        FIRST, OF_ELASTIC, OF_WHISKER, Row, SECOND, TraceLine, TraceShape, TraceWriter, WhiskerRow,
+    };
 
     const ALONE: TraceShape = TraceShape {
         sides: 1,
@@ -266,48 +268,14 @@ mod tests {
         assert_eq!(lines[3], format!("{fixed}\"sand, \"\"wet\"\"\",{more}"));
     }
 
-    #[test]
-    fn elastic_whiskers_end_their_rows_with_where_they_touch() {
-        let row = Row::default();
-        let whiskers = [0.0, 1.0, 2.0, 3.0].map(whisker);
-        let tick = TraceLine {
-            row: &row,
-            decisions: [None, None],
-            presented: ("free", 0),
-            whiskers: &whiskers,
-        };
-        for sides in [1, 2] {
-            let rigid = TraceShape {
-                sides,
-                whiskers_per_side: 2,
-                hears_right: false,
-                is_elastic: false,
-            };
-            let elastic = TraceShape {
-                is_elastic: true,
-                ..rigid
-            };
-            let more = [
-                ",touch_at_left_m,place_left_m,touch_at_right_m,place_right_m",
-                ",0.100000000,,0.100000000,",
-            ];
-            let cells = 2 * sides;
-            let lines = written(rigid, [tick]).into_iter().zip(more);
-            let expected = lines.map(|(line, more)| {
-                let more: Vec<&str> = more.split(',').take(1 + cells).collect();
-                line + &more.join(",")
-            });
-            assert_eq!(written(elastic, [tick]), expected.collect::<Vec<_>>());
-        }
-    }
-
+    /// Elastic whiskers end their rows with where they touch.
     #[test]
     fn every_whisker_of_both_sides_has_cells_of_its_own() {
         let shape = TraceShape {
             sides: 2,
             whiskers_per_side: 2,
             hears_right: true,
-            is_elastic: false,
+            is_elastic: true,
         };
         let row = Row {
             touch: [7, 9],
@@ -322,40 +290,24 @@ mod tests {
         });
         let lines = written(shape, ticks);
         let header: Vec<&str> = lines[0].split(',').collect();
-        let count = FIRST.len() + 2 + SECOND.len() + 2 * OF_WHISKER.len();
+        let elastic = OF_ELASTIC.map(|column| column.name);
+        let count = FIRST.len() + 2 + SECOND.len() + 2 * OF_WHISKER.len() + elastic.len();
         assert_eq!(header.len(), count);
-        assert_eq!(
-            header[15..19],
-            ["touch", "decision", "touch_right", "decision_right"]
-        );
-        assert_eq!(
-            header[27..],
-            [
-                "theta_left_2_deg",
-                "angle_left_2_deg",
-                "speed_left_2_deg_s",
-                "duty_left_2",
-                "x_left_2",
-                "y_left_2",
-                "contact_left_2",
-                "fault_left_2",
-                "theta_right_2_deg",
-                "angle_right_2_deg",
-                "speed_right_2_deg_s",
-                "duty_right_2",
-                "x_right_2",
-                "y_right_2",
-                "contact_right_2",
-                "fault_right_2",
-            ]
-        );
+        let heard = ["touch", "decision", "touch_right", "decision_right"];
+        assert_eq!(header[15..19], heard);
+        assert_eq!(header[27..29], ["theta_left_2_deg", "angle_left_2_deg"]);
+        assert_eq!(header[34..36], ["fault_left_2", "theta_right_2_deg"]);
+        assert_eq!(header[42..], [&["fault_right_2"][..], &elastic].concat());
         for (line, heard) in lines[1..].iter().zip([",7,,9,ice,", ",7,loam,9,,"]) {
             assert_eq!(line.split(',').count(), count, "{line}");
             assert!(line.contains(heard), "{line}");
             let more = "free,0,-7.500,-7.500,0.250000,0.250000,0,2,\
                         51.000000,61.000000,-7.500,0.250000,8192,8190,0.125000,1,\
-                        53.000000,63.000000,-7.500,0.250000,8192,8190,0.125000,3";
+                        53.000000,63.000000,-7.500,0.250000,8192,8190,0.125000,3,\
+                        0.100000000,,0.100000000,";
             assert!(line.ends_with(more), "{line}");
         }
+        let one_side = TraceShape { sides: 1, ..shape };
+        assert_eq!(one_side.names()[35..], elastic[..2]);
     }
 }

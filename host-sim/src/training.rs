@@ -9,7 +9,7 @@ use crate::doubts::outliers;
 use crate::recording::{GATE, Stream};
 
 /// What a model is made of.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, Default)]
 #[cfg_attr(feature = "cli", derive(clap::Args))]
 pub struct How {
     /// Which tables
@@ -70,12 +70,13 @@ impl From<Expected> for Expect {
 }
 
 /// The tables of a model.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[cfg_attr(feature = "cli", derive(clap::ValueEnum))]
 pub enum Tables {
     /// Of both channels together and of their roughness, weighted so that a posterior is
     /// what it says; only contact counts, a touch limits what came before it, and what
     /// is like no class is unknown
+    #[default]
     Joint,
     /// Of each channel alone, as the papers have it
     Single,
@@ -92,20 +93,10 @@ pub struct TrainedModel {
 
 impl How {
     /// With the defaults of these tables.
-    pub const fn of(tables: Tables) -> Self {
+    pub fn of(tables: Tables) -> Self {
         Self {
             tables,
-            bins: None,
-            smooth: None,
-            block: None,
-            gate: None,
-            gap: None,
-            each_whisker: false,
-            expect: Expected::Bench,
-            whisked: Whisked {
-                frequency_mhz: None,
-                has_rcp: None,
-            },
+            ..Self::default()
         }
     }
 
@@ -145,15 +136,16 @@ impl How {
         if !(gap > 0.0 && gap <= 10.0) {
             return Err(format!("gap: found {gap}, allowed: above 0, up to 10 s"));
         }
-        if self.each_whisker && self.tables == Tables::Joint {
-            let fault = "each-whisker: joint tables are one set; allowed: with single tables";
-            return Err(fault.to_owned());
-        }
-        if self.gap.is_some() && self.tables == Tables::Single {
-            let fault = "gap: single tables know no touches; allowed: with joint tables";
-            return Err(fault.to_owned());
-        }
-        Ok(())
+        let fault = match self.tables {
+            Tables::Joint if self.each_whisker => {
+                "each-whisker: joint tables are one set; allowed: with single tables"
+            }
+            Tables::Single if self.gap.is_some() => {
+                "gap: single tables know no touches; allowed: with joint tables"
+            }
+            _ => return Ok(()),
+        };
+        Err(fault.to_owned())
     }
 
     /// Trains from recordings of `tick_hz` samples a second, which the model keeps. A value that

@@ -35,7 +35,7 @@ use core::iter::repeat;
 use scene::Texture;
 
 use super::surface::{Path, Profile, SurfaceSettings};
-use super::{BadSetting, Head, Plant};
+use super::{BadSetting, Head, Plant, apart};
 use physics::{Noise, Propagator, Resonator};
 pub use settings::{TexturedSettings, WhiskerSettings};
 
@@ -129,10 +129,7 @@ fn whiskers(head: &Head, settings: &TexturedSettings, seed: u64) -> Vec<Whisker>
     let whiskers = (0_u64..).zip(head.limits().enumerate());
     whiskers
         .map(|(stream, (i, limit_deg))| {
-            let shaft = settings.whisker(i % each);
-            // Not the constant by which generators step from seed to state.
-            let seed = seed.wrapping_add(stream.wrapping_mul(0xD134_2543_DE82_EF95));
-            Whisker::new(shaft, limit_deg, seed)
+            Whisker::new(settings.whisker(i % each), limit_deg, apart(seed, stream))
         })
         .collect()
 }

@@ -19,7 +19,7 @@ use core::iter::repeat;
 
 use scene::Texture;
 
-use super::{BadSetting, Head, Plant, SurfacePose};
+use super::{BadSetting, Head, Plant, SurfacePose, apart};
 use physics::vector::{add, dot, scale, sub};
 use physics::{
     At, Bent, Facing, Grit, Material, Outline, Plate, SensorSettings, Shaft, Surface,
@@ -122,12 +122,6 @@ const fn material(texture: Texture) -> Material {
         Texture::Vinyl => Material::Vinyl,
         Texture::Aluminium => Material::Aluminium,
     }
-}
-
-/// Another seed for each n.
-const fn apart(seed: u64, n: u64) -> u64 {
-    // Not the constant by which generators step from seed to state.
-    seed.wrapping_add(n.wrapping_mul(0xD134_2543_DE82_EF95))
 }
 
 impl Elastic {

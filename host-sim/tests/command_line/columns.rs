@@ -1,17 +1,8 @@
 //! What stands in the trace beside the first columns, and that each column is documented.
 
-use crate::common::{Place, SEQUENTIAL, TEXTURED, cells, model};
+use std::collections::BTreeSet;
 
-fn column<'t>(rows: &[Vec<&'t str>], name: &str) -> Vec<&'t str> {
-    let at = rows[0].iter().position(|title| *title == name);
-    let at = at.unwrap_or_else(|| panic!("no {name}"));
-    rows[1..].iter().map(|row| row[at]).collect()
-}
-
-fn numbers(rows: &[Vec<&str>], name: &str) -> Vec<f64> {
-    let cells = column(rows, name).into_iter();
-    cells.map(|cell| cell.parse().unwrap()).collect()
-}
+use crate::common::{Place, SEQUENTIAL, TEXTURED, cells, column, model, numbers};
 
 fn elastic() -> String {
     TEXTURED.replace(
@@ -38,21 +29,15 @@ fn a_recording_has_the_number_of_the_pose_where_poses_differ() {
     let text = place.text("differ.csv");
     let rows = cells(&text);
     // The scene's own: only readings differ.
-    assert!(
-        rows[1..]
-            .iter()
-            .all(|row| row[7] == "20" && row[8] == rows[1][8])
-    );
-    let of_row: Vec<[&str; 3]> = rows[1..]
-        .iter()
-        .map(|row| [row[0], row[1], row[6]])
-        .collect();
-    let mut presented = of_row.clone();
+    let stands: BTreeSet<_> = rows[1..].iter().map(|row| (row[7], row[8])).collect();
+    assert!(stands.len() == 1 && rows[1][7] == "20", "{stands:?}");
+    let of_row = rows[1..].iter().map(|row| (row[0], row[1], row[6]));
+    let mut presented: Vec<_> = of_row.collect();
     presented.dedup();
-    let poses: Vec<&str> = presented.iter().map(|[.., pose]| *pose).collect();
-    assert!(poses.len() > 1, "{presented:?}");
-    let expected: Vec<String> = (0..poses.len()).map(|n| n.to_string()).collect();
-    assert_eq!(poses, expected, "each presentation has one of its own");
+    assert!(presented.len() > 1, "{presented:?}");
+    let poses = presented.iter().map(|(.., pose)| (*pose).to_owned());
+    let expected = (0..presented.len()).map(|n| n.to_string());
+    assert!(poses.eq(expected), "{presented:?}");
     // More columns do no harm to those who read it.
     place.done("train --data differ.csv --tables single --out the.model");
 }
@@ -61,11 +46,8 @@ fn a_recording_has_the_number_of_the_pose_where_poses_differ() {
 fn every_column_that_is_written_is_on_the_page() {
     let page = include_str!("../../../docs/files.md");
     let place = Place::new();
-    assert_eq!(
-        place.done("columns").stdout,
-        page,
-        "run cargo xtask docs --quick"
-    );
+    let printed = place.done("columns").stdout;
+    assert_eq!(printed, page, "run cargo xtask docs --quick");
 
     let spread = "gain_spread = 0.05\n";
     let scene = elastic().replace("exchange = \"timed\"\n", spread) + SEQUENTIAL;
@@ -91,16 +73,14 @@ fn every_column_that_is_written_is_on_the_page() {
     ] {
         let text = place.text(file);
         for title in text.lines().next().unwrap().split(',') {
-            let further = title.replacen("left_2", "*", 1).replacen("left_3", "*", 1);
-            let further = further
-                .replacen("right_2", "*", 1)
-                .replacen("right_3", "*", 1);
-            let is_documented = page.contains(&format!("| `{title}` |"))
-                || page.contains(&format!("| `{further}` |"));
+            let places = ["left_2", "left_3", "right_2", "right_3"].into_iter();
+            let further = places.fold(title.to_owned(), |of, place| of.replacen(place, "*", 1));
+            let is_on_page = |title: &str| page.contains(&format!("| `{title}` |"));
+            let is_documented = is_on_page(title) || is_on_page(&further);
             assert!(is_documented || title == "rcp.gain", "{file}: {title}");
         }
         let widths = cells(&text).into_iter().map(|row| row.len());
-        let widths: std::collections::BTreeSet<_> = widths.collect();
+        let widths: BTreeSet<_> = widths.collect();
         assert_eq!(widths.len(), 1, "{file}: {widths:?}");
     }
 }
@@ -111,10 +91,8 @@ fn speed_and_duty_are_those_of_the_motion() {
     place.done("run s.toml --out .");
     let text = place.text("trace.csv");
     let rows = cells(&text);
-    let (angle, speed) = (
-        numbers(&rows, "angle_left_deg"),
-        numbers(&rows, "speed_left_deg_s"),
-    );
+    let angle = numbers(&rows, "angle_left_deg");
+    let speed = numbers(&rows, "speed_left_deg_s");
     let duty = numbers(&rows, "duty_left");
     assert!(duty.iter().all(|duty| duty.abs() <= 1.0));
     assert!(duty.iter().any(|duty| *duty > 0.05) && duty.iter().any(|duty| *duty < -0.05));
@@ -126,10 +104,7 @@ fn speed_and_duty_are_those_of_the_motion() {
     });
     let most = speed.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
     let wrong = wrong.fold(0.0, f64::max);
-    assert!(
-        most > 100.0 && wrong < 0.05 * most,
-        "{wrong} of {most} degrees/s"
-    );
+    assert!(most > 100.0 && wrong < 0.05 * most, "{wrong} of {most}");
     // The truth: four presentations of 250 ticks.
     let (labels, trials) = (column(&rows, "label"), column(&rows, "trial"));
     for (n, (label, trial)) in labels.into_iter().zip(trials).enumerate() {
@@ -137,49 +112,33 @@ fn speed_and_duty_are_those_of_the_motion() {
         assert_eq!(label, ["smooth", "carpet"][presented % 2], "{n}");
         assert_eq!(trial, (presented / 2).to_string(), "{n}");
     }
-    assert!(
-        column(&rows, "fault_left")
-            .iter()
-            .all(|fault| *fault == "0")
-    );
+    let mut faults = column(&rows, "fault_left").into_iter();
+    assert!(faults.all(|fault| fault == "0"));
 }
 
-/// A driver that may not exceed a hundredth of its duty cannot follow: the motor is given up.
+/// A driver that may not exceed a hundredth of its duty cannot follow: the motor is given up. Of
+/// more whiskers, that one's: its number from 1 on its side, as in the column's name.
 #[test]
 fn a_fault_stands_in_the_trace_by_its_number() {
     let place = Place::with(&[("s.toml", TEXTURED)]);
-    let ran = place.run("run s.toml --set motor.duty_limit=0.01 --set duration_s=3 --out .");
-    assert_eq!(ran.status, Some(0), "{ran:?}");
-    let text = place.text("trace.csv");
-    let rows = cells(&text);
-    let faults = column(&rows, "fault_left");
-    let first = faults
-        .iter()
-        .position(|fault| *fault != "0")
-        .expect("a fault");
-    let t_s: f64 = column(&rows, "t_s")[first].parse().unwrap();
-    let expected = format!("{t_s:.4} s: left whisker 1: fault left {} ", faults[first]);
-    assert!(
-        ran.stderr.starts_with(&expected),
-        "{expected}: {}",
-        ran.stderr
-    );
-    // Its motor is off meanwhile.
-    assert_eq!(
-        column(&rows, "duty_left")[first + 1]
-            .parse::<f64>()
-            .unwrap(),
-        0.0
-    );
-    // Of more whiskers, that one's: its number from 1 on its side, as in the column's name.
-    let several = "--set head.whiskers_per_side=2 --set motor.duty_limit=0.01";
-    let ran = place.run(&format!("run s.toml {several} --set duration_s=3 --out ."));
-    let text = place.text("trace.csv");
-    let rows = cells(&text);
-    let faults = column(&rows, "fault_left_2");
-    let first = faults.iter().position(|fault| *fault != "0");
-    let first = first.expect("a fault of the second");
-    let t_s: f64 = column(&rows, "t_s")[first].parse().unwrap();
-    let expected = format!("{t_s:.4} s: left whisker 2: fault left {} ", faults[first]);
-    assert!(ran.stderr.contains(&expected), "{expected}: {}", ran.stderr);
+    for (whiskers, place_of) in [(1, "left"), (2, "left_2")] {
+        let keys = format!("--set head.whiskers_per_side={whiskers} --set motor.duty_limit=0.01");
+        let ran = place.run(&format!("run s.toml {keys} --set duration_s=3 --out ."));
+        assert_eq!(ran.status, Some(0), "{ran:?}");
+        let text = place.text("trace.csv");
+        let rows = cells(&text);
+        let faults = column(&rows, &format!("fault_{place_of}"));
+        let first = faults.iter().position(|fault| *fault != "0");
+        let first = first.expect("a fault");
+        let (t_s, fault) = (numbers(&rows, "t_s")[first], faults[first]);
+        let expected = format!("{t_s:.4} s: left whisker {whiskers}: fault left {fault} ");
+        let mut said = ran.stderr.lines();
+        assert!(
+            said.any(|said| said.starts_with(&expected)),
+            "{expected}: {ran:?}"
+        );
+        // Its motor is off meanwhile.
+        let duty = column(&rows, &format!("duty_{place_of}"))[first + 1];
+        assert_eq!(duty.parse::<f64>().unwrap(), 0.0);
+    }
 }

@@ -1,6 +1,6 @@
 //! Scenes whose model lies apart from the program.
 
-use crate::common::{Place, SEQUENTIAL, TEXTURED, model};
+use crate::common::{Place, SEQUENTIAL, TEXTURED, model, says};
 
 fn awaiting() -> String {
     SEQUENTIAL.replace("model = \"the.model\"\n", "")
@@ -40,9 +40,8 @@ fn without_a_model_it_says_so_and_whisks_on() {
     let place = place();
     let ran = place.run("run deployed.toml --out out --no-plot");
     assert_eq!(ran.status, Some(0), "{}", ran.stderr);
-    let said =
-        "deployed.toml:25: classifier: names no model, and none is given: nothing is decided";
-    assert!(ran.stderr.contains(said), "{}", ran.stderr);
+    let none = "classifier: names no model, and none is given: nothing is decided";
+    says(&ran.stderr, &[&format!("deployed.toml:25: {none}")]);
     assert!(place.path("out/trace.csv").exists());
     assert!(!place.path("out/decisions.csv").exists());
     // As without a classifier, but for the header that says what it is.

@@ -6,7 +6,7 @@ use host_sim::output::Output;
 use host_sim::progress::Verbosity;
 use scene::Scene;
 
-use crate::common::{IDEAL, Place, RECORDING, SEQUENTIAL, TEXTURED, cells, decisions};
+use crate::common::{IDEAL, Place, RECORDING, SEQUENTIAL, TEXTURED, cells, decisions, says};
 
 fn classifying() -> Place {
     let scene = Scene::from_str("training.toml", &TEXTURED.replace("= 0.5", "= 3.0")).unwrap();
@@ -64,19 +64,16 @@ fn run_writes_decisions_where_the_scene_classifies() {
         assert!(d.posterior > 0.9 && d.posterior <= 1.0);
     }
     let expected = format!("\n{} decisions, hit rate ", decided.len());
-    assert!(ran.stdout.contains(&expected), "{}", ran.stdout);
+    says(&ran.stdout, &[&expected]);
     let trace = place.text("out/trace.csv");
     let trace = cells(&trace);
     assert_eq!(trace.len(), 1 + 6000);
     // The trace has each decision in its tick.
     let fallen = trace[1..].iter().filter(|row| !row[16].is_empty());
     let fallen: Vec<_> = fallen.map(|row| (row[0].parse().ok(), row[16])).collect();
-    let decided: Vec<_> = decided
-        .iter()
-        .map(|d| (d.t_s, d.decision.as_str()))
-        .collect();
+    let decided = decided.iter().map(|d| (d.t_s, d.decision.as_str()));
     assert_eq!(trace[0][16], "decision");
-    assert_eq!(fallen, decided);
+    assert_eq!(fallen, decided.collect::<Vec<_>>());
 
     // The model is looked for beside the scene first, then from where one stands.
     let beside = place.bytes("out/decisions.csv");
@@ -121,17 +118,11 @@ fn train_and_classify_say_and_write_what_they_did() {
     let expected = "4 decisions, hit rate 100.0 % (mean over classes), mean 2 samples\n";
     assert!(ran.stdout.ends_with(expected), "{}", ran.stdout);
     let decided = decisions(&place.text("d.csv"));
-    let rows: Vec<_> = decided
+    let rows = decided
         .iter()
-        .map(|d| [&d.label, &d.trial, &d.decision].map(String::as_str))
-        .collect();
-    let expected = [
-        ["low", "0", "low"],
-        ["low", "1", "low"],
-        ["high", "0", "high"],
-        ["high", "1", "high"],
-    ];
-    assert_eq!(rows, expected);
+        .map(|d| format!("{},{},{}", d.label, d.trial, d.decision));
+    let expected = ["low,0,low", "low,1,low", "high,0,high", "high,1,high"];
+    assert_eq!(rows.collect::<Vec<_>>(), expected);
     let left: Vec<_> = place.content().into_keys().collect();
     assert_eq!(left.len(), 3, "{left:?}");
 }

@@ -3,7 +3,7 @@
 use host_sim::decisions::Decided;
 use tactile::{ModelBuf, TouchRule};
 
-use crate::common::{Place, SEQUENTIAL, TEXTURED, cells, decisions};
+use crate::common::{Place, SEQUENTIAL, TEXTURED, cells, decisions, line, says};
 
 /// Class `b` is high in x, `a` is low; one sample in eight says the other class.
 const TRAINING: &str = "b,0,100,0\nb,0,100,100\nb,0,100,0\nb,0,100,100\nb,0,100,0\nb,0,100,100\n\
@@ -22,12 +22,6 @@ fn evaluating(test: &str) -> Place {
     place
 }
 
-#[track_caller]
-fn line<'t>(text: &'t str, name: &str) -> &'t str {
-    let found = text.lines().find(|line| line.starts_with(name));
-    found.unwrap_or_else(|| panic!("no {name:?} in {text}"))
-}
-
 #[test]
 fn evaluate_states_finds_and_counts() {
     // Three of four right on a, all on b; nothing on c, which the model does not know.
@@ -35,24 +29,24 @@ fn evaluate_states_finds_and_counts() {
     let place = evaluating(test);
     let evaluate = "evaluate --model m --data test.csv --rate 1000 --threshold";
     let printed = place.done(&format!("{evaluate} 0.8")).stdout;
-    let says = |name: &str, what: &str| {
-        let line = line(&printed, name);
-        assert!(line.contains(what), "{line}");
-    };
-    says("hit rate", " 87.5 % (mean over classes)");
-    says("decision time", " 1 samples (1 ms), standard error 0.0 ms");
-    says("stated", " 87.50 %");
-    says("found", " 83.3 % (43.6 to 97.0) of 6");
-    says("calibration error", " 4.17 %");
-    says("refused  ", " 0.0 % (0.0 to 39.0) of 6");
-    says("refused, new", " of 1");
-    says("without a decision", " of 2");
+    for (name, what) in [
+        ("hit rate", " 87.5 % (mean over classes)"),
+        ("decision time", " 1 samples (1 ms), standard error 0.0 ms"),
+        ("stated", " 87.50 %"),
+        ("found", " 83.3 % (43.6 to 97.0) of 6"),
+        ("calibration error", " 4.17 %"),
+        ("refused  ", " 0.0 % (0.0 to 39.0) of 6"),
+        ("refused, new", " of 1"),
+        ("without a decision", " of 2"),
+    ] {
+        says(line(&printed, name), &[what]);
+    }
     // Two samples of a class state 49/50.
     let printed = place.done(&format!("{evaluate} 0.9")).stdout;
     assert!(line(&printed, "decision time").contains(" 2 samples (2 ms)"));
     assert!(line(&printed, "stated").contains(" 98.00 %"), "{printed}");
     let printed = place.done(&format!("{evaluate} 0.999")).stdout;
-    assert!(printed.contains("no decision for a class"), "{printed}");
+    says(&printed, &["no decision for a class"]);
     assert!(line(&printed, "without a decision").contains("100.0 %"));
 }
 
@@ -65,36 +59,30 @@ fn evaluate_suggests_a_threshold() {
     let suggested = |place: &Place, wish: &str| {
         let printed = place.done(&format!("{evaluate} {wish}")).stdout;
         let lines = printed.lines().filter(|line| line.starts_with("for "));
-        lines
-            .map(|line| line.rsplit(": ").next().unwrap().to_owned())
-            .collect::<Vec<_>>()
+        let wishes = lines.map(|line| line.rsplit(": ").next().unwrap().to_owned());
+        wishes.collect::<Vec<_>>()
     };
     assert_eq!(suggested(&place, "--error-rate 0.3"), ["--threshold 0.5"]);
     assert_eq!(suggested(&place, "--error-rate 0.1"), ["--threshold 0.9"]);
     assert_eq!(suggested(&place, "--time 0.0005"), ["--threshold 0.85"]);
-    assert_eq!(
-        suggested(&place, "--time 0.0001"),
-        ["no threshold of these"]
-    );
+    let none = suggested(&place, "--time 0.0001");
+    assert_eq!(none, ["no threshold of these"]);
     let both = suggested(&place, "--time 0.0005 --error-rate 0.1");
     assert_eq!(both, ["--threshold 0.9", "--threshold 0.85"]);
 
     // Of twenty decisions none is wrong, which a sixth may be.
     let few = evaluating(&test(8));
     assert_eq!(suggested(&few, "--error-rate 0.3"), ["--threshold 0.9"]);
-    let [line] = &suggested(&few, "--error-rate 0.1")[..] else {
+    let [chance] = &suggested(&few, "--error-rate 0.1")[..] else {
         panic!("one line");
     };
-    assert!(
-        line.starts_with("no threshold, as of decisions at 0.9 0.0 to "),
-        "{line}"
-    );
+    line(chance, "no threshold, as of decisions at 0.9 0.0 to ");
     // One decision: all may be wrong, however fast it was.
     let one = evaluating("a,0,0,0\na,0,0,0\n");
-    let [line] = &suggested(&one, "--time 0.1")[..] else {
+    let [chance] = &suggested(&one, "--time 0.1")[..] else {
         panic!("one line");
     };
-    assert!(line.ends_with("record more"), "{line}");
+    assert!(chance.ends_with("record more"), "{chance}");
 }
 
 #[test]
@@ -121,9 +109,8 @@ fn score_is_of_what_run_decides() {
     place.done("train --tables single --data recorded.csv --out the.model");
     place.write("ten.toml", text.replace("seed = 1", "seed = 10"));
     let ran = place.done("run ten.toml --out out").stdout;
-    let printed = place
-        .done("score s.toml --seeds 10..11 --tables single")
-        .stdout;
+    let printed = place.done("score s.toml --seeds 10..11 --tables single");
+    let printed = printed.stdout;
     let rows = |text: &str| {
         let rows = text.lines().filter(|line| line.contains(" | "));
         rows.map(str::to_owned).collect::<Vec<_>>()
@@ -141,14 +128,9 @@ fn a_texture_that_was_not_trained_is_presented_all_the_same() {
     let place = Place::with(&[("s.toml", &text)]);
     let score = "score s.toml --seeds 10..12 --threshold 0.9 --unknown p240";
     let printed = place.done(score).stdout;
-    let header = printed
-        .lines()
-        .find(|line| line.contains("true |"))
-        .unwrap();
-    assert!(
-        !header.contains("p240") && printed.contains("   p240 | "),
-        "{printed}"
-    );
+    let mut header = printed.lines().filter(|line| line.contains("true |"));
+    assert!(header.all(|header| !header.contains("p240")), "{printed}");
+    says(&printed, &["true |", "   p240 | "]);
     line(&printed, "refused of the unknown texture, %");
     line(&printed, "refused, unknown");
 }
@@ -159,19 +141,14 @@ fn evaluate_warns_and_draws() {
     let evaluate = "evaluate --model m --data test.csv --rate 1000 --threshold 0.8";
     let printed = place.done(&format!("{evaluate} --plot p.svg")).stdout;
     assert!(line(&printed, "a: ").contains("right 75.0 % (30.1 to 95.4) of 4; after 1 ± 0.0 ms"));
-    let warnings: Vec<_> = printed
-        .lines()
-        .filter(|line| line.starts_with("warning: "))
-        .collect();
-    let about = [
-        "b: nothing of it",
-        "20 % of samples lie outside",
-        "one recording",
-    ];
-    assert_eq!(warnings.len(), about.len(), "{printed}");
-    for (warning, about) in warnings.iter().zip(about) {
-        assert!(warning.contains(about), "{warning}");
-    }
+    let warnings = printed.lines().filter(|line| line.starts_with("warning: "));
+    let warnings: Vec<_> = warnings.collect();
+    let [b, outside, one] = warnings[..] else {
+        panic!("{printed}");
+    };
+    says(b, &["b: nothing of it"]);
+    says(outside, &["20 % of samples lie outside"]);
+    says(one, &["one recording"]);
     let svg = place.text("p.svg");
     assert!(svg.contains("says too much") && svg.trim_end().ends_with("</svg>"));
 
@@ -185,10 +162,8 @@ fn evaluate_warns_and_draws() {
     line(&printed, "warning: b and a cannot be distinguished");
     place.write("test.csv", "label,trial,x,y\np,0,0,0\n");
     let printed = place.done(evaluate).stdout;
-    line(
-        &printed,
-        "warning: none of the labels is a class of the model, which knows b, a",
-    );
+    let none = "warning: none of the labels is a class of the model, which knows b, a";
+    line(&printed, none);
 }
 
 /// The module gates by what its model was trained from.
@@ -222,10 +197,8 @@ fn train_keeps_gate_and_gap_and_a_scene_agrees_with_its_model() {
         place.done(&line).stdout
     };
     assert_eq!(score("s.toml", "--gate 0.05"), score("other.toml", ""));
-    assert_ne!(
-        score("s.toml", "--gate 0.05"),
-        score("s.toml", "--gate 0.2")
-    );
+    let wider = score("s.toml", "--gate 0.2");
+    assert_ne!(score("s.toml", "--gate 0.05"), wider);
 
     // A scene that names no classifier is scored as if it had one.
     let (without, _) = text.split_once("[classifier]").unwrap();
@@ -241,36 +214,26 @@ fn a_scene_shows_an_unknown_texture() {
     let place = Place::new();
     let ran = place.done(&format!("run {scene} --out out --plot out/p.svg"));
     let decided = decisions(&place.text("out/decisions.csv"));
+    // All decisions on a texture, those that say "unknown", and those that are right.
     let of = |label: &str| {
-        decided
-            .iter()
-            .filter(|d| d.label == label)
-            .collect::<Vec<_>>()
+        let own = || decided.iter().filter(|d| d.label == label);
+        let unknown = own().filter(|d| d.decision == "unknown").count();
+        [
+            own().count(),
+            unknown,
+            own().filter(|d| d.is_right()).count(),
+        ]
     };
-    let unknown = |d: &&&Decided| d.decision == "unknown";
-    let carpet = of("carpet");
-    let noticed = carpet.iter().filter(unknown).count();
-    assert!(
-        noticed >= 20 && noticed * 100 >= carpet.len() * 95,
-        "{noticed}"
-    );
+    let [all, noticed, _] = of("carpet");
+    assert!(noticed >= 20 && noticed * 100 >= all * 95, "{noticed}");
     for label in ["smooth", "p600", "p240"] {
-        let known = of(label);
-        let refused = known.iter().filter(unknown).count();
-        assert!(
-            known.len() >= 40 && refused * 5 <= known.len(),
-            "{label}: {refused}"
-        );
-        let right = known.iter().filter(|d| d.is_right()).count();
-        assert!(
-            right * 100 >= (known.len() - refused) * 95,
-            "{label}: {right}"
-        );
+        let [known, refused, right] = of(label);
+        assert!(known >= 40 && refused * 5 <= known, "{label}: {refused}");
+        assert!(right * 100 >= (known - refused) * 95, "{label}: {right}");
     }
     let expected = format!(
-        "carpet is none of the model's classes: \"unknown\" is right, and was \
-                        decided {noticed} times of {}",
-        carpet.len()
+        "carpet is none of the model's classes: \"unknown\" is right, and was decided {noticed} \
+         times of {all}"
     );
     line(&ran.stdout, &expected);
     let rest = decided.iter().filter(|d| d.decision == "unknown").count() - noticed;
@@ -291,11 +254,8 @@ fn a_scene_of_the_papers_rule_knows_no_touches() {
     let place = Place::new();
     place.done(&format!("run {scene} --out out"));
     let decided = decisions(&place.text("out/decisions.csv"));
-    assert!(
-        decided
-            .iter()
-            .all(|d| d.touch == 0 && d.decision != "unknown")
-    );
+    let knows_none = |d: &Decided| d.touch == 0 && d.decision != "unknown";
+    assert!(decided.iter().all(knows_none));
     let share = |sum: f64| sum / decided.len() as f64;
     let stated = share(decided.iter().map(|d| d.posterior).sum());
     let right = share(decided.iter().filter(|d| d.is_right()).count() as f64);

@@ -1,6 +1,6 @@
 //! `host-sim` without arguments: trains on four textures and tells them apart.
 
-use crate::common::{Place, cells, decisions};
+use crate::common::{Place, cells, decisions, line};
 
 const TEXTURES: [&str; 4] = ["smooth", "p600", "p240", "carpet"];
 
@@ -8,10 +8,9 @@ const TEXTURES: [&str; 4] = ["smooth", "p600", "p240", "carpet"];
 fn textures_are_distinguished_as_surely_as_is_said() {
     let place = Place::new();
     let ran = place.done("");
-    let mut files: Vec<_> = std::fs::read_dir(place.path("out/bench-textures"))
-        .unwrap()
-        .map(|entry| entry.unwrap().file_name().into_string().unwrap())
-        .collect();
+    let files = std::fs::read_dir(place.path("out/bench-textures")).unwrap();
+    let files = files.map(|entry| entry.unwrap().file_name().into_string().unwrap());
+    let mut files: Vec<_> = files.collect();
     files.sort();
     let expected = [
         "bench-textures.model",
@@ -40,18 +39,10 @@ fn textures_are_distinguished_as_surely_as_is_said() {
     let right = named.clone().filter(|d| d.is_right()).count() as f64;
     let found = right / named.clone().count() as f64;
     // One run: its standard error is about half a point.
-    assert!(
-        (stated - found).abs() < 0.025,
-        "{stated} stated, {found} found"
-    );
+    assert!((stated - found).abs() < 0.025, "{stated} {found}");
 
-    let summary = ran
-        .stdout
-        .lines()
-        .find(|line| line.contains("hit rate"))
-        .unwrap();
     let expected = format!("{} decisions, hit rate {rate:.1} %", named.count());
-    assert!(summary.starts_with(&expected), "{summary}");
+    line(&ran.stdout, &expected);
     for texture in TEXTURES {
         let row = |line: &&str| line.trim_start().starts_with(&format!("{texture} |"));
         let row = ran.stdout.lines().find(row).unwrap();
@@ -59,11 +50,8 @@ fn textures_are_distinguished_as_surely_as_is_said() {
         assert_eq!(row.split_whitespace().count(), 3 + TEXTURES.len(), "{row}");
     }
     // Decisions are printed as they fall.
-    let falls = ran
-        .stdout
-        .lines()
-        .filter(|line| line.contains(" samples  "));
-    assert_eq!(falls.count(), decided.len());
+    let falls = ran.stdout.matches(" samples  ").count();
+    assert_eq!(falls, decided.len());
 
     let svg = place.text("out/bench-textures/bench-textures.svg");
     assert!(svg.trim_start().starts_with("<svg") && svg.trim_end().ends_with("</svg>"));

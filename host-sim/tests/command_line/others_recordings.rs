@@ -1,6 +1,6 @@
 //! Recordings of other people: what the page says of them is so.
 
-use crate::common::{Place, SEQUENTIAL, TEXTURED};
+use crate::common::{Place, SEQUENTIAL, TEXTURED, line, says};
 
 const PAGE: &str = include_str!("../../../docs/recordings.md");
 const TRAIN: &str = "train --tables single --data r.csv";
@@ -124,13 +124,8 @@ fn a_model_of_another_rate_is_refused_by_a_scene() {
     place.write("slow.toml", format!("{slow}{SEQUENTIAL}"));
     place.done("run slow.toml --out out");
     place.write("fast.toml", format!("{TEXTURED}{SEQUENTIAL}"));
-    place.refuses(
-        "run fast.toml --out out2",
-        &[
-            "classifier.model",
-            "1000 samples a second; the scene has tick_hz = 2000",
-        ],
-    );
+    let found = "1000 samples a second; the scene has tick_hz = 2000";
+    place.refuses("run fast.toml --out out2", &["classifier.model", found]);
 }
 
 #[test]
@@ -140,13 +135,11 @@ fn what_is_odd_is_warned_of_with_its_line() {
         place.write("r.csv", format!("# from the bench\n{table}"));
         let printed = place.done(TRAINED).stdout;
         let warning = format!("\nwarning: r.csv:{line}: ");
-        assert!(printed.contains(&warning), "no {warning}: {printed}");
-        assert!(printed.contains(message), "no {message}: {printed}");
-        assert!(PAGE.contains(message), "{message}");
+        says(&printed, &[&warning, message]);
+        says(PAGE, &[message]);
     };
-    let rows_of = |table: &str| table.lines().count();
     let table = usual();
-    let next = rows_of(&table) + 2;
+    let next = table.lines().count() + 2;
     warned(
         format!("{table}high,9,1e9,7\n"),
         &next.to_string(),
@@ -164,14 +157,9 @@ fn what_is_odd_is_warned_of_with_its_line() {
     );
     place.write("r.csv", &table);
     place.write("copy.csv", &table);
-    let printed = place
-        .done("train --data r.csv --data copy.csv --out m")
-        .stdout;
-    assert!(
-        printed.contains("warning: r.csv:2: 100 % of trial"),
-        "{printed}"
-    );
-    assert!(printed.contains("in copy.csv too"), "{printed}");
+    let printed = place.done("train --data r.csv --data copy.csv --out m");
+    let copied = ["warning: r.csv:2: 100 % of trial", "in copy.csv too"];
+    says(&printed.stdout, &copied);
     assert!(!place.done(TRAINED).stdout.contains("warning"));
 }
 
@@ -184,10 +172,7 @@ fn one_outlier_changes_no_decision() {
         place.write("test.csv", usual());
         place.done(TRAINED);
         let printed = place.done("evaluate --model m --data test.csv").stdout;
-        printed
-            .lines()
-            .find(|line| line.starts_with("hit rate"))
-            .map(str::to_owned)
+        line(&printed, "hit rate").to_owned()
     };
     let usual = usual();
     let outlier = format!("{usual}high,2,4294967295,7\n");
@@ -226,13 +211,9 @@ fn a_hit_rate_says_which_classes_it_leaves_out() {
     );
     let printed = place.done("evaluate --model m --data short.csv").stdout;
     let over = "(mean over classes without high: no decision names a class there)";
-    assert!(printed.contains(over), "{printed}");
-    let over = over.replace("high", "felt");
-    assert!(PAGE.contains(&over), "{over}");
+    says(&printed, &[over]);
+    says(PAGE, &[&over.replace("high", "felt")]);
     let classify = "classify --model m --data short.csv --rule window --window 20 --out d.csv";
     let printed = place.done(classify).stdout;
-    assert!(
-        printed.contains("left out, nothing was decided on: high"),
-        "{printed}"
-    );
+    says(&printed, &["left out, nothing was decided on: high"]);
 }

@@ -3,11 +3,11 @@
 
 use std::os::unix::fs::{FileTypeExt, symlink};
 use std::os::unix::process::ExitStatusExt;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
 
-use crate::common::{IDEAL, Place, RECORDING, SEQUENTIAL, TEXTURED, decisions, model};
+use crate::common::{Place, RECORDING, SEQUENTIAL, TEXTURED, decisions, model};
 
 /// Every command that writes, up to the name of its output.
 const COMMANDS: [&str; 5] = [
@@ -18,10 +18,9 @@ const COMMANDS: [&str; 5] = [
     "evaluate --model m --data r.csv --plot",
 ];
 
-fn place() -> Place {
-    let place = Place::with(&[("s.toml", IDEAL), ("r.csv", RECORDING)]);
-    place.write("m", model(2, 20, true));
-    place
+/// A scene that would take hours.
+fn long() -> String {
+    format!("{TEXTURED}{SEQUENTIAL}").replace("duration_s = 0.5", "duration_s = 1e5")
 }
 
 fn fifo(place: &Place, name: &str) -> PathBuf {
@@ -42,7 +41,7 @@ fn refused(place: &Place, line: &str, naming: &str) {
 
 #[test]
 fn pipes_links_and_folders_are_refused_and_stay_what_they_are() {
-    let place = place();
+    let place = Place::usual();
     let pipe = fifo(&place, "pipe.svg");
     symlink(place.path("r.csv"), place.path("link.svg")).unwrap();
     symlink(place.path("nowhere"), place.path("dangling.svg")).unwrap();
@@ -57,15 +56,10 @@ fn pipes_links_and_folders_are_refused_and_stay_what_they_are() {
             refused(&place, &format!("{command} {name}"), naming);
         }
     }
-    assert!(
-        std::fs::symlink_metadata(pipe)
-            .unwrap()
-            .file_type()
-            .is_fifo()
-    );
+    let is = |path: &Path| std::fs::symlink_metadata(path).unwrap().file_type();
+    assert!(is(&pipe).is_fifo());
     for link in ["link.svg", "dangling.svg"] {
-        let found = std::fs::symlink_metadata(place.path(link)).unwrap();
-        assert!(found.file_type().is_symlink());
+        assert!(is(&place.path(link)).is_symlink());
     }
     assert!(!place.path("nowhere").exists());
     assert_eq!(place.text("r.csv"), RECORDING);
@@ -74,12 +68,10 @@ fn pipes_links_and_folders_are_refused_and_stay_what_they_are() {
 #[cfg(target_os = "linux")]
 #[test]
 fn a_device_is_refused_and_stays_one() {
-    let place = place();
+    let place = Place::usual();
     for device in ["/dev/full", "/dev/null"] {
-        for command in COMMANDS
-            .into_iter()
-            .filter(|command| !command.ends_with("--plot"))
-        {
+        let to_tables = COMMANDS.into_iter();
+        for command in to_tables.filter(|command| !command.ends_with("--plot")) {
             let naming = format!("{device}: is a device");
             refused(&place, &format!("{command} {device}"), &naming);
         }
@@ -92,10 +84,8 @@ fn a_device_is_refused_and_stays_one() {
 
 #[test]
 fn files_of_a_run_are_refused_before_it() {
-    let place = place();
-    // Would take hours.
-    let long = format!("{TEXTURED}{SEQUENTIAL}").replace("duration_s = 0.5", "duration_s = 1e5");
-    place.write("s.toml", long);
+    let place = Place::usual();
+    place.write("s.toml", long());
     place.write("the.model", model(2, 20, true));
     for name in ["trace.csv", "decisions.csv", "trace.png", "trace.svg"] {
         let folder = name.replace('.', "-");
@@ -111,7 +101,7 @@ fn files_of_a_run_are_refused_before_it() {
 
 #[test]
 fn standard_output_has_a_table_and_nothing_else() {
-    let place = place();
+    let place = Place::usual();
     place.done("record s.toml --out recorded.csv");
     let ran = place.run("record s.toml --out -");
     assert_eq!(ran.status, Some(0));
@@ -152,9 +142,7 @@ fn ignores(id: &str, signal: i32) -> bool {
 #[test]
 fn an_interrupt_leaves_what_was_there_and_nothing_half_written() {
     for (signal, number) in [("HUP", 1), ("INT", 2), ("TERM", 15)] {
-        let long =
-            format!("{TEXTURED}{SEQUENTIAL}").replace("duration_s = 0.5", "duration_s = 1e5");
-        let place = Place::with(&[("s.toml", &long), ("out/trace.csv", "older")]);
+        let place = Place::with(&[("s.toml", &long()), ("out/trace.csv", "older")]);
         place.write("the.model", model(2, 20, true));
         let before = place.content();
         let mut command = place.command("run s.toml --out out");
@@ -164,10 +152,7 @@ fn an_interrupt_leaves_what_was_there_and_nothing_half_written() {
         // In mid-run: some of the trace is on the disk.
         let since = Instant::now();
         while !partial(&place).iter().any(|(_, size)| *size > 1_000_000) {
-            assert!(
-                since.elapsed() < Duration::from_mins(1),
-                "nothing is written"
-            );
+            assert!(since.elapsed().as_secs() < 60, "nothing is written");
             std::thread::sleep(Duration::from_millis(10));
         }
         if ignores(&id, number) {

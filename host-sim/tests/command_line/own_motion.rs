@@ -6,28 +6,19 @@ use crate::common::Place;
 fn refused(scene: &str) -> (usize, usize) {
     let scenes = concat!(env!("CARGO_MANIFEST_DIR"), "/../scenes");
     let place = Place::new();
-    place.done(&format!(
-        "record {scenes}/{scene}.toml --seed 101 --set duration_s=20 --out fresh.csv"
-    ));
-    let said = place.done(&format!(
-        "evaluate --model {scenes}/models/{scene}.model --data fresh.csv"
-    ));
-    let rows = said
-        .stdout
-        .lines()
-        .skip(1)
-        .map_while(|row| row.split_once('|'));
-    let counts = |cells: &str| -> Vec<usize> {
+    let record = format!("record {scenes}/{scene}.toml --seed 101 --set duration_s=20");
+    place.done(&format!("{record} --out fresh.csv"));
+    let model = format!("{scenes}/models/{scene}.model");
+    let said = place.done(&format!("evaluate --model {model} --data fresh.csv"));
+    let rows = said.stdout.lines().skip(1);
+    let (mut refused, mut all) = (0, 0);
+    for (_, cells) in rows.map_while(|row| row.split_once('|')) {
         let cells = cells.split_whitespace();
-        cells.map(|cell| cell.parse().unwrap()).collect()
-    };
-    let each = rows.map(|(_, cells)| counts(cells));
-    each.fold((0, 0), |(refused, all), row| {
-        (
-            refused + row.last().unwrap(),
-            all + row.iter().sum::<usize>(),
-        )
-    })
+        let counts: Vec<usize> = cells.map(|cell| cell.parse().unwrap()).collect();
+        refused += counts.last().unwrap();
+        all += counts.iter().sum::<usize>();
+    }
+    (refused, all)
 }
 
 /// With the main job's model CIA's faster whisk was refused in a quarter to two thirds.

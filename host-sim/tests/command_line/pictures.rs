@@ -1,6 +1,6 @@
 //! The picture that a run leaves.
 
-use crate::common::{IDEAL, Place, SEQUENTIAL, TEXTURED, model};
+use crate::common::{IDEAL, Place, says};
 
 /// Width, height and bytes of a picture of pixels, three a pixel.
 fn pixels(file: Vec<u8>) -> (usize, usize, Vec<u8>) {
@@ -15,9 +15,8 @@ fn pixels(file: Vec<u8>) -> (usize, usize, Vec<u8>) {
 
 /// One whose curves go far, and one whose class names are long.
 fn place() -> Place {
-    let scene = format!("{TEXTURED}{SEQUENTIAL}");
-    let place = Place::with(&[("s.toml", &scene), ("ideal.toml", IDEAL)]);
-    place.write("the.model", model(2, 20, true));
+    let place = Place::classifying();
+    place.write("ideal.toml", IDEAL);
     place
 }
 
@@ -26,21 +25,16 @@ fn a_run_leaves_its_picture_with_axes_and_legend() {
     let place = place();
     place.done("run s.toml --out out");
     let svg = place.text("out/trace.svg");
-    for text in [
-        "textured",
-        "time, s",
+    let panels = [
         "angle θ′, degrees",
         "sensor, codes",
         "contact π, z",
         "class",
-        "setpoint",
-        "suppression z",
-        "presented",
-        "decision: right",
-        "unknown",
-    ] {
-        assert!(svg.contains(text), "{text}");
-    }
+    ];
+    let legend = ["setpoint", "suppression z", "presented", "decision: right"];
+    says(&svg, &panels);
+    says(&svg, &legend);
+    says(&svg, &["textured", "time, s", "unknown"]);
     assert!(!svg.contains("right side"), "there is none");
     place.done("run ideal.toml --out out");
     let both = place.text("out/trace.svg");

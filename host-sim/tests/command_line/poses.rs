@@ -2,7 +2,7 @@
 
 use tactile::{ModelBuf, Whisked};
 
-use crate::common::{Place, TEXTURED};
+use crate::common::{Place, TEXTURED, line, says};
 
 fn recorded(places_deg: &[u32]) -> Place {
     let place = Place::new();
@@ -16,16 +16,16 @@ fn recorded(places_deg: &[u32]) -> Place {
     place
 }
 
+fn recorded_long(place: &Place) {
+    let long = TEXTURED.replace("duration_s = 0.5", "duration_s = 6.0");
+    place.write("long.toml", long);
+    place.done("record long.toml --out long.csv");
+}
+
 fn trained(place: &Place, data: &[&str], options: &str) -> String {
     let data: Vec<_> = data.iter().map(|name| format!("--data {name}")).collect();
     let line = format!("train {} --out the.model {options}", data.join(" "));
     place.done(&line).stdout
-}
-
-#[track_caller]
-fn has(printed: &str, line: &str) {
-    let found = printed.lines().any(|of| of.starts_with(line));
-    assert!(found, "no {line:?} in {printed}");
 }
 
 fn evaluated(place: &Place, model: &str) -> String {
@@ -38,14 +38,14 @@ fn several_poses_are_held_out_and_one_is_recommended() {
     let place = recorded(&[76, 78, 80, 82, 84]);
     let names = ["at76.csv", "at78.csv", "at80.csv", "at82.csv", "at84.csv"];
     let of_files = trained(&place, &names, "");
-    let line = "trained in 5 poses: names by itself between them";
-    has(&of_files, line);
+    let trained_in = "trained in 5 poses: names by itself between them";
+    line(&of_files, trained_in);
     for name in names {
-        has(&of_files, &format!("{name}: decided "));
+        line(&of_files, &format!("{name}: decided "));
     }
-    has(&of_files, "least decided: at");
+    line(&of_files, "least decided: at");
     assert!(of_files.contains("between it and its neighbours would help "));
-    has(&evaluated(&place, "the.model"), line);
+    line(&evaluated(&place, "the.model"), trained_in);
 
     // The same as values of a column.
     let mut table = String::from("label,trial,x,y,contact,touch,pose\n");
@@ -56,43 +56,33 @@ fn several_poses_are_held_out_and_one_is_recommended() {
     }
     place.write("all.csv", table);
     let of_column = trained(&place, &["all.csv"], "");
-    has(&of_column, line);
-    has(&of_column, "pose of at76.csv: decided ");
-    assert!(
-        !of_column.contains("all is of one recording"),
-        "{of_column}"
-    );
+    line(&of_column, trained_in);
+    line(&of_column, "pose of at76.csv: decided ");
+    let one = "all is of one recording";
+    assert!(!of_column.contains(one), "{of_column}");
     // Beside a file that is a pose itself.
     let both = trained(&place, &["all.csv", "at80.csv"], "");
-    has(&both, "trained in 6 poses");
-    has(&both, "all.csv, pose of at84.csv: decided ");
+    line(&both, "trained in 6 poses");
+    line(&both, "all.csv, pose of at84.csv: decided ");
 
     // Three are too few to leave one out.
     let three = trained(&place, &names[..3], "");
-    has(
-        &three,
-        "trained in 3 poses: names by itself between them; train with a fourth",
-    );
+    let few = "trained in 3 poses: names by itself between them; train with a fourth";
+    line(&three, few);
 }
 
 #[test]
 fn a_pose_without_a_class_is_none() {
     let place = recorded(&[76, 78, 80, 82]);
-    let of_smooth = |row: &&str| !row.starts_with("carpet");
-    let rows: Vec<String> = place
-        .text("at82.csv")
-        .lines()
-        .filter(of_smooth)
-        .map(str::to_owned)
-        .collect();
-    place.write("lacking.csv", rows.join("\n"));
+    let text = place.text("at82.csv");
+    let rows = text.lines().filter(|row| !row.starts_with("carpet"));
+    place.write("lacking.csv", rows.collect::<Vec<_>>().join("\n"));
     let names = ["at76.csv", "at78.csv", "at80.csv", "lacking.csv"];
     let said = trained(&place, &names, "");
-    has(&said, "trained in 3 poses");
-    has(
-        &said,
-        "warning: lacking.csv: not used as a pose of its own, 0 touches of carpet, and it needs 4",
-    );
+    line(&said, "trained in 3 poses");
+    let lacking =
+        "warning: lacking.csv: not used as a pose of its own, 0 touches of carpet, and it needs 4";
+    line(&said, lacking);
 }
 
 #[test]
@@ -101,26 +91,28 @@ fn one_pose_is_said_to_be_one() {
     let honest = "trained in one pose: honest there only";
     let too_few = "warning: no second opinion: too few touches of smooth: ";
     let said = trained(&place, &["at80.csv"], "");
-    has(&said, honest);
-    has(&said, too_few);
+    line(&said, honest);
+    line(&said, too_few);
     let said = trained(&place, &["at80.csv"], "--expect same");
-    has(&said, honest);
+    line(&said, honest);
     assert!(!said.contains("no second opinion"), "{said}");
 
-    let long = TEXTURED.replace("duration_s = 0.5", "duration_s = 6.0");
-    place.write("long.toml", long);
-    place.done("record long.toml --out long.csv");
+    recorded_long(&place);
     let said = trained(&place, &["long.csv"], "");
-    has(&said, "trained in 1 pose: honest in it, silent elsewhere");
-    let line = "trained in one pose or two: honest there, silent elsewhere";
+    line(&said, "trained in 1 pose: honest in it, silent elsewhere");
     let said = evaluated(&place, "the.model");
-    has(&said, line);
+    line(
+        &said,
+        "trained in one pose or two: honest there, silent elsewhere",
+    );
     // What the second opinion costs: beside it stands what is without.
     trained(&place, &["long.csv"], "--expect same");
     let same = evaluated(&place, "the.model");
-    let found = same.lines().find_map(|line| line.strip_prefix("found"));
-    let without = format!("without: right {}, stated", found.unwrap().trim());
-    assert!(said.contains(&without), "no {without:?} in {said}");
+    let (_, found) = line(&same, "found").split_at(5);
+    says(
+        &said,
+        &[&format!("without: right {}, stated", found.trim())],
+    );
     assert!(!same.contains("second opinion"), "{same}");
 }
 
@@ -130,20 +122,16 @@ fn older_models_are_told_apart() {
     let models = concat!(env!("CARGO_MANIFEST_DIR"), "/../tests/data/older");
     let single = "train --data at80.csv --tables single --out single.model";
     place.done(single);
-    let line = "trained at one pose; honest there only";
-    has(&evaluated(&place, "single.model"), line);
-    has(
-        &evaluated(&place, &format!("{models}/textures.model")),
-        line,
-    );
+    for model in ["single.model", &format!("{models}/textures.model")] {
+        let said = evaluated(&place, model);
+        line(&said, "trained at one pose; honest there only");
+    }
 }
 
 #[test]
 fn a_model_keeps_how_its_scene_whisks() {
     let place = recorded(&[80]);
-    let long = TEXTURED.replace("duration_s = 0.5", "duration_s = 6.0");
-    place.write("long.toml", long);
-    place.done("record long.toml --out long.csv");
+    recorded_long(&place);
     let whisked = |options: &str| {
         trained(&place, &["long.csv"], options);
         let model = ModelBuf::from_bytes(&place.bytes("the.model")).unwrap();

@@ -1,12 +1,6 @@
 //! Arguments that are wrong: status 2, a message, and nothing written.
 
-use crate::common::{IDEAL, Place, RECORDING, TEXTURED, model};
-
-fn place() -> Place {
-    let place = Place::with(&[("r.csv", RECORDING), ("s.toml", IDEAL)]);
-    place.write("m", model(2, 20, true));
-    place
-}
+use crate::common::{Place, TEXTURED};
 
 const TRAIN: &str = "train --data r.csv";
 /// Trains if it may write.
@@ -15,7 +9,7 @@ const CLASSIFY: &str = "classify --model m --data r.csv";
 
 #[test]
 fn training_options_out_of_range() {
-    let place = place();
+    let place = Place::usual();
     for (option, values) in [
         ("--bins", "0 4097 100000 -3 many"),
         ("--smooth", "-1 NaN inf 4097 wide"),
@@ -38,22 +32,23 @@ fn training_options_out_of_range() {
             place.refuses(&score, &[option, value]);
         }
     }
-    place.refuses_to_write(&format!("{SINGLE} --gap 0.1"), &["--gap", "joint"]);
-    place.refuses_to_write(&format!("{SINGLE} --plot p.svg"), &["--plot", "evaluate"]);
-    place.refuses_to_write(&format!("{TRAIN} --plot p.png"), &["--plot", ".svg"]);
-    place.refuses_to_write(&format!("{TRAIN} --rate 0"), &["--rate"]);
-    place.refuses_to_write(
-        &format!("{TRAIN} --unknown mud"),
-        &["--unknown", "high, low"],
-    );
-    place.refuses_to_write(&format!("{TRAIN} --bins 1"), &["--bins", "2 to 128"]);
-    place.refuses_to_write(&format!("{TRAIN} --tables some"), &["joint", "single"]);
-    place.refuses_to_write(&format!("{TRAIN} --bins="), &["--bins"]);
+    for (options, naming) in [
+        (format!("{SINGLE} --gap 0.1"), ["--gap", "joint"]),
+        (format!("{SINGLE} --plot p.svg"), ["--plot", "evaluate"]),
+        (format!("{TRAIN} --plot p.png"), ["--plot", ".svg"]),
+        (format!("{TRAIN} --rate 0"), ["--rate", "above 0"]),
+        (format!("{TRAIN} --unknown mud"), ["--unknown", "high, low"]),
+        (format!("{TRAIN} --bins 1"), ["--bins", "2 to 128"]),
+        (format!("{TRAIN} --tables some"), ["joint", "single"]),
+        (format!("{TRAIN} --bins="), ["--bins", ""]),
+    ] {
+        place.refuses_to_write(&options, &naming);
+    }
 }
 
 #[test]
 fn rules_that_no_one_can_follow() {
-    let place = place();
+    let place = Place::usual();
     let refuses = |rule: &str, naming: &[&str]| {
         place.refuses_to_write(&format!("{CLASSIFY} --rule {rule}"), naming);
     };
@@ -73,7 +68,7 @@ fn rules_that_no_one_can_follow() {
 
 #[test]
 fn wishes_that_no_threshold_fulfils() {
-    let place = place();
+    let place = Place::usual();
     let evaluate = "evaluate --model m --data r.csv";
     for (option, values) in [
         ("--threshold", "0 1 nan p"),
@@ -92,7 +87,7 @@ fn wishes_that_no_threshold_fulfils() {
 
 #[test]
 fn scores_of_nothing() {
-    let place = place();
+    let place = Place::usual();
     place.write("t.toml", TEXTURED);
     for (line, naming) in [
         ("s.toml --seeds 5..9", &["s.toml: ", "no textures"][..]),
@@ -122,7 +117,7 @@ fn scores_of_nothing() {
 /// What is in the way of the output is named.
 #[test]
 fn outputs_that_cannot_be() {
-    let place = place();
+    let place = Place::usual();
     place.write("file", "not a folder");
     place.write("folder/old", "older");
     place.write("taken/trace.csv/old", "older");
@@ -149,7 +144,7 @@ fn outputs_that_cannot_be() {
 #[cfg(target_os = "linux")]
 #[test]
 fn places_that_cannot_be_written_to() {
-    let place = place();
+    let place = Place::usual();
     let ran = place.run(&format!("{SINGLE} --out /proc/none/m"));
     assert_eq!(ran.status, Some(1), "{ran:?}");
     assert!(ran.stderr.contains("/proc/none/m"), "{ran:?}");

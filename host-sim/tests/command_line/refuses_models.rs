@@ -40,10 +40,9 @@ fn models_for_something_else() {
         refused_by_both(&model(channels, 20, true), &naming);
     }
     // Of other textures: every decision would be wrong.
-    let place = place();
+    let place = Place::classifying();
     let other = TEXTURED.replace("[\"smooth\", \"carpet\"]", "[\"p600\", \"p240\"]");
     place.write("s.toml", format!("{other}{SEQUENTIAL}"));
-    place.write("the.model", model(2, 20, true));
     let naming = [
         "s.toml:27: classifier.model: found the classes smooth, carpet",
         "p600, p240",

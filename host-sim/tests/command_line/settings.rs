@@ -1,16 +1,10 @@
 //! Keys and seeds in place of the scene file's: `--set`, `--seed`, and `sweep` over them.
 
-use crate::common::{IDEAL, Place, SEQUENTIAL, TEXTURED, cells, decisions, model};
-
-fn classifying() -> Place {
-    let place = Place::with(&[("s.toml", &format!("{TEXTURED}{SEQUENTIAL}"))]);
-    place.write("the.model", model(2, 20, true));
-    place
-}
+use crate::common::{IDEAL, Place, cells, decisions, numbers, says};
 
 #[test]
 fn a_run_is_as_if_the_file_said_so() {
-    let place = classifying();
+    let place = Place::classifying();
     let scene = place.text("s.toml");
     let changed = scene
         .replace("seed = 1", "seed = 7")
@@ -35,19 +29,12 @@ fn a_run_is_as_if_the_file_said_so() {
 
 #[test]
 fn a_sweep_has_a_row_a_run_and_each_is_that_of_run() {
-    let place = classifying();
+    let place = Place::classifying();
     let axes = "--key plant.obstacle_deg=[75.0],[80.0] --key classifier.threshold=0.8,0.9";
     let ran = place.run(&format!("sweep s.toml {axes} --seeds 3..5 --out sweep.csv"));
     assert_eq!(ran.status, Some(0), "{ran:?}");
-    assert!(
-        ran.stderr
-            .contains("4 settings, 8 runs, 4 s of simulated time"),
-        "{ran:?}"
-    );
-    assert!(
-        ran.stdout.contains("sweep.csv: 8 runs of 4 settings"),
-        "{ran:?}"
-    );
+    says(&ran.stderr, &["4 settings, 8 runs, 4 s of simulated time"]);
+    says(&ran.stdout, &["sweep.csv: 8 runs of 4 settings"]);
     let text = place.text("sweep.csv");
     let rows = cells(&text);
     assert_eq!(
@@ -87,24 +74,17 @@ fn a_sweep_has_a_row_a_run_and_each_is_that_of_run() {
     let piped = place.run(&format!("sweep s.toml {axes} --seeds 3..5 --quiet --out -"));
     assert_eq!(piped.stdout, text);
     place.run("sweep s.toml --out own.csv");
-    assert_eq!(
-        cells(&place.text("own.csv"))[1][0],
-        "1",
-        "the scene's own seed"
-    );
+    let own = place.text("own.csv");
+    assert_eq!(cells(&own)[1][0], "1", "the scene's own seed");
 }
 
 /// Of the left side, from the columns of a trace.
 fn tracking_rms_deg(trace: &str) -> f64 {
     let rows = cells(trace);
-    let column = |name: &str| rows[0].iter().position(|title| *title == name).unwrap();
-    let (theta, angle) = (column("theta_left_deg"), column("angle_left_deg"));
-    let number = |cell: &str| cell.parse::<f64>().unwrap();
-    let errors = rows[1..]
-        .iter()
-        .map(|row| number(row[angle]) - number(row[theta]));
+    let [theta, angle] = ["theta_left_deg", "angle_left_deg"].map(|name| numbers(&rows, name));
+    let errors = theta.iter().zip(&angle).map(|(theta, angle)| angle - theta);
     let squares: f64 = errors.map(|error| error * error).sum();
-    (squares / (rows.len() - 1) as f64).sqrt()
+    (squares / theta.len() as f64).sqrt()
 }
 
 #[test]

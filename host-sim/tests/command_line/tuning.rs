@@ -53,12 +53,8 @@ fn seen(run: &mut Run) -> (Vec<u64>, Vec<String>) {
         let fault = (3_000..3_100).contains(&tick).then_some(WireFault::Frozen);
         run.slave_mut(0).unwrap().set_fault(fault);
         let row = run.tick();
-        rows.extend(
-            row.pairs()
-                .as_flattened()
-                .iter()
-                .map(|value| value.to_bits()),
-        );
+        let pairs = row.pairs();
+        rows.extend(pairs.as_flattened().iter().map(|value| value.to_bits()));
         events.extend(run.events().iter().map(|event| format!("{event:?}")));
     }
     (rows, events)
@@ -77,6 +73,10 @@ fn answers(run: &mut Run, commands: &[Command]) -> Vec<Answer> {
         }));
     }
     answers
+}
+
+fn is_done(answer: &Answer) -> bool {
+    answer.status == CommandStatus::Done
 }
 
 fn answer(run: &mut Run, commands: &[Command]) -> (CommandStatus, [i32; 2]) {
@@ -236,11 +236,7 @@ fn a_frequency_takes_effect_at_once() {
         let new = scene(numbers, &[free, "whisking.frequency_hz=5"]);
         let mut tuned = run(&old);
         let answered = answers(&mut tuned, &requests(&bytes_of(&new)));
-        assert!(
-            answered
-                .iter()
-                .all(|answer| answer.status == CommandStatus::Done)
-        );
+        assert!(answered.iter().all(is_done));
         assert_eq!(running(&mut tuned), (bytes_of(&new).to_vec(), true));
         // From two seconds on: homed, and on its circle.
         let theta: Vec<f64> = (0..14_000).map(|_| tuned.tick().theta_deg[0]).collect();
@@ -249,14 +245,10 @@ fn a_frequency_takes_effect_at_once() {
             [f64::min, f64::max].map(|end| theta.iter().copied().reduce(end).unwrap());
         assert!(high - low > 20.0, "{numbers}: {low} to {high}");
         let middle = low + (high - low) / 2.0;
-        let rises = theta
-            .windows(2)
-            .filter(|two| two[0] < middle && two[1] >= middle);
+        let pairs = theta.windows(2);
+        let rises = pairs.filter(|two| two[0] < middle && two[1] >= middle);
         let rises = rises.count();
-        assert!(
-            (24..=26).contains(&rises),
-            "{numbers}: {rises} whisks in 5 s"
-        );
+        assert!((24..=26).contains(&rises), "{numbers}: {rises} in 5 s");
     }
 }
 
@@ -362,11 +354,7 @@ fn a_request_may_be_repeated_and_the_difference_is_shown() {
     let mut after = |commands: Vec<Command>| {
         let twice: Vec<_> = commands.iter().flat_map(|one| [*one; 2]).collect();
         let answered = answers(&mut module, &twice);
-        assert!(
-            answered
-                .iter()
-                .all(|answer| answer.status == CommandStatus::Done)
-        );
+        assert!(answered.iter().all(is_done));
         running(&mut module)
     };
     assert_eq!(after(vec![Command::Forget]), (from.clone(), false));
