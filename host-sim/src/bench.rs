@@ -9,7 +9,7 @@ mod sensor;
 use config::{Mismatch, NumberFormat, RunsOn, Target};
 use firmware::{
     Command, Config, Event, ModelState, Module, NoActiveWhisker, NotDone, Packet, Perception,
-    Place, Refusal, ServoState, Whisker, WhiskerParts,
+    Refusal, Whisker, WhiskerParts,
 };
 use scene::{Scene, SensorSection};
 use tactile::ClassList;
@@ -112,28 +112,25 @@ pub trait HostModule: Bench + Send {
 
     /// Has requests go to this board of several, and takes what that has sent; at first the one with
     /// number 0.
-    fn talk_with(&mut self, _board: usize) {}
+    fn talk_with(&mut self, board: usize);
 
     /// Has another board of its head carry out `request`; whether it has one of that number.
-    fn request_of(&mut self, _board: usize, _request: TaggedCommand) -> bool {
-        false
-    }
+    fn request_of(&mut self, board: usize, request: TaggedCommand) -> bool;
 
     /// What it has sent since the last call, and answers of other boards.
     fn take_packets(&mut self) -> Vec<Packet>;
 
     /// The bus of a head of several boards; none where one board has all whiskers.
-    fn bus(&mut self) -> Option<&mut Bus> {
-        None
-    }
+    fn bus(&mut self) -> Option<&mut Bus>;
 }
 
+/// A board of a head, or the one that has all its whiskers.
 struct Hosted<R: Number> {
     module: Module<R, Mock>,
     config: Config<R>,
     built_with: Config<R>,
     sensor: SensorSection,
-    /// Which board of its head it is.
+    /// Which board of its head it is; 0 of the only one.
     number: u8,
     line: Line,
 }
@@ -157,12 +154,6 @@ impl<R: Number> Hosted<R> {
         }
     }
 
-    fn place(&self, n: usize) -> Option<Place> {
-        self.module.whiskers().get(n).map(Whisker::place)
-    }
-}
-
-impl<R: Number> Bench for Hosted<R> {
     fn tick(&mut self, events: &mut Vec<Event>) {
         if let Some(perception) = self.module.perception_mut() {
             perception.classifier_mut().samples.fill(None);
@@ -174,91 +165,20 @@ impl<R: Number> Bench for Hosted<R> {
         self.line.tick_ends(&self.module, &self.config);
     }
 
-    fn look(&mut self, snapshot: &mut Snapshot) {
-        let each = usize::from(self.config.head.whiskers_per_side);
-        let sides = usize::from(self.config.head.sides);
-        if let Some(perception) = self.module.perception() {
-            for (side, place) in snapshot.touch.iter_mut().take(sides).enumerate() {
-                *place = perception.touching(side * each).number;
-            }
-        }
-        let contact = self.module.contact();
-        for (place, pi) in snapshot.contact.iter_mut().take(sides).zip(contact) {
-            *place = pi.to_f64();
-        }
-        self.look_at_setpoints(&mut snapshot.theta_deg);
-        let Some(motion) = self.module.motion() else {
-            return;
-        };
-        let state = motion.state();
-        for (place, side) in snapshot.z.iter_mut().zip(&state.sides) {
-            *place = side.z.value.to_f64();
-        }
-        let firsts = state.whiskers.iter().step_by(each.max(1));
-        for (place, whisker) in snapshot.g.iter_mut().zip(firsts) {
-            *place = whisker.gain();
-        }
-    }
-
-    fn slave_mut(&mut self, n: usize) -> Option<&mut Slave> {
-        self.sensor_mut(n)?.slave_mut()
-    }
-
-    fn tmag_mut(&mut self, n: usize) -> Option<&mut TmagSlave> {
-        self.sensor_mut(n)?.tmag_mut()
-    }
-
-    fn bend(&mut self, n: usize, deflection: [f64; 2]) {
-        if let Some(sensor) = self.sensor_mut(n) {
-            sensor.bend(deflection);
-        }
-    }
-
-    fn felt_by(&self, n: usize) -> Option<f64> {
-        let whisker = self.module.whiskers().get(n)?;
-        Some(whisker.felt().to_f64())
-    }
-
-    fn is_homing(&self, n: usize) -> bool {
-        let servo = self.module.whiskers().get(n).and_then(Whisker::servo);
-        servo.is_some_and(|servo| matches!(servo.state(), ServoState::Homing(_)))
-    }
-}
-
-impl<R: Number> HostModule for Hosted<R>
-where
-    Self: Send,
-{
-    fn restart(&mut self, seed: u64, pins: Vec<Pins>) -> Result<(), Error> {
-        self.begin_again(seed, pins)
-    }
-
     fn command(&mut self, n: usize, command: Command<f64>) -> Result<(), NotDone> {
-        let place = self.place(n).ok_or(NoActiveWhisker)?;
+        let place = self.module.whiskers().get(n).map(Whisker::place);
         let command = match command {
             Command::Gain(gain) => Command::Gain(R::from_f64(gain)),
             Command::Setpoint(theta) => Command::Setpoint(theta.map(R::from_f64)),
             Command::Clear => Command::Clear,
             Command::Home => Command::Home,
         };
-        self.module.command(place, command)
-    }
-
-    fn arm(&mut self, is_armed: bool) {
-        self.module.arm(is_armed);
-    }
-
-    fn tap(&mut self) -> Option<&mut Tap> {
-        Some(self.module.perception_mut()?.classifier_mut())
+        self.module.command(place.ok_or(NoActiveWhisker)?, command)
     }
 
     fn request(&mut self, request: TaggedCommand) {
         let (line, module) = (&mut self.line, &mut self.module);
         line.carry_out(module, &mut self.config, request);
-    }
-
-    fn take_packets(&mut self) -> Vec<Packet> {
-        self.line.take()
     }
 }
 
@@ -318,14 +238,25 @@ pub fn heard(scene: &Scene) -> usize {
 /// scene's position control is unstable.
 pub fn build(
     scene: &Scene,
-    pins: Vec<Pins>,
+    pins: &[Pins],
     classifier: Option<Classifier>,
 ) -> Result<Box<dyn HostModule>, Error> {
     match config::in_simulation(scene) {
-        NumberFormat::Double => hosted::<f64>(scene, pins, classifier),
-        NumberFormat::Fixed => hosted::<Fix>(scene, pins, classifier),
-        NumberFormat::Single => hosted::<f32>(scene, pins, classifier),
+        NumberFormat::Double => head::<f64>(scene, pins, classifier),
+        NumberFormat::Fixed => head::<Fix>(scene, pins, classifier),
+        NumberFormat::Single => head::<f32>(scene, pins, classifier),
     }
+}
+
+fn head<R: Number>(
+    scene: &Scene,
+    pins: &[Pins],
+    classifier: Option<Classifier>,
+) -> Result<Box<dyn HostModule>, Error>
+where
+    Hosted<R>: Send + 'static,
+{
+    Ok(Box::new(Head::<R>::new(scene, pins, classifier)?))
 }
 
 fn broken(mismatch: Mismatch) -> Error {
@@ -358,23 +289,6 @@ pub fn config_of<R: Number>(
         overrides,
     };
     config::build(scene, target).map_err(broken)
-}
-
-fn hosted<R: Number>(
-    scene: &Scene,
-    pins: Vec<Pins>,
-    classifier: Option<Classifier>,
-) -> Result<Box<dyn HostModule>, Error>
-where
-    Hosted<R>: Send + 'static,
-{
-    match scene.head.nodes {
-        None => Ok(Box::new(Hosted::<R>::new(scene, 0, pins, classifier)?)),
-        Some(nodes) => {
-            let head = Head::<R>::new(scene, nodes, &pins, classifier.as_ref())?;
-            Ok(Box::new(head))
-        }
-    }
 }
 
 impl<R: Number> Hosted<R> {
@@ -412,7 +326,7 @@ impl<R: Number> Hosted<R> {
     }
 
     /// See [`HostModule::restart`].
-    fn begin_again(&mut self, seed: u64, pins: Vec<Pins>) -> Result<(), Error> {
+    fn restart(&mut self, seed: u64, pins: Vec<Pins>) -> Result<(), Error> {
         self.config.clone_from(&self.built_with);
         if let Some(motion) = &mut self.config.motion {
             motion.seed = seed;

@@ -72,7 +72,7 @@ impl Run {
         let (world, pins) = World::wired(scene, pwm_counts)?;
         let classes = classifier.as_ref().map(Classifier::classes);
         let classes = classes.unwrap_or_default().to_vec();
-        let bench = bench::build(scene, pins, classifier)?;
+        let bench = bench::build(scene, &pins, classifier)?;
         Ok(Self::of(scene, bench, classes, world))
     }
 

@@ -12,7 +12,6 @@
 pub mod bayes;
 pub mod butterworth;
 pub mod euler;
-pub mod ode;
 pub mod recording;
 
 /// Limit of |ψ| after each forward Euler step (text below BIOTACT eq. 2).
@@ -140,7 +139,7 @@ impl Settings {
 ///
 /// The direction of ψ is undefined at r = 0, an unstable point; no radial
 /// drive is applied there.
-pub fn oscillator_rate(settings: &Settings, psi: [[f64; 2]; 2]) -> [[f64; 2]; 2] {
+pub(crate) fn oscillator_rate(settings: &Settings, psi: [[f64; 2]; 2]) -> [[f64; 2]; 2] {
     let tau = 2.0 * settings.whisk_s();
     let omega = std::f64::consts::TAU * settings.frequency_hz;
     [(0, 1), (1, 0)].map(|(own, other)| {
@@ -158,7 +157,14 @@ pub fn oscillator_rate(settings: &Settings, psi: [[f64; 2]; 2]) -> [[f64; 2]; 2]
 
 /// d²θ/dt² by eq. 6 to 8: m θ̈ = q W − k θ − ν θ̇ with W = (tanh(2 ψ_1) + 1)/2,
 /// q = 1.45 (1 − z) g exp(−θ²), ν = 4 √(k m).
-pub fn muscle_acceleration(mass: f64, psi_1: f64, z: f64, g: f64, theta: f64, rate: f64) -> f64 {
+pub(crate) fn muscle_acceleration(
+    mass: f64,
+    psi_1: f64,
+    z: f64,
+    g: f64,
+    theta: f64,
+    rate: f64,
+) -> f64 {
     let drive = f64::midpoint((2.0 * psi_1).tanh(), 1.0);
     let gain = 1.45 * (1.0 - z) * g * (-theta * theta).exp();
     let damping = 4.0 * (SPRING * mass).sqrt();

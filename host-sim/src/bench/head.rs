@@ -1,16 +1,18 @@
-//! A head: several boards, each with its own whiskers, joined by a simulated CAN bus.
+//! A head: one board, or several, each with its own whiskers, joined by a simulated CAN bus.
 
 mod bus;
 
 use std::ops::Range;
 
 pub use bus::{Bus, Happened};
-use firmware::{Command, Event, Motion, NoActiveWhisker, Node, NotDone, Packet};
+use firmware::{
+    Command, Event, Motion, NoActiveWhisker, Node, NotDone, Packet, ServoState, Whisker,
+};
 use scene::{Deciding, Scene};
 use whisking::Number;
 use wire::TaggedCommand;
 
-use super::{Bench, HostModule, Hosted, Snapshot};
+use super::{Bench, HostModule, Hosted, Mock, Snapshot};
 use crate::Error;
 use crate::bus::Slave;
 use crate::bus::tmag5170::TmagSlave;
@@ -23,7 +25,8 @@ const READY_SHARE: f64 = 0.6;
 
 struct Board<R: Number> {
     hosted: Hosted<R>,
-    node: Node,
+    /// None of the only one.
+    node: Option<Node>,
     own: Range<usize>,
     pins: Vec<Pins>,
     /// Ticks since its start: its own clock.
@@ -32,7 +35,8 @@ struct Board<R: Number> {
 
 pub(super) struct Head<R: Number> {
     boards: Vec<Board<R>>,
-    bus: Bus,
+    /// None of a single board.
+    bus: Option<Bus>,
     tick_hz: f64,
     done: u64,
     each: usize,
@@ -62,26 +66,38 @@ fn pins_of(own: &Range<usize>, pins: &[Pins]) -> Vec<Pins> {
     pins.get(own.clone()).unwrap_or_default().to_vec()
 }
 
+/// As newly made, for boards that are nodes.
+fn bus_of<R: Number>(boards: &[Board<R>]) -> Option<Bus> {
+    let first = boards.first().filter(|first| first.node.is_some())?;
+    let kbit_s = first.hosted.config.head.bus.map_or(0, |bus| bus.kbit_s);
+    Some(Bus::new(boards.len(), kbit_s))
+}
+
 impl<R: Number> Head<R> {
     pub(super) fn new(
         scene: &Scene,
-        nodes: u8,
         pins: &[Pins],
-        classifier: Option<&Classifier>,
+        mut classifier: Option<Classifier>,
     ) -> Result<Self, Error> {
-        let mut boards = Vec::new();
-        let mut kbit_s = 0;
-        if let Some(classifier) = classifier {
+        let nodes = scene.head.nodes;
+        if let (Some(classifier), Some(_)) = (&classifier, nodes) {
             suits_a_head(classifier)?;
         }
-        for number in 0..nodes {
-            let each = scene.whiskers() / usize::from(nodes);
+        let mut boards = Vec::new();
+        let count = nodes.unwrap_or(1);
+        let each = scene.whiskers() / usize::from(count);
+        for number in 0..count {
             let own = usize::from(number) * each..(usize::from(number) + 1) * each;
             let own_pins = pins_of(&own, pins);
-            let hosted = Hosted::new(scene, number, own_pins.clone(), classifier.cloned())?;
-            kbit_s = hosted.config.head.bus.map_or(0, |bus| bus.kbit_s);
+            let is_last = number + 1 == count;
+            let its = if is_last {
+                classifier.take()
+            } else {
+                classifier.clone()
+            };
+            let hosted = Hosted::new(scene, number, own_pins.clone(), its)?;
             boards.push(Board {
-                node: Node::new(&hosted.config.head, number),
+                node: nodes.map(|_| Node::new(&hosted.config.head, number)),
                 hosted,
                 own,
                 pins: own_pins,
@@ -89,7 +105,7 @@ impl<R: Number> Head<R> {
             });
         }
         Ok(Self {
-            bus: Bus::new(boards.len(), kbit_s),
+            bus: bus_of(&boards),
             boards,
             tick_hz: f64::from(scene.tick_hz),
             done: 0,
@@ -106,56 +122,69 @@ impl<R: Number> Head<R> {
         Some((&mut board.hosted, n - board.own.start))
     }
 
-    fn of_whisker(&self, n: usize) -> Option<(&Hosted<R>, usize)> {
+    fn whisker(&self, n: usize) -> Option<&Whisker<R, Mock>> {
         let board = self.boards.iter().find(|board| board.own.contains(&n))?;
-        Some((&board.hosted, n - board.own.start))
+        let whiskers = board.hosted.module.whiskers();
+        whiskers.get(n - board.own.start)
     }
 
     fn do_asked(&mut self) {
+        let Some(bus) = &mut self.bus else {
+            return;
+        };
         for (n, board) in self.boards.iter_mut().enumerate() {
-            let asked = std::mem::take(&mut self.bus.asked[n]);
+            let asked = std::mem::take(&mut bus.asked[n]);
             if asked.reset {
                 let motion = board.hosted.config.motion.as_ref();
                 let seed = motion.map_or(0, |motion| motion.seed);
                 // As it could be made once, it can be again.
-                let _ = board.hosted.begin_again(seed, board.pins.clone());
+                let _ = board.hosted.restart(seed, board.pins.clone());
                 board.hosted.module.arm(false);
-                board.node = Node::new(&board.hosted.config.head, n as u8);
+                board.node = Some(Node::new(&board.hosted.config.head, n as u8));
                 board.ticks = 0;
-                self.bus.can.clear(n);
+                bus.can.clear(n);
             }
+            let Some(node) = &mut board.node else {
+                continue;
+            };
             if asked.arm {
-                board.node.arm();
+                node.arm();
             }
             if asked.stop {
-                board.node.stop();
+                node.stop();
             }
         }
     }
 
     /// Carries what was said until the next tick to who hears it.
     fn carry(&mut self) {
+        let Some(bus) = &mut self.bus else {
+            return;
+        };
         let tick_us = 1e6 / self.tick_hz;
         let end_us = (self.done + 1) as f64 * tick_us;
-        self.bus.begin(self.done as f64 * tick_us);
+        bus.begin(self.done as f64 * tick_us);
         // Whole microseconds, as a board counts them.
         let own_us = |board: &Board<R>, at_us: f64| {
             let since_us = end_us - at_us.floor();
             (board.ticks as f64).mul_add(tick_us, -since_us).max(0.0) as u64
         };
         loop {
-            let carried = self.bus.carry(end_us);
+            let carried = bus.carry(end_us);
             let by = carried.and_then(|sent| Some((self.boards.get_mut(sent.from)?, sent)));
             if let Some((board, sent)) = by {
                 let own_us = own_us(board, sent.at_us);
-                board.node.said(&sent.frame, own_us);
+                if let Some(node) = &mut board.node {
+                    node.said(&sent.frame, own_us);
+                }
             }
-            while let Some(sent) = self.bus.next(end_us) {
+            while let Some(sent) = bus.next(end_us) {
                 let boards = self.boards.iter_mut().enumerate();
                 for (n, board) in boards.filter(|(n, _)| *n != sent.from) {
                     let own_us = own_us(board, sent.at_us);
-                    for _ in 0..self.bus.comes_to(n) {
-                        board.node.hear(&sent.frame, own_us);
+                    let times = bus.comes_to(n);
+                    if let Some(node) = &mut board.node {
+                        (0..times).for_each(|_| node.hear(&sent.frame, own_us));
                     }
                 }
             }
@@ -179,7 +208,10 @@ impl<R: Number> Bench for Head<R> {
                 ticks,
                 ..
             } = board;
-            let bus = &mut self.bus;
+            let (Some(node), Some(bus)) = (node, &mut self.bus) else {
+                hosted.tick(events);
+                continue;
+            };
             let now_us = *ticks as f64 * tick_us;
             let Hosted {
                 module,
@@ -253,28 +285,28 @@ impl<R: Number> Bench for Head<R> {
 
     fn slave_mut(&mut self, n: usize) -> Option<&mut Slave> {
         let (hosted, n) = self.board_of(n)?;
-        hosted.slave_mut(n)
+        hosted.sensor_mut(n)?.slave_mut()
     }
 
     fn tmag_mut(&mut self, n: usize) -> Option<&mut TmagSlave> {
         let (hosted, n) = self.board_of(n)?;
-        hosted.tmag_mut(n)
+        hosted.sensor_mut(n)?.tmag_mut()
     }
 
     fn bend(&mut self, n: usize, deflection: [f64; 2]) {
-        if let Some((hosted, n)) = self.board_of(n) {
-            hosted.bend(n, deflection);
+        let found = self.board_of(n);
+        if let Some(sensor) = found.and_then(|(hosted, n)| hosted.sensor_mut(n)) {
+            sensor.bend(deflection);
         }
     }
 
     fn felt_by(&self, n: usize) -> Option<f64> {
-        let (hosted, n) = self.of_whisker(n)?;
-        hosted.felt_by(n)
+        Some(self.whisker(n)?.felt().to_f64())
     }
 
     fn is_homing(&self, n: usize) -> bool {
-        self.of_whisker(n)
-            .is_some_and(|(hosted, n)| hosted.is_homing(n))
+        let servo = self.whisker(n).and_then(Whisker::servo);
+        servo.is_some_and(|servo| matches!(servo.state(), ServoState::Homing(_)))
     }
 }
 
@@ -283,18 +315,15 @@ where
     Hosted<R>: Send,
 {
     fn restart(&mut self, seed: u64, pins: Vec<Pins>) -> Result<(), Error> {
-        let kbit_s = self
-            .boards
-            .first()
-            .and_then(|board| board.hosted.config.head.bus);
-        self.bus = Bus::new(self.boards.len(), kbit_s.map_or(0, |bus| bus.kbit_s));
         self.done = 0;
         for (number, board) in (0..).zip(&mut self.boards) {
             board.pins = pins_of(&board.own, &pins);
             board.hosted.restart(seed, board.pins.clone())?;
-            board.node = Node::new(&board.hosted.config.head, number);
+            let node = board.node.is_some();
+            board.node = node.then(|| Node::new(&board.hosted.config.head, number));
             board.ticks = 0;
         }
+        self.bus = bus_of(&self.boards);
         Ok(())
     }
 
@@ -304,11 +333,15 @@ where
     }
 
     fn arm(&mut self, is_armed: bool) {
-        self.bus.arm(0, is_armed);
+        match &mut self.bus {
+            Some(bus) => bus.arm(0, is_armed),
+            None => (self.boards.iter_mut()).for_each(|board| board.hosted.module.arm(is_armed)),
+        }
     }
 
     fn tap(&mut self) -> Option<&mut Tap> {
-        self.boards.first_mut()?.hosted.tap()
+        let perception = self.boards.first_mut()?.hosted.module.perception_mut()?;
+        Some(perception.classifier_mut())
     }
 
     fn request(&mut self, request: TaggedCommand) {
@@ -330,7 +363,7 @@ where
         let talking = self.talking;
         let boards = self.boards.iter_mut().enumerate();
         let packets = boards.flat_map(|(n, board)| {
-            let mut packets = board.hosted.take_packets();
+            let mut packets = board.hosted.line.take();
             packets.retain(|packet| n == talking || matches!(packet, Packet::Answer(_)));
             packets
         });
@@ -338,6 +371,6 @@ where
     }
 
     fn bus(&mut self) -> Option<&mut Bus> {
-        Some(&mut self.bus)
+        self.bus.as_mut()
     }
 }

@@ -4,13 +4,12 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
 
-use firmware::Place as Whisker;
 use host_sim::classifier::Classifier;
 use host_sim::decisions::Decided;
 use host_sim::run::Run;
 use scene::Scene;
+use tactile::ModelBuf;
 use tactile::train::{Options, Trainer};
-use tactile::{ModelBuf, Reason};
 use tempfile::TempDir;
 
 /// Two textures of an active whisker that is touched gently; half a second.
@@ -265,46 +264,29 @@ pub(crate) fn cells(text: &str) -> Vec<Vec<&str>> {
     text.lines().map(|line| line.split(',').collect()).collect()
 }
 
-/// The whisker of a row's last cells; none of a recording's.
-fn whisker(cells: &[&str]) -> Option<Whisker> {
-    let [side, number] = cells else { return None };
-    let side = ["left", "right"].iter().position(|name| name == side);
-    let number: u8 = number.parse().unwrap();
-    Some(Whisker::new(side.unwrap() as u8, number - 1))
-}
-
-/// Checks the header, too. That of a scene has the time, and where several are heard the whisker.
+/// What stands before the reasons; checks the header, too. That of a scene has the time, and where
+/// several are heard the whisker.
 pub(crate) fn decisions(text: &str) -> Vec<Decided> {
     let mut rows = cells(text).into_iter();
     let header = rows.next().unwrap().join(",");
     let header = header.strip_suffix(",reason,among").unwrap();
     let more = header.strip_prefix("label,trial,decision,samples,posterior,touch");
-    let allowed = ["", ",t_s", ",t_s,side,whisker"];
-    assert!(more.is_some_and(|more| allowed.contains(&more)), "{header}");
-    rows.map(|row| {
-        let [row @ .., reason, among] = row.as_slice() else {
-            panic!("{row:?}");
-        };
-        let among = among.split_once('|');
-        Decided {
-            t_s: row.get(6).map(|t_s| t_s.parse().unwrap()),
-            place: row.get(7..).and_then(whisker),
-            label: row[0].into(),
-            trial: row[1].into(),
-            decision: row[2].into(),
-            reason: match *reason {
-                "" => None,
-                "unknown" => Some(Reason::Unknown),
-                "pose" => Some(Reason::Pose),
-                "between" => Some(Reason::Between(0)),
-                reason => panic!("{reason}"),
-            },
-            among: among.map(|(leader, rival)| [leader, rival].map(str::to_owned)),
-            samples: row[3].parse().unwrap(),
-            posterior: row[4].parse().unwrap(),
-            touch: row[5].parse().unwrap(),
-            pose: None,
-        }
-    })
-    .collect()
+    let (more, allowed) = (more.unwrap(), ["", ",t_s", ",t_s,side,whisker"]);
+    assert!(allowed.contains(&more), "{header}");
+    let decided = |row: Vec<&str>| Decided {
+        t_s: Some(row[6])
+            .filter(|_| !more.is_empty())
+            .map(|t_s| t_s.parse().unwrap()),
+        place: None,
+        label: row[0].into(),
+        trial: row[1].into(),
+        decision: row[2].into(),
+        reason: None,
+        among: None,
+        samples: row[3].parse().unwrap(),
+        posterior: row[4].parse().unwrap(),
+        touch: row[5].parse().unwrap(),
+        pose: None,
+    };
+    rows.map(decided).collect()
 }

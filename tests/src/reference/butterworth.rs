@@ -1,5 +1,5 @@
 //! H50: the third-order Butterworth low-pass of BIOTACT eq. 5 and 9, as one
-//! direct difference equation, and its response in closed form.
+//! direct difference equation.
 
 use std::f64::consts::PI;
 
@@ -60,14 +60,4 @@ impl Lowpass {
         self.outputs = [y, y1, y2];
         y
     }
-}
-
-/// Response at `f_hz` in closed form, as (magnitude, phase in radians): with
-/// u = tan(π f T)/tan(π f_c T), H = 1/((1 + j u)(1 − u² + j u)), so that
-/// |H| = 1/√(1 + u⁶). Valid for 0 ≤ f < `tick_hz`/2.
-pub fn response(cutoff_hz: f64, tick_hz: f64, f_hz: f64) -> (f64, f64) {
-    let u = (PI * f_hz / tick_hz).tan() / (PI * cutoff_hz / tick_hz).tan();
-    let magnitude = 1.0 / (1.0 + u.powi(6)).sqrt();
-    let phase = -u.atan() - u.atan2(1.0 - u * u);
-    (magnitude, phase)
 }

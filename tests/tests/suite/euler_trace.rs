@@ -25,59 +25,36 @@ fn differences(a: &[Row], b: &[Row]) -> [f64; 5] {
     worst
 }
 
-fn cases() -> Vec<(&'static str, Settings)> {
+fn cases() -> [(&'static str, Settings); 3] {
+    let gate = |gain: f64, tau_s: f64| Some(Gate { gain, tau_s });
+    let obstacle = |at_deg, stiffness| Some(Obstacle { at_deg, stiffness });
     let papers = Settings {
-        rcp: Some(Gate {
-            gain: 0.7,
-            tau_s: 0.125,
-        }),
-        cia: Some(Gate {
-            gain: 0.5,
-            tau_s: 0.125,
-        }),
-        obstacle: Some(Obstacle {
-            at_deg: [100.0, 125.0],
-            stiffness: 0.1,
-        }),
+        rcp: gate(0.7, 0.125),
+        cia: gate(0.5, 0.125),
+        obstacle: obstacle([100.0, 125.0], 0.1),
         quantise: true,
         ..Settings::papers()
     };
-    vec![
-        ("the papers' RCP and CIA", papers.clone()),
-        (
-            "strong and fast, several whiskers, out of phase",
-            Settings {
-                gains: [vec![1.3, 0.4, 2.0], vec![0.7, 1.0, 1.9]],
-                start: [[0.6, 0.5], [-0.9, 0.2]],
-                rcp: Some(Gate {
-                    gain: 2.0,
-                    tau_s: 0.05,
-                }),
-                ..papers.clone()
-            },
-        ),
-        (
-            "another tick, faster whisks, no coupling",
-            Settings {
-                tick_hz: 4000.0,
-                frequency_hz: 8.0,
-                coupling: false,
-                start: [[0.1, -1.2], [1.4, 1.4]],
-                rcp: Some(Gate {
-                    gain: 0.9,
-                    tau_s: 0.02,
-                }),
-                cia: Some(Gate {
-                    gain: 0.8,
-                    tau_s: 0.2,
-                }),
-                obstacle: Some(Obstacle {
-                    at_deg: [90.0, 110.0],
-                    stiffness: 0.02,
-                }),
-                ..papers
-            },
-        ),
+    let strong = Settings {
+        gains: [vec![1.3, 0.4, 2.0], vec![0.7, 1.0, 1.9]],
+        start: [[0.6, 0.5], [-0.9, 0.2]],
+        rcp: gate(2.0, 0.05),
+        ..papers.clone()
+    };
+    let fast = Settings {
+        tick_hz: 4000.0,
+        frequency_hz: 8.0,
+        coupling: false,
+        start: [[0.1, -1.2], [1.4, 1.4]],
+        rcp: gate(0.9, 0.02),
+        cia: gate(0.8, 0.2),
+        obstacle: obstacle([90.0, 110.0], 0.02),
+        ..papers.clone()
+    };
+    [
+        ("the papers' RCP and CIA", papers),
+        ("strong and fast, several whiskers, out of phase", strong),
+        ("another tick, faster whisks, no coupling", fast),
     ]
 }
 
@@ -88,14 +65,9 @@ fn every_column_agrees_over_six_seconds() {
         let reference = euler::run(&settings, 6.0);
         let worst = differences(&product, &reference);
         println!("{name}: t, theta, z, g, contact differ by at most {worst:?} of full scale");
-        assert!(
-            worst.iter().all(|&difference| difference < 3e-4),
-            "{name}: {worst:?}"
-        );
+        assert!(worst.iter().all(|of| *of < 3e-4), "{name}: {worst:?}");
         // Not by standing still: contact was made and gates opened.
-        assert!(
-            product.iter().any(|row| row.z[0] > 0.2 && row.g[1] > 1.02),
-            "{name}"
-        );
+        let mut rows = product.iter();
+        assert!(rows.any(|row| row.z[0] > 0.2 && row.g[1] > 1.02), "{name}");
     }
 }

@@ -57,31 +57,16 @@ fn terrain() -> Terrain {
 fn decide(terrain: &Terrain, rule: Rule) -> (Vec<Decision>, String) {
     let out = terrain.folder.path().join("decisions.csv");
     let data = data("terrain-test.csv");
-    let said = classify::classify(
-        &terrain.model,
-        &data,
-        CHANNELS,
-        rule,
-        &out,
-        Verbosity::Quiet,
-    )
-    .unwrap();
-    (read_decisions(&out), said)
+    let (model, quiet) = (&terrain.model, Verbosity::Quiet);
+    let said = classify::classify(model, &data, CHANNELS, rule, &out, quiet);
+    (read_decisions(&out), said.unwrap())
 }
 
 fn read_decisions(path: &Path) -> Vec<Decision> {
     let mut table = csv::Reader::from_path(path).unwrap();
-    let header = [
-        "label",
-        "trial",
-        "decision",
-        "samples",
-        "posterior",
-        "touch",
-        "reason",
-        "among",
-    ];
-    assert_eq!(table.headers().unwrap(), &header[..]);
+    let header: Vec<&str> = table.headers().unwrap().iter().collect();
+    let expected = "label,trial,decision,samples,posterior,touch,reason,among";
+    assert_eq!(header.join(","), expected);
     table.deserialize().collect::<Result<_, _>>().unwrap()
 }
 
@@ -115,14 +100,12 @@ fn by_place(decisions: &[Decision]) -> BTreeMap<(&str, &str, usize), &Decision> 
 /// the same class, and the largest difference of the posterior among those.
 fn agreement(a: &[Decision], b: &[Decision]) -> (f64, f64) {
     let (a, b) = (by_place(a), by_place(b));
-    let differences: Vec<f64> = a
-        .iter()
-        .filter_map(|(place, a)| {
-            let b = b.get(place)?;
-            let same = a.decision == b.decision && a.samples == b.samples;
-            same.then(|| (a.posterior - b.posterior).abs())
-        })
-        .collect();
+    let differences = a.iter().filter_map(|(place, a)| {
+        let b = b.get(place)?;
+        let same = a.decision == b.decision && a.samples == b.samples;
+        same.then(|| (a.posterior - b.posterior).abs())
+    });
+    let differences: Vec<f64> = differences.collect();
     let all = a.len() + b.len() - differences.len();
     let worst = differences.iter().copied().fold(0.0, f64::max);
     (differences.len() as f64 / all as f64, worst)
@@ -131,10 +114,7 @@ fn agreement(a: &[Decision], b: &[Decision]) -> (f64, f64) {
 #[track_caller]
 fn agree(what: &str, product: &[Decision], reference: &[Decision], within: f64) {
     let (share, worst) = agreement(product, reference);
-    println!(
-        "{what}: {:.2} % as the reference, posteriors within {worst:.4}",
-        100.0 * share
-    );
+    println!("{what}: {share:.4} as the reference, posteriors within {worst:.4}");
     assert!(share >= 0.995, "{what}: {share}");
     assert!(worst <= within, "{what}: {worst}");
 }
@@ -142,9 +122,8 @@ fn agree(what: &str, product: &[Decision], reference: &[Decision], within: f64) 
 #[test]
 fn streams_are_separated_by_label_and_trial() {
     let test = recording("terrain-test.csv");
-    let mut names: Vec<_> = streams(&test)
-        .map(|stream| (&stream[0].label, &stream[0].trial))
-        .collect();
+    let names = streams(&test).map(|stream| (&stream[0].label, &stream[0].trial));
+    let mut names: Vec<_> = names.collect();
     let count = names.len();
     names.sort();
     names.dedup();
@@ -160,10 +139,6 @@ fn sequential_decisions_have_the_known_figures_and_agree_with_the_reference() {
         let (decided, said) = decide(&terrain, Rule::Sequential { threshold });
         let percent = 100.0 * bayes::hit_rate(&decided);
         let samples = bayes::mean_samples(&decided);
-        println!(
-            "threshold {threshold}: {percent:.2} %, mean {samples:.1} samples, {} decisions",
-            decided.len()
-        );
         assert!((percent - known_percent).abs() <= 0.06, "{percent}");
         assert!((samples - known_samples).abs() <= 1.0, "{samples}");
         assert_eq!(decided.len(), known_count as usize);
@@ -176,12 +151,8 @@ fn sequential_decisions_have_the_known_figures_and_agree_with_the_reference() {
 
         let rule = bayes::Rule::Sequential(threshold);
         let reference = bayes::classify(&terrain.reference, &terrain.test, rule);
-        agree(
-            &format!("threshold {threshold}"),
-            &decided,
-            &reference,
-            0.003,
-        );
+        let what = format!("threshold {threshold}");
+        agree(&what, &decided, &reference, 0.003);
     }
 }
 
@@ -192,10 +163,6 @@ fn windows_have_the_known_figures_and_agree_with_the_reference() {
         let window = window as u32;
         let (decided, _) = decide(&terrain, Rule::Window { samples: window });
         let percent = 100.0 * bayes::hit_rate(&decided);
-        println!(
-            "window {window}: {percent:.2} %, {} decisions",
-            decided.len()
-        );
         assert!((percent - known_percent).abs() <= 0.06, "{percent}");
         assert!(decided.iter().all(|d| d.samples == window as usize));
 
