@@ -125,13 +125,8 @@ impl Textured {
 }
 
 fn whiskers(head: &Head, settings: &TexturedSettings, seed: u64) -> Vec<Whisker> {
-    let each = head.whiskers_per_side.max(1);
-    let whiskers = (0_u64..).zip(head.limits().enumerate());
-    whiskers
-        .map(|(stream, (i, limit_deg))| {
-            Whisker::new(settings.whisker(i % each), limit_deg, apart(seed, stream))
-        })
-        .collect()
+    let whisker = |(n, limit_deg)| Whisker::new(settings.whisker, limit_deg, apart(seed, n));
+    (0..).zip(head.limits()).map(whisker).collect()
 }
 
 struct World<'a> {

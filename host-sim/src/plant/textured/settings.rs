@@ -32,11 +32,10 @@ impl WhiskerSettings {
 }
 
 /// Whiskers and how they meet surfaces; choices unless a source is named.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub struct TexturedSettings {
-    /// The whiskers of a side from its first; the last stands for all further
-    /// ones. At least one.
-    pub whiskers: Vec<WhiskerSettings>,
+    /// All whiskers' shaft.
+    pub whisker: WhiskerSettings,
     /// Excursion of the tip across the direction of whisking, as a share of
     /// that along it, 0 to 10.
     pub lateral: f64,
@@ -67,7 +66,7 @@ pub struct TexturedSettings {
 impl Default for TexturedSettings {
     fn default() -> Self {
         Self {
-            whiskers: vec![WhiskerSettings::MIDDLE],
+            whisker: WhiskerSettings::MIDDLE,
             lateral: 0.5,
             bend_limit: 0.8,
             drag: 0.4,
@@ -84,14 +83,9 @@ impl Default for TexturedSettings {
 impl TexturedSettings {
     pub(super) fn check(&self) -> Result<(), BadSetting> {
         let check = BadSetting::check;
-        if self.whiskers.is_empty() {
-            return Err(BadSetting("whiskers"));
-        }
-        for whisker in &self.whiskers {
-            check("length_m", whisker.length_m, 1e-3, 1.0)?;
-            check("resonance_hz", whisker.resonance_hz, 0.1, 1e4)?;
-            check("damping", whisker.damping, 1e-4, 0.99)?;
-        }
+        check("length_m", self.whisker.length_m, 1e-3, 1.0)?;
+        check("resonance_hz", self.whisker.resonance_hz, 0.1, 1e4)?;
+        check("damping", self.whisker.damping, 1e-4, 0.99)?;
         check("lateral", self.lateral, 0.0, 10.0)?;
         check("bend_limit", self.bend_limit, 1e-3, 1.0)?;
         check("drag", self.drag, 0.0, 1.0)?;
@@ -102,11 +96,5 @@ impl TexturedSettings {
         check("friction", self.friction.unwrap_or(0.0), 0.0, 10.0)?;
         check("noise_codes", self.noise_codes, 0.0, 1000.0)?;
         Ok(())
-    }
-
-    pub(super) fn whisker(&self, i: usize) -> WhiskerSettings {
-        let last = self.whiskers.last().copied();
-        let whisker = self.whiskers.get(i).copied().or(last);
-        whisker.unwrap_or(WhiskerSettings::MIDDLE)
     }
 }

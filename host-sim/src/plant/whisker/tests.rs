@@ -168,18 +168,12 @@ fn a_plate_that_is_turned_in_the_air_does_not_move_the_shaft() {
     let code = 1.0 / 8191.0;
     for n in 0..1300 {
         for (still, turned) in still[n].into_iter().zip(turned[n]) {
-            assert!(
-                (still - turned).abs() <= 1.5 * code,
-                "{n}: {still} {turned}"
-            );
+            let moved = (still - turned).abs();
+            assert!(moved <= 1.5 * code, "{n}: {still} {turned}");
         }
     }
-    assert!(
-        still
-            .iter()
-            .zip(&turned)
-            .any(|(a, b)| (a[1] - b[1]).abs() > 0.1)
-    );
+    let mut pairs = still.iter().zip(&turned);
+    assert!(pairs.any(|(a, b)| (a[1] - b[1]).abs() > 0.1));
 }
 
 #[test]
@@ -187,10 +181,8 @@ fn there_is_room_for_a_plate_that_is_5_mm_beyond_the_tip() {
     let shaft = Shaft::biotact(Biotact::Middle);
     let plant = |angle: f64| {
         let mut plant = Elastic::new(head(1), quiet(shaft), 3).unwrap();
-        assert!(
-            plant.has_room(SurfacePose::OF_SCENE),
-            "nothing is known of it"
-        );
+        let nothing_is_known = plant.has_room(SurfacePose::OF_SCENE);
+        assert!(nothing_is_known);
         plant.advance(&[angle], TICK_S);
         plant
     };
@@ -321,16 +313,11 @@ fn bad_settings_are_named() {
         Elastic::new(head, settings, 1).map(|_| ()).err()
     };
     let bad = |name| Some(BadSetting(name));
-    assert_eq!(with(head(1), |_| ()), None);
-    assert_eq!(with(head(1), |s| s.shaft.length_m = 2.0), bad("length_m"));
-    assert_eq!(
-        with(head(1), |s| s.facing.slant_deg = 90.0),
-        bad("slant_deg")
-    );
-    assert_eq!(
-        with(head(1), |s| s.noise_codes = f64::NAN),
-        bad("noise_codes")
-    );
+    let one = |change| with(head(1), change);
+    assert_eq!(one(|_| ()), None);
+    assert_eq!(one(|s| s.shaft.length_m = 2.0), bad("length_m"));
+    assert_eq!(one(|s| s.facing.slant_deg = 90.0), bad("slant_deg"));
+    assert_eq!(one(|s| s.noise_codes = f64::NAN), bad("noise_codes"));
     let stiffness = |stiffness| Head {
         stiffness,
         ..head(1)
