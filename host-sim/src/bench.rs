@@ -192,34 +192,24 @@ fn module<R: Number>(
 ) -> Result<Module<R, Mock>, Error> {
     let own = config.head.of_node(number);
     let misfit = |what: &str| Error::Work(format!("the module's {what} do not fit the scene"));
-    let sensors: Option<Vec<AnySensor>> = own
+    let sensors = own
         .clone()
-        .map(|n| AnySensor::new(sensor, seed.wrapping_add(n as u64)))
-        .collect();
+        .map(|n| AnySensor::new(sensor, seed.wrapping_add(n as u64)));
+    let sensors: Option<Vec<AnySensor>> = sensors.collect();
     let mut sensors = sensors.ok_or_else(|| misfit("sensors"))?.into_iter();
-    let stall = config
-        .motion
-        .as_ref()
-        .map(|motion| motion.servo.guards.stall);
-    let motors = stall.map_or_else(Vec::new, |stall| {
-        pins.into_iter()
-            .map(|pins| drive::on(pins, stall))
-            .collect()
-    });
-    if stall.is_some() && motors.len() != own.len() {
+    let motion = config.motion.as_ref();
+    if motion.is_some() && pins.len() != own.len() {
         return Err(misfit("motors"));
     }
-    let mut motors = motors.into_iter();
+    let stall = motion.map(|motion| motion.servo.guards.stall);
+    let mut pins = pins.into_iter();
     let parts = std::iter::from_fn(|| {
-        let (source, motor) = (sensors.next()?, motors.next());
+        let source = sensors.next()?;
+        let motor = stall.and_then(|stall| Some(drive::on(pins.next()?, stall)));
         Some(WhiskerParts { source, motor })
     });
     let mut module = Module::of_node(config, number, parts, classifier, (NoClock, 0));
-    let arms = config
-        .motion
-        .as_ref()
-        .is_some_and(|motion| motion.arms_at_start);
-    module.arm(arms);
+    module.arm(motion.is_some_and(|motion| motion.arms_at_start));
     Ok(module)
 }
 
@@ -311,9 +301,8 @@ impl<R: Number> Hosted<R> {
         let classes = tap.classes().to_vec();
         let known = (gate, tap.settings());
         let config = config_of::<R>(scene, known, tap.is_recording(), "")?;
-        config
-            .check()
-            .map_err(|fault| Error::Work(fault.to_string()))?;
+        let checked = config.check();
+        checked.map_err(|fault| Error::Work(fault.to_string()))?;
         let parts = (scene.seed, pins);
         Ok(Self {
             module: module(&config, number, &scene.sensor, parts, Some(tap))?,
@@ -345,7 +334,6 @@ impl<R: Number> Hosted<R> {
 
 fn heard_by_board(scene: &Scene, number: u8) -> usize {
     let each = scene.whiskers() / usize::from(scene.head.nodes.unwrap_or(1)).max(1);
-    heard(scene)
-        .saturating_sub(usize::from(number) * each)
-        .min(each)
+    let from_it_on = heard(scene).saturating_sub(usize::from(number) * each);
+    from_it_on.min(each)
 }

@@ -67,11 +67,5 @@ pub fn short(recordings: &[(String, Vec<Stream>)]) -> String {
     )
 }
 
-/// Where a stream begins, from 0 over all samples of its recording.
-fn begins(streams: &[Stream], at: usize) -> usize {
-    let before = streams.iter().take(at);
-    before.map(|stream| stream.samples.len()).sum()
-}
-
 #[cfg(test)]
 mod tests;

@@ -89,9 +89,8 @@ impl Stream {
     pub fn whisker(&self) -> usize {
         let number = self.trial.rsplit_once(WHISKER).map(|(_, number)| number);
         let number = number.and_then(|number| number.parse().ok());
-        number
-            .filter(|n| (1..=MAX_STREAMS).contains(n))
-            .unwrap_or(1)
+        let number = number.filter(|n| (1..=MAX_STREAMS).contains(n));
+        number.unwrap_or(1)
     }
 
     /// Whether each sample counts where contact must be at least `gate`.
@@ -198,11 +197,9 @@ impl Tokens<'_> {
         if MISSING.contains(&self.label) {
             return Err(format!("the label is missing: {:?}", self.label));
         }
-        let named = [("label", self.label), ("trial", self.trial)];
-        let named = named
-            .into_iter()
-            .chain(self.pose.map(|pose| ("pose", pose)));
-        named.into_iter().try_for_each(|(name, text)| {
+        let named = [("label", self.label), ("trial", self.trial)].into_iter();
+        let mut named = named.chain(self.pose.map(|pose| ("pose", pose)));
+        named.try_for_each(|(name, text)| {
             let checked = tactile::name::check(text);
             checked.map_err(|reason| format!("{name} {text:?} {reason}"))
         })
@@ -393,14 +390,9 @@ fn parse(file: &[u8], channels: [&str; 2]) -> Result<Recording, String> {
             )
         })
     };
-    let (label, trial, x, y) = (
-        column("label")?,
-        column("trial")?,
-        column(x_name)?,
-        column(y_name)?,
-    );
-    let contact = optional("contact")?;
-    let touch = optional("touch")?;
+    let [label, trial] = [column("label")?, column("trial")?];
+    let [x, y] = [column(x_name)?, column(y_name)?];
+    let [contact, touch] = [optional("contact")?, optional("touch")?];
     let pose = optional("pose")?;
     let stands = COLUMNS[7..].iter().map(|column| optional(column.name));
     let stands: Vec<Option<usize>> = stands.collect::<Result<_, _>>()?;
@@ -434,25 +426,23 @@ fn parse(file: &[u8], channels: [&str; 2]) -> Result<Recording, String> {
             trial,
             pose: pose.map(cell),
         };
-        tokens
-            .check()
-            .map_err(|fault| format!("line {line}: {fault}"))?;
+        let checked = tokens.check();
+        checked.map_err(|fault| format!("line {line}: {fault}"))?;
         let before = streams.len();
         append(&mut streams, label, trial, Some(sample));
-        if streams.len() > before && labels.insert(label.to_owned()) && labels.len() > MOST_LABELS {
+        let Some(stream) = streams.get_mut(before) else {
+            continue;
+        };
+        if labels.insert(label.to_owned()) && labels.len() > MOST_LABELS {
             return Err(format!(
                 "line {line}: label {label:?} is one of more than {MOST_LABELS}; a label is the \
                  name of what was touched"
             ));
         }
         // A stream is of the pose in which it begins.
-        if let (true, Some(place), Some(stream)) =
-            (streams.len() > before, pose, streams.last_mut())
-        {
-            stream.pose = Some(cell(place).to_owned()).filter(|pose| !pose.is_empty());
-        }
-        if let (true, [Some(tilt), Some(depth)], Some(stream)) =
-            (streams.len() > before, &stands[..], streams.last_mut())
+        let named = pose.map(|place| cell(place).to_owned());
+        stream.pose = named.filter(|pose| !pose.is_empty());
+        if let [Some(tilt), Some(depth)] = &stands[..]
             && !(cell(*tilt).is_empty() || cell(*depth).is_empty())
         {
             let [of_tilt, of_depth] = [COLUMNS[7].name, COLUMNS[8].name];

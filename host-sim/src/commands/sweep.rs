@@ -56,19 +56,15 @@ pub fn sweep(arguments: &Arguments, verbosity: Verbosity) -> Result<String, Erro
     let Arguments { key, out, .. } = arguments;
     check_or_stdout(out)?;
     let settings = settings(arguments)?;
-    let all: Vec<(&Setting, u64)> = settings
-        .iter()
-        .flat_map(|setting| {
-            let own = setting.scene.seed;
-            let seeds = arguments.seeds.clone().unwrap_or(own..own + 1);
-            seeds.map(move |seed| (setting, seed))
-        })
-        .collect();
-    let simulated_s: f64 = all
-        .iter()
-        .map(|(setting, _)| setting.scene.duration_s)
-        .sum();
-    let ticks = all.iter().map(|(setting, _)| setting.scene.ticks()).sum();
+    let all = settings.iter().flat_map(|setting| {
+        let own = setting.scene.seed;
+        let seeds = arguments.seeds.clone().unwrap_or(own..own + 1);
+        seeds.map(move |seed| (setting, seed))
+    });
+    let all: Vec<(&Setting, u64)> = all.collect();
+    let scenes = || all.iter().map(|(setting, _)| &setting.scene);
+    let simulated_s: f64 = scenes().map(|scene| scene.duration_s).sum();
+    let ticks = scenes().map(Scene::ticks).sum();
     let (runs, combinations) = (all.len(), settings.len());
     if verbosity == Verbosity::Normal {
         report::warn(format_args!(
@@ -103,10 +99,8 @@ pub fn sweep(arguments: &Arguments, verbosity: Verbosity) -> Result<String, Erro
 /// All combinations, each checked as a scene file is.
 fn settings(arguments: &Arguments) -> Result<Vec<Setting>, Error> {
     let Arguments { scene, key, .. } = arguments;
-    let each = arguments
-        .seeds
-        .as_ref()
-        .map_or(1, |seeds| seeds.end - seeds.start);
+    let seeds = arguments.seeds.as_ref();
+    let each = seeds.map_or(1, |seeds| seeds.end - seeds.start);
     let mut count = key.iter().map(|axis| axis.values.len());
     let count = count.try_fold(each as usize, usize::checked_mul);
     if count.is_none_or(|count| count > MOST_RUNS) {
@@ -116,7 +110,7 @@ fn settings(arguments: &Arguments) -> Result<Vec<Setting>, Error> {
     }
     for (n, axis) in key.iter().enumerate() {
         let is_same = |other: &Axis| other.key == axis.key;
-        if key.iter().take(n).any(is_same) || arguments.seeds.is_some() && axis.key == "seed" {
+        if key.iter().take(n).any(is_same) || seeds.is_some() && axis.key == "seed" {
             let fault = format!("--key: {} is given twice, allowed: once", axis.key);
             return Err(Error::Input(fault));
         }
@@ -127,11 +121,9 @@ fn settings(arguments: &Arguments) -> Result<Vec<Setting>, Error> {
         let set = [&scene.set[..], &combination].concat();
         let loaded = Loaded::checked(&scene.file, &set)?;
         cautions.extend(loaded.caution());
+        let values = combination.iter().map(|one| one.value().to_owned());
         settings.push(Setting {
-            values: combination
-                .iter()
-                .map(|one| one.value().to_owned())
-                .collect(),
+            values: values.collect(),
             classifier: loaded.classifier()?,
             scene: loaded.scene,
         });

@@ -3,7 +3,7 @@
 
 use std::collections::{BTreeMap, HashMap};
 
-use super::{Doubt, begins};
+use super::Doubt;
 use crate::recording::{GATE, Stream};
 
 /// Samples that must be equal, one after the other.
@@ -15,7 +15,7 @@ const SHARE: f64 = 0.1;
 /// What a rolling sum is multiplied with.
 const BASE: u64 = 0x9E37_79B9_7F4A_7C15;
 
-/// A stream, and of which recording it is, from 0.
+/// A stream: of which recording it is, and at which of its samples it begins, both from 0.
 type Placed<'s> = (usize, usize, &'s Stream);
 
 fn sum(sample: [f64; 2]) -> u64 {
@@ -32,12 +32,9 @@ fn stretches(stream: &Stream) -> Vec<(usize, u64)> {
     let (mut rolling, mut counted, mut changed) = (0_u64, 0, 0);
     let mut found = Vec::new();
     for (n, (sample, counts_now)) in samples.iter().zip(&counts).enumerate() {
-        if let Some((gone, before)) = n
-            .checked_sub(STRETCH)
-            .and_then(|n| samples.get(n).zip(Some(n)))
-        {
-            rolling = rolling.wrapping_sub(sum(*gone).wrapping_mul(oldest));
-            counted -= usize::from(counts.get(before) == Some(&true));
+        if let Some(before) = n.checked_sub(STRETCH) {
+            rolling = rolling.wrapping_sub(sum(samples[before]).wrapping_mul(oldest));
+            counted -= usize::from(counts[before]);
             changed -= usize::from(changes(before));
         }
         rolling = rolling.wrapping_mul(BASE).wrapping_add(sum(*sample));
@@ -59,16 +56,14 @@ type Shifted = (usize, usize, isize);
 
 /// Streams of which a stretch of one is in the other: each two once.
 fn alike(streams: &[Placed<'_>]) -> Vec<Shifted> {
-    let all: Vec<_> = streams
-        .iter()
-        .map(|(.., stream)| stretches(stream))
-        .collect();
+    let all = streams.iter().map(|(.., stream)| stretches(stream));
+    let all: Vec<_> = all.collect();
     let mut marks: HashMap<u64, (usize, usize)> = HashMap::new();
     for (of, stretches) in all.iter().enumerate() {
-        for (at, sum) in stretches
+        let apart = stretches
             .iter()
-            .filter(|(at, _)| at.is_multiple_of(STRETCH))
-        {
+            .filter(|(at, _)| at.is_multiple_of(STRETCH));
+        for (at, sum) in apart {
             marks.entry(*sum).or_insert((of, *at));
         }
     }
@@ -84,19 +79,15 @@ fn alike(streams: &[Placed<'_>]) -> Vec<Shifted> {
             }
         }
     }
+    let pairs = pairs.into_iter();
     pairs
-        .into_iter()
         .map(|((of, other), later)| (of, other, later))
         .collect()
 }
 
 /// Samples that are equal in two streams of which the second has them later.
 fn in_common(one: &Stream, other: &Stream, later: isize) -> usize {
-    let (skip_one, skip_other) = if later < 0 {
-        (later.unsigned_abs(), 0)
-    } else {
-        (0, later.unsigned_abs())
-    };
+    let [skip_one, skip_other] = [-later, later].map(|skip| usize::try_from(skip).unwrap_or(0));
     let pairs = one.samples.iter().skip(skip_one);
     let pairs = pairs.zip(other.samples.iter().skip(skip_other));
     pairs.filter(|(a, b)| a == b).count()
@@ -120,14 +111,14 @@ fn partners(streams: &[Placed<'_>]) -> Vec<Option<(usize, f64)>> {
 /// Of each two recordings, and within each, the first trial that has samples in common with
 /// another, and how many do.
 pub(super) fn doubts(recordings: &[(String, Vec<Stream>)]) -> Vec<Doubt> {
-    let streams: Vec<Placed<'_>> = recordings
-        .iter()
-        .enumerate()
-        .flat_map(|(recording, (_, streams))| {
-            let streams = streams.iter().enumerate();
-            streams.map(move |(n, stream)| (recording, n, stream))
-        })
-        .collect();
+    let mut streams: Vec<Placed<'_>> = Vec::new();
+    for (recording, (_, own)) in recordings.iter().enumerate() {
+        let mut sample = 0;
+        for stream in own {
+            streams.push((recording, sample, stream));
+            sample += stream.samples.len();
+        }
+    }
     // By the two recordings: the first, and how many.
     let mut groups: BTreeMap<(usize, usize), (usize, usize, f64, usize)> = BTreeMap::new();
     for (one, partner) in partners(&streams).into_iter().enumerate() {
@@ -140,33 +131,32 @@ pub(super) fn doubts(recordings: &[(String, Vec<Stream>)]) -> Vec<Doubt> {
         group.3 += 1;
     }
     let groups = groups.into_values();
-    groups
-        .map(|(one, other, share, count)| {
-            let (recording, place, stream) = streams[one];
-            let (other_recording, _, partner) = streams[other];
-            let of = if other_recording == recording {
-                String::new()
-            } else {
-                format!(" in {}", recordings[other_recording].0)
-            };
-            let so = match count {
-                1 => String::new(),
-                count => format!(" So it is with {count} trials."),
-            };
-            Doubt {
-                recording,
-                sample: begins(&recordings[recording].1, place),
-                said: format!(
-                    "{:.0} % of trial {:?} of {:?} is, sample for sample, in trial {:?} of {:?}{of} \
+    let doubts = groups.map(|(one, other, share, count)| {
+        let (recording, sample, stream) = streams[one];
+        let (other_recording, _, partner) = streams[other];
+        let of = if other_recording == recording {
+            String::new()
+        } else {
+            format!(" in {}", recordings[other_recording].0)
+        };
+        let so = match count {
+            1 => String::new(),
+            count => format!(" So it is with {count} trials."),
+        };
+        Doubt {
+            recording,
+            sample,
+            said: format!(
+                "{:.0} % of trial {:?} of {:?} is, sample for sample, in trial {:?} of {:?}{of} \
                      too.{so} What is held out is then not new, and figures are too good; trials \
                      must not overlap",
-                    100.0 * share,
-                    stream.trial,
-                    stream.label,
-                    partner.trial,
-                    partner.label
-                ),
-            }
-        })
-        .collect()
+                100.0 * share,
+                stream.trial,
+                stream.label,
+                partner.trial,
+                partner.label
+            ),
+        }
+    });
+    doubts.collect()
 }

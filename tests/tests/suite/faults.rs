@@ -93,29 +93,22 @@ fn long_faults_switch_the_motor_off_until_the_sensor_is_back() {
         else {
             panic!("{fault:?}: {:?}", played.events);
         };
-        assert_eq!(
-            (first, second, found.code()),
-            (lost, back, code),
-            "{fault:?}"
-        );
+        let found = (first, second, found.code());
+        assert_eq!(found, (lost, back, code), "{fault:?}");
 
         // Off: friction and the shorted winding stop it, though θ' goes on.
         let off = lost as usize + 200..back as usize;
         let course = angles(&played, 0);
-        assert!(
-            extent(&course[off.clone()]) < 0.01,
-            "{fault:?}: it is driven"
-        );
+        let driven = extent(&course[off.clone()]);
+        assert!(driven < 0.01, "{fault:?}: {driven}");
         assert!(extent(&setpoints(&played)[off]) > 40.0);
 
         // Back: within 0.3 s it whisks as if nothing had been.
         let again = back as usize + 600..;
         let expected = angles(&sound, 0);
         assert!(extent(&course[again.clone()]) > 40.0);
-        assert!(
-            apart(&course[again.clone()], &expected[again]) < 0.2,
-            "{fault:?}"
-        );
+        let apart = apart(&course[again.clone()], &expected[again]);
+        assert!(apart < 0.2, "{fault:?}");
         is_unaffected(&played, &sound, 1);
     }
 }

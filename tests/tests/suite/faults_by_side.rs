@@ -48,9 +48,8 @@ fn a_motor_that_stalls_feels_nothing_while_it_rests() {
     for (side, place) in SIDES.into_iter().enumerate() {
         let start = first_touch(&sound, side, 2000) + 4;
         let played = play(&scene, 8000, |tick, run| {
-            run.motor_mut(side)
-                .unwrap()
-                .block((start..start + 2000).contains(&tick));
+            let holds = (start..start + 2000).contains(&tick);
+            run.motor_mut(side).unwrap().block(holds);
         });
         let [
             (fault, Event::MotorFault(_, Fault::Stall)),
@@ -60,19 +59,15 @@ fn a_motor_that_stalls_feels_nothing_while_it_rests() {
             panic!("{:?}", played.events);
         };
         // Not before it has been driven hard for so long.
-        assert!(
-            (start + of(STALL_S)..start + 1500).contains(&fault),
-            "{fault}"
-        );
+        let expected = start + of(STALL_S)..start + 1500;
+        assert!(expected.contains(&fault), "{fault}");
         assert_eq!((retry - fault, played.events.len()), (of(RETRY_S), 2));
         // It is held in the surface all the while.
         let contact = |tick: u64| played.rows[tick as usize].contact[side];
         assert!(contact(fault) > 0.05, "{}", contact(fault));
         assert!((fault + 1..=retry).all(|tick| contact(tick) == 0.0));
-        assert!(
-            (retry + 1..8000).any(|tick| contact(tick) > 0.2),
-            "it touches again"
-        );
+        let touches_again = (retry + 1..8000).any(|tick| contact(tick) > 0.2);
+        assert!(touches_again);
         is_unaffected(&played, &sound, 1 - side);
     }
 }
@@ -127,10 +122,7 @@ fn a_fault_of_one_stops_all_where_the_scene_says_so() {
         let course = angles(&played, 1);
         assert!(extent(&course[fault as usize + 200..gone as usize]) < 0.01);
         assert!(extent(&course[..fault as usize]) > 20.0);
-        assert!(
-            extent(&course[gone as usize + 600..]) > 20.0,
-            "it whisks again"
-        );
+        assert!(extent(&course[gone as usize + 600..]) > 20.0, "again");
         let theta: Vec<f64> = played.rows.iter().map(|row| row.theta_deg[1]).collect();
         assert!(extent(&theta[fault as usize + 200..gone as usize]) > 10.0);
     }

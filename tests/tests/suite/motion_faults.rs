@@ -71,9 +71,8 @@ fn a_motor_that_was_given_up_runs_when_it_is_cleared() {
     let scene = free_at(2.0, "");
     let (held, cleared) = (3 * TICK_HZ, 15 * TICK_HZ);
     let played = play(&scene, 20 * TICK_HZ, |tick, run| {
-        run.motor_mut(0)
-            .unwrap()
-            .block((held..cleared).contains(&tick));
+        let holds = (held..cleared).contains(&tick);
+        run.motor_mut(0).unwrap().block(holds);
         if tick == cleared {
             let done = run.module_mut().command(0, firmware::Command::Clear);
             done.unwrap();
@@ -81,14 +80,10 @@ fn a_motor_that_was_given_up_runs_when_it_is_cleared() {
     });
     assert_eq!(faults(&played).len(), usize::from(HELD));
     let last = played.events.last().unwrap();
-    assert!(
-        last.0 < cleared && last.1 == Event::MotorGivenUp(LEFT),
-        "{last:?}"
-    );
-    assert!(
-        turned_by(&played, cleared + TICK_HZ) > 20.0,
-        "it whisks again"
-    );
+    let is_given_up = last.1 == Event::MotorGivenUp(LEFT);
+    assert!(last.0 < cleared && is_given_up, "{last:?}");
+    let whisks = turned_by(&played, cleared + TICK_HZ);
+    assert!(whisks > 20.0, "{whisks}");
 }
 
 /// A whisker that is held is let go within the time of the following error and a tick.

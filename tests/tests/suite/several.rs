@@ -30,21 +30,15 @@ fn classifier(deciding: Deciding) -> Classifier {
 }
 
 fn scored(deciding: Deciding) -> (Evaluation, f64) {
-    let runs: Vec<Scored> = SEEDS
-        .map(|seed| {
-            let scene = Scene {
-                seed,
-                ..both(deciding)
-            };
-            scoring::run(&scene, classifier(deciding), || ()).unwrap()
-        })
-        .collect();
+    let mut scene = both(deciding);
+    let runs = SEEDS.map(|seed| {
+        scene.seed = seed;
+        scoring::run(&scene, classifier(deciding), || ()).unwrap()
+    });
+    let runs: Vec<Scored> = runs.collect();
     let classes = classifier(deciding).classes().to_vec();
-    let shown: Vec<_> = runs
-        .iter()
-        .flat_map(|run| &run.presentations)
-        .cloned()
-        .collect();
+    let shown = runs.iter().flat_map(|run| &run.presentations).cloned();
+    let shown: Vec<_> = shown.collect();
     let wall = runs.iter().map(|run| run.wall).sum::<f64>() / runs.len() as f64;
     (Evaluation::new(&classes, &shown), wall)
 }
@@ -85,17 +79,15 @@ fn each_decides_as_one_that_is_heard_alone() {
     for side in 0..2 {
         let place = Some(Place::new(side, 0));
         let its = decided.iter().filter(|d| d.place == place);
-        let its: Vec<_> = its
-            .map(|d| (d.t_s.unwrap(), d.posterior, d.touch))
-            .collect();
+        let its = its.map(|d| (d.t_s.unwrap(), d.posterior, d.touch));
+        let its: Vec<_> = its.collect();
         assert!(its.len() > 30, "{}", its.len());
         let mut alone = classifier(Deciding::First);
         let mut expected = Vec::new();
         for (tick, samples) in (1..).zip(&heard) {
+            let t_s = f64::from(tick) / 2000.0;
             let decision = alone.push(0, samples[usize::from(side)].unwrap());
-            expected.extend(
-                decision.map(|d| (f64::from(tick) / 2000.0, d.posterior().to_f64(), d.touch())),
-            );
+            expected.extend(decision.map(|d| (t_s, d.posterior().to_f64(), d.touch())));
         }
         assert_eq!(its, expected);
     }

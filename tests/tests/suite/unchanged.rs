@@ -8,6 +8,7 @@ use std::fmt::Write as _;
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use crate::common::project;
 use host_sim::commands::choice::SceneChoice;
 use host_sim::commands::record::record;
 use host_sim::commands::run::{Arguments, run};
@@ -15,13 +16,8 @@ use host_sim::progress::Verbosity;
 use rayon::prelude::*;
 use sha2::{Digest, Sha256};
 
-fn top() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("..")
-}
-
 fn sum_of(path: &Path) -> String {
-    let bytes = fs::read(path).unwrap();
-    let sum = Sha256::digest(&bytes);
+    let sum = Sha256::digest(fs::read(path).unwrap());
     let hex = sum.iter().map(|byte| format!("{byte:02x}"));
     hex.collect()
 }
@@ -40,13 +36,8 @@ fn lines(scene: &Path, format: Option<&str>) -> String {
         ..Arguments::of(scene, out.path())
     };
     run(&arguments, Verbosity::Quiet).unwrap();
-    record(
-        &choice,
-        &out.path().join("recording.csv"),
-        None,
-        Verbosity::Quiet,
-    )
-    .unwrap();
+    let recording = out.path().join("recording.csv");
+    record(&choice, &recording, None, Verbosity::Quiet).unwrap();
     let mut text = String::new();
     for file in ["trace.csv", "decisions.csv", "recording.csv"] {
         let path = out.path().join(file);
@@ -60,31 +51,25 @@ fn lines(scene: &Path, format: Option<&str>) -> String {
 
 #[test]
 fn every_scene_writes_what_it_wrote() {
-    let scenes = fs::read_dir(top().join("scenes")).unwrap();
+    let scenes = fs::read_dir(project("scenes")).unwrap();
     let scenes = scenes.map(|entry| entry.unwrap().path());
     let mut scenes: Vec<PathBuf> = scenes
         .filter(|path| path.extension().is_some_and(|ending| ending == "toml"))
         .collect();
     scenes.sort();
-    let runs: Vec<(PathBuf, Option<&str>)> = scenes
-        .into_iter()
-        .flat_map(|path| {
-            let text = fs::read_to_string(&path).unwrap();
-            let formats = if text.contains("[whisking]") {
-                vec![Some("f32"), Some("f64"), Some("fixed")]
-            } else {
-                vec![None]
-            };
-            formats
-                .into_iter()
-                .map(move |format| (path.clone(), format))
-        })
-        .collect();
-    let found: String = runs
-        .par_iter()
-        .map(|(path, format)| lines(path, *format))
-        .collect();
-    let file = top().join("tests/data/scenes.sha256");
+    let mut runs: Vec<(PathBuf, Option<&str>)> = Vec::new();
+    for path in scenes {
+        let text = fs::read_to_string(&path).unwrap();
+        let formats = if text.contains("[whisking]") {
+            &[Some("f32"), Some("f64"), Some("fixed")][..]
+        } else {
+            &[None]
+        };
+        runs.extend(formats.iter().map(|format| (path.clone(), *format)));
+    }
+    let found = runs.par_iter().map(|(path, format)| lines(path, *format));
+    let found: String = found.collect();
+    let file = project("tests/data/scenes.sha256");
     if std::env::var_os("WHISKER_RENEW").is_some() {
         fs::write(&file, &found).unwrap();
     }
