@@ -255,9 +255,8 @@ impl SampleClassifier for Tap {
     }
 
     fn classes(&self) -> usize {
-        self.classifier
-            .as_ref()
-            .map_or(0, SampleClassifier::classes)
+        let classifier = self.classifier.as_ref();
+        classifier.map_or(0, SampleClassifier::classes)
     }
 
     fn evidence(&self) -> Option<Felt> {
@@ -321,12 +320,9 @@ pub fn deployed(
         whisked: config::whisked(scene),
         tick_hz: scene.tick_hz,
     };
-    let words: Vec<u32> = flash
-        .as_chunks()
-        .0
-        .iter()
-        .map(|word| u32::from_le_bytes(*word))
-        .collect();
+    let (words, _) = flash.as_chunks();
+    let words = words.iter().map(|word| u32::from_le_bytes(*word));
+    let words: Vec<u32> = words.collect();
     // Thresholds by costs keep no model from being taken.
     let rule = match classifier.rule {
         Rule::Costs { .. } => settings(Rule::Sequential { threshold: 0.5 }),
@@ -334,8 +330,8 @@ pub fn deployed(
     };
     let rule = rule.map_err(|fault| Error::Input(fault.to_string()))?;
     let rule = (rule, classifier.whiskers);
-    let found =
-        CodeClassifier::at_start(bytemuck::cast_slice(&words), limits, rule, scene.whiskers());
+    let bytes = bytemuck::cast_slice(&words);
+    let found = CodeClassifier::at_start(bytes, limits, rule, scene.whiskers());
     Ok(match (found.state(), found.model()) {
         (ModelState::Refused(refusal), _) => Err(refusal),
         (_, Some(model)) => {

@@ -268,9 +268,9 @@ pub fn write(table: impl Write, decisions: &[Decided], columns: Columns) -> io::
             d.touch.to_string(),
             d.t_s.map_or_else(String::new, |t_s| format!("{t_s:.9}")),
             d.place
-                .map_or_else(String::new, |place| place.side_name().to_owned()),
+                .map_or_else(String::new, |at| at.side_name().to_owned()),
             d.place
-                .map_or_else(String::new, |place| (place.whisker + 1).to_string()),
+                .map_or_else(String::new, |at| (at.whisker + 1).to_string()),
             reason,
             among,
             tilt,

@@ -123,11 +123,8 @@ fn unknown<'d>(decided: impl Iterator<Item = &'d Decided> + Clone) -> Interval {
 
 fn undecided<'p>(presentations: impl Iterator<Item = &'p Shown> + Clone) -> Interval {
     let named = |p: &&Shown| p.decided.iter().any(|d| d.decision != UNKNOWN);
-    let (all, named) = (
-        presentations.clone().count(),
-        presentations.filter(named).count(),
-    );
-    Interval::of(all - named, all)
+    let all = presentations.clone().count();
+    Interval::of(all - presentations.filter(named).count(), all)
 }
 
 /// What a model does with a recording by the sequential rule, a presentation a stream.
@@ -165,15 +162,9 @@ pub fn outside(model: &ModelBuf, streams: &[Stream]) -> Outside {
     // Two channels of all whiskers, or two of each.
     let has_own = model.channels() > 2;
     let samples = streams.iter().flat_map(|stream| {
-        let of_whisker = if has_own {
-            2 * (stream.whisker() - 1)
-        } else {
-            0
-        };
-        let samples = stream
-            .samples
-            .iter()
-            .map(move |sample| (of_whisker, sample));
+        let whisker = if has_own { stream.whisker() } else { 1 };
+        let samples = stream.samples.iter();
+        let samples = samples.map(move |sample| (2 * (whisker - 1), sample));
         samples.zip(stream.counts(gate))
     });
     let (mut first, mut count, mut all) = (None, 0_u64, 0_u64);

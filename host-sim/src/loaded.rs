@@ -151,14 +151,11 @@ impl Loaded {
             Fault::Rule(fault) => refused(key, fault),
         })?;
         let gate = classifier.touch_rule().map(|touch| touch.gate);
-        config::contact_min(&self.scene, gate).map_err(|fault| {
-            let place = self.places.of("classifier.contact_min");
-            Error::Input(format!("{place}: {fault}"))
-        })?;
-        config::suits(&self.scene, model).map_err(|fault| {
-            let place = self.places.of("classifier.model");
-            Error::Input(format!("{place}: {fault}"))
-        })?;
+        let unsuited =
+            |key: &str, fault: Mismatch| Error::Input(format!("{}: {fault}", self.places.of(key)));
+        config::contact_min(&self.scene, gate)
+            .map_err(|fault| unsuited("classifier.contact_min", fault))?;
+        config::suits(&self.scene, model).map_err(|fault| unsuited("classifier.model", fault))?;
         knows_a_texture(&self.scene, classifier.classes())
             .map_err(|fault| refused("classifier.model", fault))?;
         Ok(Some(classifier))
@@ -189,11 +186,8 @@ fn knows_a_texture(scene: &Scene, classes: &[String]) -> Result<(), String> {
     if textured.textures.iter().any(known) {
         return Ok(());
     }
-    let presented: Vec<_> = textured
-        .textures
-        .iter()
-        .map(|texture| texture.name())
-        .collect();
+    let presented = textured.textures.iter().map(|texture| texture.name());
+    let presented: Vec<_> = presented.collect();
     Err(format!(
         "found the classes {}; the scene presents {}",
         classes.join(", "),

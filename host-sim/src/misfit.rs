@@ -27,11 +27,8 @@ pub fn misfits(
     let mut found = Vec::new();
     let outside = evaluation::outside(model, streams);
     if let Some((sample, channel)) = outside.first.filter(|_| outside.share > OUTSIDE) {
-        let value = streams
-            .iter()
-            .flat_map(|stream| &stream.samples)
-            .nth(sample);
-        let value = value.and_then(|values| values.get(channel));
+        let mut samples = streams.iter().flat_map(|stream| &stream.samples);
+        let value = samples.nth(sample).and_then(|values| values.get(channel));
         let (low, high) = model.quantiser(channel).map_or((0.0, 0.0), |quantiser| {
             let unit = f64::from(-quantiser.exponent).exp2();
             let value = |code: i32| quantiser.origin + f64::from(code) * unit;

@@ -39,8 +39,8 @@ impl Origin {
     pub fn tick_hz(&self) -> Result<Option<u32>, String> {
         let wrong = |text: &str| format!("{TICK_HZ} is {text:?}, not a whole number above 0");
         let number = |text: &str| text.parse().ok().filter(|hz| *hz > 0);
-        self.get(TICK_HZ)
-            .map(|text| number(text).ok_or_else(|| wrong(text)))
+        let said = self.get(TICK_HZ);
+        said.map(|text| number(text).ok_or_else(|| wrong(text)))
             .transpose()
     }
 

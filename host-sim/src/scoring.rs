@@ -154,10 +154,8 @@ impl Heard {
         for _ in 0..run.ticks() {
             run.tick();
             let (label, trial) = run.presented();
-            if !presentations
-                .last()
-                .is_some_and(|last| last.label == label && last.trial == trial)
-            {
+            let is_same = |last: &HeardPresentation| last.label == label && last.trial == trial;
+            if !presentations.last().is_some_and(is_same) {
                 presentations.push(HeardPresentation {
                     label: label.to_owned(),
                     trial,

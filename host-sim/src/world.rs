@@ -95,13 +95,12 @@ impl World {
         self.angles_deg.fill(whisking::REST_DEG);
         self.speeds_deg_s.fill(0.0);
         match &mut self.motors {
-            Motors::Ideal(motors) => motors
-                .iter()
-                .map(|motor| {
+            Motors::Ideal(motors) => {
+                for motor in &*motors {
                     motor.set_deg(whisking::REST_DEG);
-                    Pins::Ideal(motor.clone())
-                })
-                .collect(),
+                }
+                motors.iter().cloned().map(Pins::Ideal).collect()
+            }
             Motors::Real(motors) => motors.iter_mut().map(SimMotor::restart).collect(),
         }
     }
@@ -259,9 +258,8 @@ fn ideal_motors(scene: &Scene) -> (Motors, Vec<Pins>) {
         return (Motors::Real(Vec::new()), Vec::new());
     };
     let counts_per_deg = f64::from(motor.counts_per_rev) * motor.gear / 360.0;
-    let motors: Vec<_> = (0..scene.whiskers())
-        .map(|_| IdealMotor::new(counts_per_deg))
-        .collect();
+    let motors = (0..scene.whiskers()).map(|_| IdealMotor::new(counts_per_deg));
+    let motors: Vec<_> = motors.collect();
     let pins = motors.iter().cloned().map(Pins::Ideal).collect();
     (Motors::Ideal(motors), pins)
 }

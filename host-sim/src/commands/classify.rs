@@ -57,11 +57,8 @@ pub fn classify(
         progress.set(n as u64);
     }
     drop(progress);
-    files::write_decisions(
-        Output::create_or_stdout(out)?,
-        &decided,
-        Columns::of_recording(has_pose),
-    )?;
+    let columns = Columns::of_recording(has_pose);
+    files::write_decisions(Output::create_or_stdout(out)?, &decided, columns)?;
     let score = Score::new(replay.classes(), &decided);
     let mut lines = vec![Summary(&score, None).to_string()];
     lines.extend(undecided(replay.classes(), &streams, &decided));
@@ -73,11 +70,11 @@ pub fn classify(
 fn undecided(classes: &[String], streams: &[Stream], decided: &[Decided]) -> Option<String> {
     let is_there = |class: &&String| streams.iter().any(|stream| stream.label == **class);
     let is_decided = |class: &&String| decided.iter().any(|one| one.label == **class);
-    let classes = classes.iter().filter(is_there);
-    let silent: Vec<&str> = classes
-        .filter(|class| !is_decided(class))
-        .map(String::as_str)
-        .collect();
+    let silent = classes
+        .iter()
+        .filter(is_there)
+        .filter(|class| !is_decided(class));
+    let silent: Vec<&str> = silent.map(String::as_str).collect();
     let is_said = !silent.is_empty() && !decided.is_empty();
     is_said.then(|| format!("left out, nothing was decided on: {}", silent.join(", ")))
 }

@@ -92,10 +92,8 @@ pub fn score(arguments: &Arguments, verbosity: Verbosity) -> Result<String, Erro
         Fault::Rule(fault) => Error::file(path, fault),
     })?;
     let runs = runs(&scene, seeds, &classifier, verbosity)?;
-    let presentations: Vec<Shown> = runs
-        .iter()
-        .flat_map(|run| run.presentations.iter().cloned())
-        .collect();
+    let presentations = runs.iter().flat_map(|run| &run.presentations).cloned();
+    let presentations: Vec<Shown> = presentations.collect();
     let over_runs = OverRuns {
         runs: &runs,
         together: &Evaluation::new(classifier.classes(), &presentations),

@@ -71,11 +71,8 @@ pub fn train(arguments: &Arguments) -> Result<String, Error> {
     let scene = scene.as_deref().map(|path| Scene::load_with(path, &[]));
     let scene = scene.transpose()?.map(|(scene, _)| scene);
     let mut said = vec![("--rate".to_owned(), *rate)];
-    said.extend(
-        scene
-            .as_ref()
-            .map(|scene| ("the scene".to_owned(), Some(scene.tick_hz))),
-    );
+    let of_scene = scene.as_ref().map(|scene| scene.tick_hz);
+    said.push(("the scene".to_owned(), of_scene));
     rate::agreed(said.clone()).map_err(Error::Input)?;
     let how = &scene.map_or(*how, |scene| how.like(&scene));
     how.check().map_err(|fault| of_option(&fault))?;
@@ -103,11 +100,7 @@ pub fn train(arguments: &Arguments) -> Result<String, Error> {
     let streams = || recordings.iter().flat_map(|(_, streams)| streams);
     let counts = streams().flat_map(|stream| stream.counts(how.least()));
     let samples = counts.filter(|counts| *counts).count();
-    let odd = if odd.is_empty() {
-        String::new()
-    } else {
-        format!("\n{}", odd.join("\n"))
-    };
+    let odd = odd.iter().flat_map(|line| ["\n", line]).collect::<String>();
     let summary = format!(
         "{}: {samples} samples in {} streams, {} bytes",
         out.display(),

@@ -73,22 +73,18 @@ impl Strips {
         root.fill(&WHITE)?;
         let root = root.titled(&self.title, ("sans-serif", 20))?;
         let areas = root.split_evenly((self.strips.len(), 1));
-        let times = self.strips.iter().flat_map(|strip| &strip.curves);
-        let times = || {
-            times
-                .clone()
-                .flat_map(|(_, _, points)| points)
-                .map(|(t_s, _)| *t_s)
-        };
+        let shown = || self.strips.iter().flat_map(|strip| &strip.curves);
+        let points = || shown().flat_map(|(_, _, points)| points);
+        let times = || points().map(|(t_s, _)| *t_s);
         let from = times().fold(f64::INFINITY, f64::min);
         let to = times().fold(f64::NEG_INFINITY, f64::max);
         let span = if from < to { (from, to) } else { (0.0, 1.0) };
         for (n, (area, strip)) in areas.iter().zip(&self.strips).enumerate() {
-            let shown: Vec<Curve> = strip
+            let shown = strip
                 .curves
                 .iter()
-                .map(|(name, ink, points)| (*name, Stroke::Whole(ink.colour()), thinned(points)))
-                .collect();
+                .map(|(name, ink, points)| (*name, Stroke::Whole(ink.colour()), thinned(points)));
+            let shown: Vec<Curve> = shown.collect();
             let area = with_legend(area, &entries(&shown))?;
             let is_last = n + 1 == self.strips.len();
             let axes = Axes {
@@ -119,11 +115,11 @@ fn thinned(points: &[(f64, f64)]) -> Points {
     }
     let ends = |points: &[(f64, f64)]| {
         let by_height = |a: &&(f64, f64), b: &&(f64, f64)| a.1.total_cmp(&b.1);
-        let (low, high) = (
-            points.iter().min_by(by_height),
-            points.iter().max_by(by_height),
-        );
-        let mut ends: Points = low.into_iter().chain(high).copied().collect();
+        let low = points.iter().min_by(by_height).into_iter();
+        let mut ends: Points = low
+            .chain(points.iter().max_by(by_height))
+            .copied()
+            .collect();
         ends.sort_by(|a, b| a.0.total_cmp(&b.0));
         ends
     };

@@ -59,28 +59,25 @@ pub fn train(recording: &[Sample], bins: usize, smooth: f64, block: usize) -> Mo
             count: bins,
         }
     });
-    let log_likelihood = classes
-        .iter()
-        .map(|class| {
-            [0, 1].map(|channel: usize| {
-                let mut counts = vec![0.0; bins[channel].count];
-                for sample in recording.iter().filter(|sample| sample.label == *class) {
-                    counts[bins[channel].of(sample.channels()[channel])] += 1.0;
-                }
-                let smoothed = smoothed(&counts, smooth);
-                let total: f64 = smoothed.iter().sum();
-                smoothed
-                    .iter()
-                    .map(|weight| (weight / total + FLOOR).ln())
-                    .collect()
-            })
+    let of_class = |class: &String| {
+        [0, 1].map(|channel: usize| {
+            let mut counts = vec![0.0; bins[channel].count];
+            for sample in recording.iter().filter(|sample| sample.label == *class) {
+                counts[bins[channel].of(sample.channels()[channel])] += 1.0;
+            }
+            let smoothed = smoothed(&counts, smooth);
+            let total: f64 = smoothed.iter().sum();
+            let weights = smoothed.iter();
+            weights
+                .map(|weight| (weight / total + FLOOR).ln())
+                .collect()
         })
-        .collect();
+    };
     Model {
+        log_likelihood: classes.iter().map(of_class).collect(),
         classes,
         block,
         bins,
-        log_likelihood,
     }
 }
 
@@ -97,12 +94,11 @@ fn smoothed(counts: &[f64], sigma: f64) -> Vec<f64> {
             (-0.5 * (distance / sigma).powi(2)).exp()
         }
     };
-    (0..counts.len())
-        .map(|to| {
-            let parts = counts.iter().enumerate();
-            parts.map(|(from, count)| weight(from, to) * count).sum()
-        })
-        .collect()
+    let smoothed = (0..counts.len()).map(|to| {
+        let parts = counts.iter().enumerate();
+        parts.map(|(from, count)| weight(from, to) * count).sum()
+    });
+    smoothed.collect()
 }
 
 /// When to decide.
