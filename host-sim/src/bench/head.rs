@@ -115,15 +115,13 @@ impl<R: Number> Head<R> {
     }
 
     fn board_of(&mut self, n: usize) -> Option<(&mut Hosted<R>, usize)> {
-        let board = self
-            .boards
-            .iter_mut()
-            .find(|board| board.own.contains(&n))?;
+        let mut boards = self.boards.iter_mut();
+        let board = boards.find(|board| n < board.own.end)?;
         Some((&mut board.hosted, n - board.own.start))
     }
 
     fn whisker(&self, n: usize) -> Option<&Whisker<R, Mock>> {
-        let board = self.boards.iter().find(|board| board.own.contains(&n))?;
+        let board = self.boards.iter().find(|board| n < board.own.end)?;
         let whiskers = board.hosted.module.whiskers();
         whiskers.get(n - board.own.start)
     }
@@ -198,9 +196,6 @@ impl<R: Number> Head<R> {
 impl<R: Number> Bench for Head<R> {
     fn tick(&mut self, events: &mut Vec<Event>) {
         self.do_asked();
-        let tick_us = 1e6 / self.tick_hz;
-        let t_s = self.done as f64 / self.tick_hz;
-        let ready_us = (self.done as f64 + READY_SHARE) * tick_us;
         for (n, board) in self.boards.iter_mut().enumerate() {
             let Board {
                 hosted,
@@ -212,6 +207,9 @@ impl<R: Number> Bench for Head<R> {
                 hosted.tick(events);
                 continue;
             };
+            let tick_us = 1e6 / self.tick_hz;
+            let t_s = self.done as f64 / self.tick_hz;
+            let ready_us = (self.done as f64 + READY_SHARE) * tick_us;
             let now_us = *ticks as f64 * tick_us;
             let Hosted {
                 module,
@@ -250,14 +248,12 @@ impl<R: Number> Bench for Head<R> {
             .filter(|pi| !pi.is_nan())
             .for_each(|pi| *pi = 0.0);
         for (side, z) in snapshot.z.iter_mut().enumerate() {
-            let first = self
-                .boards
-                .iter()
-                .find(|board| board.own.contains(&(side * self.each)));
-            let Some(Board { hosted, own, .. }) = first else {
+            let first = side * self.each;
+            let board = self.boards.iter().find(|board| first < board.own.end);
+            let Some(Board { hosted, own, .. }) = board else {
                 continue;
             };
-            let local = side * self.each - own.start;
+            let local = first - own.start;
             if let Some(perception) = hosted.module.perception() {
                 snapshot.touch[side] = perception.touching(local).number;
             }
