@@ -254,6 +254,13 @@ impl Slave {
     }
 }
 
+/// A sensor in alpha-beta mode that sends the default sum.
+impl Default for Slave {
+    fn default() -> Self {
+        Self::of(Decoder::new())
+    }
+}
+
 /// One transaction: the frame latched at its start, byte by byte.
 #[derive(Debug, Clone)]
 pub struct Exchange {

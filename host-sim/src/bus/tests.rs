@@ -12,7 +12,7 @@ use super::{SimSpiError, Slave, WireFault};
 const REST: [u8; 8] = [0xFF, 0x00, 0x80, 0x00, 0x80, 0x00, 0x00, 0x00];
 
 fn still() -> Slave {
-    Slave::of(Decoder::new()).without_noise()
+    Slave::default().without_noise()
 }
 
 fn read(slave: &mut Slave) -> [u8; 8] {
@@ -180,7 +180,7 @@ fn disturbances_come_as_often_as_asked_and_again_by_seed() {
 
 #[test]
 fn noise_changes_every_frame_and_no_code() {
-    let mut noisy = Slave::of(Decoder::new());
+    let mut noisy = Slave::default();
     let frames: Vec<[u8; 8]> = (0..4).map(|_| read(&mut noisy)).collect();
     assert!(frames.windows(2).all(|two| two[0] != two[1]));
     for frame in &frames {

@@ -56,7 +56,7 @@ fn faults(found: &SelfTest) -> Vec<(u8, u8)> {
 
 #[test]
 fn a_sensor_at_rest_gives_sixteen_frames_without_noise() {
-    let mut slave = Slave::of(Decoder::new());
+    let mut slave = Slave::default();
     let (found, waited_ns) = test(&mut slave);
     assert_eq!(found.good(), READINGS);
     assert_eq!((faults(&found), found.noise_tenths()), (vec![], [0, 0]));
@@ -69,7 +69,7 @@ fn a_sensor_at_rest_gives_sixteen_frames_without_noise() {
 /// Root mean squares of 2 and of 0.5 codes; the root is up to 6.1 % large.
 #[test]
 fn noise_is_that_of_each_channel() {
-    let mut sensor = Mlx90333::new(Shaken(Slave::of(Decoder::new()), 0), Decoder::new());
+    let mut sensor = Mlx90333::new(Shaken(Slave::default(), 0), Decoder::new());
     let found = SelfTest::of(&mut sensor, &mut Waited::default(), PACING);
     let [x, y] = found.noise_tenths();
     assert_eq!(found.good(), READINGS);
@@ -78,7 +78,7 @@ fn noise_is_that_of_each_channel() {
 
 #[test]
 fn faults_are_counted_by_their_numbers_and_each_is_rested_after() {
-    let mut slave = Slave::of(Decoder::new());
+    let mut slave = Slave::default();
     slave.inject(WireFault::BadSum, 3);
     let (found, waited_ns) = test(&mut slave);
     assert_eq!(found.good(), 13);
@@ -95,13 +95,13 @@ fn faults_are_counted_by_their_numbers_and_each_is_rested_after() {
         (WireFault::LowAfterStart, number::STUCK_WORDS),
         (WireFault::Bus, number::BUS),
     ] {
-        let mut slave = Slave::of(Decoder::new());
+        let mut slave = Slave::default();
         slave.set_fault(Some(fault));
         let (found, _) = test(&mut slave);
         assert_eq!((found.good(), found.noise_tenths()), (0, [0, 0]));
         assert_eq!(faults(&found), [(expected, READINGS)]);
     }
-    let mut slave = Slave::of(Decoder::new());
+    let mut slave = Slave::default();
     slave.set_error_word(Faults::FIELD_TOO_LOW);
     let (found, _) = test(&mut slave);
     assert_eq!(faults(&found), [(number::SENSOR_REPORT, READINGS)]);
