@@ -70,6 +70,7 @@ use spi::Spi;
 use timer::Timer;
 use usart::Usart;
 use watchdog::Watchdog;
+use wiring::CAN_IRQS;
 
 /// The voltage detector's interrupt in the NVIC, of every chip.
 const SUPPLY_IRQ: u16 = 1;
@@ -174,10 +175,8 @@ impl Chip {
             (side.end_of_frame, up)
         });
         let supply = (SUPPLY_IRQ, self.exti.interrupts());
-        let bus = wiring.can.iter().flat_map(|can| {
-            let [heard, sent] = self.can.interrupts();
-            [(can.heard_irq, heard), (can.sent_irq, sent)]
-        });
+        let bus = CAN_IRQS.into_iter().zip(self.can.interrupts());
+        let bus = bus.filter(|_| wiring.can_function.is_some());
         std::iter::once(tick)
             .chain(frames)
             .chain([supply])

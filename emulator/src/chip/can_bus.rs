@@ -6,7 +6,7 @@ use super::can::{Arrival, Request};
 use super::can_errors::ErrorCounts;
 use super::map::Unit;
 use super::time::Ps;
-use super::wiring::NUMBER;
+use super::wiring::{CAN, NUMBER, PORTS_BUS};
 use super::{Chip, Fault};
 
 /// By how many thousandths the chip's bits may differ from those of the others.
@@ -45,19 +45,13 @@ impl Chip {
     /// What it has asked of a bus with such bits since the last call, and when.
     pub(crate) fn take_requests(&mut self, bit: Ps) -> Result<Vec<(Ps, Request)>, Fault> {
         let requests = self.can.take_requests();
-        let Some(wires) = self
-            .model
-            .wiring
-            .can
-            .as_ref()
-            .filter(|_| !requests.is_empty())
-        else {
+        let function = self.model.wiring.can_function;
+        let Some(function) = function.filter(|_| !requests.is_empty()) else {
             return Ok(Vec::new());
         };
-        let found = self.can.bit(self.clocks.bus(wires.bus));
+        let found = self.can.bit(self.clocks.bus(PORTS_BUS));
         let agrees = found.abs_diff(bit) * 1_000 <= OFF_PERMILLE * bit;
-        let is_wired =
-            self.drives(&[wires.tx], wires.function) && self.hears(&[wires.rx], wires.function);
+        let is_wired = self.drives(&CAN[1..], function) && self.hears(&CAN[..1], function);
         if agrees && is_wired {
             return Ok(requests);
         }

@@ -8,7 +8,7 @@ use super::fields::Field;
 use super::map::Unit;
 use super::rcc::Bus;
 use super::timers::Kind;
-use super::wiring::{PWM, Pin, Request, SERIAL};
+use super::wiring::{CAN, CAN_IRQS, PWM, Pin, Request, SERIAL, SERIAL_DMA};
 use super::{
     Model, SUPPLY_IRQ, can, dma, flash, gpio, lines, mux, power, remap, spi, timer, usart, watchdog,
 };
@@ -212,17 +212,17 @@ fn wired(model: &Model) -> Vec<Fact> {
         facts.extend(pins(encoder, &["CH1", "CH2"], &side.encoder, function));
     }
     let (serial, usart) = (&wiring.serial, name(model, Unit::Usart));
-    let dma = name(model, Unit::Dma(serial.dma));
+    let dma = name(model, Unit::Dma(SERIAL_DMA));
     for (signal, request) in [("RX", serial.rx_request), ("TX", serial.tx_request)] {
-        let part = format!("{signal} on {dma}_{}", channel(model, serial.dma, request));
+        let part = format!("{signal} on {dma}_{}", channel(model, SERIAL_DMA, request));
         facts.push(fact(FactKind::Request, usart, part, [request.channel, 0]));
     }
     facts.extend(pins(usart, &["TX", "RX"], &SERIAL, serial.function));
-    if let Some(port) = &wiring.can {
+    if let Some(function) = wiring.can_function {
         let can = name(model, Unit::Can);
-        facts.push(interrupt(can, "RX0", port.heard_irq));
-        facts.push(interrupt(can, "TX", port.sent_irq));
-        facts.extend(pins(can, &["RX", "TX"], &[port.rx, port.tx], port.function));
+        let parts = ["RX0", "TX"].into_iter().zip(CAN_IRQS);
+        facts.extend(parts.map(|(part, number)| interrupt(can, part, number)));
+        facts.extend(pins(can, &["RX", "TX"], &CAN, function));
     }
     let pwm = timer(wiring.pwm_timer);
     let signals = ["CH1", "CH2", "CH3"];

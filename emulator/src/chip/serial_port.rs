@@ -3,6 +3,7 @@
 use super::fault::Fault;
 use super::map::Unit;
 use super::time::Ps;
+use super::wiring::{PORTS_BUS, SERIAL, SERIAL_DMA};
 use super::{Chip, Memory};
 
 const SECOND: Ps = 1_000_000_000_000;
@@ -38,7 +39,7 @@ impl Chip {
     }
 
     pub(super) fn serial_clock(&self) -> Ps {
-        self.clocks.bus(self.model.wiring.serial.bus)
+        self.clocks.bus(PORTS_BUS)
     }
 
     fn agrees(&self, bit: Ps) -> Result<(), Fault> {
@@ -57,7 +58,7 @@ impl Chip {
         let wires = &self.model.wiring.serial;
         let clock = self.serial_clock();
         if let Some(byte) = self.usart.sent(now, clock)
-            && self.drives(&[wires.tx], wires.function)
+            && self.drives(&SERIAL[..1], wires.function)
             && let Some(bit) = self.serial.bit
         {
             self.agrees(bit)?;
@@ -71,7 +72,7 @@ impl Chip {
         };
         self.serial.ends += BITS * bit;
         let is_clocked = self.is_clocked(Unit::Usart);
-        if is_clocked && self.usart.listens() && self.hears(&[wires.rx], wires.function) {
+        if is_clocked && self.usart.listens() && self.hears(&SERIAL[1..], wires.function) {
             self.agrees(bit)?;
             self.usart.receive(byte);
         }
@@ -82,15 +83,15 @@ impl Chip {
     pub(super) fn serve_serial(&mut self, memory: &dyn Memory) -> Result<bool, Fault> {
         let wires = &self.model.wiring.serial;
         let fetched = self.usart.requests_fetch();
-        let fetched = fetched.then(|| self.moves(wires.dma, wires.rx_request));
+        let fetched = fetched.then(|| self.moves(SERIAL_DMA, wires.rx_request));
         let moved = fetched.flatten().or_else(|| {
             let brought = self.usart.requests_byte();
-            brought.then(|| self.moves(wires.dma, wires.tx_request))?
+            brought.then(|| self.moves(SERIAL_DMA, wires.tx_request))?
         });
         let Some(moved) = moved else {
             return Ok(false);
         };
-        self.move_byte(wires.dma, moved, memory)?;
+        self.move_byte(SERIAL_DMA, moved, memory)?;
         Ok(true)
     }
 }

@@ -28,6 +28,12 @@ pub(super) struct Request {
     pub(super) channel: u32,
 }
 
+impl Request {
+    pub(super) const fn new(stream: usize, channel: u32) -> Self {
+        Self { stream, channel }
+    }
+}
+
 #[derive(Debug)]
 pub(super) struct Side {
     /// SCK, MISO and MOSI of the sensor's SPI (SPI1 on the left, SPI2 on the right).
@@ -67,29 +73,12 @@ impl ByteSignal {
     }
 }
 
-/// The serial port that the ST-LINK is on.
+/// The serial port that the ST-LINK is on: USART2, whose bytes DMA1 moves.
 #[derive(Debug)]
 pub(super) struct SerialPort {
-    pub(super) bus: Bus,
-    pub(super) tx: Pin,
-    pub(super) rx: Pin,
     pub(super) function: u32,
-    /// The DMA controller that moves the bytes, DMA1 first.
-    pub(super) dma: usize,
     pub(super) rx_request: Request,
     pub(super) tx_request: Request,
-}
-
-/// The bus of a head.
-#[derive(Debug)]
-pub(super) struct CanPort {
-    pub(super) bus: Bus,
-    pub(super) rx: Pin,
-    pub(super) tx: Pin,
-    pub(super) function: u32,
-    /// The interrupts of the first FIFO, and of the mailboxes.
-    pub(super) heard_irq: u16,
-    pub(super) sent_irq: u16,
 }
 
 #[derive(Debug)]
@@ -104,7 +93,8 @@ pub(super) struct Wiring {
     pub(super) pwm_function: u32,
     pub(super) spi_function: u32,
     pub(super) serial: SerialPort,
-    pub(super) can: Option<CanPort>,
+    /// Of the pins of a head's bus, where the chip has one.
+    pub(super) can_function: Option<u32>,
 }
 
 pub(crate) const SIDE_NAMES: [&str; 2] = ["left", "right"];
@@ -115,8 +105,14 @@ pub(super) const PWM: [Pin; 3] = [Pin::new('A', 8), Pin::new('A', 9), Pin::new('
 pub(super) const ENABLES: [Pin; 3] = [Pin::new('C', 10), Pin::new('C', 11), Pin::new('C', 12)];
 /// The user button, low while it is pressed.
 pub(super) const BUTTON: Pin = Pin::new('C', 13);
-/// What USART2 sends and receives, and the pins of contact and of decisions.
+/// The bus of USART2 and of the CAN, and the DMA that moves the bytes of the first.
+pub(super) const PORTS_BUS: Bus = Bus::Apb1;
+pub(super) const SERIAL_DMA: usize = 0;
+/// What USART2 sends and receives, CAN RX and TX, and the pins of contact and of decisions.
 pub(super) const SERIAL: [Pin; 2] = [Pin::new('A', 2), Pin::new('A', 3)];
+pub(super) const CAN: [Pin; 2] = [Pin::new('A', 11), Pin::new('A', 12)];
+/// The interrupts of its first FIFO, and of its mailboxes.
+pub(super) const CAN_IRQS: [u16; 2] = [20, 19];
 pub(super) const SIGNALS: [Pin; 2] = [Pin::new('B', 8), Pin::new('B', 9)];
 pub(super) const HALLS: [Pin; 3] = [Pin::new('A', 15), Pin::new('B', 3), Pin::new('B', 10)];
 

@@ -3,20 +3,16 @@
 use firmware::boards;
 
 use crate::chip::dma::Version;
-use crate::chip::flash;
 use crate::chip::gpio::Reset;
-use crate::chip::lines;
 use crate::chip::map::Unit;
 use crate::chip::model::{CoreKind, Model};
-use crate::chip::power;
 use crate::chip::rcc::{Bus, f1};
-use crate::chip::spi;
 use crate::chip::timers::Kind;
-use crate::chip::usart;
 use crate::chip::wiring::{
-    ByteSignal, CanPort, LEFT_DIRECTION, LEFT_ENCODER, LEFT_SELECT, LEFT_SPI, Pin, Request, SERIAL,
-    SerialPort, Side, Wiring,
+    ByteSignal, LEFT_DIRECTION, LEFT_ENCODER, LEFT_SELECT, LEFT_SPI, Request, SerialPort, Side,
+    Wiring,
 };
+use crate::chip::{flash, lines, power, spi, usart};
 
 const TIM2: usize = 0;
 const TIM3: usize = 1;
@@ -83,28 +79,11 @@ pub(crate) static F103: Model = Model {
         pwm_function: 0,
         spi_function: 0,
         serial: SerialPort {
-            bus: Bus::Apb1,
-            tx: SERIAL[0],
-            rx: SERIAL[1],
             function: 0,
-            dma: 0,
-            rx_request: Request {
-                stream: 5,
-                channel: WIRED,
-            },
-            tx_request: Request {
-                stream: 6,
-                channel: WIRED,
-            },
+            rx_request: Request::new(5, WIRED),
+            tx_request: Request::new(6, WIRED),
         },
-        can: Some(CanPort {
-            bus: Bus::Apb1,
-            rx: Pin::new('A', 11),
-            tx: Pin::new('A', 12),
-            function: 0,
-            heard_irq: 20,
-            sent_irq: 19,
-        }),
+        can_function: Some(0),
     },
 };
 
@@ -114,14 +93,8 @@ const LEFT: Side = Side {
     byte_timer: TIM4,
     byte_signal: ByteSignal::Compare,
     dma: 0,
-    rx: Request {
-        stream: 1,
-        channel: WIRED,
-    },
-    tx: Request {
-        stream: 0,
-        channel: WIRED,
-    },
+    rx: Request::new(1, WIRED),
+    tx: Request::new(0, WIRED),
     end_of_frame: 12,
     encoder: LEFT_ENCODER,
     encoder_timer: TIM2,

@@ -3,20 +3,16 @@
 use firmware::boards;
 
 use crate::chip::dma::Version;
-use crate::chip::flash;
 use crate::chip::gpio::Reset;
-use crate::chip::lines;
 use crate::chip::map::Unit;
 use crate::chip::model::{CoreKind, Model};
-use crate::chip::power;
 use crate::chip::rcc::{Bus, f4};
-use crate::chip::spi;
 use crate::chip::timers::Kind;
-use crate::chip::usart;
 use crate::chip::wiring::{
-    ByteSignal, CanPort, LEFT_DIRECTION, LEFT_ENCODER, LEFT_SELECT, LEFT_SPI, Pin, Request, SERIAL,
-    SerialPort, Side, Wiring,
+    ByteSignal, LEFT_DIRECTION, LEFT_ENCODER, LEFT_SELECT, LEFT_SPI, Pin, Request, SerialPort,
+    Side, Wiring,
 };
+use crate::chip::{flash, lines, power, spi, usart};
 
 const TIM2: usize = 0;
 const TIM3: usize = 1;
@@ -99,28 +95,11 @@ pub(crate) static F446: Model = Model {
         pwm_function: 1,
         spi_function: 5,
         serial: SerialPort {
-            bus: Bus::Apb1,
-            tx: SERIAL[0],
-            rx: SERIAL[1],
             function: 7,
-            dma: 0,
-            rx_request: Request {
-                stream: 5,
-                channel: 4,
-            },
-            tx_request: Request {
-                stream: 6,
-                channel: 4,
-            },
+            rx_request: Request::new(5, 4),
+            tx_request: Request::new(6, 4),
         },
-        can: Some(CanPort {
-            bus: Bus::Apb1,
-            rx: Pin::new('A', 11),
-            tx: Pin::new('A', 12),
-            function: 9,
-            heard_irq: 20,
-            sent_irq: 19,
-        }),
+        can_function: Some(9),
     },
 };
 
@@ -130,14 +109,8 @@ const LEFT: Side = Side {
     byte_timer: TIM8,
     byte_signal: ByteSignal::Update,
     dma: 1,
-    rx: Request {
-        stream: 0,
-        channel: 3,
-    },
-    tx: Request {
-        stream: 1,
-        channel: 7,
-    },
+    rx: Request::new(0, 3),
+    tx: Request::new(1, 7),
     end_of_frame: 56,
     encoder: LEFT_ENCODER,
     encoder_timer: TIM2,
@@ -151,14 +124,8 @@ const RIGHT: Side = Side {
     byte_timer: TIM6,
     byte_signal: ByteSignal::Update,
     dma: 0,
-    rx: Request {
-        stream: 3,
-        channel: 0,
-    },
-    tx: Request {
-        stream: 1,
-        channel: 7,
-    },
+    rx: Request::new(3, 0),
+    tx: Request::new(1, 7),
     end_of_frame: 14,
     encoder: [Pin::new('C', 6), Pin::new('C', 7)],
     encoder_timer: TIM3,

@@ -3,20 +3,16 @@
 use firmware::boards;
 
 use crate::chip::dma::Version;
-use crate::chip::flash;
 use crate::chip::gpio::Reset;
-use crate::chip::lines;
 use crate::chip::map::Unit;
 use crate::chip::model::{CoreKind, Model};
-use crate::chip::power;
 use crate::chip::rcc::{Bus, g0};
-use crate::chip::spi;
 use crate::chip::timers::Kind;
-use crate::chip::usart;
 use crate::chip::wiring::{
-    ByteSignal, LEFT_DIRECTION, LEFT_ENCODER, LEFT_SELECT, LEFT_SPI, Request, SERIAL, SerialPort,
-    Side, Wiring,
+    ByteSignal, LEFT_DIRECTION, LEFT_ENCODER, LEFT_SELECT, LEFT_SPI, Request, SerialPort, Side,
+    Wiring,
 };
+use crate::chip::{flash, lines, power, spi, usart};
 
 const TIM2: usize = 0;
 const TIM3: usize = 1;
@@ -84,21 +80,11 @@ pub(crate) static G071: Model = Model {
         pwm_function: 2,
         spi_function: 0,
         serial: SerialPort {
-            bus: Bus::Apb1,
-            tx: SERIAL[0],
-            rx: SERIAL[1],
             function: 1,
-            dma: 0,
-            rx_request: Request {
-                stream: 2,
-                channel: 52,
-            },
-            tx_request: Request {
-                stream: 3,
-                channel: 53,
-            },
+            rx_request: Request::new(2, 52),
+            tx_request: Request::new(3, 53),
         },
-        can: None,
+        can_function: None,
     },
 };
 
@@ -109,14 +95,8 @@ const LEFT: Side = Side {
     byte_signal: ByteSignal::Update,
     dma: 0,
     // SPI1_RX and TIM6_UP in DMAMUX.
-    rx: Request {
-        stream: 0,
-        channel: 16,
-    },
-    tx: Request {
-        stream: 1,
-        channel: 38,
-    },
+    rx: Request::new(0, 16),
+    tx: Request::new(1, 38),
     end_of_frame: 9,
     encoder: LEFT_ENCODER,
     encoder_timer: TIM2,
