@@ -5,7 +5,7 @@ use std::path::Path;
 
 use crate::figures::{Figure, INSTRUCTIONS, Table};
 use crate::firmware::Board;
-use crate::run::{self, Fault, cargo, output, workspace_program};
+use crate::run::{self, Fault, cargo, emulator, output};
 
 /// Processors, as the table calls them, and the board that has one. A Cortex-M0 has the instructions
 /// of a Cortex-M0+.
@@ -54,9 +54,8 @@ fn count(
     let folder = run::target().join(target).join("firmware");
     let mut figures = Vec::new();
     for program in programs {
-        let mut emulator = workspace_program("emulator");
-        emulator.arg("count").arg(folder.join(program));
-        let said = output(emulator.args(["--board", board]))?;
+        let mut count = emulator("count");
+        let said = output(count.arg(folder.join(program)).args(["--board", board]))?;
         for line in said.lines() {
             figures.push(counted(line, processor)?);
         }

@@ -5,13 +5,12 @@ use std::io::Write as _;
 use std::process::Stdio;
 
 use crate::firmware::Board;
-use crate::run::{Fault, cargo_apart, document, output, workspace_program};
+use crate::run::{Fault, cargo_apart, document, emulator, output};
 
 const PAGE: &str = "docs/registers.md";
 
 fn facts(board: Option<Board>) -> Result<String, Fault> {
-    let mut command = workspace_program("emulator");
-    command.arg("facts");
+    let mut command = emulator("facts");
     if let Some(board) = board {
         command.args(["--board", board.name]);
     }

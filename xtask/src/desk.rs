@@ -2,7 +2,7 @@
 
 use serde::Deserialize;
 
-use crate::run::{Fault, document, top};
+use crate::run::{self, Fault, document, top};
 use crate::{page, python};
 
 /// Median, least and largest of some runs.
@@ -33,7 +33,7 @@ pub(crate) fn measure() -> Result<(), Fault> {
     page::test()?;
     page::count_frames(Some(&top().join("docs/page.png")))?;
     let read = |json: &str| serde_json::from_str(json).map_err(|error| error.to_string());
-    let page: OfPage = read(&python::written("page.json")?)?;
+    let page: OfPage = read(&run::read(&python::place("page.json"))?)?;
     let said = python::figures()?;
     let python: OfPython = serde_json::from_str(&said).map_err(|error| error.to_string())?;
     document(

@@ -8,7 +8,7 @@ use std::process::Command;
 use ::firmware::Part;
 
 use crate::firmware::{self, Board};
-use crate::run::{Fault, absolute, listing, output, run, top, workspace_program};
+use crate::run::{Fault, absolute, emulator, listing, output, run, top};
 
 /// A board, and how it gets its scenes.
 #[derive(Debug)]
@@ -48,8 +48,8 @@ impl Emulated {
 pub(crate) fn emulate(on: &Emulated, scene: &Path, scenarios: &[&str]) -> Result<(), Fault> {
     let program = on.program(scene)?;
     for scenario in scenarios {
-        let mut command = workspace_program("emulator");
-        command.arg("scenario").args(scenario.split(' '));
+        let mut command = emulator("scenario");
+        command.args(scenario.split(' '));
         match *scenario {
             "telemetry" => {
                 let without = on.program(&variants::without_telemetry(scene)?)?;
@@ -78,9 +78,11 @@ pub(crate) fn emulate(on: &Emulated, scene: &Path, scenarios: &[&str]) -> Result
 }
 
 pub(crate) fn files(on: &Emulated, scene: &Path, out: &Path) -> Result<(), Fault> {
-    let mut command = workspace_program("emulator");
-    command.args(["run", "--out"]).arg(absolute(out)?);
-    command.arg(absolute(scene)?);
+    let mut command = emulator("run");
+    command
+        .arg("--out")
+        .arg(absolute(out)?)
+        .arg(absolute(scene)?);
     run(command.arg("--program").arg(on.program(scene)?))
 }
 
@@ -121,8 +123,8 @@ fn files_of_try(
     world: Option<&Path>,
     json: &Path,
 ) -> Result<Command, Fault> {
-    let mut command = workspace_program("emulator");
-    command.arg("try").arg(absolute(scene)?);
+    let mut command = emulator("try");
+    command.arg(absolute(scene)?);
     for (option, path) in [("--scenario", scenario), ("--json", json)] {
         command.arg(option).arg(absolute(path)?);
     }
@@ -153,8 +155,7 @@ fn serial(on: &Emulated, scene: &Path, without: &Path, to: &mut Command) -> Resu
 /// Draws what both sides do in `scenes`, deployed to the board one after the other, to the SVG file
 /// `out`.
 pub(crate) fn picture(board: Board, scenes: &[PathBuf], out: &Path) -> Result<(), Fault> {
-    let mut command = workspace_program("emulator");
-    command.arg("picture");
+    let mut command = emulator("picture");
     let program = firmware::build_any_scene(board)?;
     for scene in scenes {
         command.arg(absolute(scene)?).arg("--program").arg(&program);
@@ -165,8 +166,8 @@ pub(crate) fn picture(board: Board, scenes: &[PathBuf], out: &Path) -> Result<()
 /// What the scenario `deadlines` measures, as `what,mean,worst` lines.
 pub(crate) fn deadlines(board: Board, scene: &Path, minutes: f64) -> Result<String, Fault> {
     let program = firmware::build(board, scene)?;
-    let mut command = workspace_program("emulator");
-    command.args(["--quiet", "scenario", "deadlines", "--csv"]);
+    let mut command = emulator("--quiet");
+    command.args(["scenario", "deadlines", "--csv"]);
     command.args(["--minutes", &minutes.to_string()]);
     output(command.arg(top().join(scene)).arg("--program").arg(program))
 }

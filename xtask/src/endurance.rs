@@ -11,8 +11,8 @@ use scene::Scene;
 use crate::emulate::{self, variants};
 use crate::firmware::{self, Board};
 use crate::run::{
-    Fault, built, cargo, listing, read_bytes, remove, run, run_at_once, target, top,
-    workspace_program, write,
+    Fault, built, cargo, emulator, listing, read_bytes, remove, run, run_at_once, target, top,
+    write,
 };
 
 /// The longest shard, h: on the PC six hours; on a board six minutes, which take about as
@@ -71,8 +71,7 @@ impl Shard {
     }
 
     fn command(&self) -> Command {
-        let mut command = workspace_program("emulator");
-        command.arg("endure");
+        let mut command = emulator("endure");
         command.arg(&self.scene);
         match &self.board {
             Some((board, program)) => command
@@ -157,8 +156,7 @@ pub(crate) fn all(choice: &Choice) -> Result<(), Fault> {
     let mut shards = on_pc(&scenes, choice.hours);
     shards.extend(on_boards(&Board::ALL, &scenes, choice.board_hours)?);
     run_all(&shards, choice.shards)?;
-    let mut page = workspace_program("emulator");
-    page.arg("endurance");
+    let mut page = emulator("endurance");
     page.args(shards.iter().map(Shard::file));
     run(page.arg("--out").arg(top().join(PAGE)))
 }

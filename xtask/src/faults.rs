@@ -10,8 +10,7 @@ use scene::{Scene, SensorModel};
 use crate::emulate::variants;
 use crate::firmware::{self, Board};
 use crate::run::{
-    Fault, listing, read, read_bytes, remove, run, run_at_once, target, top, workspace_program,
-    write,
+    Fault, emulator, listing, read, read_bytes, remove, run, run_at_once, target, top, write,
 };
 
 const PC: &str = "host-sim";
@@ -76,15 +75,14 @@ fn has_mlx90333(scene: &PathBuf) -> bool {
 
 impl Subject {
     fn of(name: &str, runs: u64) -> Result<Self, Fault> {
-        let scenes = listing(&top().join("scenes"), "toml")?;
+        // What is injected befalls an MLX90333.
+        let scenes = listing(&top().join("scenes"), "toml")?.into_iter();
+        let scenes = scenes.filter(has_mlx90333).chain(other_motors()?);
+        let scenes: Vec<PathBuf> = scenes.collect();
         match name {
             PC => Ok(Self {
                 name: PC,
-                // What is injected befalls an MLX90333.
-                scenes: {
-                    let scenes = scenes.into_iter().filter(has_mlx90333);
-                    scenes.chain(other_motors()?).collect()
-                },
+                scenes,
                 programs: Vec::new(),
                 runs: Some(runs),
             }),
@@ -93,11 +91,7 @@ impl Subject {
                 runs: None,
                 ..Self::on(Board::ALL[0], &[top().join(crate::emulate::FULL)], runs)?
             }),
-            _ => {
-                let scenes = scenes.into_iter().filter(has_mlx90333);
-                let scenes: Vec<PathBuf> = scenes.chain(other_motors()?).collect();
-                Self::on(Board::named(name)?, &scenes, runs)
-            }
+            _ => Self::on(Board::named(name)?, &scenes, runs),
         }
     }
 
@@ -141,8 +135,7 @@ impl Subject {
         [shard, shards]: [u64; 2],
         out: &Path,
     ) -> Command {
-        let mut command = workspace_program("emulator");
-        command.arg("campaign");
+        let mut command = emulator("campaign");
         command.args(&self.scenes);
         for program in &self.programs {
             command.arg("--program").arg(program);
@@ -233,8 +226,7 @@ fn again(name: &str, number: u64) -> Result<(), Fault> {
 }
 
 fn summed_up(tables: &[PathBuf], page: Option<&Path>) -> Result<(), Fault> {
-    let mut command = workspace_program("emulator");
-    command.arg("reliability");
+    let mut command = emulator("reliability");
     command.args(tables);
     if let Some(page) = page {
         command.arg("--out").arg(page);

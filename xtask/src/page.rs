@@ -40,8 +40,7 @@ pub(crate) fn count_frames(picture: Option<&Path>) -> Result<(), Fault> {
 /// Its tests, without a choice.
 fn tests() -> Result<Command, Fault> {
     let python = python::with_browser()?;
-    let mut axe = Command::new(&python);
-    axe.args("-m pip install --quiet --disable-pip-version-check".split(' '));
+    let mut axe = python::pip(&python);
     axe.args(["--no-deps", "--require-hashes", "--requirement"]);
     run(axe.arg(top().join("web/tests/axe.txt")))?;
     let mut tests = Command::new(&python);
@@ -49,6 +48,6 @@ fn tests() -> Result<Command, Fault> {
     tests.arg(top().join("web/tests"));
     tests.env("WHISKER_PAGE", path());
     tests.env("WHISKER_TRACES", traces::written()?);
-    tests.env("WHISKER_FIGURES", python::to_write("page.json"));
+    tests.env("WHISKER_FIGURES", python::place("page.json"));
     Ok(tests)
 }

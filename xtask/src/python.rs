@@ -5,7 +5,7 @@ use std::process::Command;
 use std::sync::Mutex;
 use std::{env, fs};
 
-use crate::run::{Fault, cargo, listing, once, output, read, remove, run, target, top};
+use crate::run::{Fault, cargo, listing, once, output, remove, run, target, top};
 use crate::traces;
 
 /// The oldest Python that the wheel is for.
@@ -16,16 +16,11 @@ const NEWEST: u32 = 16;
 /// What builds it: a release is the same whenever it is made.
 const MATURIN: &str = "maturin==1.16.0";
 
-/// How it is built.
-#[derive(Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Profile {
-    /// As tests are.
-    Dev,
-    /// As `pip install` does.
-    Release,
-}
+/// How it is built: as `pip install` does, or of what the tests were built of.
+const RELEASE: &[&str] = &["--release"];
+const AS_TESTS: &[&str] = &["--features", "compiled-once"];
 
-fn place(name: &str) -> PathBuf {
+pub(crate) fn place(name: &str) -> PathBuf {
     target().join("python").join(name)
 }
 
@@ -42,15 +37,9 @@ pub(crate) fn environment(python: &Path, name: &str, packages: &[&str]) -> Resul
     Ok(inside)
 }
 
-fn pip(python: &Path) -> Command {
+pub(crate) fn pip(python: &Path) -> Command {
     let mut command = Command::new(python);
-    command.args([
-        "-m",
-        "pip",
-        "install",
-        "--quiet",
-        "--disable-pip-version-check",
-    ]);
+    command.args("-m pip install --quiet --disable-pip-version-check".split(' '));
     command
 }
 
@@ -82,15 +71,9 @@ fn newest() -> Result<PathBuf, Fault> {
     Ok(python)
 }
 
-fn wheel(python: &Path, profile: Profile) -> Result<PathBuf, Fault> {
+fn wheel(python: &Path, how: &[&str]) -> Result<PathBuf, Fault> {
     let wheels = place("wheels");
-    let mut build = maturin(python, &top().join("python"), &wheels)?;
-    match profile {
-        Profile::Release => build.arg("--release"),
-        // Takes what the tests were built of.
-        Profile::Dev => build.args(["--features", "compiled-once"]),
-    };
-    run(&mut build)?;
+    run(maturin(python, &top().join("python"), &wheels)?.args(how))?;
     only(&wheels)
 }
 
@@ -118,7 +101,7 @@ fn only(wheels: &Path) -> Result<PathBuf, Fault> {
 /// and in one of the oldest, where it runs a scene; the night runs the tests there too.
 pub(crate) fn test() -> Result<(), Fault> {
     let python = newest()?;
-    let wheel = wheel(&python, Profile::Dev)?;
+    let wheel = wheel(&python, AS_TESTS)?;
     let packages = ["gymnasium", "mypy", "pandas", "pytest"];
     let inside = environment(&python, "newest", &packages)?;
     run(pip(&inside).arg(&wheel))?;
@@ -175,7 +158,7 @@ pub(crate) fn whole() -> Result<(), Fault> {
 }
 
 pub(crate) fn release() -> Result<PathBuf, Fault> {
-    wheel(&newest()?, Profile::Release)
+    wheel(&newest()?, RELEASE)
 }
 
 /// Installs the wheel of this folder into a clean environment of the oldest Python of this
@@ -227,7 +210,7 @@ impl Measured {
     pub(crate) fn of(tree: &Path, built: &Path) -> Result<Self, Fault> {
         let python = newest()?;
         let mut build = maturin(&python, &tree.join("python"), &built.join("wheels"))?;
-        run(build.arg("--release").env("CARGO_TARGET_DIR", built))?;
+        run(build.args(RELEASE).env("CARGO_TARGET_DIR", built))?;
         Self::with(&only(&built.join("wheels"))?, tree, "speeds-other")
     }
 
@@ -247,15 +230,6 @@ pub(crate) fn against_mujoco() -> Result<(), Fault> {
         .arg(target().join("release/examples/push"))
         .arg(target().join("bending.md"));
     run(compare.env("OPENBLAS_NUM_THREADS", "1"))
-}
-
-pub(crate) fn written(name: &str) -> Result<String, Fault> {
-    read(&place(name))
-}
-
-/// Where it is to be written.
-pub(crate) fn to_write(name: &str) -> PathBuf {
-    place(name)
 }
 
 /// The program that runs the page's tests, with Selenium, in an environment that is made once.

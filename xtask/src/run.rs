@@ -138,6 +138,13 @@ pub(crate) fn workspace_program(package: &str) -> Command {
     }
 }
 
+/// The emulator, with the first of its arguments.
+pub(crate) fn emulator(first: &str) -> Command {
+    let mut command = workspace_program("emulator");
+    command.arg(first);
+    command
+}
+
 pub(crate) fn run(command: &mut Command) -> Result<(), Fault> {
     let text = line(command);
     println!("$ {text}");

@@ -1,6 +1,7 @@
 //! Faults from files: what tests/scenarios lists befalls a board's own program, and what became of
 //! it must be within the bounds of `xtask/scenarios.toml`.
 
+use std::cmp::Ordering;
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 use std::process::Command;
@@ -64,13 +65,12 @@ fn broken(bound: &str, json: &Value) -> Result<Option<String>, Fault> {
         let value = json.pointer(&format!("/{key}"));
         value.and_then(Value::as_f64).unwrap_or(0.0)
     };
-    if let Some((key, most)) = bound.split_once(" <= ") {
-        let found = value(key);
-        return Ok((found > number(most)?).then(|| format!("{bound}: found {found:.4}")));
-    }
-    if let Some((key, least)) = bound.split_once(" >= ") {
-        let found = value(key);
-        return Ok((found < number(least)?).then(|| format!("{bound}: found {found:.4}")));
+    for (sign, breaks) in [(" <= ", Ordering::Greater), (" >= ", Ordering::Less)] {
+        if let Some((key, limit)) = bound.split_once(sign) {
+            let found = value(key);
+            let is_broken = found.partial_cmp(&number(limit)?) == Some(breaks);
+            return Ok(is_broken.then(|| format!("{bound}: found {found:.4}")));
+        }
     }
     if let Some((node, bound)) = bound.split_once(' ')
         && node.starts_with("nodes/")
