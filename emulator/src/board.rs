@@ -165,9 +165,28 @@ impl Board {
             self.set_power(false)?;
             self.set_power(true)?;
         }
-        self.machine
-            .disturb(|chip| chip.stop_clock(is_without))
-            .map(drop)
+        self.stop_clock(is_without).map(drop)
+    }
+
+    /// Returns whether the chip runs by the clock from outside.
+    pub(crate) fn stop_clock(&mut self, is_stopped: bool) -> Result<bool, Fault> {
+        self.machine.disturb(|chip| chip.stop_clock(is_stopped))
+    }
+
+    pub(crate) fn set_button(&mut self, is_down: bool) {
+        self.machine.with_chip(|chip| chip.set_button(is_down));
+    }
+
+    /// The other end of the serial line has this baud.
+    pub(crate) fn attach_serial(&mut self, baud: Option<u32>) {
+        if let Some(baud) = baud {
+            self.machine.with_chip(|chip| chip.attach_serial(baud));
+        }
+    }
+
+    /// Bytes that the other end has not sent yet.
+    pub(crate) fn serial_waiting(&mut self) -> usize {
+        self.machine.with_chip(|chip| chip.serial_waiting())
     }
 
     /// The world has moved on: what the next tick reads. A board of a head is then run by

@@ -63,9 +63,7 @@ pub(crate) fn start_without(
     image(&without_class_settings(scene), None, model.facts)?;
     let (world, pins) = World::wired(scene, pwm_counts(scene, model))?;
     let mut board = Board::new(program, scene, pins)?;
-    if let Some(baud) = scene.telemetry.serial_baud {
-        board.machine.with_chip(|chip| chip.attach_serial(baud));
-    }
+    board.attach_serial(scene.telemetry.serial_baud);
     Ok(Run::of(scene, Box::new(board), classes, world))
 }
 

@@ -7,14 +7,13 @@ use firmware::Packet;
 use host_sim::Error;
 use wire::{Command, CommandStatus, TaggedCommand, WhiskerId};
 
-use crate::chip::Chip;
 use crate::deployment::flashed;
 use crate::program::Program;
 use crate::session::{Session, answer_to};
 use crate::talk::wrong;
 
 /// What comes by the serial line meanwhile.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Line {
     Quiet,
     /// So many of this line a second.
@@ -39,65 +38,33 @@ struct Flood {
     by: By,
 }
 
-const GAIN: Command = Command::Gain(WhiskerId { side: 0, number: 0 }, 1 << 24);
+const GAIN: Option<Command> = Some(Command::Gain(WhiskerId { side: 0, number: 0 }, 1 << 24));
+const ARM: Option<Command> = Some(Command::Arm);
+
+const STATUS: Line = Line::Full(b"status\n");
+const ARMS: Line = Line::Full(b"arm\n");
+/// Text in which a line could not begin: it would make another of it.
+const TEXT: Line = Line::Full(b"gain ");
+const GARBAGE: Line = Line::Full(b"\xA5\xFF stop");
+const GAINS: Line = Line::Paced("gain left 1\n", 3_000);
 
 const FLOODS: [Flood; 11] = [
     Flood::new("nothing else comes", Line::Quiet, None, By::Line),
-    Flood::new(
-        "3,000 gain lines a second",
-        Line::Paced("gain left 1\n", 3_000),
-        None,
-        By::Line,
-    ),
-    Flood::new(
-        "status at line rate",
-        Line::Full(b"status\n"),
-        None,
-        By::Line,
-    ),
+    Flood::new("3,000 gain lines a second", GAINS, None, By::Line),
+    Flood::new("status at line rate", STATUS, None, By::Line),
     Flood::new(
         "status at line rate, a frame",
-        Line::Full(b"status\n"),
+        STATUS,
         None,
         By::SerialFrame,
     ),
-    Flood::new(
-        "garbage without an end",
-        Line::Full(b"\xA5\xFF stop"),
-        None,
-        By::Line,
-    ),
-    Flood::new("text without an end", Line::Full(b"gain "), None, By::Line),
-    Flood::new(
-        "arm lines at line rate",
-        Line::Full(b"arm\n"),
-        None,
-        By::Line,
-    ),
-    Flood::new(
-        "a probe that arms each tick",
-        Line::Quiet,
-        Some(Command::Arm),
-        By::Line,
-    ),
-    Flood::new(
-        "status and a busy probe",
-        Line::Full(b"status\n"),
-        Some(GAIN),
-        By::Probe,
-    ),
-    Flood::new(
-        "arm lines and an arming probe",
-        Line::Full(b"arm\n"),
-        Some(Command::Arm),
-        By::Probe,
-    ),
-    Flood::new(
-        "status and a busy probe",
-        Line::Full(b"status\n"),
-        Some(GAIN),
-        By::Button,
-    ),
+    Flood::new("garbage without an end", GARBAGE, None, By::Line),
+    Flood::new("text without an end", TEXT, None, By::Line),
+    Flood::new("arm lines at line rate", ARMS, None, By::Line),
+    Flood::new("a probe that arms each tick", Line::Quiet, ARM, By::Line),
+    Flood::new("status and a busy probe", STATUS, GAIN, By::Probe),
+    Flood::new("arm lines and an arming probe", ARMS, ARM, By::Probe),
+    Flood::new("status and a busy probe", STATUS, GAIN, By::Button),
 ];
 
 impl Flood {
@@ -111,7 +78,7 @@ impl Flood {
     }
 
     fn arms(&self) -> bool {
-        matches!(self.line, Line::Full(b"arm\n")) || self.probe == Some(Command::Arm)
+        self.line == ARMS || self.probe == ARM
     }
 }
 
@@ -233,11 +200,7 @@ impl Flooded<'_> {
 
     /// Bytes that the other end has sent.
     fn sent(&mut self) -> usize {
-        let waiting = self
-            .session
-            .machine()
-            .with_chip(|chip| Chip::serial_waiting(chip));
-        self.written - waiting
+        self.written - self.session.board_mut().serial_waiting()
     }
 
     fn tick(&mut self) -> Result<(), Error> {
@@ -326,19 +289,14 @@ impl Flooded<'_> {
         self.log.clear();
         match self.flood.by {
             By::Line => {
-                // Text in which a line could not begin would make another line of it.
-                let begins = !matches!(self.flood.line, Line::Full(b"gain "));
-                if begins && !self.is_garbage() {
+                if ![TEXT, GARBAGE].contains(&self.flood.line) {
                     self.end_line();
                 }
                 self.write(b"stop\n");
             }
             By::SerialFrame => self.write(&wire::frame(&request)),
             By::Probe => self.request(request)?,
-            By::Button => self
-                .session
-                .machine()
-                .with_chip(|chip| chip.set_button(true)),
+            By::Button => self.session.board_mut().set_button(true),
         }
         // What a probe writes, and a button, is there at once.
         let end = match self.flood.by {
@@ -347,9 +305,7 @@ impl Flooded<'_> {
         };
         let mut late = self.until_off(end)?;
         if self.flood.by == By::Button {
-            self.session
-                .machine()
-                .with_chip(|chip| chip.set_button(false));
+            self.session.board_mut().set_button(false);
         }
         let mut answered = 0;
         while !self.is_answered(tag) {
@@ -369,10 +325,6 @@ impl Flooded<'_> {
             return wrong("a motor is driven after a stop");
         }
         Ok((late, answered))
-    }
-
-    fn is_garbage(&self) -> bool {
-        matches!(self.flood.line, Line::Full([0xA5, ..]))
     }
 
     fn end_line(&mut self) {

@@ -333,10 +333,7 @@ impl Injection {
             Kind::CoreBit => board.flip_core(self.detail),
             Kind::RegisterBit => board.flip_register(self.detail),
             Kind::DmaStopped => board.session.machine().with_chip(Chip::stop_dma),
-            Kind::ClockStopped => {
-                let machine = board.session.machine();
-                machine.disturb(|chip| chip.stop_clock(true))?;
-            }
+            Kind::ClockStopped => drop(board.session.board_mut().stop_clock(true)?),
             _ => board.hold(self.detail),
         }
         Ok(())

@@ -11,6 +11,7 @@ use tmag5170::StatusFaults;
 
 use crate::chip::{Fault, Ps, SIDE_NAMES};
 use crate::session::Session;
+use crate::talk::wrong;
 use crate::upset::{MIDDLE, Upset};
 
 pub(super) const US: Ps = 1_000_000;
@@ -112,10 +113,6 @@ pub(super) const fn whisk(ms: u32) -> Step {
     Step::Move { ms, off }
 }
 
-fn wrong<T>(what: String) -> Result<T, Error> {
-    Err(Error::Work(what))
-}
-
 struct Runner {
     session: Session,
     log: Vec<String>,
@@ -144,7 +141,7 @@ impl Runner {
             Step::Stand(time) => return self.stand(*time),
             Step::Hang(time) => {
                 if session.board_mut().run_for(*time)? || session.drives() {
-                    return wrong("the tick ends, or a motor is driven".to_owned());
+                    return wrong("the tick ends, or a motor is driven");
                 }
             }
             Step::UntilDriven { in_tick } => return self.until_driven(*in_tick),
@@ -157,7 +154,7 @@ impl Runner {
             }
             Step::Sensors(sides, trouble) => {
                 if !sides.iter().all(|side| trouble.befall(session, *side)) {
-                    return wrong("the scene has no such sensor".to_owned());
+                    return wrong("the scene has no such sensor");
                 }
             }
             Step::Within(time, what, is_so) => return self.within(*time, what, *is_so),
@@ -232,7 +229,7 @@ impl Runner {
         self.session.board_mut().wait(time)?;
         self.read_log();
         if self.session.drives() {
-            return wrong("a motor is driven".to_owned());
+            return wrong("a motor is driven");
         }
         Ok(())
     }
@@ -251,15 +248,14 @@ impl Runner {
             self.session.board_mut().wait(LOOK)?;
         }
         if self.session.machine().is_in_tick() != in_tick || !self.session.drives_all() {
-            return wrong("no such tick".to_owned());
+            return wrong("no such tick");
         }
         Ok(())
     }
 
     fn press(&mut self, ms: u32) -> Result<(), Error> {
         for (is_down, ms) in [(false, 50), (true, ms), (false, 50)] {
-            let machine = self.session.machine();
-            machine.with_chip(|chip| chip.set_button(is_down));
+            self.session.board_mut().set_button(is_down);
             self.pass(self.ticks(ms))?;
         }
         Ok(())

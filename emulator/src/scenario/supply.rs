@@ -135,20 +135,14 @@ const INTERNAL_CLOCK: &str = "limit 37 ";
 
 fn clock_fails(scene: &Scene, facts: &BoardFacts) -> [Case; 4] {
     let what = "pins low as the clock stops in a tick";
-    let stops = |board: &mut Session| board.machine().disturb(|chip| chip.stop_clock(true));
+    let stops = |board: &mut Session| board.board_mut().stop_clock(true);
     let stopped = [
         Within(0, "the clock from outside stops", stops),
         low(what),
-        Do(|board| {
-            board
-                .machine()
-                .disturb(|chip| chip.stop_clock(false))
-                .map(drop)
-        }),
+        Do(|board| board.board_mut().stop_clock(false).map(drop)),
     ];
     let steps: Vec<Step> = if facts.code == BoardCode::NucleoG071rb {
-        let unused =
-            |board: &mut Session| Ok(!board.machine().disturb(|chip| chip.stop_clock(true))?);
+        let unused = |board: &mut Session| Ok(!board.board_mut().stop_clock(true)?);
         vec![
             Within(0, "no clock from outside is needed", unused),
             whisk(250),
@@ -173,7 +167,7 @@ fn clock_fails(scene: &Scene, facts: &BoardFacts) -> [Case; 4] {
 fn never_comes(facts: &BoardFacts) -> Case {
     // Power that has come back arms none: somebody does.
     let starts = Do(|board| {
-        board.machine().disturb(|chip| chip.stop_clock(true))?;
+        board.board_mut().stop_clock(true)?;
         board.board_mut().reset_now(ResetCause::Power)
     });
     let is_said = if facts.code == BoardCode::NucleoG071rb {
@@ -197,9 +191,8 @@ fn lets_go() -> Case {
         Ok(())
     });
     let stops = |board: &mut Session| {
-        Ok(board
-            .machine()
-            .with_chip(|chip| Chip::stops_with_the_core(chip)))
+        let machine = board.machine();
+        Ok(machine.with_chip(|chip| chip.stops_with_the_core()))
     };
     let steps = [
         whisk(250),

@@ -11,43 +11,22 @@ use scene::Scene;
 
 use crate::session::Session;
 
-/// What is wrong with a sensor.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Sensor {
-    Frozen,
-    Gone,
-    Garbled,
-    Unpowered,
-    /// It does not see /SS rise.
-    Selected,
-    NoMagnet,
-    NearMagnet,
-}
+/// What is wrong with a sensor, as an MLX90333 has it, and a TMAG5170.
+type Wrong = (Option<WireFault>, Option<LineFault>);
 
-impl Sensor {
-    const fn of_mlx(self) -> Option<WireFault> {
-        match self {
-            Self::Frozen => Some(WireFault::Frozen),
-            Self::Gone => Some(WireFault::Silent),
-            // A bit of its first word.
-            Self::Garbled => Some(WireFault::Flip(20)),
-            // Its protection holds the line low.
-            Self::Unpowered => Some(WireFault::LineLow),
-            Self::NoMagnet => Some(WireFault::NoField),
-            Self::NearMagnet | Self::Selected => None,
-        }
-    }
-
-    const fn of_tmag(self) -> LineFault {
-        match self {
-            Self::Frozen => LineFault::Frozen,
-            Self::Gone | Self::Unpowered | Self::Selected => LineFault::Silent,
-            // A bit of the field.
-            Self::Garbled => LineFault::FlipReply(12),
-            Self::NoMagnet => LineFault::NoField,
-            Self::NearMagnet => LineFault::NearField,
-        }
-    }
+const fn wrong_sensor(what: &What) -> Option<Wrong> {
+    let (mlx, tmag) = match what {
+        What::SensorFrozen => (WireFault::Frozen, LineFault::Frozen),
+        What::SensorGone => (WireFault::Silent, LineFault::Silent),
+        // A bit of the first word, and of the field.
+        What::SensorGarbled => (WireFault::Flip(20), LineFault::FlipReply(12)),
+        // Its protection holds the line low.
+        What::SensorUnpowered => (WireFault::LineLow, LineFault::Silent),
+        What::MagnetGone => (WireFault::NoField, LineFault::NoField),
+        What::MagnetNear => return Some((None, Some(LineFault::NearField))),
+        _ => return None,
+    };
+    Some((Some(mlx), Some(tmag)))
 }
 
 /// The encoder's cable, and the motor's two wires.
@@ -72,7 +51,9 @@ struct Around {
     volts: Option<f64>,
     torque_nm: f64,
     is_held: bool,
-    sensor: Option<Sensor>,
+    sensor: Wrong,
+    /// The sensor does not see /SS rise.
+    is_stuck: bool,
     has_restarted: bool,
     /// Another than the scene's.
     part: Option<Part>,
@@ -86,7 +67,8 @@ impl Around {
         volts: None,
         torque_nm: 0.0,
         is_held: false,
-        sensor: None,
+        sensor: (None, None),
+        is_stuck: false,
         part: None,
         has_restarted: false,
     };
@@ -103,25 +85,14 @@ impl Around {
             What::Supply { volts } => self.volts = Some(volts),
             What::Hand { torque_nm } => self.torque_nm = torque_nm,
             What::Held => self.is_held = true,
-            What::SensorFrozen => self.sensor = Some(Sensor::Frozen),
-            What::SensorGone => self.sensor = Some(Sensor::Gone),
-            What::SensorGarbled => self.sensor = Some(Sensor::Garbled),
-            What::SensorUnpowered => self.sensor = Some(Sensor::Unpowered),
-            What::SelectStuck => self.sensor = Some(Sensor::Selected),
             What::SensorRestart => self.has_restarted = true,
-            What::MagnetGone => self.sensor = Some(Sensor::NoMagnet),
-            What::MagnetNear => self.sensor = Some(Sensor::NearMagnet),
             What::SensorPart(part) => self.part = Some(part),
-            What::Serial { .. }
-            | What::Probe { .. }
-            | What::Configuration { .. }
-            | What::Button
-            | What::PowerOff
-            | What::ClockLate
-            | What::Reset
-            | What::Jumpers { .. }
-            | What::BusCut
-            | What::BusNoise { .. } => {}
+            What::SelectStuck => (self.sensor, self.is_stuck) = ((None, None), true),
+            _ => {
+                if let Some(wrong) = wrong_sensor(what) {
+                    (self.sensor, self.is_stuck) = (wrong, false);
+                }
+            }
         }
     }
 }
@@ -177,10 +148,8 @@ impl Hands {
                 let board = session.board_mut();
                 board.program_sensor(side, part.decoder, part.rest_us.into());
                 board.update_sensor(side, part.update_hz);
-                let is_stuck = around.sensor == Some(Sensor::Selected);
-                board
-                    .machine
-                    .with_chip(|chip| chip.stick_select(side, is_stuck));
+                let machine = &mut board.machine;
+                machine.with_chip(|chip| chip.stick_select(side, around.is_stuck));
                 if let Some(slave) = session.run.slave_mut(side) {
                     slave.set_error_word(Faults::new(part.report));
                 }
@@ -189,8 +158,7 @@ impl Hands {
         }
         let before = std::mem::replace(&mut self.at_board, now);
         if before.is_pressed != now.is_pressed {
-            let machine = session.machine();
-            machine.with_chip(|chip| chip.set_button(now.is_pressed));
+            session.board_mut().set_button(now.is_pressed);
         }
         if before.is_off != now.is_off {
             session.board_mut().set_power(!now.is_off)?;
@@ -209,10 +177,10 @@ impl Hands {
 
 fn surround(session: &mut Session, side: usize, around: &Around, had_restarted: bool) {
     if let Some(slave) = session.run.slave_mut(side) {
-        slave.set_fault(around.sensor.and_then(Sensor::of_mlx));
+        slave.set_fault(around.sensor.0);
     }
     if let Some(slave) = session.run.tmag_mut(side) {
-        slave.set_fault(around.sensor.map(Sensor::of_tmag));
+        slave.set_fault(around.sensor.1);
         if around.has_restarted && !had_restarted {
             slave.restart();
         }

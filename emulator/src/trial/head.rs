@@ -80,11 +80,8 @@ pub(super) fn run(
     let mut figures = Figures::new(scene, program, usize::from(bus.nodes))?;
     let head = run.module_mut();
     head.bear();
-    if let Some(baud) = scene.telemetry.serial_baud {
-        for node in &mut head.nodes {
-            let machine = &mut node.board.machine;
-            machine.with_chip(|chip| chip.attach_serial(baud));
-        }
+    for node in &mut head.nodes {
+        node.board.attach_serial(scene.telemetry.serial_baud);
     }
     let mut lasted = vec![false; scenario.events.len()];
     for _ in 0..run.ticks() {
@@ -246,8 +243,8 @@ impl Figures {
             self.apart_s = t_s;
         }
         for stop in &mut self.stops {
-            let board = head.nodes.get_mut(stop.node).map(|node| &mut node.board);
-            let waits = board.map(|board| board.machine.with_chip(|chip| chip.serial_waiting()));
+            let node = head.nodes.get_mut(stop.node);
+            let waits = node.map(|node| node.board.serial_waiting());
             if stop.arrived.is_none() && waits == Some(0) {
                 stop.arrived = Some(self.ticks);
             }

@@ -8,7 +8,6 @@ use wire::text::Spoken;
 use wire::{Command, Frame, TaggedCommand};
 
 use super::file::{Change, Event, Scenario, What};
-use crate::chip::Chip;
 use crate::session::Session;
 
 /// Start, eight bits and stop.
@@ -173,7 +172,7 @@ impl<'s> Links<'s> {
 
     /// Writes a line, unless the serial line has enough to do.
     fn write(&mut self, line: &str, is_flood: bool, session: &mut Session) -> bool {
-        let waiting = session.machine().with_chip(|chip| chip.serial_waiting());
+        let waiting = session.board_mut().serial_waiting();
         let enough = if is_flood {
             self.tick_bytes
         } else {
@@ -221,9 +220,7 @@ impl<'s> Links<'s> {
 
     /// What has arrived in the tick that was just made; what came while none was, is lost.
     pub(super) fn arrived(&mut self, session: &mut Session) -> Arrived {
-        let pending = session
-            .machine()
-            .with_chip(|chip: &mut Chip| chip.serial_waiting());
+        let pending = session.board_mut().serial_waiting();
         let carried = self.written - pending as u64;
         let mut arrived = std::mem::take(&mut self.arrived);
         let is_heard = !session.board_mut().is_late;
