@@ -106,34 +106,22 @@ impl Pair {
     pub(crate) fn follow(
         &mut self,
         n: u64,
-        (mut found, found_decisions): Seen,
+        found: Seen,
         touch: impl Fn(u16) -> u16,
     ) -> Result<u64, Error> {
         let mut expected = self.host.tick();
-        if !self.feels {
-            expected.contact = [0.0; 2];
-            found.contact = [0.0; 2];
-        }
         expected.touch = if self.classifies {
             expected.touch.map(&touch)
         } else {
             [0; 2]
         };
-        if let Some(column) = difference(&expected, &found) {
-            return Err(Error::Work(format!(
-                "tick {n}: {column} on the PC, on the board\n  {expected:?}\n  {found:?}"
-            )));
-        }
-        let mut expected: Vec<Decided> = self.host.decisions().collect();
-        for decided in &mut expected {
+        let mut decided: Vec<Decided> = self.host.decisions().collect();
+        for decided in &mut decided {
             decided.touch = touch(decided.touch);
         }
-        if expected != found_decisions {
-            return Err(Error::Work(format!(
-                "tick {n}: decided on the PC, on the board\n  {expected:?}\n  {found_decisions:?}"
-            )));
-        }
-        Ok(found_decisions.len() as u64)
+        let places = "on the PC, on the board";
+        let decisions = same_tick(n, places, self.feels, [(expected, decided), found]);
+        decisions.map_err(Error::Work)
     }
 
     /// The records and events of each tick, as far as PC and board must agree about them: the
@@ -156,6 +144,33 @@ impl Pair {
         }
         ticks
     }
+}
+
+/// A tick in two places must be the same, contact only where the scene `feels` it; how many
+/// decisions fell.
+pub(crate) fn same_tick(
+    n: u64,
+    places: &str,
+    feels: bool,
+    mut seen: [Seen; 2],
+) -> Result<u64, String> {
+    if !feels {
+        for (row, _) in &mut seen {
+            row.contact = [0.0; 2];
+        }
+    }
+    let [(expected, decided), (found, found_decided)] = &seen;
+    if let Some(column) = difference(expected, found) {
+        return Err(format!(
+            "tick {n}: {column} {places}\n  {expected:?}\n  {found:?}"
+        ));
+    }
+    if decided != found_decided {
+        return Err(format!(
+            "tick {n}: decided {places}\n  {decided:?}\n  {found_decided:?}"
+        ));
+    }
+    Ok(decided.len() as u64)
 }
 
 /// What PC and board must agree about of a record.
@@ -296,7 +311,7 @@ pub(crate) fn compare_loaded(
 }
 
 /// The first column whose bits differ; one that is not a number equals another.
-pub(crate) fn difference(a: &Row, b: &Row) -> Option<&'static str> {
+fn difference(a: &Row, b: &Row) -> Option<&'static str> {
     let same = |a: f64, b: f64| a.to_bits() == b.to_bits() || (a.is_nan() && b.is_nan());
     if !same(a.t_s, b.t_s) {
         return Some("t");

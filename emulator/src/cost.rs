@@ -1,14 +1,19 @@
 //! What a part of the program costs a tick.
 
+use std::path::Path;
+
+use firmware::boards::BoardFacts;
 use host_sim::Error;
 use scene::Scene;
 use wire::Command;
 
+use crate::deployment::{flashed, flashed_for};
 use crate::program::Program;
 use crate::session::Session;
+use crate::talk::wrong;
 
 /// For how long each program is measured, s.
-pub(crate) const MEASURED_S: f64 = 1.0;
+const MEASURED_S: f64 = 1.0;
 
 /// Who has asked for records.
 #[derive(Clone, Copy)]
@@ -20,37 +25,41 @@ pub(crate) enum Asks {
     Serial,
 }
 
-/// What is compared: a program with the part, one without it, and how many instructions a tick
-/// the first may take more.
-pub(crate) struct Price<'p> {
-    pub(crate) what: &'static str,
-    pub(crate) with: (&'p Program, Asks),
-    pub(crate) without: (&'p Program, Asks),
-    pub(crate) most: f64,
-}
+/// What is compared: what is asked of a program with the part, and of one without it, and how many
+/// instructions a tick the first may take more.
+pub(crate) type Price = (&'static str, [Asks; 2], f64);
 
-pub(crate) fn cost(scene: &Scene, prices: &[Price<'_>]) -> Result<Vec<String>, Error> {
+/// The scene in `path` as its program with the part runs it, and `without`, by what changes the
+/// scene for that.
+pub(crate) fn cost(
+    path: &Path,
+    [program, without]: [&Path; 2],
+    silence: impl FnOnce(&mut Scene),
+    prices: impl FnOnce(&Scene, &BoardFacts) -> Vec<Price>,
+) -> Result<Vec<String>, Error> {
+    let (mut loaded, program) = flashed(path, program)?;
+    let scene = &mut loaded.scene;
+    scene.duration_s = MEASURED_S;
+    let mut silent = scene.clone();
+    silence(&mut silent);
+    let programs = [&program, &flashed_for(&silent, path, without)?];
     let mut said = Vec::new();
-    for price in prices {
-        let [with, without] = [price.with, price.without].map(|of| mean(scene, of));
+    for (what, asks, most) in prices(scene, program.model()?.facts) {
+        let [with, without] = [0, 1].map(|n| mean(scene, programs[n], asks[n]));
         let (with, without) = (with?, without?);
         let more = with - without;
         said.push(format!(
-            "{}: {more:.1} instructions a tick beside {without:.1}",
-            price.what
+            "{what}: {more:.1} instructions a tick beside {without:.1}"
         ));
-        if more > price.most {
+        if more > most {
             let said = said.join("\n");
-            return Err(Error::Work(format!(
-                "{said}\nat most {} are allowed",
-                price.most
-            )));
+            return wrong(format!("{said}\nat most {most} are allowed"));
         }
     }
     Ok(said)
 }
 
-fn mean(scene: &Scene, (program, asks): (&Program, Asks)) -> Result<f64, Error> {
+fn mean(scene: &Scene, program: &Program, asks: Asks) -> Result<f64, Error> {
     let mut session = Session::running(scene, Vec::new(), program)?;
     if let Asks::Serial = asks {
         session = session.by_serial();

@@ -9,7 +9,7 @@ use host_sim::loaded::Loaded;
 use host_sim::{Error, files};
 use scene::Scene;
 use tactile::ModelBuf;
-use wire::{Load, LoadedWord};
+use wire::{Command, Load, LoadedWord};
 
 use crate::program::Program;
 
@@ -97,6 +97,14 @@ impl Deployment {
             LoadedWord::Model(n) => model.get(usize::from(n)).copied(),
         })
     }
+}
+
+/// The requests by which a board is given a configuration: it is put aside, and then taken.
+pub(crate) fn staged(config: &[u8]) -> impl Iterator<Item = Command> {
+    let words = words(config).into_iter().enumerate();
+    let words = words.map(|(number, word)| Command::Stage(number as u8, word));
+    let apply = Command::Apply(config.len() as u32);
+    [Command::Forget].into_iter().chain(words).chain([apply])
 }
 
 /// Little-endian words, with zeros at the end up to a whole pair, by which the flash of some

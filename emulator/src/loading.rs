@@ -4,8 +4,9 @@ use firmware::{ConfigError, refusal_code};
 use host_sim::Error;
 use wire::{Command, CommandStatus};
 
-use crate::deployment::{Deployment, words};
+use crate::deployment::{Deployment, staged};
 use crate::session::{PATIENCE, Session};
+use crate::talk::wrong;
 
 /// Sends a configuration that the board puts aside, and must refuse for this reason; nothing is
 /// written.
@@ -14,16 +15,17 @@ pub(crate) fn refuses(
     config: &[u8],
     error: ConfigError,
 ) -> Result<(), Error> {
-    session.must(Command::Forget, CommandStatus::Done)?;
-    for (number, word) in words(config).into_iter().enumerate() {
-        let stage = Command::Stage(number as u8, word);
-        session.must(stage, CommandStatus::Done)?;
+    for command in staged(config) {
+        if !matches!(command, Command::Apply(_)) {
+            session.must(command, CommandStatus::Done)?;
+            continue;
+        }
+        let answer = session.ask(command)?;
+        if answer.status != CommandStatus::OutOfRange || answer.values != refusal_code(error) {
+            return wrong(format!("not refused ({error}): {answer:?}"));
+        }
     }
-    let answer = session.ask(Command::Apply(config.len() as u32))?;
-    if answer.status == CommandStatus::OutOfRange && answer.values == refusal_code(error) {
-        return Ok(());
-    }
-    Err(Error::Work(format!("not refused ({error}): {answer:?}")))
+    Ok(())
 }
 
 /// Has a board whose motors are off load a scene and its model, of which only so many `words`
@@ -39,8 +41,7 @@ fn arm(session: &mut Session) -> Result<(), Error> {
     for _ in 0..WAITS {
         session.tick()?;
         if session.drives() {
-            let fault = "a board arms its motors by itself after a reset";
-            return Err(Error::Work(fault.to_owned()));
+            return wrong("a board arms its motors by itself after a reset");
         }
     }
     session.must(Command::Arm, CommandStatus::Done)
@@ -70,8 +71,7 @@ pub(crate) fn load_watched(
         watch(session, number + 1)?;
     }
     if session.drives() {
-        let fault = "a motor is driven while a scene is loaded";
-        return Err(Error::Work(fault.to_owned()));
+        return wrong("a motor is driven while a scene is loaded");
     }
     if words >= count {
         session.must(Command::Restart, CommandStatus::Done)?;
@@ -83,6 +83,5 @@ pub(crate) fn load_watched(
             return arm(session);
         }
     }
-    let fault = "a board does not start again after loading";
-    Err(Error::Work(fault.to_owned()))
+    wrong("a board does not start again after loading")
 }

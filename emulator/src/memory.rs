@@ -223,10 +223,14 @@ impl Memories {
         self.ram.read_at(offset, bytes).map_err(refused).map(drop)
     }
 
-    pub(crate) fn word(&self, address: u32) -> Result<u32, Fault> {
-        let mut bytes = [0; 4];
+    pub(crate) fn bytes<const N: usize>(&self, address: u32) -> Result<[u8; N], Fault> {
+        let mut bytes = [0; N];
         self.read(address, &mut bytes)?;
-        Ok(u32::from_le_bytes(bytes))
+        Ok(bytes)
+    }
+
+    pub(crate) fn word(&self, address: u32) -> Result<u32, Fault> {
+        self.bytes(address).map(u32::from_le_bytes)
     }
 
     pub(crate) fn flip(&self, address: u32, bits: u8) -> Result<(), Fault> {

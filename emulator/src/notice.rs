@@ -20,17 +20,7 @@ impl Notice {
             Event::MotorFault(place, _) => Some((place, Self::MotorFault)),
             Event::MotorRetry(place) => Some((place, Self::MotorRetry)),
             Event::MotorGivenUp(place) => Some((place, Self::MotorGivenUp)),
-            Event::Decision(..)
-            | Event::Pose(..)
-            | Event::Touch { .. }
-            | Event::TouchEnd { .. }
-            | Event::ZeroMoved(..)
-            | Event::Frame(..)
-            | Event::Node(..)
-            | Event::Armed
-            | Event::Stopped
-            | Event::Health(_)
-            | Event::Limit(_) => None,
+            _ => None,
         }
     }
 }

@@ -12,7 +12,7 @@ use scene::Scene;
 use wire::{Command, CommandStatus, Flags, TaggedCommand, TickRecord, WhiskerId};
 
 use crate::compare::Pair;
-use crate::cost::{Asks, MEASURED_S, Price, cost};
+use crate::cost::{Asks, Price, cost};
 use crate::deployment::{flashed, flashed_for};
 use crate::talk::{Talk, wrong};
 
@@ -35,7 +35,10 @@ pub(crate) fn talk(
 ) -> Result<Vec<String>, Error> {
     let mut said = converse(path, program)?;
     said.push(refuse_records(path, slow)?);
-    said.extend(prices(path, program, without)?);
+    let silence = |scene: &mut Scene| scene.telemetry.serial_baud = None;
+    said.extend(cost(path, [program, without], silence, |_, _| {
+        PRICES.to_vec()
+    })?);
     Ok(said)
 }
 
@@ -215,22 +218,11 @@ fn refuse_records(path: &Path, program: &Path) -> Result<String, Error> {
 
 /// What the serial port costs a tick, without records and with records that go there in place of
 /// to a probe: that look.
-fn prices(path: &Path, program: &Path, without: &Path) -> Result<Vec<String>, Error> {
-    let (mut loaded, program) = flashed(path, program)?;
-    let scene = &mut loaded.scene;
-    scene.duration_s = MEASURED_S;
-    let mut silent = scene.clone();
-    silent.telemetry.serial_baud = None;
-    let without = flashed_for(&silent, path, without)?;
-    let prices = [
-        ("a serial port", [Asks::Nothing, Asks::Nothing]),
-        ("a serial port with records", [Asks::Serial, Asks::Probe]),
-    ];
-    let prices = prices.map(|(what, [with_port, without_port])| Price {
-        what,
-        with: (&program, with_port),
-        without: (&without, without_port),
-        most: MORE,
-    });
-    cost(scene, &prices)
-}
+const PRICES: [Price; 2] = [
+    ("a serial port", [Asks::Nothing, Asks::Nothing], MORE),
+    (
+        "a serial port with records",
+        [Asks::Serial, Asks::Probe],
+        MORE,
+    ),
+];

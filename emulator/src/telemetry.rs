@@ -4,13 +4,14 @@
 use std::path::Path;
 
 use firmware::Packet;
+use firmware::boards::BoardFacts;
 use host_sim::Error;
 use scene::{PlantKind, Scene};
 use wire::{Command, CommandStatus, Flags, TickRecord, WhiskerId};
 
 use crate::compare::Pair;
-use crate::cost::{Asks, MEASURED_S, Price, cost};
-use crate::deployment::{flashed, flashed_for};
+use crate::cost::{Asks, Price, cost};
+use crate::deployment::flashed;
 use crate::talk::{Talk, wrong};
 use crate::tuning::tune;
 
@@ -40,7 +41,8 @@ const ONE: i32 = 1 << 24;
 pub(crate) fn talk(path: &Path, program: &Path, without: &Path) -> Result<Vec<String>, Error> {
     let mut said = converse(path, program)?;
     said.extend(tune(path, program)?);
-    said.extend(prices(path, program, without)?);
+    let silence = |scene: &mut Scene| scene.telemetry.rtt = false;
+    said.extend(cost(path, [program, without], silence, prices)?);
     Ok(said)
 }
 
@@ -215,15 +217,12 @@ fn lose(talk: &mut Talk, whiskers: u32) -> Result<u32, Error> {
 
 /// What telemetry costs that is not asked for, with a record a whisker, and with records that
 /// find no room.
-fn prices(path: &Path, program: &Path, without: &Path) -> Result<Vec<String>, Error> {
-    let (mut loaded, program) = flashed(path, program)?;
-    let scene = &mut loaded.scene;
-    scene.duration_s = MEASURED_S;
-    let mut silent = scene.clone();
-    silent.telemetry.rtt = false;
-    let without = flashed_for(&silent, path, without)?;
-    let has_fpu = program.model()?.facts.has_fpu;
-    let each = if has_fpu { STREAMING } else { STREAMING_NO_FPU };
+fn prices(scene: &Scene, board: &BoardFacts) -> Vec<Price> {
+    let each = if board.has_fpu {
+        STREAMING
+    } else {
+        STREAMING_NO_FPU
+    };
     let streaming = each * scene.whiskers() as f64;
     let prices = [
         ("telemetry that is not asked for", Asks::Nothing, QUIET),
@@ -234,11 +233,6 @@ fn prices(path: &Path, program: &Path, without: &Path) -> Result<Vec<String>, Er
             streaming,
         ),
     ];
-    let prices = prices.map(|(what, asks, most)| Price {
-        what,
-        with: (&program, asks),
-        without: (&without, Asks::Nothing),
-        most,
-    });
-    cost(scene, &prices)
+    let prices = prices.map(|(what, asks, most)| (what, [asks, Asks::Nothing], most));
+    prices.to_vec()
 }

@@ -1,6 +1,5 @@
 //! Another configuration for a board that runs, beside the same module on the PC.
 
-use std::iter;
 use std::path::Path;
 
 use config::AnyConfig;
@@ -11,11 +10,11 @@ use host_sim::classifier::Classifier;
 use host_sim::loaded::Loaded;
 use scene::{MotorSection, Rule, Scene};
 use whisking::Real;
-use wire::{CONFIG_CHANGED, Command, CommandStatus, TaggedCommand};
+use wire::{Answer, CONFIG_CHANGED, Command, CommandStatus, TaggedCommand};
 
 use crate::compare::Pair;
 use crate::damaged;
-use crate::deployment::{flashed, image, model_of, words};
+use crate::deployment::{flashed, image, model_of, staged, words};
 use crate::talk::{Talk, wrong};
 
 /// For how long both run beside each other before and after a change, s.
@@ -55,15 +54,11 @@ pub(crate) fn tune(path: &Path, program: &Path) -> Result<Vec<String>, Error> {
         AnyConfig::Fixed(_) => simulated(&config_of::<whisking::Fix>(&other, known, false, "")?)?,
     };
     let before = talk.ticks;
-    stage(&mut talk, &on_board)?;
-    let answer = talk.ask_board(Command::Apply(on_board.len() as u32))?;
+    let answer = give(&mut talk, &on_board)?;
     if answer.status != CommandStatus::Done {
         return wrong(format!("another configuration: {answer:?}"));
     }
-    let staged = words(&on_pc).into_iter().enumerate();
-    let staged = staged.map(|(number, word)| Command::Stage(number as u8, word));
-    let apply = Command::Apply(on_pc.len() as u32);
-    for command in iter::once(Command::Forget).chain(staged).chain([apply]) {
+    for command in staged(&on_pc) {
         let request = TaggedCommand { tag: 0, command };
         talk.requests.push((answer.sequence, request));
     }
@@ -133,22 +128,22 @@ fn simulated<R: Real>(config: &Config<R>) -> Result<Vec<u8>, Error> {
     Ok(bytes.to_vec())
 }
 
-fn stage(talk: &mut Talk, bytes: &[u8]) -> Result<(), Error> {
-    talk.ask_board(Command::Forget)?;
-    for (number, word) in words(bytes).into_iter().enumerate() {
-        let command = Command::Stage(number as u8, word);
-        let answer = talk.ask_board(command)?;
-        let is_next = answer.values[0] as usize == number + 1;
-        if answer.status != CommandStatus::Done || !is_next {
-            return wrong(format!("{command:?}: {answer:?}"));
+/// Gives the board a configuration; what it answers in the end.
+fn give(talk: &mut Talk, bytes: &[u8]) -> Result<Answer, Error> {
+    let mut last = talk.ask_board(Command::Forget)?;
+    for command in staged(bytes).skip(1) {
+        last = talk.ask_board(command)?;
+        if let Command::Stage(number, _) = command
+            && (last.status, last.values[0]) != (CommandStatus::Done, i32::from(number) + 1)
+        {
+            return wrong(format!("{command:?}: {last:?}"));
         }
     }
-    Ok(())
+    Ok(last)
 }
 
 fn refuses(talk: &mut Talk, bytes: &[u8], error: ConfigError) -> Result<(), Error> {
-    stage(talk, bytes)?;
-    let answer = talk.ask_board(Command::Apply(bytes.len() as u32))?;
+    let answer = give(talk, bytes)?;
     let status = match error {
         ConfigError::Armed(_) => CommandStatus::Armed,
         _ => CommandStatus::OutOfRange,

@@ -216,9 +216,7 @@ impl Watch {
             *place = whisking::degrees(theta.read(ram)?);
         }
         for (touch, address) in snapshot.touch.iter_mut().zip(&self.touch) {
-            let mut number = [0; 2];
-            ram.read(*address, &mut number)?;
-            *touch = u16::from_le_bytes(number);
+            *touch = ram.bytes(*address).map(u16::from_le_bytes)?;
         }
         Ok(())
     }
@@ -286,13 +284,9 @@ impl Queue {
         let mut said = Vec::new();
         while self.seen != tail {
             let event = self.events + self.seen * self.stride;
-            let mut tag = [0];
-            ram.read(event + self.tag.0, &mut tag)?;
-            let mut place = [[0]; 2];
-            for (byte, offset) in place.iter_mut().zip(self.whisker) {
-                ram.read(event + offset, byte)?;
-            }
-            let [[side], [whisker]] = place;
+            let tag = ram.bytes(event + self.tag.0)?;
+            let [side] = ram.bytes(event + self.whisker[0])?;
+            let [whisker] = ram.bytes(event + self.whisker[1])?;
             let notice = self.notices.iter().find(|(value, _)| tag == [*value]);
             let found = match notice {
                 Some((_, notice)) => Some(Said::Notice(*notice)),
@@ -306,22 +300,15 @@ impl Queue {
                     decision.map(Said::Decision)
                 }
                 None if tag == [self.pose.0] => {
-                    let half = |offset: u32| -> Result<u16, Fault> {
-                        let mut bytes = [0; 2];
-                        ram.read(event + offset, &mut bytes)?;
-                        Ok(u16::from_le_bytes(bytes))
-                    };
-                    let [tilt, tilt_error, depth, depth_error] = self.pose.1;
-                    let estimate = |value, error| -> Result<Estimate, Fault> {
+                    let half = |n: usize| ram.bytes(event + self.pose.1[n]);
+                    let estimate = |n| -> Result<Estimate, Fault> {
                         Ok(Estimate {
-                            hundredths: half(value)?.cast_signed(),
-                            error_hundredths: half(error)?,
+                            hundredths: half(n).map(i16::from_le_bytes)?,
+                            error_hundredths: half(n + 1).map(u16::from_le_bytes)?,
                         })
                     };
-                    Some(Said::Pose(Pose {
-                        tilt: estimate(tilt, tilt_error)?,
-                        depth: estimate(depth, depth_error)?,
-                    }))
+                    let (tilt, depth) = (estimate(0)?, estimate(2)?);
+                    Some(Said::Pose(Pose { tilt, depth }))
                 }
                 None => None,
             };

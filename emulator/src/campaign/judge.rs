@@ -89,6 +89,11 @@ impl Whisker {
     }
 }
 
+/// Counts the ticks for which something `is_so`.
+const fn count(ticks: &mut u32, is_so: bool) {
+    *ticks = if is_so { *ticks + 1 } else { 0 };
+}
+
 #[derive(Debug)]
 pub(super) struct Judge {
     whiskers: Vec<Whisker>,
@@ -142,11 +147,10 @@ impl Judge {
         // A core that has noticed a fault, and is reset again and again or waits for a probe
         // with its motors off, is not hung.
         let waits = is_noticed && seen.effort.iter().all(|effort| *effort == 0.0);
-        self.late_for = if seen.is_late && seen.reset.is_none() && !waits {
-            self.late_for + 1
-        } else {
-            0
-        };
+        count(
+            &mut self.late_for,
+            seen.is_late && seen.reset.is_none() && !waits,
+        );
         if f64::from(self.late_for) > HUNG_S * self.tick_hz {
             return Some(Harm::LockedUp);
         }
@@ -255,11 +259,8 @@ impl Judge {
         if self.stopped_for.is_some_and(|ticks| ticks > STOP_TICKS) && effort > 0.0 {
             return Some(Harm::Stopped);
         }
-        whisker.off_for = if whisker.must_rest() {
-            whisker.off_for + 1
-        } else {
-            0
-        };
+        let must_rest = whisker.must_rest();
+        count(&mut whisker.off_for, must_rest);
         if whisker.off_for > OFF_TICKS && effort > 0.0 {
             return Some(Harm::Driven);
         }
@@ -275,11 +276,7 @@ impl Judge {
             return None;
         }
         let is_into_stop = seen.into_stop.get(n).copied().unwrap_or_default();
-        whisker.at_stop_for = if is_into_stop {
-            whisker.at_stop_for + 1
-        } else {
-            0
-        };
+        count(&mut whisker.at_stop_for, is_into_stop);
         if f64::from(whisker.at_stop_for) > AT_STOP_S * self.tick_hz {
             return Some(Harm::AtStop);
         }
@@ -292,11 +289,7 @@ impl Judge {
         whisker.approaches = whisker.approaches.saturating_sub(1);
         let angle = angle - whisker.displaced();
         let away = (angle - setpoint).abs() > self.following_deg && whisker.approaches == 0;
-        whisker.away_for = if away && effort > 0.0 {
-            whisker.away_for + 1
-        } else {
-            0
-        };
+        count(&mut whisker.away_for, away && effort > 0.0);
         if whisker.away_for > away_ticks {
             return Some(Harm::Away);
         }

@@ -4,13 +4,12 @@ use std::path::Path;
 
 use firmware::Event;
 use host_sim::bench::Bus;
-use host_sim::decisions::Decided;
 use host_sim::run::Run;
 use host_sim::{Error, report};
 
 use super::{Head, US};
 use crate::chip::SIDE_NAMES;
-use crate::compare::{difference, same_numbers};
+use crate::compare::{same_numbers, same_tick};
 use crate::deployment::flashed;
 use crate::emulate::pwm_counts;
 
@@ -80,34 +79,20 @@ pub(crate) fn compare(
     }
     let (mut most, mut decisions) = ([[f64::NAN; 2]; 3], 0);
     for n in 1..=host.ticks() {
-        let (mut expected, mut found) = (host.tick(), boards.tick());
+        let (mut expected, found) = (host.tick(), boards.tick());
         let head = boards.module_mut();
         head.check()?;
         for (node, (decoder, said)) in head.nodes.iter_mut().zip(&mut logs) {
             let lines = decoder.lines(&node.board.take_log()).into_iter();
             said.extend(lines.filter_map(|line| of_node(&line)));
         }
-        if !feels {
-            (expected.contact, found.contact) = ([0.0; 2], [0.0; 2]);
-        }
         if scene.classifier.is_none() {
             expected.touch = [0; 2];
         }
-        if let Some(column) = difference(&expected, &found) {
-            return Err(named(format!(
-                "tick {n}: {column} in the simulated head, in that of boards\n  {expected:?}\n  \
-                 {found:?}"
-            )));
-        }
-        let (decided, found): (Vec<Decided>, Vec<Decided>) =
-            (host.decisions().collect(), boards.decisions().collect());
-        if decided != found {
-            return Err(named(format!(
-                "tick {n}: decided in the simulated head, in that of boards\n  {decided:?}\n  \
-                 {found:?}"
-            )));
-        }
-        decisions += found.len();
+        let expected = (expected, host.decisions().collect());
+        let found = (found, boards.decisions().collect());
+        let places = "in the simulated head, in that of boards";
+        decisions += same_tick(n, places, feels, [expected, found]).map_err(named)?;
         let alone = alone.tick();
         // Once all whisk.
         if n > host.ticks() / 3 {

@@ -15,7 +15,7 @@ use wire::{
 
 use super::HeadSession;
 use crate::compare::{plain, same_numbers};
-use crate::deployment::{Deployment, flashed, words};
+use crate::deployment::{Deployment, flashed, staged, words};
 use crate::emulate::pwm_counts;
 use crate::program::Program;
 use crate::session::answer_to;
@@ -264,11 +264,7 @@ impl Talk {
             gains.for_each(|gain| *gain *= 0.9);
         })?;
         let config = &tuned.config;
-        self.done(Command::Forget)?;
-        for (number, word) in words(config).into_iter().enumerate() {
-            self.done(Command::Stage(number as u8, word))?;
-        }
-        self.done(Command::Apply(config.len() as u32))?;
+        staged(config).try_for_each(|command| self.done(command))?;
         if self.runs_by(self.far)? == [crc(config)?, config.len() as i32 | CONFIG_CHANGED] {
             return Ok(());
         }

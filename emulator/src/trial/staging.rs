@@ -9,10 +9,10 @@ use scene::Scene;
 use tactile::ModelBuf;
 use whisking::Real;
 use whisking::motor::GuardSettings;
-use wire::{Command, Frame, TaggedCommand, frame};
+use wire::{Frame, TaggedCommand, frame};
 
 use super::file::Change;
-use crate::deployment::{image, words};
+use crate::deployment::{image, staged};
 
 /// The frames by which the board of a scene is given its configuration with a change.
 pub(super) fn frames(
@@ -26,14 +26,9 @@ pub(super) fn frames(
         AnyConfig::Fixed(config) => encode(&changed(*config, change), facts.code),
     };
     let bytes = bytes.map_err(|error| Error::Work(error.to_string()))?;
-    let staged = words(&bytes).into_iter().enumerate();
-    let staged = staged.map(|(number, word)| Command::Stage(number as u8, word));
-    let apply = Command::Apply(bytes.len() as u32);
-    let commands = [Command::Forget].into_iter().chain(staged).chain([apply]);
-    let tagged = commands
-        .zip(1..)
-        .map(|(command, tag)| TaggedCommand { tag, command });
-    Ok(tagged.map(|request| frame(&request)).collect())
+    let tagged = staged(&bytes).zip(1..);
+    let frames = tagged.map(|(command, tag)| frame(&TaggedCommand { tag, command }));
+    Ok(frames.collect())
 }
 
 fn changed<R: Real>(mut config: Config<R>, change: Change) -> Config<R> {

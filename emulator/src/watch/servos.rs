@@ -28,9 +28,7 @@ struct Tag {
 
 impl Tag {
     fn is_so(self, ram: &Memories) -> Result<bool, Fault> {
-        let mut byte = [0];
-        ram.read(self.address, &mut byte)?;
-        Ok(byte == [self.value])
+        Ok(ram.bytes(self.address)? == [self.value])
     }
 }
 
