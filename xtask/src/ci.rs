@@ -1,9 +1,7 @@
 //! What CI checks, in the order in which it is quickest to fail: everything once, and
 //! of what takes long as much as can still fail. The long runs are [`crate::nightly`]'s.
 
-use std::path::Path;
-
-use crate::emulate::Emulated;
+use crate::emulate::{Emulated, variants};
 use crate::firmware::Board;
 use crate::run::{Fault, cargo, run, take_built_programs};
 use crate::steps::{Step, Steps};
@@ -134,14 +132,10 @@ fn first_board() -> Result<(), Fault> {
         "sensor-loss",
     ];
     let [first, _, smallest] = Board::ALL;
-    emulate::emulate(
-        &Emulated::linked(first),
-        Path::new(emulate::FULL),
-        &one_side,
-    )?;
+    Emulated::linked(first).run(emulate::FULL, &one_side)?;
     // As long as all the rest: beside it.
     let smallest = Emulated::deployed(smallest)?;
-    emulate::emulate(&smallest, Path::new(emulate::BENCH), &["deploying"])
+    smallest.run(emulate::BENCH, &["deploying"])
 }
 
 /// What it does with two, and in other ways; and the others: a program a board, to which scenes
@@ -149,29 +143,31 @@ fn first_board() -> Result<(), Fault> {
 /// night has these on each, and every scene.
 fn other_boards() -> Result<(), Fault> {
     let [board, small, smallest] = Board::ALL;
-    emulate::compare_with_tilt(board)?;
-    emulate::compare_noisiest_in_fixed_point(board)?;
-    emulate::compare_head(board, " --duration 2 --ppm 300")?;
+    let linked = Emulated::linked(board);
+    linked.run(
+        emulate::tilt(board)?,
+        &["compare --duration 4", "sensor-loss"],
+    )?;
+    let fixed = variants::in_fixed_point(&emulate::noisiest()?)?;
+    linked.run(fixed, &["compare"])?;
+    linked.run(emulate::head_of_two()?, &["head --duration 2 --ppm 300"])?;
     let board = Emulated::deployed(board)?;
     // The scene in which records cost most.
-    emulate::emulate(&board, Path::new(emulate::WORLD), &["telemetry"])?;
-    let coupled = ["compare --probe absent", "latency"];
-    emulate::emulate(&board, Path::new(emulate::CIA), &coupled)?;
+    board.run(emulate::WORLD, &["telemetry"])?;
+    board.run(emulate::CIA, &["compare --probe absent", "latency"])?;
     let both_sides = ["deadlines --minutes 0.05", "sensor-loss"];
-    emulate::emulate(&board, &emulate::noisiest()?, &both_sides)?;
-    emulate::emulate(&board, &emulate::head_of_two()?, &["relay"])?;
-    let talks = ["serial", "stopping --stops 10"];
-    emulate::emulate(&board, Path::new(emulate::FULL), &talks)?;
-    emulate::compare_with_slow_sensors(&board)?;
-    emulate::compare_with_options(&board)?;
+    board.run(emulate::noisiest()?, &both_sides)?;
+    board.run(emulate::head_of_two()?, &["relay"])?;
+    board.run(emulate::FULL, &["serial", "stopping --stops 10"])?;
+    board.run(emulate::with_slow_sensors()?, &["compare"])?;
+    board.run(emulate::judged_with_options()?, &["compare --duration 6"])?;
     for board in [small, smallest] {
         // What their programs for any scene have no room for.
-        let judged = Path::new(emulate::JUDGED);
-        emulate::emulate(&Emulated::linked(board), judged, &["compare --duration 4"])?;
+        Emulated::linked(board).run(emulate::JUDGED, &["compare --duration 4"])?;
     }
     let in_short = ["compare --probe pulled", "sensor-loss"];
     let [small, smallest] = [Emulated::deployed(small)?, Emulated::deployed(smallest)?];
     let [likely, learning] = emulate::full_with_options()?;
-    emulate::emulate(&small, &likely, &in_short)?;
-    emulate::emulate(&smallest, &learning, &in_short)
+    small.run(likely, &in_short)?;
+    smallest.run(learning, &in_short)
 }

@@ -41,40 +41,41 @@ impl Emulated {
             None => firmware::build(self.board, scene),
         }
     }
-}
 
-/// Puts a board with `scene` through `scenarios` of the emulator, one after the other: each is its
-/// name, with its options.
-pub(crate) fn emulate(on: &Emulated, scene: &Path, scenarios: &[&str]) -> Result<(), Fault> {
-    let program = on.program(scene)?;
-    for scenario in scenarios {
-        let mut command = emulator("scenario");
-        command.args(scenario.split(' '));
-        match *scenario {
-            "telemetry" => {
-                let without = on.program(&variants::without_telemetry(scene)?)?;
-                command.arg("--without").arg(without);
+    /// Puts the board with `scene` through `scenarios` of the emulator, one after the other: each is
+    /// its name, with its options.
+    pub(crate) fn run(&self, scene: impl AsRef<Path>, scenarios: &[&str]) -> Result<(), Fault> {
+        let scene = scene.as_ref();
+        let program = self.program(scene)?;
+        for scenario in scenarios {
+            let mut command = emulator("scenario");
+            command.args(scenario.split(' '));
+            match *scenario {
+                "telemetry" => {
+                    let without = self.program(&variants::without_telemetry(scene)?)?;
+                    command.arg("--without").arg(without);
+                }
+                "serial" => {
+                    serial(self, scene, &program, &mut command)?;
+                    run(&mut command)?;
+                    continue;
+                }
+                _ if scenario.starts_with("stopping") => {
+                    let fast = variants::with_serial(scene, SERIAL_BAUDS[0])?;
+                    command.arg(absolute(&fast)?);
+                    run(command.arg("--program").arg(self.program(&fast)?))?;
+                    continue;
+                }
+                "deploying" => {
+                    command.arg("--world").arg(top().join(WORLD));
+                    command.arg("--model").arg(top().join(MODEL));
+                }
+                _ => {}
             }
-            "serial" => {
-                serial(on, scene, &program, &mut command)?;
-                run(&mut command)?;
-                continue;
-            }
-            _ if scenario.starts_with("stopping") => {
-                let fast = variants::with_serial(scene, SERIAL_BAUDS[0])?;
-                command.arg(absolute(&fast)?);
-                run(command.arg("--program").arg(on.program(&fast)?))?;
-                continue;
-            }
-            "deploying" => {
-                command.arg("--world").arg(top().join(WORLD));
-                command.arg("--model").arg(top().join(MODEL));
-            }
-            _ => {}
+            run(command.arg(absolute(scene)?).arg("--program").arg(&program))?;
         }
-        run(command.arg(absolute(scene)?).arg("--program").arg(&program))?;
+        Ok(())
     }
-    Ok(())
 }
 
 pub(crate) fn files(on: &Emulated, scene: &Path, out: &Path) -> Result<(), Fault> {
@@ -195,12 +196,15 @@ pub(crate) fn compare_all(on: &Emulated) -> Result<(), Fault> {
             );
             continue;
         }
-        emulate(on, &taken, COMPARE)?;
+        on.run(taken, COMPARE)?;
     }
     if board.facts.has_fpu && on.any_scene.is_none() {
-        compare_in_fixed_point(board)?;
+        for scene in IN_FIXED_POINT {
+            let fixed = variants::in_fixed_point(&top().join(scene))?;
+            on.run(fixed, COMPARE)?;
+        }
     }
-    compare_with_slow_sensors(on)
+    on.run(with_slow_sensors()?, COMPARE)
 }
 
 const COMPARE: &[&str] = &["compare"];
@@ -220,30 +224,8 @@ pub(crate) const JUDGED: &str = "scenes/bench-textures.toml";
 /// The main job with TMAG5170s.
 pub(crate) const TILT: &str = "scenes/tmag5170.toml";
 
-/// Of the scenes, those that are compared in fixed point too.
+/// Of the scenes, those that are compared in fixed point too, which takes programs of their own.
 const IN_FIXED_POINT: [&str; 2] = [FULL, CIA];
-
-/// Compares [`IN_FIXED_POINT`] with host-sim in fixed point, which takes programs of their own.
-pub(crate) fn compare_in_fixed_point(board: Board) -> Result<(), Fault> {
-    for scene in IN_FIXED_POINT {
-        let fixed = variants::in_fixed_point(&top().join(scene))?;
-        emulate(&Emulated::linked(board), &fixed, COMPARE)?;
-    }
-    Ok(())
-}
-
-/// Compares the noisiest scene with host-sim in fixed point: one program for one side and two.
-pub(crate) fn compare_noisiest_in_fixed_point(board: Board) -> Result<(), Fault> {
-    let fixed = variants::in_fixed_point(&noisiest()?)?;
-    emulate(&Emulated::linked(board), &fixed, COMPARE)
-}
-
-/// Compares the start of [`TILT`] with host-sim, on every side of the board, by a program that reads
-/// its sensors, and breaks these.
-pub(crate) fn compare_with_tilt(board: Board) -> Result<(), Fault> {
-    let in_short = ["compare --duration 4", "sensor-loss"];
-    emulate(&Emulated::linked(board), &tilt(board)?, &in_short)
-}
 
 /// [`TILT`] on every side of the board.
 pub(crate) fn tilt(board: Board) -> Result<PathBuf, Fault> {
@@ -261,55 +243,36 @@ pub(crate) fn judged_with_options() -> Result<PathBuf, Fault> {
     variants::with_options(&both)
 }
 
-/// Compares [`FULL`] with host-sim where its sensors are in their slow mode, and the board at
-/// half its clock for them.
-pub(crate) fn compare_with_slow_sensors(on: &Emulated) -> Result<(), Fault> {
-    let slow = variants::with_slow_sensors(&top().join(FULL))?;
-    emulate(on, &slow, COMPARE)
+/// [`FULL`] where its sensors are in their slow mode, and the board at half its clock for them.
+pub(crate) fn with_slow_sensors() -> Result<PathBuf, Fault> {
+    variants::with_slow_sensors(&top().join(FULL))
 }
 
-pub(crate) fn compare_with_options(on: &Emulated) -> Result<(), Fault> {
-    emulate(on, &judged_with_options()?, &["compare --duration 6"])
+/// [`CIA`] with a board a whisker, two dozen: what bus and boards bear at most.
+pub(crate) fn large_head() -> Result<PathBuf, Fault> {
+    let keys = ["head.nodes=24", "head.whiskers_per_side=12"];
+    variants::with(&top().join(CIA), &keys)
 }
 
-/// Compares [`CIA`] on a board a side, which a bus joins, with the simulated head.
-pub(crate) fn compare_head(board: Board, options: &str) -> Result<(), Fault> {
-    let scenario = format!("head{options}");
-    emulate(&Emulated::linked(board), &head_of_two()?, &[&scenario])
-}
-
-/// The same with a board a whisker, two dozen: what bus and boards bear at most.
-pub(crate) fn compare_large_head(board: Board) -> Result<(), Fault> {
-    let keys = ["head.nodes=24", "head.whiskers_per_side=12"].map(str::to_owned);
-    let scene = variants::with(&top().join(CIA), &keys)?;
-    emulate(&Emulated::linked(board), &scene, &["head --duration 2"])
-}
-
-/// Two boards with a whisker each, of which the first decides, or each, or both together, by
-/// crystals apart.
-pub(crate) fn compare_deciding_head(board: Board) -> Result<(), Fault> {
-    for whiskers in ["first", "each", "together"] {
-        let whiskers = format!("classifier.whiskers={whiskers:?}");
-        let keys = ["head.nodes=2", "head.whiskers_per_side=2", &whiskers].map(str::to_owned);
-        let scene = variants::with(&top().join(WORLD), &keys)?;
-        let head = "head --duration 10 --ppm 300";
-        emulate(&Emulated::linked(board), &scene, &[head])?;
-    }
-    Ok(())
+/// Two boards with a whisker each, which decide so: `first`, `each`, or `together`.
+pub(crate) fn deciding_head(whiskers: &str) -> Result<PathBuf, Fault> {
+    let whiskers = format!("classifier.whiskers={whiskers:?}");
+    let keys = ["head.nodes=2", "head.whiskers_per_side=2", &whiskers];
+    variants::with(&top().join(WORLD), &keys)
 }
 
 /// [`FULL`] with priors, and besides without self-motion in its contact: what not every board has
 /// room for. Writes them and returns their paths.
 pub(crate) fn full_with_options() -> Result<[PathBuf; 2], Fault> {
-    let keys = ["classifier.prior.smooth=0.6", "sensor.self_motion_s=0.5"].map(str::to_owned);
-    let [prior, ..] = &keys;
+    let keys = ["classifier.prior.smooth=0.6", "sensor.self_motion_s=0.5"];
     let full = &top().join(FULL);
-    let likely = variants::with(full, std::slice::from_ref(prior))?;
+    let likely = variants::with(full, &keys[..1])?;
     Ok([likely, variants::with(full, &keys)?])
 }
 
+/// [`CIA`] on a board a side, which a bus joins.
 pub(crate) fn head_of_two() -> Result<PathBuf, Fault> {
-    variants::with(&top().join(CIA), &["head.nodes=2".to_owned()])
+    variants::with(&top().join(CIA), &["head.nodes=2"])
 }
 
 /// [`FULL`] on both sides: the noisiest scene.

@@ -62,9 +62,7 @@ const MOTORS: [(&str, &str); 4] = [
 
 fn other_motors() -> Result<Vec<PathBuf>, Fault> {
     let scene = top().join(crate::emulate::WORLD);
-    let other = |(name, key): (&str, &str)| {
-        variants::with(&scene, &[format!("name={name}"), key.to_owned()])
-    };
+    let other = |(name, key): (&str, &str)| variants::with(&scene, &[&format!("name={name}"), key]);
     MOTORS.into_iter().map(other).collect()
 }
 

@@ -343,7 +343,7 @@ impl Emulate {
         ];
         let wanted = scenarios.into_iter().filter(|(is_wanted, _)| *is_wanted);
         let names: Vec<&str> = wanted.map(|(_, name)| name).collect();
-        emulate::emulate(&on, &scene, &names)
+        on.run(scene, &names)
     }
 }
 

@@ -89,18 +89,22 @@ fn boards() -> Result<(), Fault> {
         let (linked, deployed) = (Emulated::linked(board), Emulated::deployed(board)?);
         for on in [&linked, &deployed] {
             emulate::compare_all(on)?;
-            emulate::emulate(on, Path::new(emulate::BENCH), &["deploying"])?;
+            on.run(emulate::BENCH, &["deploying"])?;
         }
         let mut scenes = vec![PathBuf::from(emulate::FULL)];
         if board.facts.in_head == InHead::Untuned {
-            emulate::compare_head(board, "")?;
+            linked.run(emulate::head_of_two()?, &["head"])?;
         }
         if board.facts.max_sides > 1 {
-            emulate::emulate(&linked, Path::new(emulate::CIA), &["latency"])?;
+            linked.run(emulate::CIA, &["latency"])?;
             let both = emulate::noisiest()?;
-            emulate::emulate(&linked, &both, &["compare"])?;
-            emulate::compare_large_head(board)?;
-            emulate::compare_deciding_head(board)?;
+            linked.run(&both, &["compare"])?;
+            linked.run(emulate::large_head()?, &["head --duration 2"])?;
+            // By crystals apart.
+            for whiskers in ["first", "each", "together"] {
+                let head = emulate::deciding_head(whiskers)?;
+                linked.run(head, &["head --duration 10 --ppm 300"])?;
+            }
             scenes.push(both);
         }
         for scene in &scenes {
@@ -115,13 +119,12 @@ fn boards() -> Result<(), Fault> {
                 "damage",
                 "sensor-loss",
             ];
-            emulate::emulate(&linked, scene, &tasks)?;
+            linked.run(scene, &tasks)?;
             // What the port costs is seen where the program is the same with it and without.
-            emulate::emulate(&deployed, scene, &["serial"])?;
+            deployed.run(scene, &["serial"])?;
         }
         // Eleven floods.
-        let stops = ["stopping --stops 1000"];
-        emulate::emulate(&linked, Path::new(emulate::FULL), &stops)?;
+        linked.run(emulate::FULL, &["stopping --stops 1000"])?;
     }
     Ok(())
 }

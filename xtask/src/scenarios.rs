@@ -134,8 +134,8 @@ impl Row {
 
     fn command(&self, on: &Emulated) -> Result<Command, Fault> {
         let head = if self.head { &HEAD[..] } else { &[] };
-        let keys = PLANT.iter().chain(head).map(|&key| key.to_owned());
-        let keys: Vec<String> = keys.chain(self.set.iter().cloned()).collect();
+        let set = self.set.iter().map(String::as_str);
+        let keys: Vec<&str> = PLANT.iter().chain(head).copied().chain(set).collect();
         let scene = variants::with(&top().join(BENCH), &keys)?;
         let file = top().join(format!("tests/scenarios/{}.toml", self.file));
         let linked = Emulated::linked(BOARD);

@@ -86,7 +86,7 @@ pub(crate) fn print(board: Board, scene: &str, elf: &Path) -> Result<(), Fault> 
 }
 
 fn judging_poses() -> Result<PathBuf, Fault> {
-    with(&top().join(JUDGED), &["classifier.pose=true".to_owned()])
+    with(&top().join(JUDGED), &["classifier.pose=true"])
 }
 
 /// Checks what most of CI's other steps run, and a few programs beside it that show of each part
@@ -100,7 +100,7 @@ pub(crate) fn short() -> Result<(), Fault> {
             return Err(reason);
         }
     }
-    let together = ["classifier.whiskers=together".to_owned()];
+    let together = ["classifier.whiskers=together"];
     for scene in [
         PathBuf::from(CONTROL),
         with(&judged_with_options()?, &together)?,

@@ -26,7 +26,7 @@ pub(crate) fn single(path: &Path) -> Result<PathBuf, Fault> {
 }
 
 /// The scene, which has the left side alone, with both sides alike and coupled.
-pub(super) fn on_both_sides(path: &Path) -> Result<PathBuf, Fault> {
+pub(crate) fn on_both_sides(path: &Path) -> Result<PathBuf, Fault> {
     variant(path, "both", |_, table| {
         set(table, "head", "sides", "both");
         set(table, "whisking", "coupling", true);
@@ -38,7 +38,7 @@ pub(super) fn on_both_sides(path: &Path) -> Result<PathBuf, Fault> {
     })
 }
 
-pub(super) fn in_fixed_point(path: &Path) -> Result<PathBuf, Fault> {
+pub(crate) fn in_fixed_point(path: &Path) -> Result<PathBuf, Fault> {
     variant(path, "fixed", |_, table| {
         set(table, "whisking", "numbers", "fixed");
     })
@@ -100,12 +100,13 @@ pub(crate) fn with_ticks(path: &Path, ticks: u32) -> Result<PathBuf, Fault> {
 const MOST_NAME: usize = 200;
 
 /// The scene with other values, each `KEY=VALUE`: a key with its sections, and TOML or a word.
-pub(crate) fn with(path: &Path, keys: &[String]) -> Result<PathBuf, Fault> {
+pub(crate) fn with(path: &Path, keys: &[impl AsRef<str>]) -> Result<PathBuf, Fault> {
+    let keys: Vec<&str> = keys.iter().map(AsRef::as_ref).collect();
     if keys.is_empty() {
         return Ok(path.to_owned());
     }
     let mut values = Vec::new();
-    for key in keys {
+    for &key in &keys {
         let allowed = || format!("--set {key}: allowed: KEY=VALUE, such as motor.kp=0.04");
         let (key, value) = key.split_once('=').ok_or_else(allowed)?;
         let parsed = format!("value = {value}").parse::<Table>().ok();

@@ -2,6 +2,17 @@
 
 use super::{Step, steps};
 
+const AT: u64 = 0x0800_0000;
+
+fn bytes(halves: &[u16]) -> Vec<u8> {
+    halves.iter().flat_map(|half| half.to_le_bytes()).collect()
+}
+
+/// The steps of code without constants.
+fn found(halves: &[u16]) -> Vec<Step> {
+    steps(&bytes(halves), AT, |_| true)
+}
+
 #[test]
 fn what_moves_the_stack_is_read() {
     let cases: [(&[u16], &[Step]); 10] = [
@@ -17,9 +28,7 @@ fn what_moves_the_stack_is_read() {
         (&[0xB002, 0xBDF0, 0x4770, 0xF84D, 0xB004], &[]), // add sp; pop; bx lr; str [sp, r4]
     ];
     for (halves, expected) in cases {
-        let bytes: Vec<u8> = halves.iter().flat_map(|h| h.to_le_bytes()).collect();
-        let found = steps(&bytes, 0x0800_0000, |_| true);
-        assert_eq!(found, expected, "{halves:04x?}");
+        assert_eq!(found(halves), expected, "{halves:04x?}");
     }
 }
 
@@ -33,9 +42,8 @@ fn a_large_frame_is_read_from_its_constant() {
         (0x44AD, [0x14, 0xF8, 0xFF, 0xFF], Step::Open),
     ];
     for (add, constant, expected) in cases {
-        let code = [0x4E00, add].map(u16::to_le_bytes);
-        let bytes = [code.as_flattened(), &constant].concat();
-        let found = steps(&bytes, 0x0800_0000, |at| at < 0x0800_0004);
+        let bytes = [&bytes(&[0x4E00, add])[..], &constant].concat();
+        let found = steps(&bytes, AT, |at| at < AT + 4);
         assert_eq!(found, [expected], "{add:04x} {constant:02x?}");
     }
 }
@@ -56,9 +64,9 @@ fn a_call_by_a_constant_is_a_call_of_that_function() {
         (LOAD, 0x2001, 0x22, open),     // no address of code
     ];
     for (load, between, low, expected) in cases {
-        let code = [load, between, CALL, 0xBF00].map(u16::to_le_bytes);
-        let bytes = [code.as_flattened(), &[low, 0x01, 0x00, 0x08]].concat();
-        let found = steps(&bytes, 0x0800_0000, |at| at < 0x0800_0008);
+        let code = bytes(&[load, between, CALL, 0xBF00]);
+        let bytes = [&code[..], &[low, 0x01, 0x00, 0x08]].concat();
+        let found = steps(&bytes, AT, |at| at < AT + 8);
         assert_eq!(found, [expected], "{load:04x} {between:04x}");
     }
 }
@@ -76,9 +84,7 @@ fn where_branches_go_is_read() {
         (&[0xF43F, 0xAFFE], 0x0800_0000), // beq.w .
     ];
     for (halves, expected) in cases {
-        let bytes: Vec<u8> = halves.iter().flat_map(|h| h.to_le_bytes()).collect();
-        let found = steps(&bytes, 0x0800_0000, |_| true);
-        assert_eq!(found, [Step::Go(expected)], "{halves:04x?}");
+        assert_eq!(found(halves), [Step::Go(expected)], "{halves:04x?}");
     }
 }
 
@@ -99,10 +105,6 @@ fn what_goes_anywhere_is_told_from_what_goes_back() {
         &[0xF85D, 0xFB04], // ldr pc, [sp], #4
         &[0xE8BD, 0x8FF0], // pop.w {r4-r11, pc}
     ];
-    let found = |halves: &[u16]| {
-        let bytes: Vec<u8> = halves.iter().flat_map(|h| h.to_le_bytes()).collect();
-        steps(&bytes, 0x0800_0000, |_| true)
-    };
     for halves in open {
         assert_eq!(found(halves), [Step::Open], "{halves:04x?}");
     }
@@ -154,10 +156,10 @@ fn a_jump_by_a_table_stays_or_is_open() {
         (&[0xBF00, 0xBF00, 0x46A7], &[1, 0, 0, 8, 5, 0, 0, 9], false), // far away
     ];
     for (code, table, stays) in cases {
-        let code: Vec<u8> = code.iter().flat_map(|h| h.to_le_bytes()).collect();
-        let data = 0x0800_0000 + code.len() as u64..0x0800_0000 + (code.len() + table.len()) as u64;
+        let code = bytes(code);
+        let data = AT + code.len() as u64..AT + (code.len() + table.len()) as u64;
         let bytes = [&code, table, &[0x70, 0x47, 0x70, 0x47]].concat();
-        let found = steps(&bytes, 0x0800_0000, |at| !data.contains(&at));
+        let found = steps(&bytes, AT, |at| !data.contains(&at));
         assert_eq!(found.is_empty(), stays, "{bytes:02x?}: {found:?}");
     }
 }
@@ -168,12 +170,7 @@ fn a_jump_to_one_of_the_branches_behind_it_goes_where_they_go() {
     let code = [
         0xF20F, 0x0408, 0xEB04, 0x0480, 0x46A7, 0xF7FF, 0xBFFE, 0xF000, 0xB8FE,
     ];
-    let bytes: Vec<u8> = code
-        .iter()
-        .flat_map(|half: &u16| half.to_le_bytes())
-        .collect();
-    let found = steps(&bytes, 0x0800_0000, |_| true);
-    assert_eq!(found, [0x0800_000A, 0x0800_020E].map(Step::Go));
+    assert_eq!(found(&code), [0x0800_000A, 0x0800_020E].map(Step::Go));
 }
 
 #[test]
