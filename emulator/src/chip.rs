@@ -85,7 +85,7 @@ pub(crate) struct Chip {
     clocks: Clocks,
     power: Power,
     exti: Lines,
-    flash: Flash,
+    pub(crate) flash: Flash,
     /// What switches the pull-downs of USB-C pins off, on the G071.
     system: Plain,
     debug: Plain,
@@ -95,14 +95,14 @@ pub(crate) struct Chip {
     /// SPI1, and SPI2 where it is used: that of the left side, and of the right.
     spis: Vec<Spi>,
     /// DMA1, and DMA2 where it is used.
-    dmas: Vec<Dma>,
+    dmas: Vec<Box<dyn Dma>>,
     mux: Mux,
     watchdog: Watchdog,
     /// USART2, the ST-LINK's serial port, and its line.
     usart: Usart,
     serial: SerialLine,
     /// The controller of a head's bus, where the chip has one.
-    can: BxCan,
+    pub(crate) can: BxCan,
     lines: [SensorLines; 2],
     fault: Option<Fault>,
 }
@@ -127,7 +127,7 @@ impl Chip {
             remap: Remap::default(),
             timers: timers.map(|(kind, _)| Timer::new(*kind)).collect(),
             spis: spis.map(|_| Spi::new(model.spi_version)).collect(),
-            dmas: model.dmas.iter().copied().map(Dma::new).collect(),
+            dmas: model.dmas.iter().map(|dma| dma.controller()).collect(),
             mux: Mux::default(),
             watchdog: Watchdog::new(model.lsi_hz, model.has_window),
             usart: Usart::new(model.usart_version),
@@ -151,7 +151,8 @@ impl Chip {
         self.remap = Remap::default();
         self.timers.iter_mut().for_each(Timer::reset);
         self.spis.iter_mut().for_each(Spi::reset);
-        self.dmas.iter_mut().for_each(Dma::reset);
+        let dmas = self.model.dmas.iter();
+        self.dmas = dmas.map(|dma| dma.controller()).collect();
         self.mux = Mux::default();
         self.watchdog.reset();
         self.usart.reset();
@@ -281,15 +282,6 @@ impl Chip {
     /// Takes a store of so many bytes into flash, by its offset; whether it is programmed.
     pub(crate) fn store_flash(&mut self, offset: u32, bytes: usize) -> bool {
         self.flash.store(offset, bytes, self.now)
-    }
-
-    /// Offsets of the flash that has begun to be erased since the last call.
-    pub(crate) fn take_erased(&mut self) -> Option<std::ops::Range<u32>> {
-        self.flash.take_erased()
-    }
-
-    pub(crate) fn flash_busy_until(&self) -> Ps {
-        self.flash.busy_until()
     }
 
     pub(crate) fn keep(&mut self, fault: Fault) {

@@ -176,7 +176,7 @@ impl Head {
             node.ended += node.board.run_until(node.crystal.own(until))?;
             let (requests, is_on, pending) = node.board.machine.with_chip(|chip| {
                 let requests = chip.take_requests(self.bit)?;
-                Ok::<_, Fault>((requests, chip.is_on_bus(), chip.pending()))
+                Ok::<_, Fault>((requests, chip.is_on_bus(), chip.can.pending()))
             })?;
             let Some(wire) = self.wires.get_mut(node.wire) else {
                 continue;

@@ -307,8 +307,8 @@ impl Machine {
             }
             Err(fault) => return Err(fault),
         };
-        let erased = chip.take_erased();
-        self.stalled = chip.flash_busy_until();
+        let erased = chip.flash.take_erased();
+        self.stalled = chip.flash.busy_until();
         drop(chip);
         if let Some(place) = erased {
             self.memories

@@ -174,7 +174,7 @@ pub(crate) enum Request {
 }
 
 #[derive(Debug, Clone)]
-pub(super) struct BxCan {
+pub(crate) struct BxCan {
     mcr: u32,
     ier: u32,
     btr: u32,
@@ -228,17 +228,17 @@ impl BxCan {
         self.mcr & (INRQ | SLEEP) == 0 && !self.errors.is_off
     }
 
-    pub(super) const fn errors(&self) -> ErrorCounts {
+    pub(crate) const fn errors(&self) -> ErrorCounts {
         self.errors
     }
 
-    pub(super) const fn has_overrun(&self) -> bool {
+    pub(crate) const fn has_overrun(&self) -> bool {
         self.overrun
     }
 
-    pub(super) fn pending(&self) -> impl Iterator<Item = Frame> {
+    pub(crate) fn pending(&self) -> Vec<Frame> {
         let pending = self.mailboxes.iter().filter(|one| one.is_pending());
-        pending.map(Mailbox::frame)
+        pending.map(Mailbox::frame).collect()
     }
 
     fn mailbox(&mut self, frame: Frame) -> Option<&mut Mailbox> {

@@ -1,9 +1,6 @@
 //! A chip on the bus of a head: what comes, and what it sends; and its number.
 
-use can::Frame;
-
 use super::can::{Arrival, Request};
-use super::can_errors::ErrorCounts;
 use super::map::Unit;
 use super::time::Ps;
 use super::wiring::{CAN, NUMBER, PORTS_BUS};
@@ -28,18 +25,6 @@ impl Chip {
     /// Whether it takes part in what the bus does.
     pub(crate) fn is_on_bus(&self) -> bool {
         self.is_clocked(Unit::Can) && self.can.is_on()
-    }
-
-    pub(crate) const fn bus_errors(&self) -> ErrorCounts {
-        self.can.errors()
-    }
-
-    pub(crate) const fn has_overrun(&self) -> bool {
-        self.can.has_overrun()
-    }
-
-    pub(crate) fn pending(&self) -> Vec<Frame> {
-        self.can.pending().collect()
     }
 
     /// What it has asked of a bus with such bits since the last call, and when.

@@ -100,7 +100,7 @@ fn fields(model: &Model, unit: Unit) -> Vec<Field> {
             .collect(),
         Unit::Power => power::fields(model.power),
         Unit::Lines => lines::fields(model.lines),
-        Unit::Dma(n) => dma::fields(model.dmas[n]).to_vec(),
+        Unit::Dma(n) => model.dmas[n].fields().to_vec(),
         Unit::Usart => usart::fields(model.usart_version),
         Unit::Can => can::fields(),
         Unit::Requests => mux::FIELDS.to_vec(),

@@ -25,7 +25,7 @@ pub(super) fn fields(version: Version) -> Vec<Field> {
 }
 
 #[derive(Debug, Clone)]
-pub(super) struct Flash {
+pub(crate) struct Flash {
     waits: Plain,
     layout: &'static Layout,
     /// How many of the keys have come; more than there are: none will do until the next reset.
@@ -155,12 +155,13 @@ impl Flash {
         true
     }
 
-    pub(super) fn take_erased(&mut self) -> Option<Range<u32>> {
+    /// Offsets that have begun to be erased since the last call.
+    pub(crate) fn take_erased(&mut self) -> Option<Range<u32>> {
         self.erased.take()
     }
 
     /// Until when whoever reads flash waits.
-    pub(super) const fn busy_until(&self) -> Ps {
+    pub(crate) const fn busy_until(&self) -> Ps {
         self.busy_until
     }
 }

@@ -150,7 +150,7 @@ impl Chip {
                 Unit::Tim(n) => self.timers[n].reset(),
                 Unit::Spi(n) => self.spis[n].reset(),
                 Unit::Gpio(n) => self.gpio[n].reset(),
-                Unit::Dma(n) => self.dmas[n].reset(),
+                Unit::Dma(n) => self.dmas[n] = self.model.dmas[n].controller(),
                 Unit::Requests => self.mux = Mux::default(),
                 Unit::Remap => self.remap = Remap::default(),
                 Unit::System => self.system.reset(),

@@ -49,7 +49,7 @@ impl Head {
         };
         node.wire = if is_cut { n + 1 } else { 0 };
         if let Some(wire) = self.wires.get_mut(node.wire).filter(|_| node.is_on) {
-            for frame in node.board.machine.with_chip(|chip| chip.pending()) {
+            for frame in node.board.machine.with_chip(|chip| chip.can.pending()) {
                 wire.queue(n, frame, now_us);
             }
         }

@@ -191,8 +191,8 @@ impl Figures {
             of_node.ticks += u64::from(node.ended);
             let (duties, errors);
             (duties, errors, of_node.is_overrun) = board.machine.with_chip(|chip| {
-                let errors = chip.bus_errors();
-                (chip.motor_duties(), errors, chip.has_overrun())
+                let errors = chip.can.errors();
+                (chip.motor_duties(), errors, chip.can.has_overrun())
             });
             let is_driven = duties.iter().any(|(on, _)| *on > 0);
             if is_driven {

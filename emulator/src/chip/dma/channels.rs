@@ -1,7 +1,7 @@
 //! A DMA controller whose channels move single bytes on request (STM32F1 and STM32G0;
 //! RM0008, chapter 13; RM0444, chapter 10): not from memory to memory.
 
-use super::moved::Move;
+use super::{Dma, Move};
 use crate::chip::fields::{Field, field, whole};
 
 const ISR: u32 = 0x00;
@@ -60,19 +60,19 @@ struct Channel {
 }
 
 #[derive(Debug, Clone, Default)]
-pub(in crate::chip) struct Channels {
+pub(super) struct Channels {
     channels: [Channel; 7],
     isr: u32,
 }
 
-impl Channels {
-    pub(super) fn stop(&mut self, channel: usize) {
+impl Dma for Channels {
+    fn stop(&mut self, channel: usize) {
         if let Some(channel) = self.channels.get_mut(channel) {
             channel.ccr &= !EN;
         }
     }
 
-    pub(super) fn request(&mut self, channel: usize) -> Option<Move> {
+    fn request(&mut self, channel: usize, _: u32) -> Option<Move> {
         let c = self.channels.get_mut(channel)?;
         if c.ccr & EN == 0 || c.cndtr == 0 {
             return None;
@@ -103,12 +103,12 @@ impl Channels {
         Some(moved)
     }
 
-    pub(super) fn interrupts(&self, channel: usize) -> bool {
+    fn interrupts(&self, channel: usize) -> bool {
         let flags = self.isr >> (4 * channel);
         flags & TCIF != 0 && self.channels[channel].ccr & TCIE != 0
     }
 
-    pub(super) fn read(&self, offset: u32) -> Option<u32> {
+    fn read(&self, offset: u32) -> Option<u32> {
         Some(match offset {
             ISR => self.isr,
             IFCR => 0,
@@ -125,7 +125,7 @@ impl Channels {
         })
     }
 
-    pub(super) fn write(&mut self, offset: u32, value: u32) -> bool {
+    fn write(&mut self, offset: u32, value: u32) -> bool {
         if offset == IFCR {
             for channel in 0..self.channels.len() {
                 let flags = (value >> (4 * channel)) & ALL;

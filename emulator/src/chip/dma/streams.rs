@@ -1,7 +1,7 @@
 //! A DMA controller whose streams move single bytes on request (STM32F4; RM0390,
 //! chapter 9): direct mode, no double buffer, no bursts.
 
-use super::moved::Move;
+use super::{Dma, Move};
 use crate::chip::fields::{Field, field, whole};
 
 const LISR: u32 = 0x00;
@@ -62,20 +62,20 @@ struct Stream {
 }
 
 #[derive(Debug, Clone, Default)]
-pub(in crate::chip) struct Streams {
+pub(super) struct Streams {
     streams: [Stream; 8],
     /// Flags of each stream, as if it were the first.
     flags: [u32; 8],
 }
 
-impl Streams {
-    pub(super) fn stop(&mut self, stream: usize) {
+impl Dma for Streams {
+    fn stop(&mut self, stream: usize) {
         if let Some(stream) = self.streams.get_mut(stream) {
             stream.cr &= !EN;
         }
     }
 
-    pub(super) fn request(&mut self, stream: usize, channel: u32) -> Option<Move> {
+    fn request(&mut self, stream: usize, channel: u32) -> Option<Move> {
         let s = self.streams.get_mut(stream)?;
         if s.cr & EN == 0 || (s.cr & CHSEL) >> CHSEL.trailing_zeros() != channel {
             return None;
@@ -98,11 +98,11 @@ impl Streams {
         })
     }
 
-    pub(super) fn interrupts(&self, stream: usize) -> bool {
+    fn interrupts(&self, stream: usize) -> bool {
         self.flags[stream] & TCIF != 0 && self.streams[stream].cr & TCIE != 0
     }
 
-    pub(super) fn read(&self, offset: u32) -> Option<u32> {
+    fn read(&self, offset: u32) -> Option<u32> {
         Some(match offset {
             LISR => self.gather(0),
             HISR => self.gather(4),
@@ -120,7 +120,7 @@ impl Streams {
         })
     }
 
-    pub(super) fn write(&mut self, offset: u32, value: u32) -> bool {
+    fn write(&mut self, offset: u32, value: u32) -> bool {
         match offset {
             LIFCR => self.clear(0, value),
             HIFCR => self.clear(4, value),
@@ -151,7 +151,9 @@ impl Streams {
         }
         true
     }
+}
 
+impl Streams {
     fn gather(&self, first: usize) -> u32 {
         let flags = self.flags[first..first + 4].iter().zip(FLAGS_AT);
         flags.fold(0, |all, (flags, at)| all | flags << at)

@@ -99,6 +99,7 @@ fn errors_switch_it_off_until_the_program_lets_it_back() {
         rig.chip.can.advance(2 * US);
         assert_eq!(rig.read(ESR) & 4, is_off);
     }
+    assert_eq!(rig.read(ESR), 0, "it counts from zero again");
 }
 
 /// Three frames wait, the first is at hand; of a fourth the last is overwritten.
