@@ -19,11 +19,12 @@ mod on_board;
 mod outcome;
 mod page;
 mod prepared;
-mod shard;
 mod subject;
 mod table;
 mod words;
 
+use std::collections::BTreeMap;
+use std::collections::btree_map::Entry;
 use std::path::{Path, PathBuf};
 
 use clap::Args;
@@ -37,7 +38,7 @@ pub use table::{merge, read};
 
 use crate::scenario::Several;
 use draw::Plan;
-use shard::Shard;
+use prepared::Prepared;
 use table::{ShardTable, rows};
 
 /// Which runs are made, and where their rows are kept.
@@ -73,23 +74,32 @@ impl Choice {
     ///
     /// # Errors
     /// [`Error`] for a scene, a program or a table that is wrong.
-    pub fn run(self) -> Result<(), Error> {
-        let Several { scenes, program } = self.several;
-        let programs = program.into_iter().map(Some);
-        let programs = programs.chain(std::iter::repeat(None));
-        let shard = Shard {
-            first: self.first,
-            end: self.first.saturating_add(self.runs),
-            remainder: self.shard,
-            shards: self.shards.max(1),
-        };
+    pub fn run(&self) -> Result<(), Error> {
+        let Several { scenes, program } = &self.several;
         let plan = if self.words { Plan::Words } else { Plan::Drawn };
         let mut table = ShardTable::open(&self.out)?;
-        let done = table.done.clone();
-        let scenes = scenes.into_iter().zip(programs).collect();
-        shard::run(&self.subject, &scenes, plan, shard, &done, |row| {
-            table.add(&row)
-        })
+        let mut prepared = BTreeMap::new();
+        for number in self.first..self.first.saturating_add(self.runs) {
+            let is_own = number % self.shards.max(1) == self.shard;
+            if !is_own || table.done.contains(&number) {
+                continue;
+            }
+            // All scenes in turn, whatever the number of shards.
+            let n = (number % scenes.len().max(1) as u64) as usize;
+            let scene = match prepared.entry(n) {
+                Entry::Occupied(scene) => scene.into_mut(),
+                Entry::Vacant(place) => {
+                    let scene = scenes.get(n);
+                    let scene = scene.ok_or_else(|| Error::Input("no scene to run".to_owned()))?;
+                    place.insert(Prepared::new(scene, program.get(n).map(PathBuf::as_path))?)
+                }
+            };
+            if self.words && number >= scene.words() {
+                break;
+            }
+            table.add(&scene.run(&self.subject, number, plan)?)?;
+        }
+        Ok(())
     }
 }
 

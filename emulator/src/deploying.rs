@@ -16,6 +16,7 @@ use crate::deployment::Deployment;
 use crate::loading::{load, load_watched, refuses};
 use crate::scenario;
 use crate::session::Session;
+use crate::talk::wrong;
 use case::{Case, Flashed, Way, missing, pass, running, says, stop};
 
 /// How long PC and board are compared, s, and how long after what changes nothing.
@@ -45,7 +46,7 @@ pub(crate) fn deploying(
     let with = case.agree(&case.new, &case.new.flash, COMPARED_S)?;
     lines.push(format!("with a model: {with}"));
     if without.decisions != 0 || with.decisions == 0 {
-        return Err(Error::Work(lines.join("\n")));
+        return wrong(lines.join("\n"));
     }
     lines.push(case.refuses_to_load()?);
     let words = case.new.deployment.load().words() as usize;
@@ -111,7 +112,7 @@ impl Case<'_> {
         }
         let is_as_before = session.flash()? == self.old.flash;
         if !is_driven || !is_as_before || running(&mut session)? != self.old.crc()? {
-            return Err(missing("the scene before runs on", &session.log()));
+            return missing("the scene before runs on", &session.log());
         }
         Ok(format!(
             "nothing is loaded while a motor is armed, or of more than {} and {} words, and what is \
@@ -140,7 +141,7 @@ impl Case<'_> {
         let said = said.map_or("", |line| line);
         if !driven || !is_old || !said.contains(text) {
             let what = format!("the scene before runs, and the log says why: {text}");
-            return Err(missing(&what, &lines));
+            return missing(&what, &lines);
         }
         self.agree(&self.old, &session.flash()?, SHORT_S)?;
         Ok(text.to_owned())
@@ -163,11 +164,11 @@ impl Case<'_> {
         let (lines, driven) = pass(&mut session, TOUCHES_S)?;
         let has = |what: &str| lines.iter().any(|line| line.contains(what));
         if !driven || !says(&lines, refusal) || !has("touch ") || has("decision") {
-            return Err(missing(refusal.text(), &lines));
+            return missing(refusal.text(), &lines);
         }
         let answer = session.ask(Command::Model)?.values;
         if answer != [0, -i32::from(refusal.code())] || running(&mut session)? != self.new.crc()? {
-            return Err(Error::Work(format!("{refusal:?}: answered {answer:?}")));
+            return wrong(format!("{refusal:?}: answered {answer:?}"));
         }
         Ok(refusal.text().to_owned())
     }
@@ -221,8 +222,9 @@ impl Case<'_> {
             if self.newest(&session.flash()?)? == Some(expected.crc()?) {
                 return Ok(());
             }
-            let fault = format!("{way:?}: another scene after {written} of {words} words");
-            Err(Error::Work(fault))
+            wrong(format!(
+                "{way:?}: another scene after {written} of {words} words"
+            ))
         };
         load_watched(&mut session, &self.new.deployment, usize::MAX, watch)?;
         Ok(session)
@@ -234,12 +236,11 @@ impl Case<'_> {
         let by_serial = self.loaded(Way::Serial)?.flash()?;
         let mut session = self.loaded(Way::Probe)?;
         if session.flash()? != by_serial {
-            let fault = "the serial port and a probe leave different scenes";
-            return Err(Error::Work(fault.to_owned()));
+            return wrong("the serial port and a probe leave different scenes");
         }
         let right = &self.new.deployment;
-        let wrong = |error: tactile::ModelError| Error::Work(error.to_string());
-        let model = ModelBuf::from_bytes(&right.model).map_err(wrong)?;
+        let model = ModelBuf::from_bytes(&right.model);
+        let model = model.map_err(|error| Error::Work(error.to_string()))?;
         let (lines, _) = pass(&mut session, PATIENCE_S)?;
         let [crc, classes] = session.ask(Command::Model)?.values;
         let is_it = crc.cast_unsigned() == model.crc() && classes as usize == model.classes();
@@ -251,7 +252,7 @@ impl Case<'_> {
         let has = lines.iter().any(|line| line.contains(&by));
         let first = match lines.iter().find(is_named) {
             Some(line) if is_it && has && running(&mut session)? == self.new.crc()? => line,
-            _ => return Err(missing(&by, &lines)),
+            _ => return missing(&by, &lines),
         };
         let deployed = self.agree(&self.new, &session.flash()?, COMPARED_S)?;
 
@@ -260,7 +261,7 @@ impl Case<'_> {
         load(&mut session, right, usize::from(right.load().model / 2))?;
         pass(&mut session, SHORT_S)?;
         if running(&mut session)? != self.new.crc()? {
-            return Err(missing("the deployed scene runs on", &session.log()));
+            return missing("the deployed scene runs on", &session.log());
         }
         let [slot, _] = self.facts()?.flash.slots;
         let left = if slot.has_model() {
@@ -275,7 +276,7 @@ impl Case<'_> {
         };
         let again = self.agree(&left, &left.flash, COMPARED_S)?;
         if (again.decisions > 0) != slot.has_model() {
-            return Err(missing("the deployed scene has its model or not", &[]));
+            return missing("the deployed scene has its model or not", &[]);
         }
         Ok([
             format!("deployed: {by}, first {first}"),

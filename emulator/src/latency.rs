@@ -47,7 +47,7 @@ fn once(scene: &Scene, program: &Program) -> Result<(usize, String), Error> {
     for n in 1..=session.run.ticks() {
         session.tick()?;
         let row = *session.run.row();
-        let Some(contact) = Contact::of(&row, &before).map_err(work)? else {
+        let Some(contact) = Contact::of(&row, &before)? else {
             before = row;
             continue;
         };
@@ -72,10 +72,6 @@ fn once(scene: &Scene, program: &Program) -> Result<(usize, String), Error> {
     wrong("no contact excites the other side")
 }
 
-fn work(what: &str) -> Error {
-    Error::Work(what.to_owned())
-}
-
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Contact {
     side: usize,
@@ -85,12 +81,12 @@ struct Contact {
 
 impl Contact {
     /// The contact in `row`, whose forerunner is `before`.
-    fn of(row: &Row, before: &Row) -> Result<Option<Self>, &'static str> {
+    fn of(row: &Row, before: &Row) -> Result<Option<Self>, Error> {
         let rest = f64::from(Word::MID.code14());
         let touches = row.x.map(|x| x != rest);
         let side = match touches {
             [false, false] => return Ok(None),
-            [true, true] => return Err("both sides touch at once"),
+            [true, true] => return wrong("both sides touch at once"),
             [left, _] => usize::from(!left),
         };
         Ok(Some(Self {
@@ -121,7 +117,7 @@ mod tests {
     #[test]
     fn contact_is_the_first_code_off_rest_and_excites_the_other_side() {
         let before = row([REST, REST], [1.0, 0.5]);
-        assert_eq!(Contact::of(&before, &before), Ok(None));
+        assert_eq!(Contact::of(&before, &before).unwrap(), None);
         let touch = row([REST, REST - 1.0], [1.25, 0.5]);
         let contact = Contact::of(&touch, &before).unwrap().unwrap();
         assert_eq!((contact.side, contact.gain), (1, 1.0));

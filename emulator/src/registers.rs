@@ -9,23 +9,6 @@ use crate::chip::{Fact, FactKind, MODELS, Model, facts};
 
 const HEAD: &str = include_str!("registers/head.md");
 
-/// What the description of a chip has not: the board's program, kind and peripheral, and who
-/// says it.
-const ALONE: [(&str, FactKind, &str, &str); 2] = [
-    (
-        "nucleo_g071rb",
-        FactKind::Gate,
-        "DBGMCU",
-        "stm32g0xx-hal `src/rcc/enable.rs`: DBG",
-    ),
-    (
-        "nucleo_g071rb",
-        FactKind::Reset,
-        "DBGMCU",
-        "stm32g0xx-hal `src/rcc/enable.rs`: DBG",
-    ),
-];
-
 struct Chip {
     program: &'static str,
     title: &'static str,
@@ -69,13 +52,11 @@ const fn word(kind: FactKind) -> &'static str {
     }
 }
 
-/// Where else a fact stands that no description has.
+/// Where else a fact stands that no description has: the gate and the reset of a debug unit.
 fn alone(model: &Model, fact: &Fact) -> Option<&'static str> {
-    let mut all = ALONE.iter();
-    let found = all.find(|(program, kind, of, _)| {
-        (*program, *kind, *of) == (model.program, fact.kind, &*fact.of)
-    });
-    found.map(|found| found.3)
+    let is_gate = matches!(fact.kind, FactKind::Gate | FactKind::Reset);
+    let is_alone = is_gate && model.program == "nucleo_g071rb" && fact.of == "DBGMCU";
+    is_alone.then_some("stm32g0xx-hal `src/rcc/enable.rs`: DBG")
 }
 
 /// The facts of a board's chip, a line each: kind, peripheral, part, two numbers, and where

@@ -16,6 +16,7 @@ use crate::deployment::{Deployment, flashed_for};
 use crate::program::Program;
 use crate::scenario;
 use crate::session::Session;
+use crate::talk::wrong;
 
 /// How long a whisker takes to come to rest, s.
 const TO_REST_S: f64 = 0.3;
@@ -54,8 +55,8 @@ pub(super) fn pass(session: &mut Session, seconds: f64) -> Result<(Vec<String>, 
     Ok((lines, driven))
 }
 
-pub(super) fn missing(what: &str, lines: &[String]) -> Error {
-    Error::Work(format!("not so: {what}\n  {}", lines.join("\n  ")))
+pub(super) fn missing<T>(what: &str, lines: &[String]) -> Result<T, Error> {
+    wrong(format!("not so: {what}\n  {}", lines.join("\n  ")))
 }
 
 pub(super) fn says(lines: &[String], refusal: Refusal) -> bool {
@@ -150,25 +151,21 @@ impl<'p> Case<'p> {
     /// read.
     pub(super) fn wrong_configs(&self) -> Result<Vec<(Vec<u8>, ConfigError)>, Error> {
         let mut wrong = damaged::configs(&self.new.deployment.config);
-        if self.is_lean {
-            let mut scene = self.old.loaded.scene.clone();
-            let mut error = None;
-            if let Some(whisking) = &mut scene.whisking {
-                let (other, part) = match whisking.integrator {
-                    Integrator::Exact => (Integrator::Euler, Part::Euler),
-                    Integrator::Euler => (Integrator::Exact, Part::Exact),
-                };
-                whisking.integrator = other;
-                error = Some(ConfigError::NotBuilt(part));
-            }
-            let config = Deployment::of(&scene, None, self.facts()?)?.config;
-            wrong.extend(error.map(|error| (config, error)));
-        } else {
-            let mut scene = self.old.loaded.scene.clone();
+        let mut scene = self.old.loaded.scene.clone();
+        let mut part = None;
+        if !self.is_lean {
             scene.sensor.model = SensorModel::Tmag5170;
-            let config = Deployment::of(&scene, None, self.facts()?)?.config;
-            wrong.push((config, ConfigError::NotBuilt(Part::Tmag5170)));
+            part = Some(Part::Tmag5170);
+        } else if let Some(whisking) = &mut scene.whisking {
+            let (other, of_other) = match whisking.integrator {
+                Integrator::Exact => (Integrator::Euler, Part::Euler),
+                Integrator::Euler => (Integrator::Exact, Part::Exact),
+            };
+            whisking.integrator = other;
+            part = Some(of_other);
         }
+        let config = Deployment::of(&scene, None, self.facts()?)?.config;
+        wrong.extend(part.map(|part| (config, ConfigError::NotBuilt(part))));
         Ok(wrong)
     }
 
@@ -181,7 +178,7 @@ impl<'p> Case<'p> {
         }
         let (lines, driven) = pass(&mut session, 0.5)?;
         if !driven || !says(&lines, Refusal::Absent) {
-            return Err(missing("a board without a model whisks", &lines));
+            return missing("a board without a model whisks", &lines);
         }
         stop(&mut session)?;
         Ok(session)

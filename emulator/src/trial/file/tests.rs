@@ -71,54 +71,54 @@ fn what_befalls_what_a_scene_lacks_is_refused() {
 
 #[test]
 fn what_is_wrong_is_named() {
-    let event = |keys: &str| refused(&format!("[[event]]\nat_s = 1.0\n{keys}"));
-    for (keys, named) in [
-        ("kind = 'encoder-stock'", "encoder-stock"),
-        ("kind = 'encoder-stuck'\ncount = 3", "count"),
+    for (kind, keys, named) in [
+        ("encoder-stock", "", "encoder-stock"),
+        ("encoder-stuck", "count = 3", "count"),
         (
-            "kind = 'encoder-stuck'\ncounts = 3",
+            "encoder-stuck",
+            "counts = 3",
             "event 1 (encoder-stuck): counts: ",
         ),
+        ("button", "repeat_hz = 3.0", "event 1 (button): repeat_hz: "),
         (
-            "kind = 'button'\nrepeat_hz = 3.0",
-            "event 1 (button): repeat_hz: ",
-        ),
-        (
-            "kind = 'sensor-part'\nreports = 3",
+            "sensor-part",
+            "reports = 3",
             "event 1 (sensor-part): reports: ",
         ),
-        ("kind = 'encoder-jitter'", "missing field `counts`"),
+        ("encoder-jitter", "", "missing field `counts`"),
         (
-            "kind = 'encoder-slip'\nshare = 1.5",
+            "encoder-slip",
+            "share = 1.5",
             "share: found 1.5, allowed: 0 to 1",
         ),
-        ("kind = 'supply'\nvolts = nan", "volts: found NaN"),
+        ("supply", "volts = nan", "volts: found NaN"),
         (
-            "kind = 'probe'\nrequest = 'jump'",
+            "probe",
+            "request = 'jump'",
             "request: \"jump\": unknown command",
         ),
         (
-            "kind = 'serial'\ntext = 'stop'\nrepeat_hz = 0.0",
+            "serial",
+            "text = 'stop'\nrepeat_hz = 0.0",
             "repeat_hz: found 0",
         ),
-        ("kind = 'configuration'", "missing field `change`"),
+        ("configuration", "", "missing field `change`"),
+        ("configuration", "change = 'all'", "unknown variant `all`"),
+        ("button", "for_s = 0.0", "for_s: found 0"),
         (
-            "kind = 'configuration'\nchange = 'all'",
-            "unknown variant `all`",
-        ),
-        ("kind = 'button'\nfor_s = 0.0", "for_s: found 0"),
-        (
-            "kind = 'sensor-part'\nupdate_hz = 0.5",
+            "sensor-part",
+            "update_hz = 0.5",
             "update_hz: found 0.5, allowed: 1 to 10000",
         ),
         (
-            "kind = 'select-stuck'\nreport = 1",
+            "select-stuck",
+            "report = 1",
             "event 1 (select-stuck): report: ",
         ),
-        ("kind = 'button'\nside = 'both'", "both"),
+        ("button", "side = 'both'", "both"),
     ] {
-        let said = event(keys);
-        assert!(said.contains(named), "{keys}: {said}");
+        let said = refused(&format!("[[event]]\nat_s = 1.0\nkind = '{kind}'\n{keys}"));
+        assert!(said.contains(named), "{kind}, {keys}: {said}");
     }
     assert!(refused("durations_s = 1.0").contains("durations_s"));
     assert!(refused("[[event]]\nkind = 'button'").contains("at_s"));
