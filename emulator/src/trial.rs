@@ -16,6 +16,7 @@ use host_sim::Error;
 use host_sim::loaded::Loaded;
 use host_sim::output::{self, write_whole};
 use scene::{PlantKind, Scene};
+use serde::Serialize;
 
 use crate::deployment::{flashed, model_of};
 use crate::session::Session;
@@ -63,9 +64,7 @@ impl Choice {
         let loaded = self.placed(loaded, &scenario)?;
         scenario.fits(&self.scenario, &loaded.scene)?;
         if let Some(bus) = config::bus(&loaded.scene) {
-            let json = head::run(&loaded, bus, &program, &scenario)?;
-            write_whole(&self.json, json.as_bytes())?;
-            return Ok(());
+            return self.write(&head::run(&loaded, bus, &program, &scenario)?);
         }
         let session = Session::running(&loaded.scene, loaded.classes()?, &program)?;
         let servos = Servos::new(&program, &loaded.scene)?;
@@ -73,9 +72,13 @@ impl Choice {
         let model = model_of(&loaded.scene, &self.scene)?;
         let stage = |change| staging::frames(change, &loaded.scene, model.as_ref(), facts);
         let links = Links::new(&scenario, &loaded.scene, stage)?;
-        let outcome = run(session, &servos, &loaded.scene, (&scenario, links))?;
-        write_whole(&self.json, outcome.json()?.as_bytes())?;
-        Ok(())
+        self.write(&run(session, &servos, &loaded.scene, (&scenario, links))?)
+    }
+
+    fn write(&self, outcome: &impl Serialize) -> Result<(), Error> {
+        let json = serde_json::to_string_pretty(outcome);
+        let json = json.map_err(|error| Error::Work(error.to_string()))?;
+        write_whole(&self.json, (json + "\n").as_bytes())
     }
 
     /// The scene in its world, for as long and with the seed as the scenario has it.

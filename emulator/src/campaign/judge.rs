@@ -5,7 +5,7 @@ use scene::Scene;
 use wire::Command;
 
 use super::injection::Injection;
-use super::subject::Seen;
+use super::subject::{OfMotor, Seen};
 use crate::notice::Notice;
 
 /// Within how many ticks of a fault's report its motor is off.
@@ -146,7 +146,7 @@ impl Judge {
         }
         // A core that has noticed a fault, and is reset again and again or waits for a probe
         // with its motors off, is not hung.
-        let waits = is_noticed && seen.effort.iter().all(|effort| *effort == 0.0);
+        let waits = is_noticed && seen.motors.iter().all(|motor| motor.effort == 0.0);
         count(
             &mut self.late_for,
             seen.is_late && seen.reset.is_none() && !waits,
@@ -159,7 +159,8 @@ impl Judge {
             .iter()
             .filter(|injection| injection.cuts_encoder());
         let cut = stuck.any(|injection| injection.lasts(tick));
-        for (whisker, &displaced) in self.whiskers.iter_mut().zip(&seen.displaced_deg) {
+        for (whisker, motor) in self.whiskers.iter_mut().zip(&seen.motors) {
+            let displaced = motor.displaced_deg;
             // While the count stands still, the whisker is away from where it was lost.
             if displaced == whisker.last_displaced_deg && !cut {
                 whisker.displaced_deg = displaced;
@@ -248,7 +249,12 @@ impl Judge {
 
     fn look_at(&mut self, n: usize, seen: &Seen) -> Option<Harm> {
         let away_ticks = (AWAY_S * self.tick_hz) as u32;
-        let effort = *seen.effort.get(n)?;
+        let OfMotor {
+            effort,
+            is_into_stop,
+            is_homing,
+            ..
+        } = *seen.motors.get(n)?;
         let whisker = self.whiskers.get_mut(n)?;
         if effort > self.limit {
             return Some(Harm::Effort);
@@ -264,7 +270,6 @@ impl Judge {
         if whisker.off_for > OFF_TICKS && effort > 0.0 {
             return Some(Harm::Driven);
         }
-        let is_homing = seen.homing.get(n).copied().unwrap_or_default();
         if is_homing {
             whisker.homed_deg = whisker.last_displaced_deg;
             whisker.displaced_deg = whisker.last_displaced_deg;
@@ -275,7 +280,6 @@ impl Judge {
             whisker.approaches = self.approach;
             return None;
         }
-        let is_into_stop = seen.into_stop.get(n).copied().unwrap_or_default();
         count(&mut whisker.at_stop_for, is_into_stop);
         if f64::from(whisker.at_stop_for) > AT_STOP_S * self.tick_hz {
             return Some(Harm::AtStop);
@@ -314,7 +318,7 @@ impl Judge {
             if whisker.sensor_is_lost || (whisker.motor == Motor::Rests && !rests) {
                 return Some(Harm::Unrecovered);
             }
-            let is_homing = seen.homing.get(n).copied().unwrap_or_default();
+            let is_homing = seen.motors.get(n).is_some_and(|motor| motor.is_homing);
             let is_under_way = is_homing || whisker.approaches > 0;
             if !self.has_motors || rests || is_under_way || !n.is_multiple_of(self.per_side) {
                 continue;

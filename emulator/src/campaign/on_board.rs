@@ -5,7 +5,7 @@ use host_sim::loaded::Loaded;
 
 use wire::{Command, TaggedCommand};
 
-use super::subject::{Seen, number, seen};
+use super::subject::{OfMotor, Seen, number, seen};
 use super::words::{STACK, Words};
 use crate::chip::Fault;
 use crate::program::Program;
@@ -60,14 +60,12 @@ impl OnBoard<'_> {
             .collect();
         seen.reset = board.reset.take();
         seen.is_late = board.is_late;
-        seen.effort = self.session.efforts();
         seen.commands = std::mem::take(&mut self.commands);
-        for n in 0..seen.effort.len() {
-            if let Some(motor) = self.session.run.motor_mut(n) {
-                seen.look_at(motor);
-            }
+        for (n, effort) in self.session.efforts().into_iter().enumerate() {
             let wants = self.servos.wants(n, &self.session.machine().memories)?;
-            seen.homing.push(wants.is_homing);
+            let motor = self.session.run.motor_mut(n);
+            let of_motor = OfMotor::new(effort, wants.is_homing, motor);
+            seen.motors.push(of_motor);
         }
         Ok(seen)
     }

@@ -58,6 +58,10 @@ pub(super) struct Findings {
 }
 
 impl Findings {
+    pub(super) const fn is_over(&self) -> bool {
+        self.harm.is_some() || self.unfollowed.is_some()
+    }
+
     pub(super) fn verdict(&self) -> (Ending, String) {
         if let Some((tick, harm)) = &self.harm {
             return (Ending::Harmful, format!("{harm}, tick {tick}"));

@@ -222,12 +222,6 @@ impl Prepared {
     }
 }
 
-impl Findings {
-    const fn is_over(&self) -> bool {
-        self.harm.is_some() || self.unfollowed.is_some()
-    }
-}
-
 fn extent(angles: &[f64]) -> f64 {
     let lowest = angles.iter().copied().fold(f64::INFINITY, f64::min);
     let highest = angles.iter().copied().fold(f64::NEG_INFINITY, f64::max);

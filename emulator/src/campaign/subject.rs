@@ -18,13 +18,8 @@ use crate::program::Program;
 #[derive(Debug, Clone, Default)]
 pub(super) struct Seen {
     pub(super) row: Row,
-    /// What the pins ask of each motor, 0 to 1, left side first.
-    pub(super) effort: Vec<f64>,
-    /// By how much each whisker is displaced from its encoder's count, degrees.
-    pub(super) displaced_deg: Vec<f64>,
-    /// Which whiskers are driven into an end stop, and which are being homed.
-    pub(super) into_stop: Vec<bool>,
-    pub(super) homing: Vec<bool>,
+    /// Left side first.
+    pub(super) motors: Vec<OfMotor>,
     /// What was sent to it before this tick.
     pub(super) commands: Vec<Command>,
     pub(super) notices: Vec<(usize, Notice)>,
@@ -34,28 +29,45 @@ pub(super) struct Seen {
     pub(super) is_late: bool,
 }
 
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub(super) struct OfMotor {
+    /// What the pins ask of it, 0 to 1.
+    pub(super) effort: f64,
+    /// By how much its whisker is displaced from its encoder's count, degrees.
+    pub(super) displaced_deg: f64,
+    /// It drives its whisker into an end stop; it looks for its own.
+    pub(super) is_into_stop: bool,
+    pub(super) is_homing: bool,
+}
+
 /// So near to an end stop a whisker is at it, degrees.
 const AT_STOP_DEG: f64 = 0.1;
 
-impl Seen {
-    pub(super) fn look_at(&mut self, motor: &SimMotor) {
-        let (angle, duty) = (motor.angle_deg(), motor.duty());
-        let [back, front] = motor.settings().stops_deg;
-        let is_into_stop =
-            duty < 0.0 && angle <= back + AT_STOP_DEG || duty > 0.0 && angle >= front - AT_STOP_DEG;
-        self.into_stop.push(is_into_stop);
-        self.displaced_deg.push(motor.displaced_deg());
+impl OfMotor {
+    pub(super) fn new(effort: f64, is_homing: bool, motor: Option<&mut SimMotor>) -> Self {
+        let mut of_motor = Self {
+            effort,
+            is_homing,
+            ..Self::default()
+        };
+        if let Some(motor) = motor {
+            let (angle, duty) = (motor.angle_deg(), motor.duty());
+            let [back, front] = motor.settings().stops_deg;
+            of_motor.is_into_stop = duty < 0.0 && angle <= back + AT_STOP_DEG
+                || duty > 0.0 && angle >= front - AT_STOP_DEG;
+            of_motor.displaced_deg = motor.displaced_deg();
+        }
+        of_motor
     }
+}
 
+impl Seen {
     pub(super) fn is_same(&self, other: &Self) -> bool {
         // A side that does not exist has values that are not even equal to themselves.
         let bits = |row: &Row| row.pairs().map(|pair| pair.map(f64::to_bits));
         bits(&self.row) == bits(&other.row)
             && self.row.touch == other.row.touch
-            && self.effort == other.effort
-            && self.displaced_deg == other.displaced_deg
-            && self.into_stop == other.into_stop
-            && self.homing == other.homing
+            && self.motors == other.motors
             && self.commands == other.commands
             && self.notices == other.notices
             && self.decisions == other.decisions
@@ -103,12 +115,11 @@ impl<'p> Subject<'p> {
         run.tick();
         let mut seen = seen(run, per_side);
         seen.commands = std::mem::take(commands);
-        let mut n = 0;
-        while let Some(motor) = run.motor_mut(n) {
-            seen.effort.push(motor.effort());
-            seen.look_at(motor);
-            seen.homing.push(run.module_mut().is_homing(n));
-            n += 1;
+        for n in 0.. {
+            let is_homing = run.module_mut().is_homing(n);
+            let Some(motor) = run.motor_mut(n) else { break };
+            let of_motor = OfMotor::new(motor.effort(), is_homing, Some(motor));
+            seen.motors.push(of_motor);
         }
         Ok(seen)
     }

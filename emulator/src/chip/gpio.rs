@@ -1,15 +1,33 @@
 //! A GPIO port. How a pin is configured differs between the families, a file each.
 
-mod roles;
 mod v1;
 mod v2;
 
-pub(super) use roles::Role;
-
 use super::fields::Field;
-use roles::Common;
 use v1::TwoRegisters;
 use v2::Modes;
+
+/// What drives a pin.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Role {
+    /// Nothing here: an input.
+    Input,
+    /// The port's output register, at this level.
+    Output(bool),
+    /// Another peripheral, by the number of the alternate function; 0 where a pin has one.
+    Alternate(u32),
+    /// Analogue: disconnected.
+    Analogue,
+}
+
+/// The registers that every port has.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Common {
+    Idr,
+    Odr,
+    Bsrr,
+    Brr,
+}
 
 #[derive(Debug, Clone, Copy)]
 pub(super) enum Reset {

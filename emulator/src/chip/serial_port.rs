@@ -1,5 +1,7 @@
 //! The serial port's two wires: bytes between USART2, memory and the other end.
 
+use std::collections::VecDeque;
+
 use super::fault::Fault;
 use super::map::Unit;
 use super::time::Ps;
@@ -14,6 +16,23 @@ const BITS: Ps = 10;
 /// By how many thousandths the chip's bits may differ from those of the other end: what the
 /// board's build allows, and what the picosecond clock rounds.
 const OFF_PERMILLE: Ps = 16;
+
+/// Whoever is at the other end: the ST-LINK, with a baud of its own.
+#[derive(Debug, Clone, Default)]
+pub(super) struct SerialLine {
+    /// A bit at the other end; none: nothing is there.
+    pub(super) bit: Option<Ps>,
+    pub(super) sending: VecDeque<u8>,
+    /// When the first of that has gone.
+    pub(super) ends: Ps,
+    pub(super) heard: Vec<u8>,
+}
+
+impl SerialLine {
+    pub(super) fn next(&self) -> Option<Ps> {
+        (!self.sending.is_empty()).then_some(self.ends)
+    }
+}
 
 impl Chip {
     pub(crate) const fn attach_serial(&mut self, baud: u32) {

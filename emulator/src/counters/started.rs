@@ -58,6 +58,11 @@ fn read(board: &Board, leaf: &Leaf) -> Result<u32, Fault> {
     Ok(u32::from_le_bytes(word))
 }
 
+fn set_count(board: &mut Board, timer: u32, count: u32) -> Result<(), Fault> {
+    let machine = &mut board.machine;
+    machine.with_chip(|chip| chip.write(timer + CNT, count, u32::MAX))
+}
+
 impl Started {
     /// Starts every counter that `program` has for `scene`, before the first tick of `board`.
     pub(crate) fn new(program: &Program, board: &mut Board, scene: &Scene) -> Result<Self, Fault> {
@@ -89,17 +94,11 @@ impl Started {
                 Place::TimerOf(path) => {
                     for leaf in all(path) {
                         let timer = read(board, &leaf)?;
-                        board
-                            .machine
-                            .with_chip(|chip| chip.write(timer + CNT, first, u32::MAX))?;
+                        set_count(board, timer, first)?;
                     }
                 }
                 Place::Tim5 if has_variable => {}
-                Place::Tim5 => {
-                    board
-                        .machine
-                        .with_chip(|chip| chip.write(TIM5 + CNT, first, u32::MAX))?;
-                }
+                Place::Tim5 => set_count(board, TIM5, first)?,
             }
             let seen = counter.is_seen().then_some(counter.seen);
             for leaf in seen.into_iter().flat_map(all) {

@@ -47,14 +47,6 @@ pub(super) struct Outcome {
     events: Vec<Listed>,
 }
 
-impl Outcome {
-    pub(super) fn json(&self) -> Result<String, Error> {
-        let json = serde_json::to_string_pretty(self);
-        json.map(|json| json + "\n")
-            .map_err(|error| Error::Work(error.to_string()))
-    }
-}
-
 #[derive(Debug, Clone, Copy)]
 struct Span {
     least: f64,

@@ -21,7 +21,7 @@ const SAME_DEG: f64 = 1.0;
 
 /// What became of a run; docs/boards.md has each key.
 #[derive(Debug, Serialize)]
-struct Outcome {
+pub(super) struct Outcome {
     ran_s: f64,
     largest_step_deg: f64,
     relocked_s: f64,
@@ -73,7 +73,7 @@ pub(super) fn run(
     bus: BusConfig,
     program: &Program,
     scenario: &Scenario,
-) -> Result<String, Error> {
+) -> Result<Outcome, Error> {
     let scene = &loaded.scene;
     let mut run = head::start(scene, bus, loaded.classes()?, (program, 0))?;
     let servos = Servos::new(program, scene)?;
@@ -101,9 +101,7 @@ pub(super) fn run(
         What::Serial { .. } | What::Probe { .. } => 0.0,
         _ => event.until_s.unwrap_or(event.at_s),
     });
-    let json = serde_json::to_string_pretty(&figures.outcome(returned.fold(0.0, f64::max)));
-    json.map(|json| json + "\n")
-        .map_err(|error| Error::Work(error.to_string()))
+    Ok(figures.outcome(returned.fold(0.0, f64::max)))
 }
 
 /// An event begins or ends; the stop that it sends.

@@ -1,7 +1,7 @@
 //! A port with four bits a pin, MODE and CNF, in two registers (STM32F1; RM0008,
 //! chapter 9).
 
-use super::roles::{Common, Role};
+use super::{Common, Role};
 use crate::chip::fields::{Field, field};
 
 const CRL: u32 = 0x00;

@@ -1,7 +1,7 @@
 //! A port with a mode, a type, a speed, a pull and a function register (STM32F4, STM32G0;
 //! RM0390, chapter 7; RM0444, chapter 7).
 
-use super::roles::{Common, Role};
+use super::{Common, Role};
 use crate::chip::fields::{Field, field};
 
 const MODER: u32 = 0x00;
