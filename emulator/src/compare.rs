@@ -40,15 +40,6 @@ pub(crate) enum Probe {
     Pulled,
 }
 
-impl From<Probe> for Circumstances {
-    fn from(probe: Probe) -> Self {
-        Self {
-            probe,
-            ..Self::default()
-        }
-    }
-}
-
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(crate) struct Circumstances {
     /// Who fetches its log.

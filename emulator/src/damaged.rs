@@ -50,11 +50,8 @@ pub(crate) fn models(right: &[u8], facts: &BoardFacts) -> Result<Vec<Wrong>, Err
     let changed = |at, by| changed(right, at, by);
     let [slot, _] = facts.flash.slots;
     let length = (slot.model.bytes + 4).to_le_bytes();
-    let long = (MODEL_LENGTH_AT..).zip(length);
-    let long = long.fold(right.to_vec(), |mut model, (at, other)| {
-        model[at] = other;
-        model
-    });
+    let mut long = right.to_vec();
+    long[MODEL_LENGTH_AT..][..4].copy_from_slice(&length);
     let mut contradictory = right.to_vec();
     // Of the tables of samples none is left, and the sum is right.
     contradictory[8] = 0;

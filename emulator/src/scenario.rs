@@ -108,8 +108,9 @@ pub const ALL: [Scenario; 14] = [
         what: "Runs the scene on PC and board and compares every tick",
         how: What::Work(|given, scene, program| {
             let circumstances = Circumstances {
+                probe: given.probe,
                 duration_s: given.duration,
-                ..given.probe.into()
+                ..Circumstances::default()
             };
             compare::compare(scene, program, circumstances).map(|agreed| {
                 let scene = scene.display();

@@ -14,7 +14,7 @@ use wire::{Command, CommandStatus, Flags, TaggedCommand, TickRecord, WhiskerId};
 use crate::compare::Pair;
 use crate::cost::{Asks, Price, cost};
 use crate::deployment::{flashed, flashed_for};
-use crate::talk::{Talk, wrong};
+use crate::talk::{Talk, records, wrong};
 
 /// For how long records are compared, s.
 const RECORDS_S: f64 = 0.5;
@@ -137,13 +137,7 @@ fn commands(talk: &mut Talk) -> Result<String, Error> {
     let last = |talk: &mut Talk| -> Result<TickRecord, Error> {
         let from = talk.packets.len();
         talk.pass(talk.part)?;
-        let last = talk.packets[from..]
-            .iter()
-            .rev()
-            .find_map(|packet| match packet {
-                Packet::Record(record) => Some(*record),
-                _ => None,
-            });
+        let last = records(&talk.packets[from..]).next_back().copied();
         last.map_or_else(|| wrong("no record after `stream on`"), Ok)
     };
     exchange(talk, &BEGIN)?;

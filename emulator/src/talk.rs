@@ -7,7 +7,7 @@ use firmware::Packet;
 use host_sim::Error;
 use host_sim::received::Received;
 use host_sim::trace::Row;
-use wire::{Answer, Command, TaggedCommand};
+use wire::{Answer, Command, TaggedCommand, TickRecord};
 
 use crate::compare::{Pair, Seen};
 use crate::session::answer_to;
@@ -17,6 +17,13 @@ const PART_S: f64 = 0.1;
 
 pub(crate) fn wrong<T>(what: impl Into<String>) -> Result<T, Error> {
     Err(Error::Work(what.into()))
+}
+
+pub(crate) fn records(packets: &[Packet]) -> impl DoubleEndedIterator<Item = &TickRecord> {
+    packets.iter().filter_map(|packet| match packet {
+        Packet::Record(record) => Some(record),
+        Packet::Answer(_) | Packet::Event(_) => None,
+    })
 }
 
 pub(crate) struct Talk {

@@ -3,7 +3,6 @@
 
 use std::path::Path;
 
-use firmware::Packet;
 use firmware::boards::BoardFacts;
 use host_sim::Error;
 use scene::{PlantKind, Scene};
@@ -12,7 +11,7 @@ use wire::{Command, CommandStatus, Flags, TickRecord, WhiskerId};
 use crate::compare::Pair;
 use crate::cost::{Asks, Price, cost};
 use crate::deployment::flashed;
-use crate::talk::{Talk, wrong};
+use crate::talk::{Talk, records, wrong};
 use crate::tuning::tune;
 
 /// Most instructions of a tick for a whisker's record, where the core has an FPU and where it
@@ -136,13 +135,6 @@ fn converse(path: &Path, program: &Path) -> Result<Vec<String>, Error> {
         ),
         format!("{lost} records lost while none were read, and counted"),
     ])
-}
-
-fn records(packets: &[Packet]) -> impl DoubleEndedIterator<Item = &TickRecord> {
-    packets.iter().filter_map(|packet| match packet {
-        Packet::Record(record) => Some(record),
-        Packet::Answer(_) | Packet::Event(_) => None,
-    })
 }
 
 /// A record must have the angle that the encoder has read in its tick, before the world moved

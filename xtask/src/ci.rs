@@ -10,7 +10,7 @@ use crate::{
     scenarios, size, studies, walk,
 };
 
-const DENY: [&str; 3] = ["--", "-D", "warnings"];
+pub(crate) const DENY: [&str; 3] = ["--", "-D", "warnings"];
 
 /// All that runs on this PC in one build, so that nothing is compiled twice with other features:
 /// without the counts, which take the crates as a board does, and without what only Python loads.

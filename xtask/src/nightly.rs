@@ -66,21 +66,16 @@ fn with_probes() -> Result<(), Fault> {
 
 fn lints() -> Result<(), Fault> {
     for board in Board::ALL {
-        let deny = ["--", "-D", "warnings"];
-        run(cargo(&["clippy"])
-            .args(board.build_arguments(board.every_part))
-            .args(deny))?;
         // What reads the other sensor.
-        let tilt = firmware::linked(board, &top().join(emulate::TILT))??
-            .image
-            .features;
-        run(cargo(&["clippy"])
-            .args(board.build_arguments(&tilt))
-            .args(deny))?;
+        let tilt = firmware::linked(board, &top().join(emulate::TILT))??;
+        for parts in [board.every_part, &tilt.image.features] {
+            let arguments = board.build_arguments(parts);
+            run(cargo(&["clippy"]).args(arguments).args(ci::DENY))?;
+        }
     }
     let apart = ["clippy", "--all-targets", "-p", "whisker", "-p", "fuzz"];
     let features = ["--features", "whisker/probe,fuzz/engine"];
-    run(cargo(&apart).args(features).args(["--", "-D", "warnings"]))?;
+    run(cargo(&apart).args(features).args(ci::DENY))?;
     studies::lints()
 }
 

@@ -72,6 +72,14 @@ impl Memory for Ram {
     }
 }
 
+/// What a sensor does not bear.
+fn why<T: std::fmt::Debug>(fault: Result<T, Fault>) -> &'static str {
+    match fault {
+        Err(Fault::Wires { what, .. }) => what,
+        other => panic!("{other:?}"),
+    }
+}
+
 struct Rig {
     chip: Chip,
     ram: Ram,

@@ -19,7 +19,7 @@ use crate::deployment::{Deployment, flashed, staged, words};
 use crate::emulate::pwm_counts;
 use crate::program::Program;
 use crate::session::answer_to;
-use crate::talk::wrong;
+use crate::talk::{records, wrong};
 
 /// For how long records are compared, s.
 const COMPARED_S: f64 = 0.5;
@@ -45,11 +45,7 @@ impl Talk {
         self.session.tick()?;
         self.ticks += 1;
         let packets = self.session.packets()?;
-        self.records
-            .extend(packets.iter().filter_map(|packet| match packet {
-                Packet::Record(record) => Some(*record),
-                Packet::Answer(_) | Packet::Event(_) => None,
-            }));
+        self.records.extend(records(&packets));
         Ok(packets)
     }
 
@@ -203,11 +199,9 @@ impl Talk {
         let mut expected = HashMap::new();
         for _ in 0..self.ticks {
             host.tick();
-            for packet in host.module_mut().take_packets() {
-                if let Packet::Record(record) = packet {
-                    expected.insert(key(&record), plain(&record, *feels));
-                }
-            }
+            let packets = host.module_mut().take_packets();
+            let records = records(&packets);
+            expected.extend(records.map(|record| (key(record), plain(record, *feels))));
         }
         let every = Relay::every(scene.tick_hz);
         for found in &self.records {

@@ -1,12 +1,12 @@
 //! Tests of what is drawn and written by hand: the harness against the firmware's pins, the mount
 //! against the field of its magnet.
 
-use std::collections::BTreeMap;
 use std::f64::consts::{PI, TAU};
 
 use firmware::boards::REST_US;
 
 use crate::firmware::Board;
+use crate::mount::dimensions;
 use crate::run::{read, top};
 
 fn docs(name: &str) -> String {
@@ -138,17 +138,12 @@ fn the_page_of_the_mount_has_the_field_of_its_magnet() {
 #[test]
 fn the_dimensions_of_the_mount_are_those_of_its_drawing() {
     let (page, drawing) = (docs("build.md"), docs("mount.svg"));
-    let mut mm = BTreeMap::new();
-    let (_, table) = page
-        .split_once("| | dimension | mm | from |\n|---|---|---|---|\n")
-        .unwrap();
-    for row in table.lines().take_while(|line| !line.is_empty()) {
-        let fields: Vec<&str> = row.trim_start_matches("| ").split(" | ").collect();
-        let (letter, size) = (fields[0], fields[2]);
-        assert!(drawing.contains(&format!(">{letter} = {size}<")), "{row}");
-        mm.insert(letter, size.parse::<f64>().unwrap());
+    let mm = dimensions(&page);
+    for (letter, size) in &mm {
+        let drawn = format!(">{letter} = {size:.2}<");
+        assert!(drawing.contains(&drawn), "{drawn}");
     }
-    let letters: Vec<&str> = mm.keys().copied().collect();
+    let letters: Vec<&String> = mm.keys().collect();
     assert_eq!(letters, ["a", "b", "c", "d", "e", "f", "g", "h", "i", "j"]);
     assert_eq!([mm["d"], mm["e"]], [2.0 * RADIUS, LENGTH]);
     let [along, share] = field(mm["g"]);

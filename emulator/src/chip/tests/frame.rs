@@ -1,7 +1,7 @@
 //! A sensor frame by SPI, byte timer and DMA, on either side.
 
 use super::side::{ANSWERS, BYTE, LEFT, RIGHT, Registers, SIDES, SLOT};
-use super::{GPIOA, GPIOB, MS, RCC, Rig, US};
+use super::{GPIOA, GPIOB, MS, RCC, Rig, US, why};
 use crate::chip::Fault;
 
 #[test]
@@ -86,10 +86,6 @@ fn a_slow_sensor_asks_for_more() {
         rig.try_pass(MS).map(drop)
     };
     let slow = RIGHT.divider + 1;
-    let why = |fault: Result<(), Fault>| match fault {
-        Err(Fault::Wires { what, .. }) => what,
-        other => panic!("{other:?}"),
-    };
     assert_eq!(why(begun(RIGHT.divider, 153 * US)), "the clock is too fast");
     assert_eq!(why(begun(slow, 49 * US)), "a byte too soon after /SS low");
     assert_eq!(
@@ -117,9 +113,8 @@ fn after_a_bad_frame_the_sensor_asks_for_its_rest() {
                 on.begin(&mut rig, SLOT);
                 rig.try_pass(MS)
             };
-            let fault = again_after(MS * 3 / 2 - US);
-            let soon = matches!(fault, Err(Fault::Wires { what, .. }) if what.contains("too soon"));
-            assert!(soon, "{bytes} bytes: {fault:?}");
+            let soon = why(again_after(MS * 3 / 2 - US));
+            assert!(soon.contains("too soon"), "{bytes} bytes: {soon}");
             assert!(again_after(MS * 3 / 2).is_ok(), "{bytes} bytes");
         }
     }

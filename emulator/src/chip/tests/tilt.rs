@@ -1,7 +1,7 @@
 //! Frames of a TMAG5170, byte by byte, as the driver clocks them.
 
 use super::side::{LEFT, RIGHT, Registers, SIDES};
-use super::{GPIOA, GPIOB, Rig, US};
+use super::{GPIOA, GPIOB, Rig, US, why};
 use crate::chip::{Fault, Ps};
 
 const NS: Ps = 1_000;
@@ -61,10 +61,6 @@ fn in_another_mode_or_on_joined_lines_it_is_silent() {
 
 #[test]
 fn what_the_sensor_does_not_bear_is_told() {
-    let why = |fault: Result<[u8; 4], Fault>| match fault {
-        Err(Fault::Wires { what, .. }) => what,
-        other => panic!("{other:?}"),
-    };
     for on in [LEFT, RIGHT] {
         let mut fast = rig(&on, 0, false, FASTER + 2);
         assert_eq!(why(frame(&on, &mut fast, WELL)), "the clock is too fast");
