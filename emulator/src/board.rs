@@ -22,6 +22,7 @@ use host_sim::bus::tmag5170::TmagSlave;
 use host_sim::motor::{Pins, SimPwm};
 use host_sim::received::{Received, Receiver};
 use mlx90333::Decoder;
+use rtt::LogDecoder;
 use scene::{Scene, SensorMode, SensorModel};
 
 use crate::chip::{Chip, Fault, Ps, ResetCause, WELL_MV};
@@ -45,6 +46,7 @@ pub(crate) struct Board {
     ring: Receiver,
     line: Receiver,
     log: Vec<u8>,
+    decoder: LogDecoder,
     has_reader: bool,
     pub(crate) notices: Vec<(Place, Notice)>,
     /// What has reset the chip last.
@@ -109,6 +111,7 @@ impl Board {
             ring: Receiver::default(),
             line: Receiver::default(),
             log: Vec::new(),
+            decoder: program.log_decoder()?,
             has_reader: true,
             notices: Vec::new(),
             reset: None,
@@ -135,8 +138,7 @@ impl Board {
             Stop::Reset(cause) => return Err(Fault::Reset(cause)),
             Stop::Tick | Stop::Time => {
                 board.drain()?;
-                let lines = program.log_decoder()?.lines(&board.log);
-                return Err(Fault::NoStart(lines.join("\n  ")));
+                return Err(Fault::NoStart(board.lines().join("\n  ")));
             }
         }
         board.drain()?;
@@ -168,7 +170,6 @@ impl Board {
         self.stop_clock(is_without).map(drop)
     }
 
-    /// Returns whether the chip runs by the clock from outside.
     pub(crate) fn stop_clock(&mut self, is_stopped: bool) -> Result<bool, Fault> {
         self.machine.disturb(|chip| chip.stop_clock(is_stopped))
     }
@@ -434,8 +435,10 @@ impl Board {
         self.fault.clone().map_or(Ok(()), Err)
     }
 
-    pub(crate) fn take_log(&mut self) -> Vec<u8> {
-        std::mem::take(&mut self.log)
+    /// What it has logged since the last call.
+    pub(crate) fn lines(&mut self) -> Vec<String> {
+        let bytes = std::mem::take(&mut self.log);
+        self.decoder.lines(&bytes)
     }
 
     fn attempt<T: Default>(&mut self, work: impl FnOnce(&mut Self) -> Result<T, Fault>) -> T {

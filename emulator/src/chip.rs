@@ -74,7 +74,6 @@ use wiring::CAN_IRQS;
 /// The voltage detector's interrupt in the NVIC, of every chip.
 const SUPPLY_IRQ: u16 = 1;
 
-/// Everything on the chip but the core and its memories.
 #[derive(Debug)]
 pub(crate) struct Chip {
     pub(crate) model: &'static Model,

@@ -7,8 +7,9 @@ use host_sim::progress::{Progress, Verbosity};
 
 use crate::chip::Ps;
 use crate::deployment::flashed;
-use crate::emulate::start;
 use crate::meter::Tally;
+use crate::session::Session;
+use crate::talk::wrong;
 
 /// Runs the scene in `path` on the board for `minutes` of its time, whatever its
 /// own duration, and measures every tick. Returns `what,mean,worst`, a line each, where what has no
@@ -23,18 +24,16 @@ pub(crate) fn measure(
 ) -> Result<Vec<String>, Error> {
     let (mut loaded, program) = flashed(path, program)?;
     loaded.scene.duration_s = 60.0 * minutes;
-    let mut run = start(&loaded.scene, Vec::new(), &program)?;
-    let mut progress = Progress::new(verbosity, "measuring", run.ticks());
-    for n in 0..run.ticks() {
-        run.tick();
-        let board = run.module_mut();
-        board.check()?;
+    let mut session = Session::running(&loaded.scene, Vec::new(), &program)?;
+    let ticks = session.run.ticks();
+    let mut progress = Progress::new(verbosity, "measuring", ticks);
+    for n in 0..ticks {
+        session.tick()?;
         // The probe keeps up.
-        drop(board.take_log());
+        drop(session.log());
         progress.tick(n);
     }
-    let ticks = run.ticks();
-    let board = run.module_mut();
+    let board = session.board_mut();
     let machine = &board.machine;
     let figures = &board.meter.figures;
     let cycles = |time: Ps| time / machine.cycle.max(1);
@@ -64,7 +63,7 @@ pub(crate) fn measure(
         }
     });
     if missed > 0 {
-        return Err(Error::Work(lines.join("\n")));
+        return wrong(lines.join("\n"));
     }
     Ok(lines.to_vec())
 }

@@ -16,6 +16,7 @@ use crate::board::Board;
 use crate::chip::{Fault, Model};
 use crate::deployment::{flashed, image};
 use crate::program::Program;
+use crate::session::Session;
 
 impl From<Fault> for Error {
     fn from(fault: Fault) -> Self {
@@ -34,26 +35,9 @@ pub(crate) fn pwm_counts(scene: &Scene, model: &Model) -> u16 {
     model.facts.clocks_of(is_slow).pwm_counts()
 }
 
-/// A scene on the emulated board before its first tick; `classes` are those of
-/// the program's classifier.
+/// A scene on the emulated board, which may have none, or refuse it, before its first tick; `classes`
+/// are those of the program's classifier.
 pub(crate) fn start(
-    scene: &Scene,
-    classes: Vec<String>,
-    program: &Program,
-) -> Result<Run<Board>, Error> {
-    let mut run = start_without(scene, classes, program)?;
-    let log = run.module_mut().logged();
-    let lines = program.log_decoder()?.lines(log);
-    if lines.iter().any(|line| line.contains(NO_SCENE)) {
-        return Err(Error::Work(lines.join("\n")));
-    }
-    Ok(run)
-}
-
-pub(crate) const NO_SCENE: &str = "no scene: ";
-
-/// As [`start`], of a board that may have no scene, or refuse it.
-pub(crate) fn start_without(
     scene: &Scene,
     classes: Vec<String>,
     program: &Program,
@@ -93,8 +77,7 @@ pub fn emulate(
 ) -> Result<Option<String>, Error> {
     let (loaded, program) = flashed(path, program)?;
     let classes = loaded.classes()?;
-    let mut decoder = program.log_decoder()?;
-    let run = start(&loaded.scene, classes, &program)?;
+    let Session { run, .. } = Session::running(&loaded.scene, classes, &program)?;
     let written = Output::create(&out.join("log.txt"))?;
     let drawn = Output::create(&out.join("trace.svg"))?;
     let mut film = Film::default();
@@ -103,7 +86,7 @@ pub fn emulate(
     let done = play(run, scene, out, verbosity, |run, _| {
         film.take(run);
         let board = run.module_mut();
-        for line in decoder.lines(&board.take_log()) {
+        for line in board.lines() {
             // Writing to a string does not fail.
             let _ = writeln!(log, "{line}");
         }

@@ -6,7 +6,7 @@ use host_sim::Error;
 use host_sim::plot::{Panel, sides};
 
 use crate::deployment::flashed;
-use crate::emulate::start;
+use crate::session::Session;
 
 /// Runs each scene on the board that the program beside it was built for, and draws them one
 /// below the other: an SVG document.
@@ -27,11 +27,11 @@ fn panel(path: &Path, program: &Path) -> Result<Panel, Error> {
         let reason = "plant.obstacle_deg: found none for each of two sides; the picture shows both";
         return Err(Error::file(path, reason));
     };
-    let mut run = start(scene, loaded.classes()?, &program)?;
+    let mut session = Session::running(scene, loaded.classes()?, &program)?;
     let mut rows = Vec::new();
-    for _ in 0..run.ticks() {
-        rows.push(run.tick());
-        run.module_mut().check()?;
+    for _ in 0..session.run.ticks() {
+        session.tick()?;
+        rows.push(*session.run.row());
     }
     let on = |part: bool| if part { "with" } else { "without" };
     let title = format!(

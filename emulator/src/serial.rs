@@ -42,7 +42,6 @@ pub(crate) fn talk(
     Ok(said)
 }
 
-/// All that is said at a baud that carries records.
 fn converse(path: &Path, program: &Path) -> Result<Vec<String>, Error> {
     let (mut loaded, program) = flashed(path, program)?;
     let mut talk = Talk::new(Pair::new(&mut loaded, &program)?, true);

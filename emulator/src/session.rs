@@ -14,11 +14,10 @@ use wire::{Answer, Command, CommandStatus, TaggedCommand};
 
 use crate::board::{self, Board};
 use crate::chip::{Fault, Ps};
-use crate::emulate::{start, start_without};
+use crate::emulate::start;
 use crate::machine::Machine;
 use crate::program::Program;
 use crate::trial::{self, Hands};
-use rtt::LogDecoder;
 
 /// Picoseconds in a second.
 pub(crate) const PS: f64 = 1e12;
@@ -29,7 +28,6 @@ pub(crate) const PATIENCE: u32 = 10_000;
 /// A board, started and before its first tick.
 pub struct Session {
     pub(crate) run: Run<Board>,
-    decoder: LogDecoder,
     board: &'static str,
     /// Where scenes and models lie.
     place: Range<u32>,
@@ -82,7 +80,7 @@ impl Session {
 
     pub(crate) fn of(scene: &Scene, program: &Program) -> Result<Self, Error> {
         // Decisions are in the log, by their names.
-        Self::around(start_without(scene, Vec::new(), program)?, scene, program)
+        Self::around(scene, Vec::new(), program)
     }
 
     /// A board that runs `scene`, and says its classes by their names.
@@ -91,13 +89,18 @@ impl Session {
         classes: Vec<String>,
         program: &Program,
     ) -> Result<Self, Error> {
-        Self::around(start(scene, classes, program)?, scene, program)
+        let mut session = Self::around(scene, classes, program)?;
+        let log = session.board_mut().logged();
+        let lines = program.log_decoder()?.lines(log);
+        if lines.iter().any(|line| line.contains("no scene: ")) {
+            return Err(Error::Work(lines.join("\n")));
+        }
+        Ok(session)
     }
 
-    fn around(run: Run<Board>, scene: &Scene, program: &Program) -> Result<Self, Error> {
+    fn around(scene: &Scene, classes: Vec<String>, program: &Program) -> Result<Self, Error> {
         Ok(Self {
-            run,
-            decoder: program.log_decoder()?,
+            run: start(scene, classes, program)?,
             board: program.model()?.program,
             place: program.scenes()?,
             slots: program.model()?.facts.flash.slots,
@@ -301,8 +304,7 @@ impl Session {
 
     /// The lines that it has logged since the last call.
     pub fn log(&mut self) -> Vec<String> {
-        let bytes = self.board_mut().take_log();
-        self.decoder.lines(&bytes)
+        self.board_mut().lines()
     }
 
     /// As [`Run::lay`].

@@ -131,7 +131,6 @@ struct Queue {
     seen: u32,
 }
 
-/// What the tick has queued.
 #[derive(Debug, Clone, Copy)]
 pub(crate) enum Said {
     Decision(Decision),
@@ -139,7 +138,6 @@ pub(crate) enum Said {
     Notice(Notice),
 }
 
-/// Where everything is.
 #[derive(Debug)]
 pub(crate) struct Watch {
     contact: Vec<Variable>,

@@ -7,7 +7,6 @@ use scene::{Scene, SensorModel};
 
 use crate::chip::{Ps, SensorEnd};
 
-/// A side's sensor.
 #[derive(Debug)]
 pub(crate) struct Wired {
     /// When its last frame began.

@@ -27,7 +27,6 @@ pub(super) enum Plan {
     Words,
 }
 
-/// What a scene and its subject have.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Has {
     pub(super) motors: bool,

@@ -47,7 +47,6 @@ pub(super) enum Harm {
     LockedUp,
 }
 
-/// Whether a motor may run.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 enum Motor {
     #[default]

@@ -10,7 +10,6 @@ const STACK_BYTES: u32 = 1024;
 /// Rings of the log and of packets are written by the program and read by a probe only.
 const RINGS: [&str; 3] = ["_SEGGER_RTT", "LOG_BYTES", "PACKETS"];
 
-/// The words of a program's static RAM and of its stack.
 #[derive(Debug)]
 pub(super) struct Words {
     words: Vec<(u32, String)>,

@@ -223,7 +223,6 @@ impl BxCan {
         *self = Self::default();
     }
 
-    /// Whether it takes part in what the bus does.
     pub(super) const fn is_on(&self) -> bool {
         self.mcr & (INRQ | SLEEP) == 0 && !self.errors.is_off
     }

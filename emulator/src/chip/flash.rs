@@ -43,9 +43,12 @@ pub(crate) struct Flash {
 impl Flash {
     /// With registers that only keep what is written.
     pub(super) fn new(registers: &'static [(u32, u32)], version: Version) -> Self {
-        let layout = version.layout();
+        Self::of(Plain::new(registers), version.layout())
+    }
+
+    fn of(waits: Plain, layout: &'static Layout) -> Self {
         Self {
-            waits: Plain::new(registers),
+            waits,
             layout,
             keys: 0,
             control: layout.lock,
@@ -58,19 +61,8 @@ impl Flash {
     }
 
     pub(super) fn reset(&mut self) {
-        let mut waits = self.waits.clone();
-        waits.reset();
-        *self = Self {
-            waits,
-            layout: self.layout,
-            keys: 0,
-            control: self.layout.lock,
-            address: 0,
-            errors: 0,
-            first: None,
-            busy_until: 0,
-            erased: None,
-        };
+        self.waits.reset();
+        *self = Self::of(self.waits.clone(), self.layout);
     }
 
     pub(super) fn read(&self, offset: u32, now: Ps) -> Option<u32> {

@@ -53,6 +53,12 @@ struct Needs {
     is_joined: bool,
 }
 
+impl Default for Needs {
+    fn default() -> Self {
+        Self::FAST
+    }
+}
+
 impl Needs {
     const FAST: Self = Self {
         clock_max_hz: CLOCK_MAX_HZ,
@@ -90,7 +96,7 @@ impl Needs {
     };
 }
 
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Default)]
 pub(super) struct SensorLines {
     needs: Needs,
     /// How its frames are read.
@@ -128,21 +134,8 @@ const CUT: &str = "/SS high too soon after the last byte";
 impl SensorLines {
     pub(super) fn new(side: &'static str) -> Self {
         Self {
-            needs: Needs::FAST,
-            decoder: Decoder::new(),
-            silence: 0,
-            stuck: None,
             side,
-            selected: false,
-            fell: 0,
-            fresh: false,
-            ended: None,
-            seen: None,
-            read: Vec::new(),
-            put: Vec::new(),
-            rose: None,
-            is_over: false,
-            wrong: None,
+            ..Self::default()
         }
     }
 

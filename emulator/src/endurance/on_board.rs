@@ -36,12 +36,9 @@ pub(super) fn on_board(
         hours,
         ticks: agreed.ticks,
         decisions: agreed.decisions,
-        first_rate: None,
-        last_rate: None,
-        first_right: None,
-        last_right: None,
         touches: agreed.touches,
         wrapped: agreed.wrapped as u64,
         took_s: begun.elapsed().as_secs_f64(),
+        ..ShardRow::default()
     })
 }

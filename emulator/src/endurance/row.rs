@@ -6,7 +6,7 @@ use host_sim::Error;
 use host_sim::output::write_whole;
 use serde::{Deserialize, Serialize};
 
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub(super) struct ShardRow {
     pub(super) subject: String,
     pub(super) scene: String,

@@ -73,17 +73,14 @@ pub(crate) fn compare(
     let mut alone = Run::with_pwm(&alone, classifier, pwm)?;
 
     let named = |fault: String| Error::Work(format!("{}: {fault}", path.display()));
-    let mut logs = Vec::new();
-    for _ in 0..bus.nodes {
-        logs.push((program.log_decoder()?, Vec::new()));
-    }
+    let mut logs = vec![Vec::new(); bus.nodes.into()];
     let (mut most, mut decisions) = ([[f64::NAN; 2]; 3], 0);
     for n in 1..=host.ticks() {
         let (mut expected, found) = (host.tick(), boards.tick());
         let head = boards.module_mut();
         head.check()?;
-        for (node, (decoder, said)) in head.nodes.iter_mut().zip(&mut logs) {
-            let lines = decoder.lines(&node.board.take_log()).into_iter();
+        for (node, said) in head.nodes.iter_mut().zip(&mut logs) {
+            let lines = node.board.lines().into_iter();
             said.extend(lines.filter_map(|line| of_node(&line)));
         }
         if scene.classifier.is_none() {
@@ -104,7 +101,7 @@ pub(crate) fn compare(
         }
     }
     let mut reports = 0;
-    for (number, (_, mut found)) in (0..).zip(logs) {
+    for (number, mut found) in (0..).zip(logs) {
         let mut expected = expected(host.bus().as_deref(), number);
         // In which of two ticks a frame is heard depends on how soon a board has computed.
         found.sort();

@@ -5,7 +5,6 @@ use std::path::Path;
 use firmware::Packet;
 use host_sim::Error;
 use host_sim::run::Run;
-use rtt::LogDecoder;
 use scene::{Scene, Texture};
 use wire::TaggedCommand;
 
@@ -17,7 +16,6 @@ use crate::session::PS;
 /// The boards, started.
 pub struct HeadSession {
     run: Run<Head>,
-    decoder: LogDecoder,
     board: &'static str,
 }
 
@@ -50,7 +48,6 @@ impl HeadSession {
         // Decisions are in the log, by their names.
         Ok(Self {
             run: super::start(scene, bus, Vec::new(), (program, 0))?,
-            decoder: program.log_decoder()?,
             board: program.model()?.program,
         })
     }
@@ -90,8 +87,7 @@ impl HeadSession {
     /// # Errors
     /// As [`HeadSession::request`].
     pub fn log(&mut self) -> Result<Vec<String>, Error> {
-        let bytes = self.first()?.take_log();
-        Ok(self.decoder.lines(&bytes))
+        Ok(self.first()?.lines())
     }
 
     fn first(&mut self) -> Result<&mut board::Board, Error> {

@@ -6,11 +6,9 @@ use firmware::BoardCode;
 use firmware::boards::BoardFacts;
 use scene::Scene;
 
-use super::step::Step::{
-    Do, Forget, Move, Pass, Press, SaysTimes, Stand, Supply, UntilDriven, Within,
-};
+use super::step::Step::{Do, Forget, Pass, Press, SaysTimes, Stand, Supply, UntilDriven, Within};
 use super::step::{Case, MS, Step, US, says, whisk};
-use super::trouble::{all, case};
+use super::trouble::{case, rest};
 use crate::chip::{Chip, Ps, ResetCause, WELL_MV};
 use crate::session::Session;
 
@@ -41,9 +39,8 @@ fn begin(in_tick: bool) -> impl Iterator<Item = Step> {
 
 /// The module ticks, with its motors off; its second start was for this cause and fault.
 fn refuses(scene: &Scene, cause: &str, fault: u8) -> [Step; 3] {
-    let off = all(scene);
     [
-        Move { ms: 100, off },
+        rest(scene, 100),
         says(format!("not-armed {fault} ")),
         says(format!(" {cause} 2 {fault}")),
     ]

@@ -29,6 +29,12 @@ pub(super) fn all(scene: &Scene) -> Vec<usize> {
     (0..scene.head.sides.count()).collect()
 }
 
+/// Every motor is off.
+pub(super) fn rest(scene: &Scene, ms: u32) -> Step {
+    let off = all(scene);
+    Move { ms, off }
+}
+
 /// A tick of two periods and a quarter lets one period pass without a tick, which the module
 /// must count; later one hangs, and the watchdog must reset the chip.
 pub(super) fn overload(scene: &Scene) -> Vec<Case> {
@@ -72,10 +78,7 @@ pub(super) fn overload(scene: &Scene) -> Vec<Case> {
 /// that overflows. Motors must be off after each until the button is pressed as it should be.
 /// There is no panic in the program that could be provoked.
 pub(super) fn starting(scene: &Scene) -> Vec<Case> {
-    let rest = |ms| Move {
-        ms,
-        off: all(scene),
-    };
+    let rest = |ms| rest(scene, ms);
     // The pins must be low in time and stay so; the log must say which fault it is, and so must
     // the next start, which has this number.
     let crash = |upset, fault: u8, start: u8| {
@@ -122,10 +125,7 @@ pub(super) fn starting(scene: &Scene) -> Vec<Case> {
 /// Motors that somebody has stopped are off after every reset, and the log says why, until the
 /// button is pressed; pressed again it stops them.
 fn stopped(scene: &Scene) -> Vec<Step> {
-    let off = |ms| Move {
-        ms,
-        off: all(scene),
-    };
+    let off = |ms| rest(scene, ms);
     let stop = Do(|board| {
         let request = TaggedCommand {
             tag: 1,

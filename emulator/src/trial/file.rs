@@ -109,7 +109,6 @@ impl Event {
     }
 }
 
-/// Everything that befalls a board in a run.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub(super) struct Scenario {
     pub(super) duration_s: Option<f64>,
@@ -211,7 +210,6 @@ fn read(path: &Path) -> Result<String, String> {
 }
 
 impl What {
-    /// Whether it can befall a board of a head.
     const fn is_of_head(&self) -> bool {
         matches!(
             self,

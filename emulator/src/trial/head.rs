@@ -4,7 +4,6 @@ use firmware::BusConfig;
 use host_sim::Error;
 use host_sim::loaded::Loaded;
 use host_sim::run::Run;
-use rtt::LogDecoder;
 use scene::Scene;
 use serde::Serialize;
 use wire::{Command, TaggedCommand};
@@ -51,8 +50,8 @@ struct OfNode {
 }
 
 /// What is known of a board as the last tick ended.
+#[derive(Default)]
 struct Seen {
-    decoder: LogDecoder,
     lister: Lister,
     theta_deg: Vec<f64>,
     is_armed: bool,
@@ -77,7 +76,7 @@ pub(super) fn run(
     let scene = &loaded.scene;
     let mut run = head::start(scene, bus, loaded.classes()?, (program, 0))?;
     let servos = Servos::new(program, scene)?;
-    let mut figures = Figures::new(scene, program, usize::from(bus.nodes))?;
+    let mut figures = Figures::new(scene, bus.nodes);
     let head = run.module_mut();
     head.bear();
     for node in &mut head.nodes {
@@ -155,24 +154,12 @@ struct Figures {
 }
 
 impl Figures {
-    fn new(scene: &Scene, program: &Program, nodes: usize) -> Result<Self, Fault> {
-        let node = |_| {
-            let seen = Seen {
-                decoder: program.log_decoder()?,
-                lister: Lister::default(),
-                theta_deg: Vec::new(),
-                is_armed: false,
-                is_joined: false,
-                phase_deg: None,
-                off: 0,
-            };
-            Ok((seen, OfNode::default()))
-        };
-        Ok(Self {
+    fn new(scene: &Scene, nodes: u8) -> Self {
+        Self {
             tick_s: 1.0 / f64::from(scene.tick_hz),
-            nodes: (0..nodes).map(node).collect::<Result<_, Fault>>()?,
+            nodes: (0..nodes).map(|_| Default::default()).collect(),
             ..Self::default()
-        })
+        }
     }
 
     fn look(&mut self, run: &mut Run<Head>, servos: &Servos) -> Result<(), Error> {
@@ -182,7 +169,7 @@ impl Figures {
         let mut may_drive = false;
         for (node, (seen, of_node)) in head.nodes.iter_mut().zip(&mut self.nodes) {
             let board = &mut node.board;
-            let lines = seen.decoder.lines(&board.take_log());
+            let lines = board.lines();
             seen.lister.hear(t_s, &lines, board)?;
             let was_reset = board.reset.take().is_some();
             of_node.resets += u64::from(was_reset);

@@ -71,6 +71,7 @@ impl Sender<'_> {
     }
 }
 
+#[derive(Default)]
 pub(super) struct Links<'s> {
     senders: Vec<Sender<'s>>,
     tick_s: f64,
@@ -115,12 +116,8 @@ impl<'s> Links<'s> {
             senders,
             tick_s: 1.0 / tick_hz,
             tick_bytes: (bytes_s / tick_hz).ceil() as usize,
-            written: 0,
-            on_the_way: VecDeque::new(),
-            tag: 0,
-            is_pressed: false,
             presses: events.filter(|event| event.what == What::Button).collect(),
-            arrived: Arrived::default(),
+            ..Self::default()
         })
     }
 

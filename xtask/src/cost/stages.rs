@@ -6,7 +6,6 @@ use serde::Deserialize;
 use crate::figures::Figure;
 use crate::run::Fault;
 
-/// A stage counted apart.
 #[derive(Deserialize)]
 pub(super) struct Stage {
     #[serde(rename = "stage")]

@@ -17,7 +17,6 @@ impl Layout {
         gates.find(|gate| gate.0 == bus).map(|gate| gate.1)
     }
 
-    /// The same of resets.
     pub(in crate::chip) fn reset(&self, bus: super::Bus) -> Option<u32> {
         let mut resets = self.resets.iter();
         resets.find(|reset| reset.0 == bus).map(|reset| reset.1)
