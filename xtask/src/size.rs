@@ -13,7 +13,7 @@ use scene::Scene;
 
 use crate::elf::contents;
 use crate::emulate::variants::{with, without_telemetry};
-use crate::emulate::{head_of_two, judged_with_options, tilt};
+use crate::emulate::{JUDGED, head_of_two, judged_with_options, tilt};
 use crate::figures::Figure;
 use crate::firmware::{self, Board, Size};
 use crate::run::{Fault, listing, no_faults, read_bytes, top};
@@ -29,8 +29,6 @@ const CONTROL: &str = "xtask/src/size/control.toml";
 const SHORT: [&str; 2] = ["scenes/full.toml", "scenes/passive.toml"];
 /// Those that are built without a link too, so that the table says what the link costs.
 const SILENT: [&str; 2] = ["scenes/passive.toml", "scenes/rcp.toml"];
-/// One whose model has a second opinion.
-const JUDGED: &str = crate::emulate::JUDGED;
 
 /// Measures everything; prints it and writes the table to `csv` (or to the
 /// committed one; `-`: prints the table alone), or checks that no program has
