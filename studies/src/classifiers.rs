@@ -3,9 +3,9 @@
 //!
 //! | module | decides | source |
 //! |---|---|---|
-//! | [`stationary`] | by the largest evidence of naive Bayes over a whole whisk and all whiskers | BIOTACT eq. 15–16 |
+//! | [`recogniser`] | by naive Bayes under the product's rules, or over a whole whisk and all whiskers | LEP10, LEP12, BIOTACT eq. 15–16 |
 //! | [`template`] | by the nearest mean signal over an aligned window | BIOTACT eq. 17, POSE eq. 1 |
-//! | [`spectral`] | by the nearest mean spectrum of a block | POSE eq. 2, LEP12 section 5.1 |
+//! | [`template`] on a [`spectrum`] | by the nearest mean spectrum of a block | POSE eq. 2, LEP12 section 5.1 |
 //! | [`features`] | by a [`regression`] on peak, slope and spectrum | POSE eq. 3–7 |
 //! | [`network`] | by a network with one hidden layer | LEP12 section 5.2, PSIK section 3.2.1 |
 //! | [`sprt`] | between two classes by their probability ratio | LEP12 eq. 1–2 |
@@ -15,12 +15,9 @@
 
 pub(crate) mod features;
 pub(crate) mod imp;
-pub(crate) mod means;
 pub(crate) mod network;
 pub(crate) mod recogniser;
 pub(crate) mod regression;
-pub(crate) mod spectral;
 pub(crate) mod spectrum;
 pub(crate) mod sprt;
-pub(crate) mod stationary;
 pub(crate) mod template;

@@ -7,22 +7,28 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use host_sim::progress::{Progress, Verbosity};
 use rayon::prelude::*;
 
-/// The results are in the order of `items`, and do not depend on the number of cores.
-pub(crate) fn each<T: Sync, U: Send>(
-    verbosity: Verbosity,
-    message: &'static str,
-    items: &[T],
-    work: impl Fn(&T) -> Result<U> + Sync,
-) -> Result<Vec<U>> {
-    let bar = Mutex::new(Progress::new(verbosity, message, items.len() as u64));
-    let done = AtomicU64::new(0);
-    let one = |item: &T| {
-        let made = work(item)?;
-        let done = done.fetch_add(1, Ordering::Relaxed) + 1;
-        if let Ok(mut bar) = bar.lock() {
-            bar.set(done);
-        }
-        Ok(made)
-    };
-    items.par_iter().map(one).collect()
+/// All cores, and whether they show their progress.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Cores(pub(crate) Verbosity);
+
+impl Cores {
+    /// The results are in the order of `items`, and do not depend on the number of cores.
+    pub(crate) fn each<T: Sync, U: Send>(
+        self,
+        message: &'static str,
+        items: &[T],
+        work: impl Fn(&T) -> Result<U> + Sync,
+    ) -> Result<Vec<U>> {
+        let bar = Mutex::new(Progress::new(self.0, message, items.len() as u64));
+        let done = AtomicU64::new(0);
+        let one = |item: &T| {
+            let made = work(item)?;
+            let done = done.fetch_add(1, Ordering::Relaxed) + 1;
+            if let Ok(mut bar) = bar.lock() {
+                bar.set(done);
+            }
+            Ok(made)
+        };
+        items.par_iter().map(one).collect()
+    }
 }

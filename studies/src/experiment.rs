@@ -15,7 +15,6 @@
 //! the data set and the job alone, so neither the number of cores nor what else is
 //! recorded changes a byte.
 
-mod arm;
 mod asked;
 mod biotact;
 mod changes;

@@ -26,7 +26,7 @@ use host_sim::output::write_whole;
 use host_sim::progress::Verbosity;
 use host_sim::report::{program, say};
 
-use decisions::Folders;
+use cores::Cores;
 use experiment::Asked;
 use page::Files;
 
@@ -137,20 +137,16 @@ fn work(arguments: Arguments) -> Result<()> {
             keep(&made, files, "the accuracy report", "report")?
         }
         Command::Decisions { made, terrain } => {
-            let folders = Folders {
-                docs: &made.out,
-                terrain: &terrain,
-            };
-            let extent = decisions::Extent::new(made.quick);
-            let files = decisions::page(folders, &extent, verbosity);
+            let extent = decisions::Extent::new(made.quick, Cores(verbosity));
+            let files = decisions::page(&made.out, &terrain, &extent);
             keep(&made, files, "the page of decisions", "decisions")?
         }
         Command::Poses(made) => {
-            let files = poses::page(&poses::Extent::new(made.quick), verbosity);
+            let files = poses::page(&poses::Extent::new(made.quick, Cores(verbosity)));
             keep(&made, files, "the page of poses", "poses")?
         }
         Command::Standing(made) => {
-            let files = poses::standing::page(&poses::Extent::new(made.quick), verbosity);
+            let files = poses::standing::page(&poses::Extent::new(made.quick, Cores(verbosity)));
             keep(&made, files, "the page of estimated poses", "standing")?
         }
     });

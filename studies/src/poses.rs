@@ -15,7 +15,6 @@
 mod asked;
 mod bound;
 mod condition;
-mod extent;
 mod five;
 mod one;
 mod output;
@@ -27,94 +26,130 @@ mod trained;
 mod unknown;
 
 use anyhow::Result;
-use host_sim::progress::Verbosity;
 use host_sim::training::Expected;
 use tactile::ModelBuf;
 
+use crate::cores::Cores;
 use crate::page::{Files, Page};
 use bound::Case;
 use condition::Change;
-pub(crate) use extent::Extent;
 use five::Five;
 use one::One;
 use output::Output;
 use trained::Trained;
 
-pub(crate) fn page(extent: &Extent, verbosity: Verbosity) -> Result<Files> {
+/// How much is measured.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Extent {
+    pub(crate) is_quick: bool,
+    pub(crate) cores: Cores,
+    /// Trainings in one pose, and all others.
+    pub(crate) trainings: [usize; 2],
+    /// Seconds that are tested of each training, likewise.
+    pub(crate) test_s: [f64; 2],
+    /// The most conditions of a table.
+    pub(crate) conditions: usize,
+    /// The most surfaces that have two names, or are left out.
+    pub(crate) surfaces: usize,
+}
+
+impl Extent {
+    pub(crate) const fn new(is_quick: bool, cores: Cores) -> Self {
+        if is_quick {
+            return Self {
+                is_quick,
+                cores,
+                trainings: [2, 1],
+                test_s: [20.0, 20.0],
+                conditions: 3,
+                surfaces: 1,
+            };
+        }
+        Self {
+            is_quick,
+            cores,
+            trainings: [5, 3],
+            test_s: [240.0, 340.0],
+            conditions: usize::MAX,
+            surfaces: usize::MAX,
+        }
+    }
+}
+
+pub(crate) fn page(extent: &Extent) -> Result<Files> {
     let mut output = Output::new();
-    let one = One::new(extent, verbosity)?;
-    one.section(&mut output, extent, verbosity)?;
-    let five = Five::new(extent, verbosity)?;
-    five.section(&mut output, extent, verbosity)?;
-    let (spread, spread_models) = scenes::section(&mut output, extent, verbosity)?;
-    placebo::section(&mut output, (&one, &five), extent, verbosity)?;
+    let one = One::new(extent)?;
+    one.section(&mut output, extent)?;
+    let five = Five::new(extent)?;
+    five.section(&mut output, extent)?;
+    let (spread, spread_models) = scenes::section(&mut output, extent)?;
     let all = [
         ("one pose", Expected::Bench, &one.trained),
         ("one pose, `same`", Expected::Same, &one.trained),
         ("five poses", Expected::Bench, &five.trained),
         ("`bench-textures`", Expected::Bench, &spread),
     ];
-    unknown::section(&mut output, &all, extent, verbosity)?;
+    placebo::section(&mut output, &all[..3], extent)?;
+    unknown::section(&mut output, &all, extent)?;
     one.thresholds(&mut output, &five)?;
     let cases = cases((&one, &five), (&spread, &spread_models));
     let cases = cases.get(..extent.conditions).unwrap_or(&cases);
-    bound::section(&mut output, cases, verbosity)?;
+    bound::section(&mut output, cases, extent)?;
 
+    let Output {
+        page: measured,
+        goals,
+    } = output;
     let mut page = Page::new("poses");
     introduction(&mut page, extent);
     page.heading(2, "Goals");
-    page.table("condition | goal | found | ", output.goals);
-    page.text.push_str(output.page.text.trim_end());
-    Ok(vec![
-        ("poses.md".to_owned(), format!("{}\n", page.text)),
-        ("poses.csv".to_owned(), output.table),
-    ])
+    page.table("condition | goal | found | ", goals);
+    page.text.push_str(&measured.text);
+    page.csv = measured.csv;
+    Ok(page.into_files())
 }
 
 /// Where a goal of what is decided or right was missed at some time, and the poses of training.
 fn cases<'c>(
     (one, five): (&'c One, &'c Five),
-    (spread, spread_models): (&'c Trained<'static>, &'c [ModelBuf]),
-) -> Vec<Case<'c>> {
+    spread: (&'c Trained<'static>, &'c [ModelBuf]),
+) -> [Case<'c>; 9] {
     use Change::{CrossTalk, Friction, Obstacle, Turned};
-    let of_one = |name, change, asked| Case {
+    let case = |name, (trained, models), change, asked| Case {
         name,
-        trained: &one.trained,
-        models: &one.bench,
+        trained,
+        models,
         change,
         asked,
     };
-    let of_five = |name, change, asked| Case {
-        name,
-        trained: &five.trained,
-        models: &five.models,
-        change,
-        asked,
-    };
-    vec![
-        of_one("one pose, as trained", None, 80.0),
-        of_one("one pose, friction × 0.7", Some(Friction(0.7)), 5.0),
-        of_one("one pose, friction × 1.3", Some(Friction(1.3)), 5.0),
-        of_five("five poses, tilt 20°", None, 90.0),
-        of_five("five poses, turned +5°", Some(Turned(5.0)), 70.0),
-        of_five("five poses, cross-talk +3 %", Some(CrossTalk(0.03)), 70.0),
-        of_five("five poses, obstacle 96°", Some(Obstacle(96.0)), 5.0),
-        of_five("five poses, obstacle 104°", Some(Obstacle(104.0)), 5.0),
-        Case {
-            name: "`bench-textures`",
-            trained: spread,
-            models: spread_models,
-            change: None,
-            asked: 85.0,
-        },
+    let one = (&one.trained, &one.bench[..]);
+    let five = (&five.trained, &five.models[..]);
+    [
+        case("one pose, as trained", one, None, 80.0),
+        case("one pose, friction × 0.7", one, Some(Friction(0.7)), 5.0),
+        case("one pose, friction × 1.3", one, Some(Friction(1.3)), 5.0),
+        case("five poses, tilt 20°", five, None, 90.0),
+        case("five poses, turned +5°", five, Some(Turned(5.0)), 70.0),
+        case(
+            "five poses, cross-talk +3 %",
+            five,
+            Some(CrossTalk(0.03)),
+            70.0,
+        ),
+        case("five poses, obstacle 96°", five, Some(Obstacle(96.0)), 5.0),
+        case(
+            "five poses, obstacle 104°",
+            five,
+            Some(Obstacle(104.0)),
+            5.0,
+        ),
+        case("`bench-textures`", spread, None, 85.0),
     ]
 }
 
 fn introduction(page: &mut Page, extent: &Extent) {
-    page.heading(1, "Poses");
-    page.say(
-        "<!-- Generated by `cargo run --release --manifest-path studies/Cargo.toml -- poses`; do not edit by hand. -->",
-    );
+    let made_by = "cargo run --release --manifest-path studies/Cargo.toml -- poses";
+    page.title("Poses", made_by);
     page.say(
         "What decisions are worth where the pose, the sensor or the whisking is not that of the \
          training, each figure beside its goal. All are measured with the code behind `host-sim \

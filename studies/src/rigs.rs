@@ -23,9 +23,10 @@ use toml::{Table as Document, Value};
 pub(crate) use chance::{Chance, seed_of};
 pub(crate) use corridor::{Corridor, Robot};
 pub(crate) use floor::{Floor, RobotMotion};
+pub(crate) use frame::panned;
 pub(crate) use head::{CHANNELS, Visit, WhiskingHead};
 pub(crate) use maze::{Made, Maze, Wall};
-pub(crate) use pad::{Layout, Pad, Vibrissa, panned};
+pub(crate) use pad::{Layout, Pad, Vibrissa};
 use read::{Fault, Keys, line_of, overlay};
 pub(crate) use setting::Setting;
 pub(crate) use surfaces::Surfaces;
@@ -82,14 +83,14 @@ impl Rigs {
             }
         }
         for setting in settings {
-            let rig = setting.rig();
+            let rig = &setting.rig;
             let Some(Value::Table(keys)) = all.get_mut(rig) else {
                 return Err(Error::Input(format!(
                     "{rig}: unknown rig, allowed: {}",
                     names()
                 )));
             };
-            overlay(keys, setting.table())
+            overlay(keys, setting.keys.clone())
                 .map_err(|(key, fault)| Error::Input(format!("{rig}.{key}: {fault}")))?;
         }
         Self::of(&all).map_err(|(rig, (key, fault))| Error::Input(format!("{rig}.{key}: {fault}")))

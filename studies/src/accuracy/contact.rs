@@ -7,15 +7,179 @@
 //! - **change**: of the rotation within 2 ms, what textures make of it.
 //! - **part**: ticks before a plate are cut into 1, 2, 4 … 32 parts.
 
-mod runs;
-
 use anyhow::Result;
+use core::f64::consts::TAU;
+
+use physics::{
+    Biotact, Facing, Grit, Material, Modes, Plate, Pose, SensorSettings, Shaft, Surface,
+    TouchingWhisker,
+};
 
 use crate::chart::{Axis, Mark, Panel, Series, draw};
 use crate::page::{Page, row, short};
-use runs::{Measured, TICKS_HZ};
 
-pub(super) use runs::{Against, measure};
+const TICKS_HZ: [u32; 5] = [500, 1_000, 2_000, 4_000, 8_000];
+/// Steps of the reference a second, and how much finer it cuts them.
+const REFERENCE: (u32, u32) = (128_000, 2);
+/// The same run at half the rate: what the reference itself is worth.
+const HALF: (u32, u32) = (64_000, 2);
+
+/// Length of a run, s, and rate at which rotations are compared, Hz.
+const SECONDS: u32 = 2;
+const SAMPLES_HZ: u32 = 500;
+
+/// The whisk: frequency, Hz, amplitude and mean, degrees beyond first touch.
+const WHISK: [f64; 3] = [2.0, 10.0, -3.0];
+/// Angle of first touch, rad.
+const TOUCH_RAD: f64 = 1.7;
+
+type Named = (&'static str, Surface);
+
+fn surfaces() -> [Named; 8] {
+    let of = Surface::of;
+    [
+        ("flat", of(Material::Flat)),
+        (
+            "flat, no friction",
+            Surface {
+                friction: 0.0,
+                hold: 0.0,
+                ..of(Material::Flat)
+            },
+        ),
+        ("vinyl", of(Material::Vinyl)),
+        ("tarmac", of(Material::Tarmac)),
+        ("rough carpet", of(Material::RoughCarpet)),
+        ("P80", of(Material::Sandpaper(Grit::P80))),
+        ("P600", of(Material::Sandpaper(Grit::P600))),
+        (
+            "flat, 1e9 N/m",
+            Surface {
+                stiffness_n_m: 1e9,
+                ..of(Material::Flat)
+            },
+        ),
+    ]
+}
+
+/// Rotations of the base at [`SAMPLES_HZ`], rad, and what the run took.
+struct Run {
+    rotations: Vec<[f64; 2]>,
+    /// Share of ticks cut into parts, and parts of such a tick.
+    share: f64,
+    parts: f64,
+}
+
+/// A whisk of the middle whisker of BIOTACT, which is straight and at rest before.
+fn whisk(
+    (shaft, modes): &(Shaft, Modes),
+    surface: Surface,
+    (hz, finer): (u32, u32),
+) -> Result<Run> {
+    let sensor = SensorSettings::default();
+    let mut whisker = TouchingWhisker::with_modes(shaft, modes, &sensor, 1)?.finer(finer);
+    let plate = Plate::in_the_way(TOUCH_RAD, shaft.length_m, &Facing::USUAL, surface);
+    let ticks = SECONDS * hz;
+    let every = hz / SAMPLES_HZ;
+    let dt_s = 1.0 / f64::from(hz);
+    let (mut cut, mut parts) = (0_u32, 0_u64);
+    let mut rotations = Vec::new();
+    for n in 0..=ticks {
+        let phase = TAU * WHISK[0] * f64::from(n) * dt_s;
+        let overlap = WHISK[2] - WHISK[1] * libm::cos(phase);
+        let pose = Pose::swung(TOUCH_RAD + overlap.to_radians());
+        whisker.step(&pose, Some(&plate), dt_s);
+        cut += u32::from(whisker.parts() > 0);
+        parts += u64::from(whisker.parts());
+        if n > 0 && n.is_multiple_of(every) {
+            rotations.push(whisker.rotation_rad());
+        }
+    }
+    Ok(Run {
+        rotations,
+        share: f64::from(cut) / f64::from(ticks),
+        parts: parts as f64 / f64::from(cut.max(1)),
+    })
+}
+
+#[derive(Debug, Clone, Copy)]
+struct Measured {
+    /// Root mean square and largest error of the rotation, in spreads of the
+    /// reference's.
+    rms: f64,
+    largest: f64,
+    /// Spread over the reference's: of the rotation, and of its change within
+    /// 2 ms, which is what textures make.
+    spread: f64,
+    change: f64,
+    /// Share of ticks before the plate that are cut into parts, and how many.
+    share: f64,
+    parts: f64,
+}
+
+impl Measured {
+    fn new(run: &Run, truth: &Run) -> Self {
+        let (ours, theirs) = (&run.rotations, &truth.rotations);
+        let (mut squares, mut largest) = (0.0, 0.0);
+        for (a, b) in ours.iter().zip(theirs) {
+            let square = (a[0] - b[0]).powi(2) + (a[1] - b[1]).powi(2);
+            squares += square;
+            largest = f64::max(largest, square.sqrt());
+        }
+        let whole = spread(theirs);
+        Self {
+            rms: (squares / theirs.len() as f64).sqrt() / whole,
+            largest: largest / whole,
+            spread: spread(ours) / whole,
+            change: spread(&changes(ours)) / spread(&changes(theirs)),
+            share: run.share,
+            parts: run.parts,
+        }
+    }
+}
+
+/// Root mean square distance from the mean, both axes together.
+fn spread(list: &[[f64; 2]]) -> f64 {
+    let count = list.len() as f64;
+    let mean = [0, 1].map(|i| list.iter().map(|at| at[i]).sum::<f64>() / count);
+    let squares = list
+        .iter()
+        .map(|at| (at[0] - mean[0]).powi(2) + (at[1] - mean[1]).powi(2));
+    (squares.sum::<f64>() / count).sqrt()
+}
+
+fn changes(list: &[[f64; 2]]) -> Vec<[f64; 2]> {
+    let pairs = list.iter().zip(list.iter().skip(1));
+    pairs.map(|(a, b)| [b[0] - a[0], b[1] - a[1]]).collect()
+}
+
+#[derive(Debug, Clone)]
+pub(super) struct Against {
+    name: &'static str,
+    /// At each of [`TICKS_HZ`].
+    ticks: [Measured; TICKS_HZ.len()],
+    half: Measured,
+}
+
+pub(super) fn measure() -> Result<Vec<Against>> {
+    let shaft = Shaft::biotact(Biotact::Middle);
+    let modes = shaft.modes(8)?;
+    let subject = (shaft, modes);
+    let against = |(name, surface): Named| {
+        let truth = whisk(&subject, surface, REFERENCE)?;
+        let of = |hz, finer| -> Result<Measured> {
+            let run = whisk(&subject, surface, (hz, finer))?;
+            Ok(Measured::new(&run, &truth))
+        };
+        let half = of(HALF.0, HALF.1)?;
+        let mut ticks = [half; TICKS_HZ.len()];
+        for (cell, hz) in ticks.iter_mut().zip(TICKS_HZ) {
+            *cell = of(hz, 0)?;
+        }
+        Ok(Against { name, ticks, half })
+    };
+    surfaces().into_iter().map(against).collect()
+}
 
 pub(super) fn section(page: &mut Page, measured: &[Against]) -> Result<()> {
     page.heading(2, "Contact");

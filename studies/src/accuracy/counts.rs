@@ -9,29 +9,22 @@ use whisking::Integrator;
 
 use super::schemes::{Format, Scheme};
 
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Target {
-    M4F,
-    M0,
+#[derive(Clone, Copy)]
+pub(crate) struct Target {
+    pub(super) name: &'static str,
+    column: &'static str,
 }
 
-impl Target {
-    pub(crate) const ALL: [Self; 2] = [Self::M4F, Self::M0];
-
-    pub(super) const fn name(self) -> &'static str {
-        match self {
-            Self::M4F => "Cortex-M4F",
-            Self::M0 => "Cortex-M0+",
-        }
-    }
-
-    const fn column(self) -> &'static str {
-        match self {
-            Self::M4F => "cortex-m4f",
-            Self::M0 => "cortex-m0",
-        }
-    }
-}
+pub(crate) const TARGETS: [Target; 2] = [
+    Target {
+        name: "Cortex-M4F",
+        column: "cortex-m4f",
+    },
+    Target {
+        name: "Cortex-M0+",
+        column: "cortex-m0",
+    },
+];
 
 #[derive(Debug, Deserialize)]
 struct Row {
@@ -42,7 +35,6 @@ struct Row {
     worst: f64,
 }
 
-#[derive(Debug)]
 pub(crate) struct Counts(Vec<Row>);
 
 impl Counts {
@@ -63,7 +55,7 @@ impl Counts {
         format: &str,
         target: Target,
     ) -> Option<(f64, f64)> {
-        let wanted = (kernel, format, target.column());
+        let wanted = (kernel, format, target.column);
         let mut rows = self.0.iter();
         let row = rows.find(|row| (&*row.kernel, &*row.format, &*row.target) == wanted);
         row.map(|row| (row.mean, row.worst))

@@ -3,7 +3,7 @@
 use anyhow::Result;
 use whisking::Integrator;
 
-use super::counts::{Counts, Target, cell};
+use super::counts::{Counts, TARGETS, cell};
 use super::reference::{Case, Truth};
 use super::schemes::{Format, Scheme};
 use crate::chart::{Axis, Mark, Panel, Series, draw};
@@ -43,7 +43,6 @@ const fn exact(format: Format) -> Scheme {
 }
 
 /// Errors in degrees of one scheme, by frequency and tick.
-#[derive(Debug)]
 pub(super) struct Errors {
     pub(super) scheme: Scheme,
     pub(super) degrees: [[f64; TICKS_HZ.len()]; FREQUENCIES_HZ.len()],
@@ -70,54 +69,95 @@ pub(super) fn diagram(
     work: &'static str,
     cost: impl Fn(Scheme) -> Option<f64>,
 ) -> Result<Option<String>> {
-    let points = |errors: &Errors, f: usize| -> Vec<(f64, f64)> {
-        let cost = cost(errors.scheme);
-        let row = errors.degrees.get(f).into_iter().flatten();
-        let all = TICKS_HZ.iter().zip(row);
-        all.filter_map(|(hz, degrees)| Some((cost? * hz, *degrees)))
-            .collect()
+    let curve = |(n, errors): (usize, &Errors), f: usize| {
+        let cost = cost(errors.scheme)?;
+        let points = TICKS_HZ.iter().zip(errors.degrees[f]);
+        let points = points.map(|(hz, degrees)| (cost * hz, degrees)).collect();
+        let mark = match errors.scheme.integrator {
+            Integrator::Exact => Mark::Dot,
+            Integrator::Euler => Mark::Ring,
+        };
+        Some(Series::new(&errors.scheme.name(), n, mark, points))
     };
-    let panel = |f: usize, frequency_hz: f64| Panel {
-        title: format!("{frequency_hz} Hz"),
-        x: Axis::decades(work, [].into_iter()),
-        y: Axis::decades("largest error, degrees", [].into_iter()),
-        series: measured
-            .iter()
-            .enumerate()
-            .map(|(n, errors)| {
-                let mark = match errors.scheme.integrator {
-                    Integrator::Exact => Mark::Dot,
-                    Integrator::Euler => Mark::Ring,
-                };
-                Series::new(&errors.scheme.name(), n, mark, points(errors, f))
-            })
-            .filter(|series| !series.points.is_empty())
-            .collect(),
-    };
-    let mut panels: Vec<Panel> = FREQUENCIES_HZ
-        .into_iter()
-        .enumerate()
-        .map(|(f, hz)| panel(f, hz))
-        .collect();
-    let all: Vec<(f64, f64)> = panels
-        .iter()
-        .flat_map(|panel| &panel.series)
-        .flat_map(|series| series.points.iter().copied())
-        .collect();
-    if all.is_empty() {
+    let schemes = || measured.iter().enumerate();
+    let curves: [Vec<Series>; FREQUENCIES_HZ.len()] =
+        core::array::from_fn(|f| schemes().filter_map(|of| curve(of, f)).collect());
+    // One scale for all, so that panels can be compared.
+    let all = curves.iter().flatten().flat_map(|series| &series.points);
+    if all.clone().next().is_none() {
         return Ok(None);
     }
-    // One scale for all, so that panels can be compared.
-    for panel in &mut panels {
-        panel.x = Axis::decades(panel.x.name, all.iter().map(|point| point.0));
-        panel.y = Axis::decades(panel.y.name, all.iter().map(|point| point.1));
-    }
+    let x = Axis::decades(work, all.clone().map(|point| point.0));
+    let y = Axis::decades("largest error, degrees", all.map(|point| point.1));
+    let panels = FREQUENCIES_HZ
+        .iter()
+        .zip(&curves)
+        .map(|(hz, curves)| Panel {
+            title: format!("{hz} Hz"),
+            x: x.clone(),
+            y: y.clone(),
+            series: curves.clone(),
+        });
+    let panels: Vec<Panel> = panels.collect();
     draw(&panels).map(Some)
+}
+
+/// Errors that one might live with, degrees.
+const BOUNDS_DEG: [f64; 3] = [0.05, 1e-3, 1e-4];
+
+pub(super) fn choice(page: &mut Page, measured: &[Errors], counts: &Counts) -> Result<()> {
+    for (target, file) in TARGETS.into_iter().zip(["choose.svg", "choose-m0.svg"]) {
+        let cost = |scheme| counts.tick(scheme, target);
+        let Some(svg) = diagram(measured, "instructions a second", cost)? else {
+            continue;
+        };
+        page.say(format_args!(
+            "**{}.** The points of a curve are ticks of 2, 1, 0.5, 0.25 and 0.1 ms, from left to \
+             right.",
+            target.name
+        ));
+        let what = format!("error against instructions a second, {}", target.name);
+        page.picture(file, &what, svg);
+        page.say("The cheapest that keeps its error below a bound:");
+        let line = |(f, frequency_hz): (usize, &f64)| {
+            let cell = |bound| cheapest(measured, f, bound, cost);
+            row(format!("{frequency_hz} Hz"), BOUNDS_DEG.map(cell))
+        };
+        page.table(
+            "f_W | 0.05 degrees | 0.001 degrees | 0.0001 degrees",
+            FREQUENCIES_HZ.iter().enumerate().map(line),
+        );
+    }
+    Ok(())
+}
+
+/// Scheme and tick of least work whose error stays below `bound`, at the
+/// `f`th frequency.
+fn cheapest(
+    measured: &[Errors],
+    f: usize,
+    bound: f64,
+    cost: impl Fn(Scheme) -> Option<f64>,
+) -> String {
+    let points = measured.iter().flat_map(|errors| {
+        let cost = cost(errors.scheme);
+        let ticks = TICKS_HZ.iter().zip(errors.degrees[f]);
+        let enough = ticks.filter(move |(_, degrees)| *degrees <= bound);
+        enough.filter_map(move |(hz, _)| Some((cost? * hz, errors.scheme, hz)))
+    });
+    let cheapest = points.min_by(|a, b| a.0.total_cmp(&b.0));
+    cheapest.map_or_else(
+        || "none".to_owned(),
+        |(work, scheme, hz)| {
+            let (name, millions) = (scheme.name(), work / 1e6);
+            format!("{name}, {} ms ({millions:.2} million/s)", 1e3 / hz)
+        },
+    )
 }
 
 fn costs(page: &mut Page, counts: &Counts) {
     let line = |scheme: Scheme| {
-        let counted = Target::ALL.map(|target| counts.tick(scheme, target));
+        let counted = TARGETS.map(|target| counts.tick(scheme, target));
         row(scheme.name(), counted.map(cell))
     };
     page.table(
@@ -174,24 +214,21 @@ fn of(measured: &[Errors], scheme: Scheme, frequency_hz: f64, tick_hz: f64) -> O
     let errors = measured.iter().find(|errors| errors.scheme == scheme)?;
     let f = FREQUENCIES_HZ.iter().position(|f| *f == frequency_hz)?;
     let tick = TICKS_HZ.iter().position(|hz| *hz == tick_hz)?;
-    errors.degrees.get(f)?.get(tick).copied()
+    Some(errors.degrees[f][tick])
 }
 
 fn table(page: &mut Page, measured: &[Errors]) {
     for (f, frequency_hz) in FREQUENCIES_HZ.iter().enumerate() {
         let header = format!("{frequency_hz} Hz | 0.1 ms | 0.25 ms | 0.5 ms | 1 ms | 2 ms");
-        let line = |errors: &Errors| {
-            let cells = errors.degrees.get(f).into_iter().flatten();
-            let cells = cells.map(|degrees| short(*degrees));
-            row(errors.scheme.name(), cells)
-        };
+        let line = |errors: &Errors| row(errors.scheme.name(), errors.degrees[f].map(short));
         page.table(&header, measured.iter().map(line));
     }
 }
 
 #[cfg(test)]
 mod tests {
-    use super::{GOALS, NEAR, exact, measure, of};
+    use super::{Errors, Format, GOALS, NEAR, Scheme, cheapest, exact, measure, of};
+    use whisking::Integrator::{Euler, Exact};
 
     #[test]
     fn every_goal_is_met() {
@@ -204,5 +241,23 @@ mod tests {
                 "{scheme:?} {frequency_hz} {tick_hz}: {found:e}"
             );
         }
+    }
+
+    #[test]
+    fn the_cheapest_below_the_bound_is_neither_the_best_nor_the_cheapest_of_all() {
+        let errors = |scheme, error: f64| Errors {
+            scheme,
+            degrees: [[error, 2.0 * error, 4.0 * error, 8.0 * error, 16.0 * error]; 4],
+        };
+        let [good, cheap] = [Exact, Euler].map(|integrator| Scheme {
+            integrator,
+            format: Format::F64,
+        });
+        let measured = [errors(good, 1e-3), errors(cheap, 2e-3)];
+        let cost = |scheme| Some(if scheme == cheap { 10.0 } else { 100.0 });
+        // The cheap one reaches 0.01 at 0.5 ms and 2000 · 10, the good one at 1 ms and 1000 · 100.
+        let found = cheapest(&measured, 0, 0.01, cost);
+        assert_eq!(found, "euler f64, 0.5 ms (0.02 million/s)");
+        assert_eq!(cheapest(&measured, 0, 1e-4, cost), "none");
     }
 }

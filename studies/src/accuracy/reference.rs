@@ -22,56 +22,36 @@ pub(super) struct Case {
     pub(super) gain: f64,
 }
 
-/// ψ and (θ, v) of both sides.
-#[derive(Debug, Clone, Copy, PartialEq)]
-struct State {
-    psi: [[f64; 2]; 2],
-    whisker: [[f64; 2]; 2],
+/// ψ of the left and the right, then (θ, v) of both.
+type State = [f64; 8];
+
+/// Change a whisk under the gain `push` = 1.45 g.
+fn rate([a, b, c, d, theta_l, v_l, theta_r, v_r]: State, push: f64) -> State {
+    let side = |[a, b]: [f64; 2], other: f64| {
+        let pull = (1.0 / libm::sqrt(a * a + b * b) - 1.0) / 2.0;
+        [pull * a - TAU * b + (other - a) / 2.0, pull * b + TAU * a]
+    };
+    let whisker = |psi_1: f64, theta: f64, v: f64| {
+        let force = push * force(psi_1, theta);
+        [STIFFNESS * v, STIFFNESS * (force - theta - 4.0 * v)]
+    };
+    let ([da, db], [dc, dd]) = (side([a, b], c), side([c, d], a));
+    let ([to_l, pull_l], [to_r, pull_r]) = (whisker(a, theta_l, v_l), whisker(c, theta_r, v_r));
+    [da, db, dc, dd, to_l, pull_l, to_r, pull_r]
 }
 
-impl State {
-    /// Change a whisk under the gain `push` = 1.45 g.
-    fn rate(&self, push: f64) -> Self {
-        let side = |side: usize| {
-            let [a, b] = self.psi[side];
-            let other = self.psi[1 - side][0];
-            let pull = (1.0 / libm::sqrt(a * a + b * b) - 1.0) / 2.0;
-            [pull * a - TAU * b + (other - a) / 2.0, pull * b + TAU * a]
-        };
-        let whisker = |side: usize| {
-            let [theta, v] = self.whisker[side];
-            let force = push * force(self.psi[side][0], theta);
-            [STIFFNESS * v, STIFFNESS * (force - theta - 4.0 * v)]
-        };
-        Self {
-            psi: [side(0), side(1)],
-            whisker: [whisker(0), whisker(1)],
-        }
-    }
+fn moved(state: State, h: f64, rate: State) -> State {
+    core::array::from_fn(|n| state[n] + h * rate[n])
+}
 
-    fn moved(&self, h: f64, rate: &Self) -> Self {
-        let sum = |x: [f64; 2], k: [f64; 2]| [x[0] + h * k[0], x[1] + h * k[1]];
-        let both = |x: [[f64; 2]; 2], k: [[f64; 2]; 2]| [sum(x[0], k[0]), sum(x[1], k[1])];
-        Self {
-            psi: both(self.psi, rate.psi),
-            whisker: both(self.whisker, rate.whisker),
-        }
-    }
-
-    /// One step of `h` whisks by the classical Runge-Kutta method.
-    fn runge_kutta(&self, h: f64, push: f64) -> Self {
-        let k1 = self.rate(push);
-        let k2 = self.moved(h / 2.0, &k1).rate(push);
-        let k3 = self.moved(h / 2.0, &k2).rate(push);
-        let k4 = self.moved(h, &k3).rate(push);
-        [(1.0, k1), (2.0, k2), (2.0, k3), (1.0, k4)]
-            .iter()
-            .fold(*self, |sum, (weight, k)| sum.moved(weight * h / 6.0, k))
-    }
-
-    fn theta(&self) -> [f64; 2] {
-        self.whisker.map(|[theta, _]| theta)
-    }
+/// One step of `h` whisks by the classical Runge-Kutta method.
+fn runge_kutta(state: State, h: f64, push: f64) -> State {
+    let k1 = rate(state, push);
+    let k2 = rate(moved(state, h / 2.0, k1), push);
+    let k3 = rate(moved(state, h / 2.0, k2), push);
+    let k4 = rate(moved(state, h, k3), push);
+    let parts = [(1.0, k1), (2.0, k2), (2.0, k3), (1.0, k4)].into_iter();
+    parts.fold(state, |sum, (weight, k)| moved(sum, weight * h / 6.0, k))
 }
 
 /// f = W exp(−θ²) of eqs. 6 and 8.
@@ -80,20 +60,17 @@ fn force(psi_1: f64, theta: f64) -> f64 {
 }
 
 /// θ of both sides at every point of the grid.
-#[derive(Debug)]
 pub(super) struct Truth(Vec<[f64; 2]>);
 
 impl Truth {
     /// [`WHISKS`] whisks of `case`.
     pub(super) fn solve(case: &Case) -> Self {
-        let mut state = State {
-            psi: case.psi,
-            whisker: [[0.0; 2]; 2],
-        };
-        let mut theta = vec![state.theta()];
+        let [[a, b], [c, d]] = case.psi;
+        let mut state = [a, b, c, d, 0.0, 0.0, 0.0, 0.0];
+        let mut theta = vec![[0.0; 2]];
         for _ in 0..WHISKS * GRID {
-            state = state.runge_kutta(1.0 / GRID as f64, PEAK_GAIN * case.gain);
-            theta.push(state.theta());
+            state = runge_kutta(state, 1.0 / GRID as f64, PEAK_GAIN * case.gain);
+            theta.push([state[4], state[6]]);
         }
         Self(theta)
     }

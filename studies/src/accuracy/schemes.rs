@@ -1,6 +1,6 @@
 //! What is measured: the product's integrators in every number format.
 
-use anyhow::{Result, bail};
+use anyhow::{Result, ensure};
 use whisking::{Fix, Integrator, Number, Settings};
 
 use super::reference::{Case, GRID, Truth, WHISKS};
@@ -79,9 +79,8 @@ fn error<R: Number>(settings: &Settings, case: &Case, truth: &Truth) -> Result<f
     // Points of the truth a tick.
     let points = GRID as f64 * settings.frequency_hz / settings.tick_hz;
     let stride = points.round() as usize;
-    if stride == 0 || (points - points.round()).abs() >= 1e-6 {
-        bail!("{settings:?} is not on the grid");
-    }
+    let is_on_grid = stride > 0 && (points - points.round()).abs() < 1e-6;
+    ensure!(is_on_grid, "{settings:?} is not on the grid");
     let mut worst = 0.0_f64;
     for n in 1..=WHISKS * GRID / stride {
         config.step(&mut state, &[]);

@@ -12,9 +12,8 @@
 //! deflection first reaches `onset` (from the start if it never does), so that it is at least one
 //! sample. X is the discrete Fourier transform of M over the block, from 6 Hz to 1 kHz.
 
-use super::means::check_segment;
 use super::spectrum::{Bins, Measure, Spectrum};
-use anyhow::Result;
+use anyhow::{Result, ensure};
 
 /// Places among the five.
 pub(crate) const PEAK: usize = 0;
@@ -45,7 +44,7 @@ impl Extractor {
 
     /// f1 to f5 of a block; more samples are left out.
     pub(crate) fn features(&self, segment: &[f64]) -> Result<[f64; 5]> {
-        check_segment(segment, 1, self.block)?;
+        ensure!(segment.len() >= self.block, "a contact without its end");
         let deflection = &segment[..self.block];
         let f1 = deflection.iter().copied().fold(f64::NEG_INFINITY, f64::max);
         let first = |is: &dyn Fn(f64) -> bool| deflection.iter().position(|&x| is(x)).unwrap_or(0);

@@ -89,7 +89,6 @@ impl Peaks {
 }
 
 /// The IMP of all vibrissae of a pad, window by window.
-#[derive(Debug, Clone)]
 pub(crate) struct Imp {
     window: u32,
     vibrissae: [Peaks; VIBRISSAE],

@@ -15,7 +15,7 @@
 //! h_j = σ(b_j + Σ_i W_ij z_i) for the H hidden units, y_k = σ(c_k + Σ_j V_kj h_j) for the O
 //! outputs, and the class is the k of the largest y_k, the first of equals.
 
-use anyhow::{Result, bail};
+use anyhow::{Result, ensure};
 mod gradient;
 mod session;
 mod train;
@@ -58,13 +58,8 @@ pub(crate) struct Network {
 impl Network {
     /// The outputs y, each between nought and one.
     fn outputs(&self, inputs: &[f64]) -> Result<Vec<f64>> {
-        if inputs.len() != self.shape.inputs {
-            bail!(
-                "{} inputs for a network of {}",
-                inputs.len(),
-                self.shape.inputs
-            );
-        }
+        let (found, needed) = (inputs.len(), self.shape.inputs);
+        ensure!(found == needed, "{found} inputs for a network of {needed}");
         let mut hidden = vec![0.0; self.shape.hidden];
         let mut outputs = vec![0.0; self.shape.outputs];
         let scaled = scaled(inputs, &self.scales);

@@ -46,7 +46,6 @@ pub(crate) fn outcomes(
 
 /// Naive Bayes by the code of a board: samples become codes by the quantisers
 /// of the model.
-#[derive(Debug, Clone)]
 pub(crate) struct Bayes<'m, R: DecisionRule> {
     classifier: NaiveBayes<R, &'m [u32]>,
     quantisers: Vec<Quantiser>,
@@ -94,54 +93,5 @@ impl<R: DecisionRule> Recogniser for Bayes<'_, R> {
 
     fn finish(&mut self) -> Option<Outcome> {
         self.classifier.finish().map(Outcome::from)
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::{Bayes, Outcome, outcomes};
-    use crate::classifiers::stationary::StationaryRule;
-    use tactile::train::{Options, Trainer};
-    use tactile::{Sequential, SequentialRule, Threshold};
-
-    /// Channel 0 says nothing, channel 1 is 0 or 100 but for one sample in ten.
-    fn samples(class: usize) -> Vec<f64> {
-        let y = |n| if n % 10 == 0 { 1 - class } else { class };
-        let sample = |n: u32| [f64::from(n % 7), y(n) as f64 * 100.0];
-        (0..600).flat_map(sample).collect()
-    }
-
-    #[test]
-    fn rules_answer_as_they_do_without_a_wrapper() {
-        let mut options = Options::default();
-        (options.block, options.smooth) = (5, 1.0);
-        let mut trainer = Trainer::new(2, options).unwrap();
-        for class in 0..2 {
-            for both in samples(class).chunks_exact(2) {
-                trainer.add(&class.to_string(), both).unwrap();
-            }
-        }
-        let buf = trainer.train().unwrap();
-        let (model, threshold) = (buf.view(), Threshold::new(0.99).unwrap());
-        let quantisers = [0, 1].map(|channel| model.quantiser(channel).unwrap());
-        for class in 0..2 {
-            let segment = samples(class);
-            let codes = |sample: &[f64]| [0, 1].map(|c| quantisers[c].code_from_f64(sample[c]));
-            let mut direct = Sequential::new(model, threshold).unwrap();
-            let expected: Vec<Outcome> = segment
-                .chunks_exact(2)
-                .filter_map(|sample| direct.push(&codes(sample)).unwrap().map(Outcome::from))
-                .collect();
-            let mut sequential = Bayes::<SequentialRule>::new(model, threshold).unwrap();
-            assert!(expected.len() > 10 && expected.iter().all(|found| found.class == class));
-            assert_eq!(outcomes(&mut sequential, &segment, 2), expected);
-
-            let mut stationary = Bayes::<StationaryRule>::new(model, ()).unwrap();
-            let whole = [Outcome {
-                class,
-                samples: 600,
-            }];
-            assert_eq!(outcomes(&mut stationary, &segment, 2), whole);
-        }
     }
 }

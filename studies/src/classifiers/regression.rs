@@ -4,7 +4,7 @@
 //! Features differ in size by orders of magnitude (volts, hertz), so they are centred and scaled
 //! first, u_f = (x_f − centre_f) · scale_f; powers of them then keep their precision.
 
-use anyhow::{Context, Result, bail};
+use anyhow::{Context, Result, ensure};
 use nalgebra::{DMatrix, DVector, SVD};
 
 /// Singular values below this share of the largest count as zero: products
@@ -15,7 +15,6 @@ const SAME: f64 = 1e-12;
 /// Steps in which a singular value must be found.
 const MAX_STEPS: usize = 10_000;
 
-#[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Regression {
     centre: Vec<f64>,
     scale: Vec<f64>,
@@ -89,9 +88,7 @@ impl Regression {
         let coefficients = svd
             .solve(&targets, RANK * most)
             .map_err(anyhow::Error::msg)?;
-        if !coefficients.iter().all(|x| x.is_finite()) {
-            bail!(singular);
-        }
+        ensure!(coefficients.iter().all(|x| x.is_finite()), singular);
         fitted.terms = powers
             .into_iter()
             .zip(coefficients.iter().copied())

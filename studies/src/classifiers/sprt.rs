@@ -10,7 +10,6 @@ use tactile::{Binner, Model, Quantiser, SetupError};
 
 use super::recogniser::{Outcome, Recogniser};
 
-#[derive(Debug, Clone)]
 struct Channel {
     quantiser: Quantiser,
     binner: Binner,
@@ -19,7 +18,6 @@ struct Channel {
 }
 
 /// The test: class 0 of the model is H₁, class 1 is H₂.
-#[derive(Debug, Clone)]
 pub(crate) struct Sprt {
     channels: Vec<Channel>,
     block: u32,
@@ -86,14 +84,13 @@ impl Recogniser for Sprt {
             return None;
         }
         self.ratio += std::mem::take(&mut self.sum) / f64::from(self.block.max(1));
-        let is_decided = self.ratio.abs() >= self.threshold;
+        if self.ratio.abs() < self.threshold {
+            return None;
+        }
         let outcome = Outcome {
             class: usize::from(self.ratio < 0.0),
             samples: self.samples,
         };
-        if !is_decided {
-            return None;
-        }
         self.finish();
         Some(outcome)
     }

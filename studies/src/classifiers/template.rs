@@ -1,65 +1,51 @@
-//! Templates: the class whose mean training signal is nearest, by the sum of squared errors over
-//! an aligned window (BIOTACT eq. 17, POSE eq. 1):
-//! e(T_k) = Σ_t Σ_c (I_c(t) − T_k,c(t))², and the least wins.
+//! Templates: the class whose mean training vector is nearest, by the sum of squared errors
+//! e(T_k) = Σ (I − T_k)². The vector is the signal of all channels over an aligned window
+//! (BIOTACT eq. 17, POSE eq. 1) or their spectra one after another (POSE eq. 2, LEP12 section 5.1,
+//! whose root-mean-square error is smallest where the sum of squared errors is).
 
-use anyhow::Result;
+use anyhow::{Result, ensure};
 use tactile::Quantiser;
 
-use super::means::{Means, check_segment, least, squared_errors};
-
-#[derive(Debug, Clone)]
+#[derive(Debug, Default)]
 pub(crate) struct TemplateTrainer {
-    channels: usize,
-    window: usize,
-    means: Means,
+    /// Sum and number of each class.
+    sums: Vec<(Vec<f64>, u32)>,
     /// The largest value, whatever its sign.
     largest: f64,
 }
 
 impl TemplateTrainer {
-    /// For signals of so many channels and, from where they are aligned, so many samples.
-    pub(crate) fn new(channels: usize, window: usize) -> Self {
-        Self {
-            channels,
-            window,
-            means: Means::default(),
-            largest: 0.0,
+    /// Adds a vector of a class; all have one length.
+    pub(crate) fn add(&mut self, class: usize, vector: &[f64]) -> Result<()> {
+        if class >= self.sums.len() {
+            self.sums.resize(class + 1, (Vec::new(), 0));
         }
-    }
-
-    /// Adds a signal of a class, sample by sample. What is beyond the window is left out.
-    pub(crate) fn add(&mut self, class: usize, segment: &[f64]) -> Result<()> {
-        check_segment(segment, self.channels, self.window)?;
-        let signal = || segment.iter().copied().take(self.channels * self.window);
-        self.largest = signal().map(f64::abs).fold(self.largest, f64::max);
-        self.means.add(class, signal());
+        let (sum, number) = &mut self.sums[class];
+        if sum.is_empty() {
+            sum.resize(vector.len(), 0.0);
+        }
+        let (found, needed) = (vector.len(), sum.len());
+        ensure!(
+            found == needed,
+            "{found} values, where {needed} were before"
+        );
+        *number += 1;
+        sum.iter_mut().zip(vector).for_each(|(sum, x)| *sum += x);
+        self.largest = vector.iter().map(|x| x.abs()).fold(self.largest, f64::max);
         Ok(())
     }
 
     pub(crate) fn train(&self) -> Templates {
+        let mean =
+            |(sum, number): &(Vec<f64>, u32)| sum.iter().map(|x| x / f64::from(*number)).collect();
         Templates {
-            means: self.means.means(),
-            largest: self.largest,
+            means: self.sums.iter().map(mean).collect(),
+            quantiser: None,
         }
     }
-}
 
-#[derive(Debug, Clone)]
-pub(crate) struct Templates {
-    means: Vec<Vec<f64>>,
-    largest: f64,
-}
-
-impl Templates {
-    /// The sum of squared errors of a signal under each class, over the window or over a
-    /// shorter signal.
-    pub(crate) fn errors(&self, segment: &[f64]) -> Vec<f64> {
-        squared_errors(&self.means, segment)
-    }
-
-    /// The same for sensor codes, with templates in integers of 16 bits as a board would hold
-    /// them.
-    pub(crate) fn in_codes(&self) -> CodeTemplates {
+    /// Of sensor codes: templates and signals in integers of 16 bits as a board would hold them.
+    pub(crate) fn train_in_codes(&self) -> Templates {
         let scales = 0..=8;
         let fits = |e: &i32| self.largest * f64::from(1 << e) <= 16384.0;
         let quantiser = Quantiser {
@@ -68,35 +54,46 @@ impl Templates {
             low: i32::from(i16::MIN),
             high: i32::from(i16::MAX),
         };
-        let codes = |mean: &Vec<f64>| mean.iter().map(|&x| code(&quantiser, x)).collect();
-        CodeTemplates {
-            means: self.means.iter().map(codes).collect(),
-            quantiser,
+        let Templates { means, .. } = self.train();
+        Templates {
+            means: means.iter().map(|mean| coded(&quantiser, mean)).collect(),
+            quantiser: Some(quantiser),
         }
     }
 }
 
-/// The code of a value, saturated to 16 bits.
-fn code(quantiser: &Quantiser, x: f64) -> i64 {
-    let code = quantiser.code_from_f64(x);
-    i64::from(code.clamp(quantiser.low, quantiser.high))
+/// The codes of some values, saturated to 16 bits: their squares add up without rounding.
+fn coded(quantiser: &Quantiser, values: &[f64]) -> Vec<f64> {
+    let code = |x: &f64| quantiser.code_from_f64(*x);
+    let codes = values.iter().map(code);
+    codes
+        .map(|code| f64::from(code.clamp(quantiser.low, quantiser.high)))
+        .collect()
 }
 
-#[derive(Debug, Clone)]
-pub(crate) struct CodeTemplates {
-    means: Vec<Vec<i64>>,
-    quantiser: Quantiser,
+pub(crate) struct Templates {
+    means: Vec<Vec<f64>>,
+    /// Of those in codes.
+    quantiser: Option<Quantiser>,
 }
 
-impl CodeTemplates {
+impl Templates {
     /// The class whose template is nearest, the first of equals.
-    pub(crate) fn classify(&self, segment: &[f64]) -> usize {
-        let codes: Vec<i64> = segment.iter().map(|&x| code(&self.quantiser, x)).collect();
-        let error = |mean: &Vec<i64>| -> i64 {
-            let pairs = codes.iter().zip(mean);
+    pub(crate) fn classify(&self, vector: &[f64]) -> usize {
+        match &self.quantiser {
+            Some(quantiser) => self.nearest(&coded(quantiser, vector)),
+            None => self.nearest(vector),
+        }
+    }
+
+    fn nearest(&self, vector: &[f64]) -> usize {
+        let error = |mean: &Vec<f64>| -> f64 {
+            let pairs = vector.iter().zip(mean);
             pairs.map(|(x, t)| (x - t) * (x - t)).sum()
         };
-        least(&self.means.iter().map(error).collect::<Vec<_>>())
+        let errors: Vec<f64> = self.means.iter().map(error).collect();
+        let places = 1..errors.len();
+        places.fold(0, |best, n| if errors[n] < errors[best] { n } else { best })
     }
 }
 
@@ -106,21 +103,20 @@ mod tests {
 
     #[test]
     fn a_case_worked_by_hand() {
-        let mut trainer = TemplateTrainer::new(1, 3);
+        let mut trainer = TemplateTrainer::default();
         for (class, signal) in [
-            (0, &[0.0, 2.0, 4.0][..]),
-            (0, &[2.0, 2.0, 0.0, 99.0]),
-            (1, &[5.0, 5.0, 5.0]),
+            (0, [0.0, 2.0, 4.0]),
+            (0, [2.0, 2.0, 0.0]),
+            (1, [5.0, 5.0, 5.0]),
         ] {
-            trainer.add(class, signal).unwrap();
+            trainer.add(class, &signal).unwrap();
         }
         assert!(trainer.add(0, &[1.0, 1.0]).is_err(), "too short");
-        let templates = trainer.train();
         // Means are 1, 2, 2 and 5, 5, 5: (3 − 1)² + (3 − 2)² + (4 − 2)² = 9 = 4 + 4 + 1.
-        assert_eq!(templates.errors(&[3.0, 3.0, 4.0]), [9.0, 9.0]);
-        let named = |signal: &[f64]| templates.in_codes().classify(signal);
-        assert_eq!(named(&[3.0, 3.0, 4.0]), 0, "the first of equals");
-        assert_eq!(named(&[3.0, 3.0, 5.0]), 1);
-        assert_eq!(named(&[3.0, 4.0]), 1, "a shorter signal by what it has");
+        for templates in [trainer.train(), trainer.train_in_codes()] {
+            let named = |signal: [f64; 3]| templates.classify(&signal);
+            assert_eq!(named([3.0, 3.0, 4.0]), 0, "the first of equals");
+            assert_eq!(named([3.0, 3.0, 5.0]), 1);
+        }
     }
 }

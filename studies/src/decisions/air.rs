@@ -3,13 +3,11 @@
 use anyhow::Result;
 use firmware::Event;
 use host_sim::classifier::Classifier;
-use host_sim::progress::Verbosity;
 use host_sim::run::Run;
 use scene::{Rule, Scene};
 
-use super::extent::Extent;
+use super::Extent;
 use super::ground::Ground;
-use crate::cores::each;
 use crate::page::{Page, verdict};
 
 const FREQUENCIES_HZ: [f64; 2] = [2.0, 8.0];
@@ -18,17 +16,12 @@ const OUT_OF_REACH_DEG: f64 = 300.0;
 const SEED: u64 = 400;
 
 /// Each plant with its shipped model, the obstacle out of reach.
-pub(super) fn section(
-    page: &mut Page,
-    grounds: &[Ground],
-    extent: &Extent,
-    verbosity: Verbosity,
-) -> Result<()> {
+pub(super) fn section(page: &mut Page, grounds: &[Ground], extent: &Extent) -> Result<()> {
     let jobs = grounds
         .iter()
         .flat_map(|ground| FREQUENCIES_HZ.map(|hz| (ground, hz)));
     let jobs: Vec<(&Ground, f64)> = jobs.collect();
-    let found = each(verbosity, "free air", &jobs, |&(ground, hz)| {
+    let found = extent.cores.each("free air", &jobs, |&(ground, hz)| {
         let mut scene = Scene {
             seed: SEED,
             duration_s: extent.air_s,

@@ -1,16 +1,19 @@
-//! What a model is worth on the runs of a scene, and the table that keeps all figures.
+//! What a model is worth on the runs of a scene.
 
 use std::collections::BTreeMap;
-use std::fmt::Write;
 
 use host_sim::evaluation::{Evaluation, Shown};
 use host_sim::scoring::Scored;
 use tactile::score::{Calibration, Interval, Statistics};
 
-use crate::page::verdict;
+use crate::page::{Page, verdict};
+
+/// Of `decisions.csv`: a line a model, its shares in percent; what is not there is empty.
+pub(super) const HEADER: &str = "part,scene,setting,training,runs,hit_rate,hit_rate_error,\
+    worst_run,stated,found,found_low,found_high,decisions,contact_ms,clock_ms,undecided,refused,\
+    unknown_refused";
 
 /// The figures of a model at a threshold; shares from 0 to 1.
-#[derive(Debug, Clone, PartialEq)]
 pub(super) struct Figures {
     pub(super) hits: Vec<f64>,
     /// Mean over the runs of the time of a decision: of contact, and by the clock, ms.
@@ -27,10 +30,7 @@ pub(super) struct Figures {
 impl Figures {
     pub(super) fn of(runs: Vec<Scored>, classes: &[String], tick_hz: u32) -> Self {
         let ms = 1000.0 / f64::from(tick_hz);
-        let mean = |figure: fn(&Scored) -> f64| {
-            let figures = runs.iter().map(figure).filter(|x| !x.is_nan());
-            Statistics::of(figures).map_or(f64::NAN, |s| ms * s.mean)
-        };
+        let mean = |figure: fn(&Scored) -> f64| ms * mean_of(runs.iter().map(figure)).0;
         let (contact_ms, wall_ms) = (mean(|run| run.evaluation.samples), mean(|run| run.wall));
         let hits = runs.iter().filter_map(|run| run.evaluation.hits).collect();
         let shown: Vec<Shown> = runs.into_iter().flat_map(|run| run.presentations).collect();
@@ -52,9 +52,34 @@ impl Figures {
         }
     }
 
+    /// Keeps them in the page's table: part of the page, scene and setting, and the training.
+    pub(super) fn keep(&self, page: &mut Page, of: [&str; 3], seed: u64) {
+        let cell = |x: f64| cell(x, 3);
+        let percent = |x: f64| cell(100.0 * x);
+        let found = self.calibration.found;
+        let figures = [
+            seed.to_string(),
+            self.hits.len().to_string(),
+            cell(self.hit_rate()),
+            percent(mean_of(self.hits.iter().copied()).1),
+            cell(self.worst()),
+            percent(self.calibration.stated),
+            percent(found.share),
+            percent(found.low),
+            percent(found.high),
+            found.count.to_string(),
+            cell(self.contact_ms),
+            cell(self.wall_ms),
+            percent(self.undecided.share),
+            percent(self.refused.share),
+            percent(self.strange.share),
+        ];
+        page.keep(&of, &figures);
+    }
+
     /// Mean hit rate over the runs, percent.
     pub(super) fn hit_rate(&self) -> f64 {
-        100.0 * mean_of(&self.hits).0
+        100.0 * mean_of(self.hits.iter().copied()).0
     }
 
     /// Hit rate of the worst run, percent; infinite without one.
@@ -69,8 +94,8 @@ impl Figures {
 }
 
 /// Mean of some figures and its standard error; not numbers of none.
-pub(super) fn mean_of(figures: &[f64]) -> (f64, f64) {
-    let figures = figures.iter().copied().filter(|x| !x.is_nan());
+pub(crate) fn mean_of(figures: impl IntoIterator<Item = f64>) -> (f64, f64) {
+    let figures = figures.into_iter().filter(|x| !x.is_nan());
     Statistics::of(figures).map_or((f64::NAN, f64::NAN), |s| {
         (s.mean, s.sd / (s.count as f64).sqrt())
     })
@@ -80,10 +105,10 @@ pub(super) fn over<'f>(
     models: impl Iterator<Item = &'f Figures>,
     figure: impl Fn(&Figures) -> f64,
 ) -> (f64, f64) {
-    mean_of(&models.map(figure).collect::<Vec<_>>())
+    mean_of(models.map(figure))
 }
 
-pub(super) fn plus_minus((mean, error): (f64, f64), decimals: usize) -> String {
+pub(crate) fn plus_minus((mean, error): (f64, f64), decimals: usize) -> String {
     if mean.is_nan() {
         "–".to_owned()
     } else {
@@ -100,9 +125,9 @@ pub(crate) fn number(x: f64, decimals: usize) -> String {
 }
 
 /// A number of a table in CSV; what is none is empty.
-pub(crate) fn cell(x: f64) -> String {
+pub(crate) fn cell(x: f64, decimals: usize) -> String {
     if x.is_finite() {
-        format!("{x:.3}")
+        format!("{x:.decimals$}")
     } else {
         String::new()
     }
@@ -110,16 +135,10 @@ pub(crate) fn cell(x: f64) -> String {
 
 /// A share with its interval, percent.
 pub(crate) fn percent(of: Interval) -> String {
-    let Interval {
-        share,
-        low,
-        high,
-        count,
-    } = of;
-    if count == 0 {
+    if of.count == 0 {
         return "–".to_owned();
     }
-    let [share, low, high] = [share, low, high].map(|x| 100.0 * x);
+    let [share, low, high] = [of.share, of.low, of.high].map(|x| 100.0 * x);
     format!("{share:.1} ({low:.1} to {high:.1})")
 }
 
@@ -164,55 +183,5 @@ impl Goal {
             Self::AtLeast(_) => a.min(b),
             Self::AtMost(_) => a.max(b),
         }
-    }
-}
-
-/// `decisions.csv`: a line a model, its shares in percent; what is not there is empty.
-pub(super) struct Table(String);
-
-impl Table {
-    pub(super) fn new() -> Self {
-        Self(
-            "part,scene,setting,training,runs,hit_rate,hit_rate_error,worst_run,stated,found,\
-             found_low,found_high,decisions,contact_ms,clock_ms,undecided,refused,\
-             unknown_refused\n"
-                .to_owned(),
-        )
-    }
-
-    pub(super) fn into_text(self) -> String {
-        self.0
-    }
-
-    /// The figures of a model: part of the page, scene and setting, and its training.
-    pub(super) fn add(&mut self, of: [&str; 3], seed: u64, figures: &Figures) {
-        let [part, scene, setting] = of;
-        let Interval {
-            share,
-            low,
-            high,
-            count,
-        } = figures.calibration.found;
-        let (_, error) = mean_of(&figures.hits);
-        let runs = figures.hits.len();
-        let percent = |x: f64| cell(100.0 * x);
-        let cells = [
-            cell(figures.hit_rate()),
-            percent(error),
-            cell(figures.worst()),
-            percent(figures.calibration.stated),
-            percent(share),
-            percent(low),
-            percent(high),
-            count.to_string(),
-            cell(figures.contact_ms),
-            cell(figures.wall_ms),
-            percent(figures.undecided.share),
-            percent(figures.refused.share),
-            percent(figures.strange.share),
-        ]
-        .join(",");
-        // Writing to a string does not fail.
-        let _ = writeln!(self.0, "{part},{scene},{setting},{seed},{runs},{cells}");
     }
 }

@@ -1,13 +1,12 @@
 //! Each figure of the two scenes beside its goal.
 
 use anyhow::Result;
-use host_sim::progress::Verbosity;
 use tactile::ModelBuf;
 use tactile::train::joint::JointModel;
 
-use super::figures::{Figures, Goal, Table, mean_of, number, percent, plus_minus};
+use super::Extent;
+use super::figures::{Figures, Goal, mean_of, number, percent, plus_minus};
 use super::ground::Ground;
-use crate::cores::each;
 use crate::page::Page;
 
 /// Thresholds, with how many points stated and found may lie apart.
@@ -28,9 +27,9 @@ impl Trained {
     }
 }
 
-pub(super) fn measure(ground: &Ground, verbosity: Verbosity) -> Result<Vec<Trained>> {
+pub(super) fn measure(ground: &Ground, extent: &Extent) -> Result<Vec<Trained>> {
     let seeds: Vec<u64> = ground.seeds().collect();
-    each(verbosity, "trainings", &seeds, |&seed| {
+    extent.cores.each("trainings", &seeds, |&seed| {
         let joint = ground.train(ground.recording(seed, ground.scene.duration_s))?;
         let model = joint.model()?;
         let at = THRESHOLDS.map(|(threshold, _)| ground.score(&model, threshold));
@@ -89,7 +88,7 @@ fn lines(ground: &Ground) -> Vec<Line> {
             Goal::AtLeast(98.5),
             Figures::hit_rate,
             |f| {
-                let (mean, error) = mean_of(&f.hits);
+                let (mean, error) = mean_of(f.hits.iter().copied());
                 plus_minus((100.0 * mean, 100.0 * error), 2)
             },
             2,
@@ -183,7 +182,7 @@ impl Line {
         let of_others = worst.map_or_else(String::new, |worst| {
             format!(
                 "{}; {worst:.decimals$}",
-                plus_minus(mean_of(&values), decimals)
+                plus_minus(mean_of(values.iter().copied()), decimals)
             )
         });
         let met = trained.iter().filter(|one| self.goal.met(value(one)));
@@ -203,7 +202,7 @@ impl Line {
     }
 }
 
-pub(super) fn section(page: &mut Page, table: &mut Table, grounds: &[Ground]) {
+pub(super) fn section(page: &mut Page, grounds: &[Ground]) {
     page.heading(2, "Goals");
     page.say(
         "A hit rate is the mean over classes of the share of right decisions among those for a \
@@ -223,7 +222,7 @@ pub(super) fn section(page: &mut Page, table: &mut Table, grounds: &[Ground]) {
         for one in &ground.trained {
             for ((threshold, _), figures) in THRESHOLDS.iter().zip(&one.at) {
                 let setting = format!("threshold {threshold}");
-                table.add(["goals", ground.name, &setting], one.seed, figures);
+                figures.keep(page, ["goals", ground.name, &setting], one.seed);
             }
         }
     }

@@ -6,16 +6,14 @@ use host_sim::commands::record;
 use host_sim::progress::Verbosity;
 use host_sim::recording::Stream;
 use host_sim::scoring::Heard;
-use host_sim::training;
 use host_sim::training::{Expected, How, Tables, TrainedModel};
 use scene::{Rule, Scene};
 use tactile::ModelBuf;
-use tactile::train::joint::{JointModel, Options};
+use tactile::train::joint::JointModel;
 
-use super::extent::Extent;
+use super::Extent;
 use super::figures::Figures;
 use super::goals::{Trained, measure};
-use crate::cores::each;
 
 /// Longest run that is trained on, s.
 pub(super) const LONGEST_S: f64 = 80.0;
@@ -65,29 +63,31 @@ pub(super) struct Ground {
 }
 
 impl Ground {
-    pub(super) fn all(extent: &Extent, verbosity: Verbosity) -> Result<Vec<Self>> {
+    pub(super) fn all(extent: &Extent) -> Result<Vec<Self>> {
         SCENES
             .into_iter()
             .map(|(name, text, goals)| {
                 let scene = Scene::from_str(&format!("scenes/{name}.toml"), text)?;
-                let recorded = each(verbosity, "training runs", &extent.trainings, |&seed| {
-                    let scene = Scene {
-                        seed,
-                        duration_s: LONGEST_S,
-                        ..scene.clone()
-                    };
-                    Ok((seed, record::streams(&scene, Verbosity::Quiet)?))
-                })?;
+                let recorded = extent
+                    .cores
+                    .each("training runs", &extent.trainings, |&seed| {
+                        let scene = Scene {
+                            seed,
+                            duration_s: LONGEST_S,
+                            ..scene.clone()
+                        };
+                        Ok((seed, record::streams(&scene, Verbosity::Quiet)?))
+                    })?;
                 let seeds: Vec<u64> = extent.scored.clone().collect();
                 let mut ground = Self {
                     name,
                     goals,
                     recorded,
-                    runs: record_all(&scene, &seeds, verbosity)?,
+                    runs: record_all(&scene, &seeds, extent)?,
                     trained: Vec::new(),
                     scene,
                 };
-                ground.trained = measure(&ground, verbosity)?;
+                ground.trained = measure(&ground, extent)?;
                 Ok(ground)
             })
             .collect()
@@ -140,21 +140,8 @@ impl Ground {
         trained.map_err(anyhow::Error::new)
     }
 
-    pub(super) fn train_by(&self, streams: Vec<Stream>, options: &Options) -> Result<JointModel> {
-        training::joint(&[(self.scene.name.clone(), streams)], options).map_err(anyhow::Error::new)
-    }
-
     pub(super) fn score(&self, model: &ModelBuf, threshold: f64) -> Result<Figures> {
-        self.score_on(&self.runs, model, threshold)
-    }
-
-    pub(super) fn score_on(
-        &self,
-        runs: &[Heard],
-        model: &ModelBuf,
-        threshold: f64,
-    ) -> Result<Figures> {
-        score_on(runs, model, threshold, self.scene.tick_hz)
+        score_on(&self.runs, model, threshold, self.scene.tick_hz)
     }
 }
 
@@ -170,8 +157,8 @@ pub(super) fn score_on(
     Ok(Figures::of(scored.collect(), classifier.classes(), tick_hz))
 }
 
-pub(super) fn record_all(scene: &Scene, seeds: &[u64], verbosity: Verbosity) -> Result<Vec<Heard>> {
-    each(verbosity, "scored runs", seeds, |&seed| {
+pub(super) fn record_all(scene: &Scene, seeds: &[u64], extent: &Extent) -> Result<Vec<Heard>> {
+    extent.cores.each("scored runs", seeds, |&seed| {
         let scene = Scene {
             seed,
             ..scene.clone()

@@ -5,18 +5,13 @@ use host_sim::commands::main_job;
 use host_sim::progress::Verbosity;
 use host_sim::training::{How, Tables};
 
-use super::extent::Extent;
-use super::figures::{Table, mean_of, percent, plus_minus};
+use super::Extent;
+use super::figures::{mean_of, percent, plus_minus};
 use super::ground::{record_all, score_on};
 use crate::page::{Page, verdict};
 
 /// The main job's scene with the model that it trains: what `docs/textures.md` quotes.
-pub(super) fn section(
-    page: &mut Page,
-    table: &mut Table,
-    extent: &Extent,
-    verbosity: Verbosity,
-) -> Result<()> {
+pub(super) fn section(page: &mut Page, extent: &Extent) -> Result<()> {
     let scene = main_job::scene()?;
     let streams = main_job::record(&scene, Verbosity::Quiet)?;
     let how = How::of(Tables::Joint).like(&scene);
@@ -27,15 +22,12 @@ pub(super) fn section(
         .and_then(|joint| joint.opinion.as_ref());
     let poses = poses.context("the main job has no second opinion")?.poses;
     let seeds: Vec<u64> = extent.main_job.clone().collect();
-    let runs = record_all(&scene, &seeds, verbosity)?;
+    let runs = record_all(&scene, &seeds, extent)?;
     let figures = score_on(&runs, &trained.model, 0.99, scene.tick_hz)?;
-    table.add(
-        ["main job", &scene.name, "as shipped"],
-        scene.seed + 1,
-        &figures,
-    );
+    let of = ["main job", &scene.name, "as shipped"];
+    figures.keep(page, of, scene.seed + 1);
     page.heading(2, "The main job");
-    let (mean, error) = mean_of(&figures.hits);
+    let (mean, error) = mean_of(figures.hits.iter().copied());
     let [stated, found] = [figures.calibration.stated, figures.calibration.found.share];
     let decided = 100.0 * (1.0 - figures.undecided.share);
     page.say(format_args!(

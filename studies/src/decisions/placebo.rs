@@ -1,13 +1,12 @@
 //! What is decided where there is nothing to decide: labels that mean nothing.
 
 use anyhow::Result;
-use host_sim::progress::Verbosity;
 use host_sim::training::Tables;
 
-use super::figures::{Figures, Table, number, over, plus_minus};
+use super::Extent;
+use super::figures::{Figures, number, over, plus_minus};
 use super::goals::Trained;
-use super::ground::Ground;
-use crate::cores::each;
+use super::ground::{Ground, score_on};
 use crate::page::{Page, row};
 
 const MODELS: [(&str, Tables, f64); 3] = [
@@ -17,12 +16,7 @@ const MODELS: [(&str, Tables, f64); 3] = [
 ];
 
 /// Every texture under each of the scene's names in turn, in training and in scoring.
-pub(super) fn section(
-    page: &mut Page,
-    table: &mut Table,
-    grounds: &[Ground],
-    verbosity: Verbosity,
-) -> Result<()> {
+pub(super) fn section(page: &mut Page, grounds: &[Ground], extent: &Extent) -> Result<()> {
     page.heading(2, "A placebo");
     page.say(
         "The same runs with labels that mean nothing: trial n of texture m is called by name \
@@ -46,18 +40,18 @@ pub(super) fn section(
         let seeds: Vec<u64> = ground.seeds().collect();
         let true_count = over(ground.trained.iter().map(Trained::usual), count).0;
         for (name, tables, threshold) in MODELS {
-            let found = each(verbosity, "placebo", &seeds, |&seed| {
+            let found = extent.cores.each("placebo", &seeds, |&seed| {
                 let mut streams = ground.recording(seed, ground.scene.duration_s);
                 for stream in &mut streams {
                     let trial = stream.trial.parse().unwrap_or(0);
                     stream.label = permuted(&names, &stream.label, trial);
                 }
                 let model = ground.train_tables(streams, tables)?.model;
-                ground.score_on(&runs, &model, threshold)
+                score_on(&runs, &model, threshold, ground.scene.tick_hz)
             })?;
             let setting = format!("{name} at {threshold}");
             for (seed, figures) in seeds.iter().zip(&found) {
-                table.add(["placebo", ground.name, &setting], *seed, figures);
+                figures.keep(page, ["placebo", ground.name, &setting], *seed);
             }
             let all = |figure: fn(&Figures) -> f64| over(found.iter(), figure);
             let share = over(found.iter(), |figures| 100.0 * count(figures) / true_count);

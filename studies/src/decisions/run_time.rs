@@ -1,58 +1,53 @@
 //! Error against run time: what bits, bins, blocks and time of training are worth.
 
-mod picture;
 mod settings;
 
 use anyhow::Result;
-use host_sim::progress::Verbosity;
 use tactile::train::joint::Options;
 
-use super::extent::Extent;
-use super::figures::{Table, number};
+use super::Extent;
+use super::figures::number;
 use super::ground::Ground;
-use crate::accuracy::counts::{Counts, Target};
-use crate::chart::draw_in;
-use crate::cores::each;
+use crate::accuracy::counts::{Counts, TARGETS};
+use crate::chart::{Mark, Panel, Series, draw_in, linear};
 use crate::page::{Page, row};
-use settings::{FIGURES, Setting, Tried};
+use settings::{FIGURES, SETTINGS, Setting, Tried};
 
 pub(super) fn section(
     page: &mut Page,
-    table: &mut Table,
     grounds: &[Ground],
     counts: &Counts,
     extent: &Extent,
-    verbosity: Verbosity,
 ) -> Result<()> {
     let mut jobs = Vec::new();
-    for setting in Setting::ALL {
-        for &value in setting.values().iter().take(extent.values) {
+    for setting in &SETTINGS {
+        for &value in setting.values.iter().take(extent.values) {
             jobs.extend(grounds.iter().map(|ground| (setting, value, ground)));
         }
     }
-    let tried = each(verbosity, "settings", &jobs, |&(setting, value, ground)| {
-        let (mut figures, mut bytes) = (Vec::new(), 0);
-        for one in &ground.trained {
-            let model = match setting.model(value, ground, one) {
-                // Too short a training is refused: it then has no figure.
-                Err(_) if setting == Setting::Training => continue,
-                model => model?,
-            };
-            bytes = model.as_bytes().len();
-            figures.push((one.seed, ground.score(&model, 0.99)?));
-        }
-        Ok(Tried {
-            setting,
-            value,
-            ground,
-            figures,
-            bytes,
-        })
-    })?;
+    let tried = extent
+        .cores
+        .each("settings", &jobs, |&(setting, value, ground)| {
+            let (mut figures, mut bytes) = (Vec::new(), 0);
+            for one in &ground.trained {
+                let Some(model) = (setting.model)(value, ground, one)? else {
+                    continue;
+                };
+                bytes = model.as_bytes().len();
+                figures.push((one.seed, ground.score(&model, 0.99)?));
+            }
+            Ok(Tried {
+                setting,
+                value,
+                ground,
+                figures,
+                bytes,
+            })
+        })?;
     for tried in &tried {
-        let setting = format!("{} {}", tried.value, tried.setting.name());
+        let setting = format!("{} {}", tried.value, tried.setting.name);
         for (seed, figures) in &tried.figures {
-            table.add(["run time", tried.ground.name, &setting], *seed, figures);
+            figures.keep(page, ["run time", tried.ground.name, &setting], *seed);
         }
     }
 
@@ -65,28 +60,69 @@ pub(super) fn section(
          trainings with a standard error to spare. Instructions are counted with the default \
          block; of shorter ones they are at most what is shown.",
     );
-    let picture = draw_in(FIGURES.len(), &picture::panels(grounds, &tried))?;
+    let picture = draw_in(FIGURES.len(), &panels(grounds, &tried))?;
     page.picture(
         "run-time.svg",
         "errors, calibration and time against bits, bins, block and training",
         picture,
     );
-    for setting in Setting::ALL {
+    for setting in &SETTINGS {
         of_setting(page, setting, grounds, &tried, counts);
     }
     Ok(())
 }
 
+/// A line of panels a setting, a column a figure.
+fn panels(grounds: &[Ground], tried: &[Tried<'_>]) -> Vec<Panel> {
+    let mut panels = Vec::new();
+    for setting in &SETTINGS {
+        for (name, figure) in FIGURES {
+            let of_setting = || {
+                tried
+                    .iter()
+                    .filter(move |tried| tried.setting.name == setting.name)
+            };
+            let highest = of_setting().map(|tried| {
+                let (mean, error) = tried.mean(figure);
+                mean + error
+            });
+            let top = highest.filter(|x| !x.is_nan()).fold(0.0, f64::max);
+            let most = setting.values.iter().copied().max().unwrap_or(1);
+            let mut series = Vec::new();
+            for (n, ground) in grounds.iter().enumerate() {
+                let of_ground = || of_setting().filter(|tried| tried.ground.name == ground.name);
+                let known = of_ground().filter(|tried| !tried.figures.is_empty());
+                let points: Vec<_> = known
+                    .map(|tried| (f64::from(tried.value), tried.mean(figure)))
+                    .collect();
+                let means = points.iter().map(|&(x, (mean, _))| (x, mean)).collect();
+                series.push(Series::new(ground.name, n + 1, Mark::Dot, means));
+                series.extend(points.iter().map(|&(x, (mean, error))| {
+                    let bar = vec![(x, mean - error), (x, mean + error)];
+                    Series::new("", n + 1, Mark::Nothing, bar)
+                }));
+            }
+            panels.push(Panel {
+                title: name.to_owned(),
+                x: linear(setting.name, 0.0, f64::from(most)),
+                y: linear("", 0.0, 1.1 * top),
+                series,
+            });
+        }
+    }
+    panels
+}
+
 fn of_setting(
     page: &mut Page,
-    setting: Setting,
+    setting: &Setting,
     grounds: &[Ground],
     tried: &[Tried<'_>],
     counts: &Counts,
 ) {
     let values = || {
-        let values = setting.values().iter().copied();
-        let of = move |value| move |t: &&Tried| t.setting == setting && t.value == value;
+        let values = setting.values.iter().copied();
+        let of = |value| move |t: &&Tried| t.setting.name == setting.name && t.value == value;
         values.map(move |value| (value, tried.iter().filter(of(value)).collect::<Vec<_>>()))
     };
     let measured = || values().filter(|(_, of_value)| !of_value.is_empty());
@@ -102,15 +138,7 @@ fn of_setting(
             ]
         });
         let bytes = of_value.iter().map(|tried| tried.bytes).max().unwrap_or(0);
-        // The format has 16 bits; fewer are what a table would take.
-        let bytes = match setting {
-            Setting::Bits => bytes * value as usize / 16,
-            _ => bytes,
-        };
-        let last = match setting {
-            Setting::Block => instructions(counts, value),
-            _ => format!("{:.1} KiB", bytes as f64 / 1024.0),
-        };
+        let last = (setting.cost)(counts, value, bytes);
         row(value.to_string(), figures.chain([last]))
     });
     let rows: Vec<_> = rows.collect();
@@ -118,13 +146,14 @@ fn of_setting(
         let name = ground.name;
         format!("{name}: hit rate | apart | ms | refused")
     });
-    let last = match setting {
-        Setting::Block => "instructions a sample, M4F; M0+",
-        _ => "model",
-    };
     let header: Vec<String> = of_scenes.collect();
     page.table(
-        &format!("{} | {} | {last}", setting.name(), header.join(" | ")),
+        &format!(
+            "{} | {} | {}",
+            setting.name,
+            header.join(" | "),
+            setting.last
+        ),
         rows,
     );
 
@@ -147,39 +176,21 @@ fn of_setting(
         .min_by(|a, b| ms(a).total_cmp(&ms(b)));
     let mut defaults: Vec<String> = grounds
         .iter()
-        .map(|ground| setting.default(ground).to_string())
+        .map(|ground| (setting.default)(ground).to_string())
         .collect();
     defaults.dedup();
-    // Bits and training are chosen by what they cost.
-    let quickest = match setting {
-        Setting::Bits | Setting::Training => String::new(),
-        Setting::Bins | Setting::Block => {
-            format!(", {} the quickest to decide", of_value(quickest))
-        }
+    let quickest = if setting.is_for_time {
+        format!(", {} the quickest to decide", of_value(quickest))
+    } else {
+        String::new()
     };
     page.say(format_args!(
         "**{}**: {} by default, {}. Of those that keep the goals {cheapest} is the \
          cheapest{quickest}.",
-        setting.name(),
+        setting.name,
         defaults.join(" and "),
-        reason(setting),
+        setting.reason,
     ));
-}
-
-/// By what the default is chosen.
-const fn reason(setting: Setting) -> &'static str {
-    match setting {
-        Setting::Bits => {
-            "a half-word is read in one instruction and needs no scale of its own; fewer bits \
-             would only save flash"
-        }
-        Setting::Bins => {
-            "finer ones are quicker, but tell fewer of the unknown textures of the elastic whisker \
-             ([decisions.md](../decisions.md#28-bins-and-block-by-many-trainings))"
-        }
-        Setting::Block => "meant to be the quickest to decide that keeps the goals",
-        Setting::Training => "the scene's own length, in which each texture comes several times",
-    }
 }
 
 /// Of a sample, the end of a block shared among its samples. Mean and worst were counted
@@ -194,7 +205,7 @@ fn instructions(counts: &Counts, block: u32) -> String {
         Some(worst - end + end / f64::from(block))
     };
     let cell = |target| of(target).map_or_else(|| "not counted".to_owned(), |n| format!("{n:.0}"));
-    Target::ALL.map(cell).join("; ")
+    TARGETS.map(cell).join("; ")
 }
 
 #[cfg(test)]

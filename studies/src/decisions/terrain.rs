@@ -6,15 +6,13 @@ use std::path::Path;
 use host_sim::decisions::{Decided, UNKNOWN};
 use host_sim::evaluation::{Shown, presentations};
 use host_sim::files;
-use host_sim::progress::Verbosity;
 use host_sim::recording::{CHANNELS, Stream};
 use host_sim::training::{How, Tables};
 use tactile::ModelBuf;
 use tactile::score::Interval;
 
-use super::extent::Extent;
+use super::Extent;
 use super::figures::{Goal, percent};
-use crate::cores::each;
 use crate::page::Page;
 
 const WINDOW: usize = 2000;
@@ -48,12 +46,7 @@ impl Windows {
     }
 }
 
-pub(super) fn section(
-    page: &mut Page,
-    folder: &Path,
-    extent: &Extent,
-    verbosity: Verbosity,
-) -> Result<()> {
+pub(super) fn section(page: &mut Page, folder: &Path, extent: &Extent) -> Result<()> {
     let [first, second] = ["terrain-train.csv", "terrain-test.csv"].map(|name| {
         let path = folder.join(name);
         files::read_recording(&path, CHANNELS)
@@ -61,7 +54,7 @@ pub(super) fn section(
     let (first, second) = (first?, second?);
     let drives = drives(&first, &second);
     let places: Vec<usize> = (0..drives.len()).take(extent.drives).collect();
-    let others = each(verbosity, "terrain", &places, |&left_out| {
+    let others = extent.cores.each("terrain", &places, |&left_out| {
         let known = drives.iter().enumerate().filter(|(n, _)| *n != left_out);
         let recordings = known.map(|(n, drive)| (n.to_string(), vec![drive.clone()]));
         let model = trained(&recordings.collect::<Vec<_>>())?;
@@ -75,7 +68,7 @@ pub(super) fn section(
             ("second quarters".to_owned(), again),
         ],
     ];
-    let known = each(verbosity, "terrain", &known, |recordings| {
+    let known = extent.cores.each("terrain", &known, |recordings| {
         let model = trained(recordings)?;
         let drives = second.iter().map(|drive| decided(&model, &windows(drive)));
         drives.collect::<Result<Vec<Windows>, _>>()

@@ -3,22 +3,13 @@
 use anyhow::Result;
 use std::collections::BTreeMap;
 
-use host_sim::progress::Verbosity;
-
-use super::extent::Extent;
-use super::figures::{Figures, Table, mean_of, over, percent, plus_minus};
+use super::Extent;
+use super::figures::{Figures, mean_of, over, percent, plus_minus};
 use super::ground::Ground;
-use crate::cores::each;
 use crate::page::{Page, row, verdict};
 
 /// Of a scene each texture left out in each training.
-pub(super) fn section(
-    page: &mut Page,
-    table: &mut Table,
-    grounds: &[Ground],
-    extent: &Extent,
-    verbosity: Verbosity,
-) -> Result<()> {
+pub(super) fn section(page: &mut Page, grounds: &[Ground], extent: &Extent) -> Result<()> {
     page.heading(2, "Unknown textures");
     page.say(
         "Each texture in turn is left out of the training and presented all the same. Refused is \
@@ -36,15 +27,17 @@ pub(super) fn section(
             .iter()
             .flat_map(|&label| seeds.iter().map(move |&seed| (label, seed)))
             .collect();
-        let found = each(verbosity, "unknown textures", &jobs, |&(label, seed)| {
-            let mut streams = ground.recording(seed, ground.scene.duration_s);
-            streams.retain(|stream| stream.label != label);
-            let model = ground.train(streams)?.model()?;
-            ground.score(&model, 0.99)
-        })?;
+        let found = extent
+            .cores
+            .each("unknown textures", &jobs, |&(label, seed)| {
+                let mut streams = ground.recording(seed, ground.scene.duration_s);
+                streams.retain(|stream| stream.label != label);
+                let model = ground.train(streams)?.model()?;
+                ground.score(&model, 0.99)
+            })?;
         for ((label, seed), figures) in jobs.iter().zip(&found) {
             let setting = format!("without {label}");
-            table.add(["unknown", ground.name, &setting], *seed, figures);
+            figures.keep(page, ["unknown", ground.name, &setting], *seed);
         }
         let of_label = || labels.iter().zip(found.chunks(seeds.len()));
         let rows = of_label().map(|(label, of_seeds)| {
@@ -68,9 +61,7 @@ pub(super) fn section(
             ),
             rows,
         );
-        let first = |figure: fn(&Figures) -> f64| {
-            mean_of(&of_label().map(|(_, f)| figure(&f[0])).collect::<Vec<_>>()).0
-        };
+        let first = |figure: fn(&Figures) -> f64| mean_of(of_label().map(|(_, f)| figure(&f[0]))).0;
         let [seen, known_refused] = [first(strange), first(known)];
         page.say(format_args!(
             "Mean over those left out, seed {seed}: {seen:.1} % refused (goal: at least {} %), {}; \

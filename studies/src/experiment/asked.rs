@@ -3,8 +3,7 @@
 use std::path::PathBuf;
 use std::str::FromStr;
 
-use super::arm::Arm;
-use super::request::{Depth, Extent, Name, Request};
+use super::request::{Arm, Depth, Extent, Name, Request};
 use crate::rigs::{Rigs, Setting};
 
 /// What was asked for.

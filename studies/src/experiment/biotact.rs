@@ -3,7 +3,6 @@
 //! sum of squares after one to eight training whisks.
 
 mod array;
-mod figures;
 mod histories;
 mod movement;
 mod own;
@@ -70,14 +69,12 @@ impl Hits {
     /// Percent after `count` training whisks; the most that there are if fewer.
     fn at(&self, method: Method, task: Task, strategy: usize, count: usize) -> f64 {
         let curve = self.curve(method, task, strategy);
-        let place = count.clamp(1, curve.len().max(1)) - 1;
-        curve.get(place).copied().unwrap_or(0.0)
+        curve[count.clamp(1, curve.len()) - 1]
     }
 
     fn curve(&self, method: Method, task: Task, strategy: usize) -> &[f64] {
         let group = method as usize * Task::ALL.len() + task as usize;
-        let found = self.0.get(group * STRATEGIES.len() + strategy);
-        found.map_or(&[], Vec::as_slice)
+        &self.0[group * STRATEGIES.len() + strategy]
     }
 }
 

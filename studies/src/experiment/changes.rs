@@ -1,41 +1,33 @@
 //! What is chosen where textures are told apart, and the experiments without it: a list of changes
 //! of the rigs, each tried by the papers' protocol, cut short, on a few seeds of its own.
 
-use super::arm::Arm;
 use super::asked::Part;
-use super::request::Name;
+use super::request::{Arm, Name};
 use super::verdicts::{Bodies, digits, margins};
 use crate::moments::{SURE, Summary};
 use crate::page::{Claim, Page};
 
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Change {
-    pub(super) name: &'static str,
-    pub(super) keys: &'static [&'static str],
-}
+/// A change: its name, and the keys of rigs that it sets.
+type Change = (&'static str, &'static [&'static str]);
 
-const fn change(name: &'static str, keys: &'static [&'static str]) -> Change {
-    Change { name, keys }
-}
-
-const NONE: Change = change("as it is", &[]);
+const NONE: Change = ("as it is", &[]);
 
 /// LEP10 and LEP12.
 const FLOOR: &[Change] = &[
     NONE,
-    change("set down again in a trial", &["floor.placements=2"]),
-    change("no change of the press", &["floor.press_sd_m=0"]),
-    change("no rise and fall", &["floor.wobble_share=0"]),
-    change("sensor rolled by 20°", &["floor.roll_deg=20"]),
-    change("half of the gain", &["floor.full_scale_rad=[0.13, 0.07]"]),
-    change("twice the gain", &["floor.full_scale_rad=[0.0325, 0.0175]"]),
-    change("follicle half as stiff", &["floor.follicle=0.5"]),
-    change("follicle twice as stiff", &["floor.follicle=2"]),
-    change(
+    ("set down again in a trial", &["floor.placements=2"]),
+    ("no change of the press", &["floor.press_sd_m=0"]),
+    ("no rise and fall", &["floor.wobble_share=0"]),
+    ("sensor rolled by 20°", &["floor.roll_deg=20"]),
+    ("half of the gain", &["floor.full_scale_rad=[0.13, 0.07]"]),
+    ("twice the gain", &["floor.full_scale_rad=[0.0325, 0.0175]"]),
+    ("follicle half as stiff", &["floor.follicle=0.5"]),
+    ("follicle twice as stiff", &["floor.follicle=2"]),
+    (
         "four times as fast",
         &["floor.turn_rad_s=1", "floor.forward_m_s=0.32"],
     ),
-    change(
+    (
         "dead zones and missed pulses",
         &["floor.dead_hz=0.2", "floor.missed_hz=2"],
     ),
@@ -43,39 +35,39 @@ const FLOOR: &[Change] = &[
 
 const HEAD: &[Change] = &[
     NONE,
-    change("another spot each whisk", &["head.spot_spread_m=0.005"]),
-    change("arm off by 0.1 mm", &["head.placement_sd_m=0.0001"]),
-    change("surface pitched by 20°", &["head.pitch_deg=20"]),
-    change("half of the gain", &["head.full_scale_rad=0.008"]),
-    change("twice the gain", &["head.full_scale_rad=0.002"]),
-    change("follicles half as stiff", &["head.follicle=0.5"]),
-    change("follicles twice as stiff", &["head.follicle=2"]),
-    change("motors without error", &["head.motor.follows=false"]),
+    ("another spot each whisk", &["head.spot_spread_m=0.005"]),
+    ("arm off by 0.1 mm", &["head.placement_sd_m=0.0001"]),
+    ("surface pitched by 20°", &["head.pitch_deg=20"]),
+    ("half of the gain", &["head.full_scale_rad=0.008"]),
+    ("twice the gain", &["head.full_scale_rad=0.002"]),
+    ("follicles half as stiff", &["head.follicle=0.5"]),
+    ("follicles twice as stiff", &["head.follicle=2"]),
+    ("motors without error", &["head.motor.follows=false"]),
 ];
 
 const TABLE: &[Change] = &[
     NONE,
-    change("table off by 0.1 mm", &["table.gap_sd_m=0.0001"]),
-    change("surface rolled by 20°", &["table.roll_deg=20"]),
-    change("half of the gain", &["table.full_scale_rad=0.1"]),
-    change("twice the gain", &["table.full_scale_rad=0.025"]),
-    change("follicle half as stiff", &["table.follicle=0.5"]),
-    change("follicle twice as stiff", &["table.follicle=2"]),
-    change("latency always the same", &["table.latency_spread_s=0"]),
-    change("templates low-passed at 100 Hz", &["table.low_pass_hz=100"]),
-    change(
+    ("table off by 0.1 mm", &["table.gap_sd_m=0.0001"]),
+    ("surface rolled by 20°", &["table.roll_deg=20"]),
+    ("half of the gain", &["table.full_scale_rad=0.1"]),
+    ("twice the gain", &["table.full_scale_rad=0.025"]),
+    ("follicle half as stiff", &["table.follicle=0.5"]),
+    ("follicle twice as stiff", &["table.follicle=2"]),
+    ("latency always the same", &["table.latency_spread_s=0"]),
+    ("templates low-passed at 100 Hz", &["table.low_pass_hz=100"]),
+    (
         "templates without less than 6 Hz",
         &["table.high_pass_hz=6"],
     ),
-    change("features without a notch", &["table.notch_quality=0"]),
+    ("features without a notch", &["table.notch_quality=0"]),
 ];
 
 /// PSIK, the fixed head.
 const PAD: &[Change] = &[
     NONE,
-    change("sheet moved by ± 0.5 m", &["pad.position_spread_m=0.5"]),
-    change("half of the gain", &["pad.full_scale_rad=0.01"]),
-    change("follicles half as stiff", &["pad.follicle=0.5"]),
+    ("sheet moved by ± 0.5 m", &["pad.position_spread_m=0.5"]),
+    ("half of the gain", &["pad.full_scale_rad=0.01"]),
+    ("follicles half as stiff", &["pad.follicle=0.5"]),
 ];
 
 pub(super) fn of(part: &Part) -> &'static [Change] {
@@ -118,7 +110,7 @@ pub(super) fn section(page: &mut Page, changes: &[Change], bodies: &[Bodies]) {
             .chain(found.iter().map(cell))
             .collect()
     };
-    let names: Vec<&str> = changes.iter().map(|change| change.name).collect();
+    let names: Vec<&str> = changes.iter().map(|(name, _)| *name).collect();
     let header = format!("claim, margin in | {}", names.join(" | "));
     page.table(&header, claims.iter().filter(is_of_textures).map(row));
 }

@@ -5,11 +5,11 @@ use std::fmt::Display;
 
 use host_sim::origin::Origin;
 
-use super::arm::Arm;
 use super::asked::{Asked, Part};
 use super::record::corridor::FELT;
 use super::record::pads::INPUTS;
 use super::recording::{Dataset, Job, Recording, Recordings};
+use super::request::Arm;
 use super::verdicts::Bodies;
 use crate::page::Files;
 use crate::rigs::CHANNELS;

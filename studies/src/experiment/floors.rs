@@ -3,14 +3,15 @@
 
 use anyhow::Result;
 use rayon::prelude::*;
-use tactile::ModelBuf;
 use tactile::score::Confusion;
 use tactile::train::{Options, Trainer};
+use tactile::{ModelBuf, WindowRule};
 
-use super::record::floor::{MOTIONS, number};
+use super::record::floor::trials;
 use super::recording::{Dataset, Recording, Recordings, of_set};
 use super::request::{Extent, Request};
-use crate::classifiers::recogniser::{Outcome, Recogniser, outcomes};
+use crate::chart::Series;
+use crate::classifiers::recogniser::{Bayes, Outcome, Recogniser, outcomes};
 use crate::moments::range;
 use crate::page::percent_of;
 use crate::paper::lep10::FLOORS;
@@ -38,7 +39,6 @@ impl Stream {
     }
 }
 
-#[derive(Debug)]
 pub(super) struct Floors<'a> {
     recordings: Vec<&'a Recording>,
     extent: Extent,
@@ -70,23 +70,17 @@ impl<'a> Floors<'a> {
     /// The halves of every trial of the `motions`, floor by floor.
     pub(super) fn halves(&self, motions: &[RobotMotion]) -> [Vec<Stream>; 2] {
         let mut halves = [Vec::new(), Vec::new()];
-        for floor in 0..FLOORS.len() {
-            for motion in MOTIONS.iter().filter(|motion| motions.contains(motion)) {
-                let trials = match motion {
-                    RobotMotion::Autonomous => self.natural,
-                    _ => self.extent.trials(),
-                };
-                for trial in 0..trials {
-                    let number = number(self.extent, floor, *motion, trial);
-                    let Some(recording) = self.recordings.get(number) else {
-                        continue;
-                    };
-                    let (middle, end) = (recording.len() / 2, recording.len());
-                    for (half, (from, to)) in halves.iter_mut().zip([(0, middle), (middle, end)]) {
-                        let samples = recording.segment(from, to);
-                        half.push(Stream { floor, samples });
-                    }
-                }
+        let trials = trials(self.extent).into_iter().zip(&self.recordings);
+        for ((floor, motion, trial), recording) in trials {
+            if !motions.contains(&motion)
+                || motion == RobotMotion::Autonomous && trial >= self.natural
+            {
+                continue;
+            }
+            let (middle, end) = (recording.len() / 2, recording.len());
+            for (half, (from, to)) in halves.iter_mut().zip([(0, middle), (middle, end)]) {
+                let samples = recording.segment(from, to);
+                half.push(Stream { floor, samples });
             }
         }
         halves
@@ -113,19 +107,15 @@ pub(super) fn train(streams: &[Stream], picked: &[usize], block: u32) -> Result<
     };
     let mut trainer = Trainer::new(picked.len(), options)?;
     for stream in streams {
-        let name = FLOORS.get(stream.floor).copied().unwrap_or_default();
+        let name = FLOORS[stream.floor];
         for sample in stream.picked(picked).chunks_exact(picked.len()) {
             trainer.add(name, sample)?;
         }
     }
-    let is_there = |floor: &usize| streams.iter().any(|stream| stream.floor == *floor);
-    for name in (0..FLOORS.len())
-        .filter(is_there)
-        .map(|floor| FLOORS[floor])
-    {
-        for end in [low, high] {
-            let sample = vec![end; picked.len()];
-            trainer.add(name, &sample)?;
+    for (floor, name) in FLOORS.iter().enumerate() {
+        if streams.iter().any(|stream| stream.floor == floor) {
+            trainer.add(name, &vec![low; picked.len()])?;
+            trainer.add(name, &vec![high; picked.len()])?;
         }
     }
     trainer.train().map_err(anyhow::Error::new)
@@ -162,6 +152,19 @@ impl Tally {
         Ok(tally)
     }
 
+    /// What the best floor of each window is.
+    pub(super) fn of_windows(
+        streams: &[Stream],
+        channels: &[usize],
+        model: &ModelBuf,
+        window: u32,
+    ) -> Result<Self> {
+        let model = model.view();
+        Self::of(streams, channels, || {
+            Ok(Bayes::<WindowRule>::new(model, window)?)
+        })
+    }
+
     pub(super) fn empty() -> Self {
         Self {
             confusion: Confusion::new(FLOORS.len()),
@@ -188,11 +191,25 @@ impl Tally {
     }
 }
 
+/// Hit rates of each floor, and their mean by a name, percent, over what is varied.
+pub(super) fn hit_curves<'t>(
+    points: impl Iterator<Item = (f64, &'t Tally)>,
+    mean: &str,
+) -> [Series; 5] {
+    let points: Vec<(f64, &Tally)> = points.collect();
+    core::array::from_fn(|n| {
+        let hit = |tally: &Tally| match FLOORS.get(n) {
+            Some(_) => tally.hits()[n],
+            None => tally.mean_hit(),
+        };
+        let points = points.iter().map(|(x, tally)| (*x, hit(tally)));
+        Series::curve(FLOORS.get(n).unwrap_or(&mean), points.collect())
+    })
+}
+
 #[cfg(test)]
 mod tests {
     use super::{Stream, Tally, train};
-    use crate::classifiers::recogniser::Bayes;
-    use tactile::WindowRule;
 
     /// Floors that differ in x by 500 codes and not in y.
     fn streams() -> Vec<Stream> {
@@ -206,16 +223,13 @@ mod tests {
     }
 
     #[test]
-    fn a_channel_that_tells_floors_apart_does_and_one_that_does_not_does_not() {
+    fn a_channel_that_tells_floors_apart_does_alone_or_beside_one_that_does_not() {
         let streams = streams();
-        for (picked, expected) in [(vec![0], 100.0), (vec![1], 25.0)] {
+        for (picked, expected) in [(vec![0], 100.0), (vec![1], 25.0), (vec![0, 1], 100.0)] {
             let buf = train(&streams, &picked, 1).unwrap();
-            let model = buf.view();
-            assert_eq!(model.bins(0), Some(49), "1596 codes in bins of 32.77");
-            let tally = Tally::of(&streams, &picked, || {
-                Ok(Bayes::<WindowRule>::new(model, 100)?)
-            });
-            let tally = tally.unwrap();
+            let bins = buf.view().bins(0);
+            assert_eq!(bins, Some(49), "1596 codes in bins of 32.77");
+            let tally = Tally::of_windows(&streams, &picked, &buf, 100).unwrap();
             assert!((tally.mean_hit() - expected).abs() < 1e-9, "{tally:?}");
             assert!((tally.mean_samples() - 100.0).abs() < 1e-9);
         }

@@ -1,17 +1,16 @@
 //! LEP10: naive Bayes over fixed windows, on x, y and both; artificial motion
 //! (turning on the spot) against natural motion (autonomous).
 
-use super::floors::{Floors, Stream, Tally, train};
+use super::floors::{Floors, Stream, Tally, hit_curves, train};
 use super::ranges;
 use super::recording::{Dataset, Recordings};
 use super::request::Request;
 use crate::chart::{Series, over_windows};
-use crate::classifiers::recogniser::Bayes;
 use crate::page::{Page, confusion, figure, row};
 use crate::paper::lep10::{FIG4_KNEE_S, FIG4_LONG, FLOORS, TABLES, WINDOW_S};
 use crate::rigs::RobotMotion;
 use anyhow::Result;
-use tactile::{ModelBuf, WindowRule};
+use tactile::ModelBuf;
 
 /// Windows of Fig. 4, samples: 0.5 ms to 1 s.
 const WINDOWS: [u32; 11] = [1, 2, 5, 10, 20, 50, 100, 200, 400, 1000, 2000];
@@ -23,13 +22,6 @@ const NATURAL: [RobotMotion; 1] = [RobotMotion::Autonomous];
 const CHANCE: f64 = 100.0 / FLOORS.len() as f64;
 /// Vinyl, which falls the most in the paper.
 const VINYL: usize = 3;
-
-fn windows(buf: &ModelBuf, picked: &[usize], validation: &[Stream], window: u32) -> Result<Tally> {
-    let model = buf.view();
-    Tally::of(validation, picked, || {
-        Ok(Bayes::<WindowRule>::new(model, window)?)
-    })
-}
 
 pub(super) fn evaluate(page: &mut Page, request: &Request, recordings: &Recordings) -> Result<()> {
     let floors = Floors::with_all(request, recordings);
@@ -51,17 +43,14 @@ pub(super) fn evaluate(page: &mut Page, request: &Request, recordings: &Recordin
         models.push(train(&training, picked, 1)?);
     }
     let both: &[usize] = &[0, 1];
+    let of_natural = train(&natural, both, 1)?;
     for (n, table) in TABLES.iter().enumerate() {
-        let tally = match n {
-            0..3 => windows(&models[n], CHANNELS[n].1, &validation, window)?,
-            3 => windows(&models[2], both, &natural_validation, window)?,
-            _ => windows(
-                &train(&natural, both, 1)?,
-                both,
-                &natural_validation,
-                window,
-            )?,
+        let (model, picked, streams) = match n {
+            0..3 => (&models[n], CHANNELS[n].1, &validation),
+            3 => (&models[2], both, &natural_validation),
+            _ => (&of_natural, both, &natural_validation),
         };
+        let tally = Tally::of_windows(streams, picked, model, window)?;
         hits[n] = tally.hits();
         means[n] = tally.mean_hit();
         page.say(format_args!(
@@ -104,18 +93,12 @@ fn figure_4(
     let mut panels = Vec::new();
     let mut means: Vec<Series> = Vec::new();
     for ((name, picked), model) in CHANNELS.iter().zip(models) {
-        let mut curves: Vec<Series> = FLOORS
-            .map(|floor| Series::curve(floor, Vec::new()))
-            .to_vec();
-        let mut mean = Series::curve(name, Vec::new());
+        let mut points = Vec::new();
         for window in WINDOWS {
-            let seconds = f64::from(window) / floors.rate_hz;
-            let tally = windows(model, picked, validation, window)?;
-            for (curve, hit) in curves.iter_mut().zip(tally.hits()) {
-                curve.points.push((seconds, hit));
-            }
-            mean.points.push((seconds, tally.mean_hit()));
+            let tally = Tally::of_windows(validation, picked, model, window)?;
+            points.push((f64::from(window) / floors.rate_hz, tally));
         }
+        let [curves @ .., mean] = hit_curves(points.iter().map(|(x, tally)| (*x, tally)), name);
         let title = format!("{name}: hit rate of each floor, %");
         panels.push(over_windows(&title, &curves));
         means.push(mean);

@@ -16,6 +16,9 @@ use crate::paper::lep12::{KNEE_S, MOTIONS, SEQUENTIAL_GAIN, TABLES, TIME_S};
 use anyhow::{Context, Result};
 use groups::{Curves, Group, interpolate};
 
+/// The group of both rotations.
+const ROTATING: usize = 2;
+
 const CHANCE: f64 = 100.0 / FLOORS.len() as f64;
 
 pub(super) fn evaluate(page: &mut Page, request: &Request, recordings: &Recordings) -> Result<()> {
@@ -49,9 +52,7 @@ pub(super) fn evaluate(page: &mut Page, request: &Request, recordings: &Recordin
     tables(page, &rows, &times);
     figures::all(page, &groups, &curves, rate_hz)?;
     claims(page, &rows, &curves);
-    if let Some(rotating) = groups.get(2) {
-        pairs::section(page, rotating, rate_hz)?;
-    }
+    pairs::section(page, &groups[ROTATING], rate_hz)?;
     product(page, &groups, rate_hz)?;
     for (name, rows) in [
         "maximum likelihood, window of 200 ms",
@@ -62,12 +63,8 @@ pub(super) fn evaluate(page: &mut Page, request: &Request, recordings: &Recordin
     .into_iter()
     .zip(&rows)
     {
-        page.score(
-            name,
-            "four floors, rotating",
-            rows.get(2).map_or(0.0, |row| row[4]),
-            (CHANCE, Some(CHANCE)),
-        );
+        let mean = rows[ROTATING][4];
+        page.score(name, "four floors, rotating", mean, (CHANCE, Some(CHANCE)));
     }
     Ok(())
 }
@@ -82,20 +79,12 @@ fn product(page: &mut Page, groups: &[Group], rate_hz: f64) -> Result<()> {
         };
         all.map(one).collect()
     };
-    let names: Vec<String> = groups
-        .iter()
-        .map(|group| format!("four floors, {}", group.name))
-        .collect();
-    let mut tasks = Vec::new();
-    for (group, name) in groups.iter().zip(&names) {
-        let task = product::Task {
-            name,
-            classes: FLOORS.len(),
-            rate_hz,
-        };
-        tasks.push((task, streams(&group.training)?, streams(&group.validation)?));
-    }
-    product::section(page, tasks)
+    let task = |group: &Group| {
+        let name = format!("four floors, {}", group.name);
+        Ok((name, streams(&group.training)?, streams(&group.validation)?))
+    };
+    let tasks = groups.iter().map(task).collect::<Result<_>>()?;
+    product::section(page, rate_hz, tasks)
 }
 
 fn with_mean(hits: [f64; 4]) -> [f64; 5] {
@@ -142,10 +131,9 @@ fn claims(page: &mut Page, rows: &[Vec<[f64; 5]>; 4], curves: &[Curves]) {
     // A placebo may decide nothing, and then hits nothing: it has no rate.
     let decided = |hit: f64| if hit > 0.0 { hit } else { f64::NAN };
     for (m, motion) in MOTIONS.iter().enumerate() {
-        let at = |table: &Vec<[f64; 5]>| table.get(m).map_or(0.0, |row| row[4]);
-        let nearest = curves.get(m).and_then(Curves::nearest);
-        let time_s = nearest.map_or(TIME_S, |point| point.time_s);
-        let fixed = curves.get(m).map_or(0.0, |both| both.window_at(time_s));
+        let at = |table: &Vec<[f64; 5]>| table[m][4];
+        let time_s = curves[m].nearest().map_or(TIME_S, |point| point.time_s);
+        let fixed = interpolate(&curves[m].window, time_s);
         let gain = at(sequential) - fixed;
         let printed = TABLES[1].mean[m] - TABLES[0].mean[m];
         let one = |value: f64| figure(value, 1);
@@ -183,10 +171,7 @@ fn claims(page: &mut Page, rows: &[Vec<[f64; 5]>; 4], curves: &[Curves]) {
         )
         .rests_on(at(window), CHANCE);
     }
-    let Some(rotating) = curves.get(2) else {
-        return;
-    };
-    let at = |time: f64| interpolate(&rotating.sequential, time);
+    let at = |time: f64| interpolate(&curves[ROTATING].sequential, time);
     let (first, knee, last) = (at(0.0), at(KNEE_S), at(1.0));
     let share = 100.0 * (knee - first) / (last - first);
     page.claim(

@@ -7,7 +7,6 @@ use tactile::score::Confusion;
 use crate::chart::grid;
 use crate::page::percent_of;
 
-#[derive(Debug, Clone)]
 pub(super) struct Matrix {
     pub(super) title: String,
     pub(super) classes: Vec<String>,

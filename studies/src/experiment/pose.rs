@@ -80,12 +80,9 @@ fn product(page: &mut Page, sets: &Sets) -> Result<()> {
         };
         all.map(one).collect()
     };
-    let task = product::Task {
-        name: "texture of one contact",
-        classes: TEXTURES.len(),
-        rate_hz: sets.rate_hz,
-    };
-    product::section(page, vec![(task, streams(0)?, streams(1)?)])
+    let name = "texture of one contact".to_owned();
+    let tasks = vec![(name, streams(0)?, streams(1)?)];
+    product::section(page, sets.rate_hz, tasks)
 }
 
 fn claims(page: &mut Page, rows: &[&Scores; 3]) {

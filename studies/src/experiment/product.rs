@@ -13,13 +13,8 @@ const THRESHOLD: f64 = 0.99;
 
 const NAME: &str = "the product's: joint tables, stated 99 %";
 
-/// A question: what is classified, and how many there are of it.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Task<'n> {
-    pub(super) name: &'n str,
-    pub(super) classes: usize,
-    pub(super) rate_hz: f64,
-}
+/// A question, with its streams to train on and to decide in.
+pub(super) type Task = (String, Vec<Stream>, Vec<Stream>);
 
 /// A stream of two channels in sensor codes. Where there is a body whose whisker may be in the
 /// air, contact is the module's own signal, |H50(x)|.
@@ -48,52 +43,37 @@ pub(super) fn stream(
     })
 }
 
-/// The header of what [`cells`] gives.
-const HEADER: &str =
-    "right of what was decided, % | stated, % | with a decision, % | time, ms | tables, bytes";
-
-fn cells(
-    page: &mut Page,
-    task: Task<'_>,
-    training: Vec<Stream>,
-    testing: &[Stream],
-) -> Result<Vec<String>> {
-    let recordings = [("training".to_owned(), training)];
-    let trained = How::of(Tables::Joint).train(&recordings, task.rate_hz.round() as u32);
-    let model = trained?.model;
-    let classes = host_sim::classifier::names(&model);
-    let shown = presentations(&model, THRESHOLD, testing)?;
-    let found = Evaluation::new(&classes, &shown);
-    let right = 100.0 * found.calibration.found.share;
-    let decided = 100.0 * (1.0 - found.undecided.share);
-    let bytes = model.as_bytes().len();
-    let chance = 100.0 / task.classes as f64;
-    page.score(NAME, task.name, right, (chance, Some(chance)))
-        .decided = Some(decided);
-    Ok([
-        figure(right, 1),
-        figure(100.0 * found.calibration.stated, 1),
-        figure(decided, 0),
-        figure(1000.0 * found.samples / task.rate_hz, 0),
-        figure(bytes as f64, 0),
-    ]
-    .map(|cell| format!("**{cell}**"))
-    .to_vec())
-}
-
-/// A table of some tasks, each with its streams to train on and to decide in.
-pub(super) fn section(
-    page: &mut Page,
-    tasks: Vec<(Task<'_>, Vec<Stream>, Vec<Stream>)>,
-) -> Result<()> {
+/// A table of some tasks.
+pub(super) fn section(page: &mut Page, rate_hz: f64, tasks: Vec<Task>) -> Result<()> {
     page.say(
         "**The product's own rule** on the same recordings: joint tables, weighted by what \
          training holds out; a decision falls at a posterior of 99 %, or not at all.",
     );
     let mut rows = Vec::new();
-    for (task, training, testing) in tasks {
-        rows.push(row(task.name, cells(page, task, training, &testing)?));
+    for (name, training, testing) in tasks {
+        let recordings = [("training".to_owned(), training)];
+        let trained = How::of(Tables::Joint).train(&recordings, rate_hz.round() as u32);
+        let model = trained?.model;
+        let classes = host_sim::classifier::names(&model);
+        let shown = presentations(&model, THRESHOLD, &testing)?;
+        let found = Evaluation::new(&classes, &shown);
+        let right = 100.0 * found.calibration.found.share;
+        let decided = 100.0 * (1.0 - found.undecided.share);
+        let chance = 100.0 / classes.len() as f64;
+        page.score(NAME, &name, right, (chance, Some(chance)))
+            .decided = Some(decided);
+        let cells = [
+            figure(right, 1),
+            figure(100.0 * found.calibration.stated, 1),
+            figure(decided, 0),
+            figure(1000.0 * found.samples / rate_hz, 0),
+            figure(model.as_bytes().len() as f64, 0),
+        ];
+        rows.push(row(name, cells.map(|cell| format!("**{cell}**"))));
     }
-    page.table(&format!("on | {HEADER}"), rows);
+    page.table(
+        "on | right of what was decided, % | stated, % | with a decision, % | time, ms | tables, bytes",
+        rows,
+    );
     Ok(())
 }

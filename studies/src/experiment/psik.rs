@@ -136,8 +136,7 @@ fn figures(
 
 fn claims(page: &mut Page, more: &[Confusion]) {
     let rates: Vec<f64> = more.iter().map(hit).collect();
-    let at = |arcs: usize| rates.get(arcs - 1).copied().unwrap_or(0.0);
-    let [one, two, three, all] = [1, 2, 3, 8].map(at);
+    let [one, two, three, all] = [0, 1, 2, 7].map(|n| rates[n]);
     let text = |rate: f64| figure(rate, 1);
     page.claim(
         "PSIK: more arcs help",

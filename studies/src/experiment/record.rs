@@ -11,20 +11,24 @@ pub(crate) mod whiskers;
 
 use super::recording::{Dataset, Job, Recording, Recordings};
 use super::request::{Depth, Extent, Request};
-use crate::cores::each;
+use crate::cores::Cores;
 use crate::rigs::seed_of;
 use anyhow::{Context, Result};
 use host_sim::progress::Verbosity;
 
-fn all(dataset: Dataset, extent: Extent) -> impl Iterator<Item = Job> {
-    let count = match dataset {
-        Dataset::Floor => floor::jobs(extent),
-        Dataset::Head => head::jobs(),
-        Dataset::Table => table::jobs(extent),
-        Dataset::Pad | Dataset::Vibrissa => pad::jobs(extent),
-        Dataset::Corridor => corridor::jobs(extent),
-    };
-    (0..count).map(move |number| Job { dataset, number })
+/// What records a job from its seed.
+pub(super) type Record = fn(&Request, usize, u64) -> Result<Recording>;
+
+/// How many jobs a data set has, and what records one.
+fn rig(dataset: Dataset, extent: Extent) -> (usize, Record) {
+    match dataset {
+        Dataset::Floor => (floor::trials(extent).len(), floor::record),
+        Dataset::Head => (head::jobs(), head::record),
+        Dataset::Table => (table::jobs(extent), table::record),
+        Dataset::Pad => (pad::jobs(extent), pad::record),
+        Dataset::Vibrissa => (pad::jobs(extent), pad::record_one),
+        Dataset::Corridor => (corridor::jobs(extent), corridor::record),
+    }
 }
 
 pub(crate) fn jobs(request: &Request) -> Vec<Job> {
@@ -33,7 +37,10 @@ pub(crate) fn jobs(request: &Request) -> Vec<Job> {
     datasets.sort_unstable();
     datasets.dedup();
     datasets.retain(|dataset| *dataset != Dataset::Corridor || request.depth >= Depth::Textures);
-    let of = |dataset| all(dataset, request.extent);
+    let of = |dataset| {
+        let (count, _) = rig(dataset, request.extent);
+        (0..count).map(move |number| Job { dataset, number })
+    };
     datasets.into_iter().flat_map(of).collect()
 }
 
@@ -42,21 +49,13 @@ fn one(request: &Request, job: Job) -> Result<Recording> {
     let Job { dataset, number } = job;
     let drawn = dataset.drawn_as() as u64;
     let seed = seed_of(request.seed, &[drawn, number as u64]);
-    let record = match dataset {
-        Dataset::Floor => floor::record,
-        Dataset::Head => head::record,
-        Dataset::Table => table::record,
-        Dataset::Pad => pad::record,
-        Dataset::Corridor => corridor::record,
-        Dataset::Vibrissa => pad::record_one,
-    };
+    let (_, record) = rig(dataset, request.extent);
     record(request, number, seed).context(dataset.text())
 }
 
 /// The result depends on neither the order of jobs nor the number of cores.
-pub(crate) fn record(request: &Request, jobs: &[Job], verbosity: Verbosity) -> Result<Recordings> {
-    each(verbosity, "recording", jobs, |job| {
-        Ok((*job, one(request, *job)?))
-    })
-    .map(|made| made.into_iter().collect())
+pub(crate) fn record(request: &Request, jobs: &[Job]) -> Result<Recordings> {
+    Cores(Verbosity::Quiet)
+        .each("recording", jobs, |job| Ok((*job, one(request, *job)?)))
+        .map(|made| made.into_iter().collect())
 }

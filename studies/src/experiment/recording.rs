@@ -55,13 +55,6 @@ impl Recording {
         Self { channels, values }
     }
 
-    pub(crate) fn from_codes(channels: usize, codes: &[i16]) -> Self {
-        Self::new(
-            channels,
-            codes.iter().map(|code| f32::from(*code)).collect(),
-        )
-    }
-
     pub(crate) fn len(&self) -> usize {
         self.values.len() / self.channels.max(1)
     }

@@ -4,18 +4,17 @@
 use anyhow::Result;
 use host_sim::progress::{Progress, Verbosity};
 
-use super::arm::Arm;
 use super::asked::{Asked, Part};
 use super::changes;
 use super::data;
 use super::record::{jobs, record};
-use super::request::Request;
+use super::request::{Arm, Request};
 use super::verdicts::Bodies;
 use super::whole::{Done, evaluate, report};
 use crate::page::{Files, Page};
 
 fn evaluated(request: &Request) -> Result<Page> {
-    let recordings = record(request, &jobs(request), Verbosity::Quiet)?;
+    let recordings = record(request, &jobs(request))?;
     evaluate(request, &recordings)
 }
 
@@ -44,7 +43,7 @@ pub(crate) fn run(
         for seed in part.seeds.clone() {
             for &arm in asked.arms() {
                 let request = asked.request(&part, seed, arm)?;
-                let recordings = record(&request, &jobs(&request), Verbosity::Quiet)?;
+                let recordings = record(&request, &jobs(&request))?;
                 if asked.recordings && arm == Arm::MAIN {
                     keep(&data::recordings(asked, seed, &recordings)?)?;
                 }
@@ -54,10 +53,10 @@ pub(crate) fn run(
         }
         keep(&data::figures(asked, &part, &bodies)?)?;
         let mut changed = Vec::new();
-        for change in changes::of(&part) {
+        for (_, keys) in changes::of(&part) {
             let mut bodies = Bodies::default();
             for seed in asked.seeds_of_changes() {
-                let request = asked.changed(&part, seed, change.keys)?;
+                let request = asked.changed(&part, seed, keys)?;
                 bodies.add(Arm::MAIN, evaluated(&request)?);
                 ran();
             }

@@ -1,6 +1,6 @@
 //! Every classifier's hit rate by both protocols, beside those of its placebos.
 
-use super::arm::Arm;
+use super::request::Arm;
 use super::verdicts::{Bodies, Recognised};
 use crate::moments::Summary;
 use crate::page::{Page, Score};

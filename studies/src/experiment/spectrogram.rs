@@ -8,7 +8,6 @@ use crate::chart::grid;
 /// What is drawn white, below the most, dB.
 pub(super) const RANGE_DB: f64 = 60.0;
 
-#[derive(Debug, Clone)]
 pub(super) struct Spectrogram {
     pub(super) title: String,
     pub(super) time_s: f64,

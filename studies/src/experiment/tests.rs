@@ -1,16 +1,13 @@
 //! Recordings depend on the seed, the data set and the job alone, and pages on
 //! the recordings alone: neither on the number of cores.
 
-use super::arm::Arm;
 use super::record::whiskers::TABLE;
+use super::record::{Record, jobs, record};
 use super::record::{corridor, floor, head, pad, table};
-use super::record::{jobs, record};
-use super::recording::{Dataset, Recording};
-use super::request::{Name, Request};
+use super::recording::Dataset;
+use super::request::{Arm, Name, Request};
 use super::whole::evaluate;
 use crate::rigs::RobotMotion;
-use anyhow::Result;
-use host_sim::progress::Verbosity;
 
 fn on_cores<T: Send>(cores: usize, work: impl FnOnce() -> T + Send) -> T {
     let pool = rayon::ThreadPoolBuilder::new().num_threads(cores).build();
@@ -23,7 +20,7 @@ fn the_same_seed_gives_the_same_recordings_on_one_core_or_several() {
         let request = Request::quick(&[name], 3);
         let mut jobs = jobs(&request);
         jobs.retain(|job| job.number < 3);
-        let make = |request| record(request, &jobs, Verbosity::Quiet).unwrap();
+        let make = |request| record(request, &jobs).unwrap();
         let one = on_cores(1, || make(&request));
         assert_eq!(one.len(), jobs.len());
         assert!(one.iter().all(|(_, recording)| recording.len() > 0));
@@ -36,16 +33,13 @@ fn the_same_seed_gives_the_same_recordings_on_one_core_or_several() {
 #[test]
 fn the_same_recordings_give_the_same_pages_on_one_core_or_several() {
     let request = Request::quick(&[Name::Pose], 5);
-    let recordings = record(&request, &jobs(&request), Verbosity::Quiet).unwrap();
+    let recordings = record(&request, &jobs(&request)).unwrap();
     let page = |cores| {
         let page = on_cores(cores, || evaluate(&request, &recordings).unwrap());
         (page.text, page.files, page.claims)
     };
     assert_eq!(page(1), page(3));
 }
-
-/// What records a job from a seed.
-type Record = fn(&Request, usize, u64) -> Result<Recording>;
 
 /// Of two jobs that differ in their classes alone, from one seed: recordings differ, and in a
 /// placebo they are the same to the last bit, so that nothing is left that tells classes apart.
@@ -57,7 +51,13 @@ fn in_a_placebo_a_label_is_all_that_differs() {
         ..request.clone()
     };
     let extent = request.extent;
-    let spot = |of| floor::number(extent, of, RobotMotion::Clockwise, 0);
+    let of_floor = |of| (of, RobotMotion::Clockwise, 0);
+    let spot = |of| {
+        floor::trials(extent)
+            .iter()
+            .position(|trial| *trial == of_floor(of))
+            .unwrap()
+    };
     let sweeps = pad::jobs(extent) / pad::PAPERS;
     let runs = corridor::jobs(extent) / 4;
     let all: [(Record, [usize; 2]); 7] = [

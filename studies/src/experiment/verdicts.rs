@@ -1,25 +1,22 @@
 //! What becomes of claims over several seeds, by both protocols and beside placebos.
 
-use super::arm::{Arm, Protocol};
+use super::request::{Arm, Protocol};
 use crate::moments::{SURE, Summary, VERY_SURE};
 use crate::page::{Claim, Page, Recognition, joined};
 use anyhow::{Context, Result, bail};
+use std::collections::BTreeMap;
 
 /// Pages of the seeds, by arms.
-#[derive(Debug, Default)]
-pub(super) struct Bodies(Vec<(Arm, Vec<Page>)>);
+#[derive(Default)]
+pub(super) struct Bodies(BTreeMap<Arm, Vec<Page>>);
 
 impl Bodies {
     pub(super) fn add(&mut self, arm: Arm, page: Page) {
-        match self.0.iter_mut().find(|(of, _)| *of == arm) {
-            Some((_, pages)) => pages.push(page),
-            None => self.0.push((arm, vec![page])),
-        }
+        self.0.entry(arm).or_default().push(page);
     }
 
     pub(super) fn of(&self, arm: Arm) -> &[Page] {
-        let found = self.0.iter().find(|(of, _)| *of == arm);
-        found.map_or(&[], |(_, pages)| pages)
+        self.0.get(&arm).map_or(&[], Vec::as_slice)
     }
 }
 
@@ -45,7 +42,6 @@ impl Verdict {
 }
 
 /// How well something is recognised over the seeds, and how well by chance.
-#[derive(Debug, Clone, PartialEq)]
 pub(super) struct Recognised {
     rates: Vec<f64>,
     chance: f64,
@@ -97,7 +93,6 @@ impl Recognised {
     }
 }
 
-#[derive(Debug, Clone, PartialEq)]
 pub(super) struct Judged {
     pub(super) ours: String,
     pub(super) margin: Summary,
@@ -108,11 +103,8 @@ pub(super) struct Judged {
 
 impl Judged {
     pub(super) fn verdict(&self) -> Verdict {
-        if self
-            .labels
-            .as_ref()
-            .is_some_and(|labels| !labels.is_at_chance())
-        {
+        let labels = self.labels.as_ref();
+        if labels.is_some_and(|labels| !labels.is_at_chance()) {
             return Verdict::DoesNotCount;
         }
         let half = self.margin.half_interval(&SURE);
@@ -148,7 +140,6 @@ pub(super) fn digits(unit: &str) -> usize {
     }
 }
 
-#[derive(Debug, Clone, PartialEq)]
 pub(super) struct Both {
     pub(super) what: String,
     pub(super) paper: String,

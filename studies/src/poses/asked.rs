@@ -1,10 +1,11 @@
 //! What is asked of a condition, and whether it is found: a goal is missed where the interval of
 //! the figure excludes it.
 
-use tactile::score::{Interval, Statistics};
+use tactile::score::Interval;
 
 use super::tally::Tally;
 use super::trained::TICK_HZ;
+use crate::decisions::figures::mean_of;
 use crate::moments::SURE;
 use crate::page::verdict;
 
@@ -67,13 +68,11 @@ pub(super) fn said(missed: &[&str]) -> String {
 }
 
 /// A mean with its 95 % interval by Student: low, mean, high; all the mean if there is one value.
-pub(super) fn mean_within(values: &[f64]) -> [f64; 3] {
-    let values = values.iter().copied().filter(|x| !x.is_nan());
-    let Some(found) = Statistics::of(values) else {
-        return [f64::NAN; 3];
-    };
-    let half = SURE.quantile(found.count as usize) * found.sd / (found.count as f64).sqrt();
-    [found.mean - half, found.mean, found.mean + half]
+pub(super) fn mean_within(values: impl Iterator<Item = f64> + Clone) -> [f64; 3] {
+    let count = values.clone().filter(|x| !x.is_nan()).count();
+    let (mean, error) = mean_of(values);
+    let half = SURE.quantile(count) * error;
+    [mean - half, mean, mean + half]
 }
 
 /// Whether a share, percent, is to be called at least this.
@@ -92,10 +91,10 @@ mod tests {
 
     #[test]
     fn an_interval_of_a_mean_is_students() {
-        let [low, mean, high] = mean_within(&[1.0, 2.0, 3.0, f64::NAN]);
+        let [low, mean, high] = mean_within([1.0, 2.0, 3.0, f64::NAN].into_iter());
         assert!((mean - 2.0).abs() < 1e-12);
         // 4.303 · 1/√3.
         assert!((high - mean - 2.484).abs() < 1e-3 && (mean - low - 2.484).abs() < 1e-3);
-        assert_eq!(mean_within(&[5.0]), [5.0; 3]);
+        assert_eq!(mean_within([5.0].into_iter()), [5.0; 3]);
     }
 }

@@ -3,7 +3,6 @@
 //! recorded does not say more; where they do not, the rule loses it.
 
 use anyhow::{Context, Result, anyhow};
-use host_sim::progress::Verbosity;
 use host_sim::recording::Stream;
 use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
 use smartcore::ensemble::random_forest_regressor::{
@@ -12,11 +11,11 @@ use smartcore::ensemble::random_forest_regressor::{
 use smartcore::linalg::basic::matrix::DenseMatrix;
 use tactile::ModelBuf;
 
+use super::Extent;
 use super::condition::{Change, SURFACES};
 use super::output::Output;
 use super::tally::Tally;
 use super::trained::{THRESHOLD, Trained, judge};
-use crate::cores::each;
 use crate::decisions::figures::{number, percent};
 use crate::page::row;
 
@@ -52,22 +51,15 @@ struct Touch {
     features: Vec<f64>,
 }
 
-/// Of one presentation the surest answer.
+/// The answer to a touch.
 #[derive(Clone, Copy)]
 struct Answer {
+    presentation: usize,
     sure: f64,
     is_right: bool,
 }
 
-/// What a classifier makes of all touches, and the surest answer to each presentation.
-#[derive(Default)]
-struct Answers {
-    right: usize,
-    touches: usize,
-    surest: Vec<Answer>,
-}
-
-pub(super) fn section(output: &mut Output, cases: &[Case<'_>], verbosity: Verbosity) -> Result<()> {
+pub(super) fn section(output: &mut Output, cases: &[Case<'_>], extent: &Extent) -> Result<()> {
     output.page.heading(2, "How far others get");
     output.page.say(format_args!(
         "A linear discriminant and {TREES} trees a class (`smartcore`) on the same trainings, with \
@@ -80,20 +72,26 @@ pub(super) fn section(output: &mut Output, cases: &[Case<'_>], verbosity: Verbos
     let mut rows = Vec::new();
     for (n, case) in cases.iter().enumerate() {
         let trainings: Vec<usize> = (0..case.models.len()).collect();
-        let found = each(verbosity, "how far others get", &trainings, |&training| {
-            let seed = FRESH + (n * trainings.len() + training) as u64;
-            case.of_training(training, seed)
-        })?;
+        let found = extent
+            .cores
+            .each("how far others get", &trainings, |&training| {
+                let seed = FRESH + (n * trainings.len() + training) as u64;
+                case.of_training(training, seed)
+            })?;
         let product = Tally::sum(found.iter().map(|(tally, _)| tally));
-        let others = [0, 1].map(|kind| Answers::sum(found.iter().map(|(_, of)| &of[kind])));
         let decided = product.decided_share();
         let mut cells = vec![percent(product.right_share()), percent(decided)];
-        for answers in &others {
-            cells.extend([
-                answers.all(),
-                answers.right_of(decided.share),
-                answers.right_of(case.asked / 100.0),
-            ]);
+        for kind in [0, 1] {
+            let all: Vec<_> = found.iter().flat_map(|(_, of)| of[kind].clone()).collect();
+            let mut surest: Vec<_> = found.iter().flat_map(|(_, of)| surest(&of[kind])).collect();
+            surest.sort_by(|a, b| b.sure.total_cmp(&a.sure));
+            let right_of = |share: f64| {
+                // `as` saturates.
+                let count = (share * surest.len() as f64).round() as usize;
+                right(&surest[..count.min(surest.len())])
+            };
+            let of_goal = right_of(case.asked / 100.0);
+            cells.extend([right(&all), right_of(decided.share), of_goal]);
         }
         rows.push(row(format!("{} ({} %)", case.name, case.asked), cells));
     }
@@ -106,7 +104,7 @@ pub(super) fn section(output: &mut Output, cases: &[Case<'_>], verbosity: Verbos
 }
 
 impl Case<'_> {
-    fn of_training(&self, training: usize, seed: u64) -> Result<(Tally, [Answers; 2])> {
+    fn of_training(&self, training: usize, seed: u64) -> Result<(Tally, [Vec<Answer>; 2])> {
         let tested = self.trained.presentations(self.change.as_slice(), seed)?;
         let product = judge(&self.models[training], THRESHOLD, &tested)?;
         let recordings = &self.trained.recordings[training];
@@ -120,59 +118,37 @@ impl Case<'_> {
         let linear = Discriminant::new(&known)?;
         let by_line: Vec<Vec<f64>> = felt.iter().map(|of| linear.posteriors(of)).collect();
         let by_trees = forest(&known, &felt)?;
-        let answers = [by_line, by_trees].map(|of| Answers::of(&felt, &of));
+        let answers = [by_line, by_trees].map(|of| answers(&felt, &of));
         Ok((product, answers))
     }
 }
 
-impl Answers {
-    fn of(felt: &[Touch], posteriors: &[Vec<f64>]) -> Self {
-        let mut answers = Self::default();
-        let mut last = None;
-        for (touch, posteriors) in felt.iter().zip(posteriors) {
-            let best = posteriors.iter().copied().enumerate();
-            let (leader, sure) = best.max_by(|a, b| a.1.total_cmp(&b.1)).unwrap_or((0, 0.0));
-            let answer = Answer {
-                sure,
-                is_right: leader == touch.class,
-            };
-            answers.touches += 1;
-            answers.right += usize::from(answer.is_right);
-            match answers.surest.last_mut() {
-                Some(surest) if last == Some(touch.presentation) => {
-                    if surest.sure < sure {
-                        *surest = answer;
-                    }
-                }
-                _ => answers.surest.push(answer),
-            }
-            last = Some(touch.presentation);
+fn answers(felt: &[Touch], posteriors: &[Vec<f64>]) -> Vec<Answer> {
+    let answer = |(touch, posteriors): (&Touch, &Vec<f64>)| {
+        let best = posteriors.iter().copied().enumerate();
+        let (leader, sure) = best.max_by(|a, b| a.1.total_cmp(&b.1)).unwrap_or((0, 0.0));
+        Answer {
+            presentation: touch.presentation,
+            sure,
+            is_right: leader == touch.class,
         }
-        answers
-    }
+    };
+    felt.iter().zip(posteriors).map(answer).collect()
+}
 
-    fn sum<'a>(all: impl Iterator<Item = &'a Self>) -> Self {
-        all.fold(Self::default(), |mut sum, answers| {
-            sum.right += answers.right;
-            sum.touches += answers.touches;
-            sum.surest.extend(&answers.surest);
-            sum
-        })
-    }
+/// The surest answer to each presentation, the first of equals.
+fn surest(answers: &[Answer]) -> Vec<Answer> {
+    let of_each = answers.chunk_by(|a, b| a.presentation == b.presentation);
+    let surer = |a: Answer, b: Answer| if a.sure < b.sure { b } else { a };
+    of_each
+        .filter_map(|of| of.iter().copied().reduce(surer))
+        .collect()
+}
 
-    fn all(&self) -> String {
-        number(100.0 * self.right as f64 / self.touches as f64, 1)
-    }
-
-    /// Percent right of this share of the presentations, the surest.
-    fn right_of(&self, share: f64) -> String {
-        let mut sorted = self.surest.clone();
-        sorted.sort_by(|a, b| b.sure.total_cmp(&a.sure));
-        // `as` saturates.
-        let count = (share * sorted.len() as f64).round() as usize;
-        let right = sorted.iter().take(count).filter(|answer| answer.is_right);
-        number(100.0 * right.count() as f64 / count as f64, 1)
-    }
+/// Percent right.
+fn right(answers: &[Answer]) -> String {
+    let right = answers.iter().filter(|answer| answer.is_right).count();
+    number(100.0 * right as f64 / answers.len() as f64, 1)
 }
 
 /// The touches of presentations whose deflection in y is `gain` times what it was.
@@ -336,22 +312,25 @@ mod tests {
             presentation: 0,
             features: vec![90.0 + n as f64, 50.0, (n * n) as f64, 0.5 * n as f64],
         }));
-        let answers = |known: &[Touch]| {
+        let both = |known: &[Touch]| {
             let linear = Discriminant::new(known).unwrap();
             let by_line: Vec<Vec<f64>> = felt.iter().map(|of| linear.posteriors(of)).collect();
             let by_trees = forest(known, &felt).unwrap();
-            [by_line, by_trees].map(|of| Answers::of(&felt, &of))
+            [by_line, by_trees].map(|of| answers(&felt, &of))
         };
-        for answers in answers(&known) {
-            assert!(answers.right > 190, "{}", answers.right);
-            assert_eq!((answers.touches, answers.surest.len()), (200, 50));
-            assert_eq!(answers.right_of(0.5), "100.0");
+        let count = |of: &[Answer]| of.iter().filter(|answer| answer.is_right).count();
+        for answers in both(&known) {
+            assert!(count(&answers) > 190, "{}", count(&answers));
+            let mut surest = surest(&answers);
+            assert_eq!((answers.len(), surest.len()), (200, 50));
+            surest.sort_by(|a, b| b.sure.total_cmp(&a.sure));
+            assert_eq!(right(&surest[..25]), "100.0");
         }
         for (n, touch) in known.iter_mut().take(400).enumerate() {
             touch.class = n / 2 % 2;
         }
-        for answers in answers(&known) {
-            assert!((60..140).contains(&answers.right), "{}", answers.right);
+        for answers in both(&known) {
+            assert!((60..140).contains(&count(&answers)), "{}", count(&answers));
         }
     }
 

@@ -2,18 +2,17 @@
 //! other thresholds.
 
 use anyhow::Result;
-use host_sim::progress::Verbosity;
 use host_sim::training::Expected;
 use tactile::ModelBuf;
 
+use super::Extent;
 use super::asked::{Asked, mean_within, said};
 use super::condition::{Change, Setting, WHISKER};
-use super::extent::Extent;
 use super::five::Five;
 use super::output::{COLUMNS, Output, cells, found};
 use super::tally::Tally;
 use super::trained::{THRESHOLD, Trained, as_felt};
-use crate::decisions::figures::{number, percent};
+use crate::decisions::figures::{mean_of, number, percent};
 use crate::page::row;
 
 const SEED: u64 = 7001;
@@ -62,14 +61,10 @@ pub(super) struct One {
 }
 
 impl One {
-    pub(super) fn new(extent: &Extent, verbosity: Verbosity) -> Result<Self> {
-        let [trainings, _] = extent.trainings;
-        let [test_s, _] = extent.test_s;
-        let test = (Setting::of(WHISKER, &[]), test_s);
-        let seeds = (SEED..).take(trainings);
-        let poses = [Setting::of(WHISKER, &[])];
-        let trained = Trained::record(&poses, seeds, test, FRESH, verbosity)?;
-        let models = |expect| trained.models(expect, &as_felt, verbosity);
+    pub(super) fn new(extent: &Extent) -> Result<Self> {
+        let of = Setting::of(WHISKER, &[]);
+        let trained = Trained::record((extent, 0), (&[of], SEED..), (of, FRESH))?;
+        let models = |expect| trained.models(expect, &as_felt);
         Ok(Self {
             bench: models(Expected::Bench)?,
             same: models(Expected::Same)?,
@@ -77,12 +72,7 @@ impl One {
         })
     }
 
-    pub(super) fn section(
-        &self,
-        output: &mut Output,
-        extent: &Extent,
-        verbosity: Verbosity,
-    ) -> Result<()> {
+    pub(super) fn section(&self, output: &mut Output, extent: &Extent) -> Result<()> {
         output.page.heading(2, "One pose trained");
         output.page.say(format_args!(
             "`whisker` as it is (tilt 20°, obstacle 100°, 2 Hz), one recording of 80 s for each of \
@@ -102,7 +92,7 @@ impl One {
             list.truncate(extent.conditions);
         }
         let changed = lists.concat();
-        all.extend(self.trained.changed(&changed, &kinds, CHANGED, verbosity)?);
+        all.extend(self.trained.changed(&changed, &kinds, CHANGED)?);
         let mut names = vec!["as trained".to_owned()];
         names.extend(changed.iter().map(ToString::to_string));
 
@@ -117,7 +107,7 @@ impl One {
             let all = cells(&bench).into_iter().chain([verdict]).chain(before);
             rows.push(row(name.as_str(), all));
             for (model, tallies) in ["bench", "same"].iter().zip(cell) {
-                output.keep(["one pose", name, model], &self.trained.seeds, tallies);
+                output.keep(["one pose", name, model], &self.trained, tallies);
             }
         }
         output.page.table(
@@ -129,12 +119,7 @@ impl One {
             rows,
         );
         let first = Tally::sum(&all[0][0]);
-        output.goal(
-            "one pose: as trained",
-            &TRAINED.text(),
-            found(&first),
-            TRAINED.verdict(&first),
-        );
+        output.asked("one pose: as trained", TRAINED, &first);
         let (pose, whisking) = all[1..].split_at(lists[0].len());
         let pose_names = &names[1..=lists[0].len()];
         Self::goals(output, "another pose or sensor", pose_names, pose);
@@ -148,13 +133,9 @@ impl One {
     fn goals(output: &mut Output, what: &str, names: &[String], all: &[Vec<Vec<Tally>>]) {
         let trainings = all.first().map_or(0, |cell| cell[0].len());
         let of_cells = |kind: usize, training: usize| {
-            let short = all.iter().map(|cell| cell[kind][training].short());
-            mean_within(&short.collect::<Vec<_>>())[1]
+            mean_of(all.iter().map(|cell| cell[kind][training].short())).0
         };
-        let mean = |kind| {
-            let all = (0..trainings).map(|training| of_cells(kind, training));
-            mean_within(&all.collect::<Vec<_>>())
-        };
+        let mean = |kind| mean_within((0..trainings).map(|training| of_cells(kind, training)));
         let shown = |[low, mean, high]: [f64; 3]| format!("{mean:.1} ({low:.1} to {high:.1})");
         let [bench, same] = [0, 1].map(mean);
         let is_missed = bench[0] > MEAN_SHORT;
@@ -205,8 +186,7 @@ impl One {
         );
         let rows = self.trained.seeds.iter().enumerate().map(|(n, seed)| {
             let own = all[0][0][n];
-            let short = all.iter().skip(1).map(|cell| cell[0][n].short());
-            let [_, mean, _] = mean_within(&short.collect::<Vec<_>>());
+            let (mean, _) = mean_of(all.iter().skip(1).map(|cell| cell[0][n].short()));
             let loud = names.iter().zip(all).map(|(name, cell)| (name, cell[0][n]));
             let worst = loud
                 .filter(|(_, tally)| tally.decided >= 20)
@@ -249,7 +229,7 @@ impl One {
             ] {
                 let tallies = trained.fresh(models, threshold)?;
                 let setting = format!("threshold {threshold}");
-                output.keep(["thresholds", &setting, model], &trained.seeds, &tallies);
+                output.keep(["thresholds", &setting, model], trained, &tallies);
                 let tally = Tally::sum(&tallies);
                 shown.extend([tally.right_share(), tally.decided_share()].map(percent));
             }

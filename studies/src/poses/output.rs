@@ -1,17 +1,15 @@
 //! Rows of the page, its table of goals, and `poses.csv`.
 
-use std::fmt::Write;
-
+use super::asked::Asked;
 use super::tally::{REASONS, Tally};
-use super::trained::TICK_HZ;
+use super::trained::{TICK_HZ, Trained};
 use crate::decisions::figures::{cell, number, percent};
-use crate::page::Page;
+use crate::page::{Page, row};
 
 pub(super) struct Output {
     pub(super) page: Page,
     /// Condition, goal, found, verdict.
     pub(super) goals: Vec<Vec<String>>,
-    pub(super) table: String,
 }
 
 /// The columns of [`cells`].
@@ -20,12 +18,11 @@ pub(super) const COLUMNS: &str = "right | stated | short by | decided | presenta
 
 impl Output {
     pub(super) fn new() -> Self {
+        let header = "part,condition,model,training,presentations,decided,named,right,stated,\
+                      contact_ms,unknown,pose,between";
         Self {
-            page: Page::new("poses"),
+            page: Page::with_table("poses", header),
             goals: Vec::new(),
-            table: "part,condition,model,training,presentations,decided,named,right,stated,\
-                    contact_ms,unknown,pose,between\n"
-                .to_owned(),
         }
     }
 
@@ -34,25 +31,39 @@ impl Output {
         self.goals.push(cells.to_vec());
     }
 
+    /// The same of what is asked of a tally.
+    pub(super) fn asked(&mut self, condition: &str, asked: Asked, tally: &Tally) {
+        self.goal(condition, &asked.text(), found(tally), asked.verdict(tally));
+    }
+
     /// Keeps the figures of each training.
-    pub(super) fn keep(&mut self, of: [&str; 3], seeds: &[u64], tallies: &[Tally]) {
+    pub(super) fn keep(&mut self, of: [&str; 3], trained: &Trained<'_>, tallies: &[Tally]) {
         let [part, condition, model] = of;
         // As a cell: pages have commas and quotes.
         let condition = condition.replace(',', ";").replace('`', "");
-        for (seed, tally) in seeds.iter().zip(tallies) {
-            let silent = tally.silent.map(|count| count.to_string()).join(",");
-            // Writing to a string does not fail.
-            let _ = writeln!(
-                self.table,
-                "{part},{condition},{model},{seed},{},{},{},{},{},{},{silent}",
-                tally.presentations,
-                tally.decided,
-                tally.named,
-                tally.right,
-                cell(tally.stated()),
-                cell(tally.contact_ms(TICK_HZ)),
-            );
+        for (seed, tally) in trained.seeds.iter().zip(tallies) {
+            let mut figures = vec![seed.to_string()];
+            let counts = [tally.presentations, tally.decided, tally.named, tally.right];
+            figures.extend(counts.map(|count| count.to_string()));
+            figures.extend([tally.stated(), tally.contact_ms(TICK_HZ)].map(|x| cell(x, 3)));
+            figures.extend(tally.silent.map(|count| count.to_string()));
+            self.page.keep(&[part, &condition, model], &figures);
         }
+    }
+
+    /// Keeps them and gives the row of all trainings together: its name, [`COLUMNS`] and what is
+    /// asked.
+    pub(super) fn row(
+        &mut self,
+        of: [&str; 3],
+        trained: &Trained<'_>,
+        tallies: &[Tally],
+        asked: Asked,
+    ) -> Vec<String> {
+        self.keep(of, trained, tallies);
+        let tally = Tally::sum(tallies);
+        let goal = [asked.text(), asked.verdict(&tally)];
+        row(of[1], cells(&tally).into_iter().chain(goal))
     }
 }
 

@@ -1,20 +1,17 @@
 //! Labels that mean nothing: nothing is to be decided.
 
 use anyhow::Result;
-use host_sim::progress::Verbosity;
 use host_sim::recording::Stream;
 use host_sim::training::Expected;
 use tactile::ModelBuf;
 
+use super::Extent;
 use super::asked::{at_most, said};
 use super::condition::{Change, SURFACES, Setting, WHISKER};
-use super::extent::Extent;
-use super::five::{Five, TILTS};
-use super::one::One;
+use super::five::TILTS;
 use super::output::{COLUMNS, Output, cells};
 use super::tally::Tally;
-use super::trained::{Relabel, THRESHOLD, judge, model};
-use crate::cores::each;
+use super::trained::{Relabel, THRESHOLD, Trained, judge, model};
 use crate::decisions::figures::percent;
 use crate::decisions::placebo::permuted;
 use crate::page::row;
@@ -47,9 +44,8 @@ fn name_twice(streams: &mut [Stream]) {
 
 pub(super) fn section(
     output: &mut Output,
-    (one, five): (&One, &Five),
+    all: &[(&str, Expected, &Trained<'_>)],
     extent: &Extent,
-    verbosity: Verbosity,
 ) -> Result<()> {
     output.page.heading(2, "Placebos");
     output.page.say(format_args!(
@@ -65,48 +61,30 @@ pub(super) fn section(
         ("classes alike", &|streams, _| turn(streams)),
     ];
     for (name, relabel) in relabels {
-        for (poses, expect, trained) in [
-            ("one pose", Expected::Bench, &one.trained),
-            ("one pose, `same`", Expected::Same, &one.trained),
-            ("five poses", Expected::Bench, &five.trained),
-        ] {
-            let models = trained.models(expect, relabel, verbosity)?;
+        for &(poses, expect, trained) in all {
+            let models = trained.models(expect, relabel)?;
             let tallies = trained.fresh(&models, THRESHOLD)?;
             let name = format!("{name}, {poses}");
-            let kind = if expect == Expected::Same {
-                "same"
-            } else {
-                "bench"
-            };
-            output.keep(["placebo", &name, kind], &trained.seeds, &tallies);
-            rows.push(line(output, &name, &Tally::sum(&tallies), expect));
+            rows.push(line(output, &name, expect, trained, &tallies));
         }
     }
+    let (one, five) = (all[0].2, all[2].2);
+    let tilts = TILTS.each_ref().map(<[Change; 1]>::as_slice);
     for (poses, trained, settings) in [
-        ("one pose", &one.trained, &[[].as_slice()][..]),
-        (
-            "five poses",
-            &five.trained,
-            &TILTS.each_ref().map(<[Change; 1]>::as_slice),
-        ),
+        ("one pose", one, &[[].as_slice()][..]),
+        ("five poses", five, &tilts),
     ] {
         for (n, (surface, _)) in SURFACES.iter().enumerate().take(extent.surfaces) {
             let first = SEED + 100 * (settings.len() as u64 - 1) + 20 * n as u64;
-            let models = twins(surface, settings, first, trained.seeds.len(), verbosity)?;
-            let fresh = [&one.trained, &five.trained].map(|trained| &trained.fresh);
-            let of_surface: Vec<Stream> = fresh
-                .into_iter()
-                .flatten()
-                .flatten()
-                .filter(|stream| stream.label == *surface)
-                .cloned()
-                .collect();
-            let tallies = each(verbosity, "placebos", &models, |model| {
+            let models = twins(surface, settings, first, trained)?;
+            let fresh = [one, five].into_iter().flat_map(|trained| &trained.fresh);
+            let of_surface = fresh.flatten().filter(|stream| stream.label == *surface);
+            let of_surface: Vec<Stream> = of_surface.cloned().collect();
+            let tallies = extent.cores.each("placebos", &models, |model| {
                 judge(model, THRESHOLD, &of_surface)
             })?;
             let name = format!("{surface} under two names, {poses}");
-            output.keep(["placebo", &name, "bench"], &trained.seeds, &tallies);
-            rows.push(line(output, &name, &Tally::sum(&tallies), Expected::Bench));
+            rows.push(line(output, &name, Expected::Bench, trained, &tallies));
         }
     }
     output
@@ -116,22 +94,29 @@ pub(super) fn section(
 }
 
 /// A row; what is without a second opinion is shown for comparison.
-fn line(output: &mut Output, name: &str, tally: &Tally, expect: Expected) -> Vec<String> {
-    let is_met = at_most(tally.decided_share(), GOAL);
+fn line(
+    output: &mut Output,
+    name: &str,
+    expect: Expected,
+    trained: &Trained<'_>,
+    tallies: &[Tally],
+) -> Vec<String> {
+    let is_compared = expect == Expected::Same;
+    let model = if is_compared { "same" } else { "bench" };
+    output.keep(["placebo", name, model], trained, tallies);
+    let tally = Tally::sum(tallies);
+    let decided = tally.decided_share();
+    let is_met = at_most(decided, GOAL);
     let verdict = said(if is_met { &[] } else { &["decided"] });
-    if expect != Expected::Same {
+    if !is_compared {
         output.goal(
             &format!("placebo: {name}"),
             &format!("decided ≤ {GOAL}"),
-            format!(
-                "decided {} of {}",
-                percent(tally.decided_share()),
-                tally.presentations
-            ),
+            format!("decided {} of {}", percent(decided), tally.presentations),
             verdict.clone(),
         );
     }
-    row(name, cells(tally).into_iter().chain([verdict]))
+    row(name, cells(&tally).into_iter().chain([verdict]))
 }
 
 /// Models of one surface alone under two names.
@@ -139,11 +124,13 @@ fn twins(
     surface: &str,
     settings: &[&[Change]],
     first: u64,
-    trainings: usize,
-    verbosity: Verbosity,
+    trained: &Trained<'_>,
 ) -> Result<Vec<ModelBuf>> {
-    let seeds: Vec<u64> = (first..).step_by(settings.len()).take(trainings).collect();
-    each(verbosity, "placebos", &seeds, |&seed| {
+    let seeds: Vec<u64> = (first..)
+        .step_by(settings.len())
+        .take(trained.seeds.len())
+        .collect();
+    trained.cores.each("placebos", &seeds, |&seed| {
         let recordings = settings.iter().zip(seed..).map(|(changes, seed)| {
             let setting = Setting {
                 textures: Some(&[surface]),

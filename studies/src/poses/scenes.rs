@@ -1,17 +1,15 @@
 //! The scene `textures`, and the one whose presentations differ in pose.
 
 use anyhow::Result;
-use host_sim::progress::Verbosity;
 use host_sim::training::Expected;
 use tactile::ModelBuf;
 
+use super::Extent;
 use super::asked::Asked;
 use super::condition::{SPREAD, Setting, TEXTURES};
-use super::extent::Extent;
-use super::output::{COLUMNS, Output, cells, found};
+use super::output::{COLUMNS, Output};
 use super::tally::Tally;
 use super::trained::{THRESHOLD, Trained, as_felt};
-use crate::page::row;
 
 /// Seconds of the training of what is spread.
 const SPREAD_S: f64 = 240.0;
@@ -20,11 +18,9 @@ const SPREAD_S: f64 = 240.0;
 pub(super) fn section(
     output: &mut Output,
     extent: &Extent,
-    verbosity: Verbosity,
 ) -> Result<(Trained<'static>, Vec<ModelBuf>)> {
     output.page.heading(2, "Scenes");
     let [_, trainings] = extent.trainings;
-    let [_, test_s] = extent.test_s;
     output.page.say(format_args!(
         "`textures`, trained on one recording as it is, and `bench-textures`, whose presentations \
          have poses of their own (tilt ±3°, obstacle ±2°, scale ±5 %), trained on {SPREAD_S} s \
@@ -55,21 +51,12 @@ pub(super) fn section(
     let mut rows = Vec::new();
     let mut last = None;
     for (setting, [seed, fresh], asked) in scenes {
-        let seeds = (seed..).take(trainings);
-        let trained = Trained::record(&[setting], seeds, (setting, test_s), fresh, verbosity)?;
-        let models = trained.models(Expected::Bench, &as_felt, verbosity)?;
+        let trained = Trained::record((extent, 1), (&[setting], seed..), (setting, fresh))?;
+        let models = trained.models(Expected::Bench, &as_felt)?;
         let tallies = trained.fresh(&models, THRESHOLD)?;
-        let tally = Tally::sum(&tallies);
         let name = setting.file.name;
-        output.keep(["scenes", name, "bench"], &trained.seeds, &tallies);
-        let goal = [asked.text(), asked.verdict(&tally)];
-        rows.push(row(name, cells(&tally).into_iter().chain(goal)));
-        output.goal(
-            &format!("scene `{name}`"),
-            &asked.text(),
-            found(&tally),
-            asked.verdict(&tally),
-        );
+        rows.push(output.row(["scenes", name, "bench"], &trained, &tallies, asked));
+        output.asked(&format!("scene `{name}`"), asked, &Tally::sum(&tallies));
         last = Some((trained, models));
     }
     output

@@ -2,14 +2,14 @@
 
 use anyhow::Result;
 use host_sim::evaluation::presentations;
-use host_sim::progress::Verbosity;
 use host_sim::recording::Stream;
 use host_sim::training::{Expected, How, Tables};
 use tactile::ModelBuf;
 
+use super::Extent;
 use super::condition::{Change, Setting};
 use super::tally::Tally;
-use crate::cores::each;
+use crate::cores::Cores;
 
 /// At which a class is named, unless said otherwise.
 pub(super) const THRESHOLD: f64 = 0.99;
@@ -21,6 +21,7 @@ pub(super) type Recordings = Vec<(String, Vec<Stream>)>;
 pub(super) type Relabel<'r> = &'r (dyn Fn(&mut Vec<Stream>, u64) + Sync);
 
 pub(super) struct Trained<'s> {
+    pub(super) cores: Cores,
     /// The first seed of each training: a recording each from there on.
     pub(super) seeds: Vec<u64>,
     /// Of each training, by pose.
@@ -32,32 +33,31 @@ pub(super) struct Trained<'s> {
 }
 
 impl<'s> Trained<'s> {
-    /// Records `poses` for each of some trainings, and so many seconds that they are tested with.
+    /// Records `poses` for as many trainings as `extent` has of its `kind`, and what they are
+    /// tested with.
     pub(super) fn record(
-        poses: &[Setting<'_>],
-        seeds: impl Iterator<Item = u64>,
-        (test, test_s): (Setting<'s>, f64),
-        first_test: u64,
-        verbosity: Verbosity,
+        (extent, kind): (&Extent, usize),
+        (poses, seeds): (&[Setting<'_>], impl Iterator<Item = u64>),
+        (test, first_test): (Setting<'s>, u64),
     ) -> Result<Self> {
+        let cores = extent.cores;
         let test = Setting {
-            seconds: Some(test_s),
+            seconds: Some(extent.test_s[kind]),
             ..test
         };
-        let seeds: Vec<u64> = seeds.collect();
+        let seeds: Vec<u64> = seeds.take(extent.trainings[kind]).collect();
         let jobs: Vec<(&Setting<'_>, u64)> = seeds
             .iter()
             .flat_map(|&seed| poses.iter().zip(seed..))
             .collect();
-        let made = each(verbosity, "trainings", &jobs, |(pose, seed)| {
+        let made = cores.each("trainings", &jobs, |(pose, seed)| {
             Ok((seed.to_string(), pose.record(*seed)?))
         })?;
         let recordings = made.chunks(poses.len()).map(<[_]>::to_vec).collect();
         let tests: Vec<u64> = (first_test..).take(seeds.len()).collect();
-        let fresh = each(verbosity, "fresh presentations", &tests, |&seed| {
-            test.record(seed)
-        })?;
+        let fresh = cores.each("fresh presentations", &tests, |&seed| test.record(seed))?;
         Ok(Self {
+            cores,
             seeds,
             recordings,
             test,
@@ -66,14 +66,9 @@ impl<'s> Trained<'s> {
     }
 
     /// A model of each training, by the defaults of `host-sim train`.
-    pub(super) fn models(
-        &self,
-        expect: Expected,
-        relabel: Relabel<'_>,
-        verbosity: Verbosity,
-    ) -> Result<Vec<ModelBuf>> {
+    pub(super) fn models(&self, expect: Expected, relabel: Relabel<'_>) -> Result<Vec<ModelBuf>> {
         let jobs: Vec<_> = self.recordings.iter().zip(&self.seeds).collect();
-        each(verbosity, "models", &jobs, |(recordings, seed)| {
+        self.cores.each("models", &jobs, |(recordings, seed)| {
             let mut recordings = (*recordings).clone();
             for ((_, streams), n) in recordings.iter_mut().zip(**seed..) {
                 relabel(streams, n);
@@ -117,20 +112,21 @@ impl<'s> Trained<'s> {
         conditions: &[Change],
         kinds: &[&[ModelBuf]],
         first_test: u64,
-        verbosity: Verbosity,
     ) -> Result<Vec<Vec<Vec<Tally>>>> {
         let trainings = self.seeds.len();
         let jobs: Vec<(usize, usize)> = (0..conditions.len())
             .flat_map(|condition| (0..trainings).map(move |training| (condition, training)))
             .collect();
-        let found = each(verbosity, "conditions", &jobs, |&(condition, training)| {
-            let seed = first_test + (condition * trainings + training) as u64;
-            let streams = self.presentations(&conditions[condition..=condition], seed)?;
-            let of_kind = kinds
-                .iter()
-                .map(|models| judge(&models[training], THRESHOLD, &streams));
-            of_kind.collect::<Result<Vec<Tally>>>()
-        })?;
+        let found = self
+            .cores
+            .each("conditions", &jobs, |&(condition, training)| {
+                let seed = first_test + (condition * trainings + training) as u64;
+                let streams = self.presentations(&conditions[condition..=condition], seed)?;
+                let of_kind = kinds
+                    .iter()
+                    .map(|models| judge(&models[training], THRESHOLD, &streams));
+                of_kind.collect::<Result<Vec<Tally>>>()
+            })?;
         let by_kind = |cells: &[Vec<Tally>]| {
             let of = |kind: usize| cells.iter().map(|cell| cell[kind]).collect();
             (0..kinds.len()).map(of).collect()

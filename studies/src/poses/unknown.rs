@@ -1,13 +1,12 @@
 //! A texture that the model does not know.
 
 use anyhow::Result;
-use host_sim::progress::Verbosity;
 use host_sim::recording::Stream;
 use host_sim::training::Expected;
 
+use super::Extent;
 use super::asked::{at_least, at_most, said};
 use super::condition::SURFACES;
-use super::extent::Extent;
 use super::output::Output;
 use super::tally::Tally;
 use super::trained::{THRESHOLD, Trained};
@@ -23,7 +22,6 @@ pub(super) fn section(
     output: &mut Output,
     all: &[(&str, Expected, &Trained<'_>)],
     extent: &Extent,
-    verbosity: Verbosity,
 ) -> Result<()> {
     output.page.heading(2, "Unknown textures");
     output.page.say(
@@ -38,13 +36,13 @@ pub(super) fn section(
             let without = |streams: &mut Vec<Stream>, _: u64| {
                 streams.retain(|stream| stream.label != *left_out);
             };
-            let models = trained.models(*expect, &without, verbosity)?;
+            let models = trained.models(*expect, &without)?;
             let is_unknown = |stream: &Stream| stream.label == *left_out;
             let unknown = trained.fresh_of(&models, THRESHOLD, is_unknown)?;
             let known = trained.fresh_of(&models, THRESHOLD, |stream| !is_unknown(stream))?;
             let setting = format!("without {left_out}; {poses}");
-            output.keep(["unknown", &setting, "unknown"], &trained.seeds, &unknown);
-            output.keep(["unknown", &setting, "known"], &trained.seeds, &known);
+            output.keep(["unknown", &setting, "unknown"], trained, &unknown);
+            output.keep(["unknown", &setting, "known"], trained, &known);
             let both = [Tally::sum(&unknown), Tally::sum(&known)];
             sums = [0, 1].map(|n| Tally::sum([&sums[n], &both[n]]));
             rows.push(row(format!("{poses}: {left_out}"), cells(&both)));

@@ -9,7 +9,7 @@
 
 use super::pad::{Layout, Vibrissa};
 use super::read::keys;
-use crate::rigs::frame::turn;
+use crate::rigs::frame::{panned, turn};
 use physics::Pose;
 
 keys! {
@@ -72,16 +72,11 @@ impl Corridor {
         } else {
             mirrored(x).map(|part| -part)
         };
-        let base = turn(mirrored(base_m), robot.heading);
-        Pose {
-            base_m: [
-                base[0] + robot.neck_m[0],
-                base[1] + robot.neck_m[1],
-                base[2],
-            ],
-            x: turn(x, robot.heading),
-            y: turn(mirrored(y), robot.heading),
-        }
+        let (base_m, y) = (mirrored(base_m), mirrored(y));
+        let mut pose = panned(&Pose { base_m, x, y }, robot.heading);
+        pose.base_m[0] += robot.neck_m[0];
+        pose.base_m[1] += robot.neck_m[1];
+        pose
     }
 }
 

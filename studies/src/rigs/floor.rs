@@ -53,7 +53,6 @@ pub(crate) enum RobotMotion {
     Autonomous,
 }
 
-#[derive(Debug, Clone)]
 pub(crate) struct Drive<'r> {
     rig: &'r Floor,
     motion: RobotMotion,
@@ -114,23 +113,18 @@ impl Floor {
 impl Drive<'_> {
     /// What the wheels shall do next.
     fn choose(&mut self) {
-        let Floor {
-            turn_rad_s,
-            forward_m_s,
-            leg_least_s,
-            leg_most_s,
-            ..
-        } = *self.rig;
-        self.wanted = match self.motion {
-            RobotMotion::Anticlockwise => [turn_rad_s, 0.0],
-            RobotMotion::Clockwise => [-turn_rad_s, 0.0],
-            RobotMotion::Autonomous => match self.chance.among(3) {
-                0 => [turn_rad_s, 0.0],
-                1 => [-turn_rad_s, 0.0],
-                _ => [0.0, forward_m_s],
-            },
+        let rig = self.rig;
+        let way = match self.motion {
+            RobotMotion::Anticlockwise => 0,
+            RobotMotion::Clockwise => 1,
+            RobotMotion::Autonomous => self.chance.among(3),
         };
-        self.left_s = self.chance.between(leg_least_s, leg_most_s);
+        self.wanted = match way {
+            0 => [rig.turn_rad_s, 0.0],
+            1 => [-rig.turn_rad_s, 0.0],
+            _ => [0.0, rig.forward_m_s],
+        };
+        self.left_s = self.chance.between(rig.leg_least_s, rig.leg_most_s);
     }
 
     pub(crate) fn step(&mut self) -> Pose {

@@ -38,7 +38,6 @@ keys! {
 }
 
 /// What the head is put before, and how it whisks there.
-#[derive(Debug, Clone)]
 pub(crate) struct Visit<'a> {
     /// From the front of the head to the surface, m.
     pub(crate) distance_m: f64,
@@ -71,8 +70,7 @@ impl WhiskingHead {
     pub(crate) fn pose(&self, side: usize, whisker: usize, theta_deg: f64) -> Pose {
         let left = if side == 0 { 1.0 } else { -1.0 };
         let (sine, cosine) = libm::sincos(theta_deg.to_radians());
-        let back = self.base_back_m.get(whisker).copied().unwrap_or(0.0);
-        let aside = self.base_side_m.get(whisker).copied().unwrap_or(0.0);
+        let (back, aside) = (self.base_back_m[whisker], self.base_side_m[whisker]);
         // The shaft is (−cos, ± sin, 0): x its derivative by θ', y = shaft × x.
         Pose {
             base_m: [-back, left * aside, 0.0],

@@ -46,7 +46,6 @@ impl PositionControl {
 const DUTY_LIMIT: f64 = 1.0;
 
 /// The newest frame of a sensor: the tick reads what was measured before it.
-#[derive(Debug)]
 struct Frames([u8; FRAME_LEN]);
 
 impl Frames {

@@ -18,7 +18,7 @@
 use super::chance::Chance;
 use super::read::keys;
 use crate::paper::psik::{ARCS, RATE_HZ};
-use crate::rigs::frame::{direction, turn};
+use crate::rigs::frame::direction;
 use physics::Pose;
 use physics::vector::{add, cross};
 
@@ -73,14 +73,6 @@ impl Layout {
     }
 }
 
-pub(crate) fn panned(pose: &Pose, radians: f64) -> Pose {
-    Pose {
-        base_m: turn(pose.base_m, radians),
-        x: turn(pose.x, radians),
-        y: turn(pose.y, radians),
-    }
-}
-
 keys! {
     Pad, rig:
     distance_m: f64 => 0.01..=2.0,
@@ -94,25 +86,17 @@ keys! {
     layout: Layout,
 }
 
-/// One sweep: how far the sheet is, and where along it the head is set up.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Sweep {
-    pub(crate) distance_m: f64,
-    /// Origin of the sheet's texture, m, along it and upwards.
-    pub(crate) origin_m: [f64; 2],
-}
-
 impl Pad {
     pub(crate) fn ticks(&self) -> usize {
         (self.sweep_s * RATE_HZ).round() as usize
     }
 
-    pub(crate) fn sweep(&self, chance: &mut Chance) -> Sweep {
+    /// Of one sweep how far the sheet is, m, and where along it and upwards the head is set up: the
+    /// origin of the sheet's texture, m.
+    pub(crate) fn sweep(&self, chance: &mut Chance) -> (f64, [f64; 2]) {
         let (spread, aside) = (self.distance_spread_m, self.position_spread_m);
-        Sweep {
-            distance_m: self.distance_m + chance.between(-spread, spread),
-            origin_m: [chance.between(-aside, aside), chance.between(-aside, aside)],
-        }
+        let distance_m = self.distance_m + chance.between(-spread, spread);
+        (distance_m, [0, 1].map(|_| chance.between(-aside, aside)))
     }
 
     /// The pan at a tick, radians: from −`sweep_deg` to `sweep_deg`, with the
@@ -125,9 +109,9 @@ impl Pad {
 
 #[cfg(test)]
 mod tests {
-    use super::{Pad, panned};
+    use super::Pad;
     use crate::paper::psik::VIBRISSAE;
-    use crate::rigs::Rigs;
+    use crate::rigs::{Rigs, panned};
     use physics::vector::{add, cross, dot};
 
     fn rig() -> Pad {

@@ -3,13 +3,14 @@
 use std::fmt;
 use std::str::FromStr;
 
-use toml::{Table, Value};
+use toml::Table;
 
 /// A key of a rig and its value in TOML, such as `head.motor.kp=0.2`.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Setting {
-    path: Vec<String>,
-    value: Value,
+    pub(super) rig: String,
+    /// The keys of the rig that it sets.
+    pub(super) keys: Table,
     text: String,
 }
 
@@ -19,32 +20,14 @@ impl FromStr for Setting {
     fn from_str(text: &str) -> Result<Self, Self::Err> {
         let allowed = "allowed: RIG.KEY=VALUE, such as head.motor.kp=0.2";
         let (key, value) = text.split_once('=').ok_or(allowed)?;
-        let path: Vec<String> = key.trim().split('.').map(str::to_owned).collect();
-        if path.len() < 2 {
-            return Err(allowed.to_owned());
-        }
-        let document: Table = toml::from_str(&format!("value = {}", value.trim()))
+        let (rig, key) = key.trim().split_once('.').ok_or(allowed)?;
+        let keys = toml::from_str(&format!("{key} = {}", value.trim()))
             .map_err(|error| format!("{}; {allowed}", error.message().replace('\n', " ")))?;
-        let value = document.get("value").cloned().ok_or(allowed)?;
         Ok(Self {
-            path,
-            value,
+            rig: rig.to_owned(),
+            keys,
             text: text.to_owned(),
         })
-    }
-}
-
-impl Setting {
-    pub(crate) fn rig(&self) -> &str {
-        self.path.first().map_or("", String::as_str)
-    }
-
-    pub(super) fn table(&self) -> Table {
-        let keys = self.path.iter().skip(1).rev();
-        let nested = keys.fold(self.value.clone(), |value, key| {
-            Value::Table(Table::from_iter([(key.clone(), value)]))
-        });
-        nested.as_table().cloned().unwrap_or_default()
     }
 }
 

@@ -15,7 +15,7 @@ use super::gradient::Samples;
 use super::session::session;
 use super::{Network, Shape, scaled};
 use crate::rigs::Chance;
-use anyhow::{Result, bail};
+use anyhow::{Result, bail, ensure};
 
 /// Starts until one is reliable.
 const ATTEMPTS: usize = 10;
@@ -122,11 +122,9 @@ fn scale(rows: &[Row], input: usize) -> Result<(f64, f64)> {
     // A constant's mean may be a rounding off it; that is no spread.
     let spread = deviation > mean.abs() * 1e-12 && deviation > 0.0;
     let gain = if spread { 1.0 / deviation } else { 0.0 };
-    if mean.is_finite() && gain.is_finite() {
-        Ok((mean, gain))
-    } else {
-        bail!("input {input} cannot be scaled")
-    }
+    let is_finite = mean.is_finite() && gain.is_finite();
+    ensure!(is_finite, "input {input} cannot be scaled");
+    Ok((mean, gain))
 }
 
 /// Samples to train on and samples held out, scaled, of each class the same part.

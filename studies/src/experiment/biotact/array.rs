@@ -5,8 +5,7 @@ use anyhow::Result;
 use rayon::prelude::*;
 use scene::{GateSettings, Scene};
 
-use super::figures::{FREQUENCY_HZ, TICK_HZ};
-use super::patterns::{LEFT, RIGHT, Row, angles, contacts};
+use super::patterns::{FREQUENCY_HZ, LEFT, RIGHT, Row, TICK_HZ, WHISK, angles, contacts};
 use crate::experiment::request::Request;
 use crate::page::{Page, figure, row};
 use crate::paper::biotact::{FIG9, OBSTACLES_DEG};
@@ -15,7 +14,6 @@ use host_sim::run::Run;
 /// Whisks that are left out, as the motors settle, and those that are measured.
 const LEAD: usize = 4;
 const WHISKS: usize = 16;
-const WHISK_TICKS: usize = (TICK_HZ / FREQUENCY_HZ) as usize;
 
 /// The head without obstacles, with the noise and the gains of the head's experiments.
 fn head(request: &Request) -> Result<Scene> {
@@ -73,21 +71,14 @@ fn run((_, obstacles_deg, has_cia): Case, scene: &Scene) -> Result<Moved> {
         obstacle.obstacle_deg = obstacles_deg.to_vec();
     }
     let mut run = Run::new(&scene, None)?;
-    for _ in 0..LEAD * WHISK_TICKS {
+    for _ in 0..LEAD * WHISK {
         run.tick();
     }
-    let rows: Vec<Row> = (0..WHISKS * WHISK_TICKS)
-        .map(|_| run.tick().angle_deg)
-        .collect();
-    let whisks = rows.chunks(WHISK_TICKS);
-    let count = whisks.len().max(1) as f64;
+    let rows: Vec<Row> = (0..WHISKS * WHISK).map(|_| run.tick().angle_deg).collect();
     Ok(Moved {
         peak_deg: [LEFT, RIGHT].map(|side| {
-            whisks
-                .clone()
-                .map(|whisk| angles(whisk, side).1)
-                .sum::<f64>()
-                / count
+            let peaks = rows.chunks(WHISK).map(|whisk| angles(whisk, side).1);
+            peaks.sum::<f64>() / WHISKS as f64
         }),
         contacts: [LEFT, RIGHT].map(|side| contacts(&rows, side, WHISKS)),
     })
@@ -95,8 +86,8 @@ fn run((_, obstacles_deg, has_cia): Case, scene: &Scene) -> Result<Moved> {
 
 pub(super) fn section(page: &mut Page, request: &Request) -> Result<()> {
     let scene = head(request)?;
-    let cases = CASES.into_par_iter().map(|case| run(case, &scene));
-    let moved = cases.collect::<Result<Vec<Moved>>>()?;
+    let moved = CASES.into_par_iter().map(|case| run(case, &scene));
+    let moved = moved.collect::<Result<Vec<Moved>>>()?;
     page.say(format_args!(
         "**The whole head**: 24 whiskers, 12 a side, with the gains of Fig. 9, each with its motor \
          and an elastic shaft of 112 mm, before plates that a straight whisker touches at {} degrees \
@@ -118,9 +109,7 @@ pub(super) fn section(page: &mut Page, request: &Request) -> Result<()> {
         OBSTACLES_DEG[LEFT], OBSTACLES_DEG[RIGHT]
     );
     page.table(&header, CASES.iter().zip(&moved).map(line));
-    let [free, _, one_side, without, with] = moved.as_slice() else {
-        return Ok(());
-    };
+    let [free, one_side, without, with] = [0, 2, 3, 4].map(|n| &moved[n]);
     let (left, right) = (one_side.peak_deg[LEFT], one_side.peak_deg[RIGHT]);
     page.claim(
         "BIOTACT section III-D, 24 whiskers with bodies: an obstacle on the left holds the left \

@@ -7,9 +7,10 @@ use anyhow::Result;
 use super::movement::column;
 use crate::chart::{Mark, Series, linear, panel};
 use crate::experiment::record::head::number;
-use crate::experiment::recording::{Dataset, Recording, Recordings, of_set};
+use crate::experiment::recording::{Dataset, Recordings, of_set};
 use crate::experiment::request::Request;
 use crate::experiment::spectrogram::{self, Spectrogram};
+use crate::moments::range;
 use crate::page::Page;
 use crate::paper::biotact::{STRATEGIES, TEXTURES};
 
@@ -25,11 +26,6 @@ const FREQUENCIES: usize = 32;
 /// Highest frequency, Hz.
 const HIGHEST_HZ: f64 = 250.0;
 
-fn whisk(all: &[&Recording], ticks: usize, strategy: usize, texture: usize) -> Option<Vec<f64>> {
-    let visit = all.get(number(strategy, texture, DISTANCE))?;
-    Some(column(visit, ticks, 2 * ticks, 0))
-}
-
 pub(super) fn section(page: &mut Page, request: &Request, recordings: &Recordings) -> Result<()> {
     let all = of_set(recordings, Dataset::Head);
     let ticks = request.rigs.head.whisk_ticks();
@@ -39,9 +35,8 @@ pub(super) fn section(page: &mut Page, request: &Request, recordings: &Recording
     for texture in SHOWN {
         let mut curves = Vec::new();
         for (strategy, (name, _)) in STRATEGIES.iter().enumerate() {
-            let Some(x) = whisk(&all, ticks, strategy, texture) else {
-                continue;
-            };
+            let visit = all[number(strategy, texture, DISTANCE)];
+            let x = column(visit, ticks, 2 * ticks, 0);
             spectrograms.push(Spectrogram {
                 title: format!("{}, {name}", TEXTURES[texture].0),
                 time_s: ticks as f64 / rate_hz,
@@ -51,10 +46,8 @@ pub(super) fn section(page: &mut Page, request: &Request, recordings: &Recording
             let points = x.iter().enumerate().map(|(n, x)| (n as f64 / rate_hz, *x));
             curves.push(Series::curve(name, points.collect()));
         }
-        let ends = curves.iter().flat_map(|curve| &curve.points);
-        let (low, high) = ends.fold((0.0_f64, 0.0_f64), |(low, high), point| {
-            (low.min(point.1), high.max(point.1))
-        });
+        let points = curves.iter().flat_map(|curve| &curve.points);
+        let (low, high) = range(points.map(|point| point.1).chain([0.0]));
         let x = linear("s", 0.0, ticks as f64 / rate_hz);
         let y = linear("sensor codes", low, high);
         panels.push(panel(TEXTURES[texture].0, x, y, &curves, Mark::Nothing));

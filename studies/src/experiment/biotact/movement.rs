@@ -4,25 +4,9 @@
 use crate::experiment::record::head::{COLUMNS, EARLY_DEG, early, number};
 use crate::experiment::recording::{Dataset, Recording, Recordings, of_set};
 use crate::experiment::request::Request;
-use crate::page::{Page, figure};
+use crate::page::{Page, figure, row};
 use crate::paper::biotact::{DISTANCES_MM, STRATEGIES, TEXTURES};
 use crate::rigs::CHANNELS;
-
-#[derive(Debug, Default, Clone, Copy)]
-struct Movement {
-    /// Share of whisks with two peaks or more, percent.
-    biphasic: f64,
-    /// Contacts of the left side a whisk, parted by 10 ms or more.
-    contacts: f64,
-    /// Share of time in which the left side touches, percent.
-    touching: f64,
-    /// Largest θ' of a whisk, degrees.
-    peak_deg: f64,
-    /// Largest deflection |x| of a whisk, codes.
-    deflection: f64,
-    /// Spread of x between whisks at the same time of the whisk, codes.
-    spread: f64,
-}
 
 /// A rise and fall of θ' that makes a maximum a peak, degrees: θ' is smooth, and
 /// an unmodulated whisk has no dip at all.
@@ -70,31 +54,39 @@ pub(super) fn column(visit: &Recording, from: usize, to: usize, column: usize) -
         .collect()
 }
 
-/// The movement of one visit. Whisks begin retracted, so that no whisk's
-/// peaks are cut in two.
-fn movement(visit: &Recording, ticks: usize) -> Movement {
+/// Of the whisks of one visit: their largest θ', degrees, and the share of time in which the left
+/// side touches, percent; the largest deflection |x| and the spread of x between whisks at the same
+/// time, codes; the share of whisks with two peaks or more, percent; contacts of the left side a
+/// whisk, parted by 10 ms or more. Whisks begin retracted, so that no whisk's peaks are cut in two.
+fn movement(visit: &Recording, ticks: usize) -> [f64; 6] {
     let whisks = (visit.len() / ticks.max(1)).max(1);
-    let mut sum = Movement::default();
+    let [
+        mut peak_deg,
+        mut touching,
+        mut deflection,
+        mut biphasic,
+        mut touches,
+    ] = [0.0; 5];
     for whisk in 0..whisks {
         let part = |n| column(visit, whisk * ticks, (whisk + 1) * ticks, n);
-        let angle = part(CHANNELS);
+        let (angle, contact) = (part(CHANNELS), part(CHANNELS + 2));
         let most = |values: &[f64]| values.iter().copied().fold(0.0, f64::max);
-        sum.biphasic += f64::from(u8::from(peaks(angle.iter().copied()) > 1));
-        sum.peak_deg += most(&angle);
-        sum.contacts += contacts(&part(CHANNELS + 2), ticks / 50) as f64;
-        sum.touching += part(CHANNELS + 2).iter().sum::<f64>() / ticks as f64;
-        let deflection: Vec<f64> = part(0).iter().map(|x| x.abs()).collect();
-        sum.deflection += most(&deflection);
+        biphasic += f64::from(u8::from(peaks(angle.iter().copied()) > 1));
+        peak_deg += most(&angle);
+        touches += contacts(&contact, ticks / 50) as f64;
+        touching += contact.iter().sum::<f64>() / ticks as f64;
+        let bent: Vec<f64> = part(0).iter().map(|x| x.abs()).collect();
+        deflection += most(&bent);
     }
     let share = 1.0 / whisks as f64;
-    Movement {
-        biphasic: 100.0 * share * sum.biphasic,
-        contacts: share * sum.contacts,
-        touching: 100.0 * share * sum.touching,
-        peak_deg: share * sum.peak_deg,
-        deflection: share * sum.deflection,
-        spread: spread(visit, ticks, whisks),
-    }
+    [
+        share * peak_deg,
+        100.0 * share * touching,
+        share * deflection,
+        spread(visit, ticks, whisks),
+        100.0 * share * biphasic,
+        share * touches,
+    ]
 }
 
 /// Root mean square, over the whisk, of the standard deviation between whisks
@@ -129,20 +121,11 @@ pub(super) fn section(page: &mut Page, request: &Request, recordings: &Recording
     let met = names.map(|(n, name)| (name, format!("at {EARLY_DEG:.0} degrees"), early(n)));
     let mut rows = Vec::new();
     for (name, place, job) in classified.chain(met) {
-        let Some(visit) = all.get(job) else {
-            continue;
-        };
-        let found = movement(visit, ticks);
-        rows.push(vec![
-            name.to_owned(),
-            place,
-            figure(found.peak_deg, 1).to_string(),
-            figure(found.touching, 0).to_string(),
-            figure(found.deflection, 0).to_string(),
-            figure(found.spread, 0).to_string(),
-            figure(found.biphasic, 0).to_string(),
-            figure(found.contacts, 1).to_string(),
-        ]);
+        let found = movement(all[job], ticks)
+            .into_iter()
+            .zip([1, 0, 0, 0, 0, 1]);
+        let cells = found.map(|(value, digits)| figure(value, digits).to_string());
+        rows.push(row(name, [place].into_iter().chain(cells)));
     }
     page.say(
         "**How the head moves** (smooth surface; left front whisker: mean of the largest θ' of a \

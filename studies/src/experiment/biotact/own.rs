@@ -4,7 +4,7 @@ use anyhow::Result;
 use host_sim::recording::Stream;
 
 use super::whisks::{Visits, Whisk};
-use crate::experiment::product::{Task, section, stream};
+use crate::experiment::product::{section, stream};
 use crate::page::Page;
 use crate::paper::biotact::{STRATEGIES, TEXTURES};
 use crate::rigs::CHANNELS;
@@ -29,16 +29,11 @@ pub(super) fn of_one_whisker(
             .map(one)
             .collect()
     };
-    let names = STRATEGIES.map(|(name, _)| format!("texture by one whisker, {name}"));
     let mut tasks = Vec::new();
-    for (strategy, name) in names.iter().enumerate() {
-        let task = Task {
-            name,
-            classes: TEXTURES.len(),
-            rate_hz,
-        };
+    for (strategy, (name, _)) in STRATEGIES.iter().enumerate() {
+        let name = format!("texture by one whisker, {name}");
         let (training, testing) = (streams(strategy, training)?, streams(strategy, testing)?);
-        tasks.push((task, training, testing));
+        tasks.push((name, training, testing));
     }
-    section(page, tasks)
+    section(page, rate_hz, tasks)
 }

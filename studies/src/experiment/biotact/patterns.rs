@@ -1,14 +1,20 @@
 //! BIOTACT Figs. 6 to 9: the pattern generator before simulated obstacles
 //! (eq. 11), without a body: gains, RCP, strong and fast RCP, CIA.
 
-use super::figures::{FREQUENCY_HZ, TICK_HZ, run};
 use crate::chart::{Mark, Series, linear, panel};
 use crate::moments::range;
 use crate::page::Page;
-use crate::paper::biotact::{FIG6, FIG6_GAINS, FIG7, FIG8, FIG9, Figure, OBSTACLES_DEG};
+use crate::paper::biotact::{
+    FIG6, FIG6_GAINS, FIG7, FIG8, FIG9, Figure, OBSTACLES_DEG, OVERLAP_GAIN,
+};
 use anyhow::Result;
+use whisking::{GateSettings, Integrator, Settings, State, degrees, filter};
 
-const WHISK: usize = (TICK_HZ / FREQUENCY_HZ) as usize;
+pub(super) const TICK_HZ: f64 = 2_000.0;
+pub(super) const FREQUENCY_HZ: f64 = 2.0;
+/// Ten seconds.
+const RUN_TICKS: usize = 20_000;
+pub(super) const WHISK: usize = (TICK_HZ / FREQUENCY_HZ) as usize;
 /// Whisks that are measured and shown: the last of a run.
 const WHISKS: usize = 3;
 pub(super) const LEFT: usize = 0;
@@ -16,6 +22,50 @@ pub(super) const RIGHT: usize = 1;
 
 /// A tick: θ' of both sides, degrees.
 pub(super) type Row = [f64; 2];
+
+/// A gate of the paper, whose time constant is a share of the whisk period.
+fn gate((gain, whisks): (f64, f64)) -> GateSettings {
+    GateSettings {
+        gain,
+        tau_s: whisks / FREQUENCY_HZ,
+    }
+}
+
+/// A run with the product's own equations in f64, as the paper has them: forward Euler, no noise,
+/// both sides started at ψ = (1, 0).
+fn run(figure: &Figure) -> Result<Vec<Row>> {
+    let settings = Settings {
+        tick_hz: TICK_HZ,
+        frequency_hz: FREQUENCY_HZ,
+        integrator: Integrator::Euler,
+        coupling: true,
+        noise: 0.0,
+        rcp: figure.rcp.map(gate),
+        cia: figure.cia.map(gate),
+    };
+    let config = settings.build::<f64>()?;
+    let start = settings.start(&[[1.0, 0.0]; 2], &[&[figure.gain][..]; 2]);
+    let mut state = State::new(&start?, 1);
+    let h50 = filter::Config::<f64>::new(filter::CORNER_HZ, TICK_HZ)?;
+    let mut filters = [filter::State::default(); 2];
+    let mut angles = [50.0; 2];
+    let tick = |_| {
+        let mut contact = [0.0; 2];
+        if figure.obstacles {
+            let sides = contact.iter_mut().zip(&mut filters);
+            for ((contact, filter), (angle, at)) in sides.zip(angles.iter().zip(OBSTACLES_DEG)) {
+                let x = (OVERLAP_GAIN * (angle - at).max(0.0)).min(1.0);
+                *contact = h50.process(filter, x).abs();
+            }
+        }
+        config.step(&mut state, &contact);
+        for (angle, theta) in angles.iter_mut().zip(state.theta()) {
+            *angle = degrees(theta);
+        }
+        angles
+    };
+    Ok((0..RUN_TICKS).map(tick).collect())
+}
 
 fn tail(figure: &Figure) -> Result<Vec<Row>> {
     let rows = run(figure)?;
@@ -111,8 +161,8 @@ fn obstacles(page: &mut Page) -> Result<()> {
     );
     let what = "RCP and CIA before obstacles";
     page.panels("biotact-fig7-9.svg", what, &panels)?;
-    let highest = |n: usize, side| runs.get(n).map_or(0.0, |rows| angles(rows, side).1);
-    let touches = |n: usize, side| runs.get(n).map_or(0.0, |rows| contacts(rows, side, WHISKS));
+    let highest = |n: usize, side| angles(&runs[n], side).1;
+    let touches = |n: usize, side| contacts(&runs[n], side, WHISKS);
     let (left, right) = (highest(0, LEFT), highest(0, RIGHT));
     page.claim(
         "BIOTACT Fig. 7: RCP holds the left back, by 5 degrees or more; the right does not reach its obstacle",

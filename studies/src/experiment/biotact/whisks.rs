@@ -1,10 +1,10 @@
 //! Whisks as the two classifiers of BIOTACT section IV are trained on and take them.
 
 use anyhow::Result;
+use tactile::WindowRule;
 use tactile::train::{Options, Trainer};
 
 use crate::classifiers::recogniser::{Bayes, outcomes};
-use crate::classifiers::stationary::StationaryRule;
 use crate::classifiers::template::TemplateTrainer;
 use crate::experiment::record::head::{COLUMNS, number};
 use crate::experiment::recording::{Dataset, Recordings, of_set};
@@ -14,7 +14,8 @@ use crate::rigs::CHANNELS;
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Method {
-    /// Stationary naive Bayes (eq. 15–16).
+    /// Stationary naive Bayes (eq. 15–16): over a window of a whole whisk, each sample for itself,
+    /// log P(C_l | x_1 … x_n) = Σ_w Σ_i log P_w(x_i | C_l).
     Bayes,
     /// Sum of squared differences (eq. 17).
     Template,
@@ -83,7 +84,6 @@ pub(super) type Whisk = (usize, usize, Vec<f64>);
 /// Numbers of the whisks to train on and to validate with.
 type Split<'a> = (&'a [usize], &'a [usize]);
 
-#[derive(Debug)]
 pub(super) struct Visits {
     /// `[strategy][whisk number]`: one whisk of each condition.
     whisks: Vec<Vec<Vec<Whisk>>>,
@@ -99,9 +99,7 @@ impl Visits {
         for (strategy, whisks) in whisks.iter_mut().enumerate() {
             for texture in 0..TEXTURES.len() {
                 for distance in 0..DISTANCES_MM.len() {
-                    let Some(visit) = all.get(number(strategy, texture, distance)) else {
-                        continue;
-                    };
+                    let visit = all[number(strategy, texture, distance)];
                     for (n, whisk) in whisks.iter_mut().enumerate() {
                         let samples = visit.part(n * ticks, (n + 1) * ticks);
                         let felt = samples.chunks_exact(COLUMNS);
@@ -114,6 +112,7 @@ impl Visits {
         }
         let options = Options {
             smooth: request.rigs.head.smooth_bins,
+            block: 1,
             ..Options::default()
         };
         Self {
@@ -124,12 +123,11 @@ impl Visits {
     }
 
     pub(super) fn count(&self) -> usize {
-        self.whisks.first().map_or(0, Vec::len)
+        self.whisks[0].len()
     }
 
     pub(super) fn some(&self, strategy: usize, numbers: &[usize]) -> impl Iterator<Item = &Whisk> {
-        let whisks = self.whisks.get(strategy).map_or(&[][..], Vec::as_slice);
-        numbers.iter().filter_map(|n| whisks.get(*n)).flatten()
+        numbers.iter().flat_map(move |n| &self.whisks[strategy][*n])
     }
 
     /// Share of validation whisks that a classifier, as the paper has it, names
@@ -149,12 +147,12 @@ impl Visits {
 
     fn template(&self, task: Task, strategy: usize, split: Split<'_>) -> Result<f64> {
         let (training, validation) = split;
-        let mut trainer = TemplateTrainer::new(CHANNELS, self.ticks);
+        let mut trainer = TemplateTrainer::default();
         for (texture, distance, samples) in self.some(strategy, training) {
             let class = task.class(*texture, *distance);
             trainer.add(class, samples)?;
         }
-        let templates = trainer.train().in_codes();
+        let templates = trainer.train_in_codes();
         let validation = self.some(strategy, validation);
         Ok(share(task, validation, |whisk| {
             Some(templates.classify(whisk))
@@ -174,7 +172,7 @@ impl Visits {
         }
         let buf = trainer.train()?;
         let model = buf.view();
-        let mut bayes = Bayes::<StationaryRule>::new(model, ())?;
+        let mut bayes = Bayes::<WindowRule>::new(model, self.ticks as u32)?;
         let validation = self.some(strategy, validation);
         Ok(share(task, validation, |whisk| {
             let found = outcomes(&mut bayes, whisk, CHANNELS);

@@ -5,10 +5,11 @@ mod spectra;
 use anyhow::Result;
 use tactile::{SequentialRule, Threshold};
 
+use super::ROTATING;
 use super::groups::{BLOCK, Curves, Group, Point};
 use crate::chart::{Axis, Mark, Panel, Series, linear, panel, percent, top};
 use crate::classifiers::recogniser::{Bayes, Recogniser, outcomes};
-use crate::experiment::floors::CHANNELS;
+use crate::experiment::floors::{CHANNELS, hit_curves};
 use crate::page::{Page, figure};
 use crate::paper::lep10::FLOORS;
 use crate::paper::lep12::{FIG7, FIG8_THRESHOLDS};
@@ -26,14 +27,9 @@ pub(super) fn all(
 ) -> Result<()> {
     distributions(page, groups)?;
     hit_rates(page, groups, curves)?;
-    if let Some(rotating) = groups.get(2) {
-        example(page, rotating, rate_hz)?;
-        decision_times(page, rotating, rate_hz)?;
-    }
-    if let Some(anticlockwise) = groups.first() {
-        spectra::figure_9(page, anticlockwise, rate_hz)?;
-    }
-    Ok(())
+    example(page, &groups[ROTATING], rate_hz)?;
+    decision_times(page, &groups[ROTATING], rate_hz)?;
+    spectra::figure_9(page, &groups[0], rate_hz)
 }
 
 /// Fig. 4: how often each voltage occurs, per floor, channel and motion.
@@ -75,16 +71,8 @@ fn distributions(page: &mut Page, groups: &[Group]) -> Result<()> {
 
 /// Figs. 5 and 6: hit rates against time and threshold.
 fn hit_rates(page: &mut Page, groups: &[Group], curves: &[Curves]) -> Result<()> {
-    let lines = |points: &[Point], x: &dyn Fn(&Point) -> f64| -> Vec<Series> {
-        let mut curves: Vec<Series> = (0..FLOORS.len())
-            .map(|k| {
-                let points = points.iter().map(|p| (x(p), p.tally.hits()[k]));
-                Series::curve(FLOORS[k], points.collect())
-            })
-            .collect();
-        let mean = points.iter().map(|p| (x(p), p.tally.mean_hit()));
-        curves.push(Series::curve("mean", mean.collect()));
-        curves
+    let lines = |points: &[Point], x: &dyn Fn(&Point) -> f64| {
+        hit_curves(points.iter().map(|p| (x(p), &p.tally)), "mean")
     };
     let (mut fixed, mut sequential) = (Vec::new(), Vec::new());
     for (group, both) in groups.iter().zip(curves) {
@@ -181,20 +169,16 @@ fn decision_times(page: &mut Page, group: &Group, rate_hz: f64) -> Result<()> {
     const BAR_S: f64 = 0.02;
     const BARS: usize = 40;
     let model = group.model.view();
-    let mut panels: Vec<(usize, Vec<Series>)> =
-        (0..FLOORS.len()).map(|k| (k, Vec::new())).collect();
+    let mut curves = FLOORS.map(|_| Vec::new());
     let mut means = Vec::new();
     for theta in FIG8_THRESHOLDS {
         let threshold = Threshold::new(theta)?;
         let mut cells = vec![format!("{theta}")];
-        for (floor, curves) in &mut panels {
+        for (floor, curves) in curves.iter_mut().enumerate() {
             let mut counts = [0_u32; BARS];
             let (mut sum, mut count) = (0.0, 0_u32);
-            for stream in group
-                .validation
-                .iter()
-                .filter(|stream| stream.floor == *floor)
-            {
+            let streams = group.validation.iter();
+            for stream in streams.filter(|stream| stream.floor == floor) {
                 let mut bayes = Bayes::<SequentialRule>::new(model, threshold)?;
                 for outcome in outcomes(&mut bayes, &stream.samples, CHANNELS) {
                     let time_s = f64::from(outcome.samples) / rate_hz;
@@ -207,23 +191,19 @@ fn decision_times(page: &mut Page, group: &Group, rate_hz: f64) -> Result<()> {
             let share = |n: u32| 100.0 * f64::from(n) / f64::from(count.max(1));
             let points = counts.iter().enumerate();
             let points = points.map(|(bar, n)| ((bar as f64 + 0.5) * BAR_S, share(*n)));
-            curves.push(Series::curve(
-                &format!("threshold {theta}"),
-                points.collect(),
-            ));
+            let name = format!("threshold {theta}");
+            curves.push(Series::curve(&name, points.collect()));
             let mean_s = sum / f64::from(count.max(1));
             cells.push(figure(1000.0 * mean_s, 0).to_string());
         }
         means.push(cells);
     }
-    let panels: Vec<Panel> = panels
-        .iter()
-        .map(|(floor, curves)| {
-            let x = linear("decision time, s", 0.0, BAR_S * BARS as f64);
-            let y = linear("% of decisions", 0.0, top(curves));
-            panel(FLOORS[*floor], x, y, curves, Mark::Nothing)
-        })
-        .collect();
+    let panels = FLOORS.iter().zip(&curves).map(|(floor, curves)| {
+        let x = linear("decision time, s", 0.0, BAR_S * BARS as f64);
+        let y = linear("% of decisions", 0.0, top(curves));
+        panel(floor, x, y, curves, Mark::Nothing)
+    });
+    let panels: Vec<Panel> = panels.collect();
     page.say(
         "**Fig. 8**: decision times, rotating motion (the last bar holds all longer ones); mean \
          times in ms below.",

@@ -2,7 +2,7 @@
 //! curves of hit rate against time.
 
 use anyhow::Result;
-use tactile::{ModelBuf, SequentialRule, Threshold, WindowRule};
+use tactile::{ModelBuf, SequentialRule, Threshold};
 
 use crate::classifiers::recogniser::Bayes;
 use crate::experiment::floors::{Floors, Stream, Tally, train};
@@ -71,14 +71,10 @@ impl Group {
     }
 
     pub(super) fn window(&self, window: u32, rate_hz: f64) -> Result<Point> {
-        let model = self.model.view();
-        let tally = Tally::of(&self.validation, &BOTH, || {
-            Ok(Bayes::<WindowRule>::new(model, window)?)
-        })?;
         Ok(Point {
             parameter: f64::from(window),
             time_s: f64::from(window) / rate_hz,
-            tally,
+            tally: Tally::of_windows(&self.validation, &BOTH, &self.model, window)?,
         })
     }
 }
@@ -105,27 +101,17 @@ impl Curves {
             .iter()
             .min_by(|a, b| off(a).total_cmp(&off(b)))
     }
-
-    pub(super) fn window_at(&self, time_s: f64) -> f64 {
-        interpolate(&self.window, time_s)
-    }
 }
 
 /// Mean hit rate at a time, linear between points in order of time.
 pub(super) fn interpolate(points: &[Point], time_s: f64) -> f64 {
     let value = |point: &Point| point.tally.mean_hit();
-    for pair in points.windows(2) {
-        if let [a, b] = pair
-            && (a.time_s..=b.time_s).contains(&time_s)
-        {
+    for [a, b] in points.array_windows() {
+        if (a.time_s..=b.time_s).contains(&time_s) {
             let share = (time_s - a.time_s) / (b.time_s - a.time_s).max(1e-12);
             return value(a) + share * (value(b) - value(a));
         }
     }
-    let ends = (points.first(), points.last());
-    match ends {
-        (Some(first), _) if time_s < first.time_s => value(first),
-        (_, Some(last)) => value(last),
-        _ => 0.0,
-    }
+    let is_before = time_s < points[0].time_s;
+    value(&points[if is_before { 0 } else { points.len() - 1 }])
 }

@@ -12,10 +12,9 @@ use anyhow::Result;
 use rayon::prelude::*;
 
 use super::groups::Group;
-use crate::classifiers::means::least;
 use crate::classifiers::network::{self, Options, Row};
-use crate::classifiers::spectral::SpectralTrainer;
 use crate::classifiers::spectrum::{Bins, Measure, Spectrum};
+use crate::classifiers::template::TemplateTrainer;
 use crate::experiment::floors::{CHANNELS, Stream, Tally};
 use crate::paper::lep12::SEGMENT_S;
 use crate::rigs::seed_of;
@@ -25,20 +24,34 @@ const HIGHEST_HZ: f64 = 120.0;
 /// Length of the network's transform, s.
 const TRANSFORM_S: f64 = 0.5;
 
+/// What `of` makes of every segment.
+fn rows(
+    streams: &[Stream],
+    rate_hz: f64,
+    of: impl Fn(&[f64]) -> Result<Vec<f64>>,
+) -> Result<Vec<Row>> {
+    let block = (SEGMENT_S * rate_hz).round() as usize;
+    let mut rows = Vec::new();
+    for stream in streams {
+        for segment in stream.samples.chunks_exact(block * CHANNELS) {
+            rows.push((stream.floor, of(segment)?));
+        }
+    }
+    Ok(rows)
+}
+
 pub(super) fn template(group: &Group, rate_hz: f64) -> Result<[f64; 4]> {
     let block = (SEGMENT_S * rate_hz).round() as usize;
-    let bins = Bins::between(block, rate_hz, 1.0, HIGHEST_HZ)?;
-    let mut trainer = SpectralTrainer::new(CHANNELS, bins, block, Measure::Power);
-    for stream in &group.training {
-        trainer.add(stream.floor, &stream.samples)?;
+    let spectrum = Spectrum::new(Bins::between(block, rate_hz, 1.0, HIGHEST_HZ)?);
+    let of = |segment: &[f64]| spectrum.of_channels(segment, CHANNELS, Measure::Power);
+    let mut trainer = TemplateTrainer::default();
+    for (floor, row) in rows(&group.training, rate_hz, of)? {
+        trainer.add(floor, &row)?;
     }
     let templates = trainer.train();
     let mut tally = Tally::empty();
-    for stream in &group.validation {
-        for segment in stream.samples.chunks_exact(block * CHANNELS) {
-            let named = least(&templates.errors(segment)?);
-            tally.add(stream.floor, named, block as u64)?;
-        }
+    for (floor, row) in rows(&group.validation, rate_hz, of)? {
+        tally.add(floor, templates.classify(&row), block as u64)?;
     }
     Ok(tally.hits())
 }
@@ -50,30 +63,17 @@ pub(super) fn power(spectrum: &Spectrum, segment: &[f64], channel: usize) -> Res
     spectrum.of(line().map(|x| x - mean), Measure::Power)
 }
 
-fn rows(stream: &Stream, rate_hz: f64) -> Result<Vec<Row>> {
-    let block = (SEGMENT_S * rate_hz).round() as usize;
-    let points = (TRANSFORM_S * rate_hz).round() as usize;
-    let bins = Bins::between(points, rate_hz, 1.0, HIGHEST_HZ)?;
-    let spectrum = Spectrum::new(bins);
-    let mut rows = Vec::new();
-    for segment in stream.samples.chunks_exact(block * CHANNELS) {
-        let mut row = Vec::with_capacity(CHANNELS * bins.count);
-        for channel in 0..CHANNELS {
-            row.extend(power(&spectrum, segment, channel)?);
-        }
-        rows.push((stream.floor, row));
-    }
-    Ok(rows)
-}
-
 /// Hit rates of the network, percent: the mean of ten trainings.
 pub(super) fn network(group: &Group, rate_hz: f64, seed: u64) -> Result<[f64; 4]> {
     const SESSIONS: u64 = 10;
-    let all = |streams: &[Stream]| -> Result<Vec<Row>> {
-        let rows: Result<Vec<_>> = streams.iter().map(|s| rows(s, rate_hz)).collect();
-        Ok(rows?.into_iter().flatten().collect())
+    let points = (TRANSFORM_S * rate_hz).round() as usize;
+    let spectrum = Spectrum::new(Bins::between(points, rate_hz, 1.0, HIGHEST_HZ)?);
+    let of = |segment: &[f64]| -> Result<Vec<f64>> {
+        let powers = (0..CHANNELS).map(|channel| power(&spectrum, segment, channel));
+        Ok(powers.collect::<Result<Vec<_>>>()?.concat())
     };
-    let (training, validation) = (all(&group.training)?, all(&group.validation)?);
+    let training = rows(&group.training, rate_hz, of)?;
+    let validation = rows(&group.validation, rate_hz, of)?;
     let sessions: Result<Vec<[f64; 4]>> = (0..SESSIONS)
         .into_par_iter()
         .map(|session| {

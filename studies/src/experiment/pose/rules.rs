@@ -10,23 +10,14 @@ use super::sets::{Sets, Signal};
 use crate::classifiers::features::{
     CENTROID, CENTROID_MAGNITUDE, Extractor, PEAK, SLOPE, TOTAL_MAGNITUDE,
 };
-use crate::classifiers::means::least;
 use crate::classifiers::regression::Regression;
-use crate::classifiers::spectral::SpectralTrainer;
-use crate::classifiers::spectrum::{Bins, Measure};
+use crate::classifiers::spectrum::{Bins, Measure, Spectrum};
 use crate::classifiers::template::TemplateTrainer;
 use crate::experiment::record::table::Contact;
 use crate::paper::pose::{ANGLES_DEG, SPEEDS_MM_S, TEXTURES};
 
 /// Contact counts from this deflection on, sensor codes: above the noise.
 const ONSET_CODES: f64 = 40.0;
-
-fn length(sets: &Sets) -> usize {
-    sets.training.first().map_or(0, |(_, x)| x.len())
-}
-
-/// The errors of a signal under each class.
-type Errors = Box<dyn Fn(&[f64]) -> Result<Vec<f64>> + Sync>;
 
 /// Nearest templates, by the sum of squared errors of signals (eq. 1) or of |DFT| (eq. 2).
 #[derive(Clone, Copy)]
@@ -36,54 +27,54 @@ pub(super) enum Nearest {
 }
 
 impl Nearest {
-    /// Templates of the training contacts, each of the class that `class` gives it.
-    fn templates(self, sets: &Sets, class: impl Fn(usize, &Contact) -> usize) -> Result<Errors> {
-        let length = length(sets);
-        let training = sets.training.iter().enumerate();
-        let mut training = training.map(|(n, (contact, x))| (class(n, contact), x));
-        Ok(match self {
-            Self::Signal => {
-                let mut trainer = TemplateTrainer::new(1, length);
-                training.try_for_each(|(class, x)| trainer.add(class, x))?;
-                let templates = trainer.train();
-                Box::new(move |x| Ok(templates.errors(x)))
-            }
-            Self::Spectrum => {
-                let bins = Bins::all(length);
-                let mut trainer = SpectralTrainer::new(1, bins, length, Measure::Magnitude);
-                training.try_for_each(|(class, x)| trainer.add(class, x))?;
-                let templates = trainer.train();
-                Box::new(move |x| templates.errors(x))
-            }
-        })
+    /// What of a signal is held against templates.
+    fn vectors(self, signals: &[Signal]) -> Result<Vec<Vec<f64>>> {
+        let length = signals.first().map_or(0, |(_, x)| x.len());
+        let spectrum = Spectrum::new(Bins::all(length));
+        let vector = |(_, x): &Signal| match self {
+            Self::Signal => Ok(x.clone()),
+            Self::Spectrum => spectrum.of(x.iter().copied(), Measure::Magnitude),
+        };
+        signals.par_iter().map(vector).collect()
+    }
+
+    /// The class of the nearest template to each contact of the test, by templates of the training
+    /// contacts, each of the class that `class` gives it.
+    fn named(self, sets: &Sets, class: impl Fn(usize, &Contact) -> usize) -> Result<Vec<usize>> {
+        let mut trainer = TemplateTrainer::default();
+        let vectors = self.vectors(&sets.training)?;
+        for (n, ((contact, _), vector)) in sets.training.iter().zip(vectors).enumerate() {
+            trainer.add(class(n, contact), &vector)?;
+        }
+        let templates = trainer.train();
+        let testing = self.vectors(&sets.testing)?;
+        Ok(testing.par_iter().map(|x| templates.classify(x)).collect())
     }
 
     /// By the nearest of all training contacts; class n is the n-th training contact.
     pub(super) fn contacts(self, sets: &Sets) -> Result<Scores> {
-        let errors = self.templates(sets, |n, _| n)?;
-        let found: Result<Vec<usize>> = sets
-            .testing
-            .par_iter()
-            .map(|(_, x)| Ok(least(&errors(x)?)))
-            .collect();
         let mut scores = Scores::new();
-        for ((truth, _), found) in sets.testing.iter().zip(found?) {
-            if let Some((named, _)) = sets.training.get(found) {
-                scores.add(truth, [named.angle, named.speed, named.texture])?;
-            }
+        let found = self.named(sets, |n, _| n)?;
+        for ((truth, _), found) in sets.testing.iter().zip(found) {
+            let (named, _) = &sets.training[found];
+            scores.add(truth, [named.angle, named.speed, named.texture])?;
         }
         Ok(scores)
     }
 
     /// κ of texture by one template a texture.
     pub(super) fn textures(self, sets: &Sets) -> Result<f64> {
-        let errors = self.templates(sets, |_, contact| contact.texture)?;
-        let mut score = Confusion::new(TEXTURES.len());
-        for (contact, x) in &sets.testing {
-            score.add(contact.texture, Some(least(&errors(x)?)))?;
-        }
-        Ok(score.kappa().unwrap_or(0.0))
+        let found = self.named(sets, |_, contact| contact.texture)?;
+        Ok(of_texture(sets, &found)?.kappa().unwrap_or(0.0))
     }
+}
+
+fn of_texture(sets: &Sets, named: &[usize]) -> Result<Confusion> {
+    let mut score = Confusion::new(TEXTURES.len());
+    for ((contact, _), named) in sets.testing.iter().zip(named) {
+        score.add(contact.texture, Some(*named))?;
+    }
+    Ok(score)
 }
 
 pub(super) struct ByFeatures {
@@ -97,7 +88,8 @@ pub(super) struct ByFeatures {
 /// nearest class; those of texture behind a notch at the whisker's resonance.
 pub(super) fn features(sets: &Sets) -> Result<ByFeatures> {
     let extract = |signals: &[Signal]| -> Result<Vec<[f64; 5]>> {
-        let extractor = Extractor::new(ONSET_CODES, sets.rate_hz, length(sets))?;
+        let length = signals.first().map_or(0, |(_, x)| x.len());
+        let extractor = Extractor::new(ONSET_CODES, sets.rate_hz, length)?;
         let resonance_hz = resonance_hz()?;
         let features = signals.iter().map(|(_, x)| {
             let [f1, f2, ..] = extractor.features(x)?;
@@ -132,7 +124,7 @@ pub(super) fn features(sets: &Sets) -> Result<ByFeatures> {
     };
     let angle = estimate(&[SLOPE], 2, 0, ANGLES_DEG.len())?;
     let speed = estimate(&[PEAK], 2, 1, SPEEDS_MM_S.2)?;
-    let of_texture: [(&[usize], u8); 4] = [
+    let chosen: [(&[usize], u8); 4] = [
         (&[CENTROID], 2),
         (&[CENTROID_MAGNITUDE], 2),
         (&[TOTAL_MAGNITUDE], 2),
@@ -140,13 +132,9 @@ pub(super) fn features(sets: &Sets) -> Result<ByFeatures> {
     ];
     let mut textures = Vec::new();
     let mut total = Vec::new();
-    for (n, (chosen, degree)) in of_texture.into_iter().enumerate() {
+    for (n, (chosen, degree)) in chosen.into_iter().enumerate() {
         let named = estimate(chosen, degree, 2, TEXTURES.len())?;
-        let mut score = Confusion::new(TEXTURES.len());
-        for ((contact, _), named) in sets.testing.iter().zip(&named) {
-            score.add(contact.texture, Some(*named))?;
-        }
-        textures.push(score);
+        textures.push(of_texture(sets, &named)?);
         if n == 2 {
             total = named;
         }

@@ -41,42 +41,42 @@ impl Sets {
             let first = chance.among(2);
             for time in [first, 1 - first] {
                 let job = time * poses + pose;
-                let (Some(contact), Some(recording)) = (contacts.get(job), all.get(job)) else {
-                    continue;
-                };
+                let (contact, recording) = (&contacts[job], all[job]);
                 let samples = recording.segment(0, recording.len());
                 let pairs = samples.as_chunks().0.to_vec();
                 sets.pairs[usize::from(time != first)].push((*contact, pairs));
                 let x: Vec<f64> = samples.iter().step_by(2).copied().collect();
-                let x = without_below(&x, table.high_pass_hz, table.tick_hz);
-                let x = low_passed(x, table.low_pass_hz, table.tick_hz)?;
-                if time == first {
-                    sets.training.push((*contact, x));
+                let band = [table.high_pass_hz, table.low_pass_hz];
+                let x = passed(x, band, table.tick_hz)?;
+                let is_taught = time == first;
+                if is_taught {
+                    &mut sets.training
                 } else {
-                    sets.testing.push((*contact, x));
+                    &mut sets.testing
                 }
+                .push((*contact, x));
             }
         }
         Ok(sets)
     }
 }
 
-/// A signal without what is above `hz`, where that is above zero: bins of its transform beyond are
-/// set to zero, so that nothing is delayed.
-fn low_passed(x: Vec<f64>, hz: f64, rate_hz: f64) -> Result<Vec<f64>> {
-    if hz <= 0.0 {
+/// A signal without its harmonics below the first frequency, as POSE sets X to zero below 6 Hz
+/// (eq. 5), and without what is above the second, where that is above zero: bins of its transform
+/// are set to zero, so that nothing is delayed.
+fn passed(x: Vec<f64>, [low_hz, high_hz]: [f64; 2], rate_hz: f64) -> Result<Vec<f64>> {
+    if low_hz <= 0.0 && high_hz <= 0.0 {
         return Ok(x);
     }
     let mut planner = RealFftPlanner::new();
-    let (there, back) = (
-        planner.plan_fft_forward(x.len()),
-        planner.plan_fft_inverse(x.len()),
-    );
+    let there = planner.plan_fft_forward(x.len());
+    let back = planner.plan_fft_inverse(x.len());
     let (mut input, mut bins) = (x, there.make_output_vec());
     there.process(&mut input, &mut bins)?;
     let count = input.len() as f64;
     for (k, bin) in bins.iter_mut().enumerate() {
-        if k as f64 * rate_hz / count > hz {
+        let hz = k as f64 * rate_hz / count;
+        if hz < low_hz || high_hz > 0.0 && hz > high_hz {
             *bin = Complex::default();
         }
     }
@@ -84,47 +84,23 @@ fn low_passed(x: Vec<f64>, hz: f64, rate_hz: f64) -> Result<Vec<f64>> {
     Ok(input.into_iter().map(|x| x / count).collect())
 }
 
-/// A signal without its harmonics below `hz`, as POSE sets X to zero below 6 Hz (eq. 5).
-fn without_below(x: &[f64], hz: f64, rate_hz: f64) -> Vec<f64> {
-    let mut left = x.to_vec();
-    let count = x.len() as f64;
-    let mut harmonic = 0.0;
-    while harmonic * rate_hz / count < hz {
-        let angle = core::f64::consts::TAU * harmonic / count;
-        let wave = |n: usize| libm::sincos(angle * n as f64);
-        let mut sums = [0.0; 2];
-        for (n, x) in x.iter().enumerate() {
-            let (sine, cosine) = wave(n);
-            sums[0] += x * sine;
-            sums[1] += x * cosine;
-        }
-        let share = if harmonic > 0.0 { 2.0 } else { 1.0 } / count;
-        for (n, left) in left.iter_mut().enumerate() {
-            let (sine, cosine) = wave(n);
-            *left -= share * (sums[0] * sine + sums[1] * cosine);
-        }
-        harmonic += 1.0;
-    }
-    left
-}
-
 #[cfg(test)]
 mod tests {
-    use super::{low_passed, without_below};
+    use super::passed;
 
     #[test]
-    fn what_is_below_goes_and_the_rest_stays() {
+    fn what_is_below_or_above_goes_and_the_rest_stays() {
         let wave =
             |hz: f64| move |n: i32| libm::sin(core::f64::consts::TAU * hz * f64::from(n) / 1e3);
         let (slow, fast) = (wave(5.0), wave(6.0));
         let both: Vec<f64> = (0..1000).map(|n| 3.0 + slow(n) + fast(n)).collect();
-        let left = without_below(&both, 6.0, 1e3);
-        let error = (0..1000).map(|n| (left[n as usize] - fast(n)).abs());
-        assert!(error.fold(0.0, f64::max) < 1e-9);
-        let left = low_passed(both.clone(), 5.5, 1e3).unwrap();
-        let error = (0..1000).map(|n| (left[n as usize] - 3.0 - slow(n)).abs());
-        assert!(error.fold(0.0, f64::max) < 1e-9);
-        assert_eq!(low_passed(both.clone(), 0.0, 1e3).unwrap(), both);
-        assert_eq!(without_below(&both, 0.0, 1e3), both);
+        let errors = |band: [f64; 2], expected: &dyn Fn(i32) -> f64| {
+            let left = passed(both.clone(), band, 1e3).unwrap();
+            let errors = (0..1000).map(|n| (left[n as usize] - expected(n)).abs());
+            errors.fold(0.0, f64::max)
+        };
+        assert!(errors([6.0, 0.0], &fast) < 1e-9);
+        assert!(errors([0.0, 5.5], &|n| 3.0 + slow(n)) < 1e-9);
+        assert_eq!(passed(both.clone(), [0.0; 2], 1e3).unwrap(), both);
     }
 }

@@ -5,7 +5,7 @@ use anyhow::Result;
 use tactile::score::Confusion;
 
 use super::maze;
-use super::sweeps::{PENALTIES, mean_hit, train};
+use super::sweeps::{PENALTIES, mean_hit, most, train};
 use crate::classifiers::network::Row;
 use crate::experiment::record::corridor::{COLUMNS, place};
 use crate::experiment::record::pads::INPUTS;
@@ -46,9 +46,7 @@ pub(super) fn section(page: &mut Page, request: &Request, recordings: &Recording
         let mut votes = [0_u32; 4];
         for row in steps(run) {
             let named = network.classify(&row)?;
-            if let Some(votes) = votes.get_mut(named) {
-                *votes += 1;
-            }
+            votes[named] += 1;
             if (taught..training).contains(&number) {
                 by_step.add(case, Some(named))?;
             }
@@ -56,11 +54,10 @@ pub(super) fn section(page: &mut Page, request: &Request, recordings: &Recording
         if number < training {
             continue;
         }
-        let most = (0..4).max_by_key(|k| (votes[*k], 4 - k));
-        by_run.add(case, most)?;
+        by_run.add(case, Some(most(&votes)))?;
         finished += 1;
         for row in run.part(0, run.len()).chunks_exact(COLUMNS) {
-            let aside = row.get(INPUTS).map_or(0.0, |x| f64::from(*x));
+            let aside = f64::from(row[INPUTS]);
             off = off.max(aside.abs());
             squares += aside * aside;
             count += 1.0;

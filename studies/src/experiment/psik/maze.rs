@@ -6,13 +6,14 @@ use anyhow::Result;
 use physics::{Material, Outline, Plate, Pose};
 use rayon::prelude::*;
 
+use super::sweeps::most;
 use crate::chart::{Mark, Series, linear, panel};
 use crate::classifiers::network::Network;
 use crate::experiment::record::corridor::relief;
 use crate::experiment::record::pads::{Felt, Pads};
 use crate::experiment::request::Request;
 use crate::page::{Page, figure, row};
-use crate::paper::psik::{CORRIDORS, RATE_HZ};
+use crate::paper::psik::RATE_HZ;
 use crate::rigs::{Chance, Made, Maze, Robot, Wall, seed_of};
 
 /// A case's chance of the right turn, percent: two of four say right.
@@ -42,7 +43,7 @@ struct Tour {
     path: Vec<(f64, f64)>,
 }
 
-/// The corridor and direction at a place, if there is one: its number in [`CORRIDORS`].
+/// The corridor and direction at a place, if there is one: its number in [`CORRIDORS`](crate::paper::psik::CORRIDORS).
 fn case_at(request: &Request, robot: &Robot) -> Option<usize> {
     let (maze, corridor) = (&request.rigs.maze, &request.rigs.corridor);
     let [x, y] = robot.neck_m;
@@ -63,36 +64,27 @@ const fn turn_at(case: usize) -> f64 {
     if case.is_multiple_of(2) { -1.0 } else { 1.0 }
 }
 
-struct Walls<'r> {
-    request: &'r Request,
-    walls: Vec<Wall>,
-}
-
-impl Walls<'_> {
-    /// What a straight vibrissa would go through first.
-    fn before(&self, pose: &Pose, length_m: f64) -> Option<Plate> {
-        let shaft = pose.z();
-        let base = [pose.base_m[0], pose.base_m[1]];
-        let tip = [0, 1].map(|k| base[k] + length_m * shaft[k]);
-        let crossed = self
-            .walls
-            .iter()
-            .filter_map(|wall| Some((wall.crossing(base, tip)?, wall)));
-        let (_, wall) = crossed.min_by(|(a, _), (b, _)| a.total_cmp(b))?;
-        let [x, y] = wall.normal();
-        let surface = match wall.made {
-            // Cardboard, as smooth as plastic (chosen).
-            Made::Plain => self.request.rigs.surfaces.of(Material::SmoothPlastic),
-            Made::Relief(number) => relief(self.request, number),
-        };
-        Some(Plate {
-            point_m: [wall.from_m[0], wall.from_m[1], 0.0],
-            normal: [x, y, 0.0],
-            along: [wall.along[0], wall.along[1], 0.0],
-            outline: Outline::PLANE,
-            surface,
-        })
-    }
+/// What a straight vibrissa would go through first.
+fn before(request: &Request, walls: &[Wall], pose: &Pose, length_m: f64) -> Option<Plate> {
+    let shaft = pose.z();
+    let base = [pose.base_m[0], pose.base_m[1]];
+    let tip = [0, 1].map(|k| base[k] + length_m * shaft[k]);
+    let crossed = walls.iter();
+    let crossed = crossed.filter_map(|wall| Some((wall.crossing(base, tip)?, wall)));
+    let (_, wall) = crossed.min_by(|(a, _), (b, _)| a.total_cmp(b))?;
+    let [x, y] = wall.normal();
+    let surface = match wall.made {
+        // Cardboard, as smooth as plastic (chosen).
+        Made::Plain => request.rigs.surfaces.of(Material::SmoothPlastic),
+        Made::Relief(number) => relief(request, number),
+    };
+    Some(Plate {
+        point_m: [wall.from_m[0], wall.from_m[1], 0.0],
+        normal: [x, y, 0.0],
+        along: [wall.along[0], wall.along[1], 0.0],
+        outline: Outline::PLANE,
+        surface,
+    })
 }
 
 struct Behaviour<'r> {
@@ -135,19 +127,15 @@ impl Behaviour<'_> {
                 if let Some(window) = &felt.window {
                     let row: Vec<f64> = window.iter().map(|x| f64::from(*x)).collect();
                     let named = self.network.classify(&row)?;
-                    if let Some(votes) = votes.get_mut(named) {
-                        *votes += 1;
-                    }
+                    votes[named] += 1;
                 }
                 if is_over {
-                    let votes = *votes;
+                    let case = most(votes);
                     self.other_s = 0.0;
                     if self.inside_s < self.maze.least_s {
                         self.doing = Doing::Following;
                         return Ok(None);
                     }
-                    let most = (0..CORRIDORS.len()).max_by_key(|k| (votes[*k], 4 - k));
-                    let case = most.unwrap_or(0);
                     self.doing = Doing::Turning(turn_at(case), self.maze.turn_deg.to_radians());
                     return Ok(Some(case));
                 }
@@ -162,10 +150,7 @@ fn tour(request: &Request, network: &Network, heads_right: bool) -> Result<Tour>
     let (maze, rig) = (&request.rigs.maze, &request.rigs.corridor);
     let seed = seed_of(request.seed, &[9, u64::from(heads_right)]);
     let mut chance = Chance::new(seed_of(seed, &[0]));
-    let walls = Walls {
-        request,
-        walls: maze.walls(rig),
-    };
+    let walls = maze.walls(rig);
     let way = if heads_right { 1.0 } else { -1.0 };
     let top = (maze.width_m - rig.width_m) / 2.0;
     let off = rig.start_spread_deg.to_radians();
@@ -194,7 +179,9 @@ fn tour(request: &Request, network: &Network, heads_right: bool) -> Result<Tour>
     let body_m = rig.width_m / 2.0 - rig.slack_m;
     let mut turned_rad = 0.0;
     for tick in 0..(maze.tour_s * RATE_HZ) as usize {
-        let felt = pads.step(&robot, |_, pose, length_m| walls.before(pose, length_m));
+        let felt = pads.step(&robot, |_, pose, length_m| {
+            before(request, &walls, pose, length_m)
+        });
         if let Some(decided) = behaviour.tick(&felt, turned_rad, dt_s)? {
             match case_at(request, &robot) {
                 Some(case) => {
@@ -211,8 +198,7 @@ fn tour(request: &Request, network: &Network, heads_right: bool) -> Result<Tour>
         };
         let before = robot;
         rig.go(&mut robot, across, dt_s);
-        robot.neck_m =
-            (walls.walls.iter()).fold(robot.neck_m, |at, wall| wall.kept_off(at, body_m));
+        robot.neck_m = (walls.iter()).fold(robot.neck_m, |at, wall| wall.kept_off(at, body_m));
         turned_rad = robot.heading - before.heading;
         let bearing = |robot: &Robot| libm::atan2(robot.neck_m[1], robot.neck_m[0]);
         let turn = bearing(&robot) - bearing(&before);

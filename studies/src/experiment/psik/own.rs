@@ -1,9 +1,9 @@
 //! The product's own rule on PSIK's papers and corridors, by one vibrissa: the middle one of the
 //! longest arc, of the left pad in corridors.
 
-use crate::experiment::product::{Task, section, stream};
+use crate::experiment::product::{section, stream};
 use crate::experiment::record::corridor::{COLUMNS, FELT, place as in_corridor};
-use crate::experiment::record::pad::{PAPERS, place as on_paper};
+use crate::experiment::record::pad::place as on_paper;
 use crate::experiment::recording::{Dataset, Recordings, of_set};
 use crate::experiment::request::{Depth, Request};
 use crate::page::Page;
@@ -25,11 +25,6 @@ pub(super) fn of_one_vibrissa(
     request: &Request,
     recordings: &Recordings,
 ) -> Result<()> {
-    let task = |name, classes| Task {
-        name,
-        classes,
-        rate_hz: RATE_HZ,
-    };
     let (mut taught, mut asked) = (Vec::new(), Vec::new());
     for (job, sweep) in of_set(recordings, Dataset::Vibrissa).iter().enumerate() {
         let (paper, number) = on_paper(request.extent, job);
@@ -39,14 +34,11 @@ pub(super) fn of_one_vibrissa(
         let is_taught = number < request.extent.sweeps().0;
         if is_taught { &mut taught } else { &mut asked }.push(stream);
     }
-    let papers = (
-        task("eight sandpapers by one vibrissa", PAPERS),
-        taught,
-        asked,
-    );
+    let name = "eight sandpapers by one vibrissa".to_owned();
+    let papers = (name, taught, asked);
 
     if request.depth == Depth::Least {
-        return section(page, vec![papers]);
+        return section(page, RATE_HZ, vec![papers]);
     }
     let (training, tested, _) = request.extent.runs();
     let (mut taught, mut asked) = (Vec::new(), Vec::new());
@@ -61,7 +53,6 @@ pub(super) fn of_one_vibrissa(
             asked.push(stream);
         }
     }
-    let name = "two corridors, both ways, by one vibrissa";
-    let corridors = (task(name, CORRIDORS.len()), taught, asked);
-    section(page, vec![papers, corridors])
+    let name = "two corridors, both ways, by one vibrissa".to_owned();
+    section(page, RATE_HZ, vec![papers, (name, taught, asked)])
 }

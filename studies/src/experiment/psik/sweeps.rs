@@ -74,10 +74,8 @@ impl Sweeps {
     /// Trains and tests with the vibrissae from `from` up to `to`.
     pub(super) fn score(&self, from: usize, to: usize, seed: u64) -> Result<Confusion> {
         let cut = |rows: &[Row]| -> Vec<Row> {
-            let some = |row: &Vec<f64>| row.get(from..to).unwrap_or(&[]).to_vec();
-            rows.iter()
-                .map(|(class, row)| (*class, some(row)))
-                .collect()
+            let some = |(class, row): &Row| (*class, row[from..to].to_vec());
+            rows.iter().map(some).collect()
         };
         let network = train_choosing(&cut(&self.training), seed)?;
         let mut score = Confusion::new(PAPERS);
@@ -97,6 +95,12 @@ pub(super) fn hit(score: &Confusion) -> f64 {
 
 pub(super) fn hit_of_p40(score: &Confusion) -> f64 {
     100.0 * score.hit_rate_of(0).unwrap_or(0.0)
+}
+
+/// The class with the most votes, the first of equals.
+pub(super) fn most(votes: &[u32; 4]) -> usize {
+    let places = 1..votes.len();
+    places.fold(0, |best, k| if votes[k] > votes[best] { k } else { best })
 }
 
 pub(super) fn mean_hit<const N: usize>(table: &[[f64; N]; N]) -> f64 {

@@ -30,19 +30,13 @@ pub(crate) fn jobs(extent: Extent) -> usize {
 
 /// The corridor and direction of a job, and which of its runs.
 pub(crate) fn place(extent: Extent, job: usize) -> (usize, usize) {
-    let each = runs(extent).max(1);
-    (job / each, job % each)
+    (job / runs(extent), job % runs(extent))
 }
 
 /// The walls on the left and right of a corridor and direction: one corridor
 /// has textures 0 and 1, the other 2 and 3; the way back swaps the sides.
 pub(crate) fn walls(case: usize) -> [usize; 2] {
-    let first = case / 2 * 2;
-    if case.is_multiple_of(2) {
-        [first, first + 1]
-    } else {
-        [first + 1, first]
-    }
+    [case, case ^ 1]
 }
 
 pub(crate) fn relief(request: &Request, number: usize) -> physics::Surface {

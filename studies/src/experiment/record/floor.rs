@@ -1,15 +1,14 @@
-//! Trials of the floor robot: four floors, three motions, each some times:
-//! natural motion twice as often as either rotation.
+//! Trials of the floor robot: four floors, three motions, each some times.
 
 use super::whiskers;
 use crate::experiment::recording::{Dataset, Recording};
 use crate::experiment::request::{Extent, Request};
 use crate::paper::lep10::FLOORS;
 use crate::rigs::{Chance, Floor, RobotMotion, seed_of};
-use anyhow::Result;
+use anyhow::{Context, Result};
 use physics::{Outline, Plate, Shaft, TouchingWhisker};
 
-pub(crate) const MOTIONS: [RobotMotion; 3] = [
+const MOTIONS: [RobotMotion; 3] = [
     RobotMotion::Anticlockwise,
     RobotMotion::Clockwise,
     RobotMotion::Autonomous,
@@ -21,26 +20,23 @@ const PLACEBO: usize = 2;
 /// How long the whisker is dragged before a placement is recorded, s.
 const LEAD_S: f64 = 0.5;
 
-fn each(extent: Extent) -> usize {
-    (MOTIONS.len() - 1) * extent.trials() + extent.natural_trials()
-}
+/// A trial: its floor, motion, and which of these.
+pub(crate) type Trial = (usize, RobotMotion, usize);
 
-pub(crate) fn jobs(extent: Extent) -> usize {
-    FLOORS.len() * each(extent)
-}
-
-/// The job of a trial: trials of a motion together, motions of a floor together.
-pub(crate) fn number(extent: Extent, floor: usize, motion: RobotMotion, trial: usize) -> usize {
-    let place = MOTIONS.iter().position(|one| *one == motion).unwrap_or(0);
-    floor * each(extent) + place * extent.trials() + trial
-}
-
-fn place(extent: Extent, job: usize) -> (usize, RobotMotion) {
-    let each = each(extent).max(1);
-    let motion = job % each / extent.trials().max(1);
-    let last = MOTIONS.len() - 1;
-    let motion = MOTIONS.get(motion.min(last)).copied();
-    (job / each, motion.unwrap_or(RobotMotion::Autonomous))
+/// All trials in the order of their jobs: natural motion twice as often as either rotation (LEP10
+/// section III-D).
+pub(crate) fn trials(extent: Extent) -> Vec<Trial> {
+    let mut all = Vec::new();
+    for floor in 0..FLOORS.len() {
+        for motion in MOTIONS {
+            let count = match motion {
+                RobotMotion::Autonomous => extent.natural_trials(),
+                _ => extent.trials(),
+            };
+            all.extend((0..count).map(|trial| (floor, motion, trial)));
+        }
+    }
+    all
 }
 
 /// Dead zones and missed pulses of both axes.
@@ -82,7 +78,8 @@ impl Flaws {
 
 /// Records a trial: codes of x and y.
 pub(crate) fn record(request: &Request, job: usize, seed: u64) -> Result<Recording> {
-    let (floor, motion) = place(request.extent, job);
+    let trials = trials(request.extent);
+    let &(floor, motion, _) = trials.get(job).context("no such trial")?;
     let rig = &request.rigs.floor;
     let shaft = whiskers::held(Shaft::floor_robot(), rig.follicle);
     let sensor = whiskers::sensor(rig.full_scale_rad);
@@ -95,9 +92,9 @@ pub(crate) fn record(request: &Request, job: usize, seed: u64) -> Result<Recordi
     };
     let lead = (LEAD_S * rig.tick_hz).round() as usize;
     let each = rig.ticks() / rig.placements.max(1);
-    let trial = job % self::each(request.extent).max(1);
+    let trial = job % (trials.len() / FLOORS.len());
     let set_up = request.set_up(Dataset::Floor, (floor, trial), seed);
-    let mut codes = Vec::with_capacity(2 * rig.ticks());
+    let mut values = Vec::with_capacity(2 * rig.ticks());
     let mut flaws = Flaws::new(seed_of(seed, &[2]));
     for placement in 0..rig.placements as u64 {
         let whisker = TouchingWhisker::new(&shaft, &sensor, seed_of(seed, &[0, placement]));
@@ -108,18 +105,17 @@ pub(crate) fn record(request: &Request, job: usize, seed: u64) -> Result<Recordi
         for tick in 0..lead + each {
             whisker.step(&drive.step(), Some(&plate), rig.dt_s());
             if tick >= lead {
-                codes.extend(flaws.of(whisker.codes(), rig));
+                values.extend(flaws.of(whisker.codes(), rig).map(f32::from));
             }
         }
     }
-    Ok(Recording::from_codes(2, &codes))
+    Ok(Recording::new(2, values))
 }
 
 #[cfg(test)]
 mod tests {
-    use super::{Flaws, MOTIONS, jobs, number, place};
-    use crate::experiment::request::Extent;
-    use crate::rigs::{Rigs, RobotMotion};
+    use super::Flaws;
+    use crate::rigs::Rigs;
 
     /// Of 800 dead zones the share is known to some 4 %, of 4000 pulses the rate to 1.6 %.
     #[test]
@@ -139,26 +135,5 @@ mod tests {
         assert!((share - 0.2).abs() < 0.01, "{share}");
         let rate = f64::from(missed) / f64::from(count) * rig.tick_hz;
         assert!((rate - 2.0).abs() < 0.1, "{rate}");
-    }
-
-    #[test]
-    fn every_trial_has_a_job_and_natural_motion_has_eight() {
-        let extent = Extent::Full;
-        let mut next = 0;
-        for floor in 0..4 {
-            for motion in MOTIONS {
-                let trials = if motion == RobotMotion::Autonomous {
-                    8
-                } else {
-                    4
-                };
-                for trial in 0..trials {
-                    assert_eq!(number(extent, floor, motion, trial), next);
-                    assert_eq!(place(extent, next), (floor, motion));
-                    next += 1;
-                }
-            }
-        }
-        assert_eq!(jobs(extent), next);
     }
 }

@@ -27,8 +27,7 @@ pub(crate) fn jobs(extent: Extent) -> usize {
 
 /// The sandpaper of a job, and which of its sweeps.
 pub(crate) fn place(extent: Extent, job: usize) -> (usize, usize) {
-    let each = sweeps(extent).max(1);
-    (job / each, job % each)
+    (job / sweeps(extent), job % sweeps(extent))
 }
 
 /// A reading in so many bits, with its sign, 2 to 14.
@@ -50,11 +49,11 @@ fn sheet(request: &Request, job: usize, seed: u64) -> Plate {
     let rig = &request.rigs.pad;
     let (paper, _) = place(request.extent, job);
     let mut chance = Chance::new(seed_of(seed, &[0]));
-    let sweep = rig.sweep(&mut chance);
+    let (distance_m, origin_m) = rig.sweep(&mut chance);
     let spot = request.spot_m(Dataset::Pad, paper, seed);
-    let [along, up] = [0, 1].map(|k| spot[k] + sweep.origin_m[k]);
+    let [along, up] = [0, 1].map(|k| spot[k] + origin_m[k]);
     Plate {
-        point_m: [sweep.distance_m, along, up],
+        point_m: [distance_m, along, up],
         normal: [-1.0, 0.0, 0.0],
         along: [0.0, 1.0, 0.0],
         outline: Outline::PLANE,

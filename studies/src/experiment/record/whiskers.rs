@@ -1,6 +1,6 @@
 //! Which whisker, sensor and surface of the physics each rig has.
 
-use anyhow::{Context, Result};
+use anyhow::Result;
 use std::collections::BTreeMap;
 use std::sync::{Arc, Mutex, PoisonError};
 
@@ -76,46 +76,49 @@ static ARC_SHAFTS: Mutex<BTreeMap<[u64; 2], Arcs>> = Mutex::new(BTreeMap::new())
 
 const MODES: usize = 3;
 
-fn arcs(tip_diameter_m: f64, follicle: f64) -> Arcs {
+fn arcs(tip_diameter_m: f64, follicle: f64) -> Result<Arcs> {
     let of = |arc| {
         let mut shaft = held(Shaft::psikharpax(arc), follicle);
         shaft.tip_diameter_m = tip_diameter_m.min(shaft.hub_diameter_m);
-        shaft.modes(MODES).map(|modes| (shaft, modes))
+        anyhow::Ok((shaft, shaft.modes(MODES)?))
     };
     // What another thread had to leave behind is whole: maps are only added to.
     let mut known = ARC_SHAFTS.lock().unwrap_or_else(PoisonError::into_inner);
-    let new = || Arc::new((1..=ARCS.len()).filter_map(|arc| of(arc).ok()).collect());
     let asked = [tip_diameter_m, follicle].map(f64::to_bits);
-    let found = known.entry(asked).or_insert_with(new);
-    Arc::clone(found)
+    if let Some(found) = known.get(&asked) {
+        return Ok(Arc::clone(found));
+    }
+    let made: Arcs = Arc::new((1..=ARCS.len()).map(of).collect::<Result<_>>()?);
+    known.insert(asked, Arc::clone(&made));
+    Ok(made)
 }
 
-/// A vibrissa of an arc, from 0, of all `shafts`. The sensor of the longest has the gain that is
-/// given; the same push aside turns shorter ones the more, and their sensors have the less.
-fn vibrissa(shafts: &Arcs, arc: usize, full_scale_rad: f64, seed: u64) -> Result<TouchingWhisker> {
-    let (shaft, modes) = shafts.get(arc).context("no such arc")?;
-    let longest = shafts
-        .first()
-        .map_or(shaft.length_m, |(shaft, _)| shaft.length_m);
-    let sensor = SensorSettings {
-        // Sampled at 1157 Hz by a converter of its own: nothing is held.
-        refresh_s: 0.0,
-        ..sensor([full_scale_rad * longest / shaft.length_m; 2])
-    };
-    TouchingWhisker::with_modes(shaft, modes, &sensor, seed).map_err(anyhow::Error::new)
-}
-
+/// The vibrissae of a pad. The sensor of the longest has the gain that is given; the same push
+/// aside turns shorter ones the more, and their sensors have the less.
 pub(crate) fn pad(
     layout: &Layout,
     (full_scale_rad, follicle): (f64, f64),
     seed: u64,
 ) -> Result<Vec<(Vibrissa, TouchingWhisker)>> {
-    let shafts = arcs(layout.tip_diameter_m, follicle);
-    let vibrissae = layout.vibrissae().into_iter().enumerate();
+    let shafts = arcs(layout.tip_diameter_m, follicle)?;
+    let longest = shafts[0].0.length_m;
     let make = |(n, of): (usize, Vibrissa)| {
+        let (shaft, modes) = &shafts[of.arc];
+        let sensor = SensorSettings {
+            // Sampled at 1157 Hz by a converter of its own: nothing is held.
+            refresh_s: 0.0,
+            ..sensor([full_scale_rad * longest / shaft.length_m; 2])
+        };
         let seed = seed_of(seed, &[1, n as u64]);
-        let whisker = vibrissa(&shafts, of.arc, full_scale_rad, seed)?;
-        Ok((of, whisker))
+        Ok((
+            of,
+            TouchingWhisker::with_modes(shaft, modes, &sensor, seed)?,
+        ))
     };
-    vibrissae.map(make).collect()
+    layout
+        .vibrissae()
+        .into_iter()
+        .enumerate()
+        .map(make)
+        .collect()
 }

@@ -57,17 +57,13 @@ pub(super) fn figure_9(page: &mut Page, group: &Group, rate_hz: f64) -> Result<(
          the stiffness of the follicle was chosen for a resonance at 35 Hz.",
         FIG9_PEAK_HZ.0,
         FIG9_PEAK_HZ.1,
-        hertz(peaks.get(..4)),
-        hertz(peaks.get(4..)),
+        hertz(&peaks[..4]),
+        hertz(&peaks[4..]),
     ));
     page.panels("lep12-fig9.svg", "Power spectra", &panels)
 }
 
-fn hertz(peaks: Option<&[f64]>) -> String {
-    let text: Vec<String> = peaks
-        .unwrap_or(&[])
-        .iter()
-        .map(|hz| figure(*hz, 1).to_string())
-        .collect();
-    text.join(", ")
+fn hertz(peaks: &[f64]) -> String {
+    let text = peaks.iter().map(|hz| figure(*hz, 1).to_string());
+    text.collect::<Vec<_>>().join(", ")
 }
