@@ -203,6 +203,11 @@ impl Columns {
         };
         (0..self.first).chain(OF_SEVERAL..end)
     }
+
+    /// Whether there is one of this name.
+    pub fn has(self, name: &str) -> bool {
+        self.indices().any(|index| COLUMNS[index].name == name)
+    }
 }
 
 /// The columns in order: those of a recording, of a scene, of several whiskers, and why no class

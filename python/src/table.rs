@@ -1,7 +1,7 @@
 //! Tables as numpy's structured arrays: rows are packed here, and numpy sees the bytes as they
 //! lie.
 
-use host_sim::decisions::{COLUMNS, Columns, Decided, Source};
+use host_sim::decisions::{COLUMNS, Columns, Decided};
 use host_sim::trace::{TraceLine, TraceShape, WhiskerRow};
 use numpy::IntoPyArray;
 use pyo3::prelude::*;
@@ -253,6 +253,7 @@ pub(crate) fn decisions<'py>(
     if runs.iter().any(|(seed, _)| seed.is_some()) {
         layout = layout.after("seed", Kind::Seed);
     }
+    let [has_time, has_whisker, has_pose] = ["t_s", "side", "tilt_deg"].map(|of| columns.has(of));
     let mut rows = Packed::default();
     for (seed, decided) in runs {
         for d in *decided {
@@ -265,17 +266,17 @@ pub(crate) fn decisions<'py>(
             rows.whole(d.samples.into());
             rows.number(d.posterior);
             rows.whole(d.touch.into());
-            if columns.source != Source::Recording {
+            if has_time {
                 rows.number(d.t_s.unwrap_or(f64::NAN));
             }
-            if columns.source == Source::Whiskers {
+            if has_whisker {
                 rows.text(d.place.map_or("", |place| place.side_name()), side);
                 rows.whole(d.place.map_or(0, |place| i64::from(place.whisker) + 1));
             }
             let [why, pair] = d.why();
             rows.text(&why, reason);
             rows.text(&pair, among);
-            if columns.has_pose {
+            if has_pose {
                 rows.numbers(d.stands());
             }
         }
