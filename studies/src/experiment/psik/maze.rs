@@ -43,7 +43,7 @@ struct Tour {
     path: Vec<(f64, f64)>,
 }
 
-/// The corridor and direction at a place, if there is one: its number in [`CORRIDORS`](crate::paper::psik::CORRIDORS).
+/// The corridor and direction at a place, if there is one: its number in `CORRIDORS`.
 fn case_at(request: &Request, robot: &Robot) -> Option<usize> {
     let (maze, corridor) = (&request.rigs.maze, &request.rigs.corridor);
     let [x, y] = robot.neck_m;
