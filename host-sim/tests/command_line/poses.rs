@@ -128,6 +128,29 @@ fn older_models_are_told_apart() {
     }
 }
 
+/// One training, written with weights of all stages of a touch, and of those that decide.
+#[test]
+fn weights_of_early_stages_change_no_decision() {
+    let place = Place::new();
+    let root = concat!(env!("CARGO_MANIFEST_DIR"), "/..");
+    let decided = |model: &str| {
+        let set =
+            format!("--set duration_s=10 --set classifier.model={root}/tests/data/older/{model}");
+        place.done(&format!(
+            "run {root}/scenes/bench-textures.toml --out {model}.out {set}"
+        ));
+        place.text(&format!("{model}.out/decisions.csv"))
+    };
+    let whole = decided("naming.model");
+    let count = |of: &str| whole.lines().filter(|line| line.contains(of)).count();
+    // Five touches of each of four textures, named but for some.
+    assert!(
+        count("between") < 10 && count("smooth,0,smooth") > 2,
+        "{whole}"
+    );
+    assert_eq!(decided("naming-late.model"), whole);
+}
+
 #[test]
 fn a_model_keeps_how_its_scene_whisks() {
     let place = recorded(&[80]);
