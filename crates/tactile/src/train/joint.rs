@@ -131,6 +131,13 @@ fn once(trials: &[Trial], options: &Options) -> Result<JointModel, TrainError> {
     };
     let floors = fit(&mut rule, &folded, &evidence, options);
     let poses = Poses::of(trials);
+    let doubts = Doubts {
+        names: &names,
+        trials,
+        folded: &folded,
+        evidence: &evidence,
+        weights: &rule.weights,
+    };
     let Trained {
         opinion,
         warnings: scarce,
@@ -142,15 +149,9 @@ fn once(trials: &[Trial], options: &Options) -> Result<JointModel, TrainError> {
         expect: options.expect,
         whisked: options.whisked,
         poses: &poses,
+        alike: &doubts.groups(),
     });
-    let mut warnings = Doubts {
-        names: &names,
-        trials,
-        folded: &folded,
-        evidence: &evidence,
-        weights: &rule.weights,
-    }
-    .warnings();
+    let mut warnings = doubts.warnings();
     warnings.extend(scarce);
     if opinion.as_ref().is_some_and(|opinion| opinion.names) {
         // Poses of one recording are held out as recordings are.

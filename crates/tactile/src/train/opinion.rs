@@ -106,6 +106,9 @@ pub(super) struct Material<'a> {
     pub(super) expect: Expect,
     pub(super) whisked: Whisked,
     pub(super) poses: &'a Poses,
+    /// Of each class the first one from which its trials cannot be distinguished, itself if
+    /// there is none.
+    pub(super) alike: &'a [usize],
 }
 
 /// An opinion, if there is enough to train one, and what there is too little of.
@@ -165,6 +168,8 @@ fn of_felt(
     material: &Material<'_>,
     stands: Option<&Stands>,
 ) -> Option<Opinion> {
+    // Where it objects, to each name of classes that held-out trials do not tell apart.
+    let itself: Vec<usize> = (0..felt.classes).collect();
     let how = if names {
         // A few poses say little of how far poses spread.
         let freedom = felt.poses.len() - 1;
@@ -172,12 +177,14 @@ fn of_felt(
             between: 1.0 + 4.0 / freedom as f64,
             shrink: 0.03,
             has_unseen: false,
+            alike: &itself,
         }
     } else {
         Covariance {
             between: 1.0,
             shrink: 0.0,
             has_unseen: true,
+            alike: material.alike,
         }
     };
     let recordings = felt.with_copies.iter().map(|touch| touch.recording + 1);

@@ -149,16 +149,36 @@ impl Doubts<'_> {
                 .filter(|&(_, &weight)| weight <= 0.0 || weight >= MAX_WEIGHT)
                 .map(|(table, &weight)| Warning::Weight { table, weight }),
         );
-        for a in 0..self.names.len() {
-            for b in 0..a {
-                let mistaken = f64::midpoint(self.mistaken(a, b), self.mistaken(b, a));
-                if mistaken > MISTAKEN {
-                    let names = [b, a].map(|class| self.names[class].clone());
-                    warnings.push(Warning::Alike { names, mistaken });
-                }
+        warnings.extend(self.alike().map(|(pair, mistaken)| Warning::Alike {
+            names: pair.map(|class| self.names[class].clone()),
+            mistaken,
+        }));
+        warnings
+    }
+
+    /// Of each class the first one of those that cannot be distinguished from it, or from one
+    /// that cannot; itself if there is none.
+    pub(super) fn groups(&self) -> Vec<usize> {
+        let mut first: Vec<usize> = (0..self.names.len()).collect();
+        for (pair, _) in self.alike() {
+            let of_pair = pair.map(|class| first[class]);
+            let least = of_pair[0].min(of_pair[1]);
+            for of in first.iter_mut().filter(|of| of_pair.contains(of)) {
+                *of = least;
             }
         }
-        warnings
+        first
+    }
+
+    /// Pairs that cannot be distinguished, and how often one is taken for the other.
+    fn alike(&self) -> impl Iterator<Item = ([usize; 2], f64)> {
+        let pairs = (0..self.names.len()).flat_map(|a| (0..a).map(move |b| [b, a]));
+        pairs
+            .map(|[b, a]| {
+                let mistaken = f64::midpoint(self.mistaken(a, b), self.mistaken(b, a));
+                ([b, a], mistaken)
+            })
+            .filter(|(_, mistaken)| *mistaken > MISTAKEN)
     }
 
     /// Share of the longest stretches of a class in which another one's evidence is

@@ -20,7 +20,10 @@ use crate::opinion::{FEATURES, STATES};
 pub(super) const LEAST_VARIANCE: f64 = 1e-3;
 
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Covariance {
+pub(super) struct Covariance<'a> {
+    /// Of each class the first one from which it cannot be distinguished, itself if from none:
+    /// these have one mean.
+    pub(super) alike: &'a [usize],
     /// α.
     pub(super) between: f64,
     /// s.
@@ -68,13 +71,13 @@ struct Row<'t> {
 impl Linear {
     /// After so many blocks, of so many classes, T being 1; and what comes of the first `apart`
     /// recordings, each held out with those that are a multiple of so many behind it: its copies.
-    pub(super) fn of(
-        touches: &[Touch],
+    pub(super) fn of<'t>(
+        touches: &'t [Touch],
         (blocks, classes, apart): (usize, usize, usize),
-        how: Covariance,
-    ) -> (Self, Vec<HeldOut<'_>>) {
+        how: Covariance<'_>,
+    ) -> (Self, Vec<HeldOut<'t>>) {
         let long = touches.iter().filter(|touch| touch.len() >= blocks);
-        let rows: Vec<Row<'_>> = long
+        let rows: Vec<Row<'t>> = long
             .map(|touch| Row {
                 touch,
                 means: touch.stage(blocks),
@@ -115,7 +118,7 @@ impl Linear {
     }
 
     /// None where a class is missing.
-    fn fit(rows: &[&Row<'_>], recordings: usize, classes: usize, how: Covariance) -> Option<Self> {
+    fn fit(rows: &[&Row<'_>], recordings: usize, classes: usize, how: Covariance<'_>) -> Option<Self> {
         let size = rows.first()?.means.len();
         let mut within = Matrix::zero(size);
         let mut between = Matrix::zero(size);
@@ -149,6 +152,15 @@ impl Linear {
             freedom_between += means.len() - 1;
             centres.push(centre);
         }
+        let centres: Vec<Vec<f64>> = how
+            .alike
+            .iter()
+            .map(|first| {
+                let same = centres.iter().zip(how.alike);
+                let same = same.filter(|(_, of)| *of == first);
+                mean(size, same.map(|(centre, _)| centre.as_slice()))
+            })
+            .collect();
         within.scale(1.0 / freedom_within.max(1) as f64);
         within.add(&between, how.between / freedom_between.max(1) as f64);
         within.shrink(how.shrink, LEAST_VARIANCE);
