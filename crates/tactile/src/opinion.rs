@@ -63,6 +63,11 @@ impl Whisked {
 }
 
 pub(crate) const FEATURES: usize = 10;
+/// What is weighed of a state: the features, and the mean deflection of x and y from rest where it
+/// [names](Section::names).
+pub(crate) const WEIGHED: usize = FEATURES + 2;
+/// Bits that are left off a deflection: sums of three, each below 2¹⁴, then fit 16 bits.
+pub(crate) const DEFLECTION_SHIFT: u32 = 2;
 /// Blocks of a touch that are distinguished; a longer one begins again.
 pub(crate) const BLOCKS: usize = 9;
 /// Blocks after which there are weights.
@@ -92,8 +97,9 @@ pub(crate) const STATE_BITS: u32 = 4;
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct Opinion {
     pub(crate) differences: Differences,
-    /// Sums of the features of each state: of three blocks at most, each below 2¹³.
-    states: [[i16; FEATURES]; STATES.len()],
+    /// Sums of the features, and of deflections, of each state: of three blocks at most, each
+    /// below 2¹³.
+    states: [[i16; WEIGHED]; STATES.len()],
     path: [[i16; 2]; BLOCKS],
     blocks: usize,
     /// Of each class, 1/1024 bit.
@@ -106,7 +112,7 @@ impl Opinion {
     const fn new() -> Self {
         Self {
             differences: Differences::new([0; 2]),
-            states: [[0; FEATURES]; STATES.len()],
+            states: [[0; WEIGHED]; STATES.len()],
             path: [[0; 2]; BLOCKS],
             blocks: 0,
             scores: [0; MAX_CLASSES],
@@ -136,7 +142,7 @@ impl Opinion {
     /// A touch begins, or is long: the open block is dropped, and what was felt.
     pub(crate) fn begin(&mut self) {
         self.differences.clear();
-        self.states = [[0; FEATURES]; STATES.len()];
+        self.states = [[0; WEIGHED]; STATES.len()];
         self.blocks = 0;
         self.scores = [0; MAX_CLASSES];
         self.ended = [typical::NONE; MAX_CLASSES];
@@ -159,8 +165,9 @@ impl Opinion {
             return [0; MAX_CLASSES];
         }
         if let Some(state) = self.states.get_mut(state_of(self.blocks)) {
-            for (sum, feature) in state.iter_mut().zip(features) {
-                *sum = sum.wrapping_add(feature);
+            let deflection = deflection.map(|code| code >> DEFLECTION_SHIFT);
+            for (sum, value) in state.iter_mut().zip(features.iter().chain(&deflection)) {
+                *sum = sum.wrapping_add(*value);
             }
         }
         if let Some(place) = self.path.get_mut(self.blocks) {
@@ -174,14 +181,16 @@ impl Opinion {
         let (shift, biases, weights) = section.stage(self.blocks);
         let begun = section::begun(self.blocks);
         // At least one state: said where the compiler sees that no chunk is empty.
-        let mut weights = weights.chunks((begun * FEATURES / 2).max(1));
+        let weighed = section.weighed();
+        let mut weights = halves(weights).chunks((begun * weighed).max(1));
         let classes = self.scores.iter_mut().zip(&mut rise).take(classes);
         for ((score, rise), bias) in classes.zip(biases) {
-            let sums = self.states.as_flattened().iter();
-            let weighed = sums.zip(halves(weights.next().unwrap_or_default()));
-            let sum: i64 = weighed
-                .map(|(sum, weight)| i64::from(i32::from(*sum) * i32::from(*weight)))
-                .sum();
+            let weights = weights.next().unwrap_or_default().chunks(weighed.max(1));
+            let products = weights.zip(&self.states).flat_map(|(weights, sums)| {
+                let products = weights.iter().zip(sums);
+                products.map(|(weight, sum)| i64::from(i32::from(*sum) * i32::from(*weight)))
+            });
+            let sum: i64 = products.sum();
             let bits = (sum >> shift.min(63)) + i64::from(bias.cast_signed());
             let bits = bits.clamp(-SCORE_MOST, SCORE_MOST) as i32;
             *rise = bits.wrapping_sub(*score);

@@ -2,12 +2,12 @@
 //!
 //! | words | content |
 //! |---|---|
-//! | 1 | kind u8 (bit 0: names, otherwise it objects; bit 1: touches longer than nine blocks begin again; bit 2: poses are estimated; bit 3: paths allow for another sensor; bit 4: there are no weights of stages before the first that decides), poses of paths P u8 (1 to 12), stages u8 (1 to 8), patience u8 (1 to 9) |
+//! | 1 | kind u8 (bit 0: names, otherwise it objects; bit 1: touches longer than nine blocks begin again; bit 2: poses are estimated; bit 3: paths allow for another sensor; bit 4: there are no weights of stages before the first that decides; bit 5: deflections are weighed), poses of paths P u8 (1 to 12), stages u8 (1 to 8), patience u8 (1 to 9) |
 //! | 1 | most odds against the leader by the opinion, 2⁻²⁶ |
 //! | 1, 1 | code that becomes zero i32; bits that are left off a code |
 //! | 2 | rest of x and y where no air was felt yet, i32, 1/256 narrow codes |
 //! | 2 | frequency of the whisk, 1/1000 Hz, 0: not known; 1 without RCP, 2 with, 0: not known |
-//! | per stage, all or from the first that decides | shift; K × bias i32, 1/1024 bit; K × weights i16, ten a state begun |
+//! | per stage, all or from the first that decides | shift; K × bias i32, 1/1024 bit; K × weights i16, ten a state begun, or twelve |
 //! | only with poses: 2 | least and most tilt, then depth, i16, 1/100 |
 //! | per class and stage from the first that decides | errors of tilt and depth u16, 1/100; shifts u16; for each bias i32, 1/100, and [weights](super::pose) i32 |
 //! | only with another sensor: 1 | most turn of one u16, 1/256 of 1/32 rad; most change of y's scale u16, 1/256 of 1/16 |
@@ -15,7 +15,7 @@
 //! | per class | 9 × inverse deviation of x and y u16, 2⁻¹⁶; P × 9 × x and y i16; limit u32 |
 
 use super::path::Paths;
-use super::{BLOCKS, FEATURES, STAGES, STATES, Whisked, pose};
+use super::{BLOCKS, FEATURES, STAGES, STATES, WEIGHED, Whisked, pose};
 use crate::error::ModelError;
 
 /// Most poses between which a path may lie.
@@ -23,17 +23,14 @@ pub(crate) const MAX_POSES: usize = 12;
 pub(crate) const HEAD_WORDS: usize = 8;
 /// Bit 4 of the kind.
 pub(crate) const LATE: u8 = 16;
+/// Bit 5.
+pub(crate) const DEFLECTIONS: u8 = 32;
 const TRIANGLE_WORDS: usize = (FEATURES * (FEATURES + 1) / 2).div_ceil(2);
 pub(crate) const STATE_WORDS: usize = FEATURES / 2 + 1 + TRIANGLE_WORDS;
 pub(crate) const TYPICAL_WORDS: usize = STATES.len() * STATE_WORDS + STAGES;
 
 pub(crate) fn begun(blocks: usize) -> usize {
     STATES.iter().filter(|[first, _]| *first < blocks).count()
-}
-
-/// Words of a stage (from 1) for so many classes.
-pub(crate) fn stage_words(stage: usize, classes: usize) -> usize {
-    1 + classes + classes * begun(stage) * FEATURES / 2
 }
 
 pub(crate) const fn path_words(poses: usize) -> usize {
@@ -64,7 +61,7 @@ impl<'m> Section<'m> {
     /// Whether one of so many words that begins with `head` can be read.
     pub(crate) fn check(head: &[u32], words: usize, classes: usize) -> Result<(), ModelError> {
         let section = Section::new(head, classes);
-        let fits = section.byte(0) <= 31
+        let fits = section.byte(0) <= 63
             && (1..=MAX_POSES).contains(&section.poses())
             && (1..=STAGES).contains(&section.stages())
             && (1..=BLOCKS).contains(&section.patience())
@@ -83,8 +80,23 @@ impl<'m> Section<'m> {
 
     /// Words before the weights of a stage (from 1).
     fn before_stage(self, stage: usize) -> usize {
-        let before = (self.first_stage()..stage).map(|s| stage_words(s, self.classes));
+        let before = (self.first_stage()..stage).map(|stage| self.stage_words(stage));
         HEAD_WORDS + before.sum::<usize>()
+    }
+
+    /// What is weighed of each state.
+    #[inline]
+    pub(crate) fn weighed(self) -> usize {
+        if self.byte(0) & DEFLECTIONS == 0 {
+            FEATURES
+        } else {
+            WEIGHED
+        }
+    }
+
+    /// Words of a stage (from 1).
+    fn stage_words(self, stage: usize) -> usize {
+        1 + self.classes + self.classes * begun(stage) * self.weighed() / 2
     }
 
     fn pose_words(self) -> usize {
@@ -228,7 +240,7 @@ impl<'m> Section<'m> {
     pub(crate) fn stage(self, stage: usize) -> (u32, &'m [u32], &'m [u32]) {
         let words = self.words.get(self.before_stage(stage)..);
         let words = words.unwrap_or_default();
-        let words = words.get(..stage_words(stage, self.classes));
+        let words = words.get(..self.stage_words(stage));
         let Some((shift, rest)) = words.and_then(<[u32]>::split_first) else {
             return (0, &[], &[]);
         };
@@ -285,7 +297,7 @@ mod tests {
     #[test]
     fn without_early_weights_all_else_is_where_it_was() {
         let whole = words(4 | 8);
-        let early: usize = (1..5).map(|stage| stage_words(stage, CLASSES)).sum();
+        let early: usize = (1..5).map(|stage| Section::new(&whole, CLASSES).stage_words(stage)).sum();
         let mut late = whole.clone();
         late.drain(HEAD_WORDS..HEAD_WORDS + early);
         late[0] |= u32::from(LATE);

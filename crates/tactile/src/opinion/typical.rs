@@ -14,7 +14,7 @@ const MOST: i32 = u16::MAX as i32;
 
 /// The squared distance of the sums over so many blocks, three at most, from a class whose mean
 /// and triangle these words are: below 2²⁶. Of no blocks it is 0.
-pub(super) fn square(words: &[u32], sums: &[i16; FEATURES], blocks: usize) -> u32 {
+pub(super) fn square(words: &[u32], sums: &[i16], blocks: usize) -> u32 {
     // Of a mean over blocks: by their square, in 2⁻¹⁶.
     let share = match blocks {
         1 => 65_536,

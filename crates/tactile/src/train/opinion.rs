@@ -33,8 +33,8 @@ use self::touches::{Sense, Touch};
 use self::typical::Typical;
 use crate::opinion::Whisked;
 use crate::opinion::pose::TARGETS;
-use crate::opinion::section::{LATE, MAX_POSES, Section};
-use crate::opinion::{BLOCKS, STAGES};
+use crate::opinion::section::{DEFLECTIONS, LATE, MAX_POSES, Section};
+use crate::opinion::{BLOCKS, FEATURES, STAGES, WEIGHED};
 use crate::quantiser::Quantiser;
 use crate::train::joint::{CHANNELS, Trial, Warning};
 
@@ -178,6 +178,8 @@ fn of_felt(
             shrink: 0.03,
             has_unseen: false,
             alike: &itself,
+            weighed: WEIGHED,
+            sensor: material.expect.sensor(),
         }
     } else {
         Covariance {
@@ -185,6 +187,8 @@ fn of_felt(
             shrink: 0.0,
             has_unseen: true,
             alike: material.alike,
+            weighed: FEATURES,
+            sensor: [0.0; 2],
         }
     };
     let recordings = felt.with_copies.iter().map(|touch| touch.recording + 1);
@@ -206,7 +210,7 @@ fn of_felt(
     });
     for (stage, (linear, held_out)) in (1..).zip(fits).skip(first - 1) {
         let of_stage = of_all.unwrap_or_else(|| temperature(&held_out));
-        written::stage(&mut words, stage, &linear.at(of_stage));
+        written::stage(&mut words, (stage, how.weighed), &linear.at(of_stage));
     }
     if let Some(stands) = stands {
         written::stands(&mut words, stands);
@@ -400,7 +404,9 @@ impl Felt {
 
     fn head(&self, names: bool, whisked: Whisked, poses: usize) -> Vec<u32> {
         // One that names says what it has to say of a touch once: what would follow depends on it.
-        let kind = u8::from(names) | u8::from(self.begins_again && !names) << 1 | LATE;
+        let deflections = if names { DEFLECTIONS } else { 0 };
+        let begins_again = u8::from(self.begins_again && !names) << 1;
+        let kind = u8::from(names) | begins_again | LATE | deflections;
         // At most twelve, and eight.
         let head = [kind, poses as u8, self.stages as u8, self.patience(names)];
         let odds = (1.0 / LEAST_POSTERIOR - 1.0) * f64::from(1 << 26);

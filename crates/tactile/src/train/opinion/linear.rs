@@ -30,6 +30,33 @@ pub(super) struct Covariance<'a> {
     pub(super) shrink: f64,
     /// Whether features may differ by more than recordings and their copies show.
     pub(super) has_unseen: bool,
+    /// What is weighed of each state.
+    pub(super) weighed: usize,
+    /// By how much it may be turned and scaled in use, if deflections are weighed.
+    pub(super) sensor: [f64; 2],
+}
+
+impl Covariance<'_> {
+    /// By what another sensor moves the deflections, whose mean is that of these: turned, and
+    /// scaled in x. What is scaled in y is among the copies.
+    fn nuisances(&self, means: &[f64]) -> Vec<Vec<f64>> {
+        if self.weighed == FEATURES {
+            return Vec::new();
+        }
+        let [turn, scale] = self.sensor;
+        let moved = |by: &dyn Fn([f64; 2]) -> [f64; 2]| -> Vec<f64> {
+            let states = means.chunks(self.weighed);
+            let of_state = states.flat_map(|state| {
+                let moved = by([state[FEATURES], state[FEATURES + 1]]);
+                core::iter::repeat_n(0.0, FEATURES).chain(moved)
+            });
+            of_state.collect()
+        };
+        vec![
+            moved(&|[x, y]| [-turn * y, turn * x]),
+            moved(&|[x, _]| [scale * x, 0.0]),
+        ]
+    }
 }
 
 /// What each feature may differ by from what was felt, octaves².
@@ -80,7 +107,7 @@ impl Linear {
         let rows: Vec<Row<'t>> = long
             .map(|touch| Row {
                 touch,
-                means: touch.stage(blocks),
+                means: touch.stage(blocks, how.weighed),
             })
             .collect();
         let recordings = touches.iter().map(|touch| touch.recording + 1).max();
@@ -169,6 +196,10 @@ impl Linear {
             let of_friction = FRICTION.iter().flatten();
             let moved = of_friction.flat_map(|by| [*by; FEATURES / 2]);
             within.add_square(&moved.take(size).collect::<Vec<_>>(), 1.0);
+        }
+        let all = mean(size, centres.iter().map(Vec::as_slice));
+        for by in how.nuisances(&all) {
+            within.add_square(&by, 1.0);
         }
         let whitening = within.whitening();
         let bias = |centre: &Vec<f64>| -0.5 * square(&whitening.of(centre));

@@ -3,7 +3,9 @@
 use std::vec::Vec;
 
 use crate::opinion::differences::{FEATURE_BITS, NARROW_MOST};
-use crate::opinion::{BLOCKS, Differences, FEATURES, Narrow, STATES, blocks_of};
+use crate::opinion::{
+    BLOCKS, DEFLECTION_SHIFT, Differences, FEATURES, Narrow, STATES, blocks_of,
+};
 use crate::quantiser::Quantiser;
 use crate::train::joint::{CHANNELS, Trial};
 
@@ -46,9 +48,24 @@ impl Touch {
         Some(mean)
     }
 
-    pub(super) fn stage(&self, blocks: usize) -> Vec<f64> {
-        let states = (0..STATES.len()).filter_map(|state| self.state(state, blocks));
+    /// What is weighed of the states after so many blocks, so many numbers of each.
+    pub(super) fn stage(&self, blocks: usize, weighed: usize) -> Vec<f64> {
+        let states = (0..STATES.len()).filter_map(|state| {
+            let deflection = self.deflection(state, blocks);
+            let values = self.state(state, blocks)?.into_iter().chain(deflection);
+            Some(values.take(weighed))
+        });
         states.flatten().collect()
+    }
+
+    /// The mean deflection in a state, as it is weighed.
+    fn deflection(&self, state: usize, blocks: usize) -> [f64; CHANNELS] {
+        let [first, _] = STATES[state];
+        let count = blocks_of(STATES[state], blocks.min(self.len()));
+        let of_state = self.path.iter().skip(first).take(count);
+        let unit = f64::from(1 << (FEATURE_BITS + DEFLECTION_SHIFT)) * count.max(1) as f64;
+        let add = |sum: [f64; CHANNELS], of: &[f64; CHANNELS]| [sum[0] + of[0], sum[1] + of[1]];
+        of_state.fold([0.0; CHANNELS], add).map(|sum| sum / unit)
     }
 }
 

@@ -9,7 +9,7 @@ use super::typical::Typical;
 use crate::format::ENTRIES_PER_BIT;
 use crate::opinion::differences::FEATURE_BITS;
 use crate::opinion::section::{Bounds, Section, begun};
-use crate::opinion::{FEATURES, PATH_BITS, STATE_BITS, STATES, blocks_of};
+use crate::opinion::{PATH_BITS, STATE_BITS, STATES, blocks_of};
 
 /// Two halves a word, the first below; a zero after an odd one.
 fn write_halves(words: &mut Vec<u32>, halves: &[i16]) {
@@ -33,16 +33,16 @@ fn scaled(numbers: &[f64]) -> (u32, Vec<i16>) {
 
 /// Weights of means of states, so much a mean; written for their sums. What all classes have
 /// in common is left off.
-pub(super) fn stage(words: &mut Vec<u32>, stage: usize, linear: &Linear) {
+pub(super) fn stage(words: &mut Vec<u32>, (stage, weighed): (usize, usize), linear: &Linear) {
     let classes = linear.weights.len();
-    let numbers = begun(stage) * FEATURES;
+    let numbers = begun(stage) * weighed;
     let mean = |of: &dyn Fn(usize) -> f64| (0..classes).map(of).sum::<f64>() / classes as f64;
     let weight = |class: usize, n: usize| linear.weights[class].get(n).copied().unwrap_or(0.0);
     let mut all = Vec::with_capacity(classes * numbers);
     for class in 0..classes {
         for n in 0..numbers {
             let own = weight(class, n) - mean(&|class| weight(class, n));
-            let blocks = blocks_of(STATES[n / FEATURES], stage).max(1);
+            let blocks = blocks_of(STATES[n / weighed], stage).max(1);
             let unit = f64::from(ENTRIES_PER_BIT) / f64::from(1 << FEATURE_BITS);
             all.push(own * unit / blocks as f64);
         }
