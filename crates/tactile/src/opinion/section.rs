@@ -297,7 +297,9 @@ mod tests {
     #[test]
     fn without_early_weights_all_else_is_where_it_was() {
         let whole = words(4 | 8);
-        let early: usize = (1..5).map(|stage| Section::new(&whole, CLASSES).stage_words(stage)).sum();
+        let early: usize = (1..5)
+            .map(|stage| Section::new(&whole, CLASSES).stage_words(stage))
+            .sum();
         let mut late = whole.clone();
         late.drain(HEAD_WORDS..HEAD_WORDS + early);
         late[0] |= u32::from(LATE);

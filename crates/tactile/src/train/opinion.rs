@@ -24,7 +24,7 @@ use std::string::String;
 use std::vec;
 use std::vec::Vec;
 
-use self::linear::{Covariance, HeldOut, Linear, temperature};
+use self::linear::{Covariance, HeldOut, Linear, SPREAD, temperature};
 use self::matrix::quantile;
 use self::paths::{Paths, Sensor};
 use self::poses::Poses;
@@ -206,10 +206,13 @@ fn of_felt(
     let first = Section::new(&words, 0).first_stage();
     let of_all = names.then(|| {
         let held_out = fits.iter().skip(first - 1).flat_map(|(_, of)| of);
-        temperature(&felt.named(held_out.cloned().collect(), apart))
+        temperature(
+            &felt.named(held_out.cloned().collect(), apart),
+            Some(SPREAD),
+        )
     });
     for (stage, (linear, held_out)) in (1..).zip(fits).skip(first - 1) {
-        let of_stage = of_all.unwrap_or_else(|| temperature(&held_out));
+        let of_stage = of_all.unwrap_or_else(|| temperature(&held_out, None));
         written::stage(&mut words, (stage, how.weighed), &linear.at(of_stage));
     }
     if let Some(stands) = stands {

@@ -3,9 +3,7 @@
 use std::vec::Vec;
 
 use crate::opinion::differences::{FEATURE_BITS, NARROW_MOST};
-use crate::opinion::{
-    BLOCKS, DEFLECTION_SHIFT, Differences, FEATURES, Narrow, STATES, blocks_of,
-};
+use crate::opinion::{BLOCKS, DEFLECTION_SHIFT, Differences, FEATURES, Narrow, STATES, blocks_of};
 use crate::quantiser::Quantiser;
 use crate::train::joint::{CHANNELS, Trial};
 
