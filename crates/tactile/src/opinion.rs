@@ -14,7 +14,8 @@
 //! 3. the opinion agrees.
 //!
 //! Trained in one pose, it *objects* to names that the tables give. Trained in several, it
-//! *names* by itself, once a touch at most, and there are no tables. Either way nothing is decided
+//! *names* by itself, once a touch at most, and there are no tables; mean deflections are then
+//! weighed as features are. Either way nothing is decided
 //! in the first blocks of a touch, in which all ways are alike ([`Section::least`]).
 //!
 //! Of what is named the [pose] may be estimated too.

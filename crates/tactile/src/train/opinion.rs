@@ -8,7 +8,7 @@
 //! Values that were chosen, on recordings of the scene `whisker` with seeds that no page uses:
 //! α 1 and 1 + 4/(poses − 1), s 0 and 0.03, what no copy shows, the 0.8 of an objection, the shares
 //! of `typical`, `paths` and patience, their shrinking and least deviations, the gains of copies,
-//! and by how much a sensor may be turned and scaled.
+//! by how much a sensor may be turned and scaled; of `bench-textures` the spread of T.
 
 mod linear;
 mod matrix;
