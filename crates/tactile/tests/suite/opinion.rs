@@ -286,6 +286,35 @@ fn a_sensor_may_be_turned_and_scaled_as_far_as_is_expected() {
     }
 }
 
+/// Both tremble alike, and bend in three poses: only by how far they bend can they be told apart.
+#[test]
+fn surfaces_that_tremble_alike_are_named_by_their_deflection() {
+    let poses = [-500.0, -300.0, -100.0];
+    let surfaces = |y_bend: f64, first: u64| {
+        let of = [("soft", 400.0), ("hard", 900.0)].into_iter().zip(first..);
+        of.map(move |((label, x_bend), seed)| Trial {
+            recording: y_bend.to_string(),
+            ..trial(label, 40.0, [x_bend, y_bend], seed)
+        })
+    };
+    let in_poses = poses.iter().zip([100, 200, 300]);
+    let trials =
+        in_poses.flat_map(|(pose, seed)| (0..4).flat_map(move |n| surfaces(*pose, seed + 2 * n)));
+    let trained = train(&trials.collect::<Vec<_>>(), &Options::default()).unwrap();
+    let model = trained.model().unwrap();
+    for felt in surfaces(-200.0, 900) {
+        let class = model.names().position(|name| name == felt.label);
+        let decisions = decisions(&model, &felt);
+        let named: Vec<_> = decisions.iter().filter_map(|(of, _)| of.class()).collect();
+        assert!(named.len() >= 6, "{}: {named:?}", felt.label);
+        assert!(
+            named.iter().all(|of| Some(*of) == class),
+            "{}: {named:?}",
+            felt.label
+        );
+    }
+}
+
 /// Of poses that were not trained: as near as is said, and that is a tenth of their spread at most,
 /// though one class turns the deflection by three degrees more.
 #[test]

@@ -316,4 +316,42 @@ mod tests {
         let [once, often] = [&all, &often].map(|of| temperature(of, Some(SPREAD)));
         assert_relative_eq!(once, often, epsilon = 1e-6);
     }
+
+    /// However their touches differ, classes that are alike score as one, and another is set apart
+    /// from both.
+    #[test]
+    fn what_is_alike_has_one_score() {
+        let touches: Vec<Touch> = (0..60_u32)
+            .map(|n| {
+                let (class, differs) = (n as usize % 3, f64::from(n * n % 7));
+                let across = [0.0, 1.0, 40.0][class];
+                Touch {
+                    class,
+                    recording: 0,
+                    goes_on: false,
+                    trial: n as usize,
+                    features: vec![core::array::from_fn(|k| across + differs * k as f64)],
+                    path: vec![[0.0; 2]],
+                }
+            })
+            .collect();
+        let how = |alike| Covariance {
+            alike,
+            between: 1.0,
+            shrink: 0.0,
+            has_unseen: false,
+            weighed: FEATURES,
+            sensor: [0.0; 2],
+        };
+        let of = |alike| Linear::of(&touches, (1, 3, 1), how(alike)).0;
+        let apart = of(&[0, 1, 2]);
+        assert!(apart.weights[0] != apart.weights[1]);
+        let alike = of(&[0, 0, 2]);
+        assert_eq!(alike.weights[0], alike.weights[1]);
+        assert_relative_eq!(alike.biases[0], alike.biases[1]);
+        for touch in &touches {
+            let scores = alike.scores(&touch.stage(1, FEATURES));
+            assert_eq!(scores[2] > scores[0], touch.class == 2);
+        }
+    }
 }
