@@ -5,9 +5,8 @@ use core::fmt;
 use embedded_hal::spi::SpiDevice;
 
 use crate::{
-    Access, ChannelPair, Command, Config, ConversionStatus, DataType, FRAME_LEN, Field,
-    OperatingMode, Register, Reply, ReplyError, StatusFaults, SystemConfig, Temperature, Version,
-    check,
+    ChannelPair, Command, Config, DataType, FRAME_LEN, Field, OperatingMode, Register, Reply,
+    ReplyError, StatusFaults, SystemConfig, check,
 };
 
 /// Why there is no reading. `E` is the bus's own error.
@@ -197,39 +196,6 @@ impl<SPI: SpiDevice> Tmag5170<SPI> {
         Ok(ChannelPair::decode(&bytes)?.trusted(self.system.data_type)?)
     }
 
-    /// The temperature of the die; for replies that carry registers.
-    ///
-    /// # Errors
-    /// As for [`fields`](Tmag5170::fields).
-    pub fn temperature(&mut self) -> Result<Temperature, Error<SPI::Error>> {
-        let reply = self.read(Register::Temperature)?;
-        Ok(Temperature::new(reply.trusted()?))
-    }
-
-    /// The sensor's word on its results, whatever its status; for replies that carry
-    /// registers.
-    ///
-    /// # Errors
-    /// As for [`read`](Tmag5170::read).
-    pub fn conversion_status(&mut self) -> Result<ConversionStatus, Error<SPI::Error>> {
-        let reply = self.read(Register::ConversionStatus)?;
-        Ok(ConversionStatus::new(reply.value))
-    }
-
-    /// Starts a conversion, in the modes that wait for one and with
-    /// [`Trigger::Command`](crate::Trigger::Command).
-    ///
-    /// # Errors
-    /// [`Error::Bus`], or [`Error::Frame`] if the reply did not arrive whole.
-    pub fn convert(&mut self) -> Result<(), Error<SPI::Error>> {
-        let command = Command {
-            access: Access::Read(Register::DeviceConfig),
-            convert: true,
-            tell_type: self.system.data_type != DataType::Register,
-        };
-        Ok(check(&self.exchange(command)?)?)
-    }
-
     /// What the sensor reports about itself; [`StatusFaults::RESTARTED`] is cleared by that. With
     /// replies that carry pairs it takes five frames more, and readings are let out
     /// meanwhile.
@@ -252,14 +218,5 @@ impl<SPI: SpiDevice> Tmag5170<SPI> {
             self.set_system(system)?;
         }
         Ok(StatusFaults::new(afe_status, sys_status))
-    }
-
-    /// Which of the two parts it is; for replies that carry registers. `None` for a version
-    /// that is in no source.
-    ///
-    /// # Errors
-    /// As for [`read`](Tmag5170::read).
-    pub fn version(&mut self) -> Result<Option<Version>, Error<SPI::Error>> {
-        Ok(Version::of(self.read(Register::TestConfig)?.value))
     }
 }

@@ -38,9 +38,9 @@ pub use crc::crc4;
 pub use driver::{Error, Tmag5170};
 pub use faults::{Fault, StatusFaults};
 pub use register::Register;
-pub use reply::{ChannelPair, ConversionStatus, Reply, ReplyError, Status, check};
+pub use reply::{ChannelPair, Reply, ReplyError, Status, check};
 pub use timing::SPI_MODE;
-pub use value::{Angle, Field, Temperature};
+pub use value::Field;
 
 /// Bytes in a frame, in either direction.
 pub const FRAME_LEN: usize = 4;

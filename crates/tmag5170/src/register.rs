@@ -48,12 +48,11 @@ registers! {
     YThresholds = 0x7D83, true, "Thresholds of Y.";
     ZThresholds = 0x7D83, true, "Thresholds of Z.";
     TemperatureThresholds = 0x6732, true, "Thresholds of the temperature.";
-    ConversionStatus = 0x0000, false,
-        "What has been converted: [`ConversionStatus`](crate::ConversionStatus).";
+    ConversionStatus = 0x0000, false, "What has been converted.";
     X = 0x0000, false, "Field along X: [`Field`](crate::Field).";
     Y = 0x0000, false, "Field along Y.";
     Z = 0x0000, false, "Field along Z.";
-    Temperature = 0x0000, false, "Temperature of the die: [`Temperature`](crate::Temperature).";
+    Temperature = 0x0000, false, "Temperature of the die: 17,522 at 25 °C, 60 a degree.";
     AfeStatus = 0x8000, false,
         "What the sensor reports about its analogue part; the upper half of
         [`StatusFaults`](crate::StatusFaults).";
@@ -64,7 +63,7 @@ registers! {
     OscillatorMonitor = 0x0000, false, "Counter of the oscillator check.";
     GainConfig = 0x0000, true, "Gain of one axis before the angle is computed.";
     OffsetConfig = 0x0000, true, "Offsets of two axes before the angle is computed.";
-    Angle = 0x0000, false, "Angle between two axes: [`Angle`](crate::Angle).";
+    Angle = 0x0000, false, "Angle between two axes, in 1/16 degree.";
     Magnitude = 0x0000, false, "Length of the vector of those two axes.";
 }
 

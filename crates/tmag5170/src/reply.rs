@@ -219,32 +219,3 @@ impl ChannelPair {
         [Field::from_12(self.first), Field::from_12(self.second)]
     }
 }
-
-/// What [`ConversionStatus`](crate::Register::ConversionStatus) holds: the sensor's word on
-/// its results.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct ConversionStatus(u16);
-
-impl ConversionStatus {
-    /// From the bits of the register.
-    pub const fn new(register: u16) -> ConversionStatus {
-        ConversionStatus(register)
-    }
-
-    /// RDY: a set of conversions is complete.
-    pub const fn ready(self) -> bool {
-        self.0 & 0x2000 != 0
-    }
-
-    /// X, Y and Z: the axis is of the newest set.
-    pub const fn new_axes(self) -> [bool; 3] {
-        let axes = self.0 >> 8;
-        [axes & 1 != 0, axes & 2 != 0, axes & 4 != 0]
-    }
-
-    /// SET_COUNT: sets converted, modulo 8.
-    pub const fn count(self) -> u16 {
-        (self.0 & 0x0070) >> 4
-    }
-}

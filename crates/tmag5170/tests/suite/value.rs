@@ -1,7 +1,7 @@
 //! Results against values that others compute.
 
 use proptest::prelude::*;
-use tmag5170::{Angle, Field, Range, Temperature, Version};
+use tmag5170::{Field, Range, Version};
 
 #[test]
 fn fields_of_kharims_tests() {
@@ -17,31 +17,6 @@ fn fields_of_kharims_tests() {
         assert_eq!(field.code(), code);
         assert!((field.mt(150.0) - mt).abs() < 2e-5, "{code}");
     }
-}
-
-#[test]
-fn temperatures_of_kharims_tests() {
-    for (code, celsius) in [
-        (0, -267.033_33),
-        (17522, 25.0),
-        (20522, 75.0),
-        (13622, -40.0),
-        (65535, 825.216_7),
-    ] {
-        let temperature = Temperature::new(code);
-        assert_eq!(temperature.code(), code);
-        assert!((temperature.celsius() - celsius).abs() < 1e-4, "{code}");
-    }
-    assert_eq!(Temperature::from_12(0x447), Temperature::new(0x4470));
-}
-
-#[test]
-fn angles_of_the_data_sheet() {
-    // SLYS035A's examples for the same format.
-    assert_eq!(Angle::new(0b0001_0110_0010_1000).degrees(), 354.5);
-    assert_eq!(Angle::new(0b0000_0001_0001_0100).degrees(), 17.25);
-    assert_eq!(Angle::new(0xE114), Angle::new(0x0114));
-    assert_eq!(Angle::from_12(0b1011_0001_0100).degrees(), 354.5);
 }
 
 #[test]
@@ -66,12 +41,6 @@ proptest! {
         let field = Field::new(code as u16);
         prop_assert_eq!(Field::from_mt(field.mt(25.0), 25.0), field);
         prop_assert_eq!(Field::from_12((code as u16) >> 4).code(), code & !0xF);
-    }
-
-    #[test]
-    fn temperatures_come_back(code: u16) {
-        let temperature = Temperature::new(code);
-        prop_assert_eq!(Temperature::from_celsius(temperature.celsius()), temperature);
     }
 
     #[test]
