@@ -20,7 +20,7 @@ pub use classes::{classes, classes_of};
 pub use fits::Unfit;
 pub use image::{AnyConfig, Image, image};
 pub use linked::{Unlinked, linked};
-pub use module::{GATE, RunsOn, Target, build, bus, decoder, decoder_of, rule_settings};
+pub use module::{GATE, RunsOn, Target, build, bus, decoder, rule_settings};
 pub use numbers::{NoSuchFormat, NumberFormat, in_simulation, on_board};
 pub use protecting::Unprotected;
 pub use settling::Unsettled;

@@ -5,10 +5,10 @@ use firmware::{
     BusConfig, ClassifierConfig, Config, ConfigError, Field, HeadConfig, Links, MotionConfig,
     SensingConfig, SensorKind, SensorLimits, ServoConfig, SwingLimits,
 };
-use mlx90333::{ByteOrder, Decoder, Mode, SumRule};
+use mlx90333::Decoder;
 use scene::{
-    ClassifierSection, Deciding, MotorSection, OnFault, PlantKind, Rest, Rule, Scene, SensorBytes,
-    SensorMode, SensorModel, SensorSection, SensorSum, SensorWords,
+    ClassifierSection, Deciding, MotorSection, OnFault, PlantKind, Rest, Rule, Scene, SensorMode,
+    SensorModel, SensorSection,
 };
 use tactile::{ClassList, ClassSetting, RuleSettings, SelfMotion, Threshold};
 use whisking::motor::{GuardSettings, HomingSettings, ModelSettings};
@@ -143,28 +143,11 @@ fn head(scene: &Scene, overrides: &str) -> Result<HeadConfig, Mismatch> {
 }
 
 /// How frames of an MLX90333 are read.
-pub fn decoder(sensor: &SensorSection) -> Decoder {
-    decoder_of(sensor.words, sensor.sum_rule, sensor.byte_order)
-}
-
-/// The same of its three keys.
-pub fn decoder_of(words: SensorWords, sum_rule: SensorSum, byte_order: SensorBytes) -> Decoder {
+pub const fn decoder(sensor: &SensorSection) -> Decoder {
     Decoder {
-        mode: match words {
-            SensorWords::AlphaBeta => Mode::AlphaBeta,
-            SensorWords::Xyz => Mode::Xyz,
-        },
-        sum_rule: match sum_rule {
-            SensorSum::B1ToB6 => SumRule::SumB1B6,
-            SensorSum::B0ToB6 => SumRule::SumB0B6,
-            SensorSum::NotB1ToB6 => SumRule::ComplementB1B6,
-            SensorSum::NotB0ToB6 => SumRule::ComplementB0B6,
-            SensorSum::Ignored => SumRule::Ignore,
-        },
-        byte_order: match byte_order {
-            SensorBytes::LowFirst => ByteOrder::Little,
-            SensorBytes::HighFirst => ByteOrder::Big,
-        },
+        mode: sensor.words,
+        sum_rule: sensor.sum_rule,
+        byte_order: sensor.byte_order,
     }
 }
 

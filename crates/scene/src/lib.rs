@@ -65,8 +65,8 @@ pub use reference::reference;
 pub use sections::{
     Arm, ClassifierSection, Exchanged, FacingChoice, HeadSection, MotorSection, Numbers, Obstacles,
     OnFault, OwnSurfaces, PlantKind, PlantSection, PoseSpread, Presentation, Rest, Rule, Scene,
-    SensorBytes, SensorMode, SensorModel, SensorSection, SensorSum, SensorWords, ShaftChoice,
-    ShaftName, ShaftNumbers, Sides, TelemetrySection, Texture, WhiskingSection,
+    SensorMode, SensorModel, SensorSection, ShaftChoice, ShaftName, ShaftNumbers, Sides,
+    TelemetrySection, Texture, WhiskingSection,
 };
 pub use tactile::Deciding;
 pub use whisking::motor::Driver;

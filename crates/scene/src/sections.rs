@@ -25,7 +25,7 @@ pub use plant::{
     Presentation, ShaftChoice, Texture,
 };
 pub use scene::Scene;
-pub use sensor::{SensorBytes, SensorMode, SensorModel, SensorSection, SensorSum, SensorWords};
+pub use sensor::{SensorMode, SensorModel, SensorSection};
 pub use shaft::{ShaftName, ShaftNumbers};
 pub use telemetry::TelemetrySection;
 pub use whisking::{Numbers, WhiskingSection};

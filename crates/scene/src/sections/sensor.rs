@@ -1,5 +1,7 @@
 //! `[sensor]`: which sensor a whisker has, and what its readings cannot do.
 
+use mlx90333::{ByteOrder, Mode, SumRule};
+
 use crate::choice::choice;
 use crate::key::{integer, number, positive, word};
 use crate::keys::keys;
@@ -24,41 +26,19 @@ choice! {
     }
 }
 
+choice! { for Mode { AlphaBeta = "alpha-beta", Xyz = "xyz" } }
+
 choice! {
-    /// What the words of a frame are, which is set in the sensor's EEPROM.
-    pub enum SensorWords {
-        /// Two angles and an error word.
-        AlphaBeta = "alpha-beta",
-        /// Three fields, of which the first two are read, and no error word.
-        Xyz = "xyz",
+    for SumRule {
+        SumB1B6 = "b1-b6",
+        SumB0B6 = "b0-b6",
+        ComplementB1B6 = "not-b1-b6",
+        ComplementB0B6 = "not-b0-b6",
+        Ignore = "ignored",
     }
 }
 
-choice! {
-    /// How the last byte of a frame follows from the others.
-    pub enum SensorSum {
-        /// The sum of B1 to B6.
-        B1ToB6 = "b1-b6",
-        /// The sum of B0 to B6.
-        B0ToB6 = "b0-b6",
-        /// The complement of the sum of B1 to B6.
-        NotB1ToB6 = "not-b1-b6",
-        /// The complement of the sum of B0 to B6.
-        NotB0ToB6 = "not-b0-b6",
-        /// Anything: damaged frames pass.
-        Ignored = "ignored",
-    }
-}
-
-choice! {
-    /// In which order the bytes of a word come.
-    pub enum SensorBytes {
-        /// The low one first.
-        LowFirst = "low-first",
-        /// The high one first.
-        HighFirst = "high-first",
-    }
-}
+choice! { for ByteOrder { Little = "low-first", Big = "high-first" } }
 
 keys! {
     /// Which sensor a whisker has, and what its readings cannot do.
@@ -71,14 +51,14 @@ keys! {
 
         /// What the words of a frame of the MLX90333 are. With `"xyz"` x and y are the first two,
         /// and the sensor cannot report its own faults.
-        words: SensorWords = word().default("\"alpha-beta\""),
+        words: Mode = word().default("\"alpha-beta\""),
 
         /// How the last byte of a frame follows from the others, which is not certain for a real
         /// part: with another than its own every frame is fault 21.
-        sum_rule: SensorSum = word().default("\"b1-b6\""),
+        sum_rule: SumRule = word().default("\"b1-b6\""),
 
         /// Which byte of a word comes first. One driver in five has the high one first.
-        byte_order: SensorBytes = word().default("\"low-first\""),
+        byte_order: ByteOrder = word().default("\"low-first\""),
 
         /// Least time for which the sensor is deselected between two frames. A board refuses ticks
         /// that [leave less](boards.md#the-rest-of-a-sensor).

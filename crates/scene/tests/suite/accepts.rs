@@ -1,12 +1,12 @@
 //! Scenes that are in order, and what they come out as.
 
 use crate::common::{FULL, with};
+use mlx90333::{ByteOrder, Mode, SumRule};
 use scene::{
     Arm, ClassifierSection, Deciding, Driver, Exchanged, GateSettings, HeadSection, Integrator,
     MotorSection, Numbers, Obstacles, OnFault, OwnSurfaces, PlantKind, PlantSection, PoseSpread,
-    Presentation, Rest, Rule, Scene, SensorBytes, SensorMode, SensorModel, SensorSection,
-    SensorSum, SensorWords, ShaftChoice, ShaftName, ShaftNumbers, Sides, TelemetrySection, Texture,
-    WhiskingSection,
+    Presentation, Rest, Rule, Scene, SensorMode, SensorModel, SensorSection, ShaftChoice,
+    ShaftName, ShaftNumbers, Sides, TelemetrySection, Texture, WhiskingSection,
 };
 
 fn read(text: &str) -> Scene {
@@ -44,9 +44,9 @@ fn every_key_reaches_its_field() {
         },
         sensor: SensorSection {
             mode: SensorMode::Fast,
-            words: SensorWords::AlphaBeta,
-            sum_rule: SensorSum::B1ToB6,
-            byte_order: SensorBytes::LowFirst,
+            words: Mode::AlphaBeta,
+            sum_rule: SumRule::SumB1B6,
+            byte_order: ByteOrder::Little,
             rest_us: 50,
             frozen_s: 0.25,
             jump_per_s: 1500.0,

@@ -2,7 +2,8 @@
 
 use std::ops::RangeInclusive;
 
-use scene::{Choice, SensorBytes, SensorSum, SensorWords};
+use mlx90333::Decoder;
+use scene::Choice;
 use serde::Deserialize;
 use toml::Table;
 use wire::text::Spoken;
@@ -123,20 +124,22 @@ impl TryFrom<WrittenPart> for Part {
     type Error = String;
 
     fn try_from(part: WrittenPart) -> Result<Self, String> {
-        fn choice<T: Choice>(name: &str, word: Option<String>, usual: T) -> Result<T, String> {
+        fn choice<T: Choice + Default>(name: &str, word: Option<String>) -> Result<T, String> {
             let Some(word) = word else {
-                return Ok(usual);
+                return Ok(T::default());
             };
             let allowed = T::WORDS.join(", ");
             T::of_word(&word).ok_or_else(|| format!("{name}: found {word}, allowed: {allowed}"))
         }
-        let words = choice("words", part.words, SensorWords::AlphaBeta)?;
-        let sum_rule = choice("sum_rule", part.sum_rule, SensorSum::B1ToB6)?;
-        let byte_order = choice("byte_order", part.byte_order, SensorBytes::LowFirst)?;
+        let decoder = Decoder {
+            mode: choice("words", part.words)?,
+            sum_rule: choice("sum_rule", part.sum_rule)?,
+            byte_order: choice("byte_order", part.byte_order)?,
+        };
         let update_hz = part.update_hz;
         let update_hz = update_hz.map(|hz| within("update_hz", hz, 1.0..=10_000.0));
         Ok(Self {
-            decoder: config::decoder_of(words, sum_rule, byte_order),
+            decoder,
             rest_us: within("rest_us", part.rest_us, 0.0..=10_000.0)? as u16,
             update_hz: update_hz.transpose()?.map(|hz| hz as u16),
             report: part.report,
