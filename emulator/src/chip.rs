@@ -93,7 +93,7 @@ pub(crate) struct Chip {
     /// SPI1, and SPI2 where it is used: that of the left side, and of the right.
     spis: Vec<Spi>,
     /// DMA1, and DMA2 where it is used.
-    dmas: Vec<Box<dyn Dma>>,
+    dmas: Vec<Dma>,
     mux: Mux,
     watchdog: Watchdog,
     /// USART2, the ST-LINK's serial port, and its line.
