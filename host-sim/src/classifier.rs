@@ -18,10 +18,13 @@ pub const GATE: f64 = 0.05;
 
 type Words = Box<[u32]>;
 
+/// What takes samples, and decides.
+pub type Codes = CodeClassifier<Words>;
+
 /// The classifier that a board runs, with its model.
 #[derive(Debug, Clone)]
 pub struct Classifier {
-    codes: Box<CodeClassifier<Words>>,
+    codes: Box<Codes>,
     deciding: Deciding,
     classes: Vec<String>,
     settings: ClassList,
@@ -92,6 +95,16 @@ impl Classifier {
         &self.settings
     }
 
+    /// What takes samples, of all whiskers.
+    pub fn codes_mut(&mut self) -> &mut Codes {
+        &mut self.codes
+    }
+
+    /// The same, alone.
+    pub fn into_codes(self) -> Codes {
+        *self.codes
+    }
+
     /// Channels of its model: two of all whiskers, or two of each.
     pub(crate) fn channels(&self) -> usize {
         self.codes.model().map_or(0, Model::channels)
@@ -119,65 +132,14 @@ impl Classifier {
     /// Posterior of each class after the last full block: of the first whisker, or of all
     /// together.
     pub fn posteriors(&self) -> Posteriors {
-        self.posteriors_of(0)
-    }
-
-    /// The same of a whisker, counted from 0, left side first, or of all together.
-    pub fn posteriors_of(&self, whisker: usize) -> Posteriors {
-        let classifier = self.codes.classifier();
-        // It was made with one.
-        classifier.map_or_else(Posteriors::default, |one| one.posteriors(whisker))
+        posteriors(&self.codes, 0)
     }
 }
 
-impl SampleClassifier for Classifier {
-    fn hears(&self, whisker: usize) -> bool {
-        self.codes.hears(whisker)
-    }
-
-    fn push(&mut self, whisker: usize, sample: Sample) -> Option<Decision> {
-        self.codes.push(whisker, sample)
-    }
-
-    fn pose(&self, whisker: usize, class: usize) -> Option<Pose> {
-        self.codes.pose(whisker, class)
-    }
-
-    fn knows_touches(&self) -> bool {
-        self.codes.knows_touches()
-    }
-
-    fn interrupt(&mut self, whisker: usize) {
-        self.codes.interrupt(whisker);
-    }
-
-    fn reset(&mut self) {
-        self.codes.reset();
-    }
-
-    fn classes(&self) -> usize {
-        self.codes.classes()
-    }
-
-    fn evidence(&self) -> Option<Felt> {
-        self.codes.evidence()
-    }
-
-    fn hear(&mut self, board: usize, felt: Option<&Felt>) -> Option<Decision> {
-        self.codes.hear(board, felt)
-    }
-
-    fn set_led(&mut self, is_led: bool) {
-        self.codes.set_led(is_led);
-    }
-
-    fn forget(&mut self) {
-        self.codes.forget();
-    }
-
-    fn set_rule(&mut self, settings: &RuleSettings, classes: &[ClassSetting]) {
-        self.codes.set_rule(settings, classes);
-    }
+/// The same of a whisker, counted from 0, left side first, or of all together.
+pub fn posteriors(codes: &Codes, whisker: usize) -> Posteriors {
+    let classifier = codes.classifier();
+    classifier.map_or_else(Posteriors::default, |one| one.posteriors(whisker))
 }
 
 /// What stands between the whiskers that are heard and their classifier, if there is one:
@@ -194,6 +156,17 @@ impl Tap {
             samples: vec![None; heard],
             classifier,
         }
+    }
+
+    fn codes(&self) -> Option<&Codes> {
+        self.classifier
+            .as_ref()
+            .map(|classifier| &*classifier.codes)
+    }
+
+    fn codes_mut(&mut self) -> Option<&mut Codes> {
+        let classifier = self.classifier.as_mut();
+        classifier.map(|classifier| &mut *classifier.codes)
     }
 
     pub(crate) fn touch_rule(&self) -> Option<TouchRule> {
@@ -228,60 +201,58 @@ impl SampleClassifier for Tap {
 
     fn push(&mut self, whisker: usize, sample: Sample) -> Option<Decision> {
         *self.samples.get_mut(whisker)? = Some(sample);
-        self.classifier.as_mut()?.push(whisker, sample)
+        self.codes_mut()?.push(whisker, sample)
     }
 
     fn pose(&self, whisker: usize, class: usize) -> Option<Pose> {
-        self.classifier.as_ref()?.pose(whisker, class)
+        self.codes()?.pose(whisker, class)
     }
 
     fn knows_touches(&self) -> bool {
         // A recording has them for whatever model is made of it.
-        let classifier = self.classifier.as_ref();
-        classifier.is_none_or(SampleClassifier::knows_touches)
+        self.codes().is_none_or(SampleClassifier::knows_touches)
     }
 
     fn interrupt(&mut self, whisker: usize) {
-        if let Some(classifier) = &mut self.classifier {
-            classifier.interrupt(whisker);
+        if let Some(codes) = self.codes_mut() {
+            codes.interrupt(whisker);
         }
     }
 
     fn reset(&mut self) {
         self.samples.fill(None);
-        if let Some(classifier) = &mut self.classifier {
-            classifier.reset();
+        if let Some(codes) = self.codes_mut() {
+            codes.reset();
         }
     }
 
     fn classes(&self) -> usize {
-        let classifier = self.classifier.as_ref();
-        classifier.map_or(0, SampleClassifier::classes)
+        self.codes().map_or(0, SampleClassifier::classes)
     }
 
     fn evidence(&self) -> Option<Felt> {
-        self.classifier.as_ref()?.evidence()
+        self.codes()?.evidence()
     }
 
     fn hear(&mut self, board: usize, felt: Option<&Felt>) -> Option<Decision> {
-        self.classifier.as_mut()?.hear(board, felt)
+        self.codes_mut()?.hear(board, felt)
     }
 
     fn set_led(&mut self, is_led: bool) {
-        if let Some(classifier) = &mut self.classifier {
-            classifier.set_led(is_led);
+        if let Some(codes) = self.codes_mut() {
+            codes.set_led(is_led);
         }
     }
 
     fn forget(&mut self) {
-        if let Some(classifier) = &mut self.classifier {
-            classifier.forget();
+        if let Some(codes) = self.codes_mut() {
+            codes.forget();
         }
     }
 
     fn set_rule(&mut self, settings: &RuleSettings, classes: &[ClassSetting]) {
-        if let Some(classifier) = &mut self.classifier {
-            classifier.set_rule(settings, classes);
+        if let Some(codes) = self.codes_mut() {
+            codes.set_rule(settings, classes);
         }
     }
 }

@@ -184,10 +184,10 @@ impl Heard {
                 let mut decided = Vec::new();
                 for (n, sample) in samples.iter().enumerate() {
                     let Some(sample) = sample else {
-                        classifier.interrupt(n);
+                        classifier.codes_mut().interrupt(n);
                         continue;
                     };
-                    let Some(decision) = classifier.push(n, *sample) else {
+                    let Some(decision) = classifier.codes_mut().push(n, *sample) else {
                         continue;
                     };
                     let each = self.whiskers_per_side.max(1);

@@ -86,7 +86,9 @@ fn each_decides_as_one_that_is_heard_alone() {
         let mut expected = Vec::new();
         for (tick, samples) in (1..).zip(&heard) {
             let t_s = f64::from(tick) / 2000.0;
-            let decision = alone.push(0, samples[usize::from(side)].unwrap());
+            let decision = alone
+                .codes_mut()
+                .push(0, samples[usize::from(side)].unwrap());
             expected.extend(decision.map(|d| (t_s, d.posterior().to_f64(), d.touch())));
         }
         assert_eq!(its, expected);

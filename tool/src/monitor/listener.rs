@@ -8,7 +8,7 @@
 use firmware::design_parameters::{Plausible, sensor_limits};
 use firmware::{Event, Perception, Place, Reading, Sensed, SensorLimits};
 use host_sim::Error;
-use host_sim::classifier::Classifier;
+use host_sim::classifier::{Codes, posteriors};
 use mlx90333::Word;
 use tactile::Decision;
 use whisking::{Real, filter};
@@ -69,7 +69,8 @@ impl Track {
 
 /// Classifies what the first whisker of each side feels.
 pub(crate) struct Listener {
-    perception: Option<Perception<Classifier>>,
+    perception: Option<Perception<Codes>>,
+    classes: Vec<String>,
     least: Option<f32>,
     h50: filter::Config<f32>,
     limits: SensorLimits,
@@ -91,7 +92,12 @@ impl Listener {
             jump_per_s: f64::INFINITY,
         };
         Ok(Self {
-            perception: Some(Perception::new(known.classifier, SIDES.len(), tick_hz)),
+            classes: known.classifier.classes().to_vec(),
+            perception: Some(Perception::new(
+                known.classifier.into_codes(),
+                SIDES.len(),
+                tick_hz,
+            )),
             least: known.contact_min.map(|least| least as f32),
             h50,
             limits: sensor_limits(tick_hz, plausible),
@@ -104,15 +110,14 @@ impl Listener {
     }
 
     pub(crate) fn classes(&self) -> &[String] {
-        let perception = self.perception.as_ref();
-        perception.map_or(&[], |perception| perception.classifier().classes())
+        &self.classes
     }
 
     pub(crate) fn posteriors(&self, side: usize) -> Vec<f32> {
         let Some(perception) = &self.perception else {
             return Vec::new();
         };
-        let posteriors = perception.classifier().posteriors_of(side);
+        let posteriors = posteriors(perception.classifier(), side);
         posteriors.to_f64().map(|p| p as f32).collect()
     }
 
