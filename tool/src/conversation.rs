@@ -102,24 +102,20 @@ impl Conversation {
 
     /// Asks for something, without waiting; the answer has the tag that is returned.
     pub(crate) fn send(&mut self, command: Command) -> Result<u16, Error> {
-        self.tag = self.tag.wrapping_add(1);
-        let tag = self.tag;
-        self.source.request(TaggedCommand { tag, command })?;
-        Ok(tag)
+        self.send_to(None, command)
     }
 
-    /// The same of another board of its head.
-    pub(crate) fn send_to(&mut self, node: u8, command: Command) -> Result<u16, Error> {
+    /// The same of another board of its head, if there is a `node`.
+    pub(crate) fn send_to(&mut self, node: Option<u8>, command: Command) -> Result<u16, Error> {
         self.tag = self.tag.wrapping_add(1);
         let tag = self.tag;
-        self.source
-            .request_of(node, TaggedCommand { tag, command })?;
+        self.source.request(node, TaggedCommand { tag, command })?;
         Ok(tag)
     }
 
     /// Whether it is a board of a head: then that has a first one.
     pub(crate) fn is_of_head(&mut self) -> Result<bool, Error> {
-        let tag = self.send_to(0, Command::Hello)?;
+        let tag = self.send_to(Some(0), Command::Hello)?;
         let answer = self.await_answer(tag, Command::Hello)?;
         Ok(answer.status == CommandStatus::Done)
     }

@@ -30,7 +30,7 @@ impl<S: Source + ?Sized> Asking<'_, S> {
     fn ask(&mut self, command: Command, patience: Duration) -> Result<Option<Answer>, Error> {
         self.tag = self.tag.wrapping_add(1) | FIRST_TAG;
         let tag = self.tag;
-        self.source.request(TaggedCommand { tag, command })?;
+        self.source.request(None, TaggedCommand { tag, command })?;
         let begun = Instant::now();
         while begun.elapsed() < patience {
             let found = self.source.next()?.packets.into_iter().find_map(|packet| {

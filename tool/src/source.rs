@@ -26,6 +26,7 @@ pub(crate) use laying::Laying;
 pub(crate) use program::{BoardName, build, is_of, with_scene, workspace};
 #[cfg(test)]
 pub(crate) use scripted::{Scripted, chosen, parsed, record, scene_file};
+pub(crate) use simulated::Simulated;
 pub(crate) use texture::texture;
 
 use firmware::{Links, Packet};
@@ -57,13 +58,9 @@ pub(crate) trait Source {
     /// Waits for what comes next, and takes it. Nothing may have come after a while.
     fn next(&mut self) -> Result<Incoming, Error>;
 
-    /// Sends a request, whose answer is among what comes next.
-    fn request(&mut self, request: TaggedCommand) -> Result<(), Error>;
-
-    /// Sends a request for another board of its head.
-    fn request_of(&mut self, node: u8, _: TaggedCommand) -> Result<(), Error> {
-        Err(no_board(node))
-    }
+    /// Sends a request, whose answer is among what comes next; with a `node` for that board of its
+    /// head.
+    fn request(&mut self, node: Option<u8>, request: TaggedCommand) -> Result<(), Error>;
 
     /// The board of a head that is asked by way of another one, if it is one.
     fn node(&self) -> Option<u8> {
@@ -137,6 +134,13 @@ pub(crate) trait Source {
     /// off already.
     fn deploy(&mut self, what: &Deployment) -> Result<(), Error> {
         load(self, what)
+    }
+}
+
+pub(crate) fn framed(node: Option<u8>, request: TaggedCommand) -> Vec<u8> {
+    match node {
+        Some(node) => wire::frame_for(node, request.tag, request.command).to_vec(),
+        None => wire::frame(&request).to_vec(),
     }
 }
 

@@ -16,7 +16,7 @@ use crate::calibrate::{
 };
 use crate::conversation::Conversation;
 use crate::interrupt;
-use crate::source::{Source, SourceChoice, seconds};
+use crate::source::{Simulated, Source, seconds};
 
 #[derive(Debug, Args)]
 #[command(group(clap::ArgGroup::new("source").required(true)))]
@@ -40,7 +40,7 @@ const FAULTS: usize = 40;
 pub(crate) fn check(arguments: &Arguments) -> Result<(), Error> {
     arguments.which.source.sends_all()?;
     let scene = arguments.which.scene_file()?;
-    let simulation = SourceChoice::simulation(scene)?;
+    let simulation = Box::new(Simulated::of(scene)?);
     let file = |name: &str| Output::create(&arguments.out.join(name));
     let [md, svg, png] = [file("check.md")?, file("check.svg")?, file("check.png")?];
     report::warn(format_args!(

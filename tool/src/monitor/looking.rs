@@ -105,7 +105,7 @@ impl Looking {
             number: (hair % each) as u8,
         };
         let board = stand.board.unwrap_or(0) as u8;
-        let tag = module.send_to(board, Command::Look(whisker))?;
+        let tag = module.send_to(Some(board), Command::Look(whisker))?;
         self.next = (hair + 1) % whiskers;
         self.asked = Some(Asked {
             tag,

@@ -14,7 +14,7 @@ use wire::TaggedCommand;
 
 use super::find;
 use super::memory::{MemoryPort, ram};
-use crate::source::{BoardName, Incoming, Laying, Source, by_probe};
+use crate::source::{BoardName, Incoming, Laying, Source, by_probe, framed};
 
 /// Between two looks where nothing has come: a quarter of the time in which the ring of packets
 /// fills.
@@ -90,7 +90,7 @@ impl Behind {
         })
     }
 
-    fn send(&mut self, frame: &wire::Frame) -> Result<(), Error> {
+    fn send(&mut self, frame: &[u8]) -> Result<(), Error> {
         let sent = match self.rings {
             Some([_, requests]) => requests.send(&mut self.memory, frame)?,
             None => 0,
@@ -134,12 +134,8 @@ impl Source for Behind {
         })
     }
 
-    fn request(&mut self, request: TaggedCommand) -> Result<(), Error> {
-        self.send(&wire::frame(&request))
-    }
-
-    fn request_of(&mut self, node: u8, request: TaggedCommand) -> Result<(), Error> {
-        self.send(&wire::frame_for(node, request.tag, request.command))
+    fn request(&mut self, node: Option<u8>, request: TaggedCommand) -> Result<(), Error> {
+        self.send(&framed(node, request))
     }
 
     fn has_log(&self) -> Result<(), Error> {

@@ -47,8 +47,8 @@ impl Source for Altered {
         Ok(incoming)
     }
 
-    fn request(&mut self, request: TaggedCommand) -> Result<(), Error> {
-        self.module.request(request)
+    fn request(&mut self, node: Option<u8>, request: TaggedCommand) -> Result<(), Error> {
+        self.module.request(node, request)
     }
 
     fn has(&self, sample: &str) -> Result<(), Error> {

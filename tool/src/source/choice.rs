@@ -199,11 +199,6 @@ impl SourceChoice {
         }
     }
 
-    pub(crate) fn simulation(scene: &Path) -> Result<Box<dyn Source>, Error> {
-        let flash = Flash::open(None)?;
-        Ok(Box::new(Simulated::open(Loaded::new(scene)?, flash, 0)?))
-    }
-
     pub(crate) const fn is_simulated(&self) -> bool {
         self.sim.is_some()
     }

@@ -52,15 +52,11 @@ impl Source for Elsewhere {
         Ok(Incoming { packets, lines })
     }
 
-    fn request(&mut self, request: TaggedCommand) -> Result<(), Error> {
-        if let Command::Stream(on) = request.command {
+    fn request(&mut self, node: Option<u8>, request: TaggedCommand) -> Result<(), Error> {
+        if let (None, Command::Stream(on)) = (node, request.command) {
             self.came_s = on.then(|| self.now_s());
         }
-        self.by.request_of(self.node, request)
-    }
-
-    fn request_of(&mut self, node: u8, request: TaggedCommand) -> Result<(), Error> {
-        self.by.request_of(node, request)
+        self.by.request(node.or(Some(self.node)), request)
     }
 
     fn node(&self) -> Option<u8> {
@@ -109,7 +105,8 @@ mod tests {
         let answering = |_| Some((CommandStatus::Done, [0; 2]));
         let mut source = Elsewhere::new(Box::new(Scripted::new(answering)), 1);
         let mut ask = |command, most_s: f64| {
-            source.request(TaggedCommand { tag: 1, command }).unwrap();
+            let request = TaggedCommand { tag: 1, command };
+            source.request(None, request).unwrap();
             let begun_s = source.now_s();
             while source.now_s() - begun_s < most_s {
                 if let Err(error) = source.next() {

@@ -52,13 +52,6 @@ impl Emulated {
     }
 }
 
-fn room(is_there: bool, fault: &str) -> Result<(), Error> {
-    let room = is_there.then_some(());
-    room.ok_or_else(|| Error::Work(fault.to_owned()))
-}
-
-const FULL: &str = "the board has no room for more requests";
-
 impl Source for Emulated {
     fn next(&mut self) -> Result<Incoming, Error> {
         let (packets, lines) = match &mut self.boards {
@@ -74,19 +67,19 @@ impl Source for Emulated {
         Ok(Incoming { packets, lines })
     }
 
-    fn request(&mut self, request: TaggedCommand) -> Result<(), Error> {
-        let fault = "the board takes no requests; has its scene telemetry.rtt = false?";
-        match &mut self.boards {
-            Boards::One(board, _) => room(board.request(request)?, fault),
-            Boards::Head(head) => room(head.request(None, request)?, FULL),
-        }
-    }
-
-    fn request_of(&mut self, node: u8, request: TaggedCommand) -> Result<(), Error> {
-        match &mut self.boards {
-            Boards::One(..) => Err(no_board(node)),
-            Boards::Head(head) => room(head.request(Some(node), request)?, FULL),
-        }
+    fn request(&mut self, node: Option<u8>, request: TaggedCommand) -> Result<(), Error> {
+        let (has_room, fault) = match &mut self.boards {
+            Boards::One(board, _) => (
+                node.map_or_else(|| board.request(request), |node| Err(no_board(node)))?,
+                "the board takes no requests; has its scene telemetry.rtt = false?",
+            ),
+            Boards::Head(head) => (
+                head.request(node, request)?,
+                "the board has no room for more requests",
+            ),
+        };
+        let room = has_room.then_some(());
+        room.ok_or_else(|| Error::Work(fault.to_owned()))
     }
 
     fn scene(&self) -> Option<&Scene> {

@@ -12,7 +12,7 @@ use serial2::SerialPort;
 use wire::{Answer, Command, CommandStatus, TaggedCommand};
 
 use super::laying::Laying;
-use super::{Incoming, Source};
+use super::{Incoming, Source, framed};
 
 const WAIT: Duration = Duration::from_millis(50);
 
@@ -97,7 +97,7 @@ impl Port {
         let mut is_loading = false;
         while self.tick_hz.is_none() {
             if !is_loading && asked.is_none_or(|asked: Instant| asked.elapsed() > ASK_AGAIN) {
-                self.request(HELLO)?;
+                self.request(None, HELLO)?;
                 asked = Some(Instant::now());
             }
             let incoming = self.next()?;
@@ -179,13 +179,11 @@ impl Source for Port {
         Ok(incoming)
     }
 
-    fn request(&mut self, request: TaggedCommand) -> Result<(), Error> {
-        self.write(&wire::frame(&request))
-    }
-
-    fn request_of(&mut self, node: u8, request: TaggedCommand) -> Result<(), Error> {
-        self.elsewhere = Some(request.tag);
-        self.write(&wire::frame_for(node, request.tag, request.command))
+    fn request(&mut self, node: Option<u8>, request: TaggedCommand) -> Result<(), Error> {
+        if node.is_some() {
+            self.elsewhere = Some(request.tag);
+        }
+        self.write(&framed(node, request))
     }
 
     fn laying(&mut self) -> Option<&mut Laying> {

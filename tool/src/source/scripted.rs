@@ -74,7 +74,7 @@ impl Source for Scripted {
         Ok(Incoming::of(std::mem::take(&mut self.waiting)))
     }
 
-    fn request(&mut self, request: TaggedCommand) -> Result<(), Error> {
+    fn request(&mut self, _: Option<u8>, request: TaggedCommand) -> Result<(), Error> {
         let TaggedCommand { tag, command } = request;
         let answer = (self.answering)(command).map(|(status, values)| {
             Packet::Answer(Answer {
@@ -87,10 +87,6 @@ impl Source for Scripted {
         });
         self.waiting.extend(answer);
         Ok(())
-    }
-
-    fn request_of(&mut self, _: u8, request: TaggedCommand) -> Result<(), Error> {
-        self.request(request)
     }
 
     fn now_s(&mut self) -> f64 {

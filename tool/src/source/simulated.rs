@@ -1,5 +1,7 @@
 //! A module that is simulated: `host-sim`'s.
 
+use std::path::Path;
+
 use firmware::boards::NUCLEO_F446RE;
 use firmware::faults::number;
 use firmware::{Event, Refusal};
@@ -18,10 +20,10 @@ use super::{Incoming, Source, no_board};
 use crate::decides::Decides;
 use crate::deployment::Deployment;
 
-pub(super) struct Simulated {
+pub(crate) struct Simulated {
     loaded: Loaded,
     flash: Flash,
-    run: Run,
+    pub(crate) run: Run,
     /// Of a head of several boards the one that is talked with.
     node: usize,
     /// Lines that it has logged before its first tick.
@@ -32,6 +34,11 @@ pub(super) struct Simulated {
 const ROOM: usize = NUCLEO_F446RE.flash.slots[0].model.bytes as usize;
 
 impl Simulated {
+    /// That of a scene file, whose flash is not kept.
+    pub(crate) fn of(scene: &Path) -> Result<Self, Error> {
+        Self::open(Loaded::new(scene)?, Flash::open(None)?, 0)
+    }
+
     pub(super) fn open(mut loaded: Loaded, flash: Flash, node: usize) -> Result<Self, Error> {
         let flash = flash.of_size(ROOM)?;
         let mut first = Vec::new();
@@ -83,12 +90,11 @@ impl Source for Simulated {
         })
     }
 
-    fn request(&mut self, request: TaggedCommand) -> Result<(), Error> {
-        self.run.module_mut().request(request);
-        Ok(())
-    }
-
-    fn request_of(&mut self, node: u8, request: TaggedCommand) -> Result<(), Error> {
+    fn request(&mut self, node: Option<u8>, request: TaggedCommand) -> Result<(), Error> {
+        let Some(node) = node else {
+            self.run.module_mut().request(request);
+            return Ok(());
+        };
         let is_there = self.run.module_mut().request_of(node.into(), request);
         is_there.then_some(()).ok_or_else(|| no_board(node))
     }

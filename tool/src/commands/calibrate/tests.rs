@@ -1,14 +1,11 @@
 //! Calibrating whiskers whose motor, encoder and way are known.
 
-use host_sim::loaded::Loaded;
 use host_sim::motor::Wire;
-use host_sim::origin::Origin;
-use host_sim::run::Run;
-use wire::{TaggedCommand, WhiskerId};
+use wire::WhiskerId;
 
 use super::*;
 use crate::conversation::Conversation;
-use crate::source::{Incoming, Source, chosen};
+use crate::source::{Simulated, chosen};
 
 /// A whisker in free air; a motor is added where there is one.
 pub(in crate::commands) const SCENE: &str = r#"name = "free"
@@ -27,43 +24,19 @@ gain = 1.0
 start = [[1.0, 0.0]]
 "#;
 
-/// A simulated module, of which a wire can be exchanged.
-struct Wired(Run);
-
-impl Source for Wired {
-    fn next(&mut self) -> Result<Incoming, Error> {
-        self.0.tick();
-        Ok(Incoming::of(self.0.module_mut().take_packets()))
-    }
-
-    fn request(&mut self, request: TaggedCommand) -> Result<(), Error> {
-        self.0.module_mut().request(request);
-        Ok(())
-    }
-
-    fn now_s(&mut self) -> f64 {
-        self.0.row().t_s
-    }
-
-    fn origin(&self) -> Origin {
-        Origin::default()
-    }
-}
-
 /// What a calibration of the scene with `more` says, with that wire the wrong way.
 fn calibrated(more: &str, wire: Option<Wire>) -> Result<(Results, Vec<Sample>), Error> {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("scene.toml");
     std::fs::write(&path, format!("{SCENE}{more}")).unwrap();
-    let loaded = Loaded::new(&path).unwrap();
+    let mut simulated = Simulated::of(&path).unwrap();
     let source = chosen(&["--sim", path.to_str().unwrap()]);
     let tuner = Tuner::open(&path, &source).unwrap();
     let motor = tuner.scene().motor.as_ref().unwrap();
-    let mut run = Run::new(&loaded.scene, None).unwrap();
     if let Some(wire) = wire {
-        run.motor_mut(0).unwrap().cut(wire);
+        simulated.run.motor_mut(0).unwrap().cut(wire);
     }
-    let mut module = Conversation::new(Box::new(Wired(run)));
+    let mut module = Conversation::new(Box::new(simulated));
     let mut whisker = Listening::new(&mut module, 0).unwrap();
     let mut results = Results::default();
     let samples = all(&mut whisker, &tuner, motor, &mut results)?;
@@ -143,10 +116,9 @@ fn the_zero_that_the_module_finds_is_the_sensors_all_the_same() {
     let path = folder.path().join("scene.toml");
     let more = "[sensor]\nzero_after_s = 1\n[plant]\nkind = \"ideal\"\nzero_codes = [[120, -70]]\n";
     std::fs::write(&path, format!("{SCENE}{more}")).unwrap();
-    let loaded = Loaded::new(&path).unwrap();
-    let mut run = Run::new(&loaded.scene, None).unwrap();
-    run.tick();
-    let mut module = Conversation::new(Box::new(Wired(run)));
+    let mut simulated = Simulated::of(&path).unwrap();
+    simulated.run.tick();
+    let mut module = Conversation::new(Box::new(simulated));
     let left = WhiskerId::default();
     assert_eq!(module.zero(left).unwrap(), Some([0, 0]));
     let right = WhiskerId { side: 1, number: 0 };
