@@ -11,6 +11,7 @@ use tactile::score::{Confusion, Statistics};
 use tactile::{Decision, Pose, Reason};
 
 use crate::bench;
+use crate::cells::{Cells, Line};
 use crate::columns::{Column, columns};
 pub use reasons::Reasons;
 
@@ -141,11 +142,31 @@ impl Decided {
         [reason.to_owned(), among.unwrap_or_default()]
     }
 
-    /// Its pose: tilt and its error, depth and its error; not numbers where it has none.
-    pub fn stands(&self) -> [f64; 4] {
-        self.pose.map_or([f64::NAN; 4], |Pose { tilt, depth }| {
-            [tilt.value(), tilt.error(), depth.value(), depth.error()]
-        })
+    /// Gives the cells of these columns, as many decimals as its file has.
+    pub fn cells(&self, columns: Columns, to: &mut impl Cells) {
+        to.text(&self.label);
+        to.text(&self.trial);
+        to.text(&self.decision);
+        to.number(self.samples.into(), 0);
+        to.number(self.posterior, 9);
+        to.number(self.touch.into(), 0);
+        if columns.first >= OF_SCENE {
+            to.number(self.t_s.unwrap_or(f64::NAN), 9);
+        }
+        if columns.first >= OF_SEVERAL {
+            to.text(self.place.map_or("", |at| at.side_name()));
+            let number = |at: Place| f64::from(at.whisker) + 1.0;
+            to.number(self.place.map_or(f64::NAN, number), 0);
+        }
+        for why in self.why() {
+            to.text(&why);
+        }
+        if columns.has_pose {
+            let stands = self.pose.map(|Pose { tilt, depth }| {
+                [tilt.value(), tilt.error(), depth.value(), depth.error()]
+            });
+            to.numbers(&stands.unwrap_or([f64::NAN; 4]), 2);
+        }
     }
 
     /// Whether it named the true class.
@@ -203,11 +224,6 @@ impl Columns {
         };
         (0..self.first).chain(OF_SEVERAL..end)
     }
-
-    /// Whether there is one of this name.
-    pub fn has(self, name: &str) -> bool {
-        self.indices().any(|index| COLUMNS[index].name == name)
-    }
 }
 
 /// The columns in order: those of a recording, of a scene, of several whiskers, and why no class
@@ -252,38 +268,15 @@ const OF_POSE: usize = 11;
 ///
 /// # Errors
 /// Any error of the writer.
-pub fn write(table: impl Write, decisions: &[Decided], columns: Columns) -> io::Result<()> {
-    let mut table = csv::Writer::from_writer(table);
-    table.write_record(columns.indices().map(|index| COLUMNS[index].name))?;
-    for d in decisions {
-        let [reason, among] = d.why();
-        let cell = |value: f64| {
-            if value.is_nan() {
-                return String::new();
-            }
-            format!("{value:.2}")
-        };
-        let [tilt, tilt_error, depth, depth_error] = d.stands().map(cell);
-        let cells = [
-            d.label.clone(),
-            d.trial.clone(),
-            d.decision.clone(),
-            d.samples.to_string(),
-            format!("{:.9}", d.posterior),
-            d.touch.to_string(),
-            d.t_s.map_or_else(String::new, |t_s| format!("{t_s:.9}")),
-            d.place
-                .map_or_else(String::new, |at| at.side_name().to_owned()),
-            d.place
-                .map_or_else(String::new, |at| (at.whisker + 1).to_string()),
-            reason,
-            among,
-            tilt,
-            tilt_error,
-            depth,
-            depth_error,
-        ];
-        table.write_record(columns.indices().map(|index| &cells[index]))?;
+pub fn write(mut table: impl Write, decisions: &[Decided], columns: Columns) -> io::Result<()> {
+    let mut line = Line::default();
+    for index in columns.indices() {
+        line.text(COLUMNS[index].name);
+    }
+    line.write(&mut table)?;
+    for decided in decisions {
+        decided.cells(columns, &mut line);
+        line.write(&mut table)?;
     }
     table.flush()
 }

@@ -48,6 +48,7 @@
 pub mod array;
 pub mod bench;
 pub mod bus;
+pub mod cells;
 pub mod classifier;
 pub mod columns;
 pub mod decisions;

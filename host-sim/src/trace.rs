@@ -1,9 +1,10 @@
 //! `trace.csv`: what a module did, one row for each tick.
 
-mod decimals;
 mod header;
 
 use std::io::{self, Write};
+
+use crate::cells::{Cells, Line};
 
 pub use header::{FIRST, OF_ELASTIC, OF_RIGHT, OF_WHISKER, SECOND, TraceShape};
 
@@ -82,12 +83,57 @@ pub struct TraceLine<'a> {
     pub whiskers: &'a [WhiskerRow],
 }
 
+impl TraceLine<'_> {
+    /// Gives the cells of its row. Nine decimals show the error of the integrators; the cells of
+    /// a side that does not exist are none, and that of a decision is empty where none fell.
+    pub fn cells(&self, shape: TraceShape, to: &mut impl Cells) {
+        to.number(self.row.t_s, 9);
+        let pairs = self.row.pairs();
+        let (precise, codes) = pairs.as_flattened().split_at(10);
+        to.numbers(precise, 9);
+        to.numbers(codes, 0);
+        let sides = self.row.touch.into_iter().zip(self.decisions);
+        for (touch, decision) in sides.take(1 + usize::from(shape.hears_right)) {
+            to.number(touch.into(), 0);
+            to.text(decision.unwrap_or_default());
+        }
+        let (label, trial) = self.presented;
+        to.text(label);
+        to.number(trial as f64, 0);
+        let mut sides = self.whiskers.chunks(shape.whiskers_per_side.max(1));
+        let first = [sides.next(), sides.next()].map(|side| side.and_then(<[_]>::first));
+        let mut pair = |value: fn(&WhiskerRow) -> f64, decimals| {
+            to.numbers(
+                &first.map(|whisker| whisker.map_or(f64::NAN, value)),
+                decimals,
+            );
+        };
+        pair(|whisker| whisker.speed_deg_s, 3);
+        pair(|whisker| whisker.duty, 6);
+        pair(|whisker| whisker.fault, 0);
+        for side in self.whiskers.chunks(shape.whiskers_per_side.max(1)) {
+            for whisker in side.iter().skip(1) {
+                to.numbers(&[whisker.theta_deg, whisker.angle_deg], 6);
+                to.number(whisker.speed_deg_s, 3);
+                to.number(whisker.duty, 6);
+                to.numbers(&whisker.codes, 0);
+                to.number(whisker.contact, 6);
+                to.number(whisker.fault, 0);
+            }
+        }
+        for first in first.into_iter().take(shape.elastic_sides()) {
+            let touched = first.map(|whisker| [whisker.touch_at_m, whisker.place_m]);
+            to.numbers(&touched.unwrap_or([f64::NAN; 2]), 9);
+        }
+    }
+}
+
 /// Writes rows to `W`, which should be buffered.
 #[derive(Debug)]
 pub struct TraceWriter<W> {
     table: W,
     shape: TraceShape,
-    line: Vec<u8>,
+    line: Line,
 }
 
 impl<W: Write> TraceWriter<W> {
@@ -100,96 +146,22 @@ impl<W: Write> TraceWriter<W> {
         Ok(Self {
             table,
             shape,
-            line: Vec::new(),
+            line: Line::default(),
         })
     }
 
-    /// One line. Nine decimals show the error of the integrators; the cells of a side that
-    /// does not exist are empty, and so is that of a decision where none fell.
+    /// One line; the cells of what is none are empty.
     ///
     /// # Errors
     /// Any error of the writer.
     pub fn line(&mut self, of: &TraceLine<'_>) -> io::Result<()> {
-        let (line, shape) = (&mut self.line, self.shape);
-        line.clear();
-        decimals::append(line, of.row.t_s, 9);
-        let pairs = of.row.pairs();
-        let (precise, codes) = pairs.as_flattened().split_at(10);
-        for value in precise {
-            cell(line, *value, 9);
-        }
-        for value in codes {
-            cell(line, *value, 0);
-        }
-        let sides = of.row.touch.into_iter().zip(of.decisions);
-        for (touch, decision) in sides.take(1 + usize::from(shape.hears_right)) {
-            cell(line, touch.into(), 0);
-            line.push(b',');
-            text(line, decision.unwrap_or_default());
-        }
-        line.push(b',');
-        text(line, of.presented.0);
-        cell(line, of.presented.1 as f64, 0);
-        let whisker = |n: usize| of.whiskers.get(n);
-        let first = [0, 1].map(|side| {
-            let is_there = side < shape.sides;
-            whisker(side * shape.whiskers_per_side).filter(|_| is_there)
-        });
-        let mut pair = |value: fn(&WhiskerRow) -> f64, decimals| {
-            for first in first {
-                cell(line, first.map_or(f64::NAN, value), decimals);
-            }
-        };
-        pair(|whisker| whisker.speed_deg_s, 3);
-        pair(|whisker| whisker.duty, 6);
-        pair(|whisker| whisker.fault, 0);
-        let further = shape.whiskers_per_side.saturating_sub(1);
-        for side in of.whiskers.chunks(shape.whiskers_per_side.max(1)) {
-            for whisker in side.iter().skip(1).take(further) {
-                cell(line, whisker.theta_deg, 6);
-                cell(line, whisker.angle_deg, 6);
-                cell(line, whisker.speed_deg_s, 3);
-                cell(line, whisker.duty, 6);
-                for code in whisker.codes {
-                    cell(line, code, 0);
-                }
-                cell(line, whisker.contact, 6);
-                cell(line, whisker.fault, 0);
-            }
-        }
-        for first in first.into_iter().take(shape.elastic_sides()) {
-            cell(
-                line,
-                first.map_or(f64::NAN, |whisker| whisker.touch_at_m),
-                9,
-            );
-            cell(line, first.map_or(f64::NAN, |whisker| whisker.place_m), 9);
-        }
-        line.push(b'\n');
-        self.table.write_all(line)
+        of.cells(self.shape, &mut self.line);
+        self.line.write(&mut self.table)
     }
 
     /// The writer.
     pub fn into_inner(self) -> W {
         self.table
-    }
-}
-
-fn cell(line: &mut Vec<u8>, value: f64, decimals: u32) {
-    line.push(b',');
-    if !value.is_nan() {
-        decimals::append(line, value, decimals);
-    }
-}
-
-/// A text, in quotes where a table asks for them.
-fn text(line: &mut Vec<u8>, text: &str) {
-    if text.contains([',', '"', '\n', '\r']) {
-        line.push(b'"');
-        line.extend(text.replace('"', "\"\"").bytes());
-        line.push(b'"');
-    } else {
-        line.extend(text.bytes());
     }
 }
 

@@ -1,8 +1,11 @@
 //! Tables as numpy's structured arrays: rows are packed here, and numpy sees the bytes as they
 //! lie.
 
+use std::slice::Iter;
+
+use host_sim::cells::Cells;
 use host_sim::decisions::{COLUMNS, Columns, Decided};
-use host_sim::trace::{TraceLine, TraceShape, WhiskerRow};
+use host_sim::trace::{TraceLine, TraceShape};
 use numpy::IntoPyArray;
 use pyo3::prelude::*;
 use pyo3::types::PyList;
@@ -67,6 +70,13 @@ impl Layout {
         self.columns.iter().map(|(_, kind)| kind.bytes()).sum()
     }
 
+    fn packer<'r>(&'r self, rows: &'r mut Packed) -> RowPacker<'r> {
+        RowPacker {
+            rows,
+            columns: self.columns.iter(),
+        }
+    }
+
     /// Rows as an array that owns `bytes`.
     pub(crate) fn array<'py>(
         &self,
@@ -125,12 +135,33 @@ impl Packed {
     }
 }
 
+/// Packs the cells of a row, each as its column has it.
+struct RowPacker<'r> {
+    rows: &'r mut Packed,
+    columns: Iter<'r, (String, Kind)>,
+}
+
+impl Cells for RowPacker<'_> {
+    /// What is none is 0 among whole numbers.
+    fn number(&mut self, value: f64, _: u32) {
+        match self.columns.next() {
+            Some((_, Kind::Whole)) => self.rows.whole(value as i64),
+            Some((_, kind @ Kind::Text(_))) => self.rows.text(&value.to_string(), *kind),
+            _ => self.rows.number(value),
+        }
+    }
+
+    fn text(&mut self, text: &str) {
+        if let Some((_, kind)) = self.columns.next() {
+            self.rows.text(text, *kind);
+        }
+    }
+}
+
 /// The tables of a scene's run.
 #[derive(Debug, Clone)]
 pub(crate) struct RunTables {
     shape: TraceShape,
-    decision: Kind,
-    label: Kind,
     pub(crate) trace: Layout,
     pub(crate) decisions: Columns,
 }
@@ -160,8 +191,6 @@ impl RunTables {
         });
         Self {
             shape,
-            decision,
-            label,
             trace: Layout {
                 columns: columns.collect(),
             },
@@ -171,48 +200,7 @@ impl RunTables {
 
     /// A row of the trace, in the order of its columns.
     pub(crate) fn row(&self, rows: &mut Packed, line: &TraceLine<'_>) {
-        rows.number(line.row.t_s);
-        rows.numbers(line.row.pairs().into_iter().flatten());
-        let sides = line.row.touch.into_iter().zip(line.decisions);
-        for (touch, decision) in sides.take(1 + usize::from(self.shape.hears_right)) {
-            rows.whole(touch.into());
-            rows.text(decision.unwrap_or_default(), self.decision);
-        }
-        rows.text(line.presented.0, self.label);
-        rows.text(&line.presented.1.to_string(), TRIAL);
-        let each = self.shape.whiskers_per_side.max(1);
-        let mut sides = line.whiskers.chunks(each);
-        let firsts = [sides.next(), sides.next()].map(|side| side.and_then(<[_]>::first));
-        let mut pair = |value: fn(&WhiskerRow) -> f64| {
-            for first in firsts {
-                rows.number(first.map_or(f64::NAN, value));
-            }
-        };
-        pair(|w| w.speed_deg_s);
-        pair(|w| w.duty);
-        pair(|w| w.fault);
-        for w in line
-            .whiskers
-            .chunks(each)
-            .flat_map(|side| side.iter().skip(1))
-        {
-            let [x, y] = w.codes;
-            let own = [
-                w.theta_deg,
-                w.angle_deg,
-                w.speed_deg_s,
-                w.duty,
-                x,
-                y,
-                w.contact,
-                w.fault,
-            ];
-            rows.numbers(own);
-        }
-        for first in firsts.into_iter().take(self.shape.elastic_sides()) {
-            let touched = first.map(|w| [w.touch_at_m, w.place_m]);
-            rows.numbers(touched.unwrap_or([f64::NAN; 2]));
-        }
+        line.cells(self.shape, &mut self.trace.packer(rows));
     }
 }
 
@@ -249,37 +237,19 @@ pub(crate) fn decisions<'py>(
         Kind::Number,
     ];
     let indices = columns.indices();
-    let mut layout = Layout::new(indices.map(|index| (COLUMNS[index].name, kinds[index])));
-    if runs.iter().any(|(seed, _)| seed.is_some()) {
-        layout = layout.after("seed", Kind::Seed);
-    }
-    let [has_time, has_whisker, has_pose] = ["t_s", "side", "tilt_deg"].map(|of| columns.has(of));
+    let layout = Layout::new(indices.map(|index| (COLUMNS[index].name, kinds[index])));
     let mut rows = Packed::default();
     for (seed, decided) in runs {
         for d in *decided {
             if let Some(seed) = seed {
                 rows.seed(*seed);
             }
-            rows.text(&d.label, label);
-            rows.text(&d.trial, trial);
-            rows.text(&d.decision, decision);
-            rows.whole(d.samples.into());
-            rows.number(d.posterior);
-            rows.whole(d.touch.into());
-            if has_time {
-                rows.number(d.t_s.unwrap_or(f64::NAN));
-            }
-            if has_whisker {
-                rows.text(d.place.map_or("", |place| place.side_name()), side);
-                rows.whole(d.place.map_or(0, |place| i64::from(place.whisker) + 1));
-            }
-            let [why, pair] = d.why();
-            rows.text(&why, reason);
-            rows.text(&pair, among);
-            if has_pose {
-                rows.numbers(d.stands());
-            }
+            d.cells(columns, &mut layout.packer(&mut rows));
         }
     }
+    let layout = match runs {
+        [(Some(_), _), ..] => layout.after("seed", Kind::Seed),
+        _ => layout,
+    };
     layout.array(py, rows.bytes)
 }

@@ -111,7 +111,7 @@ impl TraceShape {
     }
 
     /// How many sides have whiskers that bend.
-    pub fn elastic_sides(self) -> usize {
+    pub(super) fn elastic_sides(self) -> usize {
         if self.is_elastic { self.sides } else { 0 }
     }
 
