@@ -239,12 +239,6 @@ impl Decoder {
         Decoder::with(Mode::AlphaBeta, SumRule::SumB1B6)
     }
 
-    /// The given mode with the default sum rule.
-    #[inline]
-    pub const fn with_mode(mode: Mode) -> Decoder {
-        Decoder::with(mode, SumRule::SumB1B6)
-    }
-
     /// The given mode and sum rule, and little-endian words.
     #[inline]
     pub const fn with(mode: Mode, sum_rule: SumRule) -> Decoder {

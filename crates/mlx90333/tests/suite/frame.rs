@@ -56,7 +56,9 @@ fn high_bytes_first_by_hand() {
 fn xyz_by_hand() {
     // 0x1BE + 0x78 + 0x56 = 0x28C.
     let bytes = [0xFF, 0x34, 0x12, 0xCD, 0xAB, 0x78, 0x56, 0x8C];
-    let frame = Decoder::with_mode(Mode::Xyz).decode(&bytes).unwrap();
+    let frame = Decoder::with(Mode::Xyz, SumRule::SumB1B6)
+        .decode(&bytes)
+        .unwrap();
     assert_eq!(frame.first().raw(), 0x1234);
     assert_eq!(frame.second().raw(), 0xABCD);
     assert_eq!(frame.third(), Some(Word::new(0x5678)));
@@ -114,7 +116,7 @@ fn words_of_a_stuck_line_are_no_reading() {
     let let_go = [0xFF, 0xFF, 0xFF, 0xFF, 0xFF, 0, 0, 0xFC];
     for mode in MODES {
         for bytes in [held_low, let_go] {
-            let decoded = Decoder::with_mode(mode).decode(&bytes);
+            let decoded = Decoder::with(mode, SumRule::SumB1B6).decode(&bytes);
             assert_eq!(decoded, Err(FrameError::StuckWords));
         }
     }
