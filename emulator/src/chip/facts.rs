@@ -10,7 +10,7 @@ use super::rcc::Bus;
 use super::timers::Kind;
 use super::wiring::{CAN, CAN_IRQS, PWM, Pin, Request, SERIAL, SERIAL_DMA};
 use super::{
-    Model, SUPPLY_IRQ, can, dma, flash, gpio, lines, mux, power, remap, spi, timer, usart, watchdog,
+    Model, SUPPLY_IRQ, can, dma, flash, lines, mux, power, remap, spi, timer, usart, watchdog,
 };
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -92,7 +92,7 @@ fn fields(model: &Model, unit: Unit) -> Vec<Field> {
         Unit::Tim(n) => timer::fields(model.timers[n].0),
         Unit::Watchdog => watchdog::FIELDS.to_vec(),
         Unit::Spi(_) => spi::fields(model.spi_version),
-        Unit::Gpio(n) => gpio::fields(model.ports[n]).to_vec(),
+        Unit::Gpio(n) => model.ports[n].layout.fields.to_vec(),
         Unit::Rcc => model.rcc.fields(),
         Unit::Flash => power::options(model.power)
             .into_iter()

@@ -1,11 +1,8 @@
-//! A GPIO port. How a pin is configured differs between the families, a file each.
+//! A GPIO port. How a pin is configured differs between the families.
 
-mod v1;
-mod v2;
+mod layout;
 
-use super::fields::Field;
-use v1::TwoRegisters;
-use v2::Modes;
+use layout::{Layout, V1, V2};
 
 /// What drives a pin.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -20,41 +17,28 @@ pub(super) enum Role {
     Analogue,
 }
 
-/// The registers that every port has.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Common {
-    Idr,
-    Odr,
-    Bsrr,
-    Brr,
-}
+/// By their offsets, a word each.
+type Registers = [u32; 10];
 
+/// A port as a reset leaves it.
 #[derive(Debug, Clone, Copy)]
-pub(super) enum Reset {
-    /// Four bits a pin (STM32F1): all are inputs.
-    V1,
+pub(super) struct Reset {
+    pub(super) layout: &'static Layout,
+    registers: Registers,
+}
+
+impl Reset {
+    /// Four bits a pin (STM32F1): all are inputs that float.
+    pub(super) const V1: Self = Self {
+        layout: &V1,
+        registers: [0x4444_4444, 0x4444_4444, 0, 0, 0, 0, 0, 0, 0, 0],
+    };
+
     /// MODER, OSPEEDR and PUPDR (STM32F4, STM32G0).
-    V2([u32; 3]),
-}
-
-pub(super) const fn fields(reset: Reset) -> &'static [Field] {
-    match reset {
-        Reset::V1 => &v1::FIELDS,
-        Reset::V2(_) => &v2::FIELDS,
-    }
-}
-
-#[derive(Debug, Clone)]
-enum Config {
-    V1(TwoRegisters),
-    V2(Modes),
-}
-
-impl Config {
-    fn new(reset: Reset) -> Self {
-        match reset {
-            Reset::V1 => Self::V1(TwoRegisters::default()),
-            Reset::V2(modes) => Self::V2(Modes::new(modes)),
+    pub(super) const fn v2([moder, ospeedr, pupdr]: [u32; 3]) -> Self {
+        Self {
+            layout: &V2,
+            registers: [moder, 0, ospeedr, pupdr, 0, 0, 0, 0, 0, 0],
         }
     }
 }
@@ -62,27 +46,22 @@ impl Config {
 #[derive(Debug, Clone)]
 pub(super) struct Gpio {
     reset: Reset,
-    config: Config,
-    odr: u32,
+    registers: Registers,
     /// Levels from outside; an input that floats reads high.
     outside: u32,
 }
 
 impl Gpio {
-    pub(super) fn new(reset: Reset) -> Self {
+    pub(super) const fn new(reset: Reset) -> Self {
         Self {
             reset,
-            config: Config::new(reset),
-            odr: 0,
+            registers: reset.registers,
             outside: 0xFFFF,
         }
     }
 
-    pub(super) fn reset(&mut self) {
-        *self = Self {
-            outside: self.outside,
-            ..Self::new(self.reset)
-        };
+    pub(super) const fn reset(&mut self) {
+        self.registers = self.reset.registers;
     }
 
     pub(super) fn drive(&mut self, pin: u32, high: bool) {
@@ -90,26 +69,21 @@ impl Gpio {
     }
 
     pub(super) fn role(&self, pin: u32) -> Role {
-        let high = self.odr & (1 << pin) != 0;
-        match &self.config {
-            Config::V1(config) => config.role(pin, high),
-            Config::V2(config) => config.role(pin, high),
-        }
+        let Layout { odr, role, .. } = self.reset.layout;
+        let high = self.registers[*odr as usize / 4] & (1 << pin) != 0;
+        role(&self.registers, pin, high)
     }
 
     pub(super) fn feeds(&self, pin: u32, function: u32) -> bool {
-        match self.config {
-            // An ordinary input is a peripheral's, too.
-            Config::V1(_) => self.role(pin) == Role::Input,
-            Config::V2(_) => self.role(pin) == Role::Alternate(function),
+        match self.role(pin) {
+            Role::Input => self.reset.layout.feeds_all,
+            Role::Alternate(of) => !self.reset.layout.feeds_all && of == function,
+            _ => false,
         }
     }
 
     pub(super) fn is_open_drain(&self, pin: u32) -> bool {
-        match &self.config {
-            Config::V1(config) => config.is_open_drain(pin),
-            Config::V2(config) => config.is_open_drain(pin),
-        }
+        (self.reset.layout.is_open_drain)(&self.registers, pin)
     }
 
     fn levels(&self) -> u32 {
@@ -123,32 +97,38 @@ impl Gpio {
         })
     }
 
-    fn common(&self, offset: u32) -> Option<Common> {
-        match self.config {
-            Config::V1(_) => v1::common(offset),
-            Config::V2(_) => v2::common(offset),
-        }
+    /// The bits of a register that keep what is written.
+    fn kept(&self, offset: u32) -> Option<u32> {
+        let mut kept = self.reset.layout.kept.iter();
+        kept.find(|(at, _)| *at == offset).map(|(_, bits)| *bits)
     }
 
     pub(super) fn read(&self, offset: u32) -> Option<u32> {
-        match (self.common(offset), &self.config) {
-            (Some(Common::Idr), _) => Some(self.levels()),
-            (Some(Common::Odr), _) => Some(self.odr),
-            (Some(Common::Bsrr | Common::Brr), _) => Some(0),
-            (None, Config::V1(config)) => config.read(offset),
-            (None, Config::V2(config)) => config.read(offset),
+        let layout = self.reset.layout;
+        if offset == layout.idr {
+            return Some(self.levels());
         }
+        if offset == layout.bsrr || Some(offset) == layout.brr {
+            return Some(0);
+        }
+        let is_kept = offset == layout.odr || self.kept(offset).is_some();
+        is_kept.then(|| self.registers[offset as usize / 4])
     }
 
     pub(super) fn write(&mut self, offset: u32, value: u32) -> bool {
-        match (self.common(offset), &mut self.config) {
-            (Some(Common::Idr), _) => return false,
-            (Some(Common::Odr), _) => self.odr = value & 0xFFFF,
+        let layout = self.reset.layout;
+        let odr = &mut self.registers[layout.odr as usize / 4];
+        if offset == layout.odr {
+            *odr = value & 0xFFFF;
+        } else if offset == layout.bsrr {
             // Set goes before reset.
-            (Some(Common::Bsrr), _) => self.odr = self.odr & !(value >> 16) | value & 0xFFFF,
-            (Some(Common::Brr), _) => self.odr &= !value,
-            (None, Config::V1(config)) => return config.write(offset, value),
-            (None, Config::V2(config)) => return config.write(offset, value),
+            *odr = *odr & !(value >> 16) | value & 0xFFFF;
+        } else if Some(offset) == layout.brr {
+            *odr &= !value;
+        } else if let Some(bits) = self.kept(offset) {
+            self.registers[offset as usize / 4] = value & bits;
+        } else {
+            return false;
         }
         true
     }

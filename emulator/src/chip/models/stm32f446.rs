@@ -71,9 +71,9 @@ pub(crate) static F446: Model = Model {
     dmas: &[Version::Streams; 2],
     has_mux: false,
     ports: [
-        Reset::V2([0xA800_0000, 0x0C00_0000, 0x6400_0000]),
-        Reset::V2([0x0000_0280, 0x0000_00C0, 0x0000_0100]),
-        Reset::V2([0; 3]),
+        Reset::v2([0xA800_0000, 0x0C00_0000, 0x6400_0000]),
+        Reset::v2([0x0000_0280, 0x0000_00C0, 0x0000_0100]),
+        Reset::v2([0; 3]),
     ],
     lsi_hz: 32_000,
     has_window: false,

@@ -61,9 +61,9 @@ pub(crate) static G071: Model = Model {
     dmas: &[Version::Channels],
     has_mux: true,
     ports: [
-        Reset::V2([0xEBFF_FFFF, 0x0C00_0000, 0x2400_0000]),
-        Reset::V2([0xFFFF_FFFF, 0, 0]),
-        Reset::V2([0xFFFF_FFFF, 0, 0]),
+        Reset::v2([0xEBFF_FFFF, 0x0C00_0000, 0x2400_0000]),
+        Reset::v2([0xFFFF_FFFF, 0, 0]),
+        Reset::v2([0xFFFF_FFFF, 0, 0]),
     ],
     lsi_hz: 32_000,
     has_window: true,
