@@ -105,7 +105,7 @@ const fn divider(bits: u32) -> u64 {
 pub(super) struct Layout {
     /// Registers that keep what is written, and their values after a reset; CR first.
     kept: &'static [(u32, u32)],
-    /// In CR: switches of oscillators and PLL, and their ready flags.
+    /// In CR: switches of HSI, HSE and the PLL, as they are selected, and their ready flags.
     switches: &'static [(u32, u32)],
     /// The register that selects the system clock, the mask of the selection, and how far
     /// above stands what is selected.
@@ -120,7 +120,17 @@ pub(super) struct Layout {
     /// Where the clock security system tells of its interrupt, and is answered; nothing where
     /// it is not used.
     security: Option<u32>,
-    clocks: fn(&Rcc) -> Result<Clocks, Fault>,
+    hsi_hz: u64,
+    /// In CR: a divider of HSI, which is not modelled.
+    hsi_divider: u32,
+    /// Of the PLL, if it runs.
+    pll_hz: fn(&Rcc) -> Option<u64>,
+    /// The core's highest clock, Hz, and what a higher one is called.
+    most: (u64, &'static str),
+    /// Where the register that selects has what divides the core's clock.
+    ahb: u32,
+    /// Likewise of both peripheral buses, with their highest clocks, Hz.
+    apb: [(u32, u64); 2],
 }
 
 #[derive(Debug, Clone)]
@@ -280,7 +290,33 @@ impl Rcc {
     }
 
     pub(super) fn clocks(&self) -> Result<Clocks, Fault> {
-        (self.layout.clocks)(self)
+        let layout = self.layout;
+        if self.kept[0] & layout.hsi_divider != 0 {
+            return Err(Fault::Clock("a divider of HSI is not modelled"));
+        }
+        let (register, mask, _) = layout.selection;
+        let cfgr = self.kept(register);
+        let selected = cfgr & mask;
+        let (switch, _) = layout.switches.get(selected as usize).ok_or(STOPPED)?;
+        if self.running() & switch == 0 {
+            return Err(STOPPED);
+        }
+        let system_hz = match selected {
+            0 => Some(layout.hsi_hz),
+            1 => Some(HSE_HZ),
+            _ => (layout.pll_hz)(self),
+        };
+        let core_hz = system_hz.ok_or(STOPPED)? / ahb_divider(cfgr >> layout.ahb)?;
+        let (most_hz, too_fast) = layout.most;
+        if core_hz > most_hz {
+            return Err(Fault::Clock(too_fast));
+        }
+        let [apb1, apb2] = layout.apb.map(|(at, _)| divider(cfgr >> at));
+        let [(_, most1_hz), (_, most2_hz)] = layout.apb;
+        if core_hz / apb1 > most1_hz || core_hz / apb2 > most2_hz {
+            return Err(Fault::Clock("a peripheral bus runs too fast"));
+        }
+        Ok(Clocks::new(core_hz, apb1, apb2))
     }
 }
 
@@ -292,26 +328,4 @@ fn ahb_divider(bits: u32) -> Result<u64, Fault> {
         8 => Ok(2),
         _ => Err(Fault::Clock("an AHB divider above 2 is not modelled")),
     }
-}
-const BUS_TOO_FAST: Fault = Fault::Clock("a peripheral bus runs too fast");
-
-/// The core's clock, Hz: of the internal oscillator, the external one and the PLL, whose
-/// `switches` are in this order, the one that is selected.
-fn core_hz(
-    rcc: &Rcc,
-    selected: u32,
-    switches: [u32; 3],
-    hsi_hz: u64,
-    pll_hz: fn(&Rcc) -> Option<u64>,
-) -> Result<u64, Fault> {
-    let switch = switches.get(selected as usize).ok_or(STOPPED)?;
-    if rcc.running() & switch == 0 {
-        return Err(STOPPED);
-    }
-    let hz = match selected {
-        0 => Some(hsi_hz),
-        1 => Some(HSE_HZ),
-        _ => pll_hz(rcc),
-    };
-    hz.ok_or(STOPPED)
 }

@@ -1,9 +1,6 @@
 //! RCC of the STM32F103 of medium density (RM0008, chapter 7).
 
-use super::{
-    BUS_TOO_FAST, Bus, CR, Clocks, HSE_HZ, HSEON, Layout, PLLON, Rcc, ahb_divider, core_hz, divider,
-};
-use crate::chip::fault::Fault;
+use super::{Bus, CR, HSE_HZ, HSEON, Layout, PLLON, Rcc};
 
 const HSI_HZ: u64 = 8_000_000;
 
@@ -45,22 +42,13 @@ pub(in crate::chip) static LAYOUT: Layout = Layout {
         PINRSTF | PORRSTF,
     ],
     security: Some(0x08),
-    clocks,
+    hsi_hz: HSI_HZ,
+    hsi_divider: 0,
+    pll_hz,
+    most: (72_000_000, "the core runs above 72 MHz"),
+    ahb: 4,
+    apb: [(8, 36_000_000), (11, 72_000_000)],
 };
-
-fn clocks(rcc: &Rcc) -> Result<Clocks, Fault> {
-    let cfgr = rcc.kept(CFGR);
-    let system_hz = core_hz(rcc, cfgr & 3, [HSION, HSEON, PLLON], HSI_HZ, pll_hz)?;
-    let core_hz = system_hz / ahb_divider(cfgr >> 4)?;
-    if core_hz > 72_000_000 {
-        return Err(Fault::Clock("the core runs above 72 MHz"));
-    }
-    let (apb1, apb2) = (divider(cfgr >> 8), divider(cfgr >> 11));
-    if core_hz / apb1 > 36_000_000 {
-        return Err(BUS_TOO_FAST);
-    }
-    Ok(Clocks::new(core_hz, apb1, apb2))
-}
 
 fn pll_hz(rcc: &Rcc) -> Option<u64> {
     let cfgr = rcc.kept(CFGR);

@@ -1,9 +1,6 @@
 //! RCC of the STM32F446 (RM0390, chapter 6).
 
-use super::{
-    BUS_TOO_FAST, Bus, CR, Clocks, HSE_HZ, HSEON, Layout, PLLON, Rcc, ahb_divider, core_hz, divider,
-};
-use crate::chip::fault::Fault;
+use super::{Bus, CR, HSE_HZ, HSEON, Layout, PLLON, Rcc};
 
 const HSI_HZ: u64 = 16_000_000;
 
@@ -43,22 +40,13 @@ pub(in crate::chip) static LAYOUT: Layout = Layout {
         PINRSTF | BORRSTF,
     ],
     security: Some(0x0C),
-    clocks,
+    hsi_hz: HSI_HZ,
+    hsi_divider: 0,
+    pll_hz,
+    most: (180_000_000, "the core runs above 180 MHz"),
+    ahb: 4,
+    apb: [(10, 45_000_000), (13, 90_000_000)],
 };
-
-fn clocks(rcc: &Rcc) -> Result<Clocks, Fault> {
-    let cfgr = rcc.kept(CFGR);
-    let system_hz = core_hz(rcc, cfgr & 3, [HSION, HSEON, PLLON], HSI_HZ, pll_hz)?;
-    let core_hz = system_hz / ahb_divider(cfgr >> 4)?;
-    if core_hz > 180_000_000 {
-        return Err(Fault::Clock("the core runs above 180 MHz"));
-    }
-    let (apb1, apb2) = (divider(cfgr >> 10), divider(cfgr >> 13));
-    if core_hz / apb1 > 45_000_000 || core_hz / apb2 > 90_000_000 {
-        return Err(BUS_TOO_FAST);
-    }
-    Ok(Clocks::new(core_hz, apb1, apb2))
-}
 
 fn pll_hz(rcc: &Rcc) -> Option<u64> {
     let field = |shift: u32, mask: u32| u64::from((rcc.kept(PLLCFGR) >> shift) & mask);

@@ -1,7 +1,6 @@
 //! RCC of the STM32G071 (RM0444, chapter 5).
 
-use super::{Bus, CR, Clocks, HSE_HZ, HSEON, Layout, PLLON, Rcc, ahb_divider, core_hz, divider};
-use crate::chip::fault::Fault;
+use super::{Bus, CR, HSE_HZ, HSEON, Layout, PLLON, Rcc};
 
 const HSI_HZ: u64 = 16_000_000;
 
@@ -48,23 +47,14 @@ pub(in crate::chip) static LAYOUT: Layout = Layout {
         PINRSTF | PWRRSTF,
     ],
     security: None,
-    clocks,
-};
-
-fn clocks(rcc: &Rcc) -> Result<Clocks, Fault> {
-    let cfgr = rcc.kept(CFGR);
-    if rcc.kept(CR) & HSIDIV != 0 {
-        return Err(Fault::Clock("a divider of HSI is not modelled"));
-    }
-    let system_hz = core_hz(rcc, cfgr & 7, [HSION, HSEON, PLLON], HSI_HZ, pll_hz)?;
-    let core_hz = system_hz / ahb_divider(cfgr >> 8)?;
-    if core_hz > 64_000_000 {
-        return Err(Fault::Clock("the core runs above 64 MHz"));
-    }
+    hsi_hz: HSI_HZ,
+    hsi_divider: HSIDIV,
+    pll_hz,
+    most: (64_000_000, "the core runs above 64 MHz"),
+    ahb: 8,
     // One peripheral bus, with two registers of gates.
-    let apb = divider(cfgr >> 12);
-    Ok(Clocks::new(core_hz, apb, apb))
-}
+    apb: [(12, 64_000_000); 2],
+};
 
 fn pll_hz(rcc: &Rcc) -> Option<u64> {
     let pllcfgr = rcc.kept(PLLCFGR);
