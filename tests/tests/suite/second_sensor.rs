@@ -2,20 +2,14 @@
 //! of each fault of the part and of its wires.
 
 use firmware::{
-    Event, Place, Reading, Sensor, SensorFault, SensorHealth, SensorLimits, TiltFault, TiltScale,
-    TiltSource,
+    Event, FULL_SCALE, Place, Reading, Sensor, SensorFault, SensorHealth, SensorLimits, TiltFault,
+    TiltScale, TiltSource,
 };
 use host_sim::bus::tmag5170::{LineFault, TmagSlave};
 use mlx90333::{Decoder, Word};
 use physics::Magnet;
 use proptest::prelude::*;
-use tmag5170::{
-    Average, Channels, Config, DeviceConfig, OperatingMode, Range, ReplyError, SensorConfig,
-    StatusFaults, Tmag5170, Version,
-};
-
-/// Full scale of the words, as the tangent of the tilt.
-const FULL_SCALE: f32 = 0.15;
+use tmag5170::{Config, Range, ReplyError, StatusFaults, Version};
 
 const LIMITS: SensorLimits = SensorLimits {
     hold: 4,
@@ -31,22 +25,6 @@ const LIMITS: SensorLimits = SensorLimits {
 
 const PLACE: Place = Place::new(0, 0);
 
-fn config() -> Config {
-    Config {
-        device: DeviceConfig {
-            average: Average::X8,
-            mode: OperatingMode::Active,
-            ..DeviceConfig::default()
-        },
-        sensor: SensorConfig {
-            channels: Channels::Xyz,
-            ranges: [Range::Narrow, Range::Narrow, Range::Wide],
-            ..SensorConfig::default()
-        },
-        ..Config::default()
-    }
-}
-
 struct Whisker {
     sensor: Sensor<TiltSource<TmagSlave>>,
     magnet: Magnet,
@@ -56,10 +34,9 @@ struct Whisker {
 impl Whisker {
     /// After the tick that configures it.
     fn new(axial_mt: f64) -> Self {
-        let scale = TiltScale::new(&config(), FULL_SCALE).unwrap();
-        let sensor = Tmag5170::new(TmagSlave::new(Version::A1));
+        let source = TiltSource::of_module(TmagSlave::new(Version::A1));
         let mut whisker = Self {
-            sensor: Sensor::new(TiltSource::new(sensor, config(), scale), false),
+            sensor: Sensor::new(source, false),
             magnet: Magnet::of_field(axial_mt).unwrap(),
             events: Vec::new(),
         };
@@ -254,14 +231,23 @@ fn a_sensor_that_stands_still_is_a_fault() {
 
 #[test]
 fn ranges_that_do_not_fit_are_refused() {
-    assert!(TiltScale::new(&config(), 0.06).is_none());
-    assert!(TiltScale::new(&config(), 0.07).is_some());
-    let mut equal = config();
-    equal.sensor.ranges = [Range::Wide; 3];
-    assert!(TiltScale::new(&equal, 0.24).is_none());
-    assert!(TiltScale::new(&equal, 0.26).is_some());
+    let is_refused = |ranges, full_scale| {
+        let mut config = Config::default();
+        config.sensor.ranges = ranges;
+        TiltScale::new(&config, full_scale).is_none()
+    };
+    let quarter = [Range::Narrow, Range::Narrow, Range::Wide];
+    assert_eq!(
+        [0.06, 0.07].map(|full| is_refused(quarter, full)),
+        [true, false]
+    );
+    let equal = [Range::Wide; 3];
+    assert_eq!(
+        [0.24, 0.26].map(|full| is_refused(equal, full)),
+        [true, false]
+    );
     for full_scale in [0.0, -0.1, f32::NAN, f32::INFINITY] {
-        assert!(TiltScale::new(&config(), full_scale).is_none());
+        assert!(is_refused(quarter, full_scale));
     }
 }
 
