@@ -2,7 +2,7 @@
 //! switch the motor of that whisker off, and nothing else suffers.
 
 use crate::played::{
-    HOLD, LEFT, RECOVER, TICK_HZ, angles, apart, extent, free, is_unaffected, play, scene,
+    HOLD, RECOVER, TICK_HZ, angles, apart, extent, free, is_unaffected, lost, play, scene,
     setpoints, undisturbed,
 };
 use firmware::design_parameters::{Plausible, sensor_limits};
@@ -85,19 +85,13 @@ fn long_faults_switch_the_motor_off_until_the_sensor_is_back() {
             _ if tick == mended => slave(run, 0).set_fault(None),
             _ => {}
         });
-        let (lost, back) = (AMID + HOLD, mended + RECOVER - 1);
-        let [
-            (first, Event::SensorLost(LEFT, found)),
-            (second, Event::SensorBack(LEFT)),
-        ] = played.events[..]
-        else {
-            panic!("{fault:?}: {:?}", played.events);
-        };
+        let (off, back) = (AMID + HOLD, mended + RECOVER - 1);
+        let (first, found, second) = lost(&played);
         let found = (first, second, found.code());
-        assert_eq!(found, (lost, back, code), "{fault:?}");
+        assert_eq!(found, (off, Some(back), code), "{fault:?}");
 
         // Off: friction and the shorted winding stop it, though θ' goes on.
-        let off = lost as usize + 200..back as usize;
+        let off = off as usize + 200..back as usize;
         let course = angles(&played, 0);
         let driven = extent(&course[off.clone()]);
         assert!(driven < 0.01, "{fault:?}: {driven}");
@@ -153,14 +147,8 @@ fn a_faulty_sensor_feels_nothing() {
             _ if tick == start + 300 => slave(run, 0).set_fault(None),
             _ => {}
         });
-        let [
-            (_, Event::SensorLost(LEFT, found)),
-            (_, Event::SensorBack(LEFT)),
-        ] = played.events[..]
-        else {
-            panic!("{fault:?}: {:?}", played.events);
-        };
-        assert_eq!(found.code(), code);
+        let (_, found, back) = lost(&played);
+        assert_eq!((found.code(), back.is_some()), (code, true), "{fault:?}");
         let contact = |tick: u64| played.rows[tick as usize].contact[0];
         // The last good reading is held, then there is none, and contact starts from zero.
         let (lost, back) = (start + HOLD, start + 300 + RECOVER - 1);

@@ -1,7 +1,7 @@
 //! A scene played tick by tick, with a hand on its sensors.
 
 use firmware::design_parameters::{HOLD_S, RECOVER_S, ticks};
-use firmware::{Event, Place};
+use firmware::{Event, Place, SensorFault};
 use host_sim::run::Run;
 use host_sim::trace::Row;
 use mlx90333::FRAME_LEN;
@@ -139,6 +139,20 @@ pub(crate) fn faults(played: &Played) -> Vec<(u64, Fault)> {
         _ => None,
     };
     played.events.iter().filter_map(fault).collect()
+}
+
+/// The only fault, the left sensor's: its tick, what it was, and when the sensor came back, if it
+/// did.
+#[track_caller]
+pub(crate) fn lost(played: &Played) -> (u64, SensorFault, Option<u64>) {
+    match played.events[..] {
+        [(tick, Event::SensorLost(LEFT, fault))] => (tick, fault, None),
+        [
+            (tick, Event::SensorLost(LEFT, fault)),
+            (back, Event::SensorBack(LEFT)),
+        ] => (tick, fault, Some(back)),
+        ref other => panic!("{other:?}"),
+    }
 }
 
 /// θ′ of the left whisker, tick by tick.

@@ -2,7 +2,7 @@
 //! stuck, or too often missing. The motor goes off, and nothing is decided.
 
 use crate::played::{
-    HOLD, LEFT, Played, RECOVER, TICK_HZ, angles, extent, free, play, scene, textured, undisturbed,
+    HOLD, Played, RECOVER, TICK_HZ, angles, extent, free, lost, play, scene, textured, undisturbed,
 };
 use firmware::{Event, SensorFault};
 use host_sim::bus::{Slave, WireFault};
@@ -22,19 +22,6 @@ fn slave(run: &mut Run) -> &mut Slave {
 
 fn befallen(scene: &Scene, length: u64, fault: impl Fn(u64) -> Option<WireFault>) -> Played {
     play(scene, length, |tick, run| slave(run).set_fault(fault(tick)))
-}
-
-/// The only fault, its tick, and the tick in which the sensor came back, if it did.
-#[track_caller]
-fn lost(played: &Played) -> (u64, SensorFault, Option<u64>) {
-    match played.events[..] {
-        [(tick, Event::SensorLost(LEFT, fault))] => (tick, fault, None),
-        [
-            (tick, Event::SensorLost(LEFT, fault)),
-            (back, Event::SensorBack(LEFT)),
-        ] => (tick, fault, Some(back)),
-        ref other => panic!("{other:?}"),
-    }
 }
 
 #[track_caller]
