@@ -1,5 +1,6 @@
 //! Record, train, classify, evaluate: the commands of host-sim on arrays.
 
+use host_sim::cells::Cells as _;
 use host_sim::classifier::{self, Fault};
 use host_sim::decisions::{Columns, Decided, UNKNOWN};
 use host_sim::doubts;
@@ -19,7 +20,7 @@ use crate::model::{self, Model};
 use crate::outside::{self, wrong};
 use crate::recordings::{self, Prepared};
 use crate::scenes::{Given, raised};
-use crate::table::{self, Kind, Layout, Packed};
+use crate::table::{self, Kind, Layout};
 
 /// Runs a scene and returns what its whiskers feel that are heard, the air included: a recording
 /// to train on. The scene's classifier is not used. Its type knows the rate,
@@ -238,7 +239,7 @@ pub(crate) fn evaluate<'py>(
     let names = ["stated_from", "stated_to", "stated", "found", "low", "high"];
     let mut columns = names.map(|name| (name, Kind::Number)).to_vec();
     columns.push(("decisions", Kind::Whole));
-    let mut rows = Packed::default();
+    let (layout, mut rows) = (Layout::new(columns), Vec::new());
     for bin in &found.calibration.bins {
         let Interval {
             share,
@@ -247,10 +248,11 @@ pub(crate) fn evaluate<'py>(
             count,
         } = bin.found;
         let cells = [bin.low, bin.high, bin.stated, share, low, high];
-        rows.numbers(cells);
-        rows.whole(count as i64);
+        let mut row = layout.row(&mut rows);
+        row.numbers(&cells, 0);
+        row.number(count as f64, 0);
     }
-    dict.set_item("calibration", Layout::new(columns).array(py, rows.bytes)?)?;
+    dict.set_item("calibration", layout.array(py, rows)?)?;
 
     let name = Kind::text(found.classes.iter().map(|class| class.name.as_str()));
     let columns = [
@@ -262,16 +264,20 @@ pub(crate) fn evaluate<'py>(
         ("refused", Kind::Number),
         ("undecided", Kind::Number),
     ];
-    let mut rows = Packed::default();
+    let (layout, mut rows) = (Layout::new(columns), Vec::new());
     for class in &found.classes {
-        rows.text(&class.name, name);
-        rows.whole(class.presented as i64);
-        rows.whole(class.hits.count as i64);
-        rows.number(class.hits.share);
-        rows.number(class.samples.map_or(f64::NAN, |samples| samples.mean));
-        rows.number(class.refused.share);
-        rows.number(class.undecided.share);
+        let cells = [
+            class.presented as f64,
+            class.hits.count as f64,
+            class.hits.share,
+            class.samples.map_or(f64::NAN, |samples| samples.mean),
+            class.refused.share,
+            class.undecided.share,
+        ];
+        let mut row = layout.row(&mut rows);
+        row.text(&class.name);
+        row.numbers(&cells, 0);
     }
-    dict.set_item("classes", Layout::new(columns).array(py, rows.bytes)?)?;
+    dict.set_item("classes", layout.array(py, rows)?)?;
     Ok(dict)
 }

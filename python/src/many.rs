@@ -13,7 +13,7 @@ use scene::Scene;
 
 use crate::outside::{self, wrong};
 use crate::scenes::{Given, raised};
-use crate::table::{self, Packed, RunTables};
+use crate::table::{self, RunTables};
 
 /// How often it is seen whether all is done, and whether an interrupt has come.
 const GLANCE: Duration = Duration::from_millis(2);
@@ -22,7 +22,7 @@ const GLANCE: Duration = Duration::from_millis(2);
 fn fill(run: &mut Run, tables: &RunTables, every: u64, rows: &mut [u8]) -> Vec<Decided> {
     let width = tables.trace.bytes();
     let (mut decided, mut whiskers) = (Vec::new(), Vec::new());
-    let mut row = Packed::default();
+    let mut row = Vec::new();
     let mut places = rows.chunks_exact_mut(width);
     for n in 1..=run.ticks() {
         let is_kept = every > 0 && n.is_multiple_of(every);
@@ -37,11 +37,11 @@ fn fill(run: &mut Run, tables: &RunTables, every: u64, rows: &mut [u8]) -> Vec<D
             continue;
         }
         run.look_at_whiskers(&mut whiskers);
-        row.bytes.clear();
+        row.clear();
         let fell = decided.get(first..).unwrap_or_default();
         tables.row(&mut row, &run.trace_line(fell, &whiskers));
         if let Some(place) = places.next() {
-            place.copy_from_slice(&row.bytes);
+            place.copy_from_slice(&row);
         }
     }
     decided

@@ -2,6 +2,7 @@
 
 use std::path::PathBuf;
 
+use host_sim::cells::Cells as _;
 use host_sim::classifier;
 use host_sim::training::TrainedModel;
 use pyo3::exceptions::PyTypeError;
@@ -12,7 +13,7 @@ use tactile::ModelBuf;
 use tactile::train::joint::Report;
 
 use crate::outside::{self, file_error};
-use crate::table::{Kind, Layout, Packed};
+use crate::table::{Kind, Layout};
 
 /// A model, of its bytes or its file; `train` makes one. `bytes(model)` are what a board runs.
 #[pyclass(frozen, module = "vibrissa")]
@@ -85,9 +86,9 @@ impl Model {
             "unknown",
             "undecided",
         ];
-        let mut layout = names.map(|name| (name, Kind::Number)).to_vec();
-        layout.insert(5, ("decisions", Kind::Whole));
-        let mut rows = Packed::default();
+        let mut columns = names.map(|name| (name, Kind::Number)).to_vec();
+        columns.insert(5, ("decisions", Kind::Whole));
+        let (layout, mut rows) = (Layout::new(columns), Vec::new());
         for at in &report.calibration {
             let found = [
                 at.threshold,
@@ -95,13 +96,14 @@ impl Model {
                 at.found.share,
                 at.found.low,
                 at.found.high,
+                at.found.count as f64,
+                at.samples,
+                at.unknown.share,
+                at.undecided.share,
             ];
-            rows.numbers(found);
-            rows.whole(at.found.count as i64);
-            let rest = [at.samples, at.unknown.share, at.undecided.share];
-            rows.numbers(rest);
+            layout.row(&mut rows).numbers(&found, 0);
         }
-        Layout::new(layout).array(py, rows.bytes).map(Some)
+        layout.array(py, rows).map(Some)
     }
 
     fn __repr__(&self) -> String {

@@ -1,11 +1,12 @@
 //! A whisker pressed slowly against a plate: `host-sim press` on arrays.
 
+use host_sim::cells::Cells as _;
 use host_sim::pressing::{COLUMNS, Pressing};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
 use crate::outside::wrong;
-use crate::table::{Kind, Layout, Packed};
+use crate::table::{Kind, Layout};
 
 /// How a tapered whisker bends that is pressed slowly against a plate, solved exactly: a row a
 /// push, with the columns of `columns("press")`.
@@ -42,12 +43,13 @@ pub(crate) fn press<'py>(
         pressing.shaft = Some(shaft.extract()?);
     }
     let pressed = py.detach(|| pressing.press()).map_err(wrong)?;
-    let mut rows = Packed::default();
-    for (push, pressed) in pressing.push_deg.iter().zip(&pressed) {
-        rows.numbers(Pressing::cells(*push, pressed));
-    }
     let columns = COLUMNS.iter().map(|column| (column.name, Kind::Number));
-    Layout::new(columns).array(py, rows.bytes)
+    let (layout, mut rows) = (Layout::new(columns), Vec::new());
+    for (push, pressed) in pressing.push_deg.iter().zip(&pressed) {
+        let cells = Pressing::cells(*push, pressed);
+        layout.row(&mut rows).numbers(&cells, 0);
+    }
+    layout.array(py, rows)
 }
 
 /// Gives the numbers of a shaft.

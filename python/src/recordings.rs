@@ -2,6 +2,7 @@
 
 use std::path::PathBuf;
 
+use host_sim::cells::Cells as _;
 use host_sim::doubts;
 use host_sim::recording::{self, COLUMNS, Stream, Tokens, touches};
 use numpy::{PyReadonlyArray1, PyReadonlyArray2};
@@ -10,7 +11,7 @@ use pyo3::types::PyDict;
 use scene::file;
 
 use crate::outside::{self, file_error};
-use crate::table::{Kind, Layout, Packed};
+use crate::table::{Kind, Layout};
 
 /// A recording as the Python side has prepared it.
 #[derive(FromPyObject)]
@@ -152,30 +153,30 @@ pub(crate) fn array<'py>(
     names[2..4].copy_from_slice(&channels);
     let columns = names.into_iter().zip(kinds);
     let layout = Layout::new(columns.filter_map(|(name, kind)| Some((name, kind?))));
-    let mut rows = Packed::default();
+    let mut rows = Vec::new();
     for stream in streams {
         for (n, [x, y]) in stream.samples.iter().enumerate() {
-            rows.text(&stream.label, label);
-            rows.text(&stream.trial, trial);
-            rows.number(*x);
-            rows.number(*y);
+            let mut row = layout.row(&mut rows);
+            row.text(&stream.label);
+            row.text(&stream.trial);
+            row.numbers(&[*x, *y], 0);
             if kinds[4].is_some() {
                 let contact = stream.contact.as_ref().and_then(|all| all.get(n));
-                rows.number(contact.copied().unwrap_or(1.0));
+                row.number(contact.copied().unwrap_or(1.0), 0);
             }
             if kinds[5].is_some() {
                 let touch = stream.touch.as_ref().and_then(|all| all.get(n));
-                rows.whole(touch.copied().unwrap_or(0).into());
+                row.number(touch.copied().unwrap_or(0).into(), 0);
             }
             if kinds[6].is_some() {
-                rows.text(stream.pose.as_deref().unwrap_or_default(), pose);
+                row.text(stream.pose.as_deref().unwrap_or_default());
             }
             if stands.is_some() {
-                rows.numbers(stream.stands.unwrap_or([f64::NAN; 2]));
+                row.numbers(&stream.stands.unwrap_or([f64::NAN; 2]), 0);
             }
         }
     }
-    layout.array(py, rows.bytes)
+    layout.array(py, rows)
 }
 
 fn has(streams: &[Stream], column: impl Fn(&Stream) -> bool) -> bool {

@@ -1,5 +1,7 @@
 //! One run of a scene, tick by tick.
 
+use std::iter;
+
 use host_sim::Error;
 use host_sim::columns::Column;
 use host_sim::decisions::Decided;
@@ -19,7 +21,7 @@ use tactile::Posteriors;
 use crate::outside::{self, wrong};
 use crate::recipe::{Call, GAIN, LAY, Parts, Recipe, SETPOINT, Script};
 use crate::scenes::{Given, raised};
-use crate::table::{self, Kind, Layout, Packed, RunTables};
+use crate::table::{self, Kind, Layout, RunTables};
 
 /// A run, and what it has decided so far.
 struct State {
@@ -29,7 +31,8 @@ struct State {
     whiskers: Vec<WhiskerRow>,
     decided: Vec<Decided>,
     last: Option<Posteriors>,
-    posteriors: Packed,
+    /// The rows of their table.
+    posteriors: Vec<u8>,
     /// What was done to it since its start.
     script: Script,
 }
@@ -74,8 +77,8 @@ impl State {
         if self.run.samples().iter().any(Option::is_some) {
             let now = self.run.posteriors();
             if let Some(posteriors) = now.filter(|_| now != self.last) {
-                self.posteriors.number(self.run.t_s());
-                self.posteriors.numbers(posteriors.to_f64());
+                let cells = iter::once(self.run.t_s()).chain(posteriors.to_f64());
+                self.posteriors.extend(cells.flat_map(f64::to_ne_bytes));
             }
             self.last = now;
         }
@@ -153,7 +156,7 @@ impl Sim {
                 whiskers: Vec::new(),
                 decided: Vec::new(),
                 last,
-                posteriors: Packed::default(),
+                posteriors: Vec::new(),
                 script: Script::default(),
             }),
             recipe: Recipe::new(given, loaded),
@@ -210,9 +213,7 @@ impl Sim {
     fn rows(&self, ticks: u64, every: u64) -> PyResult<Vec<u8>> {
         let tables = &self.tables;
         let count = usize::try_from(ticks / every).unwrap_or(usize::MAX);
-        let mut rows = Packed {
-            bytes: outside::room(count.saturating_mul(tables.trace.bytes()))?,
-        };
+        let mut rows = outside::room(count.saturating_mul(tables.trace.bytes()))?;
         self.each_tick(ticks, |state, n| {
             let has_row = n.is_multiple_of(every);
             let first = state.tick(has_row);
@@ -221,7 +222,7 @@ impl Sim {
             }
             Ok(())
         })?;
-        Ok(rows.bytes)
+        Ok(rows)
     }
 
     fn bent(&self, py: Python<'_>, whisker: usize) -> PyResult<Bent> {
@@ -298,7 +299,7 @@ impl Sim {
             state.script.clear();
             state.decided.clear();
             state.last = state.run.posteriors();
-            state.posteriors.bytes.clear();
+            state.posteriors.clear();
             Ok(())
         })
         .map_err(|error| raised(py, error))
@@ -391,7 +392,7 @@ impl Sim {
     /// changed them, of the first whisker or of all together.
     #[getter]
     fn posteriors<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        let bytes = py.detach(|| self.state().posteriors.bytes.clone());
+        let bytes = py.detach(|| self.state().posteriors.clone());
         self.posteriors.array(py, bytes)
     }
 

@@ -70,11 +70,10 @@ impl Layout {
         self.columns.iter().map(|(_, kind)| kind.bytes()).sum()
     }
 
-    fn packer<'r>(&'r self, rows: &'r mut Packed) -> RowPacker<'r> {
-        RowPacker {
-            rows,
-            columns: self.columns.iter(),
-        }
+    /// What packs a row behind those that are in `bytes`.
+    pub(crate) fn row<'r>(&'r self, bytes: &'r mut Vec<u8>) -> Row<'r> {
+        let columns = self.columns.iter();
+        Row { bytes, columns }
     }
 
     /// Rows as an array that owns `bytes`.
@@ -97,64 +96,42 @@ impl Layout {
     }
 }
 
-/// Packs cells one after the other.
-#[derive(Debug, Default)]
-pub(crate) struct Packed {
-    pub(crate) bytes: Vec<u8>,
-}
-
-impl Packed {
-    pub(crate) fn number(&mut self, value: f64) {
-        self.bytes.extend(value.to_ne_bytes());
-    }
-
-    pub(crate) fn numbers(&mut self, values: impl IntoIterator<Item = f64>) {
-        for value in values {
-            self.number(value);
-        }
-    }
-
-    pub(crate) fn whole(&mut self, value: i64) {
-        self.bytes.extend(value.to_ne_bytes());
-    }
-
-    pub(crate) fn seed(&mut self, value: u64) {
-        self.bytes.extend(value.to_ne_bytes());
-    }
-
-    /// What is beyond the column's width is cut off.
-    pub(crate) fn text(&mut self, text: &str, kind: Kind) {
-        let Kind::Text(width) = kind else {
-            return;
-        };
-        let end = self.bytes.len() + 4 * width;
-        for c in text.chars().take(width) {
-            self.bytes.extend(u32::from(c).to_ne_bytes());
-        }
-        self.bytes.resize(end, 0);
-    }
-}
-
 /// Packs the cells of a row, each as its column has it.
-struct RowPacker<'r> {
-    rows: &'r mut Packed,
+pub(crate) struct Row<'r> {
+    bytes: &'r mut Vec<u8>,
     columns: Iter<'r, (String, Kind)>,
 }
 
-impl Cells for RowPacker<'_> {
+impl Row<'_> {
+    pub(crate) fn seed(&mut self, value: u64) {
+        self.columns.next();
+        self.bytes.extend(value.to_ne_bytes());
+    }
+}
+
+impl Cells for Row<'_> {
     /// What is none is 0 among whole numbers.
-    fn number(&mut self, value: f64, _: u32) {
-        match self.columns.next() {
-            Some((_, Kind::Whole)) => self.rows.whole(value as i64),
-            Some((_, kind @ Kind::Text(_))) => self.rows.text(&value.to_string(), *kind),
-            _ => self.rows.number(value),
+    fn number(&mut self, value: f64, decimals: u32) {
+        match self.columns.as_slice() {
+            [(_, Kind::Text(_)), ..] => {
+                return self.text(&format!("{value:.*}", decimals as usize));
+            }
+            [(_, Kind::Whole), ..] => self.bytes.extend((value as i64).to_ne_bytes()),
+            _ => self.bytes.extend(value.to_ne_bytes()),
         }
+        self.columns.next();
     }
 
+    /// What is beyond the column's width is cut off.
     fn text(&mut self, text: &str) {
-        if let Some((_, kind)) = self.columns.next() {
-            self.rows.text(text, *kind);
+        let Some((_, Kind::Text(width))) = self.columns.next() else {
+            return;
+        };
+        let end = self.bytes.len() + 4 * width;
+        for c in text.chars().take(*width) {
+            self.bytes.extend(u32::from(c).to_ne_bytes());
         }
+        self.bytes.resize(end, 0);
     }
 }
 
@@ -199,8 +176,8 @@ impl RunTables {
     }
 
     /// A row of the trace, in the order of its columns.
-    pub(crate) fn row(&self, rows: &mut Packed, line: &TraceLine<'_>) {
-        line.cells(self.shape, &mut self.trace.packer(rows));
+    pub(crate) fn row(&self, rows: &mut Vec<u8>, line: &TraceLine<'_>) {
+        line.cells(self.shape, &mut self.trace.row(rows));
     }
 }
 
@@ -238,18 +215,19 @@ pub(crate) fn decisions<'py>(
     ];
     let indices = columns.indices();
     let layout = Layout::new(indices.map(|index| (COLUMNS[index].name, kinds[index])));
-    let mut rows = Packed::default();
-    for (seed, decided) in runs {
-        for d in *decided {
-            if let Some(seed) = seed {
-                rows.seed(*seed);
-            }
-            d.cells(columns, &mut layout.packer(&mut rows));
-        }
-    }
     let layout = match runs {
         [(Some(_), _), ..] => layout.after("seed", Kind::Seed),
         _ => layout,
     };
-    layout.array(py, rows.bytes)
+    let mut rows = Vec::new();
+    for (seed, decided) in runs {
+        for d in *decided {
+            let mut row = layout.row(&mut rows);
+            if let Some(seed) = seed {
+                row.seed(*seed);
+            }
+            d.cells(columns, &mut row);
+        }
+    }
+    layout.array(py, rows)
 }
