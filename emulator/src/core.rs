@@ -4,9 +4,12 @@
 //! does not have, is ARMv7-M in which every instruction that it lacks, and every access
 //! that is not aligned, is a hard fault: what runs here runs on the chip.
 
+mod count_down;
 #[cfg(test)]
 mod tests;
 mod v6m;
+
+pub(crate) use count_down::{BRANCH_CYCLES, ROUND_CYCLES, ROUND_INSTRUCTIONS};
 
 use std::ops::Deref;
 use std::sync::Arc;
@@ -56,11 +59,14 @@ impl Known {
 
 /// Whether there is an instruction at `pc`. Where there is no memory the core tells.
 fn is_known_at(pc: u32, memories: &Memories) -> bool {
-    let half = |at: u32| -> Option<u16> {
-        let [low, high] = [memories.get(at), memories.get(at.wrapping_add(1))];
-        Some(u16::from_le_bytes([low?, high?]))
-    };
-    half(pc).is_none_or(|first| v6m::is_known(first, half(pc.wrapping_add(2)).unwrap_or(0)))
+    let second = || half(pc.wrapping_add(2), memories).unwrap_or(0);
+    half(pc, memories).is_none_or(|first| v6m::is_known(first, second()))
+}
+
+/// The half-word at `at`.
+fn half(at: u32, memories: &Memories) -> Option<u16> {
+    let [low, high] = [memories.get(at), memories.get(at.wrapping_add(1))];
+    Some(u16::from_le_bytes([low?, high?]))
 }
 
 #[derive(Debug)]
@@ -102,8 +108,13 @@ impl Core {
 
     /// Executes an instruction, or enters an exception; the cycles that it took.
     pub(crate) fn step(&mut self) -> u64 {
+        self.step_at(self.inner.pc())
+    }
+
+    /// The same for who knows where the core is, as asking takes a lock.
+    pub(crate) fn step_at(&mut self, pc: u32) -> u64 {
         if let Some(known) = &self.known
-            && !known.has(self.inner.pc())
+            && !known.has(pc)
             && !self.inner.is_asleep()
         {
             self.stuck |= self.inner.execution_priority() <= HARD_FAULT_PRIORITY;

@@ -7,11 +7,12 @@
 use std::sync::Arc;
 
 use crate::chip::{Chip, Fault, Model, Ps, ResetCause, SensorEnd};
-use crate::core::{Core, EXCEPTION, IT_BLOCK};
+use crate::core::{BRANCH_CYCLES, Core, EXCEPTION, IT_BLOCK, ROUND_CYCLES, ROUND_INSTRUCTIONS};
 use crate::memory::{FLASH, Memories, Shared};
 use crate::paint::Stack;
 use crate::program::Program;
 use crate::upset::{Planned, Upset};
+use rsemu::cpu::arm::v7m::Regs;
 use rtt::Rtt;
 
 /// Interrupts are exceptions from this number on.
@@ -64,6 +65,8 @@ pub(crate) struct Machine {
     pub(crate) now: Ps,
     due: Option<Ps>,
     pub(crate) cycle: Ps,
+    /// Where the core is.
+    pc: u32,
     exception: u32,
     /// What is left of an IT block, as in xPSR.
     block: u32,
@@ -98,6 +101,7 @@ impl Machine {
             due: None,
             cycle,
             shared,
+            pc: 0,
             exception: 0,
             block: 0,
             ready: false,
@@ -178,7 +182,7 @@ impl Machine {
             self.shared.set_now(until);
             return Ok(Stop::Time);
         }
-        let mut asleep = self.core.is_asleep();
+        self.pc = self.core.pc();
         loop {
             if let Some(cause) = self.look(sensors)? {
                 self.reset(cause)?;
@@ -195,11 +199,13 @@ impl Machine {
                 self.stall(until);
                 continue;
             }
-            let cycles = self.core.step();
-            // It falls asleep, and sleeps on, in one cycle; asking takes a lock.
-            let is_asleep = cycles == 1 && self.core.is_asleep();
-            let was_asleep = std::mem::replace(&mut asleep, is_asleep);
-            if was_asleep && asleep {
+            let from = self.pc;
+            let cycles = self.core.step_at(from);
+            // In one: each question takes a lock.
+            let Regs { r, xpsr, .. } = self.core.regs();
+            self.pc = r[15];
+            // It sleeps on where it is, in one cycle.
+            if cycles == 1 && self.pc == from && self.core.is_asleep() {
                 if !self.ready {
                     self.ready = true;
                     return Ok(Stop::Ready);
@@ -210,10 +216,27 @@ impl Machine {
             }
             self.now += cycles * self.cycle;
             self.shared.set_now(self.now);
-            if self.account(observer)? {
+            // Nothing befalls it before a certain instruction.
+            let is_left_alone = self.planned.is_none();
+            if self.account(xpsr, observer)? {
                 return Ok(Stop::Tick);
             }
+            let has_looped = cycles == BRANCH_CYCLES && self.pc.wrapping_add(2) == from;
+            if has_looped && is_left_alone {
+                self.count_down(until);
+            }
         }
+    }
+
+    /// In a loop that only counts down, nothing happens before the next event.
+    fn count_down(&mut self, until: Ps) {
+        let free = self.due.unwrap_or(Ps::MAX).min(until);
+        let round = ROUND_CYCLES * self.cycle;
+        let most = free.saturating_sub(self.now) / round;
+        let rounds = self.core.count_down(most, &self.memories);
+        *self.spent_in(self.exception) += ROUND_INSTRUCTIONS * rounds;
+        self.now += rounds * round;
+        self.shared.set_now(self.now);
     }
 
     /// Nothing is pending: on to the next event, of which SysTick has counted a part.
@@ -247,9 +270,8 @@ impl Machine {
     }
 
     /// Counts the step that was just made; whether the tick's handler has returned.
-    fn account(&mut self, observer: &mut impl Observer) -> Result<bool, Fault> {
+    fn account(&mut self, xpsr: u32, observer: &mut impl Observer) -> Result<bool, Fault> {
         let before = self.exception;
-        let xpsr = self.core.xpsr();
         self.exception = xpsr & EXCEPTION;
         let block = std::mem::replace(&mut self.block, xpsr & IT_BLOCK);
         if block != 0 && self.exception != 0 && before != self.exception {
@@ -260,19 +282,14 @@ impl Machine {
             self.look_for_tick(observer);
             return Ok(false);
         }
-        let counter = match before {
-            tick if tick == self.tick => &mut self.spent.tick,
-            exception if self.frames.contains(&exception) => &mut self.spent.frame,
-            0 => &mut self.spent.thread,
-            _ => &mut self.spent.other,
-        };
-        *counter += 1;
+        *self.spent_in(before) += 1;
         // No handler of the program's is more urgent than the tick's: behind another it begins.
         if before >= INTERRUPTS && before != self.exception {
             self.look_for_tick(observer);
         }
         if let Some(upset) = self.planned.due(self.spent.tick) {
             let held = upset.happen(&self.core, &self.memories)?;
+            self.pc = self.core.pc();
             self.now += held;
             self.core.pass(held, self.cycle);
         }
@@ -283,6 +300,16 @@ impl Machine {
         }
         self.is_locked_up = before != 0 && before < INTERRUPTS && self.core.has_locked_up();
         Ok(false)
+    }
+
+    /// The count of instructions in an exception.
+    fn spent_in(&mut self, exception: u32) -> &mut u64 {
+        match exception {
+            tick if tick == self.tick => &mut self.spent.tick,
+            exception if self.frames.contains(&exception) => &mut self.spent.frame,
+            0 => &mut self.spent.thread,
+            _ => &mut self.spent.other,
+        }
     }
 
     fn look_for_tick(&mut self, observer: &mut impl Observer) {

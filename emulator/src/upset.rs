@@ -68,6 +68,11 @@ impl Planned {
         }
     }
 
+    /// In the tick that has begun last, if one has, nothing is to happen any more.
+    pub(crate) const fn is_none(&self) -> bool {
+        self.now.is_none()
+    }
+
     pub(crate) fn due(&mut self, spent: u64) -> Option<Upset> {
         let (_, upset) = self.now.take_if(|(at, _)| *at <= spent)?;
         Some(upset)

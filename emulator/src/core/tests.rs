@@ -1,6 +1,8 @@
 //! What a core must not execute, seen to trap.
 
-use super::{Core, EXCEPTION, IT_BLOCK, v6m};
+use rsemu::cpu::arm::v7m::sys::{DEMCR_TRCENA, DWT_CTRL_CYCCNTENA};
+
+use super::{Core, EXCEPTION, IT_BLOCK, ROUND_CYCLES, ROUND_INSTRUCTIONS, v6m};
 use crate::chip::{Chip, CoreKind, MODELS};
 use crate::memory::{FLASH, Memories, Shared};
 
@@ -183,4 +185,55 @@ fn an_interrupt_within_an_it_block_returns_into_it() {
             assert_eq!((core.reg(1), core.reg(2)), (0, 6), "{kind:?}, {before}");
         }
     }
+}
+
+/// A core whose counters count, after the first round of a loop that counts R3 down from `from`.
+fn counting_down(kind: CoreKind, code: &[u16], from: u32) -> (Core, Memories) {
+    let (mut core, memories) = core_in_memory(kind, code);
+    core.set_reg(3, from);
+    core.with_sys(|sys| {
+        sys.demcr = DEMCR_TRCENA;
+        sys.dwt_ctrl = DWT_CTRL_CYCCNTENA;
+        (sys.syst_csr, sys.syst_rvr) = (5, 13);
+    });
+    core.step();
+    core.step();
+    (core, memories)
+}
+
+/// subs r3, #1; bne back
+const LOOP: [u16; 2] = [0x3B01, 0xD1FD];
+
+#[test]
+fn rounds_at_once_are_as_one_after_the_other() {
+    let seen = |core: &Core| {
+        let counters = core.with_sys(|sys| (sys.dwt_cyccnt, sys.syst_cvr, sys.syst_csr));
+        (core.regs(), counters)
+    };
+    for kind in [CoreKind::M0Plus, CoreKind::M3, CoreKind::M4F] {
+        for (most, made) in [(0, 0), (1, 1), (7, 7), (98, 98), (99, 98), (u64::MAX, 98)] {
+            let (mut core, memories) = counting_down(kind, &LOOP, 100);
+            assert_eq!(core.count_down(most, &memories), made);
+            let (mut stepped, _) = counting_down(kind, &LOOP, 100);
+            let cycles: u64 = (0..ROUND_INSTRUCTIONS * made).map(|_| stepped.step()).sum();
+            assert_eq!(cycles, ROUND_CYCLES * made);
+            assert_eq!(seen(&core), seen(&stepped), "{kind:?}, {made}");
+        }
+    }
+}
+
+#[test]
+fn no_rounds_at_once_of_what_is_more_than_counting() {
+    // subs r3, #2; subs r4, #1 with a counter that is not above zero; bne further back
+    for code in [[0x3B02, 0xD1FD], [0x3C01, 0xD1FD], [0x3B01, 0xD1FC]] {
+        let (mut core, memories) = counting_down(CoreKind::M4F, &code, 100);
+        core.set_pc(CODE);
+        assert_eq!(core.count_down(9, &memories), 0, "{code:x?}");
+    }
+    let (mut core, memories) = counting_down(CoreKind::M4F, &LOOP, 100);
+    core.with_sys(|sys| sys.syst_csr |= 2);
+    assert_eq!(core.count_down(9, &memories), 0, "SysTick interrupts");
+    // From here on the flags are others.
+    let (mut core, memories) = counting_down(CoreKind::M4F, &LOOP, 0x8000_0001);
+    assert_eq!(core.count_down(9, &memories), 0, "it is negative");
 }
