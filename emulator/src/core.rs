@@ -106,12 +106,8 @@ impl Core {
         }
     }
 
-    /// Executes an instruction, or enters an exception; the cycles that it took.
-    pub(crate) fn step(&mut self) -> u64 {
-        self.step_at(self.inner.pc())
-    }
-
-    /// The same for who knows where the core is, as asking takes a lock.
+    /// Executes the instruction at `pc`, where the core is, or enters an exception; the cycles that
+    /// it took.
     pub(crate) fn step_at(&mut self, pc: u32) -> u64 {
         if let Some(known) = &self.known
             && !known.has(pc)

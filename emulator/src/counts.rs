@@ -76,7 +76,7 @@ pub fn count(program: &Path, board: &str) -> Result<String, Error> {
             kernel.calls.add(call(&mut core)?);
             continue;
         }
-        core.step();
+        core.step_at(pc);
         without_exception(&core)?;
     }
     let mut lines = String::new();
@@ -100,12 +100,15 @@ fn without_exception(core: &Core) -> Result<(), Fault> {
 fn call(core: &mut Core) -> Result<u64, Fault> {
     let end = core.reg(14) & !THUMB;
     let mut instructions = 1;
-    while core.pc() != end {
-        core.step();
+    loop {
+        let pc = core.pc();
+        if pc == end {
+            return Ok(instructions);
+        }
+        core.step_at(pc);
         instructions += 1;
         if instructions % CHECKED == 0 {
             without_exception(core)?;
         }
     }
-    Ok(instructions)
 }

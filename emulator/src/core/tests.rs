@@ -11,6 +11,12 @@ const HANDLER: u32 = FLASH + 0x80;
 const RAM: u32 = 0x2000_0000;
 const HARD_FAULT: u32 = 3;
 
+impl Core {
+    fn step(&mut self) -> u64 {
+        self.step_at(self.pc())
+    }
+}
+
 /// A core of that kind whose flash begins with a vector table, a handler of hard faults that
 /// loops, one of the NMI that returns, and the code.
 fn core(kind: CoreKind, code: &[u16]) -> Core {
