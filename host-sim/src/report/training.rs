@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use tactile::train::joint::JointModel;
+use tactile::train::joint::{JointModel, Warning};
 
 use super::evaluation::percent;
 use super::poses::{held_out, of_training};
@@ -84,8 +84,12 @@ impl fmt::Display for TrainingReport<'_> {
             write!(f, "\n{}", held_out(&report.poses, &classes))?;
         }
         write!(f, "{}", standing(self.0))?;
+        let objects = self.0.opinion.as_ref().is_some_and(|of| !of.names);
         for warning in &report.warnings {
             write!(f, "\nwarning: {}", in_words(warning))?;
+            if objects && matches!(warning, Warning::Alike { .. }) {
+                write!(f, "; the model names neither")?;
+            }
         }
         Ok(())
     }
