@@ -28,8 +28,11 @@ fn capture(place: &Place, more: &str) -> Vec<Stream> {
     streams
 }
 
-fn train(streams: Vec<Stream>) -> ModelBuf {
-    let how = How::of(Tables::Joint);
+fn train(streams: Vec<Stream>, expect: Expected) -> ModelBuf {
+    let how = How {
+        expect,
+        ..How::of(Tables::Joint)
+    };
     how.train(&[("it".to_owned(), streams)], TICK_HZ)
         .unwrap()
         .model
@@ -78,8 +81,10 @@ fn until_the_first_exchange_it_is_what_record_writes() {
 #[test]
 fn a_model_of_it_scores_as_one_of_what_record_writes() {
     let labels = "--label smooth --label p600 --label p240 --label carpet";
-    let captured = train(capture(&Place::new(), &format!("{labels} --touches 20")));
-    let recorded = train(record::streams(&main_scene(), Verbosity::Quiet).unwrap());
+    let captured = capture(&Place::new(), &format!("{labels} --touches 20"));
+    let captured = train(captured, Expected::Bench);
+    let recorded = record::streams(&main_scene(), Verbosity::Quiet).unwrap();
+    let recorded = train(recorded, Expected::Bench);
     let mean = |model| (100..103).map(|seed| hits(model, seed)).sum::<f64>() / 3.0;
     let (captured, recorded) = (mean(&captured), mean(&recorded));
     println!("captured {captured:.3}, recorded {recorded:.3}");
@@ -97,14 +102,7 @@ fn a_texture_under_two_labels_is_distinguished_by_chance_alone() {
     let place = Place::new();
     let labels = "--label one=p240 --label two=p240 --touches 40";
     let streams = capture(&place, labels);
-    let models = [Expected::Bench, Expected::Same].map(|expect| {
-        let how = How {
-            expect,
-            ..How::of(Tables::Joint)
-        };
-        let trained = how.train(&[("it".to_owned(), streams.clone())], TICK_HZ);
-        trained.unwrap().model
-    });
+    let models = [Expected::Bench, Expected::Same].map(|expect| train(streams.clone(), expect));
     let (mut right, mut all) = ([0_u32; 2], [0_u32; 2]);
     for seed in 11..21 {
         let other = capture(&place, &format!("{labels} --seed {seed}"));

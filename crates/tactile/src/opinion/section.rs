@@ -7,7 +7,7 @@
 //! | 1, 1 | code that becomes zero i32; bits that are left off a code |
 //! | 2 | rest of x and y where no air was felt yet, i32, 1/256 narrow codes |
 //! | 2 | frequency of the whisk, 1/1000 Hz, 0: not known; 1 without RCP, 2 with, 0: not known |
-//! | per stage, all or from the first that decides | shift; K × bias i32, 1/1024 bit; K × weights i16, ten a state begun, or twelve |
+//! | per stage, all or from the first that decides | shift; K × bias i32, 1/1024 bit; K × weights i16, ten a state begun, with deflections twelve |
 //! | only with poses: 2 | least and most tilt, then depth, i16, 1/100 |
 //! | per class and stage from the first that decides | errors of tilt and depth u16, 1/100; shifts u16; for each bias i32, 1/100, and [weights](super::pose) i32 |
 //! | only with another sensor: 1 | most turn of one u16, 1/256 of 1/32 rad; most change of y's scale u16, 1/256 of 1/16 |

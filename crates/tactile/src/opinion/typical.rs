@@ -13,7 +13,8 @@ pub(super) const NONE: Ended = [UNKNOWN; STATES.len() - 1];
 const MOST: i32 = u16::MAX as i32;
 
 /// The squared distance of the sums over so many blocks, three at most, from a class whose mean
-/// and triangle these words are: below 2²⁶. Of no blocks it is 0.
+/// and triangle these words are: below 2²⁶. Of no blocks it is 0. Features come first among the
+/// sums; what else is weighed does not count.
 pub(super) fn square(words: &[u32], sums: &[i16], blocks: usize) -> u32 {
     // Of a mean over blocks: by their square, in 2⁻¹⁶.
     let share = match blocks {

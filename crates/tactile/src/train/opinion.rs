@@ -168,7 +168,7 @@ fn of_felt(
     material: &Material<'_>,
     stands: Option<&Stands>,
 ) -> Option<Opinion> {
-    // Where it objects, to each name of classes that held-out trials do not tell apart.
+    // Which are alike the tables have found, and they hold in one pose.
     let itself: Vec<usize> = (0..felt.classes).collect();
     let how = if names {
         // A few poses say little of how far poses spread.

@@ -156,18 +156,9 @@ impl Doubts<'_> {
         warnings
     }
 
-    /// Of each class the first one of those that cannot be distinguished from it, or from one
-    /// that cannot; itself if there is none.
+    /// Of each class the first one that cannot be distinguished from it; itself if there is none.
     pub(super) fn groups(&self) -> Vec<usize> {
-        let mut first: Vec<usize> = (0..self.names.len()).collect();
-        for (pair, _) in self.alike() {
-            let of_pair = pair.map(|class| first[class]);
-            let least = of_pair[0].min(of_pair[1]);
-            for of in first.iter_mut().filter(|of| of_pair.contains(of)) {
-                *of = least;
-            }
-        }
-        first
+        joined(self.alike().map(|(pair, _)| pair), self.names.len())
     }
 
     /// Pairs that cannot be distinguished, and how often one is taken for the other.
@@ -204,5 +195,33 @@ impl Doubts<'_> {
             }
         }
         0.0
+    }
+}
+
+/// Of each of so many classes the first one of its group: those of a pair are of one.
+fn joined(pairs: impl Iterator<Item = [usize; 2]>, classes: usize) -> Vec<usize> {
+    let mut first: Vec<usize> = (0..classes).collect();
+    for pair in pairs {
+        let of_pair = pair.map(|class| first[class]);
+        let least = of_pair[0].min(of_pair[1]);
+        for of in first.iter_mut().filter(|of| of_pair.contains(of)) {
+            *of = least;
+        }
+    }
+    first
+}
+
+#[cfg(test)]
+mod tests {
+    use super::joined;
+
+    #[test]
+    fn what_is_like_a_third_is_of_one_group() {
+        let of = |pairs: &[[usize; 2]]| joined(pairs.iter().copied(), 5);
+        assert_eq!(of(&[]), [0, 1, 2, 3, 4]);
+        assert_eq!(of(&[[1, 3]]), [0, 1, 2, 1, 4]);
+        // In any order.
+        assert_eq!(of(&[[2, 3], [1, 3], [0, 4]]), [0, 1, 1, 1, 0]);
+        assert_eq!(of(&[[3, 4], [0, 1], [1, 4]]), [0, 0, 2, 0, 0]);
     }
 }
