@@ -18,7 +18,7 @@ pub const GATE: f64 = 0.05;
 
 type Words = Box<[u32]>;
 
-/// What takes samples, and decides.
+/// A classifier of codes, with its model beside it.
 pub type Codes = CodeClassifier<Words>;
 
 /// The classifier that a board runs, with its model.
@@ -95,7 +95,7 @@ impl Classifier {
         &self.settings
     }
 
-    /// What takes samples, of all whiskers.
+    /// By what samples of all whiskers are classified.
     pub fn codes_mut(&mut self) -> &mut Codes {
         &mut self.codes
     }
@@ -136,7 +136,8 @@ impl Classifier {
     }
 }
 
-/// The same of a whisker, counted from 0, left side first, or of all together.
+/// What it makes of the classes by now: posteriors of a whisker, counted from 0, left side first, or
+/// of all together; none where nothing is classified.
 pub fn posteriors(codes: &Codes, whisker: usize) -> Posteriors {
     let classifier = codes.classifier();
     classifier.map_or_else(Posteriors::default, |one| one.posteriors(whisker))
