@@ -140,9 +140,14 @@ impl Opinion {
         }
     }
 
-    /// A touch begins, or is long: the open block is dropped, and what was felt.
+    /// A touch begins: the open block is dropped, and what was felt.
     pub(crate) fn begin(&mut self) {
         self.differences.clear();
+        self.begin_again();
+    }
+
+    /// A touch is long: what was felt is dropped before a block that is full.
+    pub(crate) fn begin_again(&mut self) {
         self.states = [[0; WEIGHED]; STATES.len()];
         self.blocks = 0;
         self.scores = [0; MAX_CLASSES];
@@ -157,12 +162,14 @@ impl Opinion {
         self.blocks >= BLOCKS
     }
 
-    /// Ends a block. By how much the score of each class has risen, 1/1024 bit.
+    /// Ends a block; where touches last, it counts if no differences are missing. By how much the score of each class has risen, 1/1024 bit.
     // Once a block, and not within what is generic: as fast as this crate is built.
     #[inline(never)]
     pub(crate) fn end_of_block(&mut self, section: Section<'_>, classes: usize) -> Rise {
+        let is_whole = self.differences.is_whole();
         let (features, deflection) = self.differences.end_of_block();
-        if self.blocks >= BLOCKS {
+        let is_missed = section.begins_again() && !is_whole;
+        if self.blocks >= BLOCKS || is_missed {
             return [0; MAX_CLASSES];
         }
         if let Some(state) = self.states.get_mut(state_of(self.blocks)) {

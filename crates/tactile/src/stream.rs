@@ -211,7 +211,7 @@ impl<E> StreamState<E> {
             && let [judge, ..] = self.judges.as_mut_slice()
         {
             if judge.opinion.is_full() && section.begins_again() {
-                let _ = judge.begin();
+                judge.opinion.begin_again();
             }
             let rise = judge.opinion.end_of_block(section, model.classes());
             if section.names() {

@@ -57,6 +57,8 @@ pub(crate) struct Differences {
     sums: [[i64; 3]; LAGS.len()],
     totals: [i32; 2],
     counted: u32,
+    /// Whether the line was full when the open block began.
+    is_whole: bool,
     /// In units of 2^−[`REST_BITS`] narrow codes.
     pub(crate) rest: [i32; 2],
 }
@@ -70,6 +72,7 @@ impl Differences {
             sums: [[0; 3]; LAGS.len()],
             totals: [0; 2],
             counted: 0,
+            is_whole: false,
             rest,
         }
     }
@@ -93,8 +96,16 @@ impl Differences {
         self.counted
     }
 
+    /// Whether all samples of the open block have their differences.
+    pub(crate) const fn is_whole(&self) -> bool {
+        self.is_whole
+    }
+
     /// Adds a sample that is not yet kept.
     fn add(&mut self, sample: [i16; 2]) {
+        if self.counted == 0 {
+            self.is_whole = self.filled == KEPT;
+        }
         self.counted = self.counted.wrapping_add(1);
         for (total, code) in self.totals.iter_mut().zip(sample) {
             *total = total.wrapping_add(i32::from(code));
@@ -353,6 +364,18 @@ mod tests {
             differences.push([if n < 90 { 0 } else { 1000 }, 0], true);
         }
         assert_eq!(differences.end_of_block().0, [0; FEATURES]);
+    }
+
+    #[test]
+    fn a_block_is_whole_if_all_its_samples_have_differences() {
+        let mut differences = Differences::new([0; 2]);
+        let mut block = || {
+            (0..KEPT / 2).for_each(|n| differences.push([n as i16, 0], true));
+            let is_whole = differences.is_whole();
+            differences.end_of_block();
+            is_whole
+        };
+        assert_eq!([block(), block(), block()], [false, false, true]);
     }
 
     #[test]

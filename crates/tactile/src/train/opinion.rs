@@ -3,12 +3,14 @@
 //! Of recordings in one pose it objects, and what poses do to the roughness is learnt from
 //! copies whose deflection in y is scaled: how much may differ between training and use only
 //! who trains knows ([`Expect`]). Of recordings in several poses, each of all classes, it names,
-//! and what differs between poses is learnt from them.
+//! and what differs between poses is learnt from them. Where touches last, which have neither
+//! onset nor way, it objects in either case.
 //!
 //! Values that were chosen, on recordings of the scene `whisker` with seeds that no page uses:
 //! α 1 and 1 + 4/(poses − 1), s 0 and 0.03, what no copy shows, the 0.8 of an objection, the shares
 //! of `typical`, `paths` and patience, their shrinking and least deviations, the gains of copies,
-//! by how much a sensor may be turned and scaled; of `bench-textures` the spread of T.
+//! by how much a sensor may be turned and scaled; of `bench-textures` the spread of T; of bearings
+//! and of a fingertip's recordings the 0.9.
 
 mod linear;
 mod matrix;
@@ -91,8 +93,9 @@ pub(super) const LEAST_POSES: usize = 3;
 const LEAST_TOUCHES: [usize; 2] = [12, 4];
 /// Touches of each class that reach a stage.
 const LEAST_OF_STAGE: usize = 6;
-/// The least posterior by which it does not object to a name.
-const LEAST_POSTERIOR: f64 = 0.8;
+/// The least posterior by which it does not object to a name: where touches end, and where they
+/// last, in which it is asked again and again.
+const LEAST_POSTERIOR: [f64; 2] = [0.8, 0.9];
 /// The share of touches that end before patience does: where it objects, and names.
 const IMPATIENT: [f64; 2] = [0.02, 0.1];
 /// Parts in which the touches of one pose are held out.
@@ -137,7 +140,7 @@ struct Felt {
 /// expected to differ.
 pub(super) fn train(material: &Material<'_>) -> Trained {
     let felt = Felt::of(material, material.expect.gains());
-    let names = felt.poses.len() >= LEAST_POSES;
+    let names = felt.poses.len() >= LEAST_POSES && !felt.begins_again;
     let mut warnings = felt.lacking(material);
     if !names && material.expect == Expect::Same {
         return Trained {
@@ -257,13 +260,16 @@ impl Felt {
             .collect();
         let sense = Sense::of(trials, scales, block);
         let numbers = (of_class.as_slice(), of_trial.as_slice());
-        let mut touches = sense.touches(trials, scales, numbers, 1.0);
+        let mut touches = sense.touches(trials, scales, numbers, (1.0, false));
         let long = touches.iter().filter(|touch| touch.goes_on).count();
         let begins_again = long * 3 > touches.len();
+        if begins_again {
+            touches = sense.touches(trials, scales, numbers, (1.0, true));
+        }
         touches.retain(|touch| begins_again || !touch.goes_on);
         let mut with_copies = touches.clone();
         for (n, gain) in gains.iter().enumerate() {
-            let mut copies = sense.touches(trials, scales, numbers, *gain);
+            let mut copies = sense.touches(trials, scales, numbers, (*gain, begins_again));
             copies.retain(|touch| begins_again || !touch.goes_on);
             for copy in &mut copies {
                 copy.recording += (n + 1) * recordings;
@@ -350,18 +356,6 @@ impl Felt {
     }
 
     fn class(&self, class: usize, names: bool) -> (Typical, Paths) {
-        let (mut typical, mut paths) = self.limited(class, names);
-        if self.begins_again {
-            // Of a touch that lasts there is no way from onset to end, and its nine blocks depend
-            // on one another: only the discriminant objects.
-            typical.limits = [f64::INFINITY; STAGES];
-            paths.limit = f64::INFINITY;
-        }
-        (typical, paths)
-    }
-
-    /// With limits as if touches were short.
-    fn limited(&self, class: usize, names: bool) -> (Typical, Paths) {
         let of: Vec<&Touch> = self.touches.iter().filter(|t| t.class == class).collect();
         let mut trials: Vec<usize> = of.iter().map(|touch| touch.trial).collect();
         trials.dedup();
@@ -399,6 +393,10 @@ impl Felt {
 
     /// Blocks after which most touches have not yet ended.
     fn patience(&self, names: bool) -> u8 {
+        if self.begins_again {
+            // Nine blocks follow on nine, whenever the recordings were cut off.
+            return BLOCKS as u8;
+        }
         let mut lengths: Vec<f64> = self.touches.iter().map(|t| t.len() as f64).collect();
         let patience = quantile(&mut lengths, IMPATIENT[usize::from(names)]).unwrap_or(1.0);
         // At most nine.
@@ -408,11 +406,12 @@ impl Felt {
     fn head(&self, names: bool, whisked: Whisked, poses: usize) -> Vec<u32> {
         // One that names says what it has to say of a touch once: what would follow depends on it.
         let deflections = if names { DEFLECTIONS } else { 0 };
-        let begins_again = u8::from(self.begins_again && !names) << 1;
+        let begins_again = u8::from(self.begins_again) << 1;
         let kind = u8::from(names) | begins_again | LATE | deflections;
         // At most twelve, and eight.
         let head = [kind, poses as u8, self.stages as u8, self.patience(names)];
-        let odds = (1.0 / LEAST_POSTERIOR - 1.0) * f64::from(1 << 26);
+        let least = LEAST_POSTERIOR[usize::from(self.begins_again)];
+        let odds = (1.0 / least - 1.0) * f64::from(1 << 26);
         let Sense { narrow, rest, .. } = self.sense;
         vec![
             u32::from_le_bytes(head),

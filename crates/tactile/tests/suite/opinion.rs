@@ -247,6 +247,46 @@ fn models_of_one_pose_object_and_of_several_name() {
     assert!(same.without_opinion().is_none());
 }
 
+/// As a stranger's recording may be: of nothing but one touch of seconds, which trembles by as much.
+fn lasting(label: &str, amplitude: f64, seed: u64) -> Trial {
+    let mut state = seed.wrapping_mul(0x9e37_79b9_7f4a_7c15);
+    let mut sample = || [0; 2].map(|_| (9000.0 + amplitude * roll(&mut state)).round());
+    let samples: Vec<[f64; 2]> = (0..3_000).map(|_| sample()).collect();
+    Trial {
+        label: label.to_owned(),
+        recording: String::from("lasting"),
+        pose: None,
+        stands: None,
+        touches: vec![1; samples.len()],
+        samples,
+    }
+}
+
+/// Where a touch lasts, each of its nine blocks is judged as those of training were: what was
+/// trained is named throughout, and what was not never.
+#[test]
+fn a_touch_that_lasts_is_judged_from_its_first_block_to_its_last() {
+    let known = [("smooth", 20.0), ("middling", 60.0), ("rough", 180.0)];
+    let trials = (0..12).flat_map(|n| {
+        let seeded = known.iter().zip(3 * n..);
+        seeded.map(|((label, amplitude), seed)| lasting(label, *amplitude, seed))
+    });
+    let trained = train(&trials.collect::<Vec<_>>(), &Options::default()).unwrap();
+    let model = trained.model().unwrap();
+    assert!(model.has_opinion());
+    for ((label, amplitude), seed) in known.iter().zip(100..) {
+        let class = model.names().position(|name| name == *label);
+        let said = decisions(&model, &lasting(label, *amplitude, seed));
+        let named = said.iter().filter(|(of, _)| of.class() == class).count();
+        assert!(named >= 10 && 10 * named >= 9 * said.len(), "{named}");
+    }
+    for amplitude in [35.0, 105.0, 500.0] {
+        let said = decisions(&model, &lasting("", amplitude, 200));
+        let named = said.iter().filter(|(of, _)| of.class().is_some());
+        assert_eq!(named.count(), 0, "{amplitude}");
+    }
+}
+
 /// Trained in three poses by one sensor, and felt by another: rough is named as far as the turn or
 /// the scale was to be expected, and beyond it nothing is.
 #[test]

@@ -145,6 +145,8 @@ fn stream(
             recording = Some(&of.recording);
             classifier.reset();
         }
+        // Between trials samples are missing.
+        classifier.interrupt();
         let mut last = 0;
         for (sample, &touch) in of.samples.iter().zip(&of.touches) {
             let codes: [i32; 2] =

@@ -131,14 +131,14 @@ impl Sense {
         core::array::from_fn(|n| self.narrow.of(scales[n].code_from_f64(sample[n])))
     }
 
-    /// The touches of trials whose deflection in y is `gain` times what it was. `classes` and
-    /// `recordings` have a number a trial.
+    /// The touches of trials whose deflection in y is `gain` times what it was, without blocks
+    /// that are not whole where touches `lasts`. `classes` and `recordings` have a number a trial.
     pub(super) fn touches(
         &self,
         trials: &[Trial],
         scales: &[Quantiser; CHANNELS],
         (classes, recordings): (&[usize], &[usize]),
-        gain: f64,
+        (gain, lasts): (f64, bool),
     ) -> Vec<Touch> {
         let mut touches: Vec<Touch> = Vec::new();
         let mut last_recording = None;
@@ -150,6 +150,9 @@ impl Sense {
                 last_recording = Some(recordings[trial]);
                 differences = Differences::new(self.rest);
             }
+            // As a classifier that takes a trial for itself.
+            differences.interrupt();
+            differences.clear();
             let (mut last, mut open, mut is_new) = (0, 0, true);
             for (sample, &touch) in of.samples.iter().zip(&of.touches) {
                 let [x, y] = self.codes(sample, scales);
@@ -169,7 +172,11 @@ impl Sense {
                     continue;
                 }
                 open = 0;
+                let is_whole = differences.is_whole();
                 let (features, path) = differences.end_of_block();
+                if lasts && !is_whole {
+                    continue;
+                }
                 if is_new || touches.last().is_none_or(|touch| touch.len() == BLOCKS) {
                     let goes_on = !core::mem::replace(&mut is_new, false);
                     touches.push(Touch {
