@@ -1,14 +1,10 @@
 //! The joint trainer on problems whose answer is known.
 
-use crate::common::roll;
+use crate::common::{normal, threshold};
 use tactile::train::Expect;
 use tactile::train::TrainError;
 use tactile::train::joint::{Options, Trial, Warning, train};
-use tactile::{Sequential, TableSource, Threshold};
-
-fn normal(state: &mut u64) -> f64 {
-    (0..12).map(|_| roll(state)).sum::<f64>() - 6.0
-}
+use tactile::{Sequential, TableSource};
 
 /// A trial of normal x and y of sd 100, independent from sample to sample, about a mean.
 fn trial(label: &str, recording: &str, mean: [f64; 2], length: usize, seed: u64) -> Trial {
@@ -127,23 +123,26 @@ fn warnings_say_what_the_trials_cannot_tell() {
 
 #[test]
 fn faults_are_named() {
-    let trained = |trials: &[Trial]| train(trials, &same()).unwrap_err();
-    assert_eq!(trained(&[]), TrainError::NoSamples);
-    assert_eq!(trained(&two(1.0, 100)[..1]), TrainError::OneClass);
+    let refused = |change: fn(&mut Vec<Trial>), error| {
+        let mut trials = two(1.0, 100);
+        change(&mut trials);
+        assert_eq!(train(&trials, &same()).unwrap_err(), error);
+    };
     let name = "b".to_owned();
-    let mut trials = two(1.0, 100);
-    trials
-        .iter_mut()
-        .skip(1)
-        .step_by(2)
-        .for_each(|trial| trial.touches.fill(0));
-    assert_eq!(trained(&trials), TrainError::TooShort { name });
-    let mut trials = two(1.0, 100);
-    trials[3].samples[5][1] = f64::NAN;
-    assert_eq!(trained(&trials), TrainError::NotFinite { channel: 1 });
-    let mut trials = two(1.0, 100);
-    trials[3].label.clear();
-    assert_eq!(trained(&trials), TrainError::NameEmpty);
+    refused(Vec::clear, TrainError::NoSamples);
+    refused(|trials| trials.truncate(1), TrainError::OneClass);
+    refused(
+        |trials| {
+            let of_b = trials.iter_mut().skip(1).step_by(2);
+            of_b.for_each(|trial| trial.touches.fill(0));
+        },
+        TrainError::TooShort { name },
+    );
+    refused(
+        |trials| trials[3].samples[5][1] = f64::NAN,
+        TrainError::NotFinite { channel: 1 },
+    );
+    refused(|trials| trials[3].label.clear(), TrainError::NameEmpty);
     let options = Options {
         bins: 1,
         expect: Expect::Same,
@@ -166,8 +165,7 @@ fn the_model_file_decides_as_the_report_says() {
     let model = trained.model().unwrap();
     let rule = model.touch_rule().unwrap();
     assert_eq!((rule.limit, rule.gap), (2048, 200));
-    let threshold = Threshold::new(0.99).unwrap();
-    let mut classifier = Sequential::new(model, threshold).unwrap();
+    let mut classifier = Sequential::new(model, threshold(0.99)).unwrap();
     let (mut decided, mut right, mut samples) = (0, 0, 0.0);
     for (n, fresh) in two(0.5, 20_000).iter().enumerate() {
         // The same means, other samples.
