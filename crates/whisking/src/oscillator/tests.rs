@@ -126,25 +126,6 @@ fn the_origin_is_left_along_protraction_in_every_format() {
     check::<Fix>();
 }
 
-#[test]
-fn one_side_alone_is_the_same_oscillator() {
-    for (mut one, mut two) in [
-        (
-            Running::<f64, 1>::exact(1e-3, [[0.6, 0.2]]),
-            Running::<f64, 2>::exact(1e-3, [[0.6, 0.2]; 2]),
-        ),
-        (
-            Running::<f64, 1>::euler(1e-3, [[0.6, 0.2]]),
-            Running::<f64, 2>::euler(1e-3, [[0.6, 0.2]; 2]),
-        ),
-    ] {
-        let ([one], [two, _]) = (one.run(700), two.run(700));
-        for k in 0..2 {
-            assert!((one[k] - two[k]).abs() < 1e-12);
-        }
-    }
-}
-
 /// ψ of one side is what it was and the difference, that of the other what it was, however the
 /// integrator keeps them; and what becomes of the difference is what two runs show that began so
 /// far from one another.
