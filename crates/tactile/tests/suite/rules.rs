@@ -153,7 +153,11 @@ fn any_rule_is_the_rule_itself() {
             decisions += usize::from(decision.unwrap().is_some());
         }
         assert!(decisions > 10, "{decisions}");
+        (0..4).for_each(|_| _ = typed.push(&[500]));
+        let even = [1 << 31; 2];
+        assert_ne!(typed.posteriors().as_q32(), even);
         assert_eq!((any.finish(), typed.finish()), (None, None));
+        assert_eq!(typed.posteriors().as_q32(), even, "all is forgotten");
     }
     let buf = two_normals(4);
     let threshold = threshold(0.75);
