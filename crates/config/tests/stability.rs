@@ -212,7 +212,7 @@ fn what_is_suggested_is_the_least() {
                 };
                 let found: Vec<Unstable> =
                     refused.into_iter().chain(cautions(&at(tick_hz))).collect();
-                let entries = found.iter().flat_map(|found| found.as_slice());
+                let entries = found.iter().flat_map(Unstable::as_slice);
                 let least = entries.map(|entry| match *entry {
                     Instability::Oscillators { tick_hz, .. }
                     | Instability::Muscles { tick_hz, .. } => tick_hz,
