@@ -36,12 +36,8 @@ fn two(apart: f64, length: usize) -> Vec<Trial> {
 
 fn trials(count: usize, apart: f64, length: usize) -> Vec<Trial> {
     let means = [[-50.0 * apart, 0.0], [50.0 * apart, 0.0]];
-    let class = |n: usize| (["a", "b"][n % 2], means[n % 2]);
-    (0..count)
-        .map(|n| {
-            let (label, mean) = class(n);
-            trial(label, "one", mean, length, n as u64 + 1)
-        })
+    let all = (0..count).zip(1..);
+    all.map(|(n, seed)| trial(["a", "b"][n % 2], "one", means[n % 2], length, seed))
         .collect()
 }
 
@@ -97,19 +93,17 @@ fn warnings_say_what_the_trials_cannot_tell() {
     let trained = train(&trials, &same()).unwrap();
     let warnings = &trained.report.warnings;
     let c = || "c".to_owned();
-    assert!(warnings.contains(&Warning::Halved { name: c() }));
-    assert!(warnings.contains(&Warning::FewTrials {
+    let few = Warning::FewTrials {
         name: c(),
-        trials: 1
-    }));
+        trials: 1,
+    };
+    assert!(warnings.contains(&Warning::Halved { name: c() }) && warnings.contains(&few));
     assert!(warnings.contains(&Warning::OneRecording));
-    let alike: Vec<_> = warnings
-        .iter()
-        .filter_map(|warning| match warning {
-            Warning::Alike { names, .. } => Some(names.clone()),
-            _ => None,
-        })
-        .collect();
+    let alike = warnings.iter().filter_map(|warning| match warning {
+        Warning::Alike { names, .. } => Some(names.clone()),
+        _ => None,
+    });
+    let alike: Vec<_> = alike.collect();
     assert_eq!(alike, [["a".to_owned(), "b".to_owned()]]);
 
     let mut trials = two(2.0, 2_000);
@@ -173,8 +167,7 @@ fn the_model_file_decides_as_the_report_says() {
         let other = trial(&fresh.label, "two", mean, 20_000, n as u64 + 100);
         classifier.touch(n as u16);
         for sample in &other.samples {
-            let codes =
-                [0, 1].map(|channel| trained.scales[channel].code_from_f64(sample[channel]));
+            let codes = [0, 1].map(|k| trained.scales[k].code_from_f64(sample[k]));
             if let Some(decision) = classifier.push(&codes).unwrap() {
                 decided += 1;
                 right += usize::from(decision.leader() == n % 2);
@@ -183,13 +176,8 @@ fn the_model_file_decides_as_the_report_says() {
         }
     }
     let at = trained.report.calibration[4];
-    assert!(
-        decided > 200 && right as f64 > 0.98 * f64::from(decided),
-        "{right} of {decided}"
-    );
-    let samples = samples / f64::from(decided);
-    assert!(
-        (samples / at.samples - 1.0).abs() < 0.15,
-        "{samples} {at:?}"
-    );
+    let are_right = right as f64 > 0.98 * f64::from(decided);
+    assert!(are_right && decided > 200, "{right} of {decided}");
+    let share = samples / f64::from(decided) / at.samples;
+    assert!((share - 1.0).abs() < 0.15, "{share} {at:?}");
 }
