@@ -77,18 +77,14 @@ mod tests {
         longest: 10,
     };
 
-    fn presses(levels: &str) -> Vec<usize> {
-        presses_after_stop(levels, usize::MAX)
-    }
-
     /// After which samples a press has ended, where the `at`-th has stopped the motors; `-` is
     /// down.
-    fn presses_after_stop(levels: &str, at: usize) -> Vec<usize> {
+    fn presses(levels: &str, at: Option<usize>) -> Vec<usize> {
         let mut button = Button::new();
         let samples = levels.chars().enumerate();
         samples
             .filter_map(|(n, level)| {
-                if n == at {
+                if Some(n) == at {
                     button.has_stopped(LIMITS);
                 }
                 button.sample(LIMITS, level == '-').then_some(n)
@@ -97,42 +93,32 @@ mod tests {
     }
 
     #[test]
-    fn a_press_ends_with_a_release() {
-        assert_eq!(presses("'''----'''''"), [9]);
-        assert_eq!(presses("'''----'''''---''''"), [9, 17]);
-    }
-
-    #[test]
-    fn bounces_are_no_presses() {
-        assert_eq!(presses("''''-'--''-'--''''"), []);
-        assert_eq!(presses("'''-'----'-''-''''"), [16]);
+    fn a_press_ends_with_a_release_and_neither_bounces_nor_sticks() {
+        for (levels, expected) in [
+            ("'''----'''''", &[9][..]),
+            ("'''----'''''---''''", &[9, 17]),
+            ("''''-'--''-'--''''", &[]),
+            ("'''-'----'-''-''''", &[16]),
+            // For ever, since the start, for long, and one that comes loose.
+            ("------------------", &[]),
+            ("-----'''''", &[]),
+            ("'''-------------''''", &[]),
+            ("-----'''---'''", &[13]),
+        ] {
+            assert_eq!(presses(levels, None), expected, "{levels}");
+        }
     }
 
     #[test]
     fn a_push_that_stops_does_not_arm_and_the_next_does() {
-        assert_eq!(presses_after_stop("''''----''''''----''''", 4), [20]);
-        assert_eq!(
-            presses_after_stop("''''-'--'-''''''----''''", 4),
-            [22],
-            "bounces"
-        );
-        assert_eq!(
-            presses_after_stop("''''-'''''----'''", 4),
-            [16],
-            "too short to settle"
-        );
-        assert_eq!(
-            presses_after_stop("''''------------------'''''---''''", 4),
-            [32],
-            "held"
-        );
-    }
-
-    #[test]
-    fn a_button_that_sticks_does_nothing() {
-        assert_eq!(presses("------------------"), [], "for ever");
-        assert_eq!(presses("-----'''''"), [], "since the start");
-        assert_eq!(presses("'''-------------''''"), [], "for long");
-        assert_eq!(presses("-----'''---'''"), [13], "and comes loose");
+        for (levels, expected) in [
+            ("''''----''''''----''''", 20),
+            // It bounces, is too short to settle, is held.
+            ("''''-'--'-''''''----''''", 22),
+            ("''''-'''''----'''", 16),
+            ("''''------------------'''''---''''", 32),
+        ] {
+            assert_eq!(presses(levels, Some(4)), [expected], "{levels}");
+        }
     }
 }

@@ -410,35 +410,21 @@ mod tests {
             event(&mut line, &Event::Decision(RIGHT, decision), context);
             said(&mut line)
         };
-        let spaced = ["rough carpet", "ice"];
-        let line = said_of(["ice", "rough carpet"], 0);
-        assert!(
-            line.starts_with("0.000 decision right \"rough carpet\" "),
-            "{line}"
-        );
-        let line = said_of(spaced, 5 << 16);
-        assert!(
-            line.ends_with(" between ice and \"rough carpet\""),
-            "{line}"
-        );
-        let line = said_of(["ice", "x\r\nok stop"], 0);
-        assert!(
-            line.contains("\"x??ok stop\" ") && !line.contains('\n'),
-            "{line}"
-        );
+        let begins = "0.000 decision right \"rough carpet\" ";
+        assert!(said_of(["ice", "rough carpet"], 0).starts_with(begins));
+        let ends = " between ice and \"rough carpet\"";
+        assert!(said_of(["rough carpet", "ice"], 5 << 16).ends_with(ends));
+        let forged = said_of(["ice", "x\r\nok stop"], 0);
+        assert!(forged.contains("\"x??ok stop\" ") && !forged.contains('\n'));
     }
 
     #[test]
     fn every_event_has_its_fields() {
-        let touch = Event::Touch {
-            place: Place::new(0, 0),
-            number: 65_535,
-        };
+        let (place, number) = (Place::new(0, 0), 65_535);
+        let touch = Event::Touch { place, number };
         assert_eq!(line_of(&touch), "12.345 touch left 65535");
-        let end = Event::TouchEnd {
-            place: RIGHT,
-            number: 7,
-        };
+        let (place, number) = (RIGHT, 7);
+        let end = Event::TouchEnd { place, number };
         assert_eq!(line_of(&end), "12.345 end right 7");
         // Class 1 at even odds after 34 samples; the same, unnamed for each reason.
         for (touch, class, why) in [
@@ -490,14 +476,8 @@ mod tests {
         let mut lines = Vec::new();
         for (begun, cause) in [(&first, StartCause::Power), (&second, StartCause::Watchdog)] {
             let what = ("0.1.0", "textures", 2_000);
-            start(
-                || at(0, 2_000),
-                what,
-                (begun, cause),
-                |line| {
-                    lines.push(said(line));
-                },
-            );
+            let say = |line: &mut Line| lines.push(said(line));
+            start(|| at(0, 2_000), what, (begun, cause), say);
         }
         assert_eq!(lines[0], "0.000 start 0.1.0 textures 2000 power-up 1 0");
         let number = number::WATCHDOG;

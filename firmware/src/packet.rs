@@ -328,22 +328,23 @@ mod tests {
     #[test]
     fn faults_of_a_tmag5170_come_as_they_were_sent() {
         use crate::TiltFault::{NoMagnet, NotWritten, Reply, Reported};
-        use tmag5170::{Register, ReplyError, Status, StatusFaults};
+        use tmag5170::ReplyError::{self, LineLow, NoSensor, OtherType, Rejected, Restarted};
+        use tmag5170::{Register, Status, StatusFaults};
 
-        let mut faults = vec![
-            Reply(ReplyError::NoSensor),
-            Reply(ReplyError::LineLow),
-            Reply(ReplyError::Rejected),
-            Reply(ReplyError::BadCrc {
-                expected: 3,
-                found: 12,
-            }),
-            Reply(ReplyError::Restarted),
-            Reply(ReplyError::Sensor(Status::new(0x308))),
-            Reply(ReplyError::OtherType(5)),
-            Reported(StatusFaults::NONE),
-            NoMagnet,
+        let [expected, found] = [3, 12];
+        let bad_crc = ReplyError::BadCrc { expected, found };
+        let sensor = ReplyError::Sensor(Status::new(0x308));
+        let replies = [
+            NoSensor,
+            LineLow,
+            Rejected,
+            bad_crc,
+            Restarted,
+            sensor,
+            OtherType(5),
         ];
+        let mut faults = vec![Reported(StatusFaults::NONE), NoMagnet];
+        faults.extend(replies.map(Reply));
         faults.extend(StatusFaults::KNOWN.map(|known| Reported(known.bit)));
         faults.extend(Register::ALL.map(NotWritten));
         for fault in faults {
@@ -438,20 +439,14 @@ mod tests {
     #[test]
     fn frames_are_those_of_another_program() {
         let sequence = 0x0403_0201;
-        let touch = Packet::Event(EventRecord {
-            sequence,
-            event: Event::Touch {
-                place: Place::new(1, 3),
-                number: 0x0102,
-            },
-        });
-        assert_eq!(
-            wire::frame(&touch)[..],
-            [
-                0x00, 0x06, 0x02, 0x01, 0x02, 0x03, 0x04, 0x03, 0x01, 0x03, 0x03, 0x02, 0x01, 0x01,
-                0x01, 0x01, 0x01, 0x01, 0x01, 0x01, 0x01, 0x01, 0x05, 0x80, 0xBC, 0xB2, 0xC5, 0x00
-            ]
-        );
+        let (place, number) = (Place::new(1, 3), 0x0102);
+        let event = Event::Touch { place, number };
+        let framed = wire::frame(&Packet::Event(EventRecord { sequence, event }));
+        let expected = [
+            0x00, 0x06, 0x02, 0x01, 0x02, 0x03, 0x04, 0x03, 0x01, 0x03, 0x03, 0x02, 0x01, 0x01,
+            0x01, 0x01, 0x01, 0x01, 0x01, 0x01, 0x01, 0x01, 0x05, 0x80, 0xBC, 0xB2, 0xC5, 0x00,
+        ];
+        assert_eq!(framed[..], expected);
         let answer = Packet::Answer(Answer {
             sequence,
             tag: 7,
@@ -459,24 +454,18 @@ mod tests {
             status: CommandStatus::OutOfRange,
             values: [-2, 5],
         });
-        assert_eq!(
-            wire::frame(&answer)[..],
-            [
-                0x00, 0x07, 0x01, 0x01, 0x02, 0x03, 0x04, 0x07, 0x08, 0x08, 0x03, 0xFE, 0xFF, 0xFF,
-                0xFF, 0x05, 0x01, 0x01, 0x01, 0x01, 0x01, 0x01, 0x05, 0x19, 0x70, 0x86, 0x72, 0x00
-            ]
-        );
+        let expected = [
+            0x00, 0x07, 0x01, 0x01, 0x02, 0x03, 0x04, 0x07, 0x08, 0x08, 0x03, 0xFE, 0xFF, 0xFF,
+            0xFF, 0x05, 0x01, 0x01, 0x01, 0x01, 0x01, 0x01, 0x05, 0x19, 0x70, 0x86, 0x72, 0x00,
+        ];
+        assert_eq!(wire::frame(&answer)[..], expected);
         // 700 and -2 are varints, the latter in zigzag.
-        let gain = TaggedCommand {
-            tag: 700,
-            command: Command::Gain(WhiskerId { side: 1, number: 2 }, -2),
-        };
-        assert_eq!(
-            wire::frame(&gain)[..],
-            [
-                0x00, 0x0B, 0xBC, 0x05, 0x08, 0x01, 0x02, 0x03, 0x3D, 0x8C, 0x63, 0x7B, 0x00
-            ]
-        );
+        let command = Command::Gain(WhiskerId { side: 1, number: 2 }, -2);
+        let framed = wire::frame(&TaggedCommand { tag: 700, command });
+        let expected = [
+            0x00, 0x0B, 0xBC, 0x05, 0x08, 0x01, 0x02, 0x03, 0x3D, 0x8C, 0x63, 0x7B, 0x00,
+        ];
+        assert_eq!(framed[..], expected);
     }
 
     #[test]

@@ -289,13 +289,10 @@ mod tests {
     fn request(tag: u16) -> TaggedCommand {
         let command = match tag % 4 {
             0 => Command::Hello,
-            1 => Command::Gain(
-                WhiskerId {
-                    side: 255,
-                    number: 255,
-                },
-                i32::MIN,
-            ),
+            1 => {
+                let [side, number] = [255; 2];
+                Command::Gain(WhiskerId { side, number }, i32::MIN)
+            }
             2 => Command::Word(255, u32::MAX),
             _ => Command::Stage(3, u32::MAX),
         };

@@ -144,23 +144,14 @@ mod tests {
         assert_eq!(last, Some([60, -35]));
         assert_eq!(zero.out_of(at([60, -35])), at([0, 0]));
         assert_eq!(zero.out_of(at([-100, 100])), at([-160, 135]));
-        assert_eq!(
-            zero.out_of([Word::new(3), Word::new(u16::MAX)])
-                .map(Word::raw),
-            [0, u16::MAX]
-        );
+        let ends = zero.out_of([3, u16::MAX].map(Word::new));
+        assert_eq!(ends.map(Word::raw), [0, u16::MAX]);
         for near in [[60, -35], [67, -42], [53, -28]] {
-            assert_eq!(
-                pass(&mut zero, near, 1000),
-                [[0; 2]; 0],
-                "{near:?}: it stays"
-            );
+            let moved = pass(&mut zero, near, 1000);
+            assert_eq!(moved, [[0; 2]; 0], "{near:?}: it stays");
         }
-        assert_eq!(
-            pass(&mut zero, [60, -43], 100),
-            [[60, -43]],
-            "by eight codes"
-        );
+        let moved = pass(&mut zero, [60, -43], 100);
+        assert_eq!(moved, [[60, -43]], "by eight codes");
     }
 
     #[test]

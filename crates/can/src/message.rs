@@ -259,6 +259,23 @@ mod tests {
     use proptest::array::{uniform2, uniform3};
     use proptest::prelude::*;
 
+    prop_compose! {
+        fn contact()(pi: [u16; 2], is_joined: bool, is_armed: bool, round in 0_u8..64) -> Contact {
+            Contact { pi, is_joined, is_armed, round }
+        }
+    }
+
+    prop_compose! {
+        fn evidence()(
+            leader in 0_u8..16,
+            part in 0_u8..16,
+            deficits in uniform3(0_u16..4096),
+            excess in uniform2(-32_i8..32),
+        ) -> Evidence {
+            Evidence { leader, part, deficits, excess }
+        }
+    }
+
     fn any_message() -> impl Strategy<Value = Message> {
         let psi = -MOST_PSI..=MOST_PSI;
         prop_oneof![
@@ -267,14 +284,7 @@ mod tests {
             (any::<u8>(), 0_u64..1 << 48)
                 .prop_map(|(number, last_us)| Message::Time { number, last_us }),
             (0_u8..2, psi.clone(), psi).prop_map(|(side, a, b)| Message::Psi { side, psi: [a, b] }),
-            (any::<[u16; 2]>(), any::<bool>(), any::<bool>(), 0_u8..64).prop_map(
-                |(pi, is_joined, is_armed, round)| Message::Contact(Contact {
-                    pi,
-                    is_joined,
-                    is_armed,
-                    round
-                })
-            ),
+            contact().prop_map(Message::Contact),
             (proptest::option::of(0_u8..8), any::<u16>(), any::<u32>()).prop_map(
                 |(class, posterior, samples)| Message::Decision {
                     class,
@@ -282,20 +292,7 @@ mod tests {
                     samples
                 }
             ),
-            (
-                0_u8..16,
-                0_u8..16,
-                uniform3(0_u16..4096),
-                uniform2(-32_i8..32)
-            )
-                .prop_map(|(leader, part, deficits, excess)| Message::Evidence(
-                    Evidence {
-                        leader,
-                        part,
-                        deficits,
-                        excess,
-                    }
-                )),
+            evidence().prop_map(Message::Evidence),
         ]
     }
 

@@ -116,14 +116,9 @@ mod tests {
     /// What the simulated motor took, in two seconds of whisking.
     #[test]
     fn the_duty_of_whisking_is_that_of_the_simulated_motor() {
-        for (frequency_hz, simulated) in
-            [(10.0, 0.283), (12.0, 0.382), (14.0, 0.496), (16.0, 0.613)]
-        {
-            let found = duty(&motor(), frequency_hz);
-            assert!(
-                (found / simulated - 1.0).abs() < 0.05,
-                "{frequency_hz}: {found}"
-            );
+        for (hz, simulated) in [(10.0, 0.283), (12.0, 0.382), (14.0, 0.496), (16.0, 0.613)] {
+            let found = duty(&motor(), hz);
+            assert!((found / simulated - 1.0).abs() < 0.05, "{hz}: {found}");
         }
         // Heat came after 8.57 s at 14 Hz, after 4.50 s at 16 Hz.
         for (duty, after) in [(0.496, 8.57), (0.613, 4.50)] {
@@ -139,11 +134,8 @@ mod tests {
         for frequency_hz in [16.0, 20.0, 25.0] {
             let refused = check(frequency_hz).unwrap_err();
             assert!((14.0..16.0).contains(&refused.most), "{refused}");
-            assert!(
-                refused
-                    .to_string()
-                    .starts_with("whisking.frequency_hz: found")
-            );
+            let says = refused.to_string();
+            assert!(says.starts_with("whisking.frequency_hz: found"));
         }
     }
 }

@@ -116,25 +116,20 @@ mod tests {
             on_board(&scene("euler", numbers), "toy", has_fpu).map_err(|error| error.to_string())
         };
         assert_eq!(
-            (on("auto", true), on("auto", false)),
-            (Ok(Single), Ok(Fixed))
+            [true, false].map(|fpu| on("auto", fpu)),
+            [Ok(Single), Ok(Fixed)]
         );
         assert_eq!(
-            (on("fixed", true), on("f32", true)),
-            (Ok(Fixed), Ok(Single))
+            ["fixed", "f32"].map(|of| on(of, true)),
+            [Ok(Fixed), Ok(Single)]
         );
+        let no_fpu = "\"auto\" or \"fixed\", because it has no FPU";
+        let simulations = "\"auto\", \"f32\" or \"fixed\"; f64 is for simulations";
+        let neither = "\"auto\" or \"fixed\"; f64 is for simulations";
         for (numbers, has_fpu, allowed) in [
-            ("f32", false, "\"auto\" or \"fixed\", because it has no FPU"),
-            (
-                "f64",
-                true,
-                "\"auto\", \"f32\" or \"fixed\"; f64 is for simulations",
-            ),
-            (
-                "f64",
-                false,
-                "\"auto\" or \"fixed\"; f64 is for simulations",
-            ),
+            ("f32", false, no_fpu),
+            ("f64", true, simulations),
+            ("f64", false, neither),
         ] {
             let expected =
                 format!("whisking.numbers: found \"{numbers}\"; allowed on the toy: {allowed}");

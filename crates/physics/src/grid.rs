@@ -193,10 +193,8 @@ mod tests {
         };
         assert!((sum(0.7, |s| s.powi(5)) - 0.7_f64.powi(6) / 6.0).abs() < 1e-16);
         for at in [0.07, 0.2, 0.33, 0.5, 0.69, 0.7] {
-            assert!(
-                (sum(at, |s| s * s) - at.powi(3) / 3.0).abs() < 1e-16,
-                "{at}"
-            );
+            let error = sum(at, |s| s * s) - at.powi(3) / 3.0;
+            assert!(error.abs() < 1e-16, "{at}");
         }
         assert!((OFF - 0.15_f64.sqrt()).abs() < 1e-16);
     }
@@ -209,21 +207,21 @@ mod tests {
         assert_eq!(grid.lowest(&rise(|_| 1.0)).at_m, 0.1);
         assert!((grid.lowest(&rise(|s| s - 0.83)).at_m - 0.83).abs() < 1e-12);
         // A hill after the valley, from which the tip hangs lower, and not as low.
-        let hill = |s: f64| {
+        let low = |s: f64| {
             if s < 0.6 {
                 s - 0.5
             } else {
                 0.05 - 10.0 * (s - 0.6)
             }
         };
-        assert_eq!(grid.lowest(&rise(hill)).at_m, 1.0);
-        let hill = |s: f64| {
+        assert_eq!(grid.lowest(&rise(low)).at_m, 1.0);
+        let not_as_low = |s: f64| {
             if s < 0.6 {
                 s - 0.5
             } else {
                 0.1 - 0.3 * (s - 0.6)
             }
         };
-        assert!((grid.lowest(&rise(hill)).at_m - 0.5).abs() < 1e-12);
+        assert!((grid.lowest(&rise(not_as_low)).at_m - 0.5).abs() < 1e-12);
     }
 }

@@ -163,20 +163,15 @@ mod tests {
     /// the tip, between the first two modes.
     fn pinned_hz(modes: &Modes) -> f64 {
         let response = |omega: f64| {
-            let terms = modes
-                .modes
-                .iter()
-                .map(|m| m.tip * m.tip / (m.omega_rad_s.powi(2) - omega * omega));
+            let all = modes.modes.iter();
+            let terms = all.map(|m| m.tip * m.tip / (m.omega_rad_s.powi(2) - omega * omega));
             modes.residual_tip_m_n + terms.sum::<f64>()
         };
         let (mut low, mut high) = (modes.modes[0].omega_rad_s, modes.modes[1].omega_rad_s);
         for _ in 0..60 {
             let middle = f64::midpoint(low, high);
-            *(if response(middle) < 0.0 {
-                &mut low
-            } else {
-                &mut high
-            }) = middle;
+            let is_below = response(middle) < 0.0;
+            *(if is_below { &mut low } else { &mut high }) = middle;
         }
         low / TAU
     }
@@ -195,10 +190,8 @@ mod tests {
     fn one_set_of_constants_misses_them_as_documented() {
         for (whisker, percent) in Biotact::ALL.into_iter().zip([1.1, -9.7, 9.5]) {
             let found = first_hz(&Shaft::biotact_nominal(whisker)) / whisker.measured_hz();
-            assert!(
-                (100.0 * (found - 1.0) - percent).abs() < 0.2,
-                "{whisker:?} {found}"
-            );
+            let error = 100.0 * (found - 1.0) - percent;
+            assert!(error.abs() < 0.2, "{whisker:?} {found}");
         }
     }
 
@@ -220,9 +213,7 @@ mod tests {
 
     #[test]
     fn vibrissae_of_psikharpax_ring_higher_the_shorter_they_are() {
-        let hz: Vec<f64> = (1..=8)
-            .map(|arc| first_hz(&Shaft::psikharpax(arc)))
-            .collect();
+        let hz = [1, 2, 3, 4, 5, 6, 7, 8].map(|arc| first_hz(&Shaft::psikharpax(arc)));
         assert!(hz.is_sorted() && hz[0] > 9.0 && hz[7] < 50.0, "{hz:?}");
         assert_eq!(Shaft::psikharpax(0), Shaft::psikharpax(1));
         assert_eq!(Shaft::psikharpax(99), Shaft::psikharpax(8));

@@ -111,11 +111,8 @@ mod tests {
         let deficits = [unit, 0, 3 * unit];
         let mut found = deficits;
         scale.posteriors(&mut found);
-        for (found, exact) in found
-            .into_iter()
-            .zip([0.5 / 1.625, 1.0 / 1.625, 0.125 / 1.625])
-        {
-            assert!((f64::from(found) / 2.0_f64.powi(32) - exact).abs() < 1e-7);
+        for (found, share) in found.into_iter().zip([0.5, 1.0, 0.125]) {
+            assert!((f64::from(found) / 2.0_f64.powi(32) - share / 1.625).abs() < 1e-7);
         }
         let odds = f64::from(scale.odds_below(&deficits, 0, MAX_ODDS).unwrap()) / f64::from(ONE);
         assert!((odds - 0.625).abs() < 1e-7);
@@ -152,10 +149,8 @@ mod tests {
             // 2^(gain − far / (1024 · block)) is the bound.
             let units = f64::from(far) / f64::from(ENTRIES_PER_BIT * block);
             let exact = f64::from(gain) - (f64::from(bound) / f64::from(ONE)).log2();
-            assert!(
-                (units / exact - 1.0).abs() < 2e-5 || (units - exact).abs() < 2e-3,
-                "{units} {exact}"
-            );
+            let is_near = (units / exact - 1.0).abs() < 2e-5 || (units - exact).abs() < 2e-3;
+            assert!(is_near, "{units} {exact}");
         }
         let scale = EvidenceScale::per_samples(20);
         assert_eq!(scale.first_below(0, MAX_ODDS), 0, "even a tie decides");

@@ -180,31 +180,20 @@ mod tests {
     use crate::model_buf::{Axis, ModelBuf, ModelParts, TableParts};
     use crate::quantiser::Quantiser;
 
-    /// Channels of codes 0 to 999; entries `[bin][channel][class]`.
-    fn model(
-        classes: usize,
-        channels: usize,
-        block: u32,
-        bins: usize,
-        entries: &[u16],
-    ) -> ModelBuf {
+    /// Channels of codes 0 to 999, of which each has its entries `[bin][class]`.
+    fn model(classes: usize, block: u32, bins: usize, entries: &[Vec<u16>]) -> ModelBuf {
         let names: Vec<String> = (0..classes).map(|k| std::format!("class {k}")).collect();
-        let quantiser = Quantiser::of_codes(0, 1000);
+        let channels = entries.len();
         let axis = |channel| Axis::new(channel, bins, [0, 1000]);
         let axes: Vec<Axis> = (0..channels).map(axis).collect();
-        let rows = |channel| entries.chunks(classes).skip(channel).step_by(channels);
-        let of_channels: Vec<Vec<u16>> = (0..channels)
-            .map(|c| rows(c).flatten().copied().collect())
-            .collect();
-        let tables: Vec<TableParts<'_>> = axes
-            .iter()
-            .zip(&of_channels)
+        let tables = axes.iter().zip(entries);
+        let tables: Vec<TableParts<'_>> = tables
             .map(|(axis, entries)| TableParts::of_channel(axis, entries))
             .collect();
         ModelBuf::new(&ModelParts {
             names: &names,
             block,
-            channels: &std::vec![quantiser; channels],
+            channels: &std::vec![Quantiser::of_codes(0, 1000); channels],
             tables: &tables,
             ..ModelParts::default()
         })
@@ -214,9 +203,9 @@ mod tests {
     #[test]
     fn sums_are_exact_at_the_limit() {
         // 9362 samples of seven channels: one short of the most.
-        let row = [ENTRY_MAX, ENTRY_MAX, 0, ENTRY_MAX, 3];
+        let row = std::vec![ENTRY_MAX, ENTRY_MAX, 0, ENTRY_MAX, 3];
         let block = MAX_SAMPLES_TIMES_CHANNELS / 7;
-        let buf = model(5, 7, block, 1, &row.repeat(7));
+        let buf = model(5, block, 1, &std::vec![row; 7]);
         let mut c = NaiveBayes::<WindowRule, _>::new(buf, block).unwrap();
         for _ in 1..block {
             assert_eq!(c.push(&[1; 7]), Ok(None));
@@ -237,7 +226,7 @@ mod tests {
     /// next has it.
     #[test]
     fn a_spoilt_counter_costs_a_block() {
-        let buf = model(2, 1, 60, 1, &[3, 5]);
+        let buf = model(2, 60, 1, &[std::vec![3, 5]]);
         for bit in 0..32 {
             let mut c = NaiveBayes::<WindowRule, _>::new(buf.clone(), 60).unwrap();
             for _ in 0..25 {
@@ -257,26 +246,29 @@ mod tests {
         /// Sums of the open block against entries taken one by one.
         #[test]
         fn rows_of_all_channels_add_up(
-            entries in prop::collection::vec(0..=ENTRY_MAX, 8 * 12 * 9),
+            classes in 2..=MAX_CLASSES,
+            entries in prop::collection::vec(prop::collection::vec(0..=ENTRY_MAX, 8 * MAX_CLASSES), 12),
             codes in prop::collection::vec(prop::array::uniform12(-100_i32..1100), 59),
         ) {
-            for channels in [1, 2, 7, 12] {
-                let buf = model(9, channels, 60, 8, &entries[..8 * channels * 9]);
+            let cut = |entries: &Vec<u16>| entries[..8 * classes].to_vec();
+            let entries: Vec<Vec<u16>> = entries.iter().map(cut).collect();
+            for channels in [1, 2, 3, 7, 12] {
+                let buf = model(classes, 60, 8, &entries[..channels]);
                 let mut c = NaiveBayes::<WindowRule, _>::new(buf, 60).unwrap();
-                let mut expected = [0; 9];
+                let mut expected = [0; MAX_CLASSES];
                 for sample in &codes {
                     let sample = &sample[..channels];
                     c.push(sample).unwrap();
                     prop_assert!(c.push(&sample[1..]).is_err());
-                    for (channel, &code) in sample.iter().enumerate() {
+                    for (code, entries) in sample.iter().zip(&entries) {
                         let bin = (code * 8).div_euclid(1000).clamp(0, 7) as usize;
-                        let row = (bin * channels + channel) * 9;
-                        for (sum, &entry) in expected.iter_mut().zip(&entries[row..row + 9]) {
-                            *sum += u32::from(entry);
+                        let row = entries.chunks(classes).nth(bin).unwrap();
+                        for (sum, entry) in expected.iter_mut().zip(row) {
+                            *sum += u32::from(*entry);
                         }
                     }
                 }
-                prop_assert_eq!(&c.stream.sums.classes[..9], &expected);
+                prop_assert_eq!(c.stream.sums.classes, expected);
             }
         }
     }

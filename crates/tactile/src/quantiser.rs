@@ -139,10 +139,8 @@ mod tests {
         assert_eq!(raw(1, 0).check(2), Err(QuantiserError::Reversed));
         assert_eq!(raw(0, 4).check(2), Err(QuantiserError::Span(4)));
         assert_eq!(raw(0, 5).check(2), Ok(()));
-        assert_eq!(
-            raw(i32::MIN, 0).check(2),
-            Err(QuantiserError::Span(0x8000_0000))
-        );
+        let widest = QuantiserError::Span(0x8000_0000);
+        assert_eq!(raw(i32::MIN, 0).check(2), Err(widest));
         let mut q = raw(0, 100);
         q.exponent = -1001;
         assert_eq!(q.check(2), Err(QuantiserError::Exponent(-1001)));

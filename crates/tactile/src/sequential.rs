@@ -367,17 +367,32 @@ mod tests {
     const AT_COMPILE_TIME: Result<Threshold, SetupError> = Threshold::new(0.5);
 
     #[test]
-    fn thresholds_come_back_from_their_words() {
-        for theta in [f64::MIN_POSITIVE, 0.01, 0.5, 0.79, 0.8, 0.99, 1.0 - 1e-12] {
-            let threshold = Threshold::new(theta).unwrap();
-            assert_eq!(
-                Threshold::from_words(threshold.words()),
-                Some(threshold),
-                "{theta}"
-            );
+    fn thresholds_are_checked_and_come_back_from_their_words() {
+        for bad in [0.0, -0.1, 1.0, 1.0 - 1e-13, 2.0, f64::NAN, f64::INFINITY] {
+            assert_eq!(Threshold::new(bad), Err(SetupError::Threshold));
         }
-        let odds = Threshold::new(0.8).unwrap().odds();
-        assert!((odds - 0.25).abs() < 1e-7, "{odds}");
+        let (bound, gain) = (ONE, 0);
+        assert_eq!(AT_COMPILE_TIME, Ok(Threshold { bound, gain }));
+        assert!(Threshold::new(f64::MIN_POSITIVE).is_ok());
+        for theta in [
+            0.04,
+            0.3,
+            0.79,
+            0.8,
+            0.81,
+            0.9,
+            0.99,
+            1.0 - 1e-8,
+            1.0 - 1e-12,
+        ] {
+            let threshold = Threshold::new(theta).unwrap();
+            let read = Threshold::from_words(threshold.words());
+            assert_eq!(read, Some(threshold), "{theta}");
+            let error = threshold.odds() / ((1.0 - theta) / theta) - 1.0;
+            let stated = 0.0..=2.0_f64.powi(-24);
+            assert!(stated.contains(&error), "{theta} {error}");
+            assert!(threshold.gain == 0 || threshold.bound <= 1 << 25);
+        }
         for words in [
             [0, 0],
             [ONE / 4, 0],
@@ -390,21 +405,6 @@ mod tests {
         }
     }
 
-    #[test]
-    fn thresholds_are_checked() {
-        for bad in [0.0, -0.1, 1.0, 1.0 - 1e-13, 2.0, f64::NAN, f64::INFINITY] {
-            assert_eq!(Threshold::new(bad), Err(SetupError::Threshold));
-        }
-        assert!(Threshold::new(f64::MIN_POSITIVE).is_ok());
-        assert_eq!(
-            AT_COMPILE_TIME,
-            Ok(Threshold {
-                bound: ONE,
-                gain: 0
-            })
-        );
-    }
-
     #[cfg(feature = "std")]
     #[test]
     fn thresholds_of_units_are_those_of_their_odds() {
@@ -413,11 +413,8 @@ mod tests {
             let units = ClassSetting::new(1.0, Some(theta)).threshold;
             let threshold = Threshold::of_units(units);
             // None of new's, but for its rounding.
-            assert_eq!(
-                Threshold::from_words(threshold.words()),
-                Some(threshold),
-                "{theta}"
-            );
+            let read = Threshold::from_words(threshold.words());
+            assert_eq!(read, Some(threshold), "{theta}");
             let error = threshold.odds() / ((1.0 - theta) / theta) - 1.0;
             assert!((-6.9e-4..5e-6).contains(&error), "{theta}: {error}");
         }
@@ -431,10 +428,8 @@ mod tests {
     /// is as before once a decision has fallen.
     #[test]
     fn spoilt_evidence_lasts_until_the_next_decision() {
-        let (scale, threshold) = (
-            EvidenceScale::per_samples(20),
-            Threshold::new(0.99).unwrap(),
-        );
+        let scale = EvidenceScale::per_samples(20);
+        let threshold = Threshold::new(0.99).unwrap();
         let rule = SequentialRule {
             block: 20,
             scale,
@@ -457,31 +452,6 @@ mod tests {
                 assert!(falls.is_some(), "{class} {bit}");
                 assert_eq!(evidence, rule.start());
             }
-        }
-    }
-
-    #[test]
-    fn bounds_are_right_to_their_stated_precision() {
-        for theta in [
-            0.04,
-            0.3,
-            0.79,
-            0.81,
-            0.9,
-            0.99,
-            0.999,
-            1.0 - 1e-8,
-            1.0 - 1e-12,
-        ] {
-            let t = Threshold::new(theta).unwrap();
-            let exact = (1.0 - theta) / theta;
-            let found = f64::from(t.bound) / 2.0_f64.powi(26 + i32::from(t.gain));
-            let error = found / exact - 1.0;
-            assert!(
-                (0.0..=2.0_f64.powi(-24)).contains(&error),
-                "{theta} {error}"
-            );
-            assert!(t.gain == 0 || t.bound <= 1 << 25);
         }
     }
 }

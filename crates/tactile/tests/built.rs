@@ -54,19 +54,10 @@ fn what_is_left_out_is_refused_and_all_else_decides() {
     };
     // More than 98 %: three samples of two bits.
     let threshold = RuleSettings::Sequential(Threshold::new(0.98).unwrap());
+    let has_rule = [cfg!(feature = "sequential"), cfg!(feature = "window")];
     for (rule, rule_name, has_rule, samples) in [
-        (
-            threshold,
-            "sequential rule",
-            cfg!(feature = "sequential"),
-            3,
-        ),
-        (
-            RuleSettings::Window(4),
-            "window rule",
-            cfg!(feature = "window"),
-            4,
-        ),
+        (threshold, "sequential rule", has_rule[0], 3),
+        (RuleSettings::Window(4), "window rule", has_rule[1], 4),
     ] {
         for deciding in [Deciding::First, Deciding::Each] {
             let is_built = deciding == Deciding::First || cfg!(feature = "several");

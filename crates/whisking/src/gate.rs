@@ -210,12 +210,6 @@ mod tests {
         }
     }
 
-    #[test]
-    fn the_papers_decay_is_first_order_and_ours_is_not() {
-        assert_eq!(Decay::<f64>::new(4.0, Integrator::Euler).tick, 0.25);
-        assert!((Decay::<f64>::new(4.0, Integrator::Exact).tick - 0.221_199_2).abs() < 1e-7);
-    }
-
     /// 1 − T/τ is negative for τ < T, so the demand of contact is the larger.
     #[test]
     fn a_decay_shorter_than_a_tick_leaves_the_demand_of_contact() {

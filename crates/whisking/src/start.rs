@@ -239,16 +239,16 @@ mod tests {
             (25.0, 2_000.0, 1.2e-4, 2e-4, 3e-4),
             (25.0, 500.0, 0.06, 0.06, 0.06),
         ] {
-            let errors = [
-                (error::<f64>(frequency_hz, tick_hz, 1.0, psi), double),
-                (error::<f32>(frequency_hz, tick_hz, 1.0, psi), single),
-                (error::<Fix>(frequency_hz, tick_hz, 1.0, psi), fixed),
-            ];
-            for (found, goal) in errors {
-                assert!(
-                    found < goal,
-                    "{frequency_hz} Hz at {tick_hz}: {found:e} of {goal:e}"
-                );
+            for (error, goal) in [
+                (
+                    error::<f64> as fn(f64, f64, f64, [[f64; 2]; 2]) -> f64,
+                    double,
+                ),
+                (error::<f32>, single),
+                (error::<Fix>, fixed),
+            ] {
+                let found = error(frequency_hz, tick_hz, 1.0, psi);
+                assert!(found < goal, "{frequency_hz} Hz at {tick_hz}: {found:e}");
             }
         }
     }

@@ -163,22 +163,23 @@ mod tests {
 
     #[test]
     fn a_command_of_a_later_version_is_known_by_its_tag() {
-        let later = Err(UnknownCommand {
-            tag: 700,
-            command: 24,
-        });
-        assert_eq!(read(&frame(&(700_u16, 24_u8))), Some(Request::Here(later)));
-        let longer = read(&frame(&(700_u16, 24_u8, 7_u32)));
-        assert_eq!(longer, Some(Request::Here(later)));
+        let (tag, command) = (700, 24_u8);
+        let later = Some(Request::Here(Err(UnknownCommand { tag, command })));
+        assert_eq!(read(&frame(&(tag, command))), later);
+        assert_eq!(
+            read(&frame(&(tag, command, 7_u32))),
+            later,
+            "with more behind it"
+        );
     }
 
     #[test]
     fn a_stop_is_one_whichever_board_it_names() {
-        let stop = TaggedCommand {
-            tag: 3,
-            command: Command::Stop,
-        };
-        for frame in [frame(&stop), frame_for(7, 3, Command::Stop)] {
+        let (tag, command) = (3, Command::Stop);
+        for frame in [
+            frame(&TaggedCommand { tag, command }),
+            frame_for(7, tag, command),
+        ] {
             assert!(read(&frame).is_some_and(|request| request.is_stop()));
         }
         assert!(!read(&frame_for(7, 3, Command::Arm)).unwrap().is_stop());

@@ -244,40 +244,45 @@ mod tests {
             sides: 2,
             ..still()
         };
-        assert_eq!(NUCLEO_F446RE.fits(&both), Ok(()));
-        assert_eq!(NUCLEO_G071RB.fits(&both), Err(Misfit::Sides(1)));
         let array = Needs {
             whiskers_per_side: 2,
             ..still()
         };
-        assert_eq!(NUCLEO_F446RE.fits(&array), Err(Misfit::Whiskers));
         let brushless = Needs {
             driver: Some(Driver::SixStep),
             ..both
         };
-        assert_eq!(NUCLEO_F446RE.fits(&brushless), Err(Misfit::TwoBrushless));
-        let most = |is_slow| NUCLEO_F446RE.clocks_of(is_slow).tick_max_hz(REST_US);
         let head = |nodes, kbit_s| Needs {
             whiskers_per_side: 12,
             bus: Some(BusConfig { nodes, kbit_s }),
             ..both
         };
-        assert_eq!(NUCLEO_F446RE.fits(&head(12, 1_000)), Ok(()));
-        assert_eq!(NUCLEO_F446RE.fits(&head(8, 500)), Err(Misfit::Share(2)));
-        let can_hz = NUCLEO_F446RE.clocks.serial_hz;
-        assert_eq!(
-            NUCLEO_F446RE.fits(&head(24, 999)),
-            Err(Misfit::BusOfClock { can_hz })
-        );
-        assert_eq!(NUCLEO_G071RB.fits(&head(24, 1_000)), Err(Misfit::NoBus));
-        assert_eq!(NUCLEO_F103RB.fits(&head(24, 1_000)), Ok(()));
-        assert_eq!(NUCLEO_F103RB.fits(&head(12, 1_000)), Err(Misfit::Share(1)));
         let decides = Needs {
             decides: true,
             ..head(24, 1_000)
         };
-        assert_eq!(NUCLEO_F446RE.fits(&decides), Ok(()));
-        assert_eq!(NUCLEO_F103RB.fits(&decides), Err(Misfit::DecidesInHead));
+        let can_hz = NUCLEO_F446RE.clocks.serial_hz;
+        for (board, needs, misfit) in [
+            (NUCLEO_F446RE, both, None),
+            (NUCLEO_G071RB, both, Some(Misfit::Sides(1))),
+            (NUCLEO_F446RE, array, Some(Misfit::Whiskers)),
+            (NUCLEO_F446RE, brushless, Some(Misfit::TwoBrushless)),
+            (NUCLEO_F446RE, head(12, 1_000), None),
+            (NUCLEO_F446RE, head(8, 500), Some(Misfit::Share(2))),
+            (
+                NUCLEO_F446RE,
+                head(24, 999),
+                Some(Misfit::BusOfClock { can_hz }),
+            ),
+            (NUCLEO_G071RB, head(24, 1_000), Some(Misfit::NoBus)),
+            (NUCLEO_F103RB, head(24, 1_000), None),
+            (NUCLEO_F103RB, head(12, 1_000), Some(Misfit::Share(1))),
+            (NUCLEO_F446RE, decides, None),
+            (NUCLEO_F103RB, decides, Some(Misfit::DecidesInHead)),
+        ] {
+            assert_eq!(board.fits(&needs).err(), misfit, "{}", board.name);
+        }
+        let most = |is_slow| NUCLEO_F446RE.clocks_of(is_slow).tick_max_hz(REST_US);
         let too_fast = [false, true].map(|is_slow| (most(is_slow) + 1, is_slow));
         for (tick_hz, is_slow) in [(199, false), (0, false)].into_iter().chain(too_fast) {
             let fast = Needs {

@@ -143,40 +143,36 @@ mod tests {
     }
 
     #[test]
-    fn flash_that_was_never_written_has_no_header() {
-        for byte in [0, 0xFF] {
-            assert_eq!(SlotHeader::of(&[byte; 16]), None);
-        }
-        assert_eq!(SlotHeader::of(&[]), None);
-    }
-
-    #[test]
     fn the_newer_of_two_comes_first_across_the_wrap() {
-        assert_eq!(newest_first([Some(header(1)), Some(header(2))]), [1, 0]);
-        assert_eq!(newest_first([Some(header(2)), Some(header(1))]), [0, 1]);
-        assert_eq!(
-            newest_first([Some(header(u32::MAX)), Some(header(0))]),
-            [1, 0]
-        );
-        assert_eq!(
-            newest_first([Some(header(0)), Some(header(u32::MAX))]),
-            [0, 1]
-        );
-        assert_eq!(newest_first([None, Some(header(5))]), [1, 0]);
-        assert_eq!(newest_first([Some(header(5)), None]), [0, 1]);
-        assert_eq!(newest_first([None, None]), [0, 1]);
+        for (sequences, order) in [
+            ([Some(1), Some(2)], [1, 0]),
+            ([Some(2), Some(1)], [0, 1]),
+            ([Some(u32::MAX), Some(0)], [1, 0]),
+            ([Some(0), Some(u32::MAX)], [0, 1]),
+            ([None, Some(5)], [1, 0]),
+            ([Some(5), None], [0, 1]),
+            ([None, None], [0, 1]),
+        ] {
+            let headers = sequences.map(|sequence| sequence.map(header));
+            assert_eq!(newest_first(headers), order, "{headers:?}");
+        }
+        // Flash that was never written has none.
+        for bytes in [&[0; 16][..], &[0xFF; 16], &[]] {
+            assert_eq!(SlotHeader::of(bytes), None);
+        }
     }
 
     #[test]
     fn the_slot_in_use_is_never_written_and_the_written_one_is_the_newest() {
-        for headers in [
+        for sequences in [
             [None, None],
-            [Some(header(1)), None],
-            [None, Some(header(1))],
-            [Some(header(8)), Some(header(9))],
-            [Some(header(9)), Some(header(8))],
-            [Some(header(u32::MAX)), Some(header(0))],
+            [Some(1), None],
+            [None, Some(1)],
+            [Some(8), Some(9)],
+            [Some(9), Some(8)],
+            [Some(u32::MAX), Some(0)],
         ] {
+            let headers = sequences.map(|sequence| sequence.map(header));
             for in_use in [None, Some(0), Some(1)] {
                 let (slot, sequence) = next(headers, in_use);
                 assert_ne!(Some(slot), in_use);

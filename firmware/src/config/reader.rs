@@ -320,12 +320,8 @@ mod tests {
 
     fn read(bytes: &[u8]) -> Option<(Whole, usize)> {
         let mut reader = Reader::new(bytes);
-        let whole = Whole::deserialize(&mut reader);
-        let rest = reader.bytes.len();
-        whole
-            .ok()
-            .filter(|_| reader.is_good())
-            .map(|whole| (whole, rest))
+        let whole = Whole::deserialize(&mut reader).ok()?;
+        reader.is_good().then_some((whole, reader.bytes.len()))
     }
 
     fn kinds() -> impl Strategy<Value = Option<Kind>> {

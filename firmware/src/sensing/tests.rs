@@ -98,13 +98,8 @@ fn recovery_needs_good_frames_in_a_row() {
     let bad = Err(BusError);
     let [one, two, three] = good([1, 2, 0x1000]);
     let (readings, events) = play(&[bad, bad, Ok(None), bad, one, bad, two, three, Ok(None)]);
-    assert_eq!(
-        events,
-        [
-            (3, Event::SensorLost(PLACE, SensorFault::Bus)),
-            (7, Event::SensorBack(PLACE)),
-        ]
-    );
+    let lost = Event::SensorLost(PLACE, SensorFault::Bus);
+    assert_eq!(events, [(3, lost), (7, Event::SensorBack(PLACE))]);
     assert!(!readings[6].valid && readings[7].valid && readings[8].valid);
     assert_eq!(readings[8].x.raw(), 0x1000);
 }
@@ -140,10 +135,8 @@ fn words_that_repeat_are_no_evidence_and_then_a_fault() {
     // Repeated for the first time in tick 2, and bridged in tick 9.
     assert!(readings[..=4].iter().all(|r| r.current));
     assert!(readings[5..].iter().all(|r| r.valid != r.current));
-    assert_eq!(
-        events,
-        [(12, Event::SensorLost(PLACE, SensorFault::Frozen))]
-    );
+    let lost = Event::SensorLost(PLACE, SensorFault::Frozen);
+    assert_eq!(events, [(12, lost)]);
 
     // It is not back before the words change, and do so again.
     script.extend(good([0x8102; 9]));
@@ -185,14 +178,11 @@ fn a_jump_is_bridged_and_jumps_are_a_fault() {
 #[test]
 fn bad_frames_that_are_too_many_are_a_fault_though_none_is_long() {
     let every = |n: usize| -> Vec<Taken> {
-        let taken = |tick| {
-            if tick % n == 0 {
-                BAD
-            } else {
-                Ok(Some(frame(0x8000 + tick as u16 % 7)))
-            }
-        };
-        (1..1000).map(taken).collect()
+        let good = |tick: usize| Ok(Some(frame(0x8000 + tick as u16 % 7)));
+        let ticks = 1..1000;
+        ticks
+            .map(|tick| if tick % n == 0 { BAD } else { good(tick) })
+            .collect()
     };
     let why = SensorFault::Often(18);
     let lost = |tick| (tick, Event::SensorLost(PLACE, why));

@@ -49,13 +49,9 @@ struct Tick {
 }
 
 fn tick(frame: [u8; 8], counts: i32, duty: u16) -> Tick {
-    let pulses = vec![Pulse::max_duty_cycle(1000), Pulse::set_duty_cycle(duty)];
-    Tick {
-        frame,
-        counts,
-        pulses,
-        direction: None,
-    }
+    let mut tick = off(frame, counts);
+    tick.pulses = vec![Pulse::max_duty_cycle(1000), Pulse::set_duty_cycle(duty)];
+    tick
 }
 
 fn turn(frame: [u8; 8], counts: i32, direction: State, duty: u16) -> Tick {
@@ -160,36 +156,28 @@ fn script() -> [Tick; 11] {
 #[test]
 fn bytes_pins_and_duties_are_those_worked_out_by_hand() {
     let ticks = script();
-    let spi: Vec<_> = ticks
-        .iter()
-        .flat_map(|tick| {
-            [
-                Transfer::transaction_start(),
-                Transfer::transfer_in_place(vec![0xFF; 8], tick.frame.to_vec()),
-                Transfer::transaction_end(),
-            ]
-        })
-        .collect();
+    let transfer = |tick: &Tick| {
+        [
+            Transfer::transaction_start(),
+            Transfer::transfer_in_place(vec![0xFF; 8], tick.frame.to_vec()),
+            Transfer::transaction_end(),
+        ]
+    };
+    let spi: Vec<_> = ticks.iter().flat_map(transfer).collect();
     // The bridge and then the module begin by switching off.
     let mut pulses = vec![Pulse::set_duty_cycle(0), Pulse::set_duty_cycle(0)];
     pulses.extend(ticks.iter().flat_map(|tick| tick.pulses.clone()));
-    let sets: Vec<_> = ticks
-        .iter()
-        .filter_map(|tick| tick.direction)
-        .map(Set::set)
-        .collect();
-    let counts: Vec<_> = std::iter::once(0)
-        .chain(ticks.iter().map(|tick| tick.counts))
-        .collect();
+    let directions = ticks.iter().filter_map(|tick| tick.direction);
+    let sets: Vec<_> = directions.map(Set::set).collect();
+    let mut counts = vec![0];
+    counts.extend(ticks.iter().map(|tick| tick.counts));
     let (mut spi, mut pwm, mut pin) = (Spi::new(&spi), Pwm::new(&pulses), Pin::new(&sets));
 
     let config = config();
+    let encoder = Encoder(counts.into_iter());
     let whisker = WhiskerParts {
         source: Polled::new(Mlx90333::new(spi.clone(), Decoder::new())),
-        motor: Some((
-            HBridge::new(pwm.clone(), pin.clone()),
-            Encoder(counts.into_iter()),
-        )),
+        motor: Some((HBridge::new(pwm.clone(), pin.clone()), encoder)),
     };
     let clock = (Microseconds(40), 500);
     let mut module = Module::<f32, Wires>::new(&config, [whisker], None, clock);
@@ -212,13 +200,8 @@ fn bytes_pins_and_duties_are_those_worked_out_by_hand() {
     pin.done();
     let place = Place::new(0, 0);
     let lost = SensorFault::Frame(FrameError::NoSensor);
-    assert_eq!(
-        events,
-        [
-            (7, Event::SensorLost(place, lost)),
-            (10, Event::SensorBack(place))
-        ]
-    );
+    let lost = Event::SensorLost(place, lost);
+    assert_eq!(events, [(7, lost), (10, Event::SensorBack(place))]);
     assert_eq!(module.timing_mut().take_worst(), 40);
     assert_eq!(module.timing_mut().missed(), 0);
 }

@@ -51,11 +51,8 @@ impl Place {
 
 #[test]
 fn the_model_at_the_beginning_is_taken() {
-    let sum = u32::from_le_bytes(*MODEL.last_chunk().unwrap());
-    let runs = ModelState::Runs {
-        crc: sum,
-        classes: 4,
-    };
+    let crc = u32::from_le_bytes(*MODEL.last_chunk().unwrap());
+    let runs = ModelState::Runs { crc, classes: 4 };
     let place = Place::with(MODEL);
     assert_eq!(place.state(LIMITS), runs);
     let with = |contact_min| ModelLimits {
@@ -63,10 +60,8 @@ fn the_model_at_the_beginning_is_taken() {
         ..LIMITS
     };
     assert_eq!(place.state(with(Some(0.05))), runs);
-    assert_eq!(
-        place.state(with(Some(0.1))),
-        ModelState::Refused(Refusal::Contact)
-    );
+    let refused = ModelState::Refused(Refusal::Contact);
+    assert_eq!(place.state(with(Some(0.1))), refused);
     let deployed = place.classifier(LIMITS, RuleSettings::Window(40));
     assert_eq!(deployed.gate(), Some(0.05));
 }
@@ -92,10 +87,10 @@ fn whatever_is_wrong_has_its_reason() {
         ..LIMITS
     };
     refused(right, few, Refusal::Classes);
-    let codes: Vec<_> = Refusal::ALL.iter().map(|why| why.code()).collect();
-    assert_eq!(codes, (1..=16).collect::<Vec<u8>>());
-    for why in Refusal::ALL {
-        assert_eq!(Refusal::from_code(why.code()), Some(*why));
+    assert_eq!(Refusal::ALL.len(), 16);
+    for (why, code) in Refusal::ALL.iter().zip(1..) {
+        assert_eq!(why.code(), code);
+        assert_eq!(Refusal::from_code(code), Some(*why));
     }
     assert_eq!(Refusal::from_code(0), None);
 }
@@ -139,33 +134,25 @@ fn a_model_is_for_the_tick_rate_of_its_training() {
 
 #[test]
 fn a_model_is_for_the_whisking_of_its_training() {
-    let scene = |frequency_mhz, has_rcp| ModelLimits {
+    let scene = |mhz, has_rcp| ModelLimits {
         whisked: Whisked {
-            frequency_mhz,
-            has_rcp,
+            frequency_mhz: Some(mhz),
+            has_rcp: Some(has_rcp),
         },
         ..LIMITS
     };
-    let (two_hz, without_rcp, unknown) = (2000, 1, 0);
+    // Of 2 Hz without RCP, and of whisking that is not known.
     for (trained, limits, is_taken) in [
-        ([two_hz, without_rcp], scene(Some(2_090), Some(false)), true),
-        (
-            [two_hz, without_rcp],
-            scene(Some(2_110), Some(false)),
-            false,
-        ),
-        ([two_hz, without_rcp], scene(Some(2_000), Some(true)), false),
-        ([two_hz, without_rcp], scene(None, None), true),
-        ([unknown, unknown], scene(Some(9_000), Some(true)), true),
+        ([2000, 1], scene(2_090, false), true),
+        ([2000, 1], scene(2_110, false), false),
+        ([2000, 1], scene(2_000, true), false),
+        ([2000, 1], LIMITS, true),
+        ([0, 0], scene(9_000, true), true),
     ] {
-        let place = Place::with(&objecting(trained));
-        let refused = ModelState::Refused(Refusal::Whisked);
-        assert_eq!(
-            place.state(limits) != refused,
-            is_taken,
-            "{trained:?} {limits:?}"
-        );
-        assert!(!is_taken || matches!(place.state(limits), ModelState::Runs { .. }));
+        let state = Place::with(&objecting(trained)).state(limits);
+        let expected = matches!(state, ModelState::Runs { .. });
+        assert_eq!(expected, is_taken, "{trained:?} {limits:?}");
+        assert!(is_taken || state == ModelState::Refused(Refusal::Whisked));
     }
 }
 

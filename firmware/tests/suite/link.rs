@@ -1,7 +1,8 @@
 //! The link to a PC: answers to requests, and records that find room or are counted.
 
 use firmware::{About, Config, Event, Link, ModelState, Place, Refusal, may_load};
-use wire::{Answer, Command, CommandStatus, Flags, Load, TaggedCommand, TickRecord, WhiskerId};
+use wire::CommandStatus::{Armed, Done, NoWhisker, NotHere, OutOfRange};
+use wire::{Answer, Command, Flags, Load, TaggedCommand, TickRecord, WhiskerId};
 
 use crate::command::{Whiskers, module, nominal, servo, tick};
 use crate::hardware::{Bent, feeling, passive};
@@ -53,25 +54,16 @@ fn what_is_out_of_range_or_not_there_is_refused_and_changes_nothing() {
     let nowhere = WhiskerId { side: 1, number: 0 };
     // Setpoints reach from 30 to 140 degrees, θ' being 100 θ + 50.
     for (command, status) in [
-        (Command::Setpoint(SECOND, q24(0.3)), CommandStatus::Done),
-        (
-            Command::Setpoint(SECOND, q24(0.91)),
-            CommandStatus::OutOfRange,
-        ),
-        (
-            Command::Setpoint(SECOND, q24(-0.21)),
-            CommandStatus::OutOfRange,
-        ),
-        (
-            Command::Setpoint(nowhere, q24(0.3)),
-            CommandStatus::NoWhisker,
-        ),
-        (Command::Gain(SECOND, q24(0.5)), CommandStatus::Done),
-        (Command::Gain(SECOND, q24(2.01)), CommandStatus::OutOfRange),
-        (Command::Gain(SECOND, -1), CommandStatus::OutOfRange),
-        (Command::Gain(SECOND, i32::MIN), CommandStatus::OutOfRange),
-        (Command::Clear(SECOND), CommandStatus::Done),
-        (Command::Home(SECOND), CommandStatus::NotHere),
+        (Command::Setpoint(SECOND, q24(0.3)), Done),
+        (Command::Setpoint(SECOND, q24(0.91)), OutOfRange),
+        (Command::Setpoint(SECOND, q24(-0.21)), OutOfRange),
+        (Command::Setpoint(nowhere, q24(0.3)), NoWhisker),
+        (Command::Gain(SECOND, q24(0.5)), Done),
+        (Command::Gain(SECOND, q24(2.01)), OutOfRange),
+        (Command::Gain(SECOND, -1), OutOfRange),
+        (Command::Gain(SECOND, i32::MIN), OutOfRange),
+        (Command::Clear(SECOND), Done),
+        (Command::Home(SECOND), NotHere),
     ] {
         let answer = ask(&mut link, &mut module, &config, command);
         assert_eq!(answer.status, status, "{command:?}");
@@ -115,7 +107,7 @@ fn a_motor_is_off_in_the_tick_after_stop_and_armed_only_by_command() {
     assert!((driven(&mut module) - 0.3).abs() < 2e-4);
     let mut done = |module: &mut Whiskers<f32>, command| {
         let answer = ask(&mut link, module, &config, command);
-        assert_eq!(answer.status, CommandStatus::Done);
+        assert_eq!(answer.status, Done);
     };
     done(&mut module, Command::Stop);
     assert_eq!(tick(&mut module, &config)[1], 0.0);
@@ -164,10 +156,8 @@ fn records_report_what_the_tick_has_done() {
     let once = still | Flags::FAULT;
     assert_eq!(touched, [once, once | Flags::TOUCHING]);
     link.note(&Event::TouchEnd { place, number: 1 });
-    assert_eq!(
-        flags(records(&mut link, &module, &config, (104, 2))),
-        [still; 2]
-    );
+    let ended = flags(records(&mut link, &module, &config, (104, 2)));
+    assert_eq!(ended, [still; 2]);
 }
 
 #[test]
@@ -208,7 +198,7 @@ fn a_passive_module_streams_and_refuses_what_needs_a_motor() {
     ] {
         let request = TaggedCommand { tag: 1, command };
         let answer = link.carry_out(&mut module, &config, request, ABOUT, 0);
-        assert_eq!(answer.status, CommandStatus::NoWhisker, "{command:?}");
+        assert_eq!(answer.status, NoWhisker, "{command:?}");
     }
 }
 
@@ -216,28 +206,28 @@ fn a_passive_module_streams_and_refuses_what_needs_a_motor() {
 fn a_scene_is_loaded_with_motors_off_and_where_there_is_room() {
     let load = |config, model| Load { config, model };
     let room = load(100, 8);
-    let armed = may_load(load(9, 1), room, true);
-    assert_eq!(armed, Err(CommandStatus::Armed));
+    assert_eq!(may_load(load(9, 1), room, true), Err(Armed));
     for (asked, status) in [
-        (load(0, 1), Err(CommandStatus::OutOfRange)),
-        (load(4, 1), Err(CommandStatus::OutOfRange)),
+        (load(0, 1), Err(OutOfRange)),
+        (load(4, 1), Err(OutOfRange)),
         (load(5, 0), Ok(())),
         (load(100, 8), Ok(())),
-        (load(101, 8), Err(CommandStatus::OutOfRange)),
-        (load(100, 9), Err(CommandStatus::OutOfRange)),
-        (load(u16::MAX, u16::MAX), Err(CommandStatus::OutOfRange)),
+        (load(101, 8), Err(OutOfRange)),
+        (load(100, 9), Err(OutOfRange)),
+        (load(u16::MAX, u16::MAX), Err(OutOfRange)),
     ] {
         assert_eq!(may_load(asked, room, false), status, "{asked:?}");
     }
     // What a link alone is asked for, without a board's loader.
     let (mut module, config) = module::<f32>();
     let mut link = Link::new();
-    for command in [
+    let of_a_loader = [
         Command::Load(load(9, 1)),
         Command::Word(0, 0),
         Command::Restart,
-    ] {
+    ];
+    for command in of_a_loader {
         let answer = ask(&mut link, &mut module, &config, command);
-        assert_eq!(answer.status, CommandStatus::NotHere, "{command:?}");
+        assert_eq!(answer.status, NotHere, "{command:?}");
     }
 }

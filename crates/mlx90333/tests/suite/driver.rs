@@ -2,7 +2,7 @@
 
 use embedded_hal::spi::{ErrorKind, ErrorType, Operation, SpiDevice};
 use embedded_hal_mock::eh1::spi::{Mock, Transaction};
-use mlx90333::{Decoder, Error, Faults, FrameError, Mlx90333, Mode, SumRule, Word, encode};
+use mlx90333::{Decoder, Error, Faults, Frame, FrameError, Mlx90333, Mode, SumRule, Word, encode};
 
 const GOOD: [u8; 8] = [0xFF, 0x34, 0x12, 0xCD, 0xAB, 0x00, 0x00, 0xBE];
 
@@ -31,56 +31,36 @@ fn sensor(steps: &[Transaction<u8>]) -> Mlx90333<Mock<u8>> {
 }
 
 #[test]
-fn read_is_one_transfer() {
-    let mut sensor = sensor(&at_once(GOOD));
-    let frame = sensor.read().unwrap();
-    assert_eq!(frame.first(), Word::new(0x1234));
-    assert_eq!(frame.second(), Word::new(0xABCD));
-    sensor.release().done();
-}
-
-#[test]
-fn read_raw_does_not_judge() {
-    let bytes = [0, 1, 2, 3, 4, 5, 6, 7];
-    let mut sensor = sensor(&at_once(bytes));
-    assert_eq!(sensor.read_raw(), Ok(bytes));
-    sensor.release().done();
-}
-
-#[test]
-fn read_paced_is_one_transaction_with_seven_gaps() {
-    for gap_ns in [12_500, 50_000] {
-        let mut sensor = sensor(&paced(GOOD, gap_ns));
-        let frame = sensor.read_paced(gap_ns).unwrap();
+fn a_read_is_one_transaction_at_once_or_with_seven_gaps() {
+    let is_good = |frame: Frame| {
         assert_eq!(frame.first(), Word::new(0x1234));
         assert_eq!(frame.second(), Word::new(0xABCD));
-        sensor.release().done();
-    }
+    };
+    let mut sensor = sensor(&[at_once(GOOD), paced(GOOD, 12_500), paced(GOOD, 50_000)].concat());
+    is_good(sensor.read().unwrap());
+    is_good(sensor.read_paced(12_500).unwrap());
+    is_good(sensor.read_paced(50_000).unwrap());
+    sensor.release().done();
 }
 
 #[test]
-fn read_raw_paced_keeps_the_order_of_bytes() {
-    let bytes = [7, 6, 5, 4, 3, 2, 1, 0];
-    let mut sensor = sensor(&paced(bytes, 1));
+fn bytes_that_are_not_judged_keep_their_order() {
+    let bytes = [0, 1, 2, 3, 4, 5, 6, 7];
+    let mut sensor = sensor(&[at_once(bytes), paced(bytes, 1)].concat());
+    assert_eq!(sensor.read_raw(), Ok(bytes));
     assert_eq!(sensor.read_raw_paced(1), Ok(bytes));
     sensor.release().done();
 }
 
 #[test]
 fn bad_frames_are_frame_errors_and_do_not_stop_the_next_read() {
-    let faulty = encode::alpha_beta(
-        Word::MID,
-        Word::MID,
-        Faults::FIELD_TOO_LOW,
-        SumRule::SumB1B6,
-    );
+    let low = Faults::FIELD_TOO_LOW;
+    let faulty = encode::alpha_beta(Word::MID, Word::MID, low, SumRule::SumB1B6);
     let steps = [at_once([0xFF; 8]), paced(faulty, 9), at_once(GOOD)].concat();
     let mut sensor = sensor(&steps);
     assert_eq!(sensor.read(), Err(Error::Frame(FrameError::NoSensor)));
-    assert_eq!(
-        sensor.read_paced(9),
-        Err(Error::Frame(FrameError::Sensor(Faults::FIELD_TOO_LOW)))
-    );
+    let low = Error::Frame(FrameError::Sensor(low));
+    assert_eq!(sensor.read_paced(9), Err(low));
     assert!(sensor.read().is_ok());
     sensor.release().done();
 }

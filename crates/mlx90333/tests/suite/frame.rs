@@ -20,15 +20,9 @@ const ALPHA_BETA: [u8; 8] = [0xFF, 0x34, 0x12, 0xCD, 0xAB, 0x00, 0x00, 0xBE];
 #[test]
 fn alpha_beta_by_hand() {
     let frame = Decoder::new().decode(&ALPHA_BETA).unwrap();
-    assert_eq!(
-        frame,
-        Frame::AlphaBeta {
-            alpha: Word::new(0x1234),
-            beta: Word::new(0xABCD)
-        }
-    );
-    assert_eq!(frame.first().raw(), 0x1234);
-    assert_eq!(frame.second().raw(), 0xABCD);
+    let (alpha, beta) = (Word::new(0x1234), Word::new(0xABCD));
+    assert_eq!(frame, Frame::AlphaBeta { alpha, beta });
+    assert_eq!((frame.first(), frame.second()), (alpha, beta));
     assert_eq!(frame.third(), None);
 }
 
@@ -40,11 +34,9 @@ fn high_bytes_first_by_hand() {
         ..Decoder::new()
     };
     assert_eq!(decoder.decode(&bytes), Decoder::new().decode(&ALPHA_BETA));
-    assert_eq!(encode::words([0x1234, 0xABCD, 0], decoder), bytes);
-    assert_eq!(
-        encode::words([0x1234, 0xABCD, 0], Decoder::new()),
-        ALPHA_BETA
-    );
+    let words = |decoder| encode::words([0x1234, 0xABCD, 0], decoder);
+    assert_eq!(words(decoder), bytes);
+    assert_eq!(words(Decoder::new()), ALPHA_BETA);
     // An error word too: 0x0200 is the clamp of the rough offset, 0x0002 unknown.
     let bytes = encode::words([0x1234, 0xABCD, 0x0200], decoder);
     assert_eq!(bytes[5..7], [0x02, 0x00]);
@@ -56,17 +48,14 @@ fn high_bytes_first_by_hand() {
 fn xyz_by_hand() {
     // 0x1BE + 0x78 + 0x56 = 0x28C.
     let bytes = [0xFF, 0x34, 0x12, 0xCD, 0xAB, 0x78, 0x56, 0x8C];
-    let frame = Decoder::with(Mode::Xyz, SumRule::SumB1B6)
-        .decode(&bytes)
-        .unwrap();
-    assert_eq!(frame.first().raw(), 0x1234);
-    assert_eq!(frame.second().raw(), 0xABCD);
-    assert_eq!(frame.third(), Some(Word::new(0x5678)));
+    let decoder = Decoder::with(Mode::Xyz, SumRule::SumB1B6);
+    let frame = decoder.decode(&bytes).unwrap();
+    let [first, second, third] = [0x1234, 0xABCD, 0x5678].map(Word::new);
+    assert_eq!((frame.first(), frame.second()), (first, second));
+    assert_eq!(frame.third(), Some(third));
     // The same bytes in the other mode carry an error word.
-    assert_eq!(
-        Decoder::new().decode(&bytes),
-        Err(FrameError::Sensor(Faults::new(0x5678)))
-    );
+    let faults = FrameError::Sensor(Faults::new(0x5678));
+    assert_eq!(Decoder::new().decode(&bytes), Err(faults));
 }
 
 #[test]
@@ -88,11 +77,8 @@ fn each_rule_by_hand() {
             } else {
                 assert_eq!(result, Err(FrameError::BadSum { expected, found }));
             }
-            assert!(
-                Decoder::with(Mode::AlphaBeta, SumRule::Ignore)
-                    .decode(&bytes)
-                    .is_ok()
-            );
+            let ignores = Decoder::with(Mode::AlphaBeta, SumRule::Ignore);
+            assert!(ignores.decode(&bytes).is_ok());
         }
     }
 }
@@ -134,40 +120,30 @@ fn reports_come_in_the_documented_order() {
     let decoder = Decoder::new();
     assert_eq!(decoder.decode(&bytes), Err(FrameError::BadStart(0x7F)));
     bytes[0] = 0xFF;
-    assert_eq!(
-        decoder.decode(&bytes),
-        Err(FrameError::BadSum {
-            expected: 21,
-            found: 0x99
-        })
-    );
+    let (expected, found) = (21, 0x99);
+    let bad_sum = FrameError::BadSum { expected, found };
+    assert_eq!(decoder.decode(&bytes), Err(bad_sum));
     bytes[7] = 21;
-    assert_eq!(
-        decoder.decode(&bytes),
-        Err(FrameError::Sensor(Faults::new(0x0605)))
-    );
+    let faults = FrameError::Sensor(Faults::new(0x0605));
+    assert_eq!(decoder.decode(&bytes), Err(faults));
 }
 
 proptest! {
     #[test]
-    fn alpha_beta_round_trip((alpha, beta) in pair(), rule in rule()) {
-        let bytes = encode::alpha_beta(alpha, beta, Faults::NONE, rule);
-        let decoded = Decoder::with(Mode::AlphaBeta, rule).decode(&bytes);
-        prop_assert_eq!(decoded, Ok(Frame::AlphaBeta { alpha, beta }));
-    }
-
-    #[test]
-    fn xyz_round_trip((x, y) in pair(), z in word(), rule in rule()) {
-        let bytes = encode::xyz(x, y, z, rule);
-        let decoded = Decoder::with(Mode::Xyz, rule).decode(&bytes);
+    fn what_was_encoded_is_decoded(
+        (x, y) in pair(),
+        z in word(),
+        bits in 1_u16..,
+        rule in rule(),
+    ) {
+        let of = |mode, bytes| Decoder::with(mode, rule).decode(&bytes);
+        let faults = Faults::new(bits);
+        let decoded = of(Mode::AlphaBeta, encode::alpha_beta(x, y, Faults::NONE, rule));
+        prop_assert_eq!(decoded, Ok(Frame::AlphaBeta { alpha: x, beta: y }));
+        let decoded = of(Mode::Xyz, encode::xyz(x, y, z, rule));
         prop_assert_eq!(decoded, Ok(Frame::Xyz { x, y, z }));
-    }
-
-    #[test]
-    fn faults_round_trip(alpha in word(), beta in word(), bits in 1_u16.., rule in rule()) {
-        let bytes = encode::alpha_beta(alpha, beta, Faults::new(bits), rule);
-        let decoded = Decoder::with(Mode::AlphaBeta, rule).decode(&bytes);
-        prop_assert_eq!(decoded, Err(FrameError::Sensor(Faults::new(bits))));
+        let decoded = of(Mode::AlphaBeta, encode::alpha_beta(x, z, faults, rule));
+        prop_assert_eq!(decoded, Err(FrameError::Sensor(faults)));
     }
 
     /// Any eight bytes have an answer, and a frame that passes is one that the

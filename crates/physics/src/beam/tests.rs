@@ -61,10 +61,8 @@ fn uniform_cantilever_has_its_first_three_frequencies() {
 
 #[test]
 fn a_cone_has_the_frequencies_of_kirchhoff() {
-    for (found, truth) in numbers(&tapered(1e3))
-        .into_iter()
-        .zip([8.719, 21.146, 38.454])
-    {
+    let found = numbers(&tapered(1e3));
+    for (found, truth) in found.into_iter().zip([8.719, 21.146, 38.454]) {
         near(found, truth, 3e-3);
     }
 }
@@ -80,17 +78,11 @@ fn shape_at_the_tip_of_a_uniform_cantilever_is_two() {
         (0.999_224_497, 7.854_757_44),
     ]) {
         near(mode.tip, 2.0 / mass.sqrt(), 1e-5);
-        near(
-            mode.translation.abs(),
-            2.0 * sigma / beta * mass.sqrt(),
-            1e-5,
-        );
+        let translation = 2.0 * sigma / beta * mass.sqrt();
+        near(mode.translation.abs(), translation, 1e-5);
         // ∫ρA z φ dz = 2 √mass L/β².
-        near(
-            mode.rotation.abs(),
-            2.0 * mass.sqrt() * 0.2 / (beta * beta),
-            1e-5,
-        );
+        let rotation = 2.0 * mass.sqrt() * 0.2 / (beta * beta);
+        near(mode.rotation.abs(), rotation, 1e-5);
     }
     // A base that moves with the tip of the first mode leaves the tip behind.
     assert!(modes[0].translation > 0.0 && modes[0].rotation > 0.0);
@@ -107,11 +99,8 @@ fn static_response_is_that_of_the_textbooks() {
     assert!((5.8e-4..6.6e-4).contains(&(modes.residual_tip_m_n / cantilever)));
     // A tip of diameter d1 and a hub of d0: L³/(3 E I0) · d0/d1.
     for ratio in [2.0, 8.0, 20.0] {
-        near(
-            tapered(ratio).modes(1).unwrap().tip_m_n,
-            cantilever * ratio,
-            2e-3,
-        );
+        let modes = tapered(ratio).modes(1).unwrap();
+        near(modes.tip_m_n, cantilever * ratio, 2e-3);
     }
     // A hinge adds L²/k and turns by L/k.
     let modes = hinged(0.02).modes(1).unwrap();
@@ -135,13 +124,6 @@ fn a_hinge_goes_from_pendulum_to_clamp() {
     let residue = (1.0 + beta.cos() * beta.cosh())
         - beta * (beta.sin() * beta.cosh() - beta.cos() * beta.sinh());
     assert!(residue.abs() < 1e-4, "{beta} {residue}");
-}
-
-#[test]
-fn the_response_of_the_tip_is_the_sum_of_all_modes() {
-    let shaft = hinged(0.05);
-    let modes = shaft.modes(12).unwrap();
-    assert!(modes.residual_tip_m_n / modes.tip_m_n < 1e-4);
 }
 
 #[test]

@@ -4,22 +4,54 @@ use crate::common::{FULL, with};
 use mlx90333::{ByteOrder, Mode, SumRule};
 use scene::{
     Arm, ClassifierSection, Deciding, Driver, Exchanged, GateSettings, HeadSection, Integrator,
-    MotorSection, Numbers, Obstacles, OnFault, OwnSurfaces, PlantKind, PlantSection, PoseSpread,
-    Presentation, Rest, Rule, Scene, SensorMode, SensorModel, SensorSection, ShaftChoice,
-    ShaftName, ShaftNumbers, Sides, TelemetrySection, Texture, WhiskingSection,
+    MotorSection, Numbers, Obstacles, OnFault, PlantKind, PlantSection, PoseSpread, Rest, Rule,
+    Scene, SensorMode, SensorModel, SensorSection, ShaftChoice, ShaftName, ShaftNumbers, Sides,
+    TelemetrySection, Texture, WhiskingSection,
 };
 
 fn read(text: &str) -> Scene {
     Scene::from_str("s.toml", text).unwrap_or_else(|problems| panic!("{problems}"))
 }
 
+/// Of [`FULL`] with these keys in the place of its kind.
+fn plant(keys: &str) -> PlantSection {
+    read(&with(FULL, "kind      = \"ideal\"", keys)).plant
+}
+
+const CARPET: &str = "kind = 'whisker'\ntextures = ['carpet']\npresent_s = 1";
+
 const fn gate(gain: f64) -> GateSettings {
     GateSettings { gain, tau_s: 0.125 }
 }
 
+const MOTOR: &str = "[motor]
+driver = 'six-step'
+kp = 1
+kd = 0.5
+duty_limit = 0.25
+slew_per_s = 10
+min_deg = -20
+max_deg = 200.5
+gear = 4.4
+counts_per_rev = 1024
+following_limit_deg = 12.5
+travel_margin_deg = 3
+top_speed_deg_s = 900
+unmoved_duty = 0.4
+continuous_duty = 0.3
+on_fault = 'stop-all'
+arm = 'on-command'
+rest = 'find'
+homing_duty = 0.125
+stop_deg = -30
+far_stop_deg = 210
+home_every_s = 45
+approach_deg_s = 90
+";
+
 #[test]
 fn every_key_reaches_its_field() {
-    let text = with(FULL, "[plant]\n", "[motor]\n\n[plant]\n");
+    let text = with(FULL, "[plant]\n", &format!("{MOTOR}\n[plant]\n"));
     let text = with(&text, "name        = \"rcp7\"", "name = 'A-z_0.9'");
     let text = with(&text, "duration_s  = 6.0", "duration_s = 6");
     let text = with(&text, "seed        = 1 ", "seed = 0x7fff_ffff_ffff_ffff");
@@ -74,29 +106,29 @@ fn every_key_reaches_its_field() {
         rcp: Some(gate(0.7)),
         cia: Some(gate(0.5)),
         motor: Some(MotorSection {
-            driver: Driver::HBridge,
-            kp: 0.05,
-            kd: 0.0004,
-            duty_limit: 1.0,
-            slew_per_s: 400.0,
-            min_deg: 30.0,
-            max_deg: 160.0,
-            gear: 11.0,
-            counts_per_rev: 512,
-            following_limit_deg: 40.0,
-            travel_margin_deg: 20.0,
-            top_speed_deg_s: 15_000.0,
-            unmoved_duty: 0.12,
+            driver: Driver::SixStep,
+            kp: 1.0,
+            kd: 0.5,
+            duty_limit: 0.25,
+            slew_per_s: 10.0,
+            min_deg: -20.0,
+            max_deg: 200.5,
+            gear: 4.4,
+            counts_per_rev: 1024,
+            following_limit_deg: 12.5,
+            travel_margin_deg: 3.0,
+            top_speed_deg_s: 900.0,
+            unmoved_duty: 0.4,
             time_constant_s: 0.048,
-            continuous_duty: 0.4,
-            on_fault: OnFault::StopWhisker,
-            arm: Some(Arm::AtStart),
-            rest: Rest::AtStart,
-            homing_duty: 0.1,
-            stop_deg: None,
-            far_stop_deg: None,
-            home_every_s: 20.0,
-            approach_deg_s: 400.0,
+            continuous_duty: 0.3,
+            on_fault: OnFault::StopAll,
+            arm: Some(Arm::OnCommand),
+            rest: Rest::Find,
+            homing_duty: 0.125,
+            stop_deg: Some(-30.0),
+            far_stop_deg: Some(210.0),
+            home_every_s: 45.0,
+            approach_deg_s: 90.0,
         }),
         plant: PlantSection {
             kind: PlantKind::Ideal,
@@ -121,54 +153,7 @@ fn every_key_reaches_its_field() {
 }
 
 #[test]
-fn the_motor_is_read_key_by_key() {
-    let motor = "[motor]\ndriver = 'six-step'\nkp = 1\nkd = 0.5\nduty_limit = 0.25\n\
-                 slew_per_s = 10\nmin_deg = -20\nmax_deg = 200.5\ngear = 4.4\n\
-                 counts_per_rev = 1024\nfollowing_limit_deg = 12.5\n\
-                 travel_margin_deg = 3
-top_speed_deg_s = 900
-unmoved_duty = 0.4
-continuous_duty = 0.3
-\
-                 on_fault = 'stop-all'
-arm = 'on-command'
-rest = 'find'
-\
-                 homing_duty = 0.125
-stop_deg = -30
-far_stop_deg = 210
-home_every_s = 45
-approach_deg_s = 90
-
-[plant]
-";
-    let expected = MotorSection {
-        driver: Driver::SixStep,
-        kp: 1.0,
-        kd: 0.5,
-        duty_limit: 0.25,
-        slew_per_s: 10.0,
-        min_deg: -20.0,
-        max_deg: 200.5,
-        gear: 4.4,
-        counts_per_rev: 1024,
-        following_limit_deg: 12.5,
-        travel_margin_deg: 3.0,
-        top_speed_deg_s: 900.0,
-        unmoved_duty: 0.4,
-        time_constant_s: 0.048,
-        continuous_duty: 0.3,
-        on_fault: OnFault::StopAll,
-        arm: Some(Arm::OnCommand),
-        rest: Rest::Find,
-        homing_duty: 0.125,
-        stop_deg: Some(-30.0),
-        far_stop_deg: Some(210.0),
-        home_every_s: 45.0,
-        approach_deg_s: 90.0,
-    };
-    assert_eq!(read(&with(FULL, "[plant]\n", motor)).motor, Some(expected));
-    // Without the table the defaults hold, as with an empty one.
+fn without_its_table_a_motor_is_as_with_an_empty_one() {
     let empty = with(FULL, "[plant]\n", "[motor]\n[plant]\n");
     assert_eq!(read(FULL).motor, read(&empty).motor);
 }
@@ -186,11 +171,17 @@ fn the_least_scene_is_passive_and_free() {
 }
 
 #[test]
-fn one_gain_stands_for_every_whisker() {
+fn one_gain_stands_for_every_whisker_and_negative_zero_is_zero() {
     let text = with(FULL, "whiskers_per_side = 1 ", "whiskers_per_side = 3 ");
     let text = with(&text, "gain         = 1.0", "gain = 1.25");
-    let whisking = read(&text).whisking.expect("whisking is in the text");
+    let text = with(&text, "noise        = 0.0", "noise = -0.0");
+    // Stiffness without an obstacle is idle.
+    let text = with(&text, "obstacle_deg = [100.0, 125.0]", "");
+    let scene = read(&text);
+    let whisking = scene.whisking.expect("whisking is in the text");
     assert_eq!(whisking.gain, [1.25; 6]);
+    assert!(whisking.noise.is_sign_positive());
+    assert_eq!(scene.plant.obstacle, None);
 }
 
 #[test]
@@ -208,32 +199,25 @@ fn a_left_half_has_one_entry_a_side() {
 
 #[test]
 fn textured_surfaces_keep_their_order() {
-    let kind = "kind = 'textured'\ntextures = ['carpet', 'smooth', 'p600']\npresent_s = 1";
-    let plant = read(&with(FULL, "kind      = \"ideal\"", kind)).plant;
-    let expected = Presentation {
-        textures: vec![Texture::Carpet, Texture::Smooth, Texture::P600],
-        present_s: 1.0,
-        exchange: Exchanged::Air,
-        friction: None,
-        own: Some(OwnSurfaces {
-            own_height_m: None,
-            own_grain_m: None,
-            own_stiffness_n_m: None,
-            own_damping: None,
-            own_friction: None,
-        }),
-    };
+    let keys = "kind = 'textured'\ntextures = ['carpet', 'smooth', 'p600']\npresent_s = 1";
+    let plant = plant(keys);
     assert_eq!(plant.kind, PlantKind::Textured);
-    assert_eq!(plant.textured, Some(expected));
+    let textured = plant.textured.expect("surfaces");
+    let [carpet, smooth, p600] = [Texture::Carpet, Texture::Smooth, Texture::P600];
+    assert_eq!(textured.textures, [carpet, smooth, p600]);
+    assert_eq!(
+        (textured.present_s, textured.exchange),
+        (1.0, Exchanged::Air)
+    );
+    assert_eq!(textured.friction, None);
     assert_eq!(plant.shaft, None, "its default is the elastic whisker's");
 }
 
 #[test]
 fn own_surfaces_have_properties_in_the_order_of_the_textures() {
-    let kind = "kind = 'whisker'\ntextures = ['own-2', 'tarmac', 'own-1']\npresent_s = 1\n\
+    let keys = "kind = 'whisker'\ntextures = ['own-2', 'tarmac', 'own-1']\npresent_s = 1\n\
                 own_grain_m = [1e-3, 2e-3]\nown_friction = [0.3, 0.6]";
-    let plant = read(&with(FULL, "kind      = \"ideal\"", kind)).plant;
-    let textured = plant.textured.unwrap();
+    let textured = plant(keys).textured.unwrap();
     let numbers: Vec<_> = textured.textures.iter().map(|of| of.own()).collect();
     assert_eq!(numbers, [Some(1), None, Some(0)]);
     let own = textured.own.unwrap();
@@ -244,11 +228,9 @@ fn own_surfaces_have_properties_in_the_order_of_the_textures() {
 
 #[test]
 fn poses_are_alike_unless_a_spread_is_given() {
-    let kind = "kind = 'whisker'\ntextures = ['carpet']\npresent_s = 1";
     let spread = |keys: &str| {
-        let kind = format!("{kind}\n{keys}");
-        let plant = read(&with(FULL, "kind      = \"ideal\"", &kind)).plant;
-        plant.spread.expect("an elastic whisker has one")
+        let spread = plant(&format!("{CARPET}\n{keys}")).spread;
+        spread.expect("an elastic whisker has one")
     };
     assert!(!spread("").is_there());
     let expected = PoseSpread {
@@ -267,18 +249,16 @@ fn poses_are_alike_unless_a_spread_is_given() {
 
 #[test]
 fn an_elastic_whisker_is_a_paper_s_or_has_its_own_numbers() {
-    let kind = "kind = 'whisker'\ntextures = ['carpet']\npresent_s = 1";
-    let plant = read(&with(FULL, "kind      = \"ideal\"", kind)).plant;
-    assert!(plant.textured.is_some() && plant.kind == PlantKind::Whisker);
+    let a_papers = plant(CARPET);
+    assert!(a_papers.textured.is_some() && a_papers.kind == PlantKind::Whisker);
     let middle = ShaftChoice {
         shaft: ShaftName::BiotactMiddle,
         own: None,
     };
-    assert_eq!(plant.shaft, Some(middle));
+    assert_eq!(a_papers.shaft, Some(middle));
     let numbers = "shaft = 'own'\nlength_m = 0.1\nhub_diameter_m = 0.02\ntip_diameter_m = 2e-4\n\
                    youngs_pa = 1e9\ndensity_kg_m3 = 1000\ndamping_ratio = 0.1\nfollicle_n_m_rad = 0.3";
-    let kind = format!("{kind}\n{numbers}");
-    let plant = read(&with(FULL, "kind      = \"ideal\"", &kind)).plant;
+    let shaft = plant(&format!("{CARPET}\n{numbers}")).shaft;
     let own = ShaftNumbers {
         length_m: 0.1,
         hub_diameter_m: 0.02,
@@ -288,7 +268,7 @@ fn an_elastic_whisker_is_a_paper_s_or_has_its_own_numbers() {
         damping_ratio: 0.1,
         follicle_n_m_rad: 0.3,
     };
-    assert_eq!(plant.shaft.and_then(|shaft| shaft.own), Some(own));
+    assert_eq!(shaft.and_then(|shaft| shaft.own), Some(own));
 }
 
 #[test]
@@ -316,12 +296,6 @@ fn ticks_are_rounded_to_the_nearest() {
 }
 
 #[test]
-fn stiffness_without_an_obstacle_is_idle() {
-    let text = with(FULL, "obstacle_deg = [100.0, 125.0]", "");
-    assert_eq!(read(&text).plant.obstacle, None);
-}
-
-#[test]
 fn a_scene_is_loaded_and_its_model_found_beside_it() {
     let folder = tempfile::tempdir().expect("a temporary folder");
     let file = folder.path().join("s.toml");
@@ -338,13 +312,6 @@ fn a_scene_is_loaded_and_its_model_found_beside_it() {
 
     let (before, _) = FULL.split_once("[classifier]").expect("it is there");
     assert_eq!(read(before).model_path(folder.path()), None);
-}
-
-#[test]
-fn negative_zero_becomes_zero() {
-    let text = with(FULL, "noise        = 0.0", "noise = -0.0");
-    let whisking = read(&text).whisking.expect("whisking is in the text");
-    assert!(whisking.noise.is_sign_positive());
 }
 
 /// [`FULL`] as it stands on a bench: what it meets and its model are left out.

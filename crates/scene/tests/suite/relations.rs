@@ -15,43 +15,29 @@ fn missing_keys_and_tables() {
     let all = "s.toml:1: name: missing\ns.toml:1: tick_hz: missing\ns.toml:1: duration_s: missing\n\
                s.toml:1: seed: missing\ns.toml:1: [head]: missing";
     let complaint = complaint("");
-    let starts: Vec<&str> = complaint
-        .lines()
-        .filter_map(|line| line.split(';').next())
-        .collect();
+    let lines = complaint.lines();
+    let starts: Vec<&str> = lines.filter_map(|line| line.split(';').next()).collect();
     assert_eq!(starts.join("\n"), all);
 }
 
 #[test]
-fn self_motion_needs_whisking_and_touches() {
+fn self_motion_gates_and_motor_need_whisking() {
     let says = |part| {
         format!(
             "s.toml:6: sensor.self_motion_s: found without [{part}]; allowed: only with [{part}]"
         )
     };
     let text = format!("{PASSIVE}sensor.self_motion_s = 2\nplant.kind = 'ideal'\n");
-    assert_eq!(
-        complaint(&text),
-        ["whisking", "classifier"].map(says).join("\n")
-    );
-}
-
-#[test]
-fn gates_and_motor_need_whisking() {
-    for section in ["rcp", "cia", "motor"] {
-        let keys = if section == "motor" {
-            ""
-        } else {
-            "gain = 1\ntau_s = 1\n"
-        };
+    let expected = ["whisking", "classifier"].map(says).join("\n");
+    assert_eq!(complaint(&text), expected);
+    let gate = "gain = 1\ntau_s = 1\n";
+    for (section, keys) in [("rcp", gate), ("cia", gate), ("motor", "")] {
         let text = format!("{PASSIVE}plant.kind = 'ideal'\n[{section}]\n{keys}");
-        assert_eq!(
-            complaint(&text),
-            format!(
-                "s.toml:7: [{section}]: found without [whisking]; [{section}] acts on whisking: \
-                 add [whisking], or leave [{section}] out"
-            )
+        let expected = format!(
+            "s.toml:7: [{section}]: found without [whisking]; [{section}] acts on whisking: \
+             add [whisking], or leave [{section}] out"
         );
+        assert_eq!(complaint(&text), expected);
     }
 }
 
@@ -80,9 +66,8 @@ fn all_problems_are_listed_in_file_order() {
     let text = with(&text, "kind      = \"ideal\"", "kind = 3");
     let text = with(&text, "threshold = 0.99\n", "");
     let problems = scene::Scene::from_str("s.toml", &text).expect_err("all is wrong");
-    let seen: Vec<(Option<usize>, &str)> = problems
-        .as_slice()
-        .iter()
+    let all = problems.as_slice().iter();
+    let seen: Vec<_> = all
         .map(|problem| (problem.line, problem.key.as_str()))
         .collect();
     let expected = [
@@ -102,48 +87,36 @@ fn all_problems_are_listed_in_file_order() {
 
 #[test]
 fn several_decide_only_where_they_can() {
-    let classifier = |whiskers: &str| {
-        let keys = format!("whiskers = \"{whiskers}\"\n");
-        with(
-            FULL,
-            "window    = 400\n",
-            &format!("window    = 400\n{keys}"),
-        )
+    let all = |whiskers: &str| {
+        let keys = format!("window    = 400\nwhiskers = \"{whiskers}\"\n");
+        with(FULL, "window    = 400\n", &keys)
     };
-    for whiskers in ["first", "each", "together"] {
-        assert_eq!(complaint(&classifier(whiskers)), "");
-    }
-    let window = |whiskers| {
-        let text = classifier(whiskers);
-        with(&text, "= \"sequential\"    #", "= \"window\"    #")
-    };
-    assert_eq!(complaint(&window("each")), "");
-    assert_eq!(
-        complaint(&window("together")),
-        "s.toml:35: classifier.whiskers: found \"together\"; allowed: \"first\" or \"each\", as a \
-         window counts the samples of one whisker"
-    );
+    let window = |whiskers| with(&all(whiskers), "= \"sequential\"    #", "= \"window\"    #");
     let alone = |whiskers| {
-        let text = classifier(whiskers);
-        let text = with(&text, "[whisking]", "sides = 'left'\n[whisking]");
+        let text = with(&all(whiskers), "[whisking]", "sides = 'left'\n[whisking]");
         let text = with(&text, "[[1.0, 0.0], [1.0, 0.0]]", "[[1.0, 0.0]]");
         with(&text, "[100.0, 125.0]", "[100.0]")
     };
-    assert_eq!(complaint(&alone("first")), "");
     let two = with(
         &alone("each"),
         "whiskers_per_side = 1 ",
         "whiskers_per_side = 2 ",
     );
-    assert_eq!(complaint(&two), "");
+    let several = ["first", "each", "together"].map(all);
+    for text in several.iter().chain(&[window("each"), alone("first"), two]) {
+        assert_eq!(complaint(text), "");
+    }
+    assert_eq!(
+        complaint(&window("together")),
+        "s.toml:35: classifier.whiskers: found \"together\"; allowed: \"first\" or \"each\", as a \
+         window counts the samples of one whisker"
+    );
     for whiskers in ["each", "together"] {
-        assert_eq!(
-            complaint(&alone(whiskers)),
-            format!(
-                "s.toml:36: classifier.whiskers: found \"{whiskers}\"; allowed: \"first\", as \
-                 there is one whisker"
-            )
+        let expected = format!(
+            "s.toml:36: classifier.whiskers: found \"{whiskers}\"; allowed: \"first\", as there is \
+             one whisker"
         );
+        assert_eq!(complaint(&alone(whiskers)), expected);
     }
 }
 

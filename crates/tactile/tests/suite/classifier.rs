@@ -5,11 +5,11 @@ use proptest::prelude::*;
 use tactile::train::{Options, TrainError, Trainer};
 use tactile::{
     AnyRule, Axis, Deciding, Decision, Floors, MAX_STREAMS, ModelBuf, ModelParts, NaiveBayes,
-    Posteriors, Quantiser, RuleSettings, Sequential, SetupError, StreamClassifier, TableParts,
-    TableSource, Threshold, TouchRule,
+    Posteriors, RuleSettings, Sequential, SetupError, StreamClassifier, TableParts, TableSource,
+    TouchRule,
 };
 
-use crate::common::{entry, model};
+use crate::common::{TOUCHES, entry, model, of_two, threshold};
 
 const BLOCK: u32 = 4;
 
@@ -64,10 +64,8 @@ fn together(model: ModelBuf, theta: f64, whiskers: usize) -> Owned {
 
 /// Three classes over four cells of x and y together, and two of the roughness of x.
 fn joint(entries: &[u16], floor: u16) -> ModelBuf {
-    let names = ["a", "b", "c"].map(str::to_owned);
     let axis = |channel, high| Axis::new(channel, 2, [0, high]);
     let (both, rough) = ([axis(0, 1000), axis(1, 1000)], [axis(0, 1024)]);
-    let quantiser = Quantiser::of_codes(0, 1000);
     let tables = [
         TableParts {
             source: TableSource::Samples,
@@ -84,24 +82,14 @@ fn joint(entries: &[u16], floor: u16) -> ModelBuf {
         samples: floor,
         roughness: floor,
     }; 3];
-    ModelBuf::new(&ModelParts {
-        names: &names,
+    let rest = ModelParts {
         block: BLOCK,
-        channels: &[quantiser; 2],
         tables: &tables,
         floors: Some(&floors),
-        touch: Some(TouchRule {
-            limit: 2048,
-            gate: 0.05,
-            gap: 200,
-        }),
-        opinion: &[],
-    })
-    .unwrap()
-}
-
-fn threshold(theta: f64) -> Threshold {
-    Threshold::new(theta).unwrap()
+        touch: Some(TOUCHES),
+        ..ModelParts::default()
+    };
+    of_two(&["a", "b", "c"], rest)
 }
 
 /// Entries of some bits' difference.
@@ -184,24 +172,16 @@ fn fresh(model: &ModelBuf) -> Posteriors {
 
 /// Two classes that differ by a bit a sample at code 0 and against it at code 900.
 fn coin(floors: Option<&[Floors]>, touch: Option<TouchRule>) -> ModelBuf {
-    let names = ["low", "high"].map(str::to_owned);
-    let axis = [Axis::new(0, 2, [0, 1000])];
-    let quantiser = Quantiser::of_codes(0, 1000);
-    let (near, far) = (entry(-1.0), entry(-2.0));
-    ModelBuf::new(&ModelParts {
-        names: &names,
+    let axis = Axis::new(0, 2, [0, 1000]);
+    let entries = [-1.0, -2.0, -2.0, -1.0].map(entry);
+    let rest = ModelParts {
         block: 1,
-        channels: &[quantiser; 2],
-        tables: &[TableParts {
-            source: TableSource::Samples,
-            axes: &axis,
-            entries: &[near, far, far, near],
-        }],
+        tables: &[TableParts::of_channel(&axis, &entries)],
         floors,
         touch,
-        opinion: &[],
-    })
-    .unwrap()
+        ..ModelParts::default()
+    };
+    of_two(&["low", "high"], rest)
 }
 
 const LOW: [i32; 2] = [0, 0];
@@ -212,16 +192,11 @@ const FOUR_BITS: f64 = 0.94;
 
 #[test]
 fn a_touch_limits_its_own_stream_alone() {
-    let rule = TouchRule {
-        limit: 2048,
-        gate: 0.05,
-        gap: 200,
-    };
     let leader = |together: &Owned| {
         let posteriors: Vec<f64> = together.posteriors(0).to_f64().collect();
         (posteriors[0] / posteriors[1]).log2()
     };
-    let model = coin(None, Some(rule));
+    let model = coin(None, Some(TOUCHES));
     let mut together = together(model, 1.0 - 1e-6, 2);
     for n in 0..2 {
         together.begin_touch(n, 1);
@@ -293,30 +268,20 @@ fn floors_are_held_against_all_that_had_a_part_and_no_other() {
 
 #[test]
 fn a_stream_that_is_not_there_says_nothing() {
-    let model = coin(None, None);
-    let mut each =
-        StreamClassifier::new(model, RuleSettings::Window(3), Deciding::Each, 2).unwrap();
-    for _ in 0..9 {
-        assert_eq!(each.push_to(2, &LOW).unwrap(), None);
-        each.pass_to(2, &LOW).unwrap();
-        each.begin_touch(2, 1);
-        each.interrupt_stream(2);
+    let window = RuleSettings::Window(3);
+    for (deciding, last) in [(Deciding::Each, 1), (Deciding::First, 0)] {
+        let mut some = StreamClassifier::new(coin(None, None), window, deciding, 2).unwrap();
+        for _ in 0..9 {
+            assert_eq!(some.push_to(last + 1, &LOW).unwrap(), None);
+            some.pass_to(last + 1, &LOW).unwrap();
+            some.begin_touch(last + 1, 1);
+            some.interrupt_stream(last + 1);
+        }
+        assert_eq!(some.touch_of(last + 1), 0);
+        assert!(some.push_to(0, &[1]).is_err());
+        let mut decided = (0..3).filter_map(|_| some.push_to(last, &HIGH).unwrap());
+        assert_eq!(decided.next().and_then(|d| d.class()), Some(1));
     }
-    assert_eq!(each.touch_of(2), 0);
-    assert!(each.push_to(0, &[1]).is_err());
-    let mut decided = (0..3).filter_map(|_| each.push_to(1, &HIGH).unwrap());
-    assert_eq!(decided.next().and_then(|d| d.class()), Some(1));
-}
-
-#[test]
-fn the_first_alone_is_heard() {
-    let mut first = sequential(coin(None, None), FOUR_BITS, Deciding::First, 6);
-    assert_eq!(first.streams(), 1);
-    for _ in 0..9 {
-        assert_eq!(first.push_to(1, &LOW).unwrap(), None);
-    }
-    let decision = (0..9).find_map(|_| first.push_to(0, &HIGH).unwrap());
-    assert_eq!(decision.and_then(|d| d.class()), Some(1));
 }
 
 #[test]
@@ -385,7 +350,7 @@ fn own_tables() -> ModelBuf {
 #[test]
 fn whiskers_decide_by_tables_of_their_own() {
     let model = own_tables();
-    let rule = RuleSettings::Sequential(Threshold::new(0.9).unwrap());
+    let rule = RuleSettings::Sequential(threshold(0.9));
     let deciding = |deciding| StreamClassifier::new(model.view(), rule, deciding, 2).unwrap();
     let mut each = deciding(Deciding::Each);
     for (stream, code, class) in [(0, 100, 0), (1, 100, 1), (1, 900, 0), (0, 900, 1)] {
@@ -417,14 +382,9 @@ fn a_class_that_a_whisker_never_felt_cannot_be_trained() {
     let mut trainer = Trainer::new(4, Options::default()).unwrap();
     trainer.add("a", &[1.0, 2.0, 3.0, 4.0]).unwrap();
     trainer.add_from("b", 0, &[5.0, 6.0]).unwrap();
-    let error = trainer.train().unwrap_err();
-    assert_eq!(
-        error,
-        TrainError::Unfelt {
-            channel: 2,
-            class: 1
-        }
-    );
+    let (channel, class) = (2, 1);
+    let unfelt = TrainError::Unfelt { channel, class };
+    assert_eq!(trainer.train().unwrap_err(), unfelt);
     let outside = trainer.add_from("b", 4, &[5.0, 6.0]);
     assert!(matches!(outside, Err(TrainError::Channels { .. })));
 }

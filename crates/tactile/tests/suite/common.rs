@@ -2,6 +2,13 @@
 
 use tactile::{
     Axis, ENTRIES_PER_BIT, ENTRY_OFFSET_BITS, ModelBuf, ModelParts, Quantiser, TableParts,
+    Threshold, TouchRule,
+};
+
+pub(crate) const TOUCHES: TouchRule = TouchRule {
+    limit: 2048,
+    gate: 0.05,
+    gap: 200,
 };
 
 /// Uniform in 0 to 1.
@@ -10,6 +17,15 @@ pub(crate) fn roll(state: &mut u64) -> f64 {
         .wrapping_mul(6_364_136_223_846_793_005)
         .wrapping_add(1);
     (*state >> 11) as f64 / (1_u64 << 53) as f64
+}
+
+/// Normal to four decimals of its variance: twelve uniform numbers.
+pub(crate) fn normal(state: &mut u64) -> f64 {
+    (0..12).map(|_| roll(state)).sum::<f64>() - 6.0
+}
+
+pub(crate) fn threshold(theta: f64) -> Threshold {
+    Threshold::new(theta).unwrap()
 }
 
 pub(crate) fn entry(log2_p: f64) -> u16 {
@@ -26,8 +42,7 @@ pub(crate) fn model(
     log2_p: impl Fn(usize, usize, usize) -> f64,
 ) -> ModelBuf {
     let names: Vec<String> = (0..classes).map(|k| format!("class {k}")).collect();
-    let quantiser = Quantiser::of_codes(0, 1000);
-    let axis = |channel| Axis::new(channel, bins, [quantiser.low, quantiser.high]);
+    let axis = |channel| Axis::new(channel, bins, [0, 1000]);
     let axes: Vec<Axis> = (0..channels).map(axis).collect();
     let entries: Vec<Vec<u16>> = (0..channels)
         .map(|channel| {
@@ -43,12 +58,24 @@ pub(crate) fn model(
         .zip(&entries)
         .map(|(axis, entries)| TableParts::of_channel(axis, entries))
         .collect();
+    let channels = vec![Quantiser::of_codes(0, 1000); channels];
     ModelBuf::new(&ModelParts {
         names: &names,
         block,
-        channels: &vec![quantiser; channels],
+        channels: &channels,
         tables: &tables,
         ..ModelParts::default()
+    })
+    .unwrap()
+}
+
+/// A model of two channels of codes 0 to 1000.
+pub(crate) fn of_two(names: &[&str], rest: ModelParts<'_>) -> ModelBuf {
+    let names: Vec<String> = names.iter().copied().map(str::to_owned).collect();
+    ModelBuf::new(&ModelParts {
+        names: &names,
+        channels: &[Quantiser::of_codes(0, 1000); 2],
+        ..rest
     })
     .unwrap()
 }

@@ -1,14 +1,10 @@
 //! The joint trainer on problems whose answer is known.
 
-use crate::common::roll;
+use crate::common::{normal, threshold};
 use tactile::train::Expect;
 use tactile::train::TrainError;
 use tactile::train::joint::{Options, Trial, Warning, train};
-use tactile::{Sequential, TableSource, Threshold};
-
-fn normal(state: &mut u64) -> f64 {
-    (0..12).map(|_| roll(state)).sum::<f64>() - 6.0
-}
+use tactile::{Sequential, TableSource};
 
 /// A trial of normal x and y of sd 100, independent from sample to sample, about a mean.
 fn trial(label: &str, recording: &str, mean: [f64; 2], length: usize, seed: u64) -> Trial {
@@ -40,12 +36,8 @@ fn two(apart: f64, length: usize) -> Vec<Trial> {
 
 fn trials(count: usize, apart: f64, length: usize) -> Vec<Trial> {
     let means = [[-50.0 * apart, 0.0], [50.0 * apart, 0.0]];
-    let class = |n: usize| (["a", "b"][n % 2], means[n % 2]);
-    (0..count)
-        .map(|n| {
-            let (label, mean) = class(n);
-            trial(label, "one", mean, length, n as u64 + 1)
-        })
+    let all = (0..count).zip(1..);
+    all.map(|(n, seed)| trial(["a", "b"][n % 2], "one", means[n % 2], length, seed))
         .collect()
 }
 
@@ -101,19 +93,17 @@ fn warnings_say_what_the_trials_cannot_tell() {
     let trained = train(&trials, &same()).unwrap();
     let warnings = &trained.report.warnings;
     let c = || "c".to_owned();
-    assert!(warnings.contains(&Warning::Halved { name: c() }));
-    assert!(warnings.contains(&Warning::FewTrials {
+    let few = Warning::FewTrials {
         name: c(),
-        trials: 1
-    }));
+        trials: 1,
+    };
+    assert!(warnings.contains(&Warning::Halved { name: c() }) && warnings.contains(&few));
     assert!(warnings.contains(&Warning::OneRecording));
-    let alike: Vec<_> = warnings
-        .iter()
-        .filter_map(|warning| match warning {
-            Warning::Alike { names, .. } => Some(names.clone()),
-            _ => None,
-        })
-        .collect();
+    let alike = warnings.iter().filter_map(|warning| match warning {
+        Warning::Alike { names, .. } => Some(names.clone()),
+        _ => None,
+    });
+    let alike: Vec<_> = alike.collect();
     assert_eq!(alike, [["a".to_owned(), "b".to_owned()]]);
 
     let mut trials = two(2.0, 2_000);
@@ -127,23 +117,26 @@ fn warnings_say_what_the_trials_cannot_tell() {
 
 #[test]
 fn faults_are_named() {
-    let trained = |trials: &[Trial]| train(trials, &same()).unwrap_err();
-    assert_eq!(trained(&[]), TrainError::NoSamples);
-    assert_eq!(trained(&two(1.0, 100)[..1]), TrainError::OneClass);
+    let refused = |change: fn(&mut Vec<Trial>), error| {
+        let mut trials = two(1.0, 100);
+        change(&mut trials);
+        assert_eq!(train(&trials, &same()).unwrap_err(), error);
+    };
     let name = "b".to_owned();
-    let mut trials = two(1.0, 100);
-    trials
-        .iter_mut()
-        .skip(1)
-        .step_by(2)
-        .for_each(|trial| trial.touches.fill(0));
-    assert_eq!(trained(&trials), TrainError::TooShort { name });
-    let mut trials = two(1.0, 100);
-    trials[3].samples[5][1] = f64::NAN;
-    assert_eq!(trained(&trials), TrainError::NotFinite { channel: 1 });
-    let mut trials = two(1.0, 100);
-    trials[3].label.clear();
-    assert_eq!(trained(&trials), TrainError::NameEmpty);
+    refused(Vec::clear, TrainError::NoSamples);
+    refused(|trials| trials.truncate(1), TrainError::OneClass);
+    refused(
+        |trials| {
+            let of_b = trials.iter_mut().skip(1).step_by(2);
+            of_b.for_each(|trial| trial.touches.fill(0));
+        },
+        TrainError::TooShort { name },
+    );
+    refused(
+        |trials| trials[3].samples[5][1] = f64::NAN,
+        TrainError::NotFinite { channel: 1 },
+    );
+    refused(|trials| trials[3].label.clear(), TrainError::NameEmpty);
     let options = Options {
         bins: 1,
         expect: Expect::Same,
@@ -166,8 +159,7 @@ fn the_model_file_decides_as_the_report_says() {
     let model = trained.model().unwrap();
     let rule = model.touch_rule().unwrap();
     assert_eq!((rule.limit, rule.gap), (2048, 200));
-    let threshold = Threshold::new(0.99).unwrap();
-    let mut classifier = Sequential::new(model, threshold).unwrap();
+    let mut classifier = Sequential::new(model, threshold(0.99)).unwrap();
     let (mut decided, mut right, mut samples) = (0, 0, 0.0);
     for (n, fresh) in two(0.5, 20_000).iter().enumerate() {
         // The same means, other samples.
@@ -175,8 +167,7 @@ fn the_model_file_decides_as_the_report_says() {
         let other = trial(&fresh.label, "two", mean, 20_000, n as u64 + 100);
         classifier.touch(n as u16);
         for sample in &other.samples {
-            let codes =
-                [0, 1].map(|channel| trained.scales[channel].code_from_f64(sample[channel]));
+            let codes = [0, 1].map(|k| trained.scales[k].code_from_f64(sample[k]));
             if let Some(decision) = classifier.push(&codes).unwrap() {
                 decided += 1;
                 right += usize::from(decision.leader() == n % 2);
@@ -185,13 +176,8 @@ fn the_model_file_decides_as_the_report_says() {
         }
     }
     let at = trained.report.calibration[4];
-    assert!(
-        decided > 200 && right as f64 > 0.98 * f64::from(decided),
-        "{right} of {decided}"
-    );
-    let samples = samples / f64::from(decided);
-    assert!(
-        (samples / at.samples - 1.0).abs() < 0.15,
-        "{samples} {at:?}"
-    );
+    let are_right = right as f64 > 0.98 * f64::from(decided);
+    assert!(are_right && decided > 200, "{right} of {decided}");
+    let share = samples / f64::from(decided) / at.samples;
+    assert!((share - 1.0).abs() < 0.15, "{share} {at:?}");
 }

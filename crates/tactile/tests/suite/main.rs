@@ -1,6 +1,5 @@
 //! The product's classifier: models, rules and training.
 
-mod channels;
 mod classifier;
 mod common;
 mod joint;

@@ -14,33 +14,30 @@ fn matrix(rows: &[&[u64]]) -> Confusion {
     confusion
 }
 
-/// A table worked by hand: P_O = 35/50, P_E = 0.5·0.6 + 0.5·0.4 = 0.5.
+/// Tables worked by hand. P_O = 35/50, P_E = 0.5·0.6 + 0.5·0.4 = 0.5; P_O = 0.79, P_E =
+/// (30·34 + 50·48 + 20·18)/10⁴ = 0.378; and of two choices κ of 0.5 is a hit rate of 75 % (POSE).
 #[test]
-fn kappa_of_a_worked_table() {
+fn kappa_is_that_of_worked_tables() {
+    let three = (0.79 - 0.378) / (1.0 - 0.378);
+    for (rows, kappa) in [
+        (&[&[20, 5][..], &[10, 15]][..], Some(0.4)),
+        (&[&[26, 3, 1], &[6, 40, 4], &[2, 5, 13]], Some(three)),
+        (&[&[3, 1], &[1, 3]], Some(0.5)),
+        (&[&[1, 1], &[1, 1]], Some(0.0)),
+        (&[&[0, 1], &[1, 0]], Some(-1.0)),
+        (&[&[5, 0], &[0, 0]], None),
+        (&[&[0, 0], &[0, 0]], None),
+    ] {
+        let found = matrix(rows).kappa();
+        assert_eq!(found.is_some(), kappa.is_some(), "{rows:?}");
+        let off = found.unwrap_or_default() - kappa.unwrap_or_default();
+        assert!(off.abs() < 1e-15, "{rows:?}");
+    }
     let confusion = matrix(&[&[20, 5], &[10, 15]]);
-    assert!((confusion.kappa().unwrap() - 0.4).abs() < 1e-15);
     assert_eq!(confusion.hit_rate(), Some(0.7));
     assert_eq!(confusion.hit_rate_of(1), Some(0.6));
-}
-
-/// Three classes: P_O = 0.79, P_E = (30·34 + 50·48 + 20·18)/10⁴ = 0.378.
-/// Columns and rows differ, so that a swap of them shows in the counts.
-#[test]
-fn kappa_of_three_classes() {
-    let confusion = matrix(&[&[26, 3, 1], &[6, 40, 4], &[2, 5, 13]]);
-    let expected = (0.79 - 0.378) / (1.0 - 0.378);
-    assert!((confusion.kappa().unwrap() - expected).abs() < 1e-15);
-    assert_eq!(confusion.count(1, 0), 6);
-}
-
-/// POSE: of two choices, κ of 0.5 is a hit rate of 75 %.
-#[test]
-fn kappa_of_two_choices_and_of_chance() {
-    assert_eq!(matrix(&[&[3, 1], &[1, 3]]).kappa(), Some(0.5));
-    assert_eq!(matrix(&[&[1, 1], &[1, 1]]).kappa(), Some(0.0));
-    assert_eq!(matrix(&[&[0, 1], &[1, 0]]).kappa(), Some(-1.0));
-    assert_eq!(matrix(&[&[5, 0], &[0, 0]]).kappa(), None);
-    assert_eq!(Confusion::new(3).kappa(), None);
+    // A swap of columns and rows shows.
+    assert_eq!(confusion.count(1, 0), 10);
     assert_eq!(Confusion::new(0).hit_rate(), None);
 }
 

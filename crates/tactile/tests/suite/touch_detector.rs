@@ -4,32 +4,22 @@ use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
 use tactile::{TouchDetector, Touching};
 
+use crate::common::normal;
+
 const REST: f64 = 8192.0;
 
-/// Near enough to normal noise with a standard deviation of four codes.
-struct Noise(u64);
-
-impl Noise {
-    fn next(&mut self) -> f64 {
-        let uniform = |state: &mut u64| {
-            *state = state
-                .wrapping_mul(6_364_136_223_846_793_005)
-                .wrapping_add(1);
-            (*state >> 40) as f64 / f64::from(1 << 24) - 0.5
-        };
-        4.0 * (0..12).map(|_| uniform(&mut self.0)).sum::<f64>()
-    }
+/// Codes of x around rest, and of y at rest, with noise of four codes.
+fn codes(seed: &mut u64, x: f64) -> [u16; 2] {
+    let code = |x: f64| (x + 4.0 * normal(seed)).round().clamp(0.0, 16383.0) as u16;
+    [REST + x, REST].map(code)
 }
 
 /// Onsets, and ends of touches, in samples of x around rest with noise.
-fn touches(seed: u64, x: impl Iterator<Item = f64>) -> (Vec<usize>, Vec<usize>) {
-    let mut noise = Noise(seed);
+fn touches(mut seed: u64, x: impl Iterator<Item = f64>) -> (Vec<usize>, Vec<usize>) {
     let mut detector = TouchDetector::new();
     let (mut onsets, mut ends, mut last) = (Vec::new(), Vec::new(), 0);
     for (n, x) in x.enumerate() {
-        let code = |x: f64| (x + noise.next()).round().clamp(0.0, 16383.0) as u16;
-        let codes = [REST + x, REST].map(code);
-        let Touching { number, is_onset } = detector.step(codes);
+        let Touching { number, is_onset } = detector.step(codes(&mut seed, x));
         if is_onset {
             onsets.push(n);
             assert_eq!(number as usize, onsets.len());
@@ -109,18 +99,14 @@ proptest! {
 
     #[test]
     fn an_interruption_ends_a_touch_and_its_jump_is_none(
-        seed: u64,
-        codes in 1500.0..4000.0_f64,
+        mut seed: u64,
+        size in 1500.0..4000.0_f64,
         offset in -700.0..700.0_f64,
     ) {
-        let mut noise = Noise(seed);
         let mut detector = TouchDetector::new();
-        let mut step = |detector: &mut TouchDetector, x: f64| {
-            let code = |x: f64| (x + noise.next()).round() as u16;
-            detector.step([REST + x, REST].map(code))
-        };
+        let mut step = |detector: &mut TouchDetector, x| detector.step(codes(&mut seed, x));
         for n in 0..4100 {
-            step(&mut detector, if n < 4000 { 0.0 } else { codes });
+            step(&mut detector, if n < 4000 { 0.0 } else { size });
         }
         let Touching { number, .. } = detector.touching();
         prop_assert!(number != 0);
@@ -132,7 +118,7 @@ proptest! {
             prop_assert_eq!(step(&mut detector, offset), Touching::default());
         }
         let next = Touching { number: number + 1, is_onset: true };
-        prop_assert_eq!(step(&mut detector, offset + codes), next);
+        prop_assert_eq!(step(&mut detector, offset + size), next);
     }
 
     #[test]
@@ -170,7 +156,7 @@ fn a_step_that_saturates_is_a_touch() {
 
 /// The first touch that is reported, of those that begin every tenth of a second, s.
 fn first_reported_s(tick_hz: u32) -> f64 {
-    let mut noise = Noise(3);
+    let mut seed = 3;
     let mut detector = TouchDetector::at(tick_hz);
     let period = tick_hz / 10;
     for n in 0..3 * tick_hz {
@@ -179,8 +165,7 @@ fn first_reported_s(tick_hz: u32) -> f64 {
         } else {
             0.0
         };
-        let code = |x: f64| (x + noise.next()).round().clamp(0.0, 16383.0) as u16;
-        if detector.step([REST + x, REST].map(code)).is_onset {
+        if detector.step(codes(&mut seed, x)).is_onset {
             return f64::from(n) / f64::from(tick_hz);
         }
     }

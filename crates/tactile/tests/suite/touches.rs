@@ -1,67 +1,51 @@
 //! Models with joint tables, roughness, floors and a rule of touches, against sums
 //! worked out by hand.
 
-use crate::common::entry;
+use crate::common::{TOUCHES, entry, of_two, threshold};
 use tactile::{
     Axis, Floors, ModelBuf, ModelError, ModelParts, Quantiser, Sequential, TableParts, TableSource,
-    Threshold, TouchRule,
+    TouchRule,
 };
 
 const BLOCK: u32 = 2;
-const LIMIT_BITS: u32 = 2;
+/// Of a touch, as [`TOUCHES`] has it.
+const LIMIT: f64 = 2.0;
 
 /// Two bins an axis over codes 0 to 99.
 const AXES: [Axis; 2] = [Axis::new(0, 2, [0, 100]), Axis::new(1, 2, [0, 100])];
 /// Smooth below an S of 2⁴ − 1, rough from there on.
-const ROUGH: [Axis; 1] = [Axis::new(0, 2, [0, 512])];
+const ROUGH: Axis = Axis::new(0, 2, [0, 512]);
 
-/// Two classes: both channels in the same half, or not; smooth, or rough.
-fn model(floors: Option<&[Floors]>, touch: Option<TouchRule>) -> ModelBuf {
-    let names = ["same".to_owned(), "other".to_owned()];
-    let quantiser = Quantiser::of_codes(0, 100);
-    let (often, rarely) = (entry(-1.0), entry(-3.0));
-    let joint = [
-        [often, rarely],
-        [rarely, often],
-        [rarely, often],
-        [often, rarely],
-    ]
-    .concat();
-    let rough = [entry(-1.0), entry(-2.0), entry(-2.0), entry(-1.0)];
-    let tables = [
-        TableParts {
-            source: TableSource::Samples,
-            axes: &AXES,
-            entries: &joint,
-        },
-        TableParts {
-            source: TableSource::Roughness,
-            axes: &ROUGH,
-            entries: &rough,
-        },
-    ];
-    ModelBuf::new(&ModelParts {
-        names: &names,
-        block: BLOCK,
-        channels: &[quantiser; 2],
-        tables: &tables,
-        floors,
-        touch,
-        opinion: &[],
-    })
-    .unwrap()
-}
-
-fn touch_rule() -> TouchRule {
-    TouchRule {
-        limit: LIMIT_BITS * 1024,
-        gate: 0.05,
-        gap: 200,
+fn rough<'a>(axis: &'a [Axis; 1], entries: &'a [u16]) -> TableParts<'a> {
+    TableParts {
+        source: TableSource::Roughness,
+        axes: axis,
+        entries,
     }
 }
 
-fn classifier(model: ModelBuf, threshold: f64) -> Sequential<Box<[u32]>> {
-    let mut classifier = Sequential::new(model, Threshold::new(threshold).unwrap()).unwrap();
+/// Two classes: both channels in the same half, or not; smooth, or rough.
+fn model(floors: Option<&[Floors]>, touch: Option<TouchRule>) -> ModelBuf {
+    let (often, rarely) = (entry(-1.0), entry(-3.0));
+    let (alike, unlike) = ([often, rarely], [rarely, often]);
+    let both = TableParts {
+        source: TableSource::Samples,
+        axes: &AXES,
+        entries: &[alike, unlike, unlike, alike].concat(),
+    };
+    let of_roughness = [-1.0, -2.0, -2.0, -1.0].map(entry);
+    let rest = ModelParts {
+        block: BLOCK,
+        tables: &[both, rough(&[ROUGH], &of_roughness)],
+        floors,
+        touch,
+        ..ModelParts::default()
+    };
+    of_two(&["same", "other"], rest)
+}
+
+fn classifier(model: ModelBuf, theta: f64) -> Sequential<Box<[u32]>> {
+    let mut classifier = Sequential::new(model, threshold(theta)).unwrap();
     // The delay lines fill.
     for _ in 0..8 {
         classifier.pass(&[10, 10]).unwrap();
@@ -80,24 +64,12 @@ fn odds(bits: f64) -> f64 {
 
 #[test]
 fn content_survives() {
-    let floors = [
-        Floors {
-            samples: 7,
-            roughness: 8,
-        },
-        Floors {
-            samples: 9,
-            roughness: 10,
-        },
-    ];
-    let model = model(Some(&floors), Some(touch_rule()));
+    let floors = [(7, 8), (9, 10)].map(|(samples, roughness)| Floors { samples, roughness });
+    let model = model(Some(&floors), Some(TOUCHES));
     let read = ModelBuf::from_bytes(model.as_bytes()).unwrap();
-    assert_eq!(read.touch_rule(), Some(touch_rule()));
-    assert_eq!(
-        [0, 1, 2].map(|class| read.floors(class)),
-        [Some(floors[0]), Some(floors[1]), None]
-    );
-    assert_eq!(read.names().collect::<Vec<_>>(), ["same", "other"]);
+    assert_eq!(read.touch_rule(), Some(TOUCHES));
+    let expected = [Some(floors[0]), Some(floors[1]), None];
+    assert_eq!([0, 1, 2].map(|class| read.floors(class)), expected);
     assert!(read.is_joint(), "it needs the code for all that");
 }
 
@@ -117,7 +89,7 @@ fn a_block_weighs_the_mean_of_its_samples_and_its_roughness() {
 
 #[test]
 fn a_touch_limits_what_came_before_and_drops_the_open_block() {
-    let mut c = classifier(model(None, Some(touch_rule())), 1.0 - 1e-9);
+    let mut c = classifier(model(None, Some(TOUCHES)), 1.0 - 1e-9);
     for _ in 0..5 {
         c.push(&[10, 10]).unwrap();
     }
@@ -125,24 +97,20 @@ fn a_touch_limits_what_came_before_and_drops_the_open_block() {
         posterior(&c, 0) > 0.98,
         "two blocks, and a sample of a third"
     );
+    let mut papers = classifier(model(None, None), 1.0 - 1e-9);
+    for _ in 0..4 {
+        papers.push(&[10, 10]).unwrap();
+    }
+    let before = papers.posteriors();
+    papers.touch(1);
+    assert_eq!(papers.posteriors(), before, "it knows no touches");
     c.touch(1);
-    assert!((posterior(&c, 0) - odds(f64::from(LIMIT_BITS))).abs() < 1e-4);
+    assert!((posterior(&c, 0) - odds(LIMIT)).abs() < 1e-4);
     // The sample before the touch would have ended the block with this one.
     c.push(&[10, 10]).unwrap();
-    assert!((posterior(&c, 0) - odds(f64::from(LIMIT_BITS))).abs() < 1e-4);
+    assert!((posterior(&c, 0) - odds(LIMIT)).abs() < 1e-4);
     c.push(&[10, 10]).unwrap();
     assert!((posterior(&c, 0) - odds(5.0)).abs() < 1e-4);
-}
-
-#[test]
-fn the_papers_models_know_no_touches() {
-    let mut c = classifier(model(None, None), 1.0 - 1e-9);
-    for _ in 0..4 {
-        c.push(&[10, 10]).unwrap();
-    }
-    let before = posterior(&c, 0);
-    c.touch(3);
-    assert_eq!(posterior(&c, 0), before);
 }
 
 #[test]
@@ -158,7 +126,7 @@ fn a_decision_tells_its_touch_and_what_is_below_a_floor_is_unknown() {
         (floor(-1.5, -0.5), false),
         (floor(-1.0, -1.0), true),
     ] {
-        let mut c = classifier(model(Some(&[floors; 2]), Some(touch_rule())), 0.9);
+        let mut c = classifier(model(Some(&[floors; 2]), Some(TOUCHES)), 0.9);
         c.touch(41);
         for _ in 0..3 {
             assert_eq!(c.push(&[10, 10]), Ok(None));
@@ -179,7 +147,7 @@ fn floors_look_back_to_the_onset_of_the_touch() {
         samples: entry(-1.4),
         roughness: 0,
     }; 2];
-    let mut c = classifier(model(Some(&floors), Some(touch_rule())), 0.9);
+    let mut c = classifier(model(Some(&floors), Some(TOUCHES)), 0.9);
     let decide = |c: &mut Sequential<Box<[u32]>>| {
         let mut decisions = (0..100).filter_map(|_| c.push(&[10, 10]).unwrap());
         decisions.next().unwrap().class()
@@ -195,25 +163,14 @@ fn floors_look_back_to_the_onset_of_the_touch() {
 
 #[test]
 fn roughness_is_of_the_first_two_channels() {
-    let quantiser = model(None, None).quantiser(0).unwrap();
     let refused = |channel| {
-        let rough = [Axis {
-            channel,
-            ..ROUGH[0]
-        }];
-        let tables = [
-            TableParts::of_channel(&AXES[0], &[1; 4]),
-            TableParts {
-                source: TableSource::Roughness,
-                axes: &rough,
-                entries: &[1; 4],
-            },
-        ];
+        let axis = [Axis { channel, ..ROUGH }];
+        let of_samples = TableParts::of_channel(&AXES[0], &[1; 4]);
         let parts = ModelParts {
             names: &["same".to_owned(), "other".to_owned()],
             block: BLOCK,
-            channels: &[quantiser; 3],
-            tables: &tables,
+            channels: &[Quantiser::of_codes(0, 100); 3],
+            tables: &[of_samples, rough(&axis, &[1; 4])],
             ..ModelParts::default()
         };
         ModelBuf::new(&parts).err()

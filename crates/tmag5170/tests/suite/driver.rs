@@ -115,25 +115,25 @@ fn a_sensor_that_sends_pairs() {
 }
 
 #[test]
-fn a_setting_that_does_not_read_back_is_named() {
-    let mut frames = beginning();
-    frames.truncate(6);
-    frames.push(read(0x01, 0x00C4));
-    let mut sensor = sensor(&frames);
-    let error = sensor.configure(config(DataType::Register)).unwrap_err();
-    assert_eq!(error, Error::NotWritten(Register::SensorConfig));
-    assert_eq!(error.to_string(), "SensorConfig does not read back");
-    sensor.release().done();
-}
-
-#[test]
-fn a_data_type_that_does_not_come_is_named() {
-    let mut frames = beginning();
-    frames.extend([write(0x02, 0x0040), ask(reply(0)), ask(reply(0))]);
-    let mut sensor = sensor(&frames);
-    let expected = Error::NotWritten(Register::SystemConfig);
-    assert_eq!(sensor.configure(config(DataType::Xy)), Err(expected));
-    sensor.release().done();
+fn a_setting_that_does_not_read_back_and_a_data_type_that_does_not_come_are_named() {
+    let mut other = beginning();
+    other.truncate(6);
+    other.push(read(0x01, 0x00C4));
+    let mut silent = beginning();
+    silent.extend([write(0x02, 0x0040), ask(reply(0)), ask(reply(0))]);
+    for (frames, register) in [
+        (other, Register::SensorConfig),
+        (silent, Register::SystemConfig),
+    ] {
+        let mut sensor = sensor(&frames);
+        let error = sensor.configure(config(DataType::Xy)).unwrap_err();
+        assert_eq!(error, Error::NotWritten(register));
+        assert_eq!(
+            error.to_string(),
+            format!("{register:?} does not read back")
+        );
+        sensor.release().done();
+    }
 }
 
 #[test]

@@ -50,20 +50,17 @@ fn replies_by_hand() {
 #[test]
 fn errors_name_what_was_found() {
     let [expected, found] = [6, 12];
-    let words = [
-        (
-            ReplyError::BadCrc { expected, found },
-            "bad CRC: 0xc, expected 0x6",
-        ),
-        (
-            ReplyError::Sensor(Status::new(0x108)),
-            "the sensor reports a fault: status 0x108",
-        ),
-        (ReplyError::OtherType(4), "data of another type: 4"),
-    ];
-    for (error, expected) in words {
-        assert_eq!(error.to_string(), expected);
-    }
+    let says = |error: ReplyError, words| assert_eq!(error.to_string(), words);
+    says(
+        ReplyError::BadCrc { expected, found },
+        "bad CRC: 0xc, expected 0x6",
+    );
+    let status = Status::new(0x108);
+    says(
+        ReplyError::Sensor(status),
+        "the sensor reports a fault: status 0x108",
+    );
+    says(ReplyError::OtherType(4), "data of another type: 4");
 }
 
 /// What a reply decodes to where the sensor has found its command wrong. All bits one is taken

@@ -175,16 +175,11 @@ mod tests {
         }
         assert!(worst < 1.2e-8, "{worst:e}");
         assert_eq!(unit(0, 0), None);
-        for corner in [
-            (i32::MIN, i32::MAX),
-            (i32::MAX, 1),
-            (0, i32::MIN),
-            (1, 0),
-            (0, -1),
-        ] {
-            let [x, y] = unit(corner.0, corner.1).unwrap();
+        let (low, high) = (i32::MIN, i32::MAX);
+        for (a, b) in [(low, high), (high, 1), (0, low), (1, 0), (0, -1)] {
+            let [x, y] = unit(a, b).unwrap();
             let length = f64::from(x).hypot(f64::from(y)) / ONE;
-            assert!((length - 1.0).abs() < 2e-8, "{corner:?}: {length}");
+            assert!((length - 1.0).abs() < 2e-8, "{a} {b}: {length}");
         }
     }
 }

@@ -106,8 +106,9 @@ mod tests {
         for max in (1..=u16::MAX).rev().step_by(251) {
             for q15 in 0..=i16::MAX {
                 let exact = (u32::from(q15.unsigned_abs()) * u32::from(max) + 16_383) / 32_767;
-                let found = Duty::from_q15(q15).scaled_to(max);
-                assert_eq!(u32::from(found), exact, "{q15} {max}");
+                for duty in [q15, -q15].map(Duty::from_q15) {
+                    assert_eq!(u32::from(duty.scaled_to(max)), exact, "{duty:?} {max}");
+                }
             }
         }
     }

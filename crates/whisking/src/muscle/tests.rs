@@ -27,10 +27,11 @@ fn a_constant_force_is_answered_as_the_closed_form_says() {
 fn the_static_solution_at_full_drive_is_just_above_one() {
     // On the limit cycle the drive is at most (tanh 2 + 1)/2; θ exp(θ²) = 2.9 W there.
     let drive = f64::midpoint(2.0_f64.tanh(), 1.0);
-    for config in [
+    let [exact, euler] = [
         Config::Exact(Exact::new(1e-3)),
         Config::Euler(Euler::new(1e-3)),
-    ] {
+    ];
+    for config in [exact, euler] {
         let mut state = State::default();
         for _ in 0..20_000 {
             config.step(&mut state, 2.9, drive, drive);
@@ -46,17 +47,16 @@ fn newton_weights_integrate_polynomials_exactly() {
     // A lag that hardly decays is its rate times the integral of each basis
     // polynomial over a tick: Adams and Bashforth's numbers.
     let lag = Lag::<f64>::new(1e-6);
-    let weights = [
-        lag.decay,
-        lag.predict.0[0],
-        lag.predict.0[1],
-        lag.predict.0[2],
-    ];
-    let expected = [1.0, 1.0 / 2.0, 5.0 / 12.0, 3.0 / 8.0];
-    for (found, expected) in weights.iter().zip(expected) {
+    let [first, second, third] = lag.predict.0;
+    for (found, expected) in [
+        (lag.decay, 1.0),
+        (first, 1.0 / 2.0),
+        (second, 5.0 / 12.0),
+        (third, 3.0 / 8.0),
+        (lag.correct, 251.0 / 720.0),
+    ] {
         assert!((found / 1e-6 - expected).abs() < 2e-6, "{expected}");
     }
-    assert!((lag.correct / 1e-6 - 251.0 / 720.0).abs() < 2e-6);
 }
 
 /// The force follows a polynomial of fourth degree without error, however fast
@@ -97,11 +97,8 @@ fn no_rhythm_of_the_gain_leads_beyond_the_bounds() {
             let gain = R::from_f64(if open { 2.9 } else { 0.0 });
             config.step(&mut state, gain, drive, drive);
             let [theta, slow, fast] = [state.theta, state.kept[0], state.kept[1]].map(Real::to_f64);
-            assert!(theta.abs() < 2.5, "{cycles} {period} {n}: {theta}");
-            assert!(
-                slow.abs() < 5.0 && fast.abs() < 5.0,
-                "{cycles} {period} {n}: {slow} {fast}"
-            );
+            let is_within = theta.abs() < 2.5 && slow.abs() < 5.0 && fast.abs() < 5.0;
+            assert!(is_within, "{cycles} {period} {n}: {theta} {slow} {fast}");
         }
     }
     for cycles in [1e-3, 1.25e-2, 0.05, 0.125, 0.25] {

@@ -224,11 +224,8 @@ where
         let (mut whisks, mut back) = (0, 0);
         while back < 3 && whisks < AFTER {
             whisks += 1;
-            back = if is_back(self.whisk(&mut state)) {
-                back + 1
-            } else {
-                0
-            };
+            let is_back = is_back(self.whisk(&mut state));
+            back = if is_back { back + 1 } else { 0 };
         }
         whisks - back
     }
@@ -283,18 +280,12 @@ where
     R: Number + Bits,
     R::Carry: Bits,
 {
-    for (n, integrator) in [Integrator::Exact, Integrator::Euler]
-        .into_iter()
-        .enumerate()
-    {
+    for (n, integrator) in [(0, Integrator::Exact), (1, Integrator::Euler)] {
         for full in [true, false] {
             for (part, whisks) in Bench::<R, S>::new(integrator, full).spoil() {
                 let stated = STATED.iter().find(|(of, _)| *of == part);
-                let most = stated.map(|(_, most)| most[n]);
-                assert!(
-                    most >= Some(whisks),
-                    "{integrator:?}, {full}: {part}, {whisks}"
-                );
+                let is_stated = stated.is_some_and(|(_, most)| whisks <= most[n]);
+                assert!(is_stated, "{integrator:?}, {full}: {part}, {whisks}");
             }
         }
     }
@@ -342,10 +333,8 @@ fn whatever_bits_all_words_have_whisks_come_back() {
                 let whisks = bench.whisks_until_back(state);
                 // Sides that are quite opposed stay so by the equations, until noise parts them.
                 let are_opposed = sum(0).hypot(sum(1)) < OPPOSED;
-                assert!(
-                    are_opposed || whisks <= most,
-                    "{integrator:?}, {n}: {whisks}"
-                );
+                let is_back = are_opposed || whisks <= most;
+                assert!(is_back, "{integrator:?}, {n}: {whisks}");
             }
         }
     }

@@ -44,10 +44,8 @@ fn fault(fault: Fault, written: &str) -> (Fault, String) {
 fn failing_pin_zeroes_the_pwm_and_holds_until_clear() {
     let mut bridge = bridge("");
     bridge.fail("DIR", 1);
-    assert_eq!(
-        bridge.fails(Duty::FULL),
-        fault(Fault::Pin, "PWM=0 DIR=1! PWM=0")
-    );
+    let written = "PWM=0 DIR=1! PWM=0";
+    assert_eq!(bridge.fails(Duty::FULL), fault(Fault::Pin, written));
     assert_eq!(bridge.fails(Duty::FULL), fault(Fault::Pin, "PWM=0"));
     assert_eq!(bridge.driver.fault(), Some(Fault::Pin));
     bridge.driver.clear();
@@ -70,10 +68,8 @@ fn after_a_fault_the_direction_is_written_again() {
     let mut bridge = bridge("");
     bridge.drive(Duty::FULL);
     bridge.fail("PWM", 1);
-    assert_eq!(
-        bridge.fails(Duty::FULL),
-        fault(Fault::Pwm, "PWM=1000! PWM=0")
-    );
+    let written = "PWM=1000! PWM=0";
+    assert_eq!(bridge.fails(Duty::FULL), fault(Fault::Pwm, written));
     bridge.driver.clear();
     assert_eq!(bridge.drive(Duty::FULL), "PWM=0 DIR=1 PWM=1000");
 }

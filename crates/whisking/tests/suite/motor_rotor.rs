@@ -1,33 +1,16 @@
-//! The six-step driver turning a simulated rotor: direction of torque, lead of
-//! the field, and that the check sees a wrong table or wiring.
+//! The six-step driver turning a simulated rotor: direction of torque, lead of the field.
 //!
 //! The model knows nothing of the table. A magnet at electrical angle α sets
 //! sensor k high where cos(α − 120° (k − 1)) > 0; the field is the sum of the
 //! driven phases' axes, plus for a phase at its PWM, minus for one at ground.
 
-use crate::pins::{FREE_RUNNING, MAX, Motor, wired};
+use crate::pins::{FREE_RUNNING, MAX, Motor, six_step};
 use core::f64::consts::TAU;
 use proptest::prelude::*;
-use whisking::motor::{
-    COMMUTATION, CommutationStep, Duty, Fault, MotorDriver, Pair, Phase, SixStepConfig, StallConfig,
-};
-
-const ORDERS: [[usize; 3]; 6] = [
-    [0, 1, 2],
-    [1, 2, 0],
-    [2, 0, 1],
-    [0, 2, 1],
-    [1, 0, 2],
-    [2, 1, 0],
-];
+use whisking::motor::{Duty, Fault, MotorDriver, SixStepConfig, StallConfig};
 
 fn axis(phase: usize) -> f64 {
     TAU * phase as f64 / 3.0
-}
-
-/// A driver and its motor, wired as they should be.
-fn motor(config: SixStepConfig) -> Motor {
-    wired((ORDERS[0], ORDERS[0]), config, "")
 }
 
 impl Motor {
@@ -64,66 +47,6 @@ fn drives(field: [f64; 2], angle: f64, forward: bool) -> bool {
     (59.999..=120.001).contains(&(sign * lead_deg(field, angle)))
 }
 
-fn wiring_works(phases: [usize; 3], sensors: [usize; 3]) -> bool {
-    let mut bench = wired((phases, sensors), FREE_RUNNING, "");
-    (0..360).all(|degree| {
-        let angle = (f64::from(degree) + 0.5).to_radians();
-        bench.place(angle);
-        [Duty::FULL, Duty::from_q15(-32_767)].iter().all(|&duty| {
-            bench.driver.drive(duty).unwrap();
-            drives(bench.field(), angle, duty.is_forward())
-        })
-    })
-}
-
-fn table_works(table: &[CommutationStep; 6]) -> bool {
-    (0..360).all(|degree| {
-        let angle = (f64::from(degree) + 0.5).to_radians();
-        let code = (0..3).fold(0, |code, k| {
-            code | u8::from((angle - axis(k)).cos() > 0.0) << k
-        });
-        let unit = |phase| [axis(phase as usize).cos(), axis(phase as usize).sin()];
-        let row = table.iter().find(|row| row.hall == code).unwrap();
-        let ([hx, hy], [lx, ly]) = (unit(row.forward.high), unit(row.forward.low));
-        drives([hx - lx, hy - ly], angle, true)
-    })
-}
-
-#[test]
-fn only_the_right_wiring_drives() {
-    for phases in ORDERS {
-        for sensors in ORDERS {
-            // Turning or mirroring phases and sensors alike only renames the
-            // angles; mirroring both also turns the motor round.
-            let right = phases == sensors && ORDERS[..3].contains(&phases);
-            assert_eq!(
-                wiring_works(phases, sensors),
-                right,
-                "{phases:?} {sensors:?}"
-            );
-        }
-    }
-}
-
-#[test]
-fn every_other_pair_in_any_row_is_seen_as_wrong() {
-    assert!(table_works(&COMMUTATION));
-    let mut wrong = 0;
-    for row in 0..6 {
-        for high in Phase::ALL {
-            for low in Phase::ALL {
-                let mut table = COMMUTATION;
-                table[row].forward = Pair { high, low };
-                if high != low && table != COMMUTATION {
-                    assert!(!table_works(&table), "row {row}: {high:?} {low:?}");
-                    wrong += 1;
-                }
-            }
-        }
-    }
-    assert_eq!(wrong, 6 * 5);
-}
-
 /// Electrical angle in sectors as the counter sees it: edges at ±30°.
 fn sector_number(angle: f64) -> i32 {
     (angle / TAU * 6.0 + 0.5).floor() as i32
@@ -139,7 +62,7 @@ proptest! {
         turns in -100.0_f64..100.0,
         q15 in prop_oneof![-32_767_i16..-40, 40_i16..=32_767],
     ) {
-        let mut bench = motor(FREE_RUNNING);
+        let mut bench = six_step(FREE_RUNNING, "");
         let (angle, duty) = (turns * TAU, Duty::from_q15(q15));
         bench.place(angle);
         bench.driver.drive(duty).unwrap();
@@ -154,7 +77,7 @@ proptest! {
     /// the count follows it.
     #[test]
     fn rotor_runs_up_both_ways(start in 0.0..TAU, forward: bool) {
-        let mut bench = motor(SixStepConfig::DEFAULT);
+        let mut bench = six_step(SixStepConfig::DEFAULT, "");
         let sign = if forward { 1.0 } else { -1.0 };
         let duty = Duty::from_q15(if forward { 16_384 } else { -16_384 });
         let (mut angle, mut speed) = (start, 0.0_f64);
@@ -189,7 +112,7 @@ fn a_rotor_blocked_after_some_turns_is_stalled() {
         stall,
         ..SixStepConfig::DEFAULT
     };
-    let mut bench = motor(config);
+    let mut bench = six_step(config, "");
     // A sector every fourth tick: two sectors well within the ten ticks.
     for tick in 0..200 {
         bench.place(f64::from(tick) * TAU / 24.0 + 0.01);
@@ -199,27 +122,4 @@ fn a_rotor_blocked_after_some_turns_is_stalled() {
     assert!(stalled.is_some_and(|ticks| ticks <= 10), "{stalled:?}");
     assert_eq!(bench.driver.fault(), Some(Fault::Stall));
     assert!(bench.outputs.iter().all(|output| output.value.get() == 0));
-}
-
-#[test]
-fn clear_allows_the_skips_again() {
-    let config = SixStepConfig {
-        skip_limit: 2,
-        ..SixStepConfig::DEFAULT
-    };
-    let mut bench = motor(config);
-    let mut skip_to = |sector: i32| {
-        bench.place(f64::from(sector) * TAU / 6.0);
-        let result = bench.driver.drive(Duty::FULL);
-        bench.driver.clear();
-        result
-    };
-    assert_eq!(skip_to(0), Ok(()));
-    assert_eq!(skip_to(2), Ok(()));
-    assert_eq!(skip_to(4), Ok(()));
-    bench.place(0.0);
-    assert_eq!(bench.driver.drive(Duty::FULL), Ok(()));
-    bench.place(TAU / 3.0);
-    assert_eq!(bench.driver.drive(Duty::FULL), Err(Fault::SkippedSector));
-    assert_eq!(bench.driver.counts(), 8);
 }

@@ -192,6 +192,25 @@ fn a_blocked_rotor_flickering_on_a_hall_edge_is_stalled() {
 }
 
 #[test]
+fn clear_allows_the_skips_again() {
+    let config = SixStepConfig {
+        skip_limit: 2,
+        ..SixStepConfig::DEFAULT
+    };
+    let mut motor = six_step(config, "");
+    for code in [1, 2, 4] {
+        motor.turn(code);
+        motor.drive(HALF);
+        motor.driver.clear();
+    }
+    motor.turn(1);
+    motor.drive(HALF);
+    motor.turn(2);
+    assert_eq!(motor.fails(HALF), off(Fault::SkippedSector));
+    assert_eq!(motor.driver.counts(), 8);
+}
+
+#[test]
 fn observing_counts_without_driving() {
     let mut motor = six_step(SixStepConfig::DEFAULT, "");
     motor.written();

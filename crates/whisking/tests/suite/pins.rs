@@ -203,24 +203,16 @@ pub(crate) type Motor = Bench<SixStep<Three, Three, Three>>;
 
 /// A six-step driver in sector 0, with its start in the log still.
 pub(crate) fn six_step(config: SixStepConfig, failing: &str) -> Motor {
-    let bench = wired(([0, 1, 2], [0, 1, 2]), config, failing);
-    bench.turn(1);
-    bench
-}
-
-/// One whose output k is on the winding `phases[k]`, and its input k on the sensor `sensors[k]`.
-pub(crate) fn wired(
-    (phases, sensors): ([usize; 3], [usize; 3]),
-    config: SixStepConfig,
-    failing: &str,
-) -> Motor {
     let names = ["IN1", "IN2", "IN3", "EN1", "EN2", "EN3"];
-    Bench::new(names, failing, |outputs, halls| {
+    let bench = Bench::new(names, failing, |outputs, halls| {
+        let [in1, in2, in3, en1, en2, en3] = outputs.clone();
         SixStep::new(
-            phases.map(|k| outputs[k].clone()).into(),
-            phases.map(|k| outputs[3 + k].clone()).into(),
-            sensors.map(|k| halls[k].clone()).into(),
+            (in1, in2, in3),
+            (en1, en2, en3),
+            halls.clone().into(),
             config,
         )
-    })
+    });
+    bench.turn(1);
+    bench
 }

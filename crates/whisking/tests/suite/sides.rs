@@ -47,10 +47,8 @@ fn a_number_of_sides_or_whiskers_that_does_not_fit_is_refused() {
     assert_eq!(size(&psi[..2], &[&[1.0]]), Some(Parameter::Size));
     assert_eq!(size(&psi[..1], &[&[1.0], &[1.0]]), Some(Parameter::Size));
     assert_eq!(size(&psi[..1], &[&many]), Some(Parameter::Size));
-    assert_eq!(
-        size(&psi[..2], &[&many[..13], &many[..12]]),
-        Some(Parameter::Size)
-    );
+    let one_more = size(&psi[..2], &[&many[..13], &many[..12]]);
+    assert_eq!(one_more, Some(Parameter::Size));
     assert_eq!(size(&psi[..2], &[&many[..12], &many[..12]]), None);
     assert_eq!(size(&psi[..1], &[&[]]), None);
 }

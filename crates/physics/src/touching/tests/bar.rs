@@ -5,10 +5,6 @@ use super::elastica::{Pushed, same, table};
 use super::flat;
 use crate::{Biotact, Facing, Outline, Plate, Shaft};
 
-/// What is allowed: shares of the base moment and of the normal force, and of the length for
-/// the place.
-const ALLOWED: [f64; 3] = [0.01, 0.01, 0.002];
-
 /// The plate lies along the straight shaft.
 const STRAIGHT: Facing = Facing {
     slant_deg: 0.0,
@@ -45,14 +41,8 @@ fn around_a_bar_moments_forces_and_places_are_those_of_elasticas_until_it_lets_g
             let whisker = &pushed.whisker;
             let moment = whisker.rotation_rad()[0] * shaft.follicle.rotation_n_m_rad;
             let place = whisker.contact_at().map_or(0.0, |at| at.arc_m);
-            let errors = [
-                moment / row.get("moment_nm") - 1.0,
-                whisker.force_n()[0] / row.get("normal_n") - 1.0,
-                (place - row.get("contact_m")) / row.get("length_m"),
-            ];
-            for (error, allowed) in errors.into_iter().zip(ALLOWED) {
-                assert!(error.abs() < allowed, "{errors:?} {:?}", row.0);
-            }
+            let found = [moment, whisker.force_n()[0], place];
+            row.check("moment_nm", found, [0.01, 0.01, 0.002]);
         }
     }
     assert_eq!(let_go, 8);

@@ -48,13 +48,12 @@ fn rough_grounds_shake_more_and_are_left_at_times() {
     assert!(vinyl.2 > 0.99, "{vinyl:?}");
     for rough in [of(Material::Tarmac), of(Material::RoughCarpet)] {
         assert!((0.5..0.99).contains(&rough.2), "{rough:?}");
-        assert!(rough.1[0] > 4.0 * vinyl.1[0], "{rough:?} {vinyl:?}");
-        assert!(rough.1[1] > 4.0 * vinyl.1[1], "{rough:?} {vinyl:?}");
+        for k in 0..2 {
+            assert!(rough.1[k] > 4.0 * vinyl.1[k], "{rough:?} {vinyl:?}");
+        }
         // Dragged back more strongly (LEP12 section 6).
-        assert!(
-            rough.0[0].abs() > 1.5 * vinyl.0[0].abs(),
-            "{rough:?} {vinyl:?}"
-        );
+        let more = rough.0[0].abs() / vinyl.0[0].abs();
+        assert!(more > 1.5, "{rough:?} {vinyl:?}");
     }
 }
 
@@ -102,16 +101,10 @@ fn a_floor_rings_where_the_whisker_does_with_its_tip_held() {
         let bins = (5 * low..5 * high).map(|bin| power(f64::from(bin) / 5.0));
         bins.sum::<f64>() / f64::from(high - low)
     };
-    let bands = [
-        band(4, 12),
-        band(12, 20),
-        band(20, 28),
-        band(30, 40),
-        band(42, 60),
-        band(60, 90),
-    ];
-    let top = bands.iter().copied().fold(0.0, f64::max);
-    assert_eq!(bands[3], top, "{bands:?}");
+    let rings = band(30, 40);
+    for (low, high) in [(4, 12), (12, 20), (20, 28), (42, 60), (60, 90)] {
+        assert!(band(low, high) < rings, "{low} to {high} Hz");
+    }
 }
 
 #[test]
@@ -135,11 +128,8 @@ fn the_ground_stays_where_it_is() {
                 touching += u32::from(whisker.contact());
                 lowered += u32::from(whisker.lowered_m() > 0.01 * surface.height_m);
             }
-            assert!(touching > 1000, "{material:?} {touching}");
-            assert!(
-                lowered <= touching / seldom,
-                "{material:?} {lowered} {touching}"
-            );
+            let is_paid = touching > 1000 && lowered <= touching / seldom;
+            assert!(is_paid, "{material:?} {lowered} {touching}");
         }
     }
 }

@@ -307,12 +307,7 @@ mod tests {
         assert_relative_eq!(temperature(&[], Some(SPREAD)), 1.0, epsilon = 1e-6);
         assert!(temperature(&all[1..], Some(SPREAD)) > 1.0);
         // A trial counts for one, however often it was touched.
-        let often: Vec<_> = all
-            .iter()
-            .chain(&all[..1])
-            .chain(&all[..1])
-            .cloned()
-            .collect();
+        let often = [&all[..], &all[..1], &all[..1]].concat();
         let [once, often] = [&all, &often].map(|of| temperature(of, Some(SPREAD)));
         assert_relative_eq!(once, often, epsilon = 1e-6);
     }

@@ -125,37 +125,20 @@ mod tests {
 
     #[test]
     fn recordings_are_poses_unless_they_say_more() {
-        let all = [
-            ("a", "x", None),
-            ("b", "x", None),
-            ("a", "y", None),
-            ("b", "y", None),
-        ];
-        let found = Poses::of(&all.map(trial));
-        assert_eq!(found.of_trial, [0, 0, 1, 1]);
-        assert_eq!(found.names, ["x", "y"].map(|name| Some(name.to_string())));
-        let all = [
-            ("a", "x", Some(3)),
-            ("b", "x", Some(3)),
-            ("a", "x", Some(5)),
-            ("b", "x", Some(5)),
-        ];
-        let found = Poses::of(&all.map(trial));
-        assert_eq!(found.of_trial, [0, 0, 1, 1]);
-        let names = ["pose 3", "pose 5"].map(|name| Some(name.to_string()));
-        assert_eq!(found.names, names);
-    }
-
-    #[test]
-    fn poses_of_one_class_each_are_put_together() {
-        let all = [
-            ("a", "x", Some(0)),
-            ("b", "x", Some(1)),
-            ("a", "x", Some(2)),
-            ("b", "x", Some(3)),
-        ];
-        let found = Poses::of(&all.map(trial));
-        assert_eq!(found.of_trial, [0, 0, 1, 1]);
-        assert_eq!(found.names, [None, None]);
+        // Poses of one class each are put together.
+        for (recordings, poses, names) in [
+            (["x", "x", "y", "y"], [None; 4], [Some("x"), Some("y")]),
+            (
+                ["x"; 4],
+                [3, 3, 5, 5].map(Some),
+                [Some("pose 3"), Some("pose 5")],
+            ),
+            (["x"; 4], [0, 1, 2, 3].map(Some), [None, None]),
+        ] {
+            let all = [0, 1, 2, 3].map(|n| trial((["a", "b"][n % 2], recordings[n], poses[n])));
+            let found = Poses::of(&all);
+            assert_eq!(found.of_trial, [0, 0, 1, 1]);
+            assert_eq!(found.names, names.map(|name| name.map(str::to_string)));
+        }
     }
 }
