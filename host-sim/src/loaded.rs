@@ -217,16 +217,4 @@ mod tests {
         let presented: Vec<&str> = presented.iter().map(|texture| texture.name()).collect();
         assert_eq!(loaded.classes().unwrap(), presented);
     }
-
-    #[test]
-    fn a_model_that_is_missing_or_broken_is_reported_at_its_line() {
-        let line = TEXT.lines().position(|line| line.starts_with("model"));
-        let place = format!("mine.toml:{}: classifier.model: ", line.unwrap() + 1);
-        let found = [Err("not given".to_owned()), Ok(MODEL[..40].to_vec())];
-        for model in found {
-            let fault = opened(model).unwrap_err().to_string();
-            assert!(fault.starts_with(&place), "{fault}");
-            assert!(fault.contains("models/textures.model: "), "{fault}");
-        }
-    }
 }

@@ -126,29 +126,6 @@ fn friction_holds_against_less_and_a_load_pulls_through() {
 }
 
 #[test]
-fn energy_is_kept() {
-    let (mut motor, mut driver, _) = motor(IDEAL);
-    driver.drive(Duty::FULL).unwrap();
-    let (mut supplied, mut heat) = (0.0, 0.0);
-    let dt = 1e-6;
-    for _ in 0..50_000 {
-        // The current in the middle of the step, for second order.
-        motor.advance(dt / 2.0);
-        let [current, back, _] = motor.currents_a();
-        assert_eq!(current, -back);
-        supplied += 6.0 * current * dt;
-        heat += 25.0 * current * current * dt;
-        motor.advance(dt / 2.0);
-    }
-    let speed = motor.speed_deg_s().to_radians() * 11.0;
-    let kinetic = 0.5 * IDEAL.inertia_kg_m2() * speed * speed;
-    assert!(
-        close(supplied, heat + kinetic, 1e-6),
-        "{supplied} {heat} {kinetic}"
-    );
-}
-
-#[test]
 fn zero_duty_brakes_and_an_open_wire_coasts() {
     let coast = |cut: bool| {
         let (mut motor, mut driver, _) = motor(IDEAL);
