@@ -45,18 +45,6 @@ fn every_claim_holds() {
     }
 }
 
-#[test]
-fn fullest_protraction_stays_below_unity() {
-    for (misprint, largest, digits) in [(false, 0.9974, 5e-5), (true, 0.875, 5e-4)] {
-        let mut settings = Figure::Fig6(2.0).settings();
-        settings.reading.mass_misprint = misprint;
-        let rows = euler::run(&settings, RUN_S);
-        let max = Quantity::MaxTheta(0).measure(&settings, &rows).unwrap();
-        let theta = (max - 50.0) / 100.0;
-        assert!((theta - largest).abs() <= digits, "{theta}");
-    }
-}
-
 fn largest_g(rows: &[Row]) -> f64 {
     rows.iter().map(|row| row.g[1]).fold(0.0, f64::max)
 }
