@@ -53,22 +53,6 @@ fn no_load_speed_and_time_constant_are_the_closed_forms() {
 }
 
 #[test]
-fn exchanged_windings_turn_it_the_other_way_and_the_effort_is_what_is_asked_for() {
-    let speeds = [false, true].map(|turned| {
-        let (mut motor, mut driver, _) = motor(IDEAL);
-        assert_eq!(motor.effort(), 0.0);
-        if turned {
-            motor.cut(Wire::Windings);
-        }
-        driver.drive(Duty::from_f32(-0.5)).unwrap();
-        assert!(close(motor.effort(), 0.5, 1e-3));
-        motor.advance(0.1);
-        motor.speed_deg_s()
-    });
-    assert!(speeds[0] < 0.0 && speeds[1] == -speeds[0], "{speeds:?}");
-}
-
-#[test]
 fn it_comes_to_rest_at_its_end_stops_and_leaves_them() {
     let settings = MotorSettings {
         stops_deg: [30.0, 60.0],

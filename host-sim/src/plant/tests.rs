@@ -116,13 +116,6 @@ fn what_is_missing_keeps_its_angle() {
 }
 
 #[test]
-fn a_free_head_feels_nothing() {
-    let mut plant = Ideal::new(Head::free(2, 3)).unwrap();
-    plant.advance(&[1e5; 6], 5e-4);
-    assert!((0..6).all(|i| plant.deflection(i) == [0.0; 2]));
-}
-
-#[test]
 fn bad_settings_are_named() {
     let with = |change: fn(&mut Head)| {
         let mut head = both();

@@ -152,8 +152,9 @@ impl DrawingBackend for &mut Pixels {
 
 #[cfg(test)]
 mod tests {
-    use super::FONT;
+    use super::{FONT, Pixels};
     use ab_glyph::{Font, FontRef};
+    use plotters::prelude::*;
 
     #[test]
     fn the_font_has_every_letter_of_the_pictures() {
@@ -161,5 +162,31 @@ mod tests {
         for c in ('!'..='~').chain("θπ′°µ×−±".chars()) {
             assert_ne!(font.glyph_id(c).0, 0, "{c}");
         }
+    }
+
+    #[test]
+    fn what_is_drawn_is_in_the_file_and_beyond_the_edge_nothing() {
+        let mut pixels = Pixels::new((40, 20)).unwrap();
+        {
+            let root = (&mut pixels).into_drawing_area();
+            let red = RGBColor(255, 0, 0).filled();
+            root.draw(&Rectangle::new([(-5, -5), (3, 3)], red)).unwrap();
+            let style = ("sans-serif", 16).into_font().color(&BLACK);
+            root.draw(&Text::new("Mg", (30, 2), style)).unwrap();
+            root.present().unwrap();
+        }
+        let file = pixels.png().unwrap();
+        let mut read = png::Decoder::new(std::io::Cursor::new(file))
+            .read_info()
+            .unwrap();
+        let mut bytes = vec![0; read.output_buffer_size().unwrap()];
+        let info = read.next_frame(&mut bytes).unwrap();
+        assert_eq!((info.width, info.height), (40, 20));
+        let pixel = |x: usize, y: usize| &bytes[3 * (40 * y + x)..][..3];
+        assert_eq!(pixel(0, 0), [255, 0, 0]);
+        assert_eq!(pixel(6, 6), [255, 255, 255]);
+        // A letter is dark, from its place on.
+        let dark = |x: usize| (0..20).any(|y| pixel(x, y)[0] < 100);
+        assert!((30..40).any(dark) && !(5..30).any(dark));
     }
 }

@@ -263,18 +263,6 @@ fn the_seed_decides_everything_for_each_whisker() {
 }
 
 #[test]
-fn another_presentation_is_another_piece() {
-    let settings = quiet(Shaft::biotact(Biotact::Middle));
-    let mut plant = Elastic::new(head(1), settings, 5).unwrap();
-    plant.present(Texture::P240);
-    let first = plant.piece(0);
-    plant.present(Texture::P240);
-    assert_ne!(first, plant.piece(0));
-    assert_ne!(plant.piece(1), plant.piece(0));
-    assert_eq!(first.grain_m, plant.piece(0).grain_m);
-}
-
-#[test]
 fn bad_settings_are_named() {
     let shaft = Shaft::floor_robot();
     let with = |head: Head, change: fn(&mut ElasticSettings)| {
