@@ -4,7 +4,7 @@ mod self_test;
 
 use embedded_hal::spi::SpiDevice;
 use firmware::{BusError, FrameSource, Polled};
-use mlx90333::{Decoder, Mlx90333, Mode, SumRule, Word};
+use mlx90333::{Decoder, Error, FrameError, Mlx90333, Mode, SumRule, Word};
 
 use super::{Slave, WireFault};
 
@@ -79,6 +79,25 @@ fn bytes_are_lost_and_doubled_where_they_are_said_to_be_and_then_the_bus_fails()
     source.sensor_mut().spi_mut().inject(WireFault::Bus, 1);
     assert_eq!(source.take(), Err(BusError));
     assert_eq!(source.take(), Ok(Some(whole)));
+}
+
+#[test]
+fn disturbances_come_as_often_as_asked_and_again_by_seed() {
+    let run = |seed| {
+        let mut sensor = driver();
+        sensor.spi_mut().disturb(0.1, 0.2, seed);
+        let errors: Vec<_> = (0..10_000).map(|_| sensor.read().err()).collect();
+        errors
+    };
+    let errors = run(1);
+    let silent = Some(Error::Frame(FrameError::NoSensor));
+    let lost = errors.iter().filter(|&&error| error == silent).count();
+    let bad = errors.iter().filter(|error| error.is_some()).count() - lost;
+    // Five standard deviations: 150 and 200 frames.
+    assert!((850..=1150).contains(&lost), "{lost}");
+    assert!((1800..=2200).contains(&bad), "{bad}");
+    assert_eq!(errors, run(1));
+    assert_ne!(errors, run(2));
 }
 
 #[test]
