@@ -89,7 +89,8 @@ proptest! {
             let text = String::from_utf8_lossy(bytes.as_deref().unwrap_or_default());
             if name == "d" && !text.contains('"') {
                 for d in decisions(&text) {
-                    prop_assert!(d.samples >= 2 && d.posterior > 0.0 && d.posterior <= 1.0, "{d:?}");
+                    prop_assert!(d.samples >= 2, "{d:?}");
+                    prop_assert!(d.posterior > 0.0 && d.posterior <= 1.0, "{d:?}");
                 }
             }
         }

@@ -97,7 +97,7 @@ mod tests {
         felt
     }
 
-    /// Touches that scatter, of which the later half differs from the first by so much, or does not.
+    /// Touches that scatter, of which the later half differs from the first by so much or not.
     #[test]
     fn a_later_half_that_bends_more_or_is_rougher_is_reported() {
         let drifts = |count: u32, bend: u16, roughness: u16| {
