@@ -66,6 +66,3 @@ pub fn short(recordings: &[(String, Vec<Stream>)]) -> String {
         rows as f64 / count.max(1) as f64
     )
 }
-
-#[cfg(test)]
-mod tests;

@@ -197,36 +197,21 @@ fn knows_a_texture(scene: &Scene, classes: &[String]) -> Result<(), String> {
 
 #[cfg(test)]
 mod tests {
-    use super::{Error, Loaded, Path, Scene};
+    use super::{Loaded, Path, Scene};
 
     const TEXT: &str = include_str!("../../scenes/textures.toml");
     const MODEL: &[u8] = include_bytes!("../../scenes/models/textures.model");
 
-    fn opened(model: Result<Vec<u8>, String>) -> Result<Loaded, Error> {
-        Loaded::from_text("mine.toml", TEXT, &[], |path| {
-            assert_eq!(path, Path::new("models/textures.model"));
-            model
-        })
-    }
-
     #[test]
     fn a_text_and_its_model_are_enough() {
-        let loaded = opened(Ok(MODEL.to_vec())).unwrap();
+        let loaded = Loaded::from_text("mine.toml", TEXT, &[], |path| {
+            assert_eq!(path, Path::new("models/textures.model"));
+            Ok(MODEL.to_vec())
+        });
+        let loaded = loaded.unwrap();
         assert_eq!(loaded.scene, Scene::from_str("mine.toml", TEXT).unwrap());
         let presented = &loaded.scene.plant.textured.as_ref().unwrap().textures;
         let presented: Vec<&str> = presented.iter().map(|texture| texture.name()).collect();
         assert_eq!(loaded.classes().unwrap(), presented);
-    }
-
-    #[test]
-    fn a_model_that_is_missing_or_broken_is_reported_at_its_line() {
-        let line = TEXT.lines().position(|line| line.starts_with("model"));
-        let place = format!("mine.toml:{}: classifier.model: ", line.unwrap() + 1);
-        let found = [Err("not given".to_owned()), Ok(MODEL[..40].to_vec())];
-        for model in found {
-            let fault = opened(model).unwrap_err().to_string();
-            assert!(fault.starts_with(&place), "{fault}");
-            assert!(fault.contains("models/textures.model: "), "{fault}");
-        }
     }
 }

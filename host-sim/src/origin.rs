@@ -125,17 +125,6 @@ mod tests {
     }
 
     #[test]
-    fn ticks_a_second_are_a_whole_number() {
-        let of = |text: &[u8]| split(text).0.tick_hz();
-        assert_eq!(of(b"a,b\n"), Ok(None));
-        assert_eq!(of(b"# tick_hz = 1000\na,b\n"), Ok(Some(1000)));
-        for wrong in ["0", "-1", "fast", "2.5", ""] {
-            let fault = of(format!("# tick_hz = {wrong}\na,b\n").as_bytes());
-            assert!(fault.unwrap_err().starts_with("tick_hz is"), "{wrong}");
-        }
-    }
-
-    #[test]
     fn what_a_spreadsheet_adds_is_left_out() {
         let file = "\u{feff}# tick_hz = 2000,,,,\r\n\"# scene = a,\"\"b\"\"\",,\r\n#,,\r\na,b\r\n";
         let (origin, lines, table) = split(file.as_bytes());

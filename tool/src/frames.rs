@@ -284,15 +284,15 @@ mod tests {
 
     proptest! {
         #[test]
-        fn how_a_sensor_sends_is_found(sent in decoder(), phase in 0.0..6.0) {
+        fn how_a_sensor_sends_is_found_and_what_the_module_takes_otherwise_is_named(
+            sent in decoder(),
+            taken in decoder(),
+            phase in 0.0..6.0,
+        ) {
             let seen = Seen::of(&swinging(sent, phase));
             prop_assert_eq!(seen.decoder, sent);
             prop_assert_eq!(seen.findings(sent), Vec::<String>::new());
-        }
-
-        #[test]
-        fn what_the_module_takes_otherwise_is_named(sent in decoder(), taken in decoder()) {
-            let found = Seen::of(&swinging(sent, 0.0)).findings(taken);
+            let found = seen.findings(taken);
             let names = |key: &str| found.iter().any(|found| found.contains(key));
             prop_assert_eq!(names("sum_rule"), sent.sum_rule != taken.sum_rule);
             prop_assert_eq!(names("byte_order"), sent.byte_order != taken.byte_order);

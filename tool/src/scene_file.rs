@@ -137,15 +137,4 @@ mod tests {
         let added = "plant.kind = 'ideal'\nplant.obstacle_deg = [100.0]\nplant.stiffness = 0.1\n";
         assert_eq!(found, SCENE.replace("plant.kind = 'ideal'\n", added));
     }
-
-    #[test]
-    fn what_the_scene_refuses_is_reported_by_its_key() {
-        let fault = edited(&["whisking.frequency_hz=99"]).unwrap_err();
-        assert!(
-            fault.contains("whisking.frequency_hz: found 99; allowed: a number from 0.05 to 25"),
-            "{fault}"
-        );
-        let fault = edited(&["motor.min_deg=170"]).unwrap_err();
-        assert!(fault.contains("allowed: below max_deg"), "{fault}");
-    }
 }

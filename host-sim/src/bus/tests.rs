@@ -2,12 +2,11 @@
 
 mod self_test;
 
-use embedded_hal::spi::{Operation, SpiDevice};
+use embedded_hal::spi::SpiDevice;
 use firmware::{BusError, FrameSource, Polled};
-use mlx90333::{Decoder, Error, Faults, FrameError, Mlx90333, Mode, SumRule, Word};
-use proptest::prelude::*;
+use mlx90333::{Decoder, Error, FrameError, Mlx90333, Mode, SumRule, Word};
 
-use super::{SimSpiError, Slave, WireFault};
+use super::{Slave, WireFault};
 
 const REST: [u8; 8] = [0xFF, 0x00, 0x80, 0x00, 0x80, 0x00, 0x00, 0x00];
 
@@ -57,83 +56,6 @@ fn the_line_is_a_wired_and() {
     // A read in which the master sends zeros says nothing of the sensor.
     slave.read(&mut bytes).unwrap();
     assert_eq!(bytes, [0; 8]);
-}
-
-#[test]
-fn operations_of_one_transaction_walk_through_one_frame() {
-    let mut slave = still();
-    slave.set([0.25, 0.0]);
-    let (mut first, mut rest, mut after) = ([0; 2], [0xFF; 4], [0xFF; 2]);
-    slave
-        .transaction(&mut [
-            Operation::Write(&[0xFF]),
-            Operation::DelayNs(50_000),
-            // The second byte is not given and goes out as zero.
-            Operation::Transfer(&mut first, &[0xFF]),
-            Operation::TransferInPlace(&mut rest),
-            Operation::DelayNs(12_500),
-            Operation::Transfer(&mut after, &[0xFF, 0xFF, 0xFF]),
-        ])
-        .unwrap();
-    assert_eq!(
-        (first, rest, after),
-        ([0x00, 0x00], [0x00, 0x80, 0, 0], [0x20, 0xFF])
-    );
-    let traffic = slave.traffic();
-    assert_eq!(
-        (traffic.transactions, traffic.bytes, traffic.delay_ns),
-        (1, 10, 62_500)
-    );
-    assert_eq!(
-        read(&mut slave)[2],
-        0xA0,
-        "the next transaction starts with its first byte"
-    );
-    assert_eq!(slave.traffic().transactions, 2);
-}
-
-#[test]
-fn each_fault_is_seen_as_what_it_is() {
-    let mut sensor = driver();
-    sensor.spi_mut().set([0.25, 0.0]);
-    let sums = FrameError::BadSum {
-        expected: 0x20,
-        found: 0x21,
-    };
-    // Bit 3 of the frame is in B0; bit 9 is the second of B1, worth 0x40.
-    let flipped = FrameError::BadSum {
-        expected: 0x60,
-        found: 0x20,
-    };
-    for (fault, error) in [
-        (WireFault::Silent, Error::Frame(FrameError::NoSensor)),
-        (WireFault::LineLow, Error::Frame(FrameError::LineLow)),
-        (WireFault::BadSum, Error::Frame(sums)),
-        (WireFault::Bus, Error::Bus(SimSpiError)),
-        (WireFault::Flip(3), Error::Frame(FrameError::BadStart(0xEF))),
-        (WireFault::Flip(9), Error::Frame(flipped)),
-        (
-            WireFault::LowAfterStart,
-            Error::Frame(FrameError::StuckWords),
-        ),
-    ] {
-        sensor.spi_mut().inject(fault, 2);
-        assert_eq!(sensor.read(), Err(error));
-        assert_eq!(sensor.read(), Err(error));
-        assert!(sensor.read().is_ok(), "{fault:?} passes after two frames");
-        sensor.spi_mut().set_fault(Some(fault));
-        assert!((0..5).all(|_| sensor.read() == Err(error)));
-        sensor.spi_mut().set_fault(None);
-        assert!(sensor.read().is_ok());
-    }
-    sensor.spi_mut().inject(WireFault::Flip(64), 1);
-    sensor.spi_mut().inject(WireFault::Bus, 0);
-    assert!(sensor.read().is_ok());
-
-    let faults = Faults::FIELD_TOO_LOW | Faults::DEAD_ZONE_BETA;
-    sensor.spi_mut().set_error_word(faults);
-    let reported = Error::Frame(FrameError::Sensor(faults));
-    assert_eq!(sensor.read(), Err(reported));
 }
 
 #[test]
@@ -199,16 +121,4 @@ fn noise_changes_every_frame_and_no_code() {
     let frame = Decoder::new().decode(&read(&mut noisy)).unwrap();
     assert_eq!(frame.first().code14(), 8192 + 4096 + 1024);
     assert_eq!(frame.second().code14(), 8192 + 4096);
-}
-
-proptest! {
-    /// Any deflection within range comes through to half a code.
-    #[test]
-    fn readings_are_within_half_a_code(x in -1.0_f64..=1.0, y in -1.0_f64..=1.0) {
-        let mut sensor = driver();
-        sensor.spi_mut().set([x, y]);
-        let frame = sensor.read().unwrap();
-        let near = |word: Word, value: f64| (f64::from(word.normalised()) - value).abs() < 6.2e-5;
-        prop_assert!(near(frame.first(), x) && near(frame.second(), y));
-    }
 }

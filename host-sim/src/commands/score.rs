@@ -169,17 +169,3 @@ fn decides(scene: &Scene, threshold: Option<f64>, model: ModelBuf) -> Result<Cla
     }
     Classifier::of_scene(model, &scene)
 }
-
-#[cfg(test)]
-mod tests {
-    use super::seeds;
-
-    #[test]
-    fn seeds_are_a_range_that_is_not_empty() {
-        assert_eq!(seeds("7..9"), Ok(7..9));
-        for wrong in ["", "7", "..", "7..", "..9", "9..7", "7..7", "-1..3", "a..b"] {
-            assert!(seeds(wrong).is_err(), "{wrong}");
-        }
-        assert!(seeds("0..18446744073709551615").is_err());
-    }
-}

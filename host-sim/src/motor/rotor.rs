@@ -151,39 +151,30 @@ mod tests {
     }
 
     #[test]
-    fn friction_alone_stops_at_the_textbook_distance() {
-        let law = Law {
-            push: 0.0,
-            rate: 0.0,
-            friction: 50.0,
-        };
-        for sign in [1.0, -1.0] {
+    fn friction_and_push_are_those_of_the_textbook() {
+        for (push, friction, speed, dt, expected) in [
+            // Stopped by friction alone after ω²/(2 a).
+            (0.0, 50.0, 10.0, 1.0, [1.0, 0.0]),
+            (0.0, 50.0, -10.0, 1.0, [-1.0, 0.0]),
+            // Braked at 40 for 0.5 s over 5 rad, then −20 for 1 s: −10 rad, −20 rad/s.
+            (-30.0, 10.0, 20.0, 1.5, [-5.0, -20.0]),
+        ] {
+            let rate = 0.0;
             let mut rotor = Rotor {
-                speed: sign * 10.0,
+                speed,
                 ..Rotor::default()
             };
-            rotor.advance(&law, 1.0);
-            assert_eq!(rotor.speed, 0.0);
-            // ω²/(2 a)
-            assert!((rotor.angle - sign).abs() < 1e-12);
+            rotor.advance(
+                &Law {
+                    push,
+                    rate,
+                    friction,
+                },
+                dt,
+            );
+            assert!((rotor.angle - expected[0]).abs() < 1e-12, "{rotor:?}");
+            assert!((rotor.speed - expected[1]).abs() < 1e-12, "{rotor:?}");
         }
-    }
-
-    #[test]
-    fn a_push_turns_the_rotor_round_through_rest() {
-        let law = Law {
-            push: -30.0,
-            rate: 0.0,
-            friction: 10.0,
-        };
-        let mut rotor = Rotor {
-            speed: 20.0,
-            ..Rotor::default()
-        };
-        // Braked at 40 for 0.5 s over 5 rad, then −20 for 1 s: −10 rad, −20 rad/s.
-        rotor.advance(&law, 1.5);
-        assert!((rotor.angle + 5.0).abs() < 1e-12);
-        assert!((rotor.speed + 20.0).abs() < 1e-12);
     }
 
     proptest! {

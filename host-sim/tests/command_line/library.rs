@@ -14,10 +14,6 @@ use crate::common::{IDEAL, SEQUENTIAL, TEXTURED, run};
 const fn is_send<T: Send>() {}
 const _: () = is_send::<Run>();
 
-fn elastic() -> String {
-    TEXTURED.replace("\"textured\"\nobstacle", "\"whisker\"\nobstacle")
-}
-
 fn scene(text: &str, seed: u64) -> Scene {
     let mut scene = Scene::from_str("s.toml", text).unwrap();
     scene.seed = seed;
@@ -46,11 +42,13 @@ fn see(run: &mut Run) -> Seen {
 /// Scenes of every plant, of both motors, in every number format, and of a sensor that holds.
 fn scenes() -> Vec<String> {
     let six_step = "[motor]\ndriver = \"six-step\"\n";
+    let poses = "gain_spread = 0.05\ntilt_spread_deg = 3\n";
+    let elastic = TEXTURED.replace("kind = \"textured\"", "kind = \"whisker\"");
     vec![
         format!("{TEXTURED}{SEQUENTIAL}"),
         format!("{TEXTURED}{six_step}"),
         TEXTURED.replace("noise =", "numbers = \"fixed\"\nnoise ="),
-        elastic(),
+        elastic.replace("exchange = \"timed\"\n", poses),
         TEXTURED.replace("kind =", "hysteresis_codes = 400\nkind ="),
         IDEAL.to_owned(),
         IDEAL.replace("noise =", "numbers = \"f64\"\nnoise ="),

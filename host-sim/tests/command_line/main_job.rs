@@ -1,6 +1,6 @@
 //! `host-sim` without arguments: trains on four textures and tells them apart.
 
-use crate::common::{Place, cells, decisions, line};
+use crate::common::{Place, decisions, line};
 
 const TEXTURES: [&str; 4] = ["smooth", "p600", "p240", "carpet"];
 
@@ -52,11 +52,6 @@ fn textures_are_distinguished_as_surely_as_is_said() {
     // Decisions are printed as they fall.
     let falls = ran.stdout.matches(" samples  ").count();
     assert_eq!(falls, decided.len());
-
-    let svg = place.text("out/bench-textures/bench-textures.svg");
-    assert!(svg.trim_start().starts_with("<svg") && svg.trim_end().ends_with("</svg>"));
-    let trace = place.text("out/bench-textures/trace.csv");
-    assert!(cells(&trace)[1][0].parse::<f64>().unwrap() > 0.0);
 
     // Its model is what `train` makes of its recording.
     let recorded = "out/bench-textures/training.csv";

@@ -137,6 +137,7 @@ fn what_is_odd_is_warned_of_with_its_line() {
         let warning = format!("\nwarning: r.csv:{line}: ");
         says(&printed, &[&warning, message]);
         says(PAGE, &[message]);
+        printed
     };
     let table = usual();
     let next = table.lines().count() + 2;
@@ -150,16 +151,24 @@ fn what_is_odd_is_warned_of_with_its_line() {
         &next.to_string(),
         "The rows of a trial must follow each other in time order; a piece counts as a trial",
     );
-    warned(
+    let printed = warned(
         format!("{table}{}", rows("low", 9, 1_000, 100..500)),
         "3",
         "What is held out is then not new, and figures are too good; trials must not overlap",
+    );
+    says(
+        &printed,
+        &["75 % of trial \"0\" of \"low\" is, sample for sample, in trial \"9\""],
     );
     place.write("r.csv", &table);
     place.write("copy.csv", &table);
     let printed = place.done("train --data r.csv --data copy.csv --out m");
     let copied = ["warning: r.csv:2: 100 % of trial", "in copy.csv too"];
     says(&printed.stdout, &copied);
+    assert!(!place.done(TRAINED).stdout.contains("warning"));
+    // What rests is equal by chance.
+    let rests = |trial| format!("low,{trial},8192,8192\n").repeat(200);
+    place.write("r.csv", [table, rests(7), rests(8)].concat());
     assert!(!place.done(TRAINED).stdout.contains("warning"));
 }
 

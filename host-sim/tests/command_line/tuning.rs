@@ -114,15 +114,6 @@ fn running(run: &mut Run) -> (Vec<u8>, bool) {
     (bytes, is_other)
 }
 
-#[test]
-fn a_module_says_the_configuration_of_its_scene() {
-    for (numbers, bytes_of) in FORMATS {
-        let scene = scene(numbers, &[]);
-        let (bytes, is_other) = running(&mut run(&scene));
-        assert!(bytes == *bytes_of(&scene) && !is_other, "{numbers}");
-    }
-}
-
 /// Keys that can be set while a module runs, some of a scene that differs by others; and the
 /// field of those whose limit protects. But for what the scene's start is computed from, of
 /// which there is a test of its own, and of the stop, which the world has too.

@@ -6,8 +6,6 @@ mod looking;
 
 use std::path::Path;
 
-use firmware::NodeEvent;
-use host_sim::bench::Happened;
 use host_sim::run::Run;
 use scene::{Override, Scene};
 
@@ -168,59 +166,6 @@ fn sides_on_many_boards_whisk_together_as_on_one() {
         println!("{hz} Hz: sides {one:.3} degrees apart on one board, {many:.3} on 24");
         assert!((many - one).abs() < 1.0);
     }
-}
-
-/// A board that is reset computes on with its motors off, takes the others' phase, and is armed
-/// by command alone; meanwhile the next one leads, and no setpoint steps.
-#[test]
-fn a_board_that_returns_takes_the_phase_of_the_others() {
-    let scene = whole(
-        24,
-        2.0,
-        &["whisking.noise=0.0", "plant.obstacle_deg=[300.0, 300.0]"],
-    );
-    let mut run = Run::new(&scene, None).unwrap();
-    let mut fastest = 0.0_f64;
-    let mut last = f64::NAN;
-    for tick in 0..8_000 {
-        match tick {
-            // In the middle of a whisk.
-            4_300 => run.bus().unwrap().reset(0),
-            6_000 => run.bus().unwrap().arm(5, true),
-            _ => {}
-        }
-        let theta = run.tick().theta_deg[1];
-        if tick > 0 && tick < 4_000 {
-            fastest = fastest.max((theta - last).abs());
-        }
-        if tick > 4_000 {
-            assert!((theta - last).abs() <= 1.001 * fastest, "{tick}");
-        }
-        last = theta;
-        let bus = run.bus().unwrap();
-        if (4_300..6_000).contains(&tick) {
-            assert!(!bus.is_armed(0) && bus.is_armed(1));
-        }
-        if tick == 4_500 {
-            assert!(bus.is_joined(0), "within 100 ms: {:?}", bus.happened());
-        }
-    }
-    let theta = run.row().theta_deg;
-    let mut rows = Vec::new();
-    run.look_at_whiskers(&mut rows);
-    println!(
-        "θ' of the board that returned {:.4}, of its neighbour {:.4}",
-        theta[0], rows[1].theta_deg
-    );
-    assert!((theta[0] - rows[1].theta_deg).abs() < 0.05);
-    let bus = run.bus().unwrap();
-    assert!((0..24).all(|node| bus.is_armed(node)));
-    let lost = |happened: &&Happened| happened.what == NodeEvent::Lost(0);
-    assert_eq!(
-        bus.happened().iter().filter(lost).count(),
-        0,
-        "it was back before it was missed"
-    );
 }
 
 #[test]

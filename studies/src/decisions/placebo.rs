@@ -85,20 +85,3 @@ pub(crate) fn permuted(names: &[&str], label: &str, trial: u64) -> String {
     let name = turned.and_then(|place| names.get(place));
     name.map_or_else(|| label.to_owned(), |name| (*name).to_owned())
 }
-
-#[cfg(test)]
-mod tests {
-    use super::permuted;
-
-    #[test]
-    fn each_name_has_every_texture_once_in_as_many_trials_as_names() {
-        let names = ["a", "b", "c"];
-        for name in names {
-            let called = (0..3).map(|trial| permuted(&names, name, trial));
-            let mut called: Vec<_> = called.collect();
-            called.sort();
-            assert_eq!(called, names);
-        }
-        assert_eq!(permuted(&names, "free", 1), "free");
-    }
-}

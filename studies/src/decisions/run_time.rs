@@ -207,19 +207,3 @@ fn instructions(counts: &Counts, block: u32) -> String {
     let cell = |target| of(target).map_or_else(|| "not counted".to_owned(), |n| format!("{n:.0}"));
     TARGETS.map(cell).join("; ")
 }
-
-#[cfg(test)]
-mod tests {
-    use super::{Counts, instructions};
-
-    #[test]
-    fn the_end_of_a_block_is_shared_among_its_samples() {
-        // 100 a sample and 200 for the end, counted with blocks of 40.
-        let table = b"kernel,format,target,mean,worst\n\
-            joint classifier push K=4,integer,cortex-m4f,105,300\n";
-        let counts = Counts::parse(table).unwrap();
-        assert_eq!(instructions(&counts, 40), "105; not counted");
-        assert_eq!(instructions(&counts, 20), "110; not counted");
-        assert_eq!(instructions(&counts, 5), "140; not counted");
-    }
-}

@@ -195,28 +195,7 @@ fn by_drive(
 
 #[cfg(test)]
 mod tests {
-    use super::{Windows, by_drive, windows};
-    use host_sim::recording::Stream;
-
-    #[test]
-    fn windows_are_whole_and_a_short_drive_is_one() {
-        let drive = |length| Stream {
-            label: "ice".to_owned(),
-            trial: "1".to_owned(),
-            samples: vec![[0.0; 2]; length],
-            contact: None,
-            touch: None,
-            pose: None,
-            stands: None,
-        };
-        let lengths = |length| {
-            let windows = windows(&drive(length));
-            windows.iter().map(|w| w.samples.len()).collect::<Vec<_>>()
-        };
-        assert_eq!(lengths(4999), [2000, 2000]);
-        assert_eq!(lengths(950), [950]);
-        assert!(lengths(0).is_empty());
-    }
+    use super::{Windows, by_drive};
 
     #[test]
     fn a_drive_is_one_observation_and_none_without_windows() {

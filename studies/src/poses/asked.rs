@@ -84,17 +84,3 @@ pub(super) fn at_least(share: Interval, goal: f64) -> bool {
 pub(super) fn at_most(share: Interval, goal: f64) -> bool {
     100.0 * share.low <= goal
 }
-
-#[cfg(test)]
-mod tests {
-    use super::mean_within;
-
-    #[test]
-    fn an_interval_of_a_mean_is_students() {
-        let [low, mean, high] = mean_within([1.0, 2.0, 3.0, f64::NAN].into_iter());
-        assert!((mean - 2.0).abs() < 1e-12);
-        // 4.303 · 1/√3.
-        assert!((high - mean - 2.484).abs() < 1e-3 && (mean - low - 2.484).abs() < 1e-3);
-        assert_eq!(mean_within([5.0].into_iter()), [5.0; 3]);
-    }
-}

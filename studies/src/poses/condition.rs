@@ -184,7 +184,7 @@ impl<'s> Setting<'s> {
 
 #[cfg(test)]
 mod tests {
-    use super::{Change, SURFACES, Setting, WHISKER};
+    use super::Change;
 
     #[test]
     fn what_is_recorded_is_changed_about_the_middle() {
@@ -196,17 +196,5 @@ mod tests {
         assert_eq!(mixed, [8162.0, 9192.0]);
         assert_eq!(Change::ScaleX(2.0).sensed([16000.0, 1.0]), [16383.0, 1.0]);
         assert_eq!(Change::Tilt(18.0).sensed([1.0, 2.0]), [1.0, 2.0]);
-    }
-
-    #[test]
-    fn with_another_friction_each_texture_is_there() {
-        let setting = Setting {
-            seconds: Some(10.0),
-            ..Setting::of(WHISKER, &[Change::Friction(0.7)])
-        };
-        let streams = setting.record(3).unwrap();
-        let labels = streams.iter().map(|stream| stream.label.as_str());
-        let names = SURFACES.map(|(name, _)| name);
-        assert_eq!(labels.collect::<Vec<_>>(), names);
     }
 }

@@ -147,11 +147,4 @@ mod tests {
         assert_eq!(Tally::sum(&parts), tally);
         assert_eq!(tally.right_share().count, 2);
     }
-
-    #[test]
-    fn without_a_name_nothing_is_right_or_short() {
-        let tally = Tally::of(&[shown("ice", &[3])]);
-        assert!(tally.short().is_nan() && tally.right_share().share.is_nan());
-        assert_eq!(tally.decided_share().share, 0.0);
-    }
 }

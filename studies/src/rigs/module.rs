@@ -232,12 +232,6 @@ mod tests {
         cia: None,
     };
 
-    #[test]
-    fn the_dead_band_is_where_friction_holds() {
-        // 3e-5 N·m of friction over 0.05 · 2.5e-3 · 6 / 25 N·m a degree.
-        assert!((CONTROL.dead_band_deg() - 1.0).abs() < 1e-12);
-    }
-
     /// At rest the duty k_p e balances load and friction: the drive is
     /// k U/R · k_p e at the rotor, so that a load of τ leaves an error between
     /// (τ/G ± τ_c)/(k_p k U/R).

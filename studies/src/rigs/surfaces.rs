@@ -91,26 +91,3 @@ pub(super) fn defaults() -> Table {
     };
     Table::from_iter(ALL.map(table))
 }
-
-#[cfg(test)]
-mod tests {
-    use super::ALL;
-    use crate::rigs::Rigs;
-    use physics::{Grit, Material, Surface};
-
-    #[test]
-    fn surfaces_are_those_of_the_physics_but_for_what_is_set() {
-        let usual = Rigs::with(&[]).surfaces;
-        for (_, material) in ALL {
-            assert_eq!(usual.of(material), Surface::of(material));
-        }
-        let other = Rigs::with(&["surfaces.p80.grain_m=3e-4"]).surfaces;
-        let p80 = Material::Sandpaper(Grit::P80);
-        let expected = Surface {
-            grain_m: 3e-4,
-            ..Surface::of(p80)
-        };
-        assert_eq!(other.of(p80), expected);
-        assert_eq!(other.of(Material::Vinyl), Surface::of(Material::Vinyl));
-    }
-}

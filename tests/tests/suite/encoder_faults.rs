@@ -1,7 +1,7 @@
 //! Encoders that stand still, and motors that are not as the scene has them: the ones are off before
 //! the whisker is far, the others are no fault.
 
-use crate::played::{LEFT, TICK_HZ, alone, angles, error_deg, extent, play, setpoints};
+use crate::played::{LEFT, TICK_HZ, alone, error_deg, play, setpoints};
 use firmware::Event;
 use host_sim::motor::{EncoderFlaws, SimMotor, Wire};
 use host_sim::trace::Row;
@@ -212,25 +212,5 @@ fn what_makes_a_whisker_heavy_while_it_runs_is_no_fault() {
             });
             assert_eq!(played.events, [], "{name} at {frequency_hz} Hz");
         }
-    }
-}
-
-/// A finger that holds the whisker for 0.3 s each second costs no motor, and between its touches
-/// the whisker whisks.
-#[test]
-fn a_finger_now_and_then_costs_no_motor() {
-    for frequency_hz in [0.5, 2.0, 8.0] {
-        let played = play(&alone(frequency_hz, ""), 60 * TICK_HZ, |tick, run| {
-            let holds = tick > TICK_HZ && tick % TICK_HZ < 3 * TICK_HZ / 10;
-            run.motor_mut(0).unwrap().block(holds);
-        });
-        let has = |wanted: Event| {
-            let events = played.events.iter();
-            events.filter(|(_, event)| *event == wanted).count()
-        };
-        assert_eq!(has(GIVEN_UP), 0, "{frequency_hz} Hz");
-        assert!(has(Event::MotorRetry(LEFT)) > 5, "{frequency_hz} Hz");
-        let late = &angles(&played, 0)[50 * TICK_HZ as usize..];
-        assert!(extent(late) > 20.0, "{frequency_hz} Hz: it whisks");
     }
 }

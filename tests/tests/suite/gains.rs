@@ -1,10 +1,9 @@
 //! Gains that a motor bears, by the model that a board and a PC hold them against: steps of motors
 //! that are not quite as the model has them.
 
-use config::{RunsOn, Target};
+use crate::played::{BOARD, alone};
 use rand_core::{Rng, SeedableRng};
 use rand_xoshiro::Xoshiro256PlusPlus;
-use scene::Scene;
 use whisking::motor::ModelSettings;
 use whisking::pd;
 
@@ -143,20 +142,7 @@ fn under_gains_that_are_taken_every_motor_comes_to_rest() {
 }
 
 fn refusal(keys: &str) -> Option<String> {
-    let text = format!(
-        "name = \"gains\"\ntick_hz = 2000\nduration_s = 1\nseed = 1\n\
-         [head]\nwhiskers_per_side = 1\nsides = \"left\"\n\
-         [whisking]\nfrequency_hz = 2.0\nintegrator = \"exact\"\ncoupling = false\n\
-         noise = 0.0\ngain = 1.0\nstart = [[1.0, 0.0]]\n[plant]\nkind = \"ideal\"\n[motor]\n{keys}"
-    );
-    let scene = Scene::from_str("gains.toml", &text).unwrap();
-    let target = Target {
-        runs_on: RunsOn::Board,
-        gate: None,
-        classes: None,
-        overrides: "",
-    };
-    let built = config::build::<f32>(&scene, target);
+    let built = config::build::<f32>(&alone(2.0, keys), BOARD);
     built.err().map(|mismatch| mismatch.to_string())
 }
 

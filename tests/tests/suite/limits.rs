@@ -2,8 +2,7 @@
 
 use proptest::prelude::*;
 
-use crate::played::{TICK_HZ, alone_with, play};
-use config::{RunsOn, Target};
+use crate::played::{BOARD, TICK_HZ, alone_with, play};
 use firmware::{Config, Event, decode, encode};
 use host_sim::motor::{EncoderFlaws, Wire};
 use scene::Scene;
@@ -46,13 +45,7 @@ fn keys() -> impl Strategy<Value = String> {
 /// it say the same.
 fn is_taken(scene: &Scene) -> bool {
     fn reads<R: whisking::Number>(scene: &Scene) -> bool {
-        let target = Target {
-            runs_on: RunsOn::Board,
-            gate: None,
-            classes: None,
-            overrides: "",
-        };
-        let Ok(config) = config::build::<R>(scene, target) else {
+        let Ok(config) = config::build::<R>(scene, BOARD) else {
             return false;
         };
         let board = firmware::BoardCode::NucleoF446re;

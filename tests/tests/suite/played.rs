@@ -1,5 +1,6 @@
 //! A scene played tick by tick, with a hand on its sensors.
 
+use config::{RunsOn, Target};
 use firmware::design_parameters::{HOLD_S, RECOVER_S, ticks};
 use firmware::{Event, Place, SensorFault};
 use host_sim::run::Run;
@@ -22,6 +23,14 @@ pub(crate) const fn of(seconds: f64) -> u64 {
 
 /// The first whisker of the left side.
 pub(crate) const LEFT: Place = Place::new(0, 0);
+
+/// What a board without a model is configured for.
+pub(crate) const BOARD: Target<'_> = Target {
+    runs_on: RunsOn::Board,
+    gate: None,
+    classes: None,
+    overrides: "",
+};
 
 /// What came of a scene; a row a tick.
 pub(crate) struct Played {

@@ -15,6 +15,10 @@ use scene::Scene;
 const FROZEN: u64 = TICK_HZ / 4;
 /// When a fault begins, while the left side protracts.
 const START: u64 = 1440;
+/// Where no whisker gets in a tick.
+const FAR: WireFault = WireFault::Shift(0x7000);
+/// After how many ticks faults are too many, at least and at most.
+const SOON: [u64; 2] = [HOLD, TICK_HZ / 10];
 
 fn slave(run: &mut Run) -> &mut Slave {
     run.slave_mut(0).unwrap()
@@ -24,26 +28,46 @@ fn befallen(scene: &Scene, length: u64, fault: impl Fn(u64) -> Option<WireFault>
     play(scene, length, |tick, run| slave(run).set_fault(fault(tick)))
 }
 
-#[track_caller]
-fn is_off(played: &Played, ticks: std::ops::Range<u64>) {
-    let course = angles(played, 0);
-    let off = &course[ticks.start as usize + 200..ticks.end as usize];
-    assert!(extent(off) < 0.01, "it is driven");
+/// A line that is so from [`START`] on, in every tick or every second one; what it is found to be,
+/// and after how many ticks. A data line that is held low from the second byte on has the right
+/// sum.
+#[test]
+fn what_is_no_reading_switches_the_motor_off_until_it_is_one() {
+    let (scene, mended, length) = (free(1), START + 2 * TICK_HZ, START + 3 * TICK_HZ);
+    let stuck = SensorFault::Frame(FrameError::StuckWords);
+    for (line, every, found, [least, most]) in [
+        (WireFault::Frozen, 1, SensorFault::Frozen, [FROZEN; 2]),
+        (WireFault::LowAfterStart, 1, stuck, [HOLD; 2]),
+        (FAR, 2, SensorFault::Jump, SOON),
+        (WireFault::Silent, 2, SensorFault::Often(18), SOON),
+    ] {
+        let played = befallen(&scene, length, |tick| {
+            let is_so = (START..mended).contains(&tick) && tick % every == 0;
+            is_so.then_some(line)
+        });
+        let (tick, fault, back) = lost(&played);
+        assert_eq!(fault, found);
+        let after = tick - START;
+        assert!((least..=most).contains(&after), "{line:?}: {after}");
+        // The first good one counts, or comes some ticks after a bad one.
+        let expected = mended + RECOVER - every..=mended + RECOVER;
+        assert!(expected.contains(&back.unwrap()), "{line:?}: {back:?}");
+        let course = angles(&played, 0);
+        let off = &course[tick as usize + 200..mended as usize];
+        assert!(extent(off) < 0.01, "{line:?}: it is driven");
+        // A repeat counts for as long as a reading is held, and then none does.
+        let none = if every == 1 { START + HOLD } else { tick };
+        let mut heard = played.heard.iter();
+        assert!(!heard.any(|(tick, _)| (none..mended).contains(tick)));
+    }
 }
 
 #[test]
-fn frozen_frames_are_a_fault_until_they_change() {
-    let (scene, mended, length) = (free(1), START + 2 * TICK_HZ, START + 3 * TICK_HZ);
-    let frozen = |tick| (START..mended).contains(&tick).then_some(WireFault::Frozen);
-    let played = befallen(&scene, length, frozen);
-    let (tick, fault, back) = lost(&played);
-    assert_eq!((tick, fault), (START + FROZEN, SensorFault::Frozen));
-    assert_eq!(back, Some(mended + RECOVER - 1));
-    is_off(&played, tick..mended);
-    // A repeat counts for as long as a reading is held, and then none does.
-    let is_lost = START + HOLD..mended;
-    let heard = played.heard.iter();
-    assert_eq!(heard.filter(|(tick, _)| is_lost.contains(tick)).count(), 0);
+fn one_jump_is_bridged() {
+    let once = befallen(&free(1), START + 400, |tick| (tick == START).then_some(FAR));
+    assert_eq!(once.events, []);
+    let [before, after] = [START - 1, START].map(|tick| once.heard[tick as usize].1);
+    assert_eq!(before, after, "the reading before it is held");
 }
 
 /// A sensor without noise above its resolution, before nothing and where nothing moves.
@@ -56,45 +80,6 @@ fn sensors_that_have_nothing_to_feel_are_not_frozen() {
         let played = undisturbed(&scene, 5 * TICK_HZ);
         assert_eq!(played.events, []);
     }
-}
-
-/// The data line held low from the second byte on: the sum is right.
-#[test]
-fn a_line_that_is_low_after_the_first_byte_is_no_reading() {
-    let low = |tick| (tick >= START).then_some(WireFault::LowAfterStart);
-    let played = befallen(&free(1), START + TICK_HZ, low);
-    let (tick, fault, _) = lost(&played);
-    let stuck = SensorFault::Frame(FrameError::StuckWords);
-    assert_eq!((tick, fault), (START + HOLD, stuck));
-    is_off(&played, tick..START + TICK_HZ);
-}
-
-/// One jump is bridged; what jumps about for 0.1 s is no whisker.
-#[test]
-fn jumps_are_bridged_and_then_a_fault() {
-    let scene = free(1);
-    let far = WireFault::Shift(0x7000);
-    let once = befallen(&scene, START + 400, |tick| (tick == START).then_some(far));
-    assert_eq!(once.events, []);
-    let [before, after] = [START - 1, START].map(|tick| once.heard[tick as usize].1);
-    assert_eq!(before, after, "the reading before it is held");
-
-    let about = |tick| (tick >= START && tick % 2 == 0).then_some(far);
-    let played = befallen(&scene, START + TICK_HZ, about);
-    let (tick, fault, _) = lost(&played);
-    assert_eq!(fault, SensorFault::Jump);
-    assert!(tick - START < TICK_HZ / 10, "{tick}");
-    is_off(&played, tick..START + TICK_HZ);
-}
-
-#[test]
-fn a_line_that_loses_every_second_frame_is_a_fault() {
-    let every_second = |tick| (tick >= START && tick % 2 == 0).then_some(WireFault::Silent);
-    let played = befallen(&free(1), START + TICK_HZ, every_second);
-    let (tick, fault, _) = lost(&played);
-    assert_eq!(fault, SensorFault::Often(18));
-    assert!(tick - START < TICK_HZ / 10, "{tick}");
-    is_off(&played, tick..START + TICK_HZ);
 }
 
 /// A whisker that is bent as far and as fast as one can be is believed.

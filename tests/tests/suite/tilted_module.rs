@@ -1,11 +1,10 @@
 //! A module whose whiskers have TMAG5170s: it feels what they are bent by, as noisily as such a
-//! sensor does, and a broken wire switches the motor off until it is mended.
+//! sensor does.
 
-use crate::played::{HOLD, LEFT, RECOVER, angles, extent, play, scene, textured, undisturbed};
-use firmware::{Event, SensorFault, TiltFault};
+use crate::played::{play, scene, textured, undisturbed};
+use firmware::Event;
 use host_sim::bus::tmag5170::LineFault;
 use scene::Scene;
-use tmag5170::ReplyError;
 
 fn tilted() -> Scene {
     let more = "[rcp]\ngain = 0.7\ntau_s = 0.0625\n[sensor]\nmodel = \"tmag5170\"\n";
@@ -46,39 +45,6 @@ fn it_feels_what_it_is_bent_by() {
         let rms = (of_axis.sum::<f64>() / rest.len() as f64).sqrt();
         assert!((rms / NOISE - 1.0).abs() < 0.1, "{rms} {NOISE}");
     }
-}
-
-#[test]
-fn a_cut_wire_switches_it_off_until_it_is_mended() {
-    let [cut, mended] = [2000, 3000];
-    let played = play(&tilted(), 4000, |tick, run| {
-        assert!(run.slave_mut(0).is_none(), "it is no MLX90333");
-        let slave = run.tmag_mut(0).unwrap();
-        if tick == cut {
-            slave.set_fault(Some(LineFault::Silent));
-        } else if tick == mended {
-            slave.set_fault(None);
-        }
-    });
-    let fault = SensorFault::Tilt(TiltFault::Reply(ReplyError::NoSensor));
-    assert_eq!(fault.code(), 27);
-    let sensors = |event: &Event| matches!(event, Event::SensorLost(..) | Event::SensorBack(_));
-    let of_sensor = played.events.iter().filter(|(_, event)| sensors(event));
-    let of_sensor: Vec<_> = of_sensor.collect();
-    let [(lost, loss), (back, recovery)] = of_sensor[..] else {
-        panic!("{of_sensor:?}");
-    };
-    let expected = (cut + HOLD, Event::SensorLost(LEFT, fault));
-    assert_eq!((*lost, *loss), expected);
-    assert_eq!(*recovery, Event::SensorBack(LEFT));
-    // It is asked every few ticks while it is lost, and may have to be set up again.
-    let earliest = mended + RECOVER - 1;
-    assert!(
-        (earliest..earliest + 10).contains(back),
-        "{back} {earliest}"
-    );
-    // The other side whisks on.
-    assert!(extent(&angles(&played, 1)[2100..2900]) > 20.0);
 }
 
 /// What the end of the range means is said once, as a limit, and the whisker feels nothing.

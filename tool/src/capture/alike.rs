@@ -97,36 +97,27 @@ mod tests {
         felt
     }
 
+    /// Touches that scatter, of which the later half differs from the first by so much or not.
     #[test]
-    fn touches_that_scatter_are_alike() {
-        let touches: Vec<_> = (0..20).map(|n| touch(n, 9000, 40 + n as u16 % 5)).collect();
-        assert_eq!(drift(&touches), None);
-    }
-
-    #[test]
-    fn a_later_half_that_bends_more_is_reported() {
-        let bend = |n| if n < 10 { 9000 } else { 9200 };
-        let touches: Vec<_> = (0..20).map(|n| touch(n, bend(n), 40)).collect();
-        let (sign, [early, late]) = drift(&touches).unwrap();
-        assert_eq!(sign, "deflection");
-        assert!((late - early - 200.0).abs() < 15.0, "{early} {late}");
-    }
-
-    #[test]
-    fn so_is_one_that_is_rougher() {
-        let rough = |n| if n < 10 { 40 } else { 60 };
-        let of = |n| touch(n, 9000 - rough(n) / 2, rough(n));
-        let touches: Vec<_> = (0..20).map(of).collect();
-        let (sign, [early, late]) = drift(&touches).unwrap();
-        assert_eq!(sign, "roughness");
-        assert!((late - early - 1.5_f64.ln()).abs() < 1e-9);
-    }
-
-    #[test]
-    fn of_few_touches_nothing_is_said() {
-        let touches: Vec<_> = (0..7)
-            .map(|n| touch(n, 9000 + 100 * n as u16, 40))
-            .collect();
-        assert_eq!(drift(&touches), None);
+    fn a_later_half_that_bends_more_or_is_rougher_is_reported() {
+        let drifts = |count: u32, bend: u16, roughness: u16| {
+            let half = |n| u16::from(n >= count / 2);
+            let of = |n| {
+                let step = 40 + roughness * half(n);
+                touch(n, 9000 + bend * half(n) - step / 2, step)
+            };
+            drift(&(0..count).map(of).collect::<Vec<_>>())
+        };
+        assert_eq!(drifts(20, 0, 1), None);
+        for (bend, roughness, sign, expected) in [
+            (200, 0, "deflection", 200.0),
+            (0, 20, "roughness", 1.5_f64.ln()),
+        ] {
+            let (found, [early, late]) = drifts(20, bend, roughness).unwrap();
+            assert_eq!(found, sign);
+            let off = (late - early) / expected - 1.0;
+            assert!(off.abs() < 0.08, "{sign}: {early} {late}");
+        }
+        assert_eq!(drifts(7, 900, 0), None, "they are few");
     }
 }

@@ -171,24 +171,4 @@ mod tests {
         assert_eq!(streams[0].trial, "3");
         assert_eq!(count(streams.iter()), 5);
     }
-
-    #[test]
-    fn a_touch_that_is_cut_by_lost_records_does_not_count() {
-        let mut touches = Touches::new("felt", 0);
-        touches.take(&sample(0, 0.0));
-        touches.take(&sample(1, 0.1));
-        touches.interrupt();
-        assert!(!touches.take(&sample(0, 0.1)));
-        assert!(touches.felt.is_empty());
-        // After one that counts the trial ends where the next was cut.
-        touches.take(&sample(2, 0.1));
-        assert!(touches.take(&sample(0, 0.0)));
-        touches.take(&sample(3, 0.1));
-        touches.interrupt();
-        touches.take(&sample(4, 0.1));
-        assert!(touches.take(&sample(0, 0.0)));
-        let streams = touches.into_streams();
-        let numbers: Vec<_> = streams.iter().map(|stream| stream.touch.clone()).collect();
-        assert_eq!(numbers, [Some(vec![0, 2, 0]), Some(vec![4, 0])]);
-    }
 }

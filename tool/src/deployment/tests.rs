@@ -5,7 +5,7 @@ use firmware::{ConfigError, Part, refusal_code};
 use tactile::train::{Options, Trainer};
 use wire::{Command, CommandStatus};
 
-use super::{BoardFacts, Deployment, Loaded, ModelBuf, Program, Running, files};
+use super::{BoardFacts, Deployment, Loaded, ModelBuf, Program, files};
 use crate::conversation::Conversation;
 use crate::source::{Scripted, scene_file};
 
@@ -196,16 +196,4 @@ fn a_part_that_the_image_has_not_is_refused_before_anything_is_written() {
         Ok(())
     );
     assert_eq!(tried((CommandStatus::Done, [0; 2])), Ok(()));
-}
-
-#[test]
-fn bytes_of_any_other_kind_are_no_configuration() {
-    assert!(Running::of(Vec::new()).is_err());
-    let whole = on(&NUCLEO_F446RE, loaded("bench.toml", &[]), None).unwrap();
-    let whole = whole.config.bytes().to_vec();
-    for at in [0, 4, 6, 7, 20, whole.len() - 1] {
-        let mut bytes = whole.clone();
-        bytes[at] ^= 0x40;
-        assert!(Running::of(bytes).is_err(), "byte {at}");
-    }
 }

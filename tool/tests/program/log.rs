@@ -3,27 +3,6 @@
 use crate::common::{Place, bench_with};
 
 #[test]
-fn it_tells_touches_and_decisions_in_their_time() {
-    let place = Place::new();
-    let ran = place.done("log --seconds 2.6 --sim @textures.toml");
-    let lines: Vec<&str> = ran.stdout.lines().collect();
-    let times = lines.iter().map(|line| {
-        let (time, _) = line.split_once(' ').unwrap();
-        time.parse::<f64>().unwrap()
-    });
-    let times: Vec<f64> = times.collect();
-    assert!(times.is_sorted(), "{times:?}");
-    assert!(
-        times.iter().all(|t_s| (1.0..2.6).contains(t_s)),
-        "{times:?}"
-    );
-    let has = |what: &str| lines.iter().filter(|line| line.contains(what)).count();
-    // Whisking at 2 Hz, after a second in which touches are not reported yet.
-    assert_eq!(has("INFO  end left "), 3, "{lines:?}");
-    assert!(has("INFO  decision left smooth 99.") >= 3, "{lines:?}");
-}
-
-#[test]
 fn where_nothing_is_logged_it_says_why() {
     let place = Place::new();
     place.write("still.toml", &bench_with(&[("[100.0]", "[140.0]")]));

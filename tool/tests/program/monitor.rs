@@ -6,7 +6,7 @@ use std::time::Duration;
 
 use serde_json::Value;
 
-use crate::common::{Place, TWO_SIDES, bench_with};
+use crate::common::Place;
 use crate::messages::channels;
 use terminal::Terminal;
 
@@ -71,7 +71,7 @@ fn a_person_watches_and_stops() {
     ] {
         seen.wait_for(word);
     }
-    assert!(seen.is_raw() && seen.is_alternate());
+    assert!(seen.is_raw() && seen.is_alternate() && seen.has_colour());
     // Of two sides there is one.
     seen.press(b"\t");
     seen.wait_for("touch 1");
@@ -181,24 +181,6 @@ fn who_ends_by_q_leaves_the_module_as_it_is() {
     let (records, is_stopped) = recorded(&place, "r.mcap");
     assert!(!is_stopped && is_whole(&records));
     assert_eq!(records.last().unwrap()["armed"], true);
-}
-
-#[test]
-fn two_whiskers_are_shown_one_by_one_and_together() {
-    let place = Place::new();
-    place.write("two.toml", &bench_with(TWO_SIDES));
-    let mut seen = Terminal::start(&place, "monitor --sim two.toml", (120, 40), &[]);
-    seen.wait_for("[ARMED]");
-    assert!(seen.has_colour());
-    seen.press(b"\t");
-    seen.wait_for("\nright [ARMED]");
-    seen.press(b"\t");
-    seen.wait_for("\nleft  [ARMED]");
-    seen.wait_for("\nright [ARMED]");
-    let charts = seen.line("measured");
-    assert!(charts.contains(" left ") && charts.contains(" right "));
-    seen.press(CONTROL_C);
-    assert_eq!(seen.ends(), Some(0));
 }
 
 #[test]

@@ -6,7 +6,7 @@ use firmware::boards::Pacing;
 use firmware::faults::number;
 use firmware::{READINGS, SelfTest};
 use mlx90333::timing::SS_HIGH_US;
-use mlx90333::{ByteOrder, Decoder, Faults, Mlx90333, SumRule};
+use mlx90333::{Decoder, Faults, Mlx90333};
 
 use super::super::{SimSpiError, Slave, WireFault};
 
@@ -105,21 +105,4 @@ fn faults_are_counted_by_their_numbers_and_each_is_rested_after() {
     slave.set_error_word(Faults::FIELD_TOO_LOW);
     let (found, _) = test(&mut slave);
     assert_eq!(faults(&found), [(number::SENSOR_REPORT, READINGS)]);
-}
-
-#[test]
-fn a_sensor_that_sums_otherwise_gives_no_frame() {
-    let decoder = Decoder {
-        sum_rule: SumRule::ComplementB0B6,
-        byte_order: ByteOrder::Big,
-        ..Decoder::new()
-    };
-    let mut slave = Slave::of(decoder);
-    slave.set([0.1, 0.2]);
-    let (found, _) = test(&mut slave);
-    assert_eq!(found.good(), 0);
-    assert_eq!(faults(&found), [(number::BAD_SUM, READINGS)]);
-    let mut sensor = Mlx90333::new(slave, decoder);
-    let found = SelfTest::of(&mut sensor, &mut Waited::default(), PACING);
-    assert_eq!(found.good(), READINGS);
 }

@@ -232,16 +232,6 @@ fn a_restart_brings_the_scene_s_pose_back_and_the_air_has_none() {
     assert!(!plant.touches());
 }
 
-#[test]
-fn a_free_whisker_reads_nothing_at_rest() {
-    let free = Head::free(2, 1);
-    let mut plant = Elastic::new(free, quiet(Shaft::floor_robot()), 1).unwrap();
-    for _ in 0..100 {
-        plant.advance(&[120.0, 20.0], TICK_S);
-    }
-    assert_eq!([plant.deflection(0), plant.deflection(1)], [[0.0; 2]; 2]);
-}
-
 fn shown(
     settings: &ElasticSettings,
     texture: Texture,
@@ -270,38 +260,6 @@ fn an_own_surface_is_felt_as_what_it_is() {
 fn the_seed_decides_everything_for_each_whisker() {
     let settings = ElasticSettings::of(Shaft::biotact(Biotact::Middle));
     seed_decides(|whiskers, seed| shown(&settings, Texture::P240, whiskers, seed));
-}
-
-#[test]
-fn textures_shake_more_than_smooth_plastic() {
-    // Eight pieces of each, as pieces differ; without the sensor's noise, which
-    // would shake as much as fine paper does.
-    let shaking = |texture| {
-        let all = shown(&quiet(Shaft::biotact(Biotact::Middle)), texture, 8, 5);
-        let changes = |one: &Vec<[f64; 2]>| -> f64 {
-            let pairs = one.windows(2);
-            pairs.map(|pair| (pair[1][1] - pair[0][1]).powi(2)).sum()
-        };
-        all.iter().map(changes).sum::<f64>()
-    };
-    let smooth = shaking(Texture::Smooth);
-    // Fine paper does by its friction more than by its grains.
-    for (texture, times) in [(Texture::P240, 1.25), (Texture::Carpet, 3.0)] {
-        let times_more = shaking(texture) / smooth;
-        assert!(times_more > times, "{texture} {times_more}");
-    }
-}
-
-#[test]
-fn another_presentation_is_another_piece() {
-    let settings = quiet(Shaft::biotact(Biotact::Middle));
-    let mut plant = Elastic::new(head(1), settings, 5).unwrap();
-    plant.present(Texture::P240);
-    let first = plant.piece(0);
-    plant.present(Texture::P240);
-    assert_ne!(first, plant.piece(0));
-    assert_ne!(plant.piece(1), plant.piece(0));
-    assert_eq!(first.grain_m, plant.piece(0).grain_m);
 }
 
 #[test]

@@ -142,15 +142,7 @@ pub(super) fn section(page: &mut Page, request: &Request, recordings: &Recording
 
 #[cfg(test)]
 mod tests {
-    use super::{contacts, peaks};
-
-    #[test]
-    fn contacts_are_parted_by_long_gaps_only() {
-        let touching = [0.0, 1.0, 1.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0];
-        assert_eq!(contacts(&touching, 3), 2);
-        assert_eq!(contacts(&touching, 1), 3);
-        assert_eq!(contacts(&[0.0; 5], 1), 0);
-    }
+    use super::peaks;
 
     #[test]
     fn peaks_are_counted_by_the_dips_between_them() {

@@ -1,7 +1,5 @@
 //! The axes along which the module is run, and how their product is thinned.
 
-use std::sync::Mutex;
-
 use whisking::{GateSettings, Integrator, Settings, oscillator::Psi};
 
 /// f_W, Hz.
@@ -203,33 +201,4 @@ pub(crate) fn cases(full: usize, seed: u64) -> Vec<Case> {
     let places = product(&LEVELS[..full]);
     let place = |full: Vec<usize>| [full, deal()].concat().try_into().unwrap();
     places.into_iter().map(place).map(Case).collect()
-}
-
-#[derive(Default)]
-pub(crate) struct Worst(Mutex<f64>);
-
-impl Worst {
-    pub(crate) fn tell(&self, value: f64) {
-        let mut worst = self.0.lock().unwrap();
-        *worst = worst.max(value);
-    }
-
-    pub(crate) fn value(&self) -> f64 {
-        *self.0.lock().unwrap()
-    }
-}
-
-#[test]
-fn every_pair_of_levels_of_any_two_axes_occurs() {
-    let cases = cases(5, 1);
-    assert_eq!(cases.len(), 8 * 7 * 2 * 6 * 7);
-    for (a, &levels_a) in LEVELS.iter().enumerate() {
-        for (b, &levels_b) in LEVELS.iter().enumerate().skip(a + 1) {
-            let mut seen = vec![false; levels_a * levels_b];
-            for Case(place) in &cases {
-                seen[place[a] * levels_b + place[b]] = true;
-            }
-            assert!(seen.iter().all(|&seen| seen), "axes {a} and {b}");
-        }
-    }
 }

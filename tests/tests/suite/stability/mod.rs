@@ -14,7 +14,7 @@
 //!
 //! What is run is in `axes.rs`: a full product of the axes that shape the
 //! equations, over which time constants and gains are dealt so that every pair
-//! of levels of any two axes occurs (tested too).
+//! of levels of any two axes occurs.
 
 mod abuse;
 mod axes;

@@ -12,12 +12,12 @@
 use rayon::prelude::*;
 use whisking::{Fix, Integrator};
 
-use super::axes::{Case, Worst, cases};
+use super::axes::{Case, cases};
 use super::rig::{Abuse, Extreme, Module, start};
 
 const ABUSE: usize = 300;
 
-fn run<R: Extreme>(case: Case, worst: &Worst) {
+fn run<R: Extreme>(case: Case) {
     let settings = case.settings();
     let start = start::<R>(case, &settings);
     let [mut touched, mut untouched] = [(); 2].map(|()| Module::<R>::new(&settings, &start));
@@ -47,7 +47,6 @@ fn run<R: Extreme>(case: Case, worst: &Worst) {
             let [_, theirs, ..] = untouched.view();
             for (a, b) in ours.iter().zip(theirs) {
                 let degrees = 100.0 * (a - b).abs();
-                worst.tell(degrees);
                 assert!(degrees < 0.1, "{case:?}: {degrees} degrees");
             }
         }
@@ -77,11 +76,10 @@ fn run<R: Extreme>(case: Case, worst: &Worst) {
 #[test]
 fn every_number_format_comes_back() {
     fn recovers<R: Extreme>(seed: u64) {
-        let cases = cases(3, seed);
-        let worst = Worst::default();
-        let carried = cases.into_par_iter().filter(|case| case.is_carried());
-        carried.for_each(|case| run::<R>(case, &worst));
-        println!("largest distance from untouched: {} degrees", worst.value());
+        let carried = cases(3, seed)
+            .into_par_iter()
+            .filter(|case| case.is_carried());
+        carried.for_each(run::<R>);
     }
     recovers::<f64>(1);
     recovers::<f32>(2);

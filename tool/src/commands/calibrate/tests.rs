@@ -86,13 +86,6 @@ fn a_stop_within_the_range_is_found_and_kept_away_from() {
 }
 
 #[test]
-fn who_holds_the_samples_is_asked_for_poses() {
-    let next = next(Path::new("here"));
-    assert!(next.contains("--pose NAME --calibration here/calibration.toml"));
-    assert!(next.contains("in three to five poses"));
-}
-
-#[test]
 fn a_motor_or_an_encoder_that_is_wired_wrongly_ends_it() {
     let turned = &["direction: moved "][..];
     let open = &["direction: stays where it is", "a fault: "];

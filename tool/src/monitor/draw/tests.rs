@@ -86,33 +86,6 @@ fn all_is_there_in_the_smallest_usual_window() {
 }
 
 #[test]
-fn a_decision_that_names_no_class_says_why() {
-    let mut history = history();
-    history.module_classes.push("p240".to_owned());
-    let unnamed = |(n, bits): (u32, u32)| {
-        let decision = Decision::from_memory(640, 165, bits << 16).unwrap();
-        let event = Event::Decision(Place::new(0, 0), decision);
-        let sequence = 6_000 + n;
-        Packet::Event(EventRecord { sequence, event })
-    };
-    // Unknown, outside the poses, and between carpet and class 1.
-    let reasons = [(1, 1), (2, 1 | 1 << 1), (3, 1 | 2 << 1 | 1 << 3)];
-    history.take(&Incoming::of(reasons.map(unnamed)));
-    let shown = Shown::first(&history, "t");
-    for words in [
-        "left unknown 640",
-        "left outside the poses of training 640",
-        "left between carpet and p240 640",
-    ] {
-        assert!(
-            shown.events.iter().any(|line| line.contains(words)),
-            "{words}: {:?}",
-            shown.events
-        );
-    }
-}
-
-#[test]
 fn any_window_can_be_drawn() {
     let history = history();
     let mut view = View::new(history.extent());
