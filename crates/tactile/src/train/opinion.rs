@@ -393,10 +393,6 @@ impl Felt {
 
     /// Blocks after which most touches have not yet ended.
     fn patience(&self, names: bool) -> u8 {
-        if self.begins_again {
-            // Nine blocks follow on nine, whenever the recordings were cut off.
-            return BLOCKS as u8;
-        }
         let mut lengths: Vec<f64> = self.touches.iter().map(|t| t.len() as f64).collect();
         let patience = quantile(&mut lengths, IMPATIENT[usize::from(names)]).unwrap_or(1.0);
         // At most nine.
