@@ -1,0 +1,163 @@
+"""What a model says of public recordings, made by others, in another condition than trained in.
+
+Usage: recordings.py HOST_SIM CWRU BIOTAC > docs/measured/recordings.md
+
+HOST_SIM is the program, CWRU a checkout of github.com/srigas/CWRU_Bearing_NumPy (b1179d28) and
+BIOTAC one of github.com/dexrob/BioTac_slide_20_50 (c19638b0). Needs numpy.
+"""
+
+import csv
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+import numpy as np
+
+HOST_SIM, CWRU, BIOTAC = sys.argv[1:]
+DIRECTORY = Path(tempfile.mkdtemp())
+RPM = [1797, 1772, 1750, 1730]
+DRIVE_END = [f"{fault}_{mils}_DE12" for fault in ("IR", "B", "OR@6") for mils in (7, 14, 21)]
+FAN_END = [f"{fault}_{mils}_FE" for fault in ("IR", "B") for mils in (7, 14, 21)]
+FAN_END += ["OR@3_7_FE", "OR@3_14_FE", "OR@6_7_FE"]
+SAMPLES = 2400
+"""Of a trial of a bearing, 0.2 s."""
+
+
+class Scale:
+    """Codes of a sensor whose range is that of what it is made of, but for outliers."""
+
+    def __init__(self, *parts):
+        self.low, self.high = np.percentile(np.concatenate(parts), [0.3, 99.7])
+
+    def codes(self, values):
+        share = (values - self.low) / (self.high - self.low)
+        return np.clip(np.round(16383 * share), 0, 16383).astype(int)
+
+
+def write(name, trials):
+    """A recording of trials (label, trial, x, y)."""
+    path = DIRECTORY / f"{name}.csv"
+    with path.open("w") as file:
+        file.write("label,trial,x,y\n")
+        for label, trial, *codes in trials:
+            file.writelines(f"{label},{trial:03},{x},{y}\n" for x, y in zip(*codes))
+    return path
+
+
+def judge(train, tests, rate, *options):
+    """Of each recording: trials, named ones, those named rightly first, names, right and stated."""
+    model = DIRECTORY / "model"
+    asked = [HOST_SIM, "train", "--quiet", "--data", train, "--rate", rate, "--out", model]
+    subprocess.run([*map(str, asked), *options], check=True, capture_output=True)
+    return [classify(model, test) for test in tests]
+
+
+def classify(model, test):
+    out = DIRECTORY / "decisions.csv"
+    asked = [HOST_SIM, "classify", "--quiet", "--model", model, "--data", test, "--out", out]
+    rule = ["--rule", "sequential", "--threshold", "0.99"]
+    subprocess.run([*map(str, asked), *rule], check=True, capture_output=True)
+    with test.open() as file:
+        trials = {(row["label"], row["trial"]) for row in csv.DictReader(file)}
+    with out.open() as file:
+        names = [row for row in csv.DictReader(file) if row["decision"] != "unknown"]
+    first = {}
+    for row in names:
+        first.setdefault((row["label"], row["trial"]), row["decision"] == row["label"])
+    right = sum(row["decision"] == row["label"] for row in names)
+    stated = sum(float(row["posterior"]) for row in names)
+    return np.array([len(trials), len(first), sum(first.values()), len(names), right, stated])
+
+
+def row(name, counts):
+    trials, named, first, names, right, stated = counts
+    share = lambda part, whole: f"{100 * part / whole:.1f}" if whole else "–"
+    cells = [share(named, trials), int(trials), share(right, names), share(stated, names), share(first, named)]
+    print("|", " | ".join(str(cell) for cell in [name, *cells]), "|")
+
+
+def bearings(name, faults):
+    """Trained at each load by every other trial, tested at all by the others."""
+
+    def load(rpm, fault):
+        file = np.load(f"{CWRU}/Data/{rpm} RPM/{rpm}_{fault}.npz")
+        return [file[channel].ravel() for channel in ("DE", "FE")]
+
+    signals = {(rpm, fault): load(rpm, fault) for rpm in RPM for fault in faults}
+    scales = [Scale(*(signals[RPM[0], fault][n] for fault in faults)) for n in (0, 1)]
+
+    def trials(rpm, part):
+        for fault in faults:
+            channels = [scale.codes(of) for scale, of in zip(scales, signals[rpm, fault])]
+            for n in range(part, min(map(len, channels)) // SAMPLES, 2):
+                yield fault, n, *(of[n * SAMPLES : (n + 1) * SAMPLES] for of in channels)
+
+    paths = [[write(f"{rpm}-{part}", trials(rpm, part)) for part in (0, 1)] for rpm in RPM]
+    apart = np.zeros((4, 6))
+    for trained, (train, _) in enumerate(paths):
+        for tested, counts in enumerate(judge(train, [test for _, test in paths], 12_000)):
+            apart[abs(trained - tested)] += counts
+    for n, counts in enumerate(apart):
+        row(f"bearings, {name}: {n} loads apart", counts)
+
+
+def slides(materials):
+    """Of a slide its vibration and static pressure; a row has 22 and one of them, 10 ms."""
+    for material in materials:
+        for n in range(1, 51):
+            path = f"{BIOTAC}/raw_data/mat{material}/mat{material}_{n}_bio.csv"
+            table = np.genfromtxt(path, delimiter=",", skip_header=1, usecols=range(26))
+            yield material, n, table[:, 4:], table[:, 3]
+
+
+def fingertip(materials, tests, train, *options):
+    """Trained on the first two seconds of slides."""
+    of = list(slides(materials))
+    scales = [Scale(*(slide[channel][:200].ravel() for slide in of)) for channel in (2, 3)]
+
+    def trials(wanted, start):
+        for material, n, vibration, pressure in of:
+            if wanted(n) and len(pressure) >= start + 200:
+                x = scales[0].codes(vibration[start : start + 200].ravel())
+                y = np.repeat(scales[1].codes(pressure[start : start + 200]), 22)
+                yield f"material {material}", n, x, y
+
+    trained = write("train", trials(train, 0))
+    paths = [write(f"test {n}", trials(*test[1:])) for n, test in enumerate(tests)]
+    span = f"{materials[0]} to {materials[-1]}"
+    for (name, *_), counts in zip(tests, judge(trained, paths, 2200, *options)):
+        row(f"fingertip, materials {span}: {name}", counts)
+
+
+def main():
+    print(
+        """# Public recordings
+
+<!-- Made by studies/recordings.py; do not edit by hand. -->
+
+Recordings that others made, in another condition than trained in, by default settings and at a
+threshold of 0.99. Bearings have nine faults; accelerations at the drive and fan end are x and y
+(Case Western Reserve University). A fingertip slides over materials; vibration is x and static
+pressure y, which falls as it slides (BioTac; Gao et al., ICRA 2020). Each trial is one touch that
+lasts. *Named* is of trials, *right* and *stated* of all names,
+*first* of the first name of each trial.
+
+| condition | named, % | trials | right, % | stated, % | first right, % |
+|---|---|---|---|---|---|"""
+    )
+    bearings("drive end", DRIVE_END)
+    bearings("fan end", FAN_END)
+    later = [("a later series", lambda n: n > 25, 0), ("later and lighter", lambda n: n > 25, 200)]
+    later.append(("later and lighter still", lambda n: n > 25, 400))
+    for materials in (range(1, 9), range(9, 17)):
+        fingertip(materials, later, lambda n: n <= 25)
+    for materials in (range(1, 5), range(17, 21)):
+        odd = lambda n: n % 2 == 1
+        even = lambda n: n % 2 == 0
+        fingertip(materials, [("the same contact", odd, 0)], even)
+        same = [("the same contact, `--expect same`", odd, 0)]
+        fingertip(materials, same, even, "--expect", "same")
+
+
+main()
