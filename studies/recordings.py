@@ -48,7 +48,8 @@ def write(name, trials):
 def judge(train, tests, rate, *options):
     """Of each recording: trials, named ones, those named rightly first, names, right and stated."""
     model = DIRECTORY / "model"
-    asked = [HOST_SIM, "train", "--quiet", "--data", train, "--rate", rate, "--out", model]
+    data = [part for path in train for part in ("--data", path)]
+    asked = [HOST_SIM, "train", "--quiet", *data, "--rate", rate, "--out", model]
     subprocess.run([*map(str, asked), *options], check=True, capture_output=True)
     return [classify(model, test) for test in tests]
 
@@ -96,10 +97,14 @@ def bearings(name, faults):
     paths = [[write(f"{rpm}-{part}", trials(rpm, part)) for part in (0, 1)] for rpm in RPM]
     apart = np.zeros((4, 6))
     for trained, (train, _) in enumerate(paths):
-        for tested, counts in enumerate(judge(train, [test for _, test in paths], 12_000)):
+        for tested, counts in enumerate(judge([train], [test for _, test in paths], 12_000)):
             apart[abs(trained - tested)] += counts
     for n, counts in enumerate(apart):
         row(f"bearings, {name}: {n} loads apart", counts)
+    others = np.zeros(6)
+    for _, test in paths:
+        others += judge([train for train, of in paths if of != test], [test], 12_000)[0]
+    row(f"bearings, {name}: trained at the three others", others)
 
 
 def slides(materials):
@@ -126,7 +131,7 @@ def fingertip(materials, tests, train, *options):
     trained = write("train", trials(train, 0))
     paths = [write(f"test {n}", trials(*test[1:])) for n, test in enumerate(tests)]
     span = f"{materials[0]} to {materials[-1]}"
-    for (name, *_), counts in zip(tests, judge(trained, paths, 2200, *options)):
+    for (name, *_), counts in zip(tests, judge([trained], paths, 2200, *options)):
         row(f"fingertip, materials {span}: {name}", counts)
 
 
