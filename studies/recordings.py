@@ -143,10 +143,11 @@ def main():
 
 Recordings that others made, in another condition than trained in, by default settings and at a
 threshold of 0.99. Bearings have nine faults; accelerations at the drive and fan end are x and y
-(Case Western Reserve University). A fingertip slides over materials; vibration is x and static
-pressure y, which falls as it slides (BioTac; Gao et al., ICRA 2020). Each trial is one touch that
-lasts. *Named* is of trials, *right* and *stated* of all names,
-*first* of the first name of each trial.
+(Case Western Reserve University, by github.com/srigas/CWRU_Bearing_NumPy). A fingertip slides over
+materials; vibration is x and static pressure y, which falls as it slides (R. Gao et al., by
+github.com/dexrob/BioTac_slide_20_50). Each trial is one touch that lasts. *Named* is of trials,
+*right* and *stated* of all names, *first* of the first name of each trial. Made by
+`python3 studies/recordings.py HOST_SIM CWRU BIOTAC`, with the program and both repositories.
 
 | condition | named, % | trials | right, % | stated, % | first right, % |
 |---|---|---|---|---|---|"""

@@ -162,7 +162,8 @@ impl Opinion {
         self.blocks >= BLOCKS
     }
 
-    /// Ends a block; where touches last, it counts if no differences are missing. By how much the score of each class has risen, 1/1024 bit.
+    /// Ends a block; where touches last, it counts if no differences are missing. By how much the
+    /// score of each class has risen, 1/1024 bit.
     // Once a block, and not within what is generic: as fast as this crate is built.
     #[inline(never)]
     pub(crate) fn end_of_block(&mut self, section: Section<'_>, classes: usize) -> Rise {
