@@ -15,7 +15,8 @@ from pathlib import Path
 import numpy as np
 
 HOST_SIM, CWRU, BIOTAC = sys.argv[1:]
-DIRECTORY = Path(tempfile.mkdtemp())
+TEMPORARY = tempfile.TemporaryDirectory()
+DIRECTORY = Path(TEMPORARY.name)
 RPM = [1797, 1772, 1750, 1730]
 DRIVE_END = [f"{fault}_{mils}_DE12" for fault in ("IR", "B", "OR@6") for mils in (7, 14, 21)]
 FAN_END = [f"{fault}_{mils}_FE" for fault in ("IR", "B") for mils in (7, 14, 21)]
@@ -71,11 +72,25 @@ def classify(model, test):
     return np.array([len(trials), len(first), sum(first.values()), len(names), right, stated])
 
 
+def share(part, whole):
+    return f"{100 * part / whole:.1f}" if whole else "–"
+
+
+def interval(part, whole):
+    """A share with its 95 % interval by Wilson."""
+    if not whole:
+        return "–"
+    z = 1.96
+    middle = (part + z**2 / 2) / (whole + z**2)
+    half = z * np.sqrt(part * (whole - part) / whole + z**2 / 4) / (whole + z**2)
+    low, high = (100 * (middle + sign * half) for sign in (-1, 1))
+    return f"{share(part, whole)} ({low:.1f} to {high:.1f})"
+
+
 def row(name, counts):
     trials, named, first, names, right, stated = counts
-    share = lambda part, whole: f"{100 * part / whole:.1f}" if whole else "–"
-    cells = [share(named, trials), int(trials), share(right, names), share(stated, names), share(first, named)]
-    print("|", " | ".join(str(cell) for cell in [name, *cells]), "|")
+    shares = [interval(named, trials), share(right, names), share(stated, names), interval(first, named)]
+    print("|", " | ".join([name, str(int(trials)), *shares]), "|")
 
 
 def bearings(name, faults):
@@ -105,6 +120,18 @@ def bearings(name, faults):
     for _, test in paths:
         others += judge([train for train, of in paths if of != test], [test], 12_000)[0]
     row(f"bearings, {name}: trained at the three others", others)
+    # Each fault of the first load: its trials, by turns, under three names.
+    alike = np.zeros(6)
+    for fault in faults:
+
+        def renamed(part):
+            of_fault = (trial for trial in trials(RPM[0], part) if trial[0] == fault)
+            for at, (_, *trial) in enumerate(of_fault):
+                yield f"name {at % 3}", *trial
+
+        train, test = (write(f"placebo-{part}", renamed(part)) for part in (0, 1))
+        alike += judge([train], [test], 12_000)[0]
+    row(f"bearings, {name}: placebo, one fault under three names", alike)
 
 
 def slides(materials):
@@ -146,10 +173,11 @@ threshold of 0.99. Bearings have nine faults; accelerations at the drive and fan
 (Case Western Reserve University, by github.com/srigas/CWRU_Bearing_NumPy). A fingertip slides over
 materials; vibration is x and static pressure y, which falls as it slides (R. Gao et al., by
 github.com/dexrob/BioTac_slide_20_50). Each trial is one touch that lasts. *Named* is of trials,
-*right* and *stated* of all names, *first* of the first name of each trial. Made by
-`python3 studies/recordings.py HOST_SIM CWRU BIOTAC`, with the program and both repositories.
+*right* and *stated* of all names, *first* of the first name of each trial, in brackets 95 %
+intervals. Made by `python3 studies/recordings.py HOST_SIM CWRU BIOTAC`, with the program and both
+repositories.
 
-| condition | named, % | trials | right, % | stated, % | first right, % |
+| condition | trials | named, % | right, % | stated, % | first right, % |
 |---|---|---|---|---|---|"""
     )
     bearings("drive end", DRIVE_END)

@@ -198,3 +198,55 @@ impl Sense {
         touches
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use std::string::String;
+    use std::vec;
+
+    use super::*;
+
+    fn trial(level: f64, step: f64) -> Trial {
+        let sample = |n: u32| {
+            [
+                level + step * f64::from(n % 7),
+                level - step * f64::from(n % 5),
+            ]
+        };
+        Trial {
+            label: String::new(),
+            recording: String::new(),
+            pose: None,
+            stands: None,
+            samples: (0..200).map(sample).collect(),
+            touches: vec![1; 200],
+        }
+    }
+
+    /// As a classifier feels it that begins with the trial: differences need 64 samples before.
+    #[test]
+    fn a_trial_is_felt_for_itself_and_where_touches_last_by_whole_blocks() {
+        let sense = Sense {
+            narrow: Narrow {
+                centre: NARROW_MOST + 1,
+                shift: 0,
+            },
+            rest: [0; CHANNELS],
+            block: 40,
+        };
+        let scales = [Quantiser::of_codes(0, 16_384); CHANNELS];
+        let felt = |trials: &[Trial], lasts| {
+            let numbers = vec![0; trials.len()];
+            let touches = sense.touches(trials, &scales, (&numbers, &numbers), (1.0, lasts));
+            touches.last().unwrap().features.clone()
+        };
+        let [before, trial] = [trial(3_000.0, 400.0), trial(12_000.0, 30.0)];
+        let pair = [before, trial.clone()];
+        for (lasts, blocks) in [(false, 5), (true, 3)] {
+            let alone = felt(core::slice::from_ref(&trial), lasts);
+            assert_eq!(alone.len(), blocks);
+            assert_eq!(felt(&pair, lasts), alone);
+        }
+        assert_eq!(felt(&pair, false)[2..], felt(&pair, true));
+    }
+}
