@@ -109,6 +109,11 @@ def bearings(name, faults):
             for n in range(part, min(map(len, channels)) // SAMPLES, 2):
                 yield fault, n, *(of[n * SAMPLES : (n + 1) * SAMPLES] for of in channels)
 
+    def renamed(fault, part):
+        of_fault = (trial for trial in trials(RPM[0], part) if trial[0] == fault)
+        for at, (_, *trial) in enumerate(of_fault):
+            yield f"name {at % 3}", *trial
+
     paths = [[write(f"{rpm}-{part}", trials(rpm, part)) for part in (0, 1)] for rpm in RPM]
     apart = np.zeros((4, 6))
     for trained, (train, _) in enumerate(paths):
@@ -123,13 +128,7 @@ def bearings(name, faults):
     # Each fault of the first load: its trials, by turns, under three names.
     alike = np.zeros(6)
     for fault in faults:
-
-        def renamed(part):
-            of_fault = (trial for trial in trials(RPM[0], part) if trial[0] == fault)
-            for at, (_, *trial) in enumerate(of_fault):
-                yield f"name {at % 3}", *trial
-
-        train, test = (write(f"placebo-{part}", renamed(part)) for part in (0, 1))
+        train, test = (write(f"placebo-{part}", renamed(fault, part)) for part in (0, 1))
         alike += judge([train], [test], 12_000)[0]
     row(f"bearings, {name}: placebo, one fault under three names", alike)
 
@@ -144,13 +143,14 @@ def slides(materials):
 
 
 def fingertip(materials, tests, train, *options):
-    """Trained on the first two seconds of slides."""
+    """Trained on the first two seconds of the slides of these numbers; a test is a name, numbers of
+    slides and the row from which on it takes as much."""
     of = list(slides(materials))
     scales = [Scale(*(slide[channel][:200].ravel() for slide in of)) for channel in (2, 3)]
 
     def trials(wanted, start):
         for material, n, vibration, pressure in of:
-            if wanted(n) and len(pressure) >= start + 200:
+            if n in wanted and len(pressure) >= start + 200:
                 x = scales[0].codes(vibration[start : start + 200].ravel())
                 y = np.repeat(scales[1].codes(pressure[start : start + 200]), 22)
                 yield f"material {material}", n, x, y
@@ -182,13 +182,16 @@ repositories.
     )
     bearings("drive end", DRIVE_END)
     bearings("fan end", FAN_END)
-    later = [("a later series", lambda n: n > 25, 0), ("later and lighter", lambda n: n > 25, 200)]
-    later.append(("later and lighter still", lambda n: n > 25, 400))
+    first, second = range(1, 26), range(26, 51)
+    tests = [
+        ("a later series", second, 0),
+        ("later and lighter", second, 200),
+        ("later and lighter still", second, 400),
+    ]
     for materials in (range(1, 9), range(9, 17)):
-        fingertip(materials, later, lambda n: n <= 25)
+        fingertip(materials, tests, first)
+    odd, even = range(1, 51, 2), range(2, 51, 2)
     for materials in (range(1, 5), range(17, 21)):
-        odd = lambda n: n % 2 == 1
-        even = lambda n: n % 2 == 0
         fingertip(materials, [("the same contact", odd, 0)], even)
         same = [("the same contact, `--expect same`", odd, 0)]
         fingertip(materials, same, even, "--expect", "same")
