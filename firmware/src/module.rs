@@ -282,7 +282,7 @@ impl<R: Real, H: Hardware> Module<R, H> {
     #[inline]
     fn contact_of_head(&self) -> [R; MAX_SIDES] {
         let mut most = self.contact;
-        for (most, elsewhere) in most.iter_mut().zip(self.elsewhere) {
+        for (most, elsewhere) in most.iter_mut().zip(&self.elsewhere) {
             *most = elsewhere.max(*most);
         }
         most

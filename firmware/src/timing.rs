@@ -7,7 +7,8 @@ pub struct Timing {
     worst: u32,
     /// Ticks that did not start in their period, since the beginning.
     missed: u32,
-    begun: Option<u32>,
+    begun: u32,
+    has_begun: bool,
 }
 
 impl Timing {
@@ -16,21 +17,23 @@ impl Timing {
         Self {
             worst: 0,
             missed: 0,
-            begun: None,
+            begun: 0,
+            has_begun: false,
         }
     }
 
     /// A tick begins at `now`; one is due every `period` counts (0: not known).
     #[inline]
     pub fn begin(&mut self, now: u32, period: u32) {
-        if let Some(last) = self.begun {
+        if self.has_begun {
             // Up to a third more than a period, no tick can be lost.
-            let elapsed = now.wrapping_sub(last);
+            let elapsed = now.wrapping_sub(self.begun);
             if elapsed - elapsed / 4 > period {
                 self.miss(elapsed, period);
             }
         }
-        self.begun = Some(now);
+        self.begun = now;
+        self.has_begun = true;
     }
 
     /// Half a period of jitter is none; more means that whole ticks are lost.
@@ -41,12 +44,10 @@ impl Timing {
         self.missed = self.missed.saturating_add(periods.saturating_sub(1));
     }
 
-    /// The tick that began last ends at `now`.
+    /// The tick that began last ends at `now`; one has begun.
     #[inline]
     pub fn end(&mut self, now: u32) {
-        if let Some(begun) = self.begun {
-            self.worst = self.worst.max(now.wrapping_sub(begun));
-        }
+        self.worst = self.worst.max(now.wrapping_sub(self.begun));
     }
 
     /// Ticks lost since the beginning.

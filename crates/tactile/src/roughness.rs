@@ -42,7 +42,7 @@ impl Roughness {
     /// Takes a sample, of all channels of the model. The delay line runs on with those
     /// that do not count; until it is full there is no difference. That of codes beyond
     /// ±2²⁹ wraps around.
-    #[inline]
+    #[inline(never)]
     pub fn push(&mut self, codes: &[i32], counts: bool) {
         let new = match *codes {
             [x, y, ..] => [x, y],

@@ -23,11 +23,12 @@ pub const REFERENCE_TICK_HZ: f64 = 2000.0;
 
 const SEGMENTS: usize = 8;
 const OCTAVES: usize = 20;
+const POINTS: usize = (OCTAVES + 1) * SEGMENTS + 1;
 const Q24: f64 = 16_777_216.0;
 
 /// −Φ⁻¹(u) in Q24 at u = 2^-(k+1) (1 − j/16), k octaves of eight points, from
-/// u = ½ down to 2^-21 (4.9 standard deviations).
-static QUANTILES: [i32; OCTAVES * SEGMENTS + 1] = quantiles();
+/// u = ½ down to 2^-21 (4.9 standard deviations); the octave beyond is level.
+static QUANTILES: [i32; POINTS] = quantiles();
 
 /// d(−Φ⁻¹)/d(−u) = √(2π) exp(x²/2), the inverse of the normal density.
 const fn slope(x: f64) -> f64 {
@@ -36,8 +37,8 @@ const fn slope(x: f64) -> f64 {
 
 /// Integrates the quantile function down from the median with classical
 /// Runge-Kutta steps; error at most 1e-6 everywhere in the table.
-const fn quantiles() -> [i32; OCTAVES * SEGMENTS + 1] {
-    let mut table = [0; OCTAVES * SEGMENTS + 1];
+const fn quantiles() -> [i32; POINTS] {
+    let mut table = [0; POINTS];
     let mut x = 0.0;
     let mut top = 0.5;
     let mut i = 0;
@@ -58,25 +59,25 @@ const fn quantiles() -> [i32; OCTAVES * SEGMENTS + 1] {
             top /= 2.0;
         }
     }
+    while i < POINTS - 1 {
+        table[i + 1] = table[i];
+        i += 1;
+    }
     table
 }
 
 /// A standard normal number in Q24 from a uniformly distributed word; largest
 /// error of the quantile 2e-3 standard deviations, largest magnitude 4.9.
 fn normal_q24(word: u32) -> i32 {
-    let uniform = word >> 1;
-    let octave = (uniform << 1).leading_zeros() as usize;
-    let magnitude = if octave >= OCTAVES {
-        QUANTILES[OCTAVES * SEGMENTS]
-    } else {
-        // The bits below the leading one, from the top of the octave down.
-        let fraction = !(uniform << (octave + 2));
-        let segment = (fraction >> 29) as usize;
-        let within = i64::from((fraction << 3) >> 8);
-        let lo = QUANTILES[octave * SEGMENTS + segment];
-        let hi = QUANTILES[octave * SEGMENTS + segment + 1];
-        lo + ((i64::from(hi - lo) * within) >> 24) as i32
-    };
+    let uniform = word & !1;
+    let octave = (uniform.leading_zeros() as usize).min(OCTAVES);
+    // The bits below the leading one, from the top of the octave down.
+    let fraction = !(uniform << octave);
+    let segment = (fraction >> 28) as usize % SEGMENTS;
+    let within = u64::from((fraction << 4) & !0xFF);
+    let lo = QUANTILES[octave * SEGMENTS + segment];
+    let hi = QUANTILES[octave * SEGMENTS + segment + 1];
+    let magnitude = lo + ((u64::from((hi - lo) as u32) * within) >> 32) as i32;
     if word & 1 == 0 { magnitude } else { -magnitude }
 }
 
@@ -108,19 +109,24 @@ impl<R: Real> Config<R> {
         })
     }
 
-    /// T P_i of this tick for each state of the oscillators, by sides; zero for a side that
-    /// there is not.
+    /// T P_i of this tick for each state of the oscillators, by sides, into `out`; a side that
+    /// there is not stays as it was.
     #[inline]
-    pub fn step(&self, state: &mut State<R>) -> [Psi<R>; MAX_SIDES] {
+    pub fn step(&self, state: &mut State<R>, out: &mut [Psi<R>; MAX_SIDES]) {
         let State { random, filters } = state;
-        let mut out = [[R::ZERO; 2]; MAX_SIDES];
+        // All are drawn first: beside a filter there are not registers enough for the generator.
+        let mut white = [[0; 2]; MAX_SIDES];
         let mut drawn = 0;
-        for (out, filters) in out.iter_mut().zip(filters) {
-            for (out, filter) in out.iter_mut().zip(filters) {
+        for white in white.iter_mut().take(filters.len()) {
+            for white in white {
                 let word = random.next_u32();
                 drawn |= word;
-                let white = R::from_q24(normal_q24(word) >> 2);
-                let coloured = self.filter.process(filter, white);
+                *white = normal_q24(word) >> 2;
+            }
+        }
+        for ((out, filters), white) in out.iter_mut().zip(filters).zip(&white) {
+            for ((out, filter), white) in out.iter_mut().zip(filters).zip(white) {
+                let coloured = self.filter.process(filter, R::from_q24(*white));
                 *out = coloured.times_fine(self.amplitude);
             }
         }
@@ -128,7 +134,6 @@ impl<R: Real> Config<R> {
             // Its only state that it never leaves; otherwise once in 2^64 draws of two words.
             *random = Xoshiro128PlusPlus::seed_from_u64(0);
         }
-        out
     }
 }
 
@@ -148,7 +153,7 @@ impl<R: Real> State<R> {
 
 #[cfg(test)]
 mod tests {
-    use super::{Config, Q24, QUANTILES, SEGMENTS, State, normal_q24};
+    use super::{Config, OCTAVES, Q24, QUANTILES, SEGMENTS, State, normal_q24};
     use rand_core::Rng;
 
     /// Φ(x) = erfc(−x/√2)/2.
@@ -158,7 +163,7 @@ mod tests {
 
     #[test]
     fn the_table_inverts_the_normal_distribution() {
-        for (i, &q) in QUANTILES.iter().enumerate() {
+        for (i, &q) in QUANTILES.iter().enumerate().take(OCTAVES * SEGMENTS + 1) {
             let (octave, segment) = (i / SEGMENTS, i % SEGMENTS);
             let u = 0.5_f64.powi(octave as i32 + 1) * (1.0 - segment as f64 / 16.0);
             let back = distribution(-f64::from(q) / Q24);
@@ -189,7 +194,7 @@ mod tests {
         let config = Config::<f32>::new(0.05, 2_000.0).unwrap();
         let mut state = State::<f32>::new(1, 1);
         state.random = serde_json::from_str(r#"{"s":[0,0,0,0]}"#).unwrap();
-        config.step(&mut state);
+        config.step(&mut state, &mut Default::default());
         let words: Vec<u32> = (0..1_000).map(|_| state.random.next_u32()).collect();
         let ones = words.iter().map(|word| word.count_ones()).sum::<u32>();
         // 32,000 bits, whose number of ones has a standard deviation of 89.
@@ -203,11 +208,13 @@ mod tests {
             let config = Config::<f64>::new(0.005, tick_hz).unwrap();
             let mut state = State::<f64>::new(1, 11);
             let mut squares = 0.0;
+            let mut out = Default::default();
             let seconds = 2_000;
             for _ in 0..seconds {
                 let mut sum = 0.0;
                 for _ in 0..tick_hz as usize {
-                    sum += config.step(&mut state)[0][0];
+                    config.step(&mut state, &mut out);
+                    sum += out[0][0];
                 }
                 squares += sum * sum / f64::from(seconds);
             }

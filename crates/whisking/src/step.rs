@@ -100,11 +100,12 @@ impl<R: Real> Config<R> {
             zeta = pi.max(zeta);
         }
 
-        let noise = self.noise().map(|noise| noise.step(&mut state.noise));
-        self.oscillators.step(
-            &mut state.oscillators,
-            noise.as_ref().map(|noise| &noise[..]),
-        );
+        let mut drawn = [[R::ZERO; 2]; MAX_SIDES];
+        let noise = self.noise().map(|noise| {
+            noise.step(&mut state.noise, &mut drawn);
+            &drawn[..]
+        });
+        self.oscillators.step(&mut state.oscillators, noise);
 
         let drives = self.oscillators.drives(&state.oscillators);
         let mut pushes = [Push::default(); MAX_SIDES];

@@ -310,8 +310,8 @@ impl Exchange {
 
     pub(crate) fn has_answered_stops(&self) -> bool {
         OWED.iter()
-            .zip(self.paid)
-            .all(|(owed, paid)| owed.get() == paid)
+            .zip(&self.paid)
+            .all(|(owed, paid)| owed.get() == *paid)
     }
 
     pub(crate) fn answer_probe(&mut self) {
