@@ -62,6 +62,9 @@ pub struct Evaluation {
     /// Share of right decisions, mean over the classes presented but those that are
     /// [left out](Self::left_out).
     pub hits: Option<f64>,
+    /// Of decisions that named a class such as `p80@20mm` the shares that are right in what stands
+    /// before the `@`, and after it; none unless all classes have such names.
+    pub parts: Option<[Interval; 2]>,
     /// Of each class of the model that was presented.
     pub classes: Vec<ClassFigures>,
     /// Mean samples of a decision; not a number without one.
@@ -97,6 +100,10 @@ impl Evaluation {
         Self {
             score: Score::new(classes, presentations.iter().flat_map(|p| &p.decided)),
             hits: hits.map(|hits| hits.mean),
+            parts: classes
+                .iter()
+                .all(|name| name.contains('@'))
+                .then(|| [0, 1].map(|part| right_in(part, named().copied()))),
             classes: of_class,
             samples: samples.map_or(f64::NAN, |samples| samples.mean),
             samples_error: samples.map_or(f64::NAN, error),
@@ -114,6 +121,13 @@ impl Evaluation {
         let classes = self.classes.iter().filter(|class| class.hits.count == 0);
         classes.map(|class| class.name.as_str()).collect()
     }
+}
+
+/// Share of decisions that are right in the first or second part of a name such as `p80@20mm`.
+fn right_in<'d>(part: usize, named: impl Iterator<Item = &'d Decided> + Clone) -> Interval {
+    let of = |name: &'d str| name.splitn(2, '@').nth(part);
+    let right = named.clone().filter(|d| of(&d.decision) == of(&d.label));
+    Interval::of(right.count(), named.count())
 }
 
 fn unknown<'d>(decided: impl Iterator<Item = &'d Decided> + Clone) -> Interval {

@@ -45,6 +45,7 @@ impl fmt::Display for Figures<'_> {
         let Evaluation {
             score,
             hits,
+            parts,
             classes,
             samples,
             samples_error,
@@ -66,6 +67,10 @@ impl fmt::Display for Figures<'_> {
                 let ms = samples * 1000.0 / tick_hz;
                 let over = over(&evaluation.left_out());
                 writeln!(f, "hit rate           {hits:.1} % (mean over {over})")?;
+                if let Some([before, after]) = parts {
+                    writeln!(f, "- before the @     {}", percent(*before))?;
+                    writeln!(f, "- after it         {}", percent(*after))?;
+                }
                 let error = samples_error * 1000.0 / tick_hz;
                 writeln!(
                     f,

@@ -51,6 +51,36 @@ fn evaluate_states_finds_and_counts() {
 }
 
 #[test]
+fn evaluate_judges_texture_and_distance_apart() {
+    let of = |[x, y]: [u8; 2]| format!("{x},{y}\n");
+    let classes = [
+        ("p80@20mm", [0, 0]),
+        ("p80@30mm", [100, 0]),
+        ("p240@20mm", [0, 100]),
+        ("p240@30mm", [100, 100]),
+    ];
+    let training = classes.map(|(name, at)| format!("{name},0,{}", of(at)).repeat(8));
+    // Three are right, two at another distance, one of another texture.
+    let [a, b, c, _] = classes;
+    let felt = [(a, [a, a, b, b, c].as_slice()), (c, &[c])].map(|((name, _), felt)| {
+        let rows = felt.iter().map(|(_, at)| format!("{name},0,{}", of(*at)));
+        rows.collect::<String>()
+    });
+    let header = "label,trial,x,y\n".to_owned();
+    let place = Place::with(&[
+        ("training.csv", &(header.clone() + &training.concat())),
+        ("test.csv", &(header + &felt.concat())),
+    ]);
+    place.done("train --data training.csv --out m --tables single --bins 2 --smooth 0 --block 1");
+    let printed = place
+        .done("evaluate --model m --data test.csv --threshold 0.6")
+        .stdout;
+    says(line(&printed, "- before the @"), &[" 83.3 % (", " of 6"]);
+    says(line(&printed, "- after it"), &[" 66.7 % (", " of 6"]);
+    says(line(&printed, "found"), &[" 50.0 % (", " of 6"]);
+}
+
+#[test]
 fn evaluate_suggests_a_threshold() {
     // One sample is wrong in a fifth of cases, two that agree never.
     let test = |times| "a,0,0,0\na,0,0,0\na,0,100,0\na,0,0,0\na,0,0,0\n".repeat(times);
