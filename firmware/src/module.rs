@@ -9,7 +9,7 @@ use crate::config::Part;
 use crate::io::{AngleInput, Clock, WordSource};
 use crate::motion::{Command, Motion, NoActiveWhisker, NotDone};
 use crate::perception::{Perception, SampleClassifier, Sensed};
-use crate::sensing::{Reading, Sensor, Swing, SwingLimits};
+use crate::sensing::{Reading, Sensor, SensorLimits, Swing};
 use crate::servo::Servo;
 use crate::{Config, Event, HeadConfig, MotionConfig, Place, Timing, ZeroLimits};
 
@@ -450,11 +450,10 @@ impl<R: Number, H: Hardware> Module<R, H> {
                 self.follow_zeros(limits, events);
             }
         }
-        let swing = config.sensor.limits.swing;
         if Part::Motion.is_built()
             && let Some(config) = &config.motion
         {
-            self.step(config, swing, events);
+            self.step(config, limits, events);
         }
         if Part::Classifier.is_built()
             && let (Some(perception), Some(config)) = (&mut self.perception, &config.classifier)
@@ -478,7 +477,7 @@ impl<R: Number, H: Hardware> Module<R, H> {
     fn step(
         &mut self,
         config: &MotionConfig<R>,
-        swing: Option<SwingLimits>,
+        limits: &SensorLimits,
         events: &mut impl FnMut(Event),
     ) {
         let contact = self.contact_of_head();
@@ -498,7 +497,7 @@ impl<R: Number, H: Hardware> Module<R, H> {
                 let theta = moved.muscle.theta;
                 servo.step(&config.servo, theta, may_run, whisker.place, events);
                 let x = whisker.sensor.reading().x;
-                if let Some(limits) = swing
+                if limits.swing.is_some()
                     && let Some(lost) = whisker.swing.look(limits, x, servo.running_at())
                 {
                     events(Event::Limit(lost.number()));

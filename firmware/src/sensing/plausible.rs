@@ -31,11 +31,13 @@ impl Course {
         words: [Word; 2],
         limits: &SensorLimits,
     ) -> Result<(), SensorFault> {
-        let most = limits.jump.saturating_mul(self.missed.saturating_add(1));
         let ([x, y], [last_x, last_y]) = (words, self.words);
         let dx = x.raw().abs_diff(last_x.raw());
         let dy = y.raw().abs_diff(last_y.raw());
-        if dx.max(dy) > most {
+        let jump = dx.max(dy);
+        let most = || limits.jump.saturating_mul(self.missed.saturating_add(1));
+        // Nearly always less than is tolerated in a tick.
+        if jump > limits.jump && jump > most() {
             return Err(SensorFault::Jump);
         }
         self.repeats = if dx | dy == 0 {

@@ -8,6 +8,7 @@
 use mlx90333::Word;
 use serde::{Deserialize, Serialize};
 
+use super::limits::SensorLimits;
 use crate::faults::number;
 
 /// What whisking must do to a reading.
@@ -85,7 +86,7 @@ impl Swing {
     #[inline]
     pub(crate) fn look(
         &mut self,
-        limits: SwingLimits,
+        limits: &SensorLimits,
         x: Word,
         counts: Option<i32>,
     ) -> Option<Lost> {
@@ -98,7 +99,8 @@ impl Swing {
 
     // Apart, so that the other ticks keep their registers.
     #[inline(never)]
-    fn look_now(&mut self, limits: SwingLimits, x: Word, counts: Option<i32>) -> Option<Lost> {
+    fn look_now(&mut self, limits: &SensorLimits, x: Word, counts: Option<i32>) -> Option<Lost> {
+        let limits = limits.swing?;
         let Some(counts) = counts else {
             self.pause();
             return None;
@@ -139,20 +141,23 @@ impl Swing {
 
 #[cfg(test)]
 mod tests {
-    use super::{Lost, Swing, SwingLimits};
+    use super::{Lost, SensorLimits, Swing, SwingLimits};
     use mlx90333::Word;
 
-    const LIMITS: SwingLimits = SwingLimits {
-        ticks: 100,
-        counts: 500,
-        least: 400,
+    const LIMITS: SensorLimits = SensorLimits {
+        swing: Some(SwingLimits {
+            ticks: 100,
+            counts: 500,
+            least: 400,
+        }),
+        ..SensorLimits::ANY
     };
 
     /// What ten looks say of an x and an angle by tick, and whether nothing is felt in the end.
     fn looks(x: impl Fn(i32) -> u16, counts: impl Fn(i32) -> i32) -> (Vec<Lost>, bool) {
         let mut swing = Swing::new();
         let said = (0..1000)
-            .filter_map(|tick| swing.look(LIMITS, Word::new(x(tick)), Some(counts(tick))))
+            .filter_map(|tick| swing.look(&LIMITS, Word::new(x(tick)), Some(counts(tick))))
             .collect();
         (said, swing.is_lost())
     }
