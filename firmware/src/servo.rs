@@ -183,6 +183,11 @@ impl<R: Real, M: MotorDriver, A: AngleInput> Servo<R, M, A> {
         matches!(self.state, ServoState::Running { .. }) && self.setpoint().is_none()
     }
 
+    /// What drives it.
+    pub const fn motor(&self) -> &M {
+        &self.motor
+    }
+
     /// What it is doing.
     pub const fn state(&self) -> &ServoState<R> {
         &self.state

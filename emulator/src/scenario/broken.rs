@@ -4,7 +4,7 @@ use host_sim::Error;
 use host_sim::bus::WireFault::{BadSum, Frozen, LineLow, LowAfterStart, Silent};
 use host_sim::bus::tmag5170::LineFault;
 use mlx90333::Faults;
-use scene::{OnFault, Scene, SensorModel};
+use scene::{Driver, OnFault, Scene, SensorModel};
 use tmag5170::StatusFaults;
 
 use super::step::Step::{
@@ -99,9 +99,9 @@ pub(super) fn sensor_loss(scene: &Scene) -> Vec<Case> {
     }]
 }
 
-/// A bit flips in the settings in RAM, in the model in flash, or in what the classifier holds of
-/// it in RAM, each on a new board: the motors must be off once idle has looked at all of it, and
-/// the log must say fault 55 or 56.
+/// A bit flips in the settings in RAM, in the model in flash, in what the classifier holds of it in
+/// RAM, or in what a motor is driven by, each on a new board: the motors must be off once idle has
+/// looked at all of it, and the log must say fault 55 or 56.
 pub(super) fn damage(scene: &Scene, program: &Program) -> Result<Vec<Case>, Error> {
     /// The settings, and how fast the module ticks by them; and in the module what the classifier
     /// holds that no sample changes.
@@ -133,6 +133,20 @@ pub(super) fn damage(scene: &Scene, program: &Program) -> Result<Vec<Case>, Erro
         }
         let [slot, _] = program.model()?.facts.flash.slots;
         flips.push((56, (slot.model.start + ROW, 0, MODEL_BYTES)));
+    }
+    if scene
+        .motor
+        .as_ref()
+        .is_some_and(|motor| motor.driver == Driver::HBridge)
+    {
+        let whisker = info.variable("INNER")?.member("whiskers")?.element(0)?;
+        let motor = whisker.member("servo")?.member("motor")?;
+        let (kind, _, brushed) = motor.variant("Brushed")?;
+        flips.push((55, (kind, 6, 4)));
+        for outputs in ["pwm", "dir"] {
+            let outputs = brushed.member(outputs)?;
+            flips.push((55, (outputs.address, 4, outputs.size()?)));
+        }
     }
     let cases = flips.into_iter().map(|(fault, (address, bit, bytes))| {
         let mut steps = vec![Pass(100)];

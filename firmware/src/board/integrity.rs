@@ -1,5 +1,5 @@
-//! What nothing writes after the start, the settings, the model and what the classifier has
-//! made of it: checked by a sum while the core is idle. A mismatch is a fault of the board,
+//! What nothing writes after the start, the settings, the model, what the classifier has made of
+//! it and the outputs of the motors: checked by a sum while the core is idle. A mismatch is a fault of the board,
 //! and a reset reconstructs what is in RAM.
 //!
 //! Other settings may take the place of these, and change the rule of the classifier with them.
@@ -144,7 +144,7 @@ fn word(address: usize) -> u32 {
 
 /// The walk over all, the settings and the classifier first.
 pub(crate) struct Integrity {
-    regions: [Region; 5],
+    regions: [Region; 9],
     /// Of [`CHANGES`], those whose sums it has.
     changes: u32,
 }
@@ -153,12 +153,25 @@ impl Integrity {
     /// Their sums as they are now; both stay where they are.
     pub(crate) fn new(settings: &Settings, inner: &Inner) -> Self {
         let [model, classifier, factors] = perception::constants(inner);
+        let mut motors = inner
+            .whiskers()
+            .iter()
+            .filter_map(|whisker| whisker.servo());
+        let mut outputs = || match motors.next() {
+            Some(servo) => servo.motor().constants(),
+            None => [Span::NONE; 2],
+        };
+        let [[pwm, pin], [other_pwm, other_pin]] = [outputs(), outputs()];
         let spans = [
             (Span::of(settings), number::SETTINGS),
             (classifier, number::MODEL),
             (model, number::MODEL),
             (factors, number::MODEL),
             (Span::of(pace::constants()), number::SETTINGS),
+            (pwm, number::SETTINGS),
+            (pin, number::SETTINGS),
+            (other_pwm, number::SETTINGS),
+            (other_pin, number::SETTINGS),
         ];
         // Called in a row it would be by a pointer, which no check of the stack can follow.
         let regions = spans.map(|(span, fault)| Region::new(span, fault));

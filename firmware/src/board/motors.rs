@@ -1,11 +1,16 @@
 //! The motors that a scene can have: the same on every board.
 
+use core::sync::atomic::{AtomicBool, Ordering};
+
+use firmware::faults::number;
 use firmware::{Driver, Part};
 use whisking::motor::{Duty, Fault, HBridge, MotorDriver, SixStep, SixStepConfig, StallConfig};
 
+use super::faults;
 use super::gpio::{Pin, PinName};
 use super::pin_config::{Mode, PinConfig};
 use super::pwm::Channel;
+use super::span::Span;
 use super::wiring::{ENABLES, HALLS, Output, PWMS, Side};
 use crate::here::{PWM_FUNCTION, free_hall_pins};
 
@@ -26,6 +31,27 @@ pub(crate) enum Motor {
     Brushless(Brushless),
 }
 
+/// Whether motors are brushless, once more beside them: of a kind that is not theirs none must be
+/// driven, nor taken for switched off.
+static IS_BRUSHLESS: AtomicBool = AtomicBool::new(false);
+
+#[inline]
+fn is_brushless() -> bool {
+    let has_both = Part::HBridge.is_built() && Part::SixStep.is_built();
+    if has_both {
+        IS_BRUSHLESS.load(Ordering::Relaxed)
+    } else {
+        Part::SixStep.is_built()
+    }
+}
+
+/// Memory has lost a bit.
+#[cold]
+#[inline(never)]
+fn lost() -> ! {
+    faults::die(number::SETTINGS, || {})
+}
+
 #[derive(Clone, Copy)]
 pub(crate) struct MotorStart {
     pub(crate) driver: Driver,
@@ -44,6 +70,21 @@ impl Motor {
             _ => None,
         }
     }
+
+    /// Its outputs, which nothing writes: switched off would be what they lead to.
+    pub(crate) fn constants(&self) -> [Span; 2] {
+        match self {
+            Self::Brushless(motor) if Part::SixStep.is_built() => {
+                let (pwms, enables) = motor.outputs();
+                [Span::of(pwms), Span::of(enables)]
+            }
+            Self::Brushed(motor) if Part::HBridge.is_built() => {
+                let (pwm, direction) = motor.outputs();
+                [Span::of(pwm), Span::of(direction)]
+            }
+            _ => [Span::NONE; 2],
+        }
+    }
 }
 
 fn brushed(side: &Side, with: &MotorStart) -> Brushed {
@@ -57,6 +98,7 @@ fn brushed(side: &Side, with: &MotorStart) -> Brushed {
 
 /// A brushless motor that is off. It takes every output of the timer, so there is one.
 fn brushless(with: &MotorStart) -> Brushless {
+    IS_BRUSHLESS.store(true, Ordering::Relaxed);
     let config = SixStepConfig {
         stall: with.stall,
         ..SixStepConfig::DEFAULT
@@ -85,27 +127,26 @@ impl MotorDriver for Motor {
     #[inline]
     fn drive(&mut self, duty: Duty) -> Result<(), Fault> {
         match self {
-            Self::Brushless(motor) if Part::SixStep.is_built() => commutate(motor, duty),
-            Self::Brushed(motor) if Part::HBridge.is_built() => motor.drive(duty),
-            // Of a kind that is not built there is none.
-            _ => Ok(()),
+            Self::Brushless(motor) if is_brushless() => commutate(motor, duty),
+            Self::Brushed(motor) if !is_brushless() => motor.drive(duty),
+            _ => lost(),
         }
     }
 
     #[inline]
     fn off(&mut self) {
         match self {
-            Self::Brushless(motor) if Part::SixStep.is_built() => motor.off(),
-            Self::Brushed(motor) if Part::HBridge.is_built() => motor.off(),
-            _ => {}
+            Self::Brushless(motor) if is_brushless() => motor.off(),
+            Self::Brushed(motor) if !is_brushless() => motor.off(),
+            _ => lost(),
         }
     }
 
     fn clear(&mut self) {
         match self {
-            Self::Brushless(motor) if Part::SixStep.is_built() => motor.clear(),
-            Self::Brushed(motor) if Part::HBridge.is_built() => motor.clear(),
-            _ => {}
+            Self::Brushless(motor) if is_brushless() => motor.clear(),
+            Self::Brushed(motor) if !is_brushless() => motor.clear(),
+            _ => lost(),
         }
     }
 }

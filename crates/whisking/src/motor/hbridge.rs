@@ -59,6 +59,11 @@ impl<PWM: SetDutyCycle, DIR: OutputPin> HBridge<PWM, DIR> {
         self
     }
 
+    /// The outputs, which no drive changes.
+    pub const fn outputs(&self) -> (&PWM, &DIR) {
+        (&self.pwm, &self.dir)
+    }
+
     /// The fault that holds the motor off.
     pub fn fault(&self) -> Option<Fault> {
         self.fault

@@ -188,6 +188,11 @@ impl<PWM: PhasePwms, EN: PhaseEnables, HALL: HallInputs> SixStep<PWM, EN, HALL> 
         }
     }
 
+    /// The outputs, which no drive changes.
+    pub const fn outputs(&self) -> (&PWM, &EN) {
+        (&self.pwms, &self.enables)
+    }
+
     /// Switches off and gives the pins back.
     pub fn release(mut self) -> (PWM, EN, HALL) {
         self.off();
