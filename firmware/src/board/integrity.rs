@@ -15,7 +15,7 @@ use firmware::faults::number;
 
 use super::span::Span;
 use super::types::{Inner, Settings};
-use super::{faults, pace, perception};
+use super::{faults, motors, pace, perception};
 
 /// Words of each that are looked at between two sleeps.
 const WORDS: usize = 16;
@@ -194,6 +194,9 @@ impl Integrity {
         }
         for region in &mut self.regions {
             region.step(changes);
+        }
+        if motors::is_lost() {
+            faults::die(number::SETTINGS, || {});
         }
     }
 }

@@ -2,12 +2,11 @@
 
 use core::sync::atomic::{AtomicBool, Ordering};
 
-use firmware::faults::number;
 use firmware::{Driver, Part};
 use whisking::motor::{Duty, Fault, HBridge, MotorDriver, SixStep, SixStepConfig, StallConfig};
 
-use super::faults;
 use super::gpio::{Pin, PinName};
+use super::outputs;
 use super::pin_config::{Mode, PinConfig};
 use super::pwm::Channel;
 use super::span::Span;
@@ -45,11 +44,19 @@ fn is_brushless() -> bool {
     }
 }
 
-/// Memory has lost a bit.
+/// Whether memory has lost a bit; [idle](super::integrity) reports it, which a tick cannot.
+static IS_LOST: AtomicBool = AtomicBool::new(false);
+
+pub(crate) fn is_lost() -> bool {
+    IS_LOST.load(Ordering::Relaxed)
+}
+
 #[cold]
 #[inline(never)]
-fn lost() -> ! {
-    faults::die(number::SETTINGS, || {})
+fn lose() -> Fault {
+    outputs::off();
+    IS_LOST.store(true, Ordering::Relaxed);
+    Fault::Pwm
 }
 
 #[derive(Clone, Copy)]
@@ -129,7 +136,7 @@ impl MotorDriver for Motor {
         match self {
             Self::Brushless(motor) if is_brushless() => commutate(motor, duty),
             Self::Brushed(motor) if !is_brushless() => motor.drive(duty),
-            _ => lost(),
+            _ => Err(lose()),
         }
     }
 
@@ -138,7 +145,9 @@ impl MotorDriver for Motor {
         match self {
             Self::Brushless(motor) if is_brushless() => motor.off(),
             Self::Brushed(motor) if !is_brushless() => motor.off(),
-            _ => lost(),
+            _ => {
+                lose();
+            }
         }
     }
 
@@ -146,7 +155,9 @@ impl MotorDriver for Motor {
         match self {
             Self::Brushless(motor) if is_brushless() => motor.clear(),
             Self::Brushed(motor) if !is_brushless() => motor.clear(),
-            _ => lost(),
+            _ => {
+                lose();
+            }
         }
     }
 }
