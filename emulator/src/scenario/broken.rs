@@ -143,10 +143,8 @@ pub(super) fn damage(scene: &Scene, program: &Program) -> Result<Vec<Case>, Erro
         let motor = whisker.member("servo")?.member("motor")?;
         let (kind, _, brushed) = motor.variant("Brushed")?;
         flips.push((55, (kind, 6, 4)));
-        for outputs in ["pwm", "dir"] {
-            let outputs = brushed.member(outputs)?;
-            flips.push((55, (outputs.address, 4, outputs.size()?)));
-        }
+        let pwm = brushed.member("pwm")?;
+        flips.push((55, (pwm.address, 4, pwm.size()?)));
     }
     let cases = flips.into_iter().map(|(fault, (address, bit, bytes))| {
         let mut steps = vec![Pass(100)];

@@ -11,6 +11,7 @@
 
 use core::sync::atomic::{AtomicU32, AtomicUsize, Ordering};
 
+use firmware::Part;
 use firmware::faults::number;
 
 use super::span::Span;
@@ -144,7 +145,7 @@ fn word(address: usize) -> u32 {
 
 /// The walk over all, the settings and the classifier first.
 pub(crate) struct Integrity {
-    regions: [Region; 9],
+    regions: [Region; 7],
     /// Of [`CHANGES`], those whose sums it has.
     changes: u32,
 }
@@ -157,21 +158,18 @@ impl Integrity {
             .whiskers()
             .iter()
             .filter_map(|whisker| whisker.servo());
-        let mut outputs = || match motors.next() {
-            Some(servo) => servo.motor().constants(),
-            None => [Span::NONE; 2],
+        let mut outputs = || {
+            let servo = motors.next().filter(|_| Part::Motion.is_built());
+            servo.map_or(Span::NONE, |servo| servo.motor().constants())
         };
-        let [[pwm, pin], [other_pwm, other_pin]] = [outputs(), outputs()];
         let spans = [
             (Span::of(settings), number::SETTINGS),
             (classifier, number::MODEL),
             (model, number::MODEL),
             (factors, number::MODEL),
             (Span::of(pace::constants()), number::SETTINGS),
-            (pwm, number::SETTINGS),
-            (pin, number::SETTINGS),
-            (other_pwm, number::SETTINGS),
-            (other_pin, number::SETTINGS),
+            (outputs(), number::SETTINGS),
+            (outputs(), number::SETTINGS),
         ];
         // Called in a row it would be by a pointer, which no check of the stack can follow.
         let regions = spans.map(|(span, fault)| Region::new(span, fault));

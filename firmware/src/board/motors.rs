@@ -78,18 +78,12 @@ impl Motor {
         }
     }
 
-    /// Its outputs, which nothing writes: switched off would be what they lead to.
-    pub(crate) fn constants(&self) -> [Span; 2] {
+    /// Where its PWMs are, which nothing writes: switched off would be what that leads to.
+    pub(crate) fn constants(&self) -> Span {
         match self {
-            Self::Brushless(motor) if Part::SixStep.is_built() => {
-                let (pwms, enables) = motor.outputs();
-                [Span::of(pwms), Span::of(enables)]
-            }
-            Self::Brushed(motor) if Part::HBridge.is_built() => {
-                let (pwm, direction) = motor.outputs();
-                [Span::of(pwm), Span::of(direction)]
-            }
-            _ => [Span::NONE; 2],
+            Self::Brushless(motor) if Part::SixStep.is_built() => Span::of(motor.pwms()),
+            Self::Brushed(motor) if Part::HBridge.is_built() => Span::of(motor.pwm()),
+            _ => Span::NONE,
         }
     }
 }

@@ -59,9 +59,9 @@ impl<PWM: SetDutyCycle, DIR: OutputPin> HBridge<PWM, DIR> {
         self
     }
 
-    /// The outputs, which no drive changes.
-    pub const fn outputs(&self) -> (&PWM, &DIR) {
-        (&self.pwm, &self.dir)
+    /// Its PWM.
+    pub const fn pwm(&self) -> &PWM {
+        &self.pwm
     }
 
     /// The fault that holds the motor off.

@@ -188,9 +188,9 @@ impl<PWM: PhasePwms, EN: PhaseEnables, HALL: HallInputs> SixStep<PWM, EN, HALL> 
         }
     }
 
-    /// The outputs, which no drive changes.
-    pub const fn outputs(&self) -> (&PWM, &EN) {
-        (&self.pwms, &self.enables)
+    /// Its PWMs.
+    pub const fn pwms(&self) -> &PWM {
+        &self.pwms
     }
 
     /// Switches off and gives the pins back.
