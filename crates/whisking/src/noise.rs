@@ -74,6 +74,7 @@ fn normal_q24(word: u32) -> i32 {
     // The bits below the leading one, from the top of the octave down.
     let fraction = !(uniform << octave);
     let segment = (fraction >> 28) as usize % SEGMENTS;
+    // Its next 24 bits, a fraction of 2³².
     let within = u64::from((fraction << 4) & !0xFF);
     let lo = QUANTILES[octave * SEGMENTS + segment];
     let hi = QUANTILES[octave * SEGMENTS + segment + 1];

@@ -142,6 +142,7 @@ pub(super) fn damage(scene: &Scene, program: &Program) -> Result<Vec<Case>, Erro
         let whisker = info.variable("INNER")?.member("whiskers")?.element(0)?;
         let motor = whisker.member("servo")?.member("motor")?;
         let (kind, _, brushed) = motor.variant("Brushed")?;
+        // Any other tag is that of a brushless one.
         flips.push((55, (kind, 6, 4)));
         let pwm = brushed.member("pwm")?;
         flips.push((55, (pwm.address, 4, pwm.size()?)));

@@ -1,6 +1,6 @@
 //! What nothing writes after the start, the settings, the model, what the classifier has made of
-//! it and the outputs of the motors: checked by a sum while the core is idle. A mismatch is a fault of the board,
-//! and a reset reconstructs what is in RAM.
+//! it and where the motors' PWMs are: checked by a sum while the core is idle. A mismatch is a
+//! fault of the board, and a reset reconstructs what is in RAM.
 //!
 //! Other settings may take the place of these, and change the rule of the classifier with them.
 //! Then the tick that takes them over holds both against their sums just before, and gives them
@@ -11,7 +11,6 @@
 
 use core::sync::atomic::{AtomicU32, AtomicUsize, Ordering};
 
-use firmware::Part;
 use firmware::faults::number;
 
 use super::span::Span;
@@ -158,8 +157,8 @@ impl Integrity {
             .whiskers()
             .iter()
             .filter_map(|whisker| whisker.servo());
-        let mut outputs = || {
-            let servo = motors.next().filter(|_| Part::Motion.is_built());
+        let mut pwms = || {
+            let servo = motors.next();
             servo.map_or(Span::NONE, |servo| servo.motor().constants())
         };
         let spans = [
@@ -168,8 +167,8 @@ impl Integrity {
             (model, number::MODEL),
             (factors, number::MODEL),
             (Span::of(pace::constants()), number::SETTINGS),
-            (outputs(), number::SETTINGS),
-            (outputs(), number::SETTINGS),
+            (pwms(), number::SETTINGS),
+            (pwms(), number::SETTINGS),
         ];
         // Called in a row it would be by a pointer, which no check of the stack can follow.
         let regions = spans.map(|(span, fault)| Region::new(span, fault));

@@ -44,7 +44,8 @@ fn is_brushless() -> bool {
     }
 }
 
-/// Whether memory has lost a bit; [idle](super::integrity) reports it, which a tick cannot.
+/// Whether a motor was found to be of another kind: memory has lost a bit. [Idle](super::integrity)
+/// reports it, as no interrupt may end the program.
 static IS_LOST: AtomicBool = AtomicBool::new(false);
 
 pub(crate) fn is_lost() -> bool {
