@@ -166,7 +166,7 @@ impl Asked {
         Ok(Request {
             extent: Extent::Quick,
             rigs: self.rigs_with(keys)?,
-            depth: Depth::Least,
+            depth: Depth::Textures,
             ..self.request(part, seed, Arm::MAIN)?
         })
     }

@@ -62,12 +62,31 @@ const TABLE: &[Change] = &[
     ("features without a notch", &["table.notch_quality=0"]),
 ];
 
-/// PSIK, the fixed head.
+/// PSIK: the fixed head, and what the robot of the corridors has too.
 const PAD: &[Change] = &[
     NONE,
     ("sheet moved by ± 0.5 m", &["pad.position_spread_m=0.5"]),
-    ("half of the gain", &["pad.full_scale_rad=0.01"]),
-    ("follicles half as stiff", &["pad.follicle=0.5"]),
+    ("sheet off by 1 mm", &["pad.distance_spread_m=0.001"]),
+    ("sheet pitched by 20°", &["pad.pitch_deg=20"]),
+    (
+        "half of the gain",
+        &["pad.full_scale_rad=0.01", "corridor.full_scale_rad=0.017"],
+    ),
+    (
+        "twice the gain",
+        &[
+            "pad.full_scale_rad=0.0025",
+            "corridor.full_scale_rad=0.00425",
+        ],
+    ),
+    (
+        "follicles half as stiff",
+        &["pad.follicle=0.5", "corridor.follicle=0.5"],
+    ),
+    (
+        "follicles twice as stiff",
+        &["pad.follicle=2", "corridor.follicle=2"],
+    ),
 ];
 
 pub(super) fn of(part: &Part) -> &'static [Change] {

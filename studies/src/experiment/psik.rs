@@ -13,7 +13,7 @@ use tactile::score::Confusion;
 use super::ranges;
 use super::record::pad::PAPERS;
 use super::recording::{Dataset, Recordings, of_set};
-use super::request::{Depth, Request};
+use super::request::Request;
 use crate::chart::{Mark, Series, linear, panel, percent};
 use crate::page::{Page, confusion, figure, row};
 use crate::paper::psik::{ARCS, FIG6_THREE_ARCS, TABLE_2, VIBRISSAE};
@@ -77,9 +77,7 @@ pub(super) fn evaluate(page: &mut Page, request: &Request, recordings: &Recordin
     ranges::say(page, (request, recordings), (Dataset::Vibrissa, 2), most);
     let name = "IMP and network 33–33–8";
     page.score(name, "eight sandpapers", hit(all), (CHANCE, Some(CHANCE)));
-    if request.depth >= Depth::Textures {
-        corridor::section(page, request, recordings)?;
-    }
+    corridor::section(page, request, recordings)?;
     own::of_one_vibrissa(page, request, recordings)
 }
 

@@ -10,7 +10,7 @@ pub(crate) mod table;
 pub(crate) mod whiskers;
 
 use super::recording::{Dataset, Job, Recording, Recordings};
-use super::request::{Depth, Extent, Request};
+use super::request::{Extent, Request};
 use crate::cores::Cores;
 use crate::rigs::seed_of;
 use anyhow::{Context, Result};
@@ -36,7 +36,6 @@ pub(crate) fn jobs(request: &Request) -> Vec<Job> {
     let mut datasets: Vec<Dataset> = names.flat_map(|name| name.datasets()).copied().collect();
     datasets.sort_unstable();
     datasets.dedup();
-    datasets.retain(|dataset| *dataset != Dataset::Corridor || request.depth >= Depth::Textures);
     let of = |dataset| {
         let (count, _) = rig(dataset, request.extent);
         (0..count).map(move |number| Job { dataset, number })

@@ -206,8 +206,6 @@ pub(crate) struct Request {
 /// What of an experiment is done, each with what is before it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum Depth {
-    /// Textures, without the corridors of PSIK, which take the most time.
-    Least,
     /// All in which textures are told apart, but for PSIK's maze.
     Textures,
     /// What has no textures in it, too.

@@ -83,10 +83,17 @@ keys! {
     bits: usize => 2.0..=14.0,
     full_scale_rad: f64 => 1e-4..=3.0,
     follicle: f64 => 0.01..=100.0,
+    pitch_deg: f64 => -60.0..=60.0,
     layout: Layout,
 }
 
 impl Pad {
+    /// The normal of the sheet, whose top leans away from the head by `pitch_deg`.
+    pub(crate) fn normal(&self) -> [f64; 3] {
+        let (up, back) = libm::sincos(self.pitch_deg.to_radians());
+        [-back, 0.0, up]
+    }
+
     pub(crate) fn ticks(&self) -> usize {
         (self.sweep_s * RATE_HZ).round() as usize
     }
@@ -132,6 +139,15 @@ mod tests {
         }
         let rows: Vec<_> = all.iter().filter(|v| v.arc == 7).map(|v| v.row).collect();
         assert_eq!(rows, [3, 4], "D7 and E8");
+    }
+
+    #[test]
+    fn a_sheet_that_is_pitched_faces_the_head_and_upwards() {
+        let mut rig = rig();
+        assert_eq!(rig.normal(), [-1.0, 0.0, 0.0]);
+        rig.pitch_deg = 30.0;
+        let [x, y, z] = rig.normal();
+        assert!(x < 0.0 && y == 0.0 && (z - 0.5).abs() < 1e-12);
     }
 
     /// Every vibrissa is off the sheet at both ends of a sweep and on it in

@@ -5,7 +5,7 @@ use crate::experiment::product::{section, stream};
 use crate::experiment::record::corridor::{COLUMNS, FELT, place as in_corridor};
 use crate::experiment::record::pad::place as on_paper;
 use crate::experiment::recording::{Dataset, Recordings, of_set};
-use crate::experiment::request::{Depth, Request};
+use crate::experiment::request::Request;
 use crate::page::Page;
 use crate::paper::psik::{CORRIDORS, RATE_HZ};
 use anyhow::Result;
@@ -37,9 +37,6 @@ pub(super) fn of_one_vibrissa(
     let name = "eight sandpapers by one vibrissa".to_owned();
     let papers = (name, taught, asked);
 
-    if request.depth == Depth::Least {
-        return section(page, RATE_HZ, vec![papers]);
-    }
     let (training, tested, _) = request.extent.runs();
     let (mut taught, mut asked) = (Vec::new(), Vec::new());
     for (job, run) in of_set(recordings, Dataset::Corridor).iter().enumerate() {

@@ -54,7 +54,7 @@ fn sheet(request: &Request, job: usize, seed: u64) -> Plate {
     let [along, up] = [0, 1].map(|k| spot[k] + origin_m[k]);
     Plate {
         point_m: [distance_m, along, up],
-        normal: [-1.0, 0.0, 0.0],
+        normal: rig.normal(),
         along: [0.0, 1.0, 0.0],
         outline: Outline::PLANE,
         surface: request.surface(&whiskers::SANDPAPERS, paper, PLACEBO),
