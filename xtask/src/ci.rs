@@ -157,6 +157,7 @@ fn other_boards() -> Result<(), Fault> {
     board.run(emulate::CIA, &["compare --probe absent", "latency"])?;
     let both_sides = ["deadlines --minutes 0.05", "sensor-loss"];
     board.run(emulate::noisiest()?, &both_sides)?;
+    board.run(emulate::brushless()?, &["compare --duration 2", "damage"])?;
     board.run(emulate::head_of_two()?, &["relay"])?;
     board.run(emulate::FULL, &["serial", "stopping --stops 10"])?;
     board.run(emulate::with_slow_sensors()?, &["compare"])?;

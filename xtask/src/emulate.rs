@@ -248,6 +248,11 @@ pub(crate) fn with_slow_sensors() -> Result<PathBuf, Fault> {
     variants::with_slow_sensors(&top().join(FULL))
 }
 
+/// [`FULL`] with a brushless motor, which no scene of `scenes/` has.
+pub(crate) fn brushless() -> Result<PathBuf, Fault> {
+    variants::with(&top().join(FULL), &["motor.driver=six-step"])
+}
+
 /// [`CIA`] with a board a whisker, two dozen: what bus and boards bear at most.
 pub(crate) fn large_head() -> Result<PathBuf, Fault> {
     let keys = ["head.nodes=24", "head.whiskers_per_side=12"];

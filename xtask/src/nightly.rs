@@ -86,6 +86,7 @@ fn boards() -> Result<(), Fault> {
             emulate::compare_all(on)?;
             on.run(emulate::BENCH, &["deploying"])?;
         }
+        linked.run(emulate::brushless()?, &["compare", "damage"])?;
         let mut scenes = vec![PathBuf::from(emulate::FULL)];
         if board.facts.in_head == InHead::Untuned {
             linked.run(emulate::head_of_two()?, &["head"])?;

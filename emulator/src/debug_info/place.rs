@@ -170,18 +170,25 @@ impl Place<'_> {
     /// The variant of that name of an enum: its tag's place and value, and
     /// what it holds.
     pub(crate) fn variant(self, name: &str) -> Result<(u32, u8, Self), Fault> {
-        let missing = || bad(format!("no variant {name}"));
-        match self.own_variant(name)? {
-            Some((tag, Some(value), held)) => Ok((tag, value as u8, held)),
-            Some(_) => Err(missing()),
-            None => match self.unwrapped()? {
-                Some(inner) => inner.variant(name),
-                None => Err(missing()),
-            },
+        let (tag, value, held) = self.any_variant(name)?;
+        let value = value.ok_or_else(|| bad(format!("variant {name} has no tag")))?;
+        Ok((tag, value as u8, held))
+    }
+
+    /// What the variant of that name holds, whatever its tag.
+    pub(crate) fn held(self, name: &str) -> Result<Self, Fault> {
+        self.any_variant(name).map(|(_, _, held)| held)
+    }
+
+    fn any_variant(self, name: &str) -> Result<(u32, Option<u64>, Self), Fault> {
+        match (self.own_variant(name)?, self.unwrapped()?) {
+            (Some(found), _) => Ok(found),
+            (None, Some(inner)) => inner.any_variant(name),
+            (None, None) => Err(bad(format!("no variant {name}"))),
         }
     }
 
-    /// The same, of itself; a variant that is every other tag has no value of its own.
+    /// Of itself; a variant that is every other tag has no value of its own.
     fn own_variant(self, name: &str) -> Result<Option<(u32, Option<u64>, Self)>, Fault> {
         let info = self.info;
         let unit = self.of.unit;

@@ -134,18 +134,21 @@ pub(super) fn damage(scene: &Scene, program: &Program) -> Result<Vec<Case>, Erro
         let [slot, _] = program.model()?.facts.flash.slots;
         flips.push((56, (slot.model.start + ROW, 0, MODEL_BYTES)));
     }
-    if scene
-        .motor
-        .as_ref()
-        .is_some_and(|motor| motor.driver == Driver::HBridge)
-    {
+    if let Some(driver) = scene.motor.as_ref().map(|motor| motor.driver) {
         let whisker = info.variable("INNER")?.member("whiskers")?.element(0)?;
         let motor = whisker.member("servo")?.member("motor")?;
-        let (kind, _, brushed) = motor.variant("Brushed")?;
-        // Any other tag is that of a brushless one.
-        flips.push((55, (kind, 6, 4)));
-        let pwm = brushed.member("pwm")?;
-        flips.push((55, (pwm.address, 4, pwm.size()?)));
+        if driver == Driver::HBridge {
+            let (kind, _, brushed) = motor.variant("Brushed")?;
+            // Any other tag is that of a brushless one.
+            flips.push((55, (kind, 6, 4)));
+            let pwm = brushed.member("pwm")?;
+            flips.push((55, (pwm.address, 4, pwm.size()?)));
+        } else {
+            let pwms = motor.held("Brushless")?.member("pwms")?;
+            for name in ["__0", "__1", "__2"] {
+                flips.push((55, (pwms.member(name)?.address, 4, pwms.size()?)));
+            }
+        }
     }
     let cases = flips.into_iter().map(|(fault, (address, bit, bytes))| {
         let mut steps = vec![Pass(100)];
