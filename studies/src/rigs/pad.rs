@@ -88,10 +88,12 @@ keys! {
 }
 
 impl Pad {
-    /// The normal of the sheet, whose top leans away from the head by `pitch_deg`.
-    pub(crate) fn normal(&self) -> [f64; 3] {
-        let (up, back) = libm::sincos(self.pitch_deg.to_radians());
-        [-back, 0.0, up]
+    /// The normal of the sheet, whose top leans away from the head by `pitch_deg`, and the place of
+    /// its texture's origin, which is so far from the middle along it and upwards on it.
+    pub(crate) fn sheet(&self, distance_m: f64, [along, up]: [f64; 2]) -> ([f64; 3], [f64; 3]) {
+        let (sine, cosine) = libm::sincos(self.pitch_deg.to_radians());
+        let origin = [distance_m + up * sine, along, up * cosine];
+        ([-cosine, 0.0, sine], origin)
     }
 
     pub(crate) fn ticks(&self) -> usize {
@@ -144,10 +146,13 @@ mod tests {
     #[test]
     fn a_sheet_that_is_pitched_faces_the_head_and_upwards() {
         let mut rig = rig();
-        assert_eq!(rig.normal(), [-1.0, 0.0, 0.0]);
+        let flat = ([-1.0, 0.0, 0.0], [0.25, 0.1, 0.4]);
+        assert_eq!(rig.sheet(0.25, [0.1, 0.4]), flat);
         rig.pitch_deg = 30.0;
-        let [x, y, z] = rig.normal();
-        assert!(x < 0.0 && y == 0.0 && (z - 0.5).abs() < 1e-12);
+        let (normal, origin) = rig.sheet(0.25, [0.1, 0.4]);
+        assert!(normal[0] < 0.0 && normal[1] == 0.0 && (normal[2] - 0.5).abs() < 1e-12);
+        // Wherever its origin is, the sheet goes through the same place before the head.
+        assert!(dot(normal, add(origin, -1.0, [0.25, 0.0, 0.0])).abs() < 1e-12);
     }
 
     /// Every vibrissa is off the sheet at both ends of a sweep and on it in

@@ -52,9 +52,10 @@ fn sheet(request: &Request, job: usize, seed: u64) -> Plate {
     let (distance_m, origin_m) = rig.sweep(&mut chance);
     let spot = request.spot_m(Dataset::Pad, paper, seed);
     let [along, up] = [0, 1].map(|k| spot[k] + origin_m[k]);
+    let (normal, point_m) = rig.sheet(distance_m, [along, up]);
     Plate {
-        point_m: [distance_m, along, up],
-        normal: rig.normal(),
+        point_m,
+        normal,
         along: [0.0, 1.0, 0.0],
         outline: Outline::PLANE,
         surface: request.surface(&whiskers::SANDPAPERS, paper, PLACEBO),
