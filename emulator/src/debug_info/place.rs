@@ -181,10 +181,12 @@ impl Place<'_> {
     }
 
     fn any_variant(self, name: &str) -> Result<(u32, Option<u64>, Self), Fault> {
-        match (self.own_variant(name)?, self.unwrapped()?) {
-            (Some(found), _) => Ok(found),
-            (None, Some(inner)) => inner.any_variant(name),
-            (None, None) => Err(bad(format!("no variant {name}"))),
+        if let Some(found) = self.own_variant(name)? {
+            return Ok(found);
+        }
+        match self.unwrapped()? {
+            Some(inner) => inner.any_variant(name),
+            None => Err(bad(format!("no variant {name}"))),
         }
     }
 
