@@ -225,7 +225,7 @@ fn without_choices(page: &mut Page, asked: &Asked, all: &[Done]) {
     page.say(format_args!(
         "Margins of the claims on textures, as in the paper, with one change of the rig at a time: \
          cut short (two trials, four whisks, every third angle and speed, eight sweeps), seeds {} \
-         to {}. Bold: another verdict than as it is. PSIK: the fixed head alone.",
+         to {}. Bold: another verdict than as it is.",
         seeds.start,
         seeds.end.saturating_sub(1)
     ));

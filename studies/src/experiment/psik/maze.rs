@@ -11,6 +11,7 @@ use crate::chart::{Mark, Series, linear, panel};
 use crate::classifiers::network::Network;
 use crate::experiment::record::corridor::relief;
 use crate::experiment::record::pads::{Felt, Pads};
+use crate::experiment::recording::Dataset;
 use crate::experiment::request::Request;
 use crate::page::{Page, figure, row};
 use crate::paper::psik::RATE_HZ;
@@ -73,15 +74,27 @@ fn before(request: &Request, walls: &[Wall], pose: &Pose, length_m: f64) -> Opti
     let crossed = crossed.filter_map(|wall| Some((wall.crossing(base, tip)?, wall)));
     let (_, wall) = crossed.min_by(|(a, _), (b, _)| a.total_cmp(b))?;
     let [x, y] = wall.normal();
-    let surface = match wall.made {
+    let [begin_x, begin_y] = wall.from_m;
+    let (point_m, along, surface) = match wall.made {
         // Cardboard, as smooth as plastic (chosen).
-        Made::Plain => request.rigs.surfaces.of(Material::SmoothPlastic),
-        Made::Relief(number) => relief(request, number),
+        Made::Plain => {
+            let along = [wall.along[0], wall.along[1], 0.0];
+            let smooth = request.rigs.surfaces.of(Material::SmoothPlastic);
+            ([begin_x, begin_y, 0.0], along, smooth)
+        }
+        // The piece that was trained on, from the end at which it begins there.
+        Made::Relief(number) => {
+            let [far, up] = request.spot_m(Dataset::Corridor, number, request.seed);
+            let way = if number < 2 { 1.0 } else { -1.0 };
+            let begin = -way * request.rigs.corridor.length_m / 2.0;
+            let at = [begin + way * far, begin_y, up];
+            (at, [way, 0.0, 0.0], relief(request, number))
+        }
     };
     Some(Plate {
-        point_m: [wall.from_m[0], wall.from_m[1], 0.0],
+        point_m,
         normal: [x, y, 0.0],
-        along: [wall.along[0], wall.along[1], 0.0],
+        along,
         outline: Outline::PLANE,
         surface,
     })

@@ -43,15 +43,21 @@ pub(crate) fn relief(request: &Request, number: usize) -> physics::Surface {
     request.surface(&whiskers::WALLS, number, PLACEBO)
 }
 
-/// The wall of a side, and where its relief begins.
-fn plate(request: &Request, side: usize, number: usize, seed: u64) -> Plate {
+/// The wall of a side, and where its relief begins: on the way back at the other end.
+fn plate(request: &Request, side: usize, case: usize, seed: u64) -> Plate {
     let rig = &request.rigs.corridor;
+    let number = walls(case)[side];
     let left = if side == 0 { 1.0 } else { -1.0 };
     let [along, up] = request.spot_m(Dataset::Corridor, number, seed);
+    let (begin, way) = if case.is_multiple_of(2) {
+        (0.0, 1.0)
+    } else {
+        (rig.length_m, -1.0)
+    };
     Plate {
-        point_m: [along, left * rig.width_m / 2.0, up],
+        point_m: [begin + way * along, left * rig.width_m / 2.0, up],
         normal: [0.0, -left, 0.0],
-        along: [1.0, 0.0, 0.0],
+        along: [way, 0.0, 0.0],
         outline: Outline::PLANE,
         surface: relief(request, number),
     }
@@ -70,7 +76,7 @@ pub(crate) fn record(request: &Request, job: usize, seed: u64) -> Result<Recordi
     };
     let seeds = [1, 2].map(|side| seed_of(seed, &[side]));
     // The walls are the same pieces in every run, met from either end.
-    let plates = [0, 1].map(|side| plate(request, side, walls(case)[side], seeds[side]));
+    let plates = [0, 1].map(|side| plate(request, side, case, seeds[side]));
     let mut pads = Pads::new(rig, seeds)?;
     let (mut values, mut one) = (Vec::new(), Vec::new());
     let most = (4.0 * rig.length_m / rig.speed_m_s * RATE_HZ) as usize;
