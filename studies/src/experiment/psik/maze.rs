@@ -73,6 +73,10 @@ fn before(request: &Request, walls: &[Wall], pose: &Pose, length_m: f64) -> Opti
     let crossed = walls.iter();
     let crossed = crossed.filter_map(|wall| Some((wall.crossing(base, tip)?, wall)));
     let (_, wall) = crossed.min_by(|(a, _), (b, _)| a.total_cmp(b))?;
+    Some(plate(request, wall))
+}
+
+fn plate(request: &Request, wall: &Wall) -> Plate {
     let [x, y] = wall.normal();
     let [begin_x, begin_y] = wall.from_m;
     let (point_m, along, surface) = match wall.made {
@@ -91,13 +95,13 @@ fn before(request: &Request, walls: &[Wall], pose: &Pose, length_m: f64) -> Opti
             (at, [way, 0.0, 0.0], relief(request, number))
         }
     };
-    Some(Plate {
+    Plate {
         point_m,
         normal: [x, y, 0.0],
         along,
         outline: Outline::PLANE,
         surface,
-    })
+    }
 }
 
 struct Behaviour<'r> {
@@ -300,4 +304,45 @@ pub(super) fn section(page: &mut Page, request: &Request, network: &Network) -> 
         (share - ENOUGH, "points"),
     );
     Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use physics::Plate;
+    use physics::vector::cross;
+
+    use super::plate;
+    use crate::experiment::record::corridor;
+    use crate::experiment::request::{Name, Request};
+    use crate::rigs::Made;
+
+    /// Whichever way it goes through a corridor, it meets the pieces of its training, each from
+    /// the same end and the same way up.
+    #[test]
+    fn walls_of_the_maze_are_those_of_the_corridors() {
+        let request = Request::quick(&[Name::Psikharpax], 5);
+        let half = request.rigs.corridor.length_m / 2.0;
+        let walls = request.rigs.maze.walls(&request.rigs.corridor);
+        let at = |plate: &Plate, x: f64| plate.along[0] * (x - plate.point_m[0]);
+        for (case, side) in (0..4).flat_map(|case| [(case, 0), (case, 1)]) {
+            let made = Made::Relief(corridor::walls(case)[side]);
+            let wall = walls.iter().find(|wall| wall.made == made).unwrap();
+            let (met, trained) = (
+                plate(&request, wall),
+                corridor::plate(&request, side, case, 9),
+            );
+            for gone_m in [0.0, 0.3, 1.0] {
+                let ahead = matches!(case, 0 | 3);
+                let x = if ahead { gone_m - half } else { half - gone_m };
+                let off = at(&met, x) - at(&trained, gone_m);
+                assert!(off.abs() < 1e-12, "{case} {side} {gone_m}: {off}");
+            }
+            let up = |plate: &Plate| cross(plate.normal, plate.along)[2];
+            assert_eq!(
+                (up(&met), met.point_m[2]),
+                (up(&trained), trained.point_m[2])
+            );
+            assert_eq!(met.surface, trained.surface);
+        }
+    }
 }

@@ -44,7 +44,7 @@ pub(crate) fn relief(request: &Request, number: usize) -> physics::Surface {
 }
 
 /// The wall of a side, and where its relief begins: on the way back at the other end.
-fn plate(request: &Request, side: usize, case: usize, seed: u64) -> Plate {
+pub(crate) fn plate(request: &Request, side: usize, case: usize, seed: u64) -> Plate {
     let rig = &request.rigs.corridor;
     let number = walls(case)[side];
     let left = if side == 0 { 1.0 } else { -1.0 };
