@@ -49,7 +49,7 @@ pub(crate) fn plate(request: &Request, side: usize, case: usize, seed: u64) -> P
     let number = walls(case)[side];
     let left = if side == 0 { 1.0 } else { -1.0 };
     let [along, up] = request.spot_m(Dataset::Corridor, number, seed);
-    let (begin, way) = if case.is_multiple_of(2) {
+    let (begin, way) = if request.place(case, 0).is_multiple_of(2) {
         (0.0, 1.0)
     } else {
         (rig.length_m, -1.0)
