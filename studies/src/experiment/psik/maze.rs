@@ -86,7 +86,8 @@ fn plate(request: &Request, wall: &Wall) -> Plate {
             let smooth = request.rigs.surfaces.of(Material::SmoothPlastic);
             ([begin_x, begin_y, 0.0], along, smooth)
         }
-        // The piece that was trained on, from the end at which it begins there.
+        // The piece that was trained on, which begins where a robot that goes around clockwise
+        // comes in: at the top towards x, at the bottom against it.
         Made::Relief(number) => {
             let [far, up] = request.spot_m(Dataset::Corridor, number, request.seed);
             let way = if number < 2 { 1.0 } else { -1.0 };
