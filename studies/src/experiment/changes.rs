@@ -38,6 +38,7 @@ const HEAD: &[Change] = &[
     ("another spot each whisk", &["head.spot_spread_m=0.005"]),
     ("arm off by 0.1 mm", &["head.placement_sd_m=0.0001"]),
     ("surface pitched by 20°", &["head.pitch_deg=20"]),
+    ("sensors rolled by 20°", &["head.roll_deg=20"]),
     ("half of the gain", &["head.full_scale_rad=0.008"]),
     ("twice the gain", &["head.full_scale_rad=0.002"]),
     ("follicles half as stiff", &["head.follicle=0.5"]),
@@ -70,12 +71,12 @@ const PAD: &[Change] = &[
     ("sheet pitched by 20°", &["pad.pitch_deg=20"]),
     (
         "half of the gain",
-        &["pad.full_scale_rad=0.01", "corridor.full_scale_rad=0.017"],
+        &["pad.full_scale_rad=0.03", "corridor.full_scale_rad=0.017"],
     ),
     (
         "twice the gain",
         &[
-            "pad.full_scale_rad=0.0025",
+            "pad.full_scale_rad=0.0075",
             "corridor.full_scale_rad=0.00425",
         ],
     ),

@@ -31,6 +31,7 @@ keys! {
     placement_sd_m: f64 => 0.0..=0.1,
     spot_spread_m: f64 => 0.0..=0.1,
     pitch_deg: f64 => -60.0..=60.0,
+    roll_deg: f64 => -60.0..=60.0,
     follicle: f64 => 0.01..=100.0,
     smooth_bins: f64 => 0.0..=50.0,
     full_scale_rad: f64 => 1e-4..=3.0,
@@ -66,17 +67,27 @@ impl WhiskingHead {
         (self.tick_hz / self.whisk_hz).round() as usize
     }
 
-    /// Where a whisker is at an angle θ'. Its sensor's x is along protraction.
+    /// Where a whisker is at an angle θ'. Its sensor's x is along protraction, and `roll_deg` from
+    /// there about the shaft.
     pub(crate) fn pose(&self, side: usize, whisker: usize, theta_deg: f64) -> Pose {
         let left = if side == 0 { 1.0 } else { -1.0 };
         let (sine, cosine) = libm::sincos(theta_deg.to_radians());
         let (back, aside) = (self.base_back_m[whisker], self.base_side_m[whisker]);
-        // The shaft is (−cos, ± sin, 0): x its derivative by θ', y = shaft × x.
+        let (turned, straight) = libm::sincos(self.roll_deg.to_radians());
+        // The shaft is (−cos, ± sin, 0): forward its derivative by θ', y = shaft × forward.
+        let forward = [sine, left * cosine, 0.0];
+        let y = [0.0, 0.0, -left];
         Pose {
             base_m: [-back, left * aside, 0.0],
-            x: [sine, left * cosine, 0.0],
-            y: [0.0, 0.0, -left],
+            x: add(forward.map(|part| straight * part), turned, y),
+            y: add(y.map(|part| straight * part), -turned, forward),
         }
+    }
+
+    /// The part of a whisker's rotation that is about the motor's axis, of both by the sensor's.
+    fn in_the_plane_of_whisking(&self, [x, y]: [f64; 2]) -> f64 {
+        let (turned, straight) = libm::sincos(self.roll_deg.to_radians());
+        straight * x - turned * y
     }
 
     /// The surface where the arm has brought it once, and the spot of it that whiskers meet.
@@ -147,7 +158,7 @@ impl WhiskingHead {
                 let (side, place) = (n / EACH, n % EACH);
                 // The follicle's torque; a free whisker's inertia is in the motor's.
                 let stiffness = shafts[place].follicle.rotation_n_m_rad;
-                let bent = stiffness * whisker.rotation_rad()[0];
+                let bent = stiffness * self.in_the_plane_of_whisking(whisker.rotation_rad());
                 let load = if whisker.contact() { bent } else { 0.0 };
                 let angle = module.turn(n, load, dt_s);
                 if place == 0 {
@@ -202,6 +213,24 @@ mod tests {
             tip(0, 120.0)[0] > tip(0, 90.0)[0],
             "protraction goes forward"
         );
+    }
+
+    /// The shaft stays, its sensor turns about it, and the motor bears what it bore.
+    #[test]
+    fn a_roll_turns_the_sensor_about_its_shaft() {
+        let straight = rig();
+        let mut rolled = rig();
+        rolled.roll_deg = 20.0;
+        for (side, theta) in [(0, 70.0), (1, 110.0)] {
+            let (from, to) = (straight.pose(side, 1, theta), rolled.pose(side, 1, theta));
+            let off = add(cross(from.x, from.y), -1.0, cross(to.x, to.y));
+            assert!(dot(off, off) < 1e-24);
+            let turn = dot(to.x, from.y).atan2(dot(to.x, from.x));
+            assert!((turn.to_degrees() - 20.0).abs() < 1e-9, "{turn}");
+            // A rotation towards protraction, as the rolled sensor has it.
+            let of = [dot(to.x, from.x), dot(to.y, from.x)].map(|part| 0.3 * part);
+            assert!((rolled.in_the_plane_of_whisking(of) - 0.3).abs() < 1e-12);
+        }
     }
 
     /// Unmodulated whisks at 10 mm.

@@ -81,7 +81,7 @@ pub(crate) fn record(request: &Request, job: usize, seed: u64) -> Result<Recordi
     let (mut values, mut one) = (Vec::new(), Vec::new());
     let most = (4.0 * rig.length_m / rig.speed_m_s * RATE_HZ) as usize;
     for _ in 0..most {
-        let felt = pads.step(&robot, |side, _, _| Some(plates[side]));
+        let felt = pads.step(&robot, |side, _| Some(plates[side]));
         let [left, right] = felt.distance_mm;
         one.extend(felt.one);
         if let Some(window) = felt.window {

@@ -57,12 +57,11 @@ impl Pads {
         })
     }
 
-    /// A tick: `wall` says what a vibrissa of a side (0: left) may touch, by its pose and its
-    /// length, m.
+    /// A tick: `wall` says what a vibrissa of a side (0: left) may touch, by its pose.
     pub(crate) fn step(
         &mut self,
         robot: &Robot,
-        wall: impl Fn(usize, &Pose, f64) -> Option<Plate>,
+        wall: impl Fn(usize, &Pose) -> Option<Plate>,
     ) -> Felt {
         let mut felt = Felt {
             distance_mm: [0.0; 2],
@@ -75,7 +74,7 @@ impl Pads {
             let all = side.whiskers.iter_mut().zip(&mut codes).zip(&mut side.bent);
             for (((vibrissa, whisker), code), bent) in all {
                 let pose = Corridor::pose(robot, number, vibrissa);
-                let plate = wall(number, &pose, vibrissa.length_m);
+                let plate = wall(number, &pose);
                 whisker.step(&pose, plate.as_ref(), 1.0 / RATE_HZ);
                 *code = pad::codes(whisker.reading(), BITS);
                 let [x, y] = code.map(f32::from);
