@@ -63,7 +63,8 @@ const TABLE: &[Change] = &[
     ("features without a notch", &["table.notch_quality=0"]),
 ];
 
-/// PSIK: the fixed head, and what the robot of the corridors has too.
+/// PSIK: the fixed head, and what the robot of the corridors has too. No roll of sensors: IMP takes
+/// r = √(x² + y²), which stays.
 const PAD: &[Change] = &[
     NONE,
     ("sheet moved by ± 0.5 m", &["pad.position_spread_m=0.5"]),
