@@ -307,8 +307,7 @@ pub(super) fn section(page: &mut Page, request: &Request, network: &Network) -> 
     page.say(format_args!(
         "Votes of the whole corridor, as in the paper, turn it as the walls say in **{} %**; those \
          from {} s on alone would in **{} %** (looked at after a first run was seen). The robot \
-         comes out of a bend nearer the island and askew, as in no run of the training, which \
-         begins in front of a corridor; there the votes are for the other way through.",
+         comes out of a bend; the training begins in front of a corridor.",
         figure(whole, 1),
         maze.least_s,
         figure(later, 1)
