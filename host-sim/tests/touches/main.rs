@@ -48,7 +48,12 @@ struct Found {
 }
 
 impl Found {
+    /// By the middle shaft where it is elastic.
     fn contacts(&mut self, scene: &Scene) {
+        self.contacts_of(scene, Biotact::Middle);
+    }
+
+    fn contacts_of(&mut self, scene: &Scene, shaft: Biotact) {
         let obstacle = scene.plant.obstacle.as_ref().unwrap();
         let head = Head {
             whiskers_per_side: 1,
@@ -66,7 +71,7 @@ impl Found {
         } else {
             let settings = ElasticSettings {
                 noise_codes,
-                ..ElasticSettings::of(Shaft::biotact(Biotact::Middle))
+                ..ElasticSettings::of(Shaft::biotact(shaft))
             };
             let plant = Elastic::new(head, settings, scene.seed).unwrap();
             self.run(scene, plant, Elastic::in_the_air);
@@ -177,6 +182,45 @@ fn a_shaft_does_not_suppress_its_own_protraction() {
     found.contacts(&scene);
     assert!(found.soon() > 0.99 && found.mean() < 0.8, "{found:?}");
     assert!(found.false_ones <= 2, "{found:?}");
+}
+
+/// What self-motion does to the onsets of each shaft (BIOTACT section V). The rear shaft's own
+/// bending counts as touch: at 2 Hz between contacts, faster all the time.
+#[test]
+fn onsets_of_each_shaft_without_self_motion_and_with_it() {
+    println!("shaft, Hz: contacts, % within 2 ms, false onsets a minute, without and with");
+    for (shaft, name) in [
+        (Biotact::Front, "front"),
+        (Biotact::Middle, "middle"),
+        (Biotact::Rear, "rear"),
+    ] {
+        let text = WHISKER.replace("biotact-middle", &format!("biotact-{name}"));
+        for hz in [2.0, 4.0, 8.0] {
+            let [without, with] = [None, Some(2.0)].map(|tau_s| {
+                let mut scene = scene(&text, hz, 100.0, 20.0, 3205);
+                scene.sensor.self_motion_s = tau_s;
+                let mut found = Found::default();
+                found.contacts_of(&scene, shaft);
+                let minutes = found.ticks as f64 / TICK_HZ / 60.0;
+                let contacts = found.delays.len() as u64 + found.missed;
+                (contacts, found.soon(), found.false_ones as f64 / minutes)
+            });
+            let text = |(contacts, soon, false_ones): (u64, f64, f64)| {
+                let soon = if contacts > 0 { 100.0 * soon } else { 0.0 };
+                format!("{contacts} {soon:.1} {false_ones:.0}")
+            };
+            println!("{name} {hz}: {}, {}", text(without), text(with));
+            for (contacts, soon, false_ones) in [without, with] {
+                let found = format!("{name} {hz}: {contacts} {soon} {false_ones}");
+                if name == "rear" {
+                    assert!(hz > 2.0 || (contacts > 30 && soon > 0.9), "{found}");
+                } else {
+                    assert!(contacts as f64 > 17.0 * hz && soon > 0.95, "{found}");
+                    assert!(false_ones <= 12.0, "{found}");
+                }
+            }
+        }
+    }
 }
 
 /// With a model that knows touches.
