@@ -18,6 +18,12 @@
 //! weighed as features are. Either way nothing is decided
 //! in the first blocks of a touch, in which all ways are alike ([`Section::least`]).
 //!
+//! A touch of more than nine blocks is cut in *parts* of nine. Each must pass by itself, and the
+//! mean over the parts as well: m ← m + (part − m) / min(n, 4), of distances (2) and of scores (3).
+//! Scores count as they are, as what is not as in training moves all parts alike; where the mean
+//! distance is within that of half of the touches of training they count √min(n, 4) times. Nothing
+//! is decided in the first two parts.
+//!
 //! Of what is named the [pose] may be estimated too.
 //!
 //! What is refused has a [`Reason`](crate::Reason): 1 the pose, 2 unknown, 3 between two classes.
@@ -88,6 +94,25 @@ pub(crate) fn blocks_of(state: [usize; 2], blocks: usize) -> usize {
     blocks.min(end).saturating_sub(first)
 }
 
+/// Parts of a long touch over which scores are averaged.
+pub(crate) const PARTS: usize = 4;
+/// A part counts as so many times its limit at most: so that a knock is not felt for long.
+pub(crate) const OUTLIER: u32 = 4;
+/// Of the fraction of what a mean of scores weighs.
+const WEIGHT_BITS: u32 = 5;
+/// What the mean of so many parts weighs: the root of their number.
+const WEIGHTS: [u32; PARTS + 1] = [0, 32, 45, 55, 64];
+
+/// How near the parts of a long touch are to a class in the mean.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Nearness {
+    /// As half of what was trained.
+    Near,
+    Between,
+    /// As next to nothing of it.
+    Far,
+}
+
 /// The most that a deviation counts, in deviations of training.
 const DEVIATION_MOST: i32 = 128;
 /// Bits of the fraction of a deviation along a path.
@@ -107,6 +132,11 @@ pub(crate) struct Opinion {
     scores: [i32; MAX_CLASSES],
     /// How far the states that have ended are from each class, where it is known.
     ended: [typical::Ended; MAX_CLASSES],
+    /// Of the parts of a long touch that have ended: how many, to [`PARTS`], and their mean scores.
+    parts: usize,
+    mean: [i32; MAX_CLASSES],
+    /// And their mean distance from what is typical of each class.
+    mean_distance: [i32; MAX_CLASSES],
 }
 
 impl Opinion {
@@ -118,6 +148,9 @@ impl Opinion {
             blocks: 0,
             scores: [0; MAX_CLASSES],
             ended: [typical::NONE; MAX_CLASSES],
+            parts: 0,
+            mean: [0; MAX_CLASSES],
+            mean_distance: [0; MAX_CLASSES],
         }
     }
 
@@ -143,11 +176,31 @@ impl Opinion {
     /// A touch begins: the open block is dropped, and what was felt.
     pub(crate) fn begin(&mut self) {
         self.differences.clear();
-        self.begin_again();
+        self.parts = 0;
+        self.mean = [0; MAX_CLASSES];
+        self.mean_distance = [0; MAX_CLASSES];
+        self.clear();
     }
 
-    /// A touch is long: what was felt is dropped before a block that is full.
-    pub(crate) fn begin_again(&mut self) {
+    /// A touch is long: of what was felt the scores are kept, in a mean over its parts in which the
+    /// last weighs 1/[`PARTS`] at least.
+    pub(crate) fn begin_again(&mut self, section: Section<'_>, classes: usize) {
+        self.parts = (self.parts + 1).min(PARTS);
+        let share = self.parts as i32;
+        for (mean, score) in self.mean.iter_mut().zip(self.scores) {
+            *mean += (score - *mean) / share;
+        }
+        for class in 0..classes {
+            let (distance, most) = self.distance(class, section);
+            let distance = distance.min(most.saturating_mul(OUTLIER)).cast_signed();
+            if let Some(mean) = self.mean_distance.get_mut(class) {
+                *mean += (distance - *mean) / share;
+            }
+        }
+        self.clear();
+    }
+
+    fn clear(&mut self) {
         self.states = [[0; WEIGHED]; STATES.len()];
         self.blocks = 0;
         self.scores = [0; MAX_CLASSES];
@@ -213,6 +266,11 @@ impl Opinion {
         self.scores = [0; MAX_CLASSES];
     }
 
+    /// Whether too little of a touch is known to decide.
+    pub(crate) fn is_early(&self, section: Section<'_>) -> bool {
+        self.blocks < section.least() || (section.has_means() && self.parts < 2)
+    }
+
     // At a decision, likewise.
     #[inline(never)]
     pub(crate) fn objection(
@@ -232,8 +290,7 @@ impl Opinion {
         if section.names() {
             return None;
         }
-        self.rival(section.most_odds(), classes, class)
-            .map(Reason::Between)
+        self.rival(section, classes, class).map(Reason::Between)
     }
 
     /// None where the model does not say.
@@ -242,9 +299,15 @@ impl Opinion {
         pose::estimate(self.path.get(..stage)?, words, limits)
     }
 
-    /// The class that stands against this one, by the scores, if the odds against it are more.
-    fn rival(&self, most_odds: u32, classes: usize, class: usize) -> Option<usize> {
-        let scores = self.scores.get(..classes)?;
+    /// The class that stands against this one, by the scores, if the odds against it are too many.
+    fn rival(&self, section: Section<'_>, classes: usize, class: usize) -> Option<usize> {
+        // Near, each part errs for itself; elsewhere all of them may err alike.
+        let (scores, weight) = match self.nearness(class, section) {
+            None => (&self.scores, 1 << WEIGHT_BITS),
+            Some(Nearness::Near) => (&self.mean, *WEIGHTS.get(self.parts)?),
+            Some(_) => (&self.mean, 1 << WEIGHT_BITS),
+        };
+        let scores = scores.get(..classes)?;
         let own = *scores.get(class)?;
         let (mut odds, mut rival, mut best) = (0_u32, class, i32::MIN);
         for (other, score) in scores.iter().enumerate() {
@@ -255,14 +318,35 @@ impl Opinion {
                 (best, rival) = (*score, other);
             }
             let behind = own.saturating_sub(*score).max(0).unsigned_abs();
+            let behind = behind.saturating_mul(weight) >> WEIGHT_BITS;
             let scale = const { EvidenceScale::per_samples(1) };
             odds = odds.saturating_add(scale.term(behind.min(MAX_DEFICIT), 0));
         }
-        (odds > most_odds).then_some(rival)
+        (odds > section.most_odds()).then_some(rival)
     }
 
     /// Whether the features of the states are as near to a class as its limit says.
     fn is_typical(&self, class: usize, section: Section<'_>) -> bool {
+        let (distance, most) = self.distance(class, section);
+        distance <= most && self.nearness(class, section) != Some(Nearness::Far)
+    }
+
+    /// How near the parts of a long touch are to a class in the mean.
+    fn nearness(&self, class: usize, section: Section<'_>) -> Option<Nearness> {
+        if !section.has_means() {
+            return None;
+        }
+        let [near, most] = section.mean_distances(class, self.parts)?;
+        let mean = self.mean_distance.get(class)?.unsigned_abs();
+        Some(match mean {
+            mean if mean <= near => Nearness::Near,
+            mean if mean <= most => Nearness::Between,
+            _ => Nearness::Far,
+        })
+    }
+
+    /// How far the states are from a class, and the most that is typical.
+    fn distance(&self, class: usize, section: Section<'_>) -> (u32, u32) {
         let (states, limits) = section.typical(class);
         let ended = self.ended.get(class).unwrap_or(&typical::NONE);
         let words = states.chunks(STATE_WORDS);
@@ -273,7 +357,7 @@ impl Opinion {
         });
         let distance = squares.fold(0, u32::saturating_add);
         let stage = self.blocks.clamp(1, section.stages().max(1));
-        distance <= limits.get(stage - 1).copied().unwrap_or(0)
+        (distance, limits.get(stage - 1).copied().unwrap_or(0))
     }
 
     /// Works out what a decision will ask of the state that has ended last, of the class of this

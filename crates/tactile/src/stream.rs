@@ -211,7 +211,7 @@ impl<E> StreamState<E> {
             && let [judge, ..] = self.judges.as_mut_slice()
         {
             if judge.opinion.is_full() && section.begins_again() {
-                judge.opinion.begin_again();
+                judge.opinion.begin_again(section, model.classes());
             }
             let rise = judge.opinion.end_of_block(section, model.classes());
             if section.names() {
@@ -254,8 +254,8 @@ impl<E> StreamState<E> {
     }
 
     pub(crate) fn is_early(&self, section: Option<Section<'_>>) -> bool {
-        let blocks = self.judges.first().map(|judge| judge.opinion.blocks());
-        matches!((section, blocks), (Some(section), Some(blocks)) if blocks < section.least())
+        let judge = self.judges.first();
+        section.is_some_and(|section| judge.is_some_and(|judge| judge.opinion.is_early(section)))
     }
 
     pub(crate) fn objection(

@@ -2,7 +2,7 @@
 //!
 //! | words | content |
 //! |---|---|
-//! | 1 | kind u8 (bit 0: names, otherwise it objects; bit 1: touches longer than nine blocks begin again; bit 2: poses are estimated; bit 3: paths allow for another sensor; bit 4: there are no weights of stages before the first that decides; bit 5: deflections are weighed), poses of paths P u8 (1 to 12), stages u8 (1 to 8), patience u8 (1 to 9) |
+//! | 1 | kind u8 (bit 0: names, otherwise it objects; bit 1: touches longer than nine blocks begin again; bit 2: poses are estimated; bit 3: paths allow for another sensor; bit 4: there are no weights of stages before the first that decides; bit 5: deflections are weighed; bit 6: of parts of a long touch means count), poses of paths P u8 (1 to 12), stages u8 (1 to 8), patience u8 (1 to 9) |
 //! | 1 | most odds against the leader by the opinion, 2⁻²⁶ |
 //! | 1, 1 | code that becomes zero i32; bits that are left off a code |
 //! | 2 | rest of x and y where no air was felt yet, i32, 1/256 narrow codes |
@@ -11,11 +11,12 @@
 //! | only with poses: 2 | least and most tilt, then depth, i16, 1/100 |
 //! | per class and stage from the first that decides | errors of tilt and depth u16, 1/100; shifts u16; for each bias i32, 1/100, and [weights](super::pose) i32 |
 //! | only with another sensor: 1 | most turn of one u16, 1/256 of 1/32 rad; most change of y's scale u16, 1/256 of 1/16 |
+//! | only with means of parts: per class | the distances u32 within which half of the means of 2 parts, of 3, and of more lay, then three limits |
 //! | per class | per state: 10 means i16, 1/256; shift; 55 of a triangle i16, and a zero; then 8 limits u32 |
 //! | per class | 9 × inverse deviation of x and y u16, 2⁻¹⁶; P × 9 × x and y i16; limit u32 |
 
 use super::path::Paths;
-use super::{BLOCKS, FEATURES, STAGES, STATES, WEIGHED, Whisked, pose};
+use super::{BLOCKS, FEATURES, PARTS, STAGES, STATES, WEIGHED, Whisked, pose};
 use crate::error::ModelError;
 
 /// Most poses between which a path may lie.
@@ -25,6 +26,10 @@ pub(crate) const HEAD_WORDS: usize = 8;
 pub(crate) const LATE: u8 = 16;
 /// Bit 5.
 pub(crate) const DEFLECTIONS: u8 = 32;
+/// Bit 6.
+pub(crate) const MEANS: u8 = 64;
+/// Of a class.
+const MEAN_WORDS: usize = 2 * (PARTS - 1);
 const TRIANGLE_WORDS: usize = (FEATURES * (FEATURES + 1) / 2).div_ceil(2);
 pub(crate) const STATE_WORDS: usize = FEATURES / 2 + 1 + TRIANGLE_WORDS;
 pub(crate) const TYPICAL_WORDS: usize = STATES.len() * STATE_WORDS + STAGES;
@@ -61,7 +66,7 @@ impl<'m> Section<'m> {
     /// Whether one of so many words that begins with `head` can be read.
     pub(crate) fn check(head: &[u32], words: usize, classes: usize) -> Result<(), ModelError> {
         let section = Section::new(head, classes);
-        let fits = section.byte(0) <= 63
+        let fits = section.byte(0) <= 127
             && (1..=MAX_POSES).contains(&section.poses())
             && (1..=STAGES).contains(&section.stages())
             && (1..=BLOCKS).contains(&section.patience())
@@ -75,6 +80,7 @@ impl<'m> Section<'m> {
         self.before_stage(self.stages() + 1)
             + self.pose_words()
             + usize::from(self.has_bounds())
+            + self.mean_words()
             + of_classes
     }
 
@@ -121,6 +127,27 @@ impl<'m> Section<'m> {
             turn: i32::from(word as u16),
             scale: (word >> 16).cast_signed(),
         }
+    }
+
+    /// Whether of a long touch the means over its parts count; otherwise each part alone.
+    #[inline]
+    pub(crate) fn has_means(self) -> bool {
+        self.byte(0) & MEANS != 0
+    }
+
+    fn mean_words(self) -> usize {
+        usize::from(self.has_means()) * self.classes * MEAN_WORDS
+    }
+
+    /// The mean distances from a class within which half of what was trained lay, and nearly all,
+    /// after so many parts, from 2.
+    pub(crate) fn mean_distances(self, class: usize, parts: usize) -> Option<[u32; 2]> {
+        let bounds = usize::from(self.has_bounds());
+        let first = self.before_stage(self.stages() + 1) + self.pose_words() + bounds;
+        let words = self.words.get(first + class * MEAN_WORDS..)?;
+        let (near, most) = words.get(..MEAN_WORDS)?.split_at(MEAN_WORDS / 2);
+        let at = parts.checked_sub(2)?;
+        Some([*near.get(at)?, *most.get(at)?])
     }
 
     /// The first stage that has weights.
@@ -296,7 +323,7 @@ mod tests {
 
     #[test]
     fn without_early_weights_all_else_is_where_it_was() {
-        let whole = words(4 | 8);
+        let whole = words(4 | 8 | MEANS);
         let early: usize = (1..5)
             .map(|stage| Section::new(&whole, CLASSES).stage_words(stage))
             .sum();
@@ -314,6 +341,10 @@ mod tests {
             assert_eq!(late.pose(class, 6), whole.pose(class, 6));
             assert_eq!(late.typical(class), whole.typical(class));
             assert_eq!(late.path(class), whole.path(class));
+            assert_eq!(
+                late.mean_distances(class, 3),
+                whole.mean_distances(class, 3)
+            );
         }
     }
 }

@@ -3,11 +3,11 @@
 use super::section::halves;
 use super::{DEVIATION_MOST, FEATURES, STATE_BITS, STATES};
 
-/// How far the states that have ended are from a class; the last never ends.
-pub(super) type Ended = [u32; STATES.len() - 1];
+/// How far the states that have ended are from a class.
+pub(super) type Ended = [u32; STATES.len()];
 /// Above what a [`square`] can be.
 pub(super) const UNKNOWN: u32 = u32::MAX;
-pub(super) const NONE: Ended = [UNKNOWN; STATES.len() - 1];
+pub(super) const NONE: Ended = [UNKNOWN; STATES.len()];
 
 /// The largest deviation of a sum. Of a trained model below 2¹⁵; 2¹⁶ by 2¹⁵ is what a word holds.
 const MOST: i32 = u16::MAX as i32;

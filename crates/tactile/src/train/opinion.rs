@@ -224,6 +224,9 @@ fn of_felt(
     if names && felt.poses.len() <= MAX_POSES {
         written::bounds(&mut words, felt.sensor);
     }
+    if felt.begins_again {
+        written::means(&mut words, classes.iter().map(|(typical, _)| typical));
+    }
     for (typical, _) in &classes {
         written::typical(&mut words, typical);
     }

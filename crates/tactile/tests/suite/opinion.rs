@@ -277,7 +277,14 @@ fn a_touch_that_lasts_is_judged_from_its_first_block_to_its_last() {
             let said = decisions(&model, &lasting(label, *amplitude, seed));
             let named = said.iter().filter(|(of, _)| of.class() == class).count();
             assert!(named >= 10 && 10 * named >= 9 * said.len(), "{named}");
+            // Two parts of nine blocks have ended.
+            let (first, _) = said.first().unwrap();
+            assert!(first.samples() >= 2 * 9 * model.block());
         }
+        // A tenth rougher: near enough for some parts by themselves, and too far in the mean.
+        let said = decisions(&model, &lasting("", 66.0, 200));
+        let named = said.iter().filter(|(of, _)| of.class().is_some());
+        assert!(10 * named.count() <= said.len());
         for amplitude in [35.0, 105.0, 500.0] {
             let said = decisions(&model, &lasting("", amplitude, 200));
             let named = said.iter().filter(|(of, _)| of.class().is_some());

@@ -7,12 +7,15 @@ use std::vec::Vec;
 use super::linear::LEAST_VARIANCE;
 use super::matrix::{Matrix, less, mean, quantile, square};
 use super::touches::Touch;
-use crate::opinion::{FEATURES, STAGES, STATES};
+use crate::opinion::{BLOCKS, FEATURES, OUTLIER, PARTS, STAGES, STATES};
 
 /// Off the diagonal a covariance counts so much less.
 const SHRINK: f64 = 0.3;
 /// The share of held-out touches of a class that are typical of it: of one pose, of several.
 pub(super) const SHARE: [f64; 2] = [0.98, 0.95];
+
+/// The share of means over parts of touches that last which are near, and which are typical.
+const SHARE_OF_MEANS: [f64; 2] = [0.5, 0.95];
 
 #[derive(Debug, Clone)]
 pub(super) struct State {
@@ -25,6 +28,8 @@ pub(super) struct Typical {
     pub(super) states: Vec<State>,
     /// After one block, two, …
     pub(super) limits: [f64; STAGES],
+    /// Within which half of the means over two parts of a long touch, three, … lay, and nearly all.
+    pub(super) of_means: [[f64; PARTS - 1]; 2],
 }
 
 impl Typical {
@@ -42,13 +47,18 @@ impl Typical {
                 .collect()
         };
         let mut distances: [Vec<f64>; STAGES] = core::array::from_fn(|_| Vec::new());
-        let last = parts.iter().copied().max().unwrap_or(0);
-        for part in 0..=last {
-            let others = states(&|of| of != part || last == 0);
+        // Of whole parts, and whether they go on.
+        let mut of_parts = Vec::new();
+        let most = parts.iter().copied().max().unwrap_or(0);
+        for part in 0..=most {
+            let others = states(&|of| of != part || most == 0);
             let held_out = touches.iter().zip(parts).filter(|(_, of)| **of == part);
             for (touch, _) in held_out {
                 for (stage, distances) in (1..=touch.len()).zip(&mut distances) {
                     distances.push(distance(touch, &others, stage));
+                }
+                if touch.len() == BLOCKS {
+                    of_parts.push((touch.goes_on, distance(touch, &others, BLOCKS)));
                 }
             }
         }
@@ -61,6 +71,7 @@ impl Typical {
         Self {
             states: states(&|_| true),
             limits,
+            of_means: of_means(&of_parts, last),
         }
     }
 
@@ -68,6 +79,27 @@ impl Typical {
     pub(super) fn has(&self, touch: &Touch, blocks: usize) -> bool {
         distance(touch, &self.states, blocks) <= self.limits[blocks - 1]
     }
+}
+
+/// Of distances of parts, with whether they go on with a touch, and the limit of one of them.
+fn of_means(distances: &[(bool, f64)], limit: f64) -> [[f64; PARTS - 1]; 2] {
+    let mut means: [Vec<f64>; PARTS] = core::array::from_fn(|_| Vec::new());
+    let (mut parts, mut mean) = (0, 0.0);
+    for (goes_on, distance) in distances {
+        if !goes_on {
+            (parts, mean) = (0, 0.0);
+        }
+        parts = (parts + 1).min(PARTS);
+        mean += (distance.min(limit * f64::from(OUTLIER)) - mean) / parts as f64;
+        means[parts - 1].push(mean);
+    }
+    SHARE_OF_MEANS.map(|share| {
+        let mut last = limit;
+        core::array::from_fn(|n| {
+            last = quantile(&mut means[n + 1], share).unwrap_or(last);
+            last
+        })
+    })
 }
 
 impl State {
@@ -121,4 +153,26 @@ fn distance(touch: &Touch, states: &[State], blocks: usize) -> f64 {
         Some(square(&state.whitening.of(&less(&means, &state.mean))))
     };
     states.iter().enumerate().filter_map(of).sum()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// By hand: the mean of two, of three and of four, and from there on a quarter of each new one.
+    #[test]
+    fn means_begin_with_each_touch_and_forget_slowly() {
+        let touch = [2.0, 4.0, 6.0, 8.0, 9.0].map(|distance| (distance > 2.0, distance));
+        // Of one touch, 3, 4, 5 and 6.
+        let [near, most] = of_means(&touch, 10.0);
+        assert_eq!([near[0], near[1]], [3.0, 4.0]);
+        assert_eq!([most[0], most[1]], [3.0, 4.0]);
+        assert!((5.0..=6.0).contains(&near[2]) && near[2] <= most[2] && most[2] <= 6.0);
+        // Another touch begins for itself.
+        let twice = [touch, touch].concat();
+        assert_eq!(of_means(&twice, 10.0)[0][..2], near[..2]);
+        // A part counts as four times the limit, and where there is one part the limit is that of it.
+        assert_eq!(of_means(&[(false, 0.0), (true, 1e9)], 10.0)[0][0], 20.0);
+        assert_eq!(of_means(&[(false, 1.0)], 10.0), [[10.0; 3]; 2]);
+    }
 }

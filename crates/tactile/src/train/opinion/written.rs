@@ -8,7 +8,7 @@ use super::stands::{Fit, Stands};
 use super::typical::Typical;
 use crate::format::ENTRIES_PER_BIT;
 use crate::opinion::differences::FEATURE_BITS;
-use crate::opinion::section::{Bounds, Section, begun};
+use crate::opinion::section::{Bounds, MEANS, Section, begun};
 use crate::opinion::{PATH_BITS, STATE_BITS, STATES, blocks_of};
 
 /// Two halves a word, the first below; a zero after an odd one.
@@ -53,6 +53,23 @@ pub(super) fn stage(words: &mut Vec<u32>, (stage, weighed): (usize, usize), line
     let bias = |bias: &f64| ((bias - common) * f64::from(ENTRIES_PER_BIT)).round() as i32;
     words.extend(linear.biases.iter().map(|of| bias(of).cast_unsigned()));
     write_halves(words, &all);
+}
+
+/// Bit 6 of the kind, and of each class what is typical of means.
+pub(super) fn means<'t>(words: &mut Vec<u32>, typical: impl Iterator<Item = &'t Typical>) {
+    if let Some(head) = words.first_mut() {
+        *head |= u32::from(MEANS);
+    }
+    words.extend(
+        typical
+            .flat_map(|typical| typical.of_means.concat())
+            .map(squared),
+    );
+}
+
+/// A squared distance in deviations, as it is compared.
+fn squared(square: f64) -> u32 {
+    (square * f64::from(1 << (2 * STATE_BITS))).round() as u32
 }
 
 /// Bit 2 of the kind, and what poses are estimated by, of the stages in which a decision may fall.
@@ -124,8 +141,7 @@ pub(super) fn typical(words: &mut Vec<u32>, typical: &Typical) {
         words.push(shift);
         write_halves(words, &triangle);
     }
-    let square = f64::from(1 << (2 * STATE_BITS));
-    words.extend(typical.limits.map(|limit| (limit * square).round() as u32));
+    words.extend(typical.limits.map(squared));
 }
 
 pub(super) fn paths(words: &mut Vec<u32>, paths: &Paths) {
