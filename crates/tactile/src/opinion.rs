@@ -19,10 +19,10 @@
 //! in the first blocks of a touch, in which all ways are alike ([`Section::least`]).
 //!
 //! A touch of more than nine blocks is cut in *parts* of nine. Each must pass by itself, and the
-//! mean over the parts as well: m ← m + (part − m) / min(n, 4), of distances (2) and of scores (3).
-//! Scores count as they are, as what is not as in training moves all parts alike; where the mean
-//! distance is within that of half of the touches of training they count √min(n, 4) times. Nothing
-//! is decided in the first two parts.
+//! mean over the parts as well: of distances (2) and of scores (3), m ← m + (part − m) / w with a w
+//! of 1, 2, 4, 4, … Mean scores count as they are, as what is not as in training moves all parts
+//! alike; where the mean distance is within that of half of the touches of training they count √w
+//! times. Nothing is decided in the first two parts.
 //!
 //! Of what is named the [pose] may be estimated too.
 //!
@@ -94,20 +94,22 @@ pub(crate) fn blocks_of(state: [usize; 2], blocks: usize) -> usize {
     blocks.min(end).saturating_sub(first)
 }
 
-/// Parts of a long touch over which scores are averaged.
-pub(crate) const PARTS: usize = 4;
-/// A part counts as so many times its limit at most: so that a knock is not felt for long.
+/// Parts of a long touch that are counted.
+pub(crate) const PARTS: usize = 3;
+/// A part counts as so many times its limit at most, so that a knock is not felt for long.
 pub(crate) const OUTLIER: u32 = 4;
 /// Of the fraction of what a mean of scores weighs.
 const WEIGHT_BITS: u32 = 5;
-/// What the mean of so many parts weighs: the root of their number.
-const WEIGHTS: [u32; PARTS + 1] = [0, 32, 45, 55, 64];
+/// What the mean of two parts weighs, and of more: √2 and √4.
+const WEIGHTS: [u32; PARTS - 1] = [45, 64];
 
 /// How near the parts of a long touch are to a class in the mean.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Nearness {
-    /// As half of what was trained.
-    Near,
+    /// There are no means.
+    Unknown,
+    /// As half of what was trained, and what the mean of scores then weighs.
+    Near(u32),
     Between,
     /// As next to nothing of it.
     Far,
@@ -132,11 +134,10 @@ pub(crate) struct Opinion {
     scores: [i32; MAX_CLASSES],
     /// How far the states that have ended are from each class, where it is known.
     ended: [typical::Ended; MAX_CLASSES],
-    /// Of the parts of a long touch that have ended: how many, to [`PARTS`], and their mean scores.
+    /// Of the parts of a long touch that have ended: how many, to [`PARTS`].
     parts: usize,
-    mean: [i32; MAX_CLASSES],
-    /// And their mean distance from what is typical of each class.
-    mean_distance: [i32; MAX_CLASSES],
+    /// And of each class their mean score and distance from what is typical of it.
+    means: [[i32; 2]; MAX_CLASSES],
 }
 
 impl Opinion {
@@ -147,10 +148,9 @@ impl Opinion {
             path: [[0; 2]; BLOCKS],
             blocks: 0,
             scores: [0; MAX_CLASSES],
-            ended: [typical::NONE; MAX_CLASSES],
+            ended: [[0; STATES.len()]; MAX_CLASSES],
             parts: 0,
-            mean: [0; MAX_CLASSES],
-            mean_distance: [0; MAX_CLASSES],
+            means: [[0; 2]; MAX_CLASSES],
         }
     }
 
@@ -177,25 +177,25 @@ impl Opinion {
     pub(crate) fn begin(&mut self) {
         self.differences.clear();
         self.parts = 0;
-        self.mean = [0; MAX_CLASSES];
-        self.mean_distance = [0; MAX_CLASSES];
         self.clear();
     }
 
-    /// A touch is long: of what was felt the scores are kept, in a mean over its parts in which the
-    /// last weighs 1/[`PARTS`] at least.
+    /// A touch is long: of what was felt the scores and distances are kept in their means.
+    #[inline(never)]
     pub(crate) fn begin_again(&mut self, section: Section<'_>, classes: usize) {
-        self.parts = (self.parts + 1).min(PARTS);
-        let share = self.parts as i32;
-        for (mean, score) in self.mean.iter_mut().zip(self.scores) {
-            *mean += (score - *mean) / share;
-        }
-        for class in 0..classes {
-            let (distance, most) = self.distance(class, section);
-            let distance = distance.min(most.saturating_mul(OUTLIER)).cast_signed();
-            if let Some(mean) = self.mean_distance.get_mut(class) {
-                *mean += (distance - *mean) / share;
+        if section.has_means() {
+            // The first part is all of the mean, whatever it was.
+            let shift = self.parts.min(PARTS - 1) as u32;
+            for class in 0..classes.min(MAX_CLASSES) {
+                let (distance, most) = self.distance(class, section);
+                let distance = distance.min(most.saturating_mul(OUTLIER)).cast_signed();
+                let score = self.scores.get(class).copied().unwrap_or(0);
+                if let Some([mean, mean_distance]) = self.means.get_mut(class) {
+                    *mean += (score - *mean) >> shift;
+                    *mean_distance += (distance - *mean_distance) >> shift;
+                }
             }
+            self.parts = (self.parts + 1).min(PARTS);
         }
         self.clear();
     }
@@ -204,7 +204,7 @@ impl Opinion {
         self.states = [[0; WEIGHED]; STATES.len()];
         self.blocks = 0;
         self.scores = [0; MAX_CLASSES];
-        self.ended = [typical::NONE; MAX_CLASSES];
+        self.ended = [[0; STATES.len()]; MAX_CLASSES];
     }
 
     pub(crate) const fn blocks(&self) -> usize {
@@ -284,13 +284,16 @@ impl Opinion {
         if !path::is_near(path, section.path(class), rest, section.bounds()) {
             return Some(Reason::Pose);
         }
-        if !self.is_typical(class, section) {
+        let (distance, most) = self.distance(class, section);
+        let nearness = self.nearness(class, section);
+        if distance > most || nearness == Nearness::Far {
             return Some(Reason::Unknown);
         }
         if section.names() {
             return None;
         }
-        self.rival(section, classes, class).map(Reason::Between)
+        self.rival((section.most_odds(), nearness), classes, class)
+            .map(Reason::Between)
     }
 
     /// None where the model does not say.
@@ -300,59 +303,63 @@ impl Opinion {
     }
 
     /// The class that stands against this one, by the scores, if the odds against it are too many.
-    fn rival(&self, section: Section<'_>, classes: usize, class: usize) -> Option<usize> {
+    fn rival(
+        &self,
+        (most_odds, nearness): (u32, Nearness),
+        classes: usize,
+        class: usize,
+    ) -> Option<usize> {
         // Near, each part errs for itself; elsewhere all of them may err alike.
-        let (scores, weight) = match self.nearness(class, section) {
-            None => (&self.scores, 1 << WEIGHT_BITS),
-            Some(Nearness::Near) => (&self.mean, *WEIGHTS.get(self.parts)?),
-            Some(_) => (&self.mean, 1 << WEIGHT_BITS),
+        let weight = match nearness {
+            Nearness::Near(weight) => weight,
+            _ => 1 << WEIGHT_BITS,
         };
-        let scores = scores.get(..classes)?;
-        let own = *scores.get(class)?;
+        let scores = self.scores.iter().zip(&self.means).take(classes);
+        let scores = scores.map(|(score, [mean, _])| match nearness {
+            Nearness::Unknown => *score,
+            _ => *mean,
+        });
+        let own = scores.clone().nth(class)?;
         let (mut odds, mut rival, mut best) = (0_u32, class, i32::MIN);
-        for (other, score) in scores.iter().enumerate() {
+        for (other, score) in scores.enumerate() {
             if other == class {
                 continue;
             }
-            if *score > best {
-                (best, rival) = (*score, other);
+            if score > best {
+                (best, rival) = (score, other);
             }
-            let behind = own.saturating_sub(*score).max(0).unsigned_abs();
+            let behind = own.saturating_sub(score).max(0).unsigned_abs();
             let behind = behind.saturating_mul(weight) >> WEIGHT_BITS;
             let scale = const { EvidenceScale::per_samples(1) };
             odds = odds.saturating_add(scale.term(behind.min(MAX_DEFICIT), 0));
         }
-        (odds > section.most_odds()).then_some(rival)
+        (odds > most_odds).then_some(rival)
     }
 
-    /// Whether the features of the states are as near to a class as its limit says.
-    fn is_typical(&self, class: usize, section: Section<'_>) -> bool {
-        let (distance, most) = self.distance(class, section);
-        distance <= most && self.nearness(class, section) != Some(Nearness::Far)
-    }
-
-    /// How near the parts of a long touch are to a class in the mean.
-    fn nearness(&self, class: usize, section: Section<'_>) -> Option<Nearness> {
-        if !section.has_means() {
-            return None;
+    /// How near the parts are to a class in the mean.
+    fn nearness(&self, class: usize, section: Section<'_>) -> Nearness {
+        let of = self.parts.checked_sub(2);
+        let limits = of.and_then(|of| section.mean_distances(class, of));
+        let (Some(of), Some([near, most]), Some([_, mean])) = (of, limits, self.means.get(class))
+        else {
+            return Nearness::Unknown;
+        };
+        match mean.unsigned_abs() {
+            mean if mean > most => Nearness::Far,
+            mean if mean > near => Nearness::Between,
+            _ => Nearness::Near(WEIGHTS.get(of).copied().unwrap_or(1 << WEIGHT_BITS)),
         }
-        let [near, most] = section.mean_distances(class, self.parts)?;
-        let mean = self.mean_distance.get(class)?.unsigned_abs();
-        Some(match mean {
-            mean if mean <= near => Nearness::Near,
-            mean if mean <= most => Nearness::Between,
-            _ => Nearness::Far,
-        })
     }
 
     /// How far the states are from a class, and the most that is typical.
+    #[inline(never)]
     fn distance(&self, class: usize, section: Section<'_>) -> (u32, u32) {
         let (states, limits) = section.typical(class);
-        let ended = self.ended.get(class).unwrap_or(&typical::NONE);
+        let ended = self.ended.get(class).copied().unwrap_or_default();
         let words = states.chunks(STATE_WORDS);
         let of_states = words.zip(&self.states).zip(STATES).enumerate();
         let squares = of_states.map(|(n, ((words, sums), state))| match ended.get(n) {
-            Some(square) if *square != typical::UNKNOWN => *square,
+            Some(inverted) if *inverted != 0 => !inverted,
             _ => typical::square(words, sums, blocks_of(state, self.blocks)),
         });
         let distance = squares.fold(0, u32::saturating_add);
@@ -372,7 +379,7 @@ impl Opinion {
         let words = words.chunks(STATE_WORDS).nth(n).unwrap_or_default();
         let ended = self.ended.get_mut(class).and_then(|of| of.get_mut(n));
         if let (Some(ended), Some(sums)) = (ended, self.states.get(n)) {
-            *ended = typical::square(words, sums, blocks_of(*state, self.blocks));
+            *ended = !typical::square(words, sums, blocks_of(*state, self.blocks));
         }
     }
 }

@@ -11,7 +11,7 @@
 //! | only with poses: 2 | least and most tilt, then depth, i16, 1/100 |
 //! | per class and stage from the first that decides | errors of tilt and depth u16, 1/100; shifts u16; for each bias i32, 1/100, and [weights](super::pose) i32 |
 //! | only with another sensor: 1 | most turn of one u16, 1/256 of 1/32 rad; most change of y's scale u16, 1/256 of 1/16 |
-//! | only with means of parts: per class | the distances u32 within which half of the means of 2 parts, of 3, and of more lay, then three limits |
+//! | only with means of parts: per class | the distances u32 within which half of the means of two parts lay, and of more; then both limits |
 //! | per class | per state: 10 means i16, 1/256; shift; 55 of a triangle i16, and a zero; then 8 limits u32 |
 //! | per class | 9 × inverse deviation of x and y u16, 2⁻¹⁶; P × 9 × x and y i16; limit u32 |
 
@@ -140,14 +140,12 @@ impl<'m> Section<'m> {
     }
 
     /// The mean distances from a class within which half of what was trained lay, and nearly all,
-    /// after so many parts, from 2.
-    pub(crate) fn mean_distances(self, class: usize, parts: usize) -> Option<[u32; 2]> {
-        let bounds = usize::from(self.has_bounds());
-        let first = self.before_stage(self.stages() + 1) + self.pose_words() + bounds;
-        let words = self.words.get(first + class * MEAN_WORDS..)?;
-        let (near, most) = words.get(..MEAN_WORDS)?.split_at(MEAN_WORDS / 2);
-        let at = parts.checked_sub(2)?;
-        Some([*near.get(at)?, *most.get(at)?])
+    /// of two parts (0) or more (1).
+    pub(crate) fn mean_distances(self, class: usize, of: usize) -> Option<[u32; 2]> {
+        let behind = self.classes * (TYPICAL_WORDS + path_words(self.poses()));
+        let behind = behind + self.classes.saturating_sub(class) * MEAN_WORDS;
+        let words = self.words.get(self.words.len().wrapping_sub(behind)..)?;
+        Some([*words.get(of)?, *words.get(PARTS - 1 + of)?])
     }
 
     /// The first stage that has weights.
@@ -342,8 +340,8 @@ mod tests {
             assert_eq!(late.typical(class), whole.typical(class));
             assert_eq!(late.path(class), whole.path(class));
             assert_eq!(
-                late.mean_distances(class, 3),
-                whole.mean_distances(class, 3)
+                late.mean_distances(class, 1),
+                whole.mean_distances(class, 1)
             );
         }
     }

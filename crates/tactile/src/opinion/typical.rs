@@ -3,11 +3,9 @@
 use super::section::halves;
 use super::{DEVIATION_MOST, FEATURES, STATE_BITS, STATES};
 
-/// How far the states that have ended are from a class.
+/// How far the states that have ended are from a class, each inverted: 0 where it is not known, which
+/// costs no bytes of a program.
 pub(super) type Ended = [u32; STATES.len()];
-/// Above what a [`square`] can be.
-pub(super) const UNKNOWN: u32 = u32::MAX;
-pub(super) const NONE: Ended = [UNKNOWN; STATES.len()];
 
 /// The largest deviation of a sum. Of a trained model below 2¹⁵; 2¹⁶ by 2¹⁵ is what a word holds.
 const MOST: i32 = u16::MAX as i32;

@@ -87,10 +87,11 @@ fn of_means(distances: &[(bool, f64)], limit: f64) -> [[f64; PARTS - 1]; 2] {
     let (mut parts, mut mean) = (0, 0.0);
     for (goes_on, distance) in distances {
         if !goes_on {
-            (parts, mean) = (0, 0.0);
+            parts = 0;
         }
+        let share = [1.0, 0.5, 0.25][parts.min(PARTS - 1)];
+        mean += share * (distance.min(limit * f64::from(OUTLIER)) - mean);
         parts = (parts + 1).min(PARTS);
-        mean += (distance.min(limit * f64::from(OUTLIER)) - mean) / parts as f64;
         means[parts - 1].push(mean);
     }
     SHARE_OF_MEANS.map(|share| {
@@ -159,20 +160,19 @@ fn distance(touch: &Touch, states: &[State], blocks: usize) -> f64 {
 mod tests {
     use super::*;
 
-    /// By hand: the mean of two, of three and of four, and from there on a quarter of each new one.
+    /// By hand: all of the first, half of the second, a quarter of each that follows.
     #[test]
     fn means_begin_with_each_touch_and_forget_slowly() {
-        let touch = [2.0, 4.0, 6.0, 8.0, 9.0].map(|distance| (distance > 2.0, distance));
-        // Of one touch, 3, 4, 5 and 6.
+        let touch = [2.0, 4.0, 7.0, 8.0].map(|distance| (distance > 2.0, distance));
+        // Of one touch 3 of two parts, and 4 and 5 of more.
         let [near, most] = of_means(&touch, 10.0);
-        assert_eq!([near[0], near[1]], [3.0, 4.0]);
-        assert_eq!([most[0], most[1]], [3.0, 4.0]);
-        assert!((5.0..=6.0).contains(&near[2]) && near[2] <= most[2] && most[2] <= 6.0);
+        assert_eq!([near[0], most[0]], [3.0, 3.0]);
+        assert!(4.0 <= near[1] && near[1] < most[1] && most[1] <= 5.0);
         // Another touch begins for itself.
-        let twice = [touch, touch].concat();
-        assert_eq!(of_means(&twice, 10.0)[0][..2], near[..2]);
-        // A part counts as four times the limit, and where there is one part the limit is that of it.
-        assert_eq!(of_means(&[(false, 0.0), (true, 1e9)], 10.0)[0][0], 20.0);
-        assert_eq!(of_means(&[(false, 1.0)], 10.0), [[10.0; 3]; 2]);
+        assert_eq!(of_means(&[touch, touch].concat(), 10.0)[0][0], 3.0);
+        // A part counts as four times the limit, which is that of means where there are none.
+        let knock = [(false, 0.0), (true, 1e9)];
+        assert_eq!(of_means(&knock, 10.0), [[20.0; 2]; 2]);
+        assert_eq!(of_means(&knock[..1], 10.0), [[10.0; 2]; 2]);
     }
 }
