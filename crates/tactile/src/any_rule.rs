@@ -33,12 +33,14 @@ pub enum RuleSettings {
 }
 
 /// The evidence of either.
+// The kind that evidence is before it starts comes first: all of its bytes are then zero, and a
+// program needs no copy of them.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum AnyEvidence {
-    /// Of the sequential rule.
-    Sequential(SequentialEvidence),
     /// Of the window rule.
     Window(Totals),
+    /// Of the sequential rule.
+    Sequential(SequentialEvidence),
 }
 
 impl AnyEvidence {

@@ -36,7 +36,7 @@ use self::typical::Typical;
 use crate::opinion::Whisked;
 use crate::opinion::pose::TARGETS;
 use crate::opinion::section::{DEFLECTIONS, LATE, MAX_POSES, Section};
-use crate::opinion::{BLOCKS, FEATURES, STAGES, WEIGHED};
+use crate::opinion::{BLOCKS, FEATURES, PARTS, STAGES, WEIGHED};
 use crate::quantiser::Quantiser;
 use crate::train::joint::{CHANNELS, Trial, Warning};
 
@@ -99,7 +99,7 @@ const LEAST_POSTERIOR: [f64; 2] = [0.8, 0.9];
 /// The share of touches that end before patience does: where it objects, and names.
 const IMPATIENT: [f64; 2] = [0.02, 0.1];
 /// Parts in which the touches of one pose are held out.
-const PARTS: usize = 8;
+const FOLDS: usize = 8;
 
 pub(super) struct Material<'a> {
     pub(super) trials: &'a [Trial],
@@ -224,7 +224,7 @@ fn of_felt(
     if names && felt.poses.len() <= MAX_POSES {
         written::bounds(&mut words, felt.sensor);
     }
-    if felt.begins_again {
+    if felt.lasts() {
         written::means(&mut words, classes.iter().map(|(typical, _)| typical));
     }
     for (typical, _) in &classes {
@@ -311,6 +311,21 @@ impl Felt {
         }
     }
 
+    /// Whether nearly all touches last for so many parts that their means can be waited for.
+    fn lasts(&self) -> bool {
+        let mut parts: Vec<usize> = Vec::new();
+        for touch in &self.touches {
+            if !touch.goes_on {
+                parts.push(0);
+            }
+            if let Some(last) = parts.last_mut() {
+                *last += usize::from(touch.len() == BLOCKS);
+            }
+        }
+        let long = parts.iter().filter(|parts| **parts >= PARTS).count();
+        self.begins_again && 10 * long >= 9 * parts.len()
+    }
+
     fn count(&self, class: usize, pose: Option<usize>) -> usize {
         let of = self.touches.iter().filter(|touch| touch.class == class);
         of.filter(|touch| pose.is_none_or(|pose| touch.recording == pose))
@@ -367,9 +382,9 @@ impl Felt {
         let has_trials = trials.len() > 3;
         let part = |(n, touch): (usize, &&Touch)| {
             if has_trials {
-                trial_of(touch) % PARTS
+                trial_of(touch) % FOLDS
             } else {
-                n % PARTS
+                n % FOLDS
             }
         };
         let parts: Vec<usize> = of.iter().enumerate().map(part).collect();

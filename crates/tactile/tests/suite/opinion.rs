@@ -293,6 +293,29 @@ fn a_touch_that_lasts_is_judged_from_its_first_block_to_its_last() {
     }
 }
 
+/// A touch of little more than nine blocks is not waited for longer than it lasts.
+#[test]
+fn a_touch_that_lasts_a_little_is_named_before_it_ends() {
+    let short = |label: &str, amplitude, seed| {
+        let mut trial = lasting(label, amplitude, seed);
+        trial.samples.truncate(600);
+        trial.touches.truncate(600);
+        trial
+    };
+    let known = [("smooth", 20.0), ("rough", 180.0)];
+    let trials = (0..12).flat_map(|n| {
+        let seeded = known.iter().zip(2 * n..);
+        seeded.map(move |((label, amplitude), seed)| short(label, *amplitude, seed))
+    });
+    let trained = train(&trials.collect::<Vec<_>>(), &Options::default()).unwrap();
+    let model = trained.model().unwrap();
+    for ((label, amplitude), seed) in known.iter().zip(100..) {
+        let class = model.names().position(|name| name == *label);
+        let said = decisions(&model, &short(label, *amplitude, seed));
+        assert!(said.iter().any(|(of, _)| of.class() == class));
+    }
+}
+
 /// Trained in three poses by one sensor, and felt by another: rough is named as far as the turn or
 /// the scale was to be expected, and beyond it nothing is.
 #[test]
