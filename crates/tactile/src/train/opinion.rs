@@ -10,7 +10,7 @@
 //! α 1 and 1 + 4/(poses − 1), s 0 and 0.03, what no copy shows, the 0.8 of an objection, the shares
 //! of `typical`, `paths` and patience, their shrinking and least deviations, the gains of copies,
 //! by how much a sensor may be turned and scaled; of `bench-textures` the spread of T; of bearings
-//! and of a fingertip's recordings the 0.9.
+//! and of a fingertip's recordings the 0.9, and what is near in the mean, typical, and waited for.
 
 mod linear;
 mod matrix;
