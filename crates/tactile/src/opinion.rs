@@ -32,6 +32,8 @@ pub(crate) mod differences;
 pub(crate) mod path;
 pub(crate) mod pose;
 pub(crate) mod section;
+#[cfg(test)]
+mod tests;
 mod typical;
 
 use crate::decision::{Decision, Reason};

@@ -3,6 +3,7 @@
 mod classifier;
 mod common;
 mod joint;
+mod lasting;
 mod model_file;
 mod opinion;
 mod priors;

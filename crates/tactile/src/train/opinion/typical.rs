@@ -81,7 +81,8 @@ impl Typical {
     }
 }
 
-/// Of distances of parts, with whether they go on with a touch, and the limit of one of them.
+/// Of distances of parts, with whether they go on with a touch, and the limit of one of them: means
+/// as [`Opinion::begin_again`](crate::opinion::Opinion::begin_again) forms them.
 fn of_means(distances: &[(bool, f64)], limit: f64) -> [[f64; PARTS - 1]; 2] {
     let mut means: [Vec<f64>; PARTS] = core::array::from_fn(|_| Vec::new());
     let (mut parts, mut mean) = (0, 0.0);
