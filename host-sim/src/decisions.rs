@@ -306,14 +306,15 @@ impl Score {
                 names.push(d.label.clone());
             }
         }
-        let place = |name: &String| names.iter().position(|other| other == name);
+        let place = |among: &[String], name: &String| among.iter().position(|other| other == name);
         let mut confusion = Confusion::new(names.len());
         let reasons = Reasons::of(decisions.iter().copied());
         let (mut samples, mut stated) = (0, 0.0);
         for d in decisions {
-            if let Some(truth) = place(&d.label) {
-                // Both are among the names, but for what is unknown.
-                let _ = confusion.add(truth, place(&d.decision));
+            if let Some(truth) = place(&names, &d.label) {
+                // Both are among the names. What is unknown is no class, though a label may be
+                // called so.
+                let _ = confusion.add(truth, place(classes, &d.decision));
             }
             if d.verdict(classes) != Verdict::Refused {
                 samples += u64::from(d.samples);
@@ -480,6 +481,23 @@ mod tests {
         assert_eq!(score.strange().collect::<Vec<_>>(), [("mud", 3, 4)]);
         let text = score.to_string();
         assert!(text.contains("    ice |       1       1"), "{text}");
+    }
+
+    /// What is not to be known may be labelled as what is decided of it.
+    #[test]
+    fn a_label_called_unknown_is_scored_as_any_other() {
+        let of = |label: &str| {
+            let decisions = [UNKNOWN, UNKNOWN, "ice"].map(|said| decided(label, said, 20));
+            let score = Score::new(&["ice".to_owned()], &decisions);
+            let strange = score.strange().map(|(_, right, all)| (right, all));
+            (
+                strange.collect::<Vec<_>>(),
+                score.hit_rate(),
+                score.refused(),
+            )
+        };
+        assert_eq!(of(UNKNOWN), (vec![(2, 3)], Some(2.0 / 3.0), 0));
+        assert_eq!(of(UNKNOWN), of("mud"));
     }
 
     #[test]

@@ -38,7 +38,7 @@ pub fn doubts(recordings: &[(String, Vec<Stream>)], channels: [&str; 2]) -> Vec<
 fn in_pieces(streams: &[Stream]) -> Option<(usize, String)> {
     let (mut trials, mut first, mut sample) = (HashSet::new(), None, 0);
     for stream in streams {
-        let is_new = trials.insert((&stream.label, &stream.trial));
+        let is_new = trials.insert((&stream.label, &stream.trial, &stream.pose));
         if !is_new {
             first.get_or_insert((sample, stream));
         }

@@ -90,7 +90,12 @@ enum Command {
         #[arg(long, value_enum)]
         rule: RuleName,
         /// Sequential: decide when a posterior probability exceeds this
-        #[arg(long, value_name = "P", required_if_eq("rule", "sequential"))]
+        #[arg(
+            long,
+            value_name = "P",
+            required_if_eq("rule", "sequential"),
+            conflicts_with = "window"
+        )]
         threshold: Option<f64>,
         /// Window: decide after this many samples, a multiple of the model's block
         #[arg(long, value_name = "N", required_if_eq("rule", "window"))]

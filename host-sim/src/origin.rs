@@ -39,8 +39,14 @@ impl Origin {
     pub fn tick_hz(&self) -> Result<Option<u32>, String> {
         let wrong = |text: &str| format!("{TICK_HZ} is {text:?}, not a whole number above 0");
         let number = |text: &str| text.parse().ok().filter(|hz| *hz > 0);
-        let said = self.get(TICK_HZ);
-        said.map(|text| number(text).ok_or_else(|| wrong(text)))
+        let mut said = self.iter().filter(|(key, _)| *key == TICK_HZ);
+        let first = said.next().map(|(_, text)| text);
+        if let Some((_, other)) = said.find(|(_, text)| Some(*text) != first) {
+            let first = first.unwrap_or_default();
+            return Err(format!("{TICK_HZ} is {first:?}, and {other:?} below"));
+        }
+        first
+            .map(|text| number(text).ok_or_else(|| wrong(text)))
             .transpose()
     }
 

@@ -87,11 +87,7 @@ impl Output {
     pub fn finish(self) -> Result<(), Error> {
         let Self { target, sink } = self;
         let written = match sink {
-            Sink::Stdout(mut writer) => match writer.flush() {
-                // Whoever read it has read enough.
-                Err(error) if error.kind() == io::ErrorKind::BrokenPipe => Ok(()),
-                flushed => flushed,
-            },
+            Sink::Stdout(mut writer) => unless_closed(writer.flush(), ()),
             Sink::File(writer, partial) => {
                 check(&target)?;
                 let written = writer.into_inner().map_err(io::IntoInnerError::into_error);
@@ -118,21 +114,26 @@ impl Output {
     }
 }
 
+/// What came of writing to standard output; `done` where whoever read it has read enough.
+fn unless_closed<T>(written: io::Result<T>, done: T) -> io::Result<T> {
+    match written {
+        Err(error) if error.kind() == io::ErrorKind::BrokenPipe => Ok(done),
+        written => written,
+    }
+}
+
 impl Write for Output {
     fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
         match &mut self.sink {
             Sink::File(writer, _) => writer.write(bytes),
-            Sink::Stdout(writer) => match writer.write(bytes) {
-                Err(error) if error.kind() == io::ErrorKind::BrokenPipe => Ok(bytes.len()),
-                written => written,
-            },
+            Sink::Stdout(writer) => unless_closed(writer.write(bytes), bytes.len()),
         }
     }
 
     fn flush(&mut self) -> io::Result<()> {
         match &mut self.sink {
             Sink::File(writer, _) => writer.flush(),
-            Sink::Stdout(writer) => writer.flush(),
+            Sink::Stdout(writer) => unless_closed(writer.flush(), ()),
         }
     }
 }
@@ -174,6 +175,29 @@ pub fn check(path: &Path) -> Result<(), Error> {
 /// As [`check`], but for standard output.
 pub fn check_or_stdout(path: &Path) -> Result<(), Error> {
     if is_stdout(path) { Ok(()) } else { check(path) }
+}
+
+/// Whether `path` is none of `others`, which the same command reads or writes.
+///
+/// # Errors
+/// [`Error::Input`] where it is one.
+pub fn check_apart<'p>(
+    path: &Path,
+    others: impl IntoIterator<Item = &'p Path>,
+) -> Result<(), Error> {
+    let place = |path: &Path| {
+        fs::canonicalize(path)
+            .or_else(|_| std::path::absolute(path))
+            .ok()
+    };
+    let own = place(path).filter(|_| !is_stdout(path));
+    let is_own = |other: &Path| own.is_some() && place(other) == own;
+    if others.into_iter().any(is_own) {
+        let fault =
+            "is another file of this command, which it reads or writes; name one of its own";
+        return Err(Error::file(path, fault));
+    }
+    Ok(())
 }
 
 fn kind(of: FileType) -> &'static str {

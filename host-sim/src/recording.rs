@@ -87,10 +87,14 @@ pub const CHANNELS: [&str; 2] = ["x", "y"];
 impl Stream {
     /// The whisker that felt it, from 1, by the end of its trial's name, as [`Recorder`] writes it.
     pub fn whisker(&self) -> usize {
-        let number = self.trial.rsplit_once(WHISKER).map(|(_, number)| number);
-        let number = number.and_then(|number| number.parse().ok());
-        let number = number.filter(|n| (1..=MAX_STREAMS).contains(n));
+        let number = self.numbered().filter(|n| (1..=MAX_STREAMS).contains(n));
         number.unwrap_or(1)
+    }
+
+    /// The number there, which may be that of no whisker.
+    pub fn numbered(&self) -> Option<usize> {
+        let (_, number) = self.trial.rsplit_once(WHISKER)?;
+        number.parse().ok()
     }
 
     /// Whether each sample counts where contact must be at least `gate`.
@@ -155,9 +159,13 @@ impl Recorder {
                 0 => trial.to_string(),
                 _ => format!("{trial}{WHISKER}{}", n + 1),
             };
-            append(streams, label, &trial, cells);
+            let tokens = Tokens {
+                label,
+                trial: &trial,
+                pose: pose.as_deref(),
+            };
+            append(streams, tokens, cells);
             if let Some(stream) = streams.last_mut() {
-                stream.pose.clone_from(&pose);
                 stream.stands = stands.get(n).copied();
             }
         }
@@ -191,15 +199,23 @@ impl Tokens<'_> {
     /// # Errors
     /// What is wrong with the first that cannot.
     pub fn check(&self) -> Result<(), String> {
-        if self.label.trim().is_empty() {
-            return Err("the label is empty".to_owned());
+        let needed = [("label", self.label), ("trial", self.trial)];
+        for (name, text) in needed {
+            if text.trim().is_empty() {
+                return Err(format!("the {name} is empty"));
+            }
+            if MISSING.contains(&text) {
+                return Err(format!("the {name} is missing: {text:?}"));
+            }
         }
-        if MISSING.contains(&self.label) {
-            return Err(format!("the label is missing: {:?}", self.label));
-        }
-        let named = [("label", self.label), ("trial", self.trial)].into_iter();
-        let mut named = named.chain(self.pose.map(|pose| ("pose", pose)));
-        named.try_for_each(|(name, text)| {
+        let pose = self.pose.map(|pose| ("pose", pose));
+        needed.into_iter().chain(pose).try_for_each(|(name, text)| {
+            if text.starts_with('"') {
+                // A reader of CSV takes marks away that stand right behind a comma.
+                return Err(format!(
+                    "{name} {text:?} has quotation marks behind a blank"
+                ));
+            }
             let checked = tactile::name::check(text);
             checked.map_err(|reason| format!("{name} {text:?} {reason}"))
         })
@@ -212,12 +228,20 @@ struct Cells {
     touch: Option<u16>,
 }
 
-fn append(streams: &mut Vec<Stream>, label: &str, trial: &str, sample: Option<Cells>) {
-    let is_same = |last: &Stream| last.label == label && last.trial == trial;
+/// Adds a sample to the last stream, or to another if it is of something else. A row without a pose
+/// is of that of the row before.
+fn append(streams: &mut Vec<Stream>, tokens: Tokens<'_>, sample: Option<Cells>) {
+    let Tokens { label, trial, pose } = tokens;
+    let pose = pose.filter(|pose| !pose.is_empty());
+    let is_same = |last: &Stream| {
+        let is_in_pose = pose.is_none() || last.pose.as_deref() == pose;
+        is_in_pose && last.label == label && last.trial == trial
+    };
     if !streams.last().is_some_and(is_same) {
         streams.push(Stream {
             label: label.to_owned(),
             trial: trial.to_owned(),
+            pose: pose.map(str::to_owned),
             ..Stream::default()
         });
     }
@@ -383,6 +407,11 @@ fn parse(file: &[u8], channels: [&str; 2]) -> Result<Recording, String> {
         }
     };
     let [x_name, y_name] = channels;
+    if x_name == y_name {
+        return Err(format!(
+            "both channels are the column {x_name:?}; two are needed"
+        ));
+    }
     let column = |name: &str| {
         optional(name)?.ok_or_else(|| {
             format!(
@@ -429,7 +458,7 @@ fn parse(file: &[u8], channels: [&str; 2]) -> Result<Recording, String> {
         let checked = tokens.check();
         checked.map_err(|fault| format!("line {line}: {fault}"))?;
         let before = streams.len();
-        append(&mut streams, label, trial, Some(sample));
+        append(&mut streams, tokens, Some(sample));
         let Some(stream) = streams.get_mut(before) else {
             continue;
         };
@@ -439,9 +468,6 @@ fn parse(file: &[u8], channels: [&str; 2]) -> Result<Recording, String> {
                  name of what was touched"
             ));
         }
-        // A stream is of the pose in which it begins.
-        let named = pose.map(|place| cell(place).to_owned());
-        stream.pose = named.filter(|pose| !pose.is_empty());
         if let [Some(tilt), Some(depth)] = &stands[..]
             && !(cell(*tilt).is_empty() || cell(*depth).is_empty())
         {

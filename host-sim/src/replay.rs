@@ -86,9 +86,12 @@ impl Replay {
             };
             let Stream { label, trial, .. } = stream;
             let pose = decision.class().and_then(|class| self.bayes.pose(class));
+            let made = Decided::new(decision, &self.classes, label, trial);
             decided.push(Decided {
                 pose,
-                ..Decided::new(decision, &self.classes, label, trial)
+                // As the recording counts them, if it does.
+                touch: stream.touch.as_ref().map_or(made.touch, |_| last),
+                ..made
             });
         }
         Ok(decided)

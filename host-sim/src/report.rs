@@ -178,9 +178,14 @@ impl fmt::Display for Summary<'_> {
         };
         let [hits, stated] = [hits, stated].map(|share| 100.0 * share);
         let decisions = score.decisions();
+        // They count as classes do.
+        let strange = match score.strange().filter(|(.., all)| *all > 0).count() {
+            0 => "",
+            _ => " and what is none",
+        };
         write!(
             f,
-            "{score}{decisions} decisions, hit rate {hits:.1} % (mean over {}), mean ",
+            "{score}{decisions} decisions, hit rate {hits:.1} % (mean over {}{strange}), mean ",
             over(&score.left_out())
         )?;
         match tick_hz {

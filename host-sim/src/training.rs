@@ -143,6 +143,9 @@ impl How {
             Tables::Single if self.gap.is_some() => {
                 "gap: single tables know no touches; allowed: with joint tables"
             }
+            Tables::Single if self.expect == Expected::Other => {
+                "expect: single tables hold in the pose of training; allowed: with joint tables"
+            }
             _ => return Ok(()),
         };
         Err(fault.to_owned())

@@ -72,7 +72,16 @@ impl World {
                     own_surfaces(textured, &mut settings.own);
                     settings.friction = textured.friction;
                 }
-                Box::new(Elastic::new(head, settings, scene.seed).map_err(broken)?)
+                let [least, most] = Elastic::stiffness(&settings).map_err(broken)?;
+                let found = head.stiffness;
+                let refused = |bad| match bad {
+                    BadSetting("stiffness") => Error::Input(format!(
+                        "plant.stiffness: found {found}, allowed with this shaft: {least:.1e} to \
+                         {most:.1e} per degree"
+                    )),
+                    bad => broken(bad),
+                };
+                Box::new(Elastic::new(head, settings, scene.seed).map_err(refused)?)
             }
         };
         let (motors, pins) = match scene.plant.kind {

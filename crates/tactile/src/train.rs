@@ -149,6 +149,19 @@ impl Trainer {
             .zip(self.values.chunks_exact(self.channels))
     }
 
+    /// The first channel of which a class has no sample, and that class.
+    fn unfelt(&self) -> Option<(usize, usize)> {
+        let classes = self.names.len();
+        let mut felt = vec![false; self.channels * classes];
+        for (class, sample) in self.samples() {
+            for (channel, x) in sample.iter().enumerate() {
+                felt[channel * classes + class] |= x.is_finite();
+            }
+        }
+        let missing = felt.iter().position(|is_felt| !is_felt)?;
+        Some((missing / classes, missing % classes))
+    }
+
     /// Trains the model.
     ///
     /// # Errors
@@ -159,6 +172,9 @@ impl Trainer {
             0 => return Err(TrainError::NoSamples),
             1 => return Err(TrainError::OneClass),
             _ => {}
+        }
+        if let Some((channel, class)) = self.unfelt() {
+            return Err(TrainError::Unfelt { channel, class });
         }
         let quantisers: Vec<Quantiser> = (0..self.channels)
             .map(|channel| self.quantiser(channel).ok_or(TrainError::Range { channel }))
@@ -181,15 +197,6 @@ impl Trainer {
                 let bin = binners[channel].bin(quantisers[channel].code_from_f64(x), bins - 1);
                 counts[channel * classes + class][bin] += 1.0;
             }
-        }
-        if let Some(empty) = counts
-            .iter()
-            .position(|bins| bins.iter().all(|&n| n == 0.0))
-        {
-            return Err(TrainError::Unfelt {
-                channel: empty / classes,
-                class: empty % classes,
-            });
         }
         let kernel = gaussian(self.options.smooth);
         let tables: Vec<(Axis, Vec<u16>)> = counts

@@ -9,7 +9,7 @@ use crate::classifier::Fault;
 use crate::decisions::{Columns, Decided, Score};
 use crate::files;
 use crate::misfit::{misfits, oddities};
-use crate::output::{Output, check_or_stdout};
+use crate::output::{Output, check_apart, check_or_stdout};
 use crate::progress::{Progress, Verbosity};
 use crate::rate;
 use crate::recording::Stream;
@@ -30,6 +30,7 @@ pub fn classify(
     verbosity: Verbosity,
 ) -> Result<String, Error> {
     check_or_stdout(out)?;
+    check_apart(out, [model, data])?;
     let (path, model) = files::load_model(model)?;
     let option = match rule {
         Rule::Sequential { threshold } => format!("--threshold {threshold}"),
@@ -38,7 +39,9 @@ pub fn classify(
     };
     let recording = files::whole_recording(data, channels)?;
     let trained = (path.display().to_string(), model.rate_hz());
-    rate::agreed([trained, files::rate_of(data, &recording)]).map_err(Error::Input)?;
+    let above = files::rate_of(data, &recording);
+    let assumed = rate::assumed(&trained, &above).map(|note| format!("note: {note}"));
+    rate::agreed([trained, above]).map_err(Error::Input)?;
     let has_pose = model.has_pose();
     let streams = recording.streams;
     let mut misfits = misfits(data, channels, &model, &streams);
@@ -63,6 +66,7 @@ pub fn classify(
     let mut lines = vec![Summary(&score, None).to_string()];
     lines.extend(undecided(replay.classes(), &streams, &decided));
     lines.extend(misfits);
+    lines.extend(assumed);
     Ok(lines.join("\n"))
 }
 

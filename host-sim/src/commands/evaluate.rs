@@ -66,7 +66,10 @@ pub fn evaluate(arguments: &Arguments, verbosity: Verbosity) -> Result<String, E
     } = arguments;
     wanted("--error-rate", *error_rate, 1.0)?;
     wanted("--time", *time, 1e6)?;
-    plot.as_deref().map_or(Ok(()), output::check)?;
+    if let Some(plot) = plot.as_deref() {
+        output::check(plot)?;
+        output::check_apart(plot, [arguments.model.as_path(), data])?;
+    }
     let (path, model) = files::load_model(&arguments.model)?;
     let channels = channels.each_ref().map(String::as_str);
     let recording = files::whole_recording(data, channels)?;
@@ -111,7 +114,8 @@ pub fn evaluate(arguments: &Arguments, verbosity: Verbosity) -> Result<String, E
     sections.push(format!("\n\n{}\n", Thresholds(&scan, tick_hz)));
     if let Some(rate) = error_rate {
         let found = evaluation::for_error(&scan, *rate);
-        let percent = 100.0 * rate;
+        // As the option has it: 0.07 times 100 is not 7.
+        let percent = (1e12 * rate).round() / 1e10;
         let wanted = format!("at most {percent} % of decisions wrong");
         sections.push(suggestion(found, &wanted));
     }
@@ -133,8 +137,11 @@ fn rate_hz(
 ) -> Result<(f64, Option<String>), Error> {
     let trained = (path.display().to_string(), model.rate_hz());
     rate::agreed([trained.clone(), above.clone()]).map_err(Error::Input)?;
+    let assumed = rate::assumed(&trained, &above).filter(|_| option.is_none());
     let found = rate::agreed([("--rate".to_owned(), option), above]).map_err(Error::Input)?;
-    let note = rate::agreed([("--rate".to_owned(), found), trained.clone()]).err();
+    let note = rate::agreed([("--rate".to_owned(), found), trained.clone()])
+        .err()
+        .or(assumed);
     let hz = found.or(trained.1).unwrap_or(rate::USUAL_HZ);
     Ok((f64::from(hz), note))
 }

@@ -9,7 +9,7 @@ use super::choice::SceneChoice;
 use crate::Error;
 use crate::bench;
 use crate::files;
-use crate::output::{Output, check_or_stdout};
+use crate::output::{Output, check_apart, check_or_stdout};
 use crate::progress::{Progress, Verbosity};
 use crate::recording::{Recorder, Stream};
 use crate::run::Run;
@@ -30,6 +30,7 @@ pub fn record(
     verbosity: Verbosity,
 ) -> Result<String, Error> {
     check_or_stdout(out)?;
+    check_apart(out, [scene.file.as_path()])?;
     let SceneChoice { file: path, set } = scene;
     let (mut scene, _) = Scene::load_with(path, set)?;
     config::check(&scene).map_err(|refused| Error::file(path, refused))?;

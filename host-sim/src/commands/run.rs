@@ -73,7 +73,12 @@ pub fn run(arguments: &Arguments, verbosity: Verbosity) -> Result<String, Error>
     if is_stdout(out) {
         return Err(Error::file(out, "a run has several files; name a folder"));
     }
-    plot.map_or(Ok(()), output::check)?;
+    if let Some(plot) = plot {
+        output::check(plot)?;
+        let files = [&arguments.model, &arguments.world].into_iter().flatten();
+        let files = files.chain([&arguments.scene.file]);
+        output::check_apart(plot, files.map(PathBuf::as_path))?;
+    }
     let mut loaded = Loaded::with(&arguments.scene)?;
     if let Some(world) = &arguments.world {
         loaded = loaded.in_world(world)?;

@@ -14,7 +14,7 @@ use super::choice::SceneChoice;
 use super::score::seeds;
 use crate::classifier::Classifier;
 use crate::loaded::Loaded;
-use crate::output::{Output, check_or_stdout};
+use crate::output::{Output, check_apart, check_or_stdout};
 use crate::progress::{SharedProgress, Verbosity};
 use crate::run::Run;
 use crate::{Error, report};
@@ -55,6 +55,7 @@ struct Setting {
 pub fn sweep(arguments: &Arguments, verbosity: Verbosity) -> Result<String, Error> {
     let Arguments { key, out, .. } = arguments;
     check_or_stdout(out)?;
+    check_apart(out, [arguments.scene.file.as_path()])?;
     let settings = settings(arguments)?;
     let all = settings.iter().flat_map(|setting| {
         let own = setting.scene.seed;
@@ -110,7 +111,11 @@ fn settings(arguments: &Arguments) -> Result<Vec<Setting>, Error> {
     }
     for (n, axis) in key.iter().enumerate() {
         let is_same = |other: &Axis| other.key == axis.key;
-        if key.iter().take(n).any(is_same) || seeds.is_some() && axis.key == "seed" {
+        if axis.key == "seed" {
+            let fault = "--key: seed has a column of its own; allowed: --seeds";
+            return Err(Error::Input(fault.to_owned()));
+        }
+        if key.iter().take(n).any(is_same) {
             let fault = format!("--key: {} is given twice, allowed: once", axis.key);
             return Err(Error::Input(fault));
         }

@@ -4,8 +4,8 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 use scene::Scene;
-use tactile::ModelError;
 use tactile::train::TrainError;
+use tactile::{MAX_STREAMS, ModelError};
 
 use super::{channels, picture, rate as rate_option};
 use crate::Error;
@@ -74,6 +74,7 @@ pub fn train(arguments: &Arguments) -> Result<String, Error> {
     let of_scene = scene.as_ref().map(|scene| scene.tick_hz);
     said.push(("the scene".to_owned(), of_scene));
     rate::agreed(said.clone()).map_err(Error::Input)?;
+    let ahead = said.len();
     let how = &scene.map_or(*how, |scene| how.like(&scene));
     how.check().map_err(|fault| of_option(&fault))?;
     if plot.is_some() && how.tables == Tables::Single {
@@ -81,14 +82,26 @@ pub fn train(arguments: &Arguments) -> Result<String, Error> {
         return Err(Error::Input(fault.to_owned()));
     }
     output::check(out)?;
-    plot.as_deref().map_or(Ok(()), output::check)?;
+    let inputs = || data.iter().chain(&arguments.scene).map(PathBuf::as_path);
+    output::check_apart(out, inputs())?;
+    if let Some(plot) = plot.as_deref() {
+        output::check(plot)?;
+        output::check_apart(plot, inputs().chain([out.as_path()]))?;
+    }
     let mut recordings = read(data, channels, &mut said)?;
+    let [ahead, of_data] = [&said[..ahead], &said[ahead..]];
+    if ahead.iter().all(|(_, hz)| hz.is_none()) {
+        rate::complete(of_data).map_err(Error::Input)?;
+    }
     let rate = rate::agreed(said).map_err(Error::Input)?;
     let rate = rate.unwrap_or(rate::USUAL_HZ);
     if let Some(label) = unknown {
         leave_out(&mut recordings, label)?;
     }
     reserved(data, &recordings)?;
+    if how.each_whisker {
+        whiskers(data, &recordings)?;
+    }
     let names = channels.each_ref().map(String::as_str);
     let odd = oddities(data, names, &recordings);
     let trained = how.train(&recordings, rate).map_err(|error| {
@@ -164,6 +177,22 @@ fn reserved(data: &[PathBuf], recordings: &[(String, Vec<Stream>)]) -> Result<()
     }
 }
 
+/// The numbers of whiskers are those that a module has.
+fn whiskers(data: &[PathBuf], recordings: &[(String, Vec<Stream>)]) -> Result<(), Error> {
+    let is_none = |stream: &&Stream| stream.numbered().is_some_and(|n| n != stream.whisker());
+    let found = data
+        .iter()
+        .zip(recordings)
+        .find_map(|(path, (_, streams))| {
+            let stream = streams.iter().find(is_none)?;
+            Some((path, &stream.trial))
+        });
+    found.map_or(Ok(()), |(path, trial)| {
+        let fault = format!("trial {trial:?}: whisker, allowed: 1 to {MAX_STREAMS}");
+        Err(Error::file(path, fault))
+    })
+}
+
 /// Recordings, each with its name, and what they say of the samples a second.
 fn read(
     data: &[PathBuf],
@@ -194,11 +223,20 @@ fn refusal(data: &[PathBuf], channels: &[String; 2], error: &TrainError) -> Erro
         TrainError::Model(ModelError::Block(_) | ModelError::BlockTimesChannels(_))
         | TrainError::Option { name: "block", .. } => "--block",
         TrainError::Range { channel } => {
-            let name = channels.get(*channel).map_or("", String::as_str);
-            return Error::file(
-                first,
-                format!("{name}: its range is too wide or too narrow"),
+            let name = &channels[channel % 2];
+            let whisker = match channel / 2 {
+                0 => String::new(),
+                before => format!(" of whisker {}", before + 1),
+            };
+            let fault = format!("{name}{whisker}: its range is too wide or too narrow");
+            return Error::file(first, fault);
+        }
+        TrainError::Unfelt { channel, class } => {
+            let [whisker, class] = [channel / 2 + 1, class + 1];
+            let fault = format!(
+                "whisker {whisker} has no sample of the label that is number {class} in the recording"
             );
+            return Error::file(first, fault);
         }
         _ => return Error::file(first, error),
     };

@@ -22,7 +22,7 @@ use scene::Texture;
 use super::{BadSetting, Head, Plant, SurfacePose, apart};
 use physics::vector::{add, dot, scale, sub};
 use physics::{
-    At, Bent, Facing, Grit, Material, Outline, Plate, SensorSettings, Shaft, Surface,
+    At, Bent, Facing, Grit, Material, Modes, Outline, Plate, SensorSettings, Shaft, Surface,
     TouchingWhisker,
 };
 
@@ -124,6 +124,15 @@ const fn material(texture: Texture) -> Material {
     }
 }
 
+/// Between which the full scale of the sensor may lie, rad.
+const FULL_SCALE_RAD: [f64; 2] = [1e-6, 3.0];
+
+/// By how much a degree of a tip that is held turns the base, rad.
+fn a_degree(shaft: &Shaft, modes: &Modes, elevation_deg: f64) -> f64 {
+    let reach_m = shaft.length_m * libm::cos(elevation_deg.to_radians());
+    1.0_f64.to_radians() * reach_m * modes.base_rad_n / modes.tip_m_n
+}
+
 impl Elastic {
     /// Whiskers before smooth plastic. The same seed gives the same noise and
     /// the same surfaces; each whisker has its own.
@@ -144,11 +153,11 @@ impl Elastic {
         check("friction", settings.friction.unwrap_or(0.0), 0.0, 8.0)?;
         let shaft = settings.shaft;
         let modes = shaft.modes(8)?;
-        let reach_m = shaft.length_m * libm::cos(elevation_deg.to_radians());
-        let a_degree = 1.0_f64.to_radians() * reach_m * modes.base_rad_n / modes.tip_m_n;
         // Whiskers that meet nothing need no scale.
         let full_scale_rad = if head.stiffness > 0.0 {
-            check("stiffness", a_degree / head.stiffness, 1e-6, 3.0)?
+            let a_degree = a_degree(&shaft, &modes, elevation_deg);
+            let [least, most] = FULL_SCALE_RAD;
+            check("stiffness", a_degree / head.stiffness, least, most)?
         } else if head.limits().all(f64::is_infinite) {
             3.0
         } else {
@@ -186,6 +195,18 @@ impl Elastic {
         };
         plant.stand(SurfacePose::OF_SCENE);
         Ok(plant)
+    }
+
+    /// The least and the most `stiffness` that these settings go with, by the full scale of the
+    /// sensor that it asks for.
+    ///
+    /// # Errors
+    /// The first setting of the shaft out of its range.
+    pub fn stiffness(settings: &ElasticSettings) -> Result<[f64; 2], BadSetting> {
+        let modes = settings.shaft.modes(8)?;
+        let a_degree = a_degree(&settings.shaft, &modes, settings.facing.elevation_deg);
+        let [least, most] = FULL_SCALE_RAD;
+        Ok([a_degree / most, a_degree / least])
     }
 
     /// The same whiskers with nothing before them from here on.

@@ -59,9 +59,12 @@ fn names_between(poses: &str) -> String {
 /// What a second opinion costs and gains on a recording: figures with it, and without.
 pub fn second_opinion(with: &Evaluation, without: &Evaluation) -> String {
     let of = |evaluation: &Evaluation| {
-        let stated = 100.0 * evaluation.calibration.stated;
         let [found, undecided] = [evaluation.calibration.found, evaluation.undecided].map(percent);
-        format!("right {found}, stated {stated:.1} %; without a decision {undecided}")
+        let stated = match evaluation.calibration.stated {
+            stated if stated.is_nan() => String::new(),
+            stated => format!(", stated {:.1} %", 100.0 * stated),
+        };
+        format!("right {found}{stated}; without a decision {undecided}")
     };
     format!(
         "second opinion     with:    {}\n                   without: {} (`train --expect same`)",

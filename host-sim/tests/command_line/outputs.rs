@@ -39,6 +39,40 @@ fn refused(place: &Place, line: &str, naming: &str) {
     assert!(ran.stderr.contains(naming), "{line}: {ran:?}");
 }
 
+/// A recording that took hours is not to become a model by a slip.
+#[test]
+fn no_command_writes_over_what_it_reads() {
+    let place = Place::usual();
+    place.write("m.svg", place.bytes("m"));
+    for line in [
+        "train --tables single --data r.csv --out r.csv",
+        "train --tables single --data r.csv --out ./r.csv",
+        "train --data r.csv --out same.svg --plot same.svg",
+        "classify --model m --data r.csv --rule window --window 20 --out r.csv",
+        "classify --model m --data r.csv --rule window --window 20 --out m",
+        "evaluate --model m.svg --data r.csv --plot m.svg",
+        "record s.toml --out s.toml",
+        "sweep s.toml --key rcp.gain=0.5 --out s.toml",
+    ] {
+        place.refuses(line, &["is another file of this command"]);
+    }
+}
+
+/// Whoever reads the first line of a long table has read enough.
+#[test]
+fn a_reader_that_stops_is_no_fault() {
+    let place = Place::usual();
+    let mut child = place
+        .command("record s.toml --set duration_s=5 --out -")
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap();
+    drop(child.stdout.take());
+    let ended = child.wait_with_output().unwrap();
+    assert!(ended.status.success(), "{ended:?}");
+}
+
 #[test]
 fn pipes_links_folders_and_devices_are_refused_and_stay_what_they_are() {
     let place = Place::usual();

@@ -33,6 +33,28 @@ fn evaluated(place: &Place, model: &str) -> String {
     place.done(&line).stdout
 }
 
+/// Five files in one, in which trials of the same number follow each other.
+#[test]
+fn trials_of_two_poses_are_two() {
+    let rows = |pose: u32| {
+        let row = move |n: u32| format!("low,1,{},{},p{pose}\n", n % 7 + pose, n % 5);
+        (0..50).map(row).collect::<String>()
+    };
+    let table = format!("label,trial,x,y,pose\n{}{}", rows(1), rows(2));
+    let streams = host_sim::recording::read(table.as_bytes(), ["x", "y"]).unwrap();
+    let poses: Vec<_> = streams
+        .iter()
+        .map(|stream| stream.pose.as_deref())
+        .collect();
+    assert_eq!(poses, [Some("p1"), Some("p2")]);
+    assert!(streams.iter().all(|stream| stream.samples.len() == 50));
+    // A row that does not say its pose is of that of the row before.
+    let silent = table.replace(",p1\nlow,1,6,2,p1", ",p1\nlow,1,6,2,");
+    assert!(silent.len() < table.len());
+    let again = host_sim::recording::read(silent.as_bytes(), ["x", "y"]).unwrap();
+    assert_eq!(again, streams);
+}
+
 #[test]
 fn several_poses_are_held_out_and_one_is_recommended() {
     let place = recorded(&[76, 78, 80, 82, 84]);

@@ -59,6 +59,15 @@ def _tokens(name: str, column: str, values: np.ndarray) -> np.ndarray:
     return np.asarray(texts, dtype=str)
 
 
+def _poses(poses: np.ndarray | None, rows: int) -> np.ndarray:
+    """The pose of each row as text; where it is missing, that of the row before."""
+    if poses is None:
+        return np.zeros(rows, dtype=str)
+    names = np.asarray([_pose(poses, row) or "" for row in range(rows)], dtype=str)
+    last = np.maximum.accumulate(np.where(names == "", 0, np.arange(rows)))
+    return names[last]
+
+
 def _pose(poses: np.ndarray | None, row: int) -> str | None:
     if poses is None or _is_missing(poses[row]) or str(poses[row]) == "":
         return None
@@ -103,7 +112,9 @@ def prepared(name: str, recording: Any, channels: tuple[str, str]) -> Prepared:
             raise ValueError(f"{name}: {column} has the shape {values.shape}, not {label.shape}")
     if touch is not None:
         touch = _touches(name, touch)
-    changes = np.flatnonzero((label[1:] != label[:-1]) | (trial[1:] != trial[:-1])) + 1
+    named = _poses(pose, len(label))
+    differ = [column[1:] != column[:-1] for column in (label, trial, named)]
+    changes = np.flatnonzero(np.any(differ, axis=0)) + 1
     ends = [0, *changes.tolist(), len(label)]
     streams = [
         (str(label[a]), str(trial[a]), a, b, _pose(pose, a), _stands(list(stands.values()), a))
