@@ -15,4 +15,4 @@ pub(crate) use listening::Listening;
 pub(crate) use moves::{Push, REST_DEG, lead, push, steps};
 pub(crate) use picture::{ANGLE, Panel, picture};
 pub(crate) use rest::{HALF_RANGE, MIDDLE, Zero, is_at_end};
-pub(crate) use watched::{Watched, watch};
+pub(crate) use watched::{LEAST_S, Watched, watch};

@@ -125,7 +125,12 @@ impl Conversation {
         let answer = self.answer(command)?;
         match answer.status {
             CommandStatus::Done => Ok(answer),
-            status => Err(Error::Work(format!("{command:?}: {status}"))),
+            CommandStatus::NotHere => Err(Error::Work(format!(
+                "{}: {}, scene or simulation",
+                command.name(),
+                CommandStatus::NotHere
+            ))),
+            status => Err(Error::Work(format!("{}: {status}", command.name()))),
         }
     }
 

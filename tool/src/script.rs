@@ -11,7 +11,7 @@ use wire::{Command, CommandStatus};
 
 use crate::conversation::Conversation;
 use crate::source::SourceChoice;
-use crate::tuning::{Tuner, live_key};
+use crate::tuning::{Became, Tuner, live_key};
 
 #[derive(Debug, Clone, PartialEq)]
 struct Entry {
@@ -118,13 +118,14 @@ impl Script {
         text: &str,
     ) -> Result<String, Error> {
         let done = match &self.tuner {
-            Some(tuner) => tuner.set(module, &[set]).map(drop),
+            Some(tuner) => tuner.set(module, &[set]),
             None => Err(Error::Input("nothing says of which scene".to_owned())),
         };
         let t_s = module.source().now_s();
         let became = match done {
-            Ok(()) => "done".to_owned(),
-            Err(Error::Input(fault)) => {
+            Ok(Became::Set(_)) => "done".to_owned(),
+            // What comes later in the script, such as a stop, is given all the same.
+            Ok(Became::Refused(fault)) | Err(Error::Input(fault)) => {
                 self.refused += 1;
                 fault
             }
@@ -166,8 +167,14 @@ fn entry(words: &str) -> Result<Entry, String> {
     let at_s = at_s.filter(|at_s: &f64| *at_s >= 0.0 && *at_s <= 1e6);
     let at_s = at_s.ok_or_else(|| format!("found the time {time:?}, allowed: 0 to 1000000 s"))?;
     let text = said.join(" ");
-    if let ["set", key, value] = said {
-        let action = Action::Set(Override::new(text.clone(), key, value));
+    if let ["set", key, value @ ..] = said {
+        // A table or a list may hold blanks.
+        let value = match value {
+            [value] => (*value).to_owned(),
+            [first, ..] if first.starts_with(['{', '[']) => value.join(" "),
+            _ => return Err(format!("found {text:?}, allowed: set KEY VALUE")),
+        };
+        let action = Action::Set(Override::new(text.clone(), key, &value));
         return Ok(Entry { at_s, text, action });
     }
     let why = match text::parse(text.as_bytes()) {
@@ -194,6 +201,7 @@ mod tests {
         assert!(fault("0 arm\nsoon stop").starts_with("line 2: found the time \"soon\""));
         // What Windows writes first changes nothing.
         assert!(Script::parse("\u{feff}0 arm\r\n").is_ok());
+        assert!(Script::parse("0 set classifier.prior { smooth = 0.9 }").is_ok());
         assert!(fault("1 stop\n0 arm").starts_with("line 2: its time is before"));
         for text in ["0 clear front", "0 set motor.kp", "0 set motor.kp 1 2"] {
             assert!(fault(text).starts_with("line 1: found"), "{text}");

@@ -35,6 +35,24 @@ pub(crate) struct Has {
     pub(crate) other: Option<String>,
 }
 
+/// What became of keys that were to be set.
+pub(crate) enum Became {
+    /// The module has them.
+    Set(Box<Has>),
+    /// The module refuses them, for this reason.
+    Refused(String),
+}
+
+impl Became {
+    /// That a refusal is a fault.
+    pub(crate) fn done(self) -> Result<Has, Error> {
+        match self {
+            Self::Set(has) => Ok(*has),
+            Self::Refused(why) => Err(Error::Work(why)),
+        }
+    }
+}
+
 impl Tuner {
     pub(crate) fn open(path: &Path, source: &SourceChoice) -> Result<Self, Error> {
         let loaded = Loaded::new(path)?;
@@ -125,9 +143,18 @@ impl Tuner {
         for one in set {
             let live = live_key(one.key(), &self.scene).map_err(Error::Input)?;
             if (live.value)(&self.scene).is_none() {
+                let key = one.key();
+                let why = match key {
+                    "classifier.cost_error" | "classifier.cost_delay_per_s" => {
+                        "the module's scene decides by thresholds: write costs in their place in"
+                    }
+                    "motor.stop_deg" => {
+                        "the module's scene does not search for its stop: write rest = \"find\" to"
+                    }
+                    _ => "its part is not in the module's scene: add it to",
+                };
                 return Err(Error::Input(format!(
-                    "{}: its part is not in the module's scene: add it to {}, then {}",
-                    one.key(),
+                    "{key}: {why} {}, then {}",
                     self.path.display(),
                     self.remedy()
                 )));
@@ -190,15 +217,15 @@ impl Tuner {
         of(&wanted.scene)
     }
 
-    /// All between the same two ticks; where it fails, nothing has changed.
-    pub(crate) fn set(&self, module: &mut Conversation, set: &[Override]) -> Result<Has, Error> {
+    /// All between the same two ticks; where it fails or is refused, nothing has changed.
+    pub(crate) fn set(&self, module: &mut Conversation, set: &[Override]) -> Result<Became, Error> {
         let has = self.look(module)?;
         if let Some(other) = has.other {
-            return Err(Error::Work(other));
+            return Ok(Became::Refused(other));
         }
         let wanted = self.wanted(module, &has, set)?;
         if wanted == has.running {
-            return Ok(has);
+            return Ok(Became::Set(Box::new(has)));
         }
         if let Err(refused) = has.running.may_become(&wanted) {
             let keys: Vec<_> = set.iter().map(Override::key).collect();
@@ -206,7 +233,7 @@ impl Tuner {
             return Err(Error::Input(format!("{keys}: {refused}: {remedy}")));
         }
         let refused = match wanted.send(module)? {
-            Taken::Runs => return Ok(self.held(wanted)),
+            Taken::Runs => return Ok(Became::Set(Box::new(self.held(wanted)))),
             Taken::NotBuilt => return Err(not_built(Part::Set)),
             Taken::Refused(refused) => refused,
         };
@@ -214,7 +241,7 @@ impl Tuner {
             ConfigError::Armed(_) => "; whisker stop switches them off",
             _ => "",
         };
-        Err(Error::Work(format!(
+        Ok(Became::Refused(format!(
             "the module refuses {refused}{help}; nothing has changed"
         )))
     }

@@ -9,6 +9,8 @@ use crate::resting::rest;
 use crate::sample::Sample;
 
 const REST_S: f64 = 3.0;
+/// For how long it is watched at least: at rest, whisking, at rest.
+pub(crate) const LEAST_S: f64 = 2.0 * REST_S + 1.0;
 /// A block whose mean is taken for what is slow, s.
 const BLOCK_S: f64 = 0.02;
 
@@ -32,7 +34,8 @@ pub(crate) struct Watched {
     pub(crate) samples: Vec<Sample>,
 }
 
-/// A whisker that `has_motor` is armed for it, and stopped again. `seconds` include the rest.
+/// A whisker that `has_motor` is armed for it, and stopped again. `seconds` include the rest, and are
+/// at least [`LEAST_S`].
 pub(crate) fn watch(
     whisker: &mut Listening<'_>,
     seconds: f64,
@@ -47,7 +50,7 @@ pub(crate) fn watch(
         whisker.arm()?;
         whisker.hold(None)?;
     }
-    let whisked = whisker.watch((seconds - 2.0 * REST_S).max(1.0), |_| true)?;
+    let whisked = whisker.watch(seconds - 2.0 * REST_S, |_| true)?;
     let after = at_rest(whisker)?;
     let missed = i64::from(missed(whisker)?.wrapping_sub(missed_before));
 

@@ -158,7 +158,7 @@ fn limit(whisker: &mut Listening<'_>, tuner: &Tuner, duties: [f64; 2]) -> Result
         Override::new(format!("{key}={value}"), key, &value)
     });
     let set: Vec<Override> = set.collect();
-    tuner.set(whisker.module(), &set).map(drop)
+    tuner.set(whisker.module(), &set)?.done().map(drop)
 }
 
 /// The sensor at rest in free air, its motor off.

@@ -12,7 +12,7 @@ use host_sim::{Error, report};
 use super::get::Which;
 use super::order::SideName;
 use crate::calibrate::{
-    ANGLE, Finding, Listening, Panel, Watched, findings, picture, table, watch,
+    ANGLE, Finding, LEAST_S, Listening, Panel, Watched, findings, picture, table, watch,
 };
 use crate::conversation::Conversation;
 use crate::interrupt;
@@ -39,6 +39,11 @@ const FAULTS: usize = 40;
 /// The motors are off at the end, however it ends.
 pub(crate) fn check(arguments: &Arguments) -> Result<(), Error> {
     arguments.which.source.sends_all()?;
+    if arguments.seconds < LEAST_S {
+        let found = arguments.seconds;
+        let fault = format!("--seconds: found {found}, allowed: at least {LEAST_S}, most at rest");
+        return Err(Error::Input(fault));
+    }
     let scene = arguments.which.scene_file()?;
     let simulation = Box::new(Simulated::of(scene)?);
     let file = |name: &str| Output::create(&arguments.out.join(name));

@@ -50,8 +50,8 @@ pub(crate) fn log(arguments: &Arguments) -> Result<(), Error> {
     }
     if lines == 0 {
         report::warn(
-            "nothing was logged; touches and decisions are logged by modules whose scene has a \
-             [classifier]",
+            "nothing was logged in this time; touches and decisions are logged where the scene has \
+             a [classifier]",
         );
     }
     module.leave_log()?;

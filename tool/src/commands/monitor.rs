@@ -67,6 +67,12 @@ pub(crate) fn monitor(arguments: &Arguments) -> Result<(), Error> {
     record_file::check(&arguments.save)?;
     if let Some(path) = &arguments.snapshot {
         output::check(path)?;
+        if path.extension().is_none_or(|extension| extension != "svg") {
+            return Err(Error::file(
+                path,
+                "--snapshot: allowed: a name that ends in .svg",
+            ));
+        }
     }
     let is_window = arguments.frames.is_none();
     if is_window && !(io::stdin().is_terminal() && io::stdout().is_terminal()) {

@@ -24,7 +24,7 @@ pub(crate) struct Arguments {
 pub(crate) fn set(arguments: &Arguments) -> Result<(), Error> {
     let tuner = arguments.which.tuner()?;
     let mut module = arguments.which.source.module()?;
-    let has = tuner.set(&mut module, &arguments.set)?;
+    let has = tuner.set(&mut module, &arguments.set)?.done()?;
     let keys: Vec<&str> = arguments.set.iter().map(Override::key).collect();
     report::say(table(&has.values(tuner.scene()), &keys));
     if !has.differing.is_empty() {

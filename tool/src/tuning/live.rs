@@ -186,7 +186,11 @@ pub(crate) fn live_key(key: &str, scene: &Scene) -> Result<&'static LiveKey, Str
                     "{key}: no key of a scene that can be set; whisker get --list has all"
                 ));
             }
-            ("plant", _) => "it is of the simulated world, of which no module knows",
+            ("plant", _) => {
+                return Err(format!(
+                    "{key}: it is of the simulated world, of which no module knows"
+                ));
+            }
             (_, "whisking.gain") => {
                 "only the start uses it; the command gain SIDE VALUE of a script changes it"
             }

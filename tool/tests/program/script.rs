@@ -67,3 +67,18 @@ fn what_is_refused_is_said_and_fails() {
         "bad.txt: line 2: found \"jump\", unknown command, try help; allowed: arm",
     );
 }
+
+/// The motor must not stay armed because a key was not taken.
+#[test]
+fn a_key_that_is_refused_does_not_end_a_script() {
+    let place = Place::new();
+    place.write("s.txt", "0.1 arm\n0.3 set motor.duty_limit 0.5\n0.5 stop\n");
+    let ran = place.fails("log --sim bench.toml --script s.txt --seconds 0.8");
+    for part in [
+        " arm: done",
+        " set motor.duty_limit 0.5: the module refuses",
+        " stop: done",
+    ] {
+        assert!(ran.stdout.contains(part), "{part}: {}", ran.stdout);
+    }
+}

@@ -93,7 +93,7 @@ fn priors_and_thresholds_of_classes_are_set_by_name() {
         ("classifier.prior={smooth=1.5}", "classifier.prior"),
         (
             "classifier.cost_error=3",
-            "its part is not in the module's scene",
+            "decides by thresholds: write costs in their place in own.toml",
         ),
     ] {
         place.refuses(&format!("set {set} --sim own.toml"), why);
