@@ -21,11 +21,14 @@ const AMPLITUDE_DEG: f64 = 21.0;
 /// For how long a motor must bear its whisking, s: a bout of a rat's lasts for some seconds.
 const BOUT_S: f64 = 6.0;
 
+/// The lowest frequency that a scene may have, Hz.
+const SLOWEST_HZ: f64 = 0.05;
+
 /// Whisking that is too fast for a motor.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 #[error(
     "whisking.frequency_hz: found {found}; the motor bears it for {bears_s:.1} s, with {duty:.2} of \
-     duty where motor.continuous_duty is {continuous}; allowed: at most {most:.1} with these gains"
+     duty where motor.continuous_duty is {continuous}; allowed: {}", self.allowed()
 )]
 pub struct Unbearable {
     /// The scene's frequency, Hz.
@@ -38,6 +41,15 @@ pub struct Unbearable {
     pub continuous: f64,
     /// The highest that it bears, Hz.
     pub most: f64,
+}
+
+impl Unbearable {
+    fn allowed(&self) -> String {
+        if self.most < SLOWEST_HZ {
+            return "more of motor.continuous_duty, or a motor of more top_speed_deg_s".to_owned();
+        }
+        format!("at most {:.1} with these gains", self.most)
+    }
 }
 
 pub(crate) fn check(whisking: &WhiskingSection, motor: &MotorSection) -> Result<(), Unbearable> {

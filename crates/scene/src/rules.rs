@@ -28,6 +28,7 @@ pub(crate) fn apply(values: &Values, text: &mut Text<'_>) {
     rules.plate_begins_before_it_ends();
     rules.several_can_decide();
     rules.costs_or_thresholds();
+    rules.priors_are_shares();
     rules.mode_is_the_mlx90333s();
     rules.serial_has_its_parts();
     rules.silence_can_be_counted();
@@ -294,6 +295,22 @@ impl Rules<'_, '_> {
         };
         let found = format!("found \"{name}\"");
         self.refuse("classifier", "whiskers", found, allowed);
+    }
+
+    /// Priors leave something to other classes, or are 1 together: what of both holds a model says
+    /// where there is one.
+    fn priors_are_shares(&mut self) {
+        if self.is_given("classifier", "model") {
+            return;
+        }
+        let Some(prior) = self.get::<Vec<(String, f64)>>("classifier", "prior") else {
+            return;
+        };
+        let sum: f64 = prior.iter().map(|(_, share)| share).sum();
+        if sum > 1.0 + 1e-6 {
+            let found = format!("found a sum of {sum}");
+            self.refuse("classifier", "prior", found, "allowed: at most 1");
+        }
     }
 
     /// What costs come to is not to be said beside them.

@@ -190,7 +190,8 @@ keys! {
             .unit("degrees")
             .required_if(TEXTURES, "free whisking"),
 
-        /// Stiffness σ_x: contact signal per degree of overlap (BIOTACT eq. 11).
+        /// Stiffness σ_x: contact signal per degree of overlap (BIOTACT eq. 11). Of a `whisker` above 0,
+        /// and in the range that its shaft allows.
         stiffness: f64 = number(0.0..=100.0).unit("1/degree").required_if(STIFF, "not used"),
     }
 }

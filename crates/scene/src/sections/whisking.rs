@@ -25,7 +25,7 @@ choice! {
 keys! {
     /// Active whisking: oscillators, coupling and muscle (BIOTACT eqs 2 to 9).
     pub struct WhiskingSection {
-        /// Whisk frequency f_W.
+        /// Whisk frequency f_W. A motor that would be too hot within 6 s of it is refused.
         frequency_hz: f64 = number(ranges::FREQUENCY_HZ).unit("Hz"),
 
         /// `exact` keeps to the limit cycle; `euler` is the papers' forward Euler, step for step.
