@@ -92,6 +92,17 @@ fn the_page_of_poses_says_what_it_measured() {
     says_what_it_measured("poses", &[], &["poses.csv", "poses.md"]);
 }
 
+#[test]
+fn the_accuracy_report_is_made_of_what_boards_cost() {
+    let (names, texts) = made(3, "report", &[]);
+    assert!(names.contains(&"accuracy.md".to_owned()), "{names:?}");
+    assert!(
+        texts
+            .iter()
+            .all(|text| text.len() > 100 && !text.contains("NaN"))
+    );
+}
+
 /// The nightly run has it: minutes.
 #[test]
 #[ignore = "takes minutes"]

@@ -39,12 +39,10 @@ pub(crate) fn all(check: bool) -> Result<(), Fault> {
 
 /// Checks that generated documents are up to date: all but the picture that a board's program is
 /// built for ([`asymmetry_is_current`]) and the pages of the studies, which take longer than
-/// all others. Those are only made, in short, the report here and the others by the studies' tests;
-/// the nightly run checks them.
+/// all others. Those are only made, in short, by the studies' tests; the nightly run checks them.
 pub(crate) fn short() -> Result<(), Fault> {
     from_tables(true)?;
-    of_runs(true)?;
-    studies::report_in_short()
+    of_runs(true)
 }
 
 /// What follows from the source alone, from descriptions of chips, and from what boards cost.

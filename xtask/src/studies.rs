@@ -3,7 +3,7 @@
 
 use std::process::Command;
 
-use crate::run::{Fault, cargo, read_bytes, run, target, top, write};
+use crate::run::{Fault, cargo, run, target};
 
 /// From the top.
 pub(crate) const MANIFEST: &str = "studies/Cargo.toml";
@@ -38,7 +38,7 @@ pub(crate) fn check(seed: Option<&str>) -> Result<(), Fault> {
     })
 }
 
-/// All experiments. CI runs LEP10's in short, which is one of the commands of the book.
+/// All experiments, which the tests make in short.
 pub(crate) fn experiments() -> Result<(), Fault> {
     let all = ["--release", "--quiet", "--", "--quiet"];
     let mut experiments = in_workspace("run");
@@ -50,14 +50,4 @@ pub(crate) fn experiments() -> Result<(), Fault> {
 /// docs/measured/instructions.csv, which `cargo xtask count` writes.
 pub(crate) fn page(page: &str, check: bool) -> Result<(), Fault> {
     run(program().arg(page).args(check.then_some("--check")))
-}
-
-/// Makes the accuracy report, in a folder of its own. The tests make the other pages in short.
-pub(crate) fn report_in_short() -> Result<(), Fault> {
-    let folder = target().join("studies");
-    let counted = "instructions.csv";
-    let there = read_bytes(&top().join("docs/measured").join(counted))?;
-    write(&folder.join(counted), &there)?;
-    let quick = ["--quiet", "report", "--quick", "--out"];
-    run(program().args(quick).arg(&folder))
 }
