@@ -174,6 +174,16 @@ def test_each_rise_of_a_column_of_truths_begins_a_touch(heard):
         vibrissa.classify(model, broken)
 
 
+def test_trials_of_one_number_in_two_poses_are_two(heard):
+    pose = np.where(np.arange(len(heard)) % 2000 < 1000, "near", "far")
+    apart = {name: heard[name] for name in heard.dtype.names} | {"pose": pose}
+    named = apart | {"trial": np.char.add(heard["trial"].astype(str), pose)}
+    models = [bytes(vibrissa.train(columns)) for columns in (apart, named)]
+    assert models[0] == models[1]
+    without = {name: heard[name] for name in heard.dtype.names}
+    assert models[0] != bytes(vibrissa.train(without))
+
+
 class Table(dict):
     """Columns with attributes, as a table of pandas has."""
 

@@ -15,7 +15,7 @@ pub(super) fn number(cell: &str) -> Result<u16, String> {
 }
 
 /// Numbers touches that have no numbers of their own: where all that is not 0 is the same, as in a
-/// column of 0 and 1, each rise from 0 begins another touch.
+/// column of 0 and 1, each rise from 0 begins another touch, through all trials.
 pub fn tell_apart(streams: &mut [Stream]) {
     let touches = streams.iter().filter_map(|stream| stream.touch.as_ref());
     let mut numbers = touches.flatten().filter(|number| **number != 0);
@@ -23,20 +23,21 @@ pub fn tell_apart(streams: &mut [Stream]) {
     let Some(one) = first.filter(|one| numbers.all(|number| number == one)) else {
         return;
     };
+    let mut last = None;
     for touch in streams
         .iter_mut()
         .filter_map(|stream| stream.touch.as_mut())
     {
-        let (mut last, mut is_touching, mut is_first) = (one, false, true);
+        let mut is_touching = false;
         for number in touch {
             let touches = *number != 0;
-            if touches && !is_touching && !is_first {
-                last = last.checked_add(1).unwrap_or(1);
+            if touches && !is_touching {
+                let next = last.map(|last: u16| last.checked_add(1).unwrap_or(1));
+                last = next.or(Some(one));
             }
-            is_first &= !touches;
             is_touching = touches;
             if touches {
-                *number = last;
+                *number = last.unwrap_or(one);
             }
         }
     }
@@ -60,6 +61,10 @@ mod tests {
         assert_eq!(told, [0, 1, 1, 0, 2, 0, 0, 3]);
         assert_eq!(touches(&["1.0", "0.0", "1.0"]), [1, 0, 2]);
         assert_eq!(touches(&["False", "True", "False", "True"]), [0, 1, 0, 2]);
+        let trials = "label,trial,x,y,touch\na,1,2,3,1\na,2,2,3,1\na,2,2,3,0\na,2,2,3,1\n";
+        let of_trials = read(trials.as_bytes(), CHANNELS).unwrap();
+        let of_trials: Vec<_> = of_trials.into_iter().filter_map(|s| s.touch).collect();
+        assert_eq!(of_trials, [vec![1], vec![2, 0, 3]]);
     }
 
     #[test]

@@ -73,3 +73,18 @@ fn classifiers_that_cannot_be() {
         &["s.toml:28: classifier.window", "30", "block of 20"],
     );
 }
+
+/// What a shaft has no sensor for is said by the key, with what it allows.
+#[test]
+fn a_stiffness_that_the_shaft_does_not_allow() {
+    let scene = concat!(env!("CARGO_MANIFEST_DIR"), "/../scenes/whisker.toml");
+    let place = Place::new();
+    for stiffness in ["0", "1e-9"] {
+        let line = format!("run {scene} --out o --set plant.stiffness={stiffness}");
+        let found = format!("plant.stiffness: found {stiffness}");
+        place.refuses(
+            &line,
+            &[&found.replace("1e-9", "0.000000001"), "per degree"],
+        );
+    }
+}
