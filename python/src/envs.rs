@@ -197,6 +197,12 @@ impl Envs {
         let classifier = loaded.classifier().map_err(raise)?;
         let Scene { motor, .. } = &loaded.scene;
         let limits = match (action, motor) {
+            (_, Some(motor)) if !motor.arms_at_start() => {
+                return Err(wrong(
+                    "scene: its motors are armed by a command, which no action is; allowed: \
+                     motor.arm = \"at-start\"",
+                ));
+            }
             (Action::Gain, Some(_)) => [0.0, 2.0],
             (Action::Setpoint, Some(motor)) => [motor.min_deg, motor.max_deg],
             (_, None) => {

@@ -5,6 +5,7 @@ use host_sim::classifier::{self, Fault};
 use host_sim::decisions::{Columns, Decided, UNKNOWN};
 use host_sim::doubts;
 use host_sim::evaluation::{self, Evaluation, Shown};
+use host_sim::rate;
 use host_sim::recording::{self, Recorder, Stream};
 use host_sim::replay::Replay;
 use host_sim::run::Run;
@@ -13,6 +14,7 @@ use numpy::PyArray2;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use scene::Rule;
+use tactile::ModelBuf;
 use tactile::score::Interval;
 use tactile::train::TrainError;
 
@@ -131,9 +133,16 @@ fn warned(
     Ok(read)
 }
 
+/// Whether a recording, if it says its samples a second, has those of the model.
+fn at_its_rate(model: &ModelBuf, rate: Option<u32>) -> PyResult<()> {
+    let model = ("model".to_owned(), model.rate_hz());
+    let recording = ("the recording: tick_hz".to_owned(), rate);
+    rate::agreed([model, recording]).map(drop).map_err(wrong)
+}
+
 /// The decisions of a model on a recording that the Python side has prepared.
 #[pyfunction]
-#[pyo3(signature = (model, data, *, channels, threshold, window))]
+#[pyo3(signature = (model, data, *, channels, threshold, window, rate))]
 pub(crate) fn classify<'py>(
     py: Python<'py>,
     model: &Bound<'py, PyAny>,
@@ -141,6 +150,7 @@ pub(crate) fn classify<'py>(
     channels: [String; 2],
     threshold: f64,
     window: Option<u32>,
+    rate: Option<u32>,
 ) -> PyResult<Bound<'py, PyAny>> {
     let rule = match window {
         Some(samples) => Rule::Window { samples },
@@ -152,6 +162,7 @@ pub(crate) fn classify<'py>(
         "threshold"
     };
     let model = model::given(model)?;
+    at_its_rate(&model, rate)?;
     let has_pose = model.has_pose();
     let replay = Replay::new(model, rule);
     let mut replay = replay.map_err(|fault| match fault {
@@ -192,15 +203,17 @@ fn confusion(classes: Vec<String>, presented: &[Shown]) -> (Vec<String>, Vec<Vec
 
 /// What a model is worth on recordings that the Python side has prepared.
 #[pyfunction]
-#[pyo3(signature = (model, data, *, channels, threshold))]
+#[pyo3(signature = (model, data, *, channels, threshold, rate))]
 pub(crate) fn evaluate<'py>(
     py: Python<'py>,
     model: &Bound<'py, PyAny>,
     data: Vec<Prepared<'py>>,
     channels: [String; 2],
     threshold: f64,
+    rate: Option<u32>,
 ) -> PyResult<Bound<'py, PyDict>> {
     let model = model::given(model)?;
+    at_its_rate(&model, rate)?;
     let classes = classifier::names(&model);
     let read = data
         .iter()

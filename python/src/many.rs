@@ -1,5 +1,6 @@
 //! A scene by many seeds, on all cores.
 
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Mutex, PoisonError};
 use std::thread::{self, ScopedJoinHandle};
 use std::time::Duration;
@@ -18,13 +19,22 @@ use crate::table::{self, RunTables};
 /// How often it is seen whether all is done, and whether an interrupt has come.
 const GLANCE: Duration = Duration::from_millis(2);
 
-/// Runs to its end, of which every `every`th row is filled into `rows`; returns its decisions.
-fn fill(run: &mut Run, tables: &RunTables, every: u64, rows: &mut [u8]) -> Vec<Decided> {
+/// Runs to its end, or until it `is_over`, of which every `every`th row is filled into `rows`;
+/// returns its decisions.
+fn fill(
+    run: &mut Run,
+    (tables, every): (&RunTables, u64),
+    rows: &mut [u8],
+    is_over: &AtomicBool,
+) -> Vec<Decided> {
     let width = tables.trace.bytes();
     let (mut decided, mut whiskers) = (Vec::new(), Vec::new());
     let mut row = Vec::new();
     let mut places = rows.chunks_exact_mut(width);
     for n in 1..=run.ticks() {
+        if n.is_multiple_of(outside::HEEDED) && is_over.load(Ordering::Relaxed) {
+            break;
+        }
         let is_kept = every > 0 && n.is_multiple_of(every);
         if is_kept {
             run.tick();
@@ -93,6 +103,7 @@ pub(crate) fn run_many<'py>(
     let mut decided: Vec<Vec<Decided>> = Vec::new();
     decided.resize_with(seeds.len(), Vec::new);
     let jobs = Mutex::new(seeds.iter().zip(places).zip(&mut decided));
+    let is_over = AtomicBool::new(false);
     // A worker takes one run after the other, in its own module; an interrupt ends all.
     let work = || {
         let mut run: Option<Run> = None;
@@ -108,10 +119,11 @@ pub(crate) fn run_many<'py>(
                 }
                 None => run.insert(new(*seed)?),
             };
-            *decided = fill(run, &tables, every, place);
+            *decided = fill(run, (&tables, every), place, &is_over);
         }
     };
     let give_up = || {
+        is_over.store(true, Ordering::Relaxed);
         let mut jobs = jobs.lock().unwrap_or_else(PoisonError::into_inner);
         while jobs.next().is_some() {}
     };

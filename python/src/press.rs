@@ -28,7 +28,10 @@ pub(crate) fn press<'py>(
 ) -> PyResult<Bound<'py, PyAny>> {
     let push_deg = match push_deg.extract::<f64>() {
         Ok(one) => vec![one],
-        Err(_) => push_deg.extract()?,
+        Err(_) => push_deg
+            .try_iter()?
+            .map(|push| push?.extract())
+            .collect::<PyResult<_>>()?,
     };
     let mut pressing = Pressing {
         slant_deg,

@@ -191,7 +191,11 @@ impl Given {
         };
         let loaded = Loaded::from_text(&self.file, &self.text, &self.set, named);
         let mut loaded = loaded.map_err(|error| raised(py, error))?;
-        if given.is_some() && loaded.scene.classifier.is_some() {
+        if given.is_some() {
+            if loaded.scene.classifier.is_none() {
+                let fault = "it has no [classifier], and so no use for a model";
+                return Err(raised(py, Error::file(Path::new(&self.file), fault)));
+            }
             loaded = loaded.with_deployed(Path::new("model"), given);
         }
         loaded.scene.seed = seed.unwrap_or(loaded.scene.seed);

@@ -111,6 +111,30 @@ def test_rewards():
     assert at(0.4)[CONTACT] == [0.4]
 
 
+def test_an_observation_is_the_callers():
+    def episode(env, share):
+        total, observation = 0.0, env.reset(seed=1)[0]
+        observation *= share
+        for _ in range(60):
+            observation, reward, *_ = env.step(np.full(env.action_space.shape, 110.0))
+            observation *= share
+            total += np.sum(reward)
+        return total
+
+    options = {"set": {"duration_s": 2.0}, "ticks": 20, "reward": find_the_edge}
+    for make in (lambda: WhiskerEnv(**options), lambda: WhiskerVectorEnv(2, **options)):
+        assert episode(make(), 0.001) == episode(make(), 1.0)
+
+
+def test_actions_have_a_place_for_each_whisker():
+    env = WhiskerVectorEnv(3, "both", set=SHORT)
+    env.reset(seed=1)
+    with pytest.raises(ValueError, match=r"actions: found the shape \(2, 3\), allowed: \(3, 2\)"):
+        env.step(np.zeros((2, 3)))
+    with pytest.raises(ValueError, match="armed by a command"):
+        WhiskerEnv("bench")
+
+
 def test_the_example_learns():
     example = runpy.run_path(str(Path(__file__).parents[1] / "examples" / "learn_to_touch.py"))
     before, after = example["main"]()

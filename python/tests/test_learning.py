@@ -204,6 +204,36 @@ def test_a_recording_knows_its_rate_and_another_is_refused(heard):
         vibrissa.train([heard, slow], tables="single")
 
 
+def test_a_recording_of_another_rate_is_not_judged(heard):
+    model = vibrissa.train(heard)
+    slow = vibrissa.record(TEXTURES, set={"tick_hz": 1000, "duration_s": 4.0})
+    for judge in (vibrissa.classify, vibrissa.evaluate):
+        with pytest.raises(ValueError, match="model: found 2000, the recording: tick_hz has 1000"):
+            judge(model, slow)
+    silent = {name: heard[name] for name in heard.dtype.names}
+    with pytest.raises(ValueError, match="recording 2: tick_hz is not said"):
+        vibrissa.train([slow, silent])
+
+
+def test_what_is_no_recording_is_said_by_column_and_row(heard):
+    columns = {name: heard[name] for name in heard.dtype.names}
+    text = np.where(np.arange(len(heard)) == 7, "0,5", heard["x"].astype(str))
+    for changed, says in [
+        (columns | {"x": text}, "row 7: x is '0,5'"),
+        (columns | {"touch": np.full(len(heard), "yes")}, "row 0: touch: found 'yes'"),
+        ({"lable": heard["label"], "x": heard["x"]}, "no column 'label'"),
+    ]:
+        with pytest.raises(ValueError, match=says):
+            vibrissa.train(changed)
+    with pytest.raises(ValueError, match="channels: both are 'x'"):
+        vibrissa.train(columns, channels=("x", "x"))
+
+
+def test_a_scene_without_a_classifier_has_no_use_for_a_model(heard):
+    with pytest.raises(ValueError, match="no use for a model"):
+        vibrissa.Sim("free", model=vibrissa.train(heard))
+
+
 def test_a_model_of_another_rate_is_refused(heard):
     columns = {name: heard[name] for name in heard.dtype.names}
     model = vibrissa.train(columns, tables="single", rate=1000)

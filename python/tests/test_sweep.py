@@ -66,3 +66,17 @@ def test_an_unknown_place_is_refused(monkeypatch):
     monkeypatch.setenv("WHISKER_SWEEP", "abacus")
     with pytest.raises(ValueError, match="allowed: processes, dask, ray"):
         sweep(vibrissa.SCENES["textures"], KEYS, [1], figures)
+
+
+@pytest.mark.parametrize(
+    ("asked", "says"),
+    [
+        ({"seeds": [1, 1]}, "seeds: found one twice"),
+        ({"keys": {"seed": [5]}}, "keys: found seed"),
+        ({"batch": 0}, "batch: found 0"),
+    ],
+)
+def test_what_would_mix_its_rows_is_refused(asked, says):
+    wanted = {"keys": {"duration_s": [0.1]}, "seeds": [1, 2]} | asked
+    with pytest.raises(ValueError, match=says):
+        sweep("textures", wanted.pop("keys"), wanted.pop("seeds"), len, **wanted)

@@ -26,7 +26,7 @@ pub use protecting::Unprotected;
 pub use settling::Unsettled;
 pub use stability::{Instability, Unstable};
 
-use scene::Scene;
+use scene::{PlantKind, Scene};
 use tactile::{ModelBuf, Whisked};
 use whisking::{Error, Real, filter};
 
@@ -212,11 +212,18 @@ pub fn settings(scene: &Scene) -> Option<whisking::Settings> {
 }
 
 /// Whether the scene's integrator can carry it: `exact` can carry any scene,
-/// forward Euler none whose muscles swing up. [`build`] checks it too.
+/// forward Euler none whose muscles swing up; and its motor can bear its whisking. [`build`] checks
+/// both too.
 ///
 /// # Errors
-/// [`Mismatch::Unstable`].
+/// [`Mismatch::Unstable`], [`Mismatch::Unbearable`].
 pub fn check(scene: &Scene) -> Result<(), Mismatch> {
+    let is_ideal = scene.plant.kind == PlantKind::Ideal;
+    if let (Some(whisking), Some(motor)) = (&scene.whisking, &scene.motor)
+        && !is_ideal
+    {
+        bearable::check(whisking, motor)?;
+    }
     let Some(settings) = settings(scene) else {
         return Ok(());
     };

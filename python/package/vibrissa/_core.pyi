@@ -280,9 +280,15 @@ def classify(
     channels: tuple[str, str],
     threshold: float,
     window: int | None,
+    rate: int | None,
 ) -> NDArray[np.void]:
     """The decisions of a model on a recording that the Python side has prepared."""
 def evaluate(
-    model: _Model, data: list[Any], *, channels: tuple[str, str], threshold: float
+    model: _Model,
+    data: list[Any],
+    *,
+    channels: tuple[str, str],
+    threshold: float,
+    rate: int | None,
 ) -> dict[str, Any]:
     """What a model is worth on recordings that the Python side has prepared."""

@@ -85,10 +85,11 @@ def _stands(of_row: list[np.ndarray | None], row: int) -> tuple[float, float] | 
 
 def _touches(name: str, values: np.ndarray) -> np.ndarray:
     """Numbers of touches, or truths."""
-    for row, value in enumerate(values if values.dtype.kind in "Of" else ()):
-        if _is_missing(value) or not 0 <= value <= 65535:
+    for row, value in enumerate(values if values.dtype.kind not in "iub" else ()):
+        is_text = isinstance(value, (str, bytes))
+        if is_text or _is_missing(value) or not 0 <= value <= 65535:
             raise ValueError(
-                f"{name}: row {row}: touch: found {value!r}, allowed: whole numbers from 0 to 65535"
+                f"{name}: row {row}: touch: found {str(value)!r}, allowed: whole numbers from 0 to 65535"
             )
     whole = values.astype(np.int64)
     if np.any(whole != values) or np.any((whole < 0) | (whole > 65535)):
@@ -96,12 +97,30 @@ def _touches(name: str, values: np.ndarray) -> np.ndarray:
     return whole.astype(np.uint16)
 
 
+def _numbers(name: str, column: str, values: np.ndarray) -> np.ndarray:
+    """As numbers of double precision; what is none is refused by its row."""
+    try:
+        return np.ascontiguousarray(values, dtype=np.float64)
+    except (TypeError, ValueError):
+        for row, value in enumerate(values):
+            try:
+                float(value)
+            except (TypeError, ValueError):
+                fault = f"{column} is {str(value)!r}, not a finite number"
+                raise ValueError(f"{name}: row {row}: {fault}") from None
+        raise
+
+
 def prepared(name: str, recording: Any, channels: tuple[str, str]) -> Prepared:
+    if channels[0] == channels[1]:
+        raise ValueError(f"channels: both are {channels[0]!r}, two are needed")
     found = {column: _column(recording, column) for column in ("label", "trial", *channels)}
     missing = [column for column, values in found.items() if values is None]
     if missing:
         raise ValueError(f"{name}: no column {missing[0]!r}; a recording has {', '.join(found)}")
-    label, trial, x, y = found.values()
+    label, trial, *_ = found.values()
+    if label.ndim != 1:
+        raise ValueError(f"{name}: label has the shape {label.shape}, allowed: one row a sample")
     label, trial = _tokens(name, "label", label), _tokens(name, "trial", trial)
     contact, touch = _column(recording, "contact"), _column(recording, "touch")
     pose = _column(recording, "pose")
@@ -124,8 +143,8 @@ def prepared(name: str, recording: Any, channels: tuple[str, str]) -> Prepared:
     return Prepared(
         name,
         streams,
-        np.ascontiguousarray(np.column_stack([x, y]), dtype=np.float64),
-        None if contact is None else np.ascontiguousarray(contact, dtype=np.float64),
+        np.column_stack([_numbers(name, column, found[column]) for column in channels]),
+        None if contact is None else _numbers(name, "contact", contact),
         None if touch is None else np.ascontiguousarray(touch),
     )
 
@@ -133,6 +152,8 @@ def prepared(name: str, recording: Any, channels: tuple[str, str]) -> Prepared:
 def named(recordings: Any, channels: tuple[str, str]) -> list[tuple[str, Any]]:
     """Recordings with their names: one or several, read where they are paths."""
     if isinstance(recordings, Mapping) and "label" not in recordings:
+        if not any(isinstance(one, (str, PathLike)) or _is_table(one) for one in recordings.values()):
+            raise ValueError("recording: no column 'label', and no recordings by their names")
         all_of_them = [(str(name), one) for name, one in recordings.items()]
     elif isinstance(recordings, (list, tuple)):
         all_of_them = [(_name(one, f"recording {n}"), one) for n, one in enumerate(recordings, 1)]
@@ -144,6 +165,11 @@ def named(recordings: Any, channels: tuple[str, str]) -> list[tuple[str, Any]]:
     ]
 
 
+def _is_table(recording: Any) -> bool:
+    names = getattr(getattr(recording, "dtype", None), "names", None)
+    return names is not None or hasattr(recording, "keys")
+
+
 def _name(recording: Any, otherwise: str) -> str:
     return fspath(recording) if isinstance(recording, (str, PathLike)) else otherwise
 
@@ -152,11 +178,28 @@ def _own_rate(recording: Any) -> int | None:
     """The rate that a recording knows: what ``record`` returns by its type, a table by ``attrs``."""
     metadata = getattr(getattr(recording, "dtype", None), "metadata", None)
     attributes = metadata or getattr(recording, "attrs", None) or {}
-    return attributes.get("tick_hz")
+    rate = attributes.get("tick_hz")
+    if rate is not None and (not isinstance(rate, (int, np.integer)) or rate < 1):
+        raise ValueError(f"tick_hz: found {rate!r}, allowed: a whole number above 0")
+    return rate
 
 
 def rate_of(named: list[tuple[str, Any]], rate: int | None) -> int:
-    """The rate of all; what contradicts it is refused."""
+    """The rate of all; what contradicts it is refused, and what leaves it open where another says
+    that it is not the usual one."""
+    own_rates = {name: _own_rate(recording) for name, recording in named}
+    silent = [name for name, own in own_rates.items() if own is None]
+    others = [name for name, own in own_rates.items() if own not in (None, USUAL_RATE)]
+    if rate is None and silent and others:
+        raise ValueError(
+            f"{others[0]}: tick_hz is {own_rates[others[0]]}, {silent[0]}: tick_hz is not said; "
+            "say what both have by rate"
+        )
+    return said_rate(named, rate) or USUAL_RATE
+
+
+def said_rate(named: list[tuple[str, Any]], rate: int | None = None) -> int | None:
+    """The rate that is said, by all who say one; what contradicts it is refused."""
     said = "rate"
     for name, recording in named:
         own = _own_rate(recording)
@@ -165,4 +208,4 @@ def rate_of(named: list[tuple[str, Any]], rate: int | None) -> int:
         if rate is not None and own != rate:
             raise ValueError(f"{said}: found {rate}, {name}: tick_hz has {own}")
         said, rate = f"{name}: tick_hz", own
-    return USUAL_RATE if rate is None else rate
+    return rate

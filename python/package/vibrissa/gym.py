@@ -81,6 +81,15 @@ def _whole(name: str, seed: Any) -> int:
     return whole
 
 
+def _acts(name: str, given: Any, shape: tuple[int, ...]) -> np.ndarray:
+    """What is to be done, by whisker; of a single one it may stand alone."""
+    acts = np.ascontiguousarray(given, dtype=np.float64)
+    found = np.shape(given)
+    if found != shape and not (shape[-1] == 1 and found == shape[:-1]):
+        raise ValueError(f"{name}: found the shape {found}, allowed: {shape}")
+    return acts.reshape(shape)
+
+
 class WhiskerEnv(gymnasium.Env):
     """A scene in which an agent acts every ``ticks`` ticks until the scene has ended."""
 
@@ -112,16 +121,17 @@ class WhiskerEnv(gymnasium.Env):
         super().reset(seed=one)
         number = int(self.np_random.integers(2**32)) if one is None else one
         observation, _ = self._step(np.zeros((1, self._envs.whiskers)), True, number)
-        self._before = observation
+        # The caller may change what it gets.
+        self._before = observation.copy()
         return observation, {"seed": number}
 
     def step(self, action: np.ndarray) -> tuple[np.ndarray, float, bool, bool, dict[str, Any]]:
         if self._before is None:
             raise gymnasium.error.ResetNeeded("step before reset")
-        action = np.asarray(action, dtype=np.float64).reshape(1, -1)
+        action = _acts("action", action, (self._envs.whiskers,)).reshape(1, -1)
         observation, ended = self._step(action, False, 0)
         reward = float(self._reward(observation, action[0], self._before))
-        self._before = observation
+        self._before = observation.copy()
         return observation, reward, False, ended, {}
 
     def render(self) -> np.ndarray | None:
@@ -195,7 +205,7 @@ class WhiskerVectorEnv(VectorEnv):
         self._seeds = np.where(mask, np.array(seeds, np.uint64), self._seeds)
         self._before = self._envs.restart(mask, self._seeds)
         self._ended &= ~mask
-        return self._before, {"seed": self._seeds.copy()}
+        return self._before.copy(), {"seed": self._seeds.copy()}
 
     def _mask(self, options: dict[str, Any] | None) -> np.ndarray:
         """Which environments are to be reset: Gymnasium's option ``reset_mask``."""
@@ -218,12 +228,12 @@ class WhiskerVectorEnv(VectorEnv):
         if restarts:
             for n in np.flatnonzero(begin):
                 self._seeds[n] = self._randoms[n].integers(2**32)
-        actions = np.ascontiguousarray(actions, dtype=np.float64).reshape(self.num_envs, -1)
+        actions = _acts("actions", actions, (self.num_envs, self._envs.whiskers))
         observations, ended = self._envs.step(actions, begin, self._seeds)
         rewards = np.asarray(self._reward(observations, actions, self._before), np.float64)
         if restarts:
             rewards = np.where(begin, 0.0, rewards)
-        self._before, self._ended = observations, ended
+        self._before, self._ended = observations.copy(), ended
         return observations, rewards, np.zeros(self.num_envs, bool), ended.copy(), {}
 
     def render(self) -> tuple[np.ndarray, ...] | None:

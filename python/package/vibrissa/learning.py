@@ -5,7 +5,7 @@ from typing import Annotated, Any, NamedTuple, TypeVar, get_args
 import numpy as np
 
 from vibrissa import _core
-from vibrissa._recordings import named, prepared, rate_of
+from vibrissa._recordings import named, prepared, rate_of, said_rate
 
 _Fields = TypeVar("_Fields", bound=type)
 
@@ -152,9 +152,12 @@ def classify(
     samples. The arithmetic is the board's.
     """
     model, recording = _model_first(model, recording)
-    (given,) = named([recording], channels)
-    data = prepared(*given, channels)
-    return _core.classify(model, data, channels=channels, threshold=threshold, window=window)
+    all_of_them = named([recording], channels)
+    (data,) = (prepared(*given, channels) for given in all_of_them)
+    rate = said_rate(all_of_them)
+    return _core.classify(
+        model, data, channels=channels, threshold=threshold, window=window, rate=rate
+    )
 
 
 def evaluate(
@@ -167,8 +170,10 @@ def evaluate(
     """What a model is worth on recordings that it was not trained on: one or several, as ``train``
     takes them. Recordings and model may also stand in the other order."""
     model, recordings = _model_first(model, recordings)
-    data = [prepared(name, one, channels) for name, one in named(recordings, channels)]
-    found = _core.evaluate(model, data, channels=channels, threshold=threshold)
+    given = named(recordings, channels)
+    data = [prepared(name, one, channels) for name, one in given]
+    rate = said_rate(given)
+    found = _core.evaluate(model, data, channels=channels, threshold=threshold, rate=rate)
     shares = ("found", "refused", "strange", "undecided")
     return Evaluation(**{**found, **{name: Share(*found[name]) for name in shares}})
 

@@ -98,6 +98,12 @@ def sweep(
     if where not in BACKENDS:
         raise ValueError(f"WHISKER_SWEEP: found {where!r}, allowed: {', '.join(BACKENDS)}")
     seeds = list(seeds)
+    if len(set(seeds)) < len(seeds):
+        raise ValueError("seeds: found one twice, allowed: each once")
+    if "seed" in keys:
+        raise ValueError("keys: found seed, which has a column of its own; allowed: seeds")
+    if batch is not None and batch < 1:
+        raise ValueError(f"batch: found {batch}, allowed: above 0")
     settings = [dict(zip(keys, values)) for values in itertools.product(*keys.values())]
     if not seeds or not settings:
         return []

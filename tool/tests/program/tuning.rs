@@ -262,3 +262,11 @@ fn an_image_that_was_built_without_it_is_read_all_the_same() {
     let get = place.done(&format!("get {board}")).stdout;
     assert!(get.starts_with("the module runs scene passive ("), "{get}");
 }
+
+/// What no module takes is not written.
+#[test]
+fn whisking_that_the_motor_does_not_bear_is_not_saved() {
+    let place = Place::new();
+    let save = "save whisking.frequency_hz=25 --scene bench.toml";
+    place.refuses(save, "bench.toml: whisking.frequency_hz: found 25");
+}

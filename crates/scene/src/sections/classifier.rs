@@ -96,7 +96,7 @@ keys! {
             .optional("`threshold` holds for every class"),
 
         /// How frequent classes are where the module works, such as `{ smooth = 0.9 }`: P(T_k) of
-        /// LEP12 eq. 4. The others share what is left evenly: at most 1 together.
+        /// LEP12 eq. 4. At most 1 together; other classes share what is left evenly.
         prior: Option<Vec<(String, f64)>> = per_class(SHARE)
             .optional("all classes are equally frequent"),
 
