@@ -8,6 +8,7 @@ use tactile::ModelBuf;
 
 use crate::Error;
 use crate::classifier::{Classifier, Fault};
+use crate::world;
 
 /// A scene that has been checked, and the model that it names.
 #[derive(Debug, Clone)]
@@ -59,8 +60,12 @@ impl Loaded {
 
     /// What its user should know of the scene, though nothing is wrong with it.
     pub fn caution(&self) -> Option<String> {
-        let caution = config::cautions(&self.scene)?;
-        Some(Error::file(&self.path, caution).to_string())
+        let of_module = config::cautions(&self.scene).map(|caution| caution.to_string());
+        let all = of_module.into_iter().chain(world::caution(&self.scene));
+        let all: Vec<String> = all
+            .map(|caution| Error::file(&self.path, caution).to_string())
+            .collect();
+        (!all.is_empty()).then(|| all.join("\n"))
     }
 
     /// The same with a model that was read from a place that messages call `path`.

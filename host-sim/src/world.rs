@@ -7,7 +7,9 @@ use crate::motor::{IdealMotor, MotorSettings, Pins, SimMotor};
 use crate::plant::{
     self, Elastic, ElasticSettings, HOLD, Ideal, Plant, SurfacePose, Textured, TexturedSettings,
 };
-use physics::{At, BadSetting, Bent, Biotact, Facing, Follicle, Outline, Shaft, Surface};
+use physics::{
+    At, BadSetting, Bent, Biotact, Facing, Follicle, MOST_TAPER, Outline, Shaft, Surface,
+};
 
 /// The motors of all whiskers and the surface they meet.
 #[derive(Debug)]
@@ -214,6 +216,19 @@ pub(crate) const SHAFTS: [(ShaftName, Shaft); 5] = [
     (ShaftName::FloorRobot, Shaft::floor_robot()),
     (ShaftName::XyTable, Shaft::xy_table()),
 ];
+
+/// What is simulated otherwise than it would be, though the scene can be run.
+pub(crate) fn caution(scene: &Scene) -> Option<String> {
+    let touches = scene.plant.kind == PlantKind::Whisker && scene.plant.obstacle.is_some();
+    let shaft = shaft(scene.plant.shaft);
+    let taper = shaft.hub_diameter_m / shaft.tip_diameter_m;
+    (touches && taper > MOST_TAPER).then(|| {
+        format!(
+            "plant.tip_diameter_m: it tapers by {taper:.0}; beyond {MOST_TAPER} a simulated tip passes \
+             through what it touches, and moments come out too small; host-sim press has them right"
+        )
+    })
+}
 
 /// The physical shaft of a scene; the default where the scene names none.
 fn shaft(of: Option<scene::ShaftChoice>) -> Shaft {

@@ -96,7 +96,7 @@ impl Press {
     /// The shaft at each push, degrees, 0 to [`MOST_PUSH_DEG`], in the order given.
     ///
     /// Moments, forces and places are within 2e-7 of the equations above, relative, for tapers
-    /// up to 30, and within 2e-6 up to [`MOST_TAPER`] (see the tests).
+    /// up to 30, and within 3e-6 up to [`MOST_TAPER`] (see the tests).
     ///
     /// # Errors
     /// [`PressError`].

@@ -9,7 +9,7 @@ use crate::{Integrator, Real};
 /// nominal value.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Gate<R: Real> {
-    /// The value at the end of the tick, not negative.
+    /// The value that the next tick begins with, not negative.
     pub value: R,
     /// The mean over the tick, in which the value decays or is held by contact.
     pub mean: R,

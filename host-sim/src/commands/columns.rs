@@ -18,7 +18,7 @@ pub fn page() -> String {
         (
             "trace.csv",
             "What a module did and what became of it, a row a tick. Values are those after the \
-             tick; those of a side that the head does not have are empty. `host-sim run` writes \
+             tick, but x, y and contact, which are of its beginning; those of a side that the head does not have are empty. `host-sim run` writes \
              it, and `cargo xtask emulate` of the emulated board.",
             trace.as_slice(),
         ),

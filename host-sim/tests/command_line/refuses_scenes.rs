@@ -88,3 +88,33 @@ fn a_stiffness_that_the_shaft_does_not_allow() {
         );
     }
 }
+
+/// A tip that passes through what it touches is not simulated in silence.
+#[test]
+fn a_shaft_that_tapers_too_much_is_said() {
+    let scene = concat!(env!("CARGO_MANIFEST_DIR"), "/../scenes/whisker.toml");
+    let place = Place::new();
+    let run = |tip: &str| {
+        let shaft = [
+            "plant.shaft=own",
+            "plant.length_m=0.1",
+            "plant.hub_diameter_m=2e-3",
+            &format!("plant.tip_diameter_m={tip}"),
+            "plant.youngs_pa=2.3e9",
+            "plant.density_kg_m3=1100",
+            "plant.damping_ratio=0.05",
+            "plant.follicle_n_m_rad=0.1",
+            "duration_s=0.1",
+            "plant.stiffness=0.01",
+        ];
+        let line = format!(
+            "run {scene} --out o --no-plot --set {}",
+            shaft.join(" --set ")
+        );
+        let ran = place.run(&line);
+        assert_eq!(ran.status, Some(0), "{ran:?}");
+        ran
+    };
+    assert!(run("4e-5").stderr.contains("it tapers by 50"));
+    assert!(!run("1e-4").stderr.contains("it tapers"));
+}
