@@ -368,11 +368,16 @@ impl<R: Real, H: Hardware> Module<R, H> {
         &mut self.timing
     }
 
-    /// Another configuration has taken effect between two ticks, which this one
+    /// Another configuration takes effect between two ticks, which this one
     /// [may become](Config::may_become).
-    pub fn retune(&mut self, config: &Config<R>) {
-        if let (Some(perception), Some(classifier)) = (&mut self.perception, &config.classifier) {
-            perception.retune(classifier.rule.as_ref(), &config.classes);
+    pub fn retune(&mut self, config: &Config<R>, next: &Config<R>) {
+        if let (Some(perception), Some(classifier)) = (&mut self.perception, &next.classifier) {
+            perception.retune(classifier.rule.as_ref(), &next.classes);
+        }
+        // Home was found by where the stop was taken to be.
+        if Part::Homing.is_built() && stop_of(config) != stop_of(next) {
+            let servos = self.whiskers.iter_mut().filter_map(Whisker::servo_mut);
+            servos.for_each(Servo::forget_home);
         }
     }
 
@@ -518,6 +523,11 @@ fn normalised<R: Real>(word: mlx90333::Word, predicted: i16) -> R {
     } else {
         R::from_code(code.max(-8191))
     }
+}
+
+/// Where a servo takes the stop to be that it finds home by.
+fn stop_of<R: Real>(config: &Config<R>) -> Option<i32> {
+    Some(config.motion.as_ref()?.servo.homing.as_ref()?.stop)
 }
 
 #[cfg(test)]

@@ -239,8 +239,17 @@ impl<F: WordSource> Sensor<F> {
             self.health = SensorHealth::Faulted { good: 0 };
             return;
         };
-        // A tick without a frame follows from one with a bad frame, if there was one.
-        if bad == 0 || fault != SensorFault::NoFrame {
+        // A tick without a frame follows from one with a bad frame, if there was one; and a sensor that
+        // has reported an error starts again, which takes it 16 ms of silence (its sister's data
+        // sheet, MLX90316 revision 10, sections 16.7 and 16.9).
+        let follows = match fault {
+            SensorFault::NoFrame => true,
+            SensorFault::Frame(FrameError::NoSensor) => {
+                matches!(self.why, SensorFault::Frame(FrameError::Sensor(_)))
+            }
+            _ => false,
+        };
+        if bad == 0 || !follows {
             self.why = fault;
         }
         self.burst = self.burst.saturating_add(BAD_WEIGHT);
@@ -267,7 +276,9 @@ impl<F: WordSource> Sensor<F> {
         match self.why {
             SensorFault::Frame(FrameError::NoSensor | FrameError::LineLow) => {}
             SensorFault::Frame(_) => {
-                if let Some(bytes) = self.source.last() {
+                // All ones follow a report.
+                let last = self.source.last();
+                if let Some(bytes) = last.filter(|bytes| *bytes != [u8::MAX; FRAME_LEN]) {
                     events(Event::Frame(place, bytes));
                 }
             }

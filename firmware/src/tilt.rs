@@ -158,7 +158,11 @@ impl<SPI: SpiDevice> TiltSource<SPI> {
     /// What the sensor reports, which that clears, if it lets it be read.
     fn report(&mut self) -> TiltFault {
         match self.sensor.faults() {
-            Ok(faults) => TiltFault::Reported(faults),
+            Ok(faults) => {
+                // That is said once: it would not be configured again.
+                self.is_configured &= !faults.contains(StatusFaults::RESTARTED);
+                TiltFault::Reported(faults)
+            }
             Err(Error::Frame(error)) => TiltFault::Reply(error),
             Err(_) => TiltFault::Reported(StatusFaults::NONE),
         }

@@ -243,7 +243,7 @@ pub fn take_over<R: Real, H: Hardware>(
     next: &Config<R>,
 ) -> Result<(), ConfigError> {
     config.may_become(next, module.is_armed())?;
-    module.retune(next);
+    module.retune(config, next);
     Ok(())
 }
 

@@ -61,7 +61,7 @@ pub fn short(recordings: &[(String, Vec<Stream>)]) -> String {
     let rows: usize = streams().map(|stream| stream.samples.len()).sum();
     let count = streams().count();
     format!(
-        "a trial is what rows of one label and trial are that follow each other: found {count}, of \
+        "a trial is what rows of one label, trial and pose are that follow each other: found {count}, of \
          {:.1} rows in the mean",
         rows as f64 / count.max(1) as f64
     )

@@ -1,4 +1,4 @@
-//! A recording: `label,trial,x,y,contact,touch,pose` rows; rows of one label and trial that
+//! A recording: `label,trial,x,y,contact,touch,pose` rows; rows of one label, trial and pose that
 //! follow each other are one stream in time order. A sample counts while contact is at
 //! least the model's gate; without the column each does. The number of the touch, 0 in
 //! the air, is what the module itself said: a whisker that bends by its own inertia has
@@ -18,7 +18,7 @@ use crate::columns::{self, Column, columns};
 use crate::origin::{self, Origin};
 use crate::run::Run;
 
-/// Two channels under one label and trial, in time order.
+/// Two channels under one label, trial and pose, in time order.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Stream {
     /// Class name.
@@ -53,7 +53,7 @@ pub const COLUMNS: [Column; 9] = columns! {
         character, or begin as a formula of a spreadsheet does: with `=` or `@`, or with `+` or \
         `-` where no number follows";
     "trial", "",
-        "any token; rows of one label and trial that follow each other are one stream in time \
+        "any token; rows of one label, trial and pose that follow each other are one stream in time \
         order";
     "x", "any", "of a simulated sensor the 14-bit code of x; `--channels` takes other columns";
     "y", "any", "the same of y";

@@ -46,6 +46,8 @@ enum Said {
 #[derive(Debug)]
 pub struct StopWatch {
     said: Said,
+    /// What its end says by itself, which counts alone of one that is garbled.
+    end: Said,
     /// The line has more bytes than a command, or such as are no text.
     is_garbled: bool,
     line_length: u8,
@@ -59,6 +61,7 @@ impl StopWatch {
     pub const fn new() -> Self {
         Self {
             said: Said::Nothing,
+            end: Said::Nothing,
             is_garbled: false,
             line_length: 0,
             frame: [0; MOST],
@@ -80,7 +83,8 @@ impl StopWatch {
             return self.end_of_line();
         }
         self.line_length = self.line_length.saturating_add(1);
-        self.said = self.said.and(byte, self.is_garbled);
+        self.said = self.said.and(byte, false);
+        self.end = self.end.and(byte, true);
         let is_text = matches!(byte, b' '..=b'~' | b'\t' | b'\r' | 12);
         let is_remark = matches!(self.said, Said::OtherRemark | Said::StopRemark);
         if !(is_text || is_remark) || usize::from(self.line_length) > COMMAND_BYTES {
@@ -90,13 +94,15 @@ impl StopWatch {
     }
 
     fn end_of_line(&mut self) -> Option<Stop> {
-        let is_stop = matches!(self.said, Said::Stop | Said::StopBlank | Said::StopRemark);
+        let said = if self.is_garbled { self.end } else { self.said };
+        let is_stop = matches!(said, Said::Stop | Said::StopBlank | Said::StopRemark);
         self.begin_line();
         is_stop.then_some(Stop::Line)
     }
 
     const fn begin_line(&mut self) {
         self.said = Said::Nothing;
+        self.end = Said::Nothing;
         self.is_garbled = false;
         self.line_length = 0;
     }
@@ -119,14 +125,14 @@ impl Default for StopWatch {
 }
 
 impl Said {
-    /// With one more byte, which does not end the line. The end alone counts of one that is
-    /// garbled.
+    /// With one more byte, which does not end the line; of the whole line, or of an end that may
+    /// begin anywhere.
     #[inline]
-    const fn and(self, byte: u8, is_garbled: bool) -> Self {
+    const fn and(self, byte: u8, is_end: bool) -> Self {
         match (self, byte) {
             // The splitter leaves a CR out.
             (_, b'\r') | (Self::StopRemark, _) => self,
-            (Self::OtherRemark, _) if !is_garbled => self,
+            (Self::OtherRemark, _) if !is_end => self,
             (Self::Nothing, b' ' | b'\t' | 12) => Self::Nothing,
             (Self::Nothing, b's') => Self::S,
             (Self::S, b't') => Self::St,
@@ -134,8 +140,8 @@ impl Said {
             (Self::Sto, b'p') => Self::Stop,
             (Self::Stop | Self::StopBlank, b' ' | b'\t' | 12) => Self::StopBlank,
             (Self::Stop | Self::StopBlank, b'#') => Self::StopRemark,
-            (_, b's') if is_garbled => Self::S,
-            (_, b'#') if !is_garbled => Self::OtherRemark,
+            (_, b's') if is_end => Self::S,
+            (_, b'#') if !is_end => Self::OtherRemark,
             _ => Self::Other,
         }
     }
@@ -256,6 +262,12 @@ mod tests {
         for before in [&b"\xA5"[..], b"\x80\x01 #", b"\0\x05ab", &long] {
             let bytes = [before, b"stop\n"].concat();
             assert_eq!(stops(&bytes), [(bytes.len(), Stop::Line)], "{before:?}");
+        }
+        // However much of it was within the length of a command.
+        for before in COMMAND_BYTES - 4..COMMAND_BYTES + 4 {
+            let bytes = [&vec![b'a'; before][..], b"stop\n"].concat();
+            let is_too_long = bytes.len() > COMMAND_BYTES + 1;
+            assert_eq!(stops(&bytes).len(), usize::from(is_too_long), "{before}");
         }
     }
 

@@ -93,6 +93,20 @@ fn a_short_gap_is_bridged_and_a_long_one_is_a_fault() {
     assert!(!readings[9].valid);
 }
 
+/// Its sister answers nothing for 16 ms after it has reported an error.
+#[test]
+fn an_error_is_reported_though_the_sensor_then_starts_again() {
+    let faults = Faults::GAIN_TOO_LOW;
+    let word = encode::alpha_beta(Word::MID, Word::MID, faults, SumRule::SumB1B6);
+    let [good] = good([0x9000]);
+    let (_, events) = play(&[good, Ok(Some(word)), BAD, BAD, BAD, BAD]);
+    let reported = SensorFault::Frame(FrameError::Sensor(faults));
+    assert_eq!(events, [(4, Event::SensorLost(PLACE, reported))]);
+    // Silence before it is no part of it.
+    let (_, events) = play(&[good, BAD, Ok(Some(word)), BAD, BAD, BAD]);
+    assert_eq!(events[0], (4, Event::SensorLost(PLACE, reported)));
+}
+
 #[test]
 fn recovery_needs_good_frames_in_a_row() {
     let bad = Err(BusError);

@@ -14,6 +14,12 @@ impl<R: Real, M: MotorDriver, A: AngleInput> Servo<R, M, A> {
         self.is_homed = false;
     }
 
+    /// The same where the home that was found is no more to be compared with.
+    pub(crate) fn forget_home(&mut self) {
+        self.home();
+        self.is_known = false;
+    }
+
     /// Looks for home again where it was found long ago: in the air, or where a whisker that feels
     /// so much contact has not been there for as long again.
     #[inline]

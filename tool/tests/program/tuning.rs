@@ -270,3 +270,22 @@ fn whisking_that_the_motor_does_not_bear_is_not_saved() {
     let save = "save whisking.frequency_hz=25 --scene bench.toml";
     place.refuses(save, "bench.toml: whisking.frequency_hz: found 25");
 }
+
+/// Where home was found by another stop is nothing to hold it against.
+#[test]
+fn a_stop_that_is_set_is_that_of_the_next_homing() {
+    let place = Place::new();
+    let motor = "[motor]\narm = \"on-command\"\nrest = \"find\"\nstop_deg = 5.0\n";
+    place.write("find.toml", &format!("{BENCH}{motor}"));
+    place.write(
+        "s.txt",
+        "0.1 arm\n4.0 stop\n4.2 set motor.stop_deg 8\n4.5 arm\n",
+    );
+    let ran = place.done("log --sim find.toml --script s.txt --seconds 7");
+    assert!(
+        ran.stdout.contains("set motor.stop_deg 8: done"),
+        "{}",
+        ran.stdout
+    );
+    assert!(!ran.stdout.contains("fault"), "{}", ran.stdout);
+}
