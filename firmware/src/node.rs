@@ -35,9 +35,8 @@ use times::Times;
 /// Most messages that have come and have not taken effect yet.
 const MOST_DUE: usize = 64;
 
-/// So many times a stop comes through: it is said until it has, for longer than the 30 ms after
-/// which a board that was cut off is missed.
-const STOPS: u8 = 5;
+/// So many times a stop comes through: it is said until it has.
+const STOPS: u8 = 3;
 
 /// A message, as the frame that it came in, which takes less room.
 #[derive(Debug, Clone, Copy)]

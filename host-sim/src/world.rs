@@ -8,7 +8,7 @@ use crate::plant::{
     self, Elastic, ElasticSettings, HOLD, Ideal, Plant, SurfacePose, Textured, TexturedSettings,
 };
 use physics::{
-    At, BadSetting, Bent, Biotact, Facing, Follicle, MOST_TAPER, Outline, Shaft, Surface,
+    At, BadSetting, Bent, Biotact, Facing, Follicle, Outline, Shaft, Surface, TOUCHING_TAPER,
 };
 
 /// The motors of all whiskers and the surface they meet.
@@ -222,9 +222,9 @@ pub(crate) fn caution(scene: &Scene) -> Option<String> {
     let touches = scene.plant.kind == PlantKind::Whisker && scene.plant.obstacle.is_some();
     let shaft = shaft(scene.plant.shaft);
     let taper = shaft.hub_diameter_m / shaft.tip_diameter_m;
-    (touches && taper > MOST_TAPER).then(|| {
+    (touches && taper > TOUCHING_TAPER).then(|| {
         format!(
-            "plant.tip_diameter_m: it tapers by {taper:.0}; beyond {MOST_TAPER} a simulated tip passes \
+            "plant.tip_diameter_m: it tapers by {taper:.0}; beyond {TOUCHING_TAPER} a simulated tip passes \
              through what it touches, and moments come out too small; host-sim press has them right"
         )
     })

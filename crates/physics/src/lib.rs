@@ -75,5 +75,5 @@ pub use sensor::{SensorSettings, sensor_code};
 pub use shaft::{Follicle, Shaft};
 pub use surface::{Grit, Material, Surface};
 pub use swing::Facing;
-pub use touching::{At, Bent, MOST_TAPER, TouchingWhisker};
+pub use touching::{At, Bent, TOUCHING_TAPER, TouchingWhisker};
 pub use whiskers::Biotact;

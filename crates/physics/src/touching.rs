@@ -21,11 +21,12 @@
 //! Pressed slowly on a hard plate by 2 to 45°, base moments and normal forces are within 1.5 % of an
 //! exact elastica's, the place within 0.5 % of the length (`touching/tests/elastica.rs`: shafts of 60
 //! to 200 mm, taper 3 to 15, slant 20 to 60°, friction 0 to 0.5). Pushes at which the shape is not
-//! stable are left out. At tapers beyond [`MOST_TAPER`] the modes cannot bend as sharply as the tip does,
-//! which then passes through the plate: at 45 the moment is too small by nine tenths; at a slant of 5°
-//! so does a cylinder at pushes of more than 35°, at 2° of more than 15°. Around bars of 0.5 and 5 mm, moments and forces are within 1 %, places
-//! within 0.2 % (`touching/tests/bar.rs`). Whipped onto plates of 3 to 20° of slant at 8 and 16 Hz,
-//! base moments are within 2.5 % (rms) of MuJoCo's, also where two places touch; on one exactly
+//! stable are left out. Up to [`TOUCHING_TAPER`] moments are within 2 %; at a taper of 45 the tip passes
+//! through the plate, and most of the moment is missing. At a slant of 5° a cylinder does so at pushes
+//! of more than 35°, at 2° of more than 15°. Around bars of 0.5 and 5 mm, moments and forces are
+//! within 1 %, places within 0.2 % (`touching/tests/bar.rs`). Whipped onto plates of 3 to 20° of
+//! slant at 8 and 16 Hz, base moments are within 2.5 % (rms) of MuJoCo's, also where two places
+//! touch; on one exactly
 //! along the shaft, which is touched at the base, within 16 %. No point of the shaft is behind the
 //! surface by more than 0.5 % of the length, or 3 % where the plate lies along the shaft or the
 //! slowest shaft is whisked at 16 Hz and more (`touching/tests/whip.rs`); that one then whips through
@@ -55,9 +56,6 @@ mod step;
 
 pub use outputs::{At, Bent};
 
-/// By how much a shaft may taper for its tip to bend as it should.
-pub const MOST_TAPER: f64 = 25.0;
-
 use crate::beam::Modes;
 use crate::error::BadSetting;
 use crate::modal::{ModalShaft, ModalState};
@@ -69,6 +67,9 @@ use crate::shapes::MODES;
 use crate::surface::{Material, Surface};
 use crate::vector::{V3, across, dot, scale, sub, unit};
 use body::{Body, Ground, Steps, Touch};
+
+/// The most that a shaft may taper, hub over tip: beyond it the modes cannot bend as its tip does.
+pub const TOUCHING_TAPER: f64 = 25.0;
 
 /// Largest change of velocity of the base in a step, m/s, and of its direction,
 /// rad/s: they keep the arithmetic finite.

@@ -188,7 +188,7 @@ fn whiskers(data: &[PathBuf], recordings: &[(String, Vec<Stream>)]) -> Result<()
             Some((path, &stream.trial))
         });
     found.map_or(Ok(()), |(path, trial)| {
-        let fault = format!("trial {trial:?}: whisker, allowed: 1 to {MAX_STREAMS}");
+        let fault = format!("found trial {trial:?}, allowed: whiskers from 1 to {MAX_STREAMS}");
         Err(Error::file(path, fault))
     })
 }

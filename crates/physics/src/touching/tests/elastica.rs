@@ -2,8 +2,9 @@
 //! (`tests/truth/elastica.py`).
 
 use super::{QUIET, flat};
+use crate::elastica::Press;
 use crate::vector::{add, dot, scale, sub};
-use crate::{Facing, Follicle, Plate, Pose, Shaft, TouchingWhisker};
+use crate::{Biotact, Facing, Follicle, Plate, Pose, Shaft, TOUCHING_TAPER, TouchingWhisker};
 
 /// One line of a table, its numbers by the names of their columns.
 pub(super) struct Row(pub(super) Vec<(&'static str, f64)>);
@@ -134,6 +135,46 @@ fn pushed_whiskers_have_the_moments_forces_and_places_of_elasticas() {
             }
         }
     }
+}
+
+/// By how much the base moment of a whisker that tapers so, pushed on a slippery plate, lies off that
+/// of [`Press`], whose right values are another solver's.
+fn moment_off(taper: f64, slant_deg: f64, push_deg: f64) -> f64 {
+    let middle = Shaft::biotact(Biotact::Middle);
+    let shaft = Shaft {
+        tip_diameter_m: middle.hub_diameter_m / taper,
+        ..middle
+    };
+    let press = Press {
+        shaft,
+        slant_deg,
+        tilt_deg: 0.0,
+        friction: 0.0,
+    };
+    let truth = press.at(&[push_deg]).unwrap()[0].moment_n_m[0];
+    let facing = Facing {
+        slant_deg,
+        tilt_deg: 0.0,
+        elevation_deg: 0.0,
+    };
+    let plate = Plate::in_the_way(1.0, shaft.length_m, &facing, flat(1e6, 1.0, 0.0, 0.0));
+    let mut pushed = Pushed::new(&shaft, plate);
+    pushed.to(push_deg);
+    let [turned, _] = pushed.whisker.rotation_rad();
+    (turned * shaft.follicle.rotation_n_m_rad / truth).abs() - 1.0
+}
+
+/// What scenes warn of, and what they do not.
+#[test]
+fn up_to_its_bound_a_tapered_tip_bends_as_it_should() {
+    for slant_deg in [20.0, 45.0] {
+        for push_deg in [5.0, 10.0, 19.0] {
+            let off = moment_off(TOUCHING_TAPER, slant_deg, push_deg);
+            assert!(off.abs() < 0.02, "{slant_deg} {push_deg}: {off}");
+        }
+    }
+    let off = moment_off(45.0, 30.0, 10.0);
+    assert!((-1.0..-0.5).contains(&off), "a reason to warn: {off}");
 }
 
 #[test]
