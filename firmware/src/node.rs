@@ -75,8 +75,10 @@ pub struct Node {
     motors: Motors,
     /// Stops that have still to come through; one more where none was said.
     stops: u8,
-    /// An arm to be said after the next tick.
+    /// An arm to be said as soon as no stop can be under way.
     arms: bool,
+    /// Ticks since a stop was heard, or one of its own came through.
+    since_stop: u16,
     members: Members,
     replica: Replica,
     deciding: Deciding,
@@ -108,6 +110,7 @@ impl Node {
             motors: Motors::May,
             stops: 0,
             arms: false,
+            since_stop: u16::MAX,
             members: Members::new(head, number, times),
             replica: Replica::new(times),
             deciding: Deciding::new(times),
@@ -159,6 +162,7 @@ impl Node {
 
     fn hear_stop(&mut self) {
         self.arms = false;
+        self.since_stop = 0;
         let is_arm = |frame: &Frame| matches!(Message::of(frame), Ok((_, _, Message::Arm)));
         self.due.retain(|due| !is_arm(&due.frame));
         if self.motors == Motors::May {
@@ -166,10 +170,13 @@ impl Node {
         }
     }
 
-    /// Arms all motors of the head, which ends a stop that came before.
+    /// Arms all motors of the head, which ends a stop that came before: its own may run at once.
     pub const fn arm(&mut self) {
         self.arms = true;
         self.stops = 0;
+        if matches!(self.motors, Motors::Stopped) {
+            self.motors = Motors::May;
+        }
     }
 
     /// A frame has come; `at_us`: when it ended, by the node's own clock.
@@ -212,6 +219,8 @@ impl Node {
         let made = self.tick.wrapping_sub(late.into());
         let is_of_round = match message {
             Message::Contact(contact) => contact.round == Contact::round(made),
+            // It has waited for the bus, and was made before the stop.
+            Message::Arm if u16::from(late) >= self.since_stop => return,
             _ => true,
         };
         let is_in_time = is_of_round && u16::from(late) <= self.times.delay;
@@ -228,7 +237,10 @@ impl Node {
     pub fn said(&mut self, frame: &Frame, at_us: u64) {
         match Message::of(frame) {
             Ok((_, _, Message::Time { .. })) => self.clock.said(at_us),
-            Ok((_, _, Message::Stop)) => self.stops = self.stops.saturating_sub(1),
+            Ok((_, _, Message::Stop)) => {
+                self.stops = self.stops.saturating_sub(1);
+                self.since_stop = 0;
+            }
             _ => {}
         }
     }

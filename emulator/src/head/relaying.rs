@@ -31,6 +31,9 @@ const PATIENCE: u32 = 10_000;
 /// for one which is under way, and that of the other.
 const STOPPED_TICKS: u32 = 4;
 
+/// In how many ticks an arm takes effect: it waits for a stop that might be under way.
+const ARMED_TICKS: u32 = 40;
+
 struct Talk {
     session: HeadSession,
     /// The last board.
@@ -143,6 +146,7 @@ pub(crate) fn relay(path: &Path, program: &Path) -> Result<Vec<String>, Error> {
     talk.takes_another_configuration(&case)?;
     talk.stops(&case)?;
     let deployed = talk.takes_another_scene(&case)?;
+    talk.stops_while_it_loads(&case)?;
     Ok(vec![
         format!(
             "board {} answers board 0 in {took} ticks; as in the simulated head {records} records \
@@ -320,6 +324,26 @@ impl Talk {
              board 0 has missed no tick",
             other.load().words()
         ))
+    }
+
+    /// The first board is asked to stop while it loads; the last was armed after that had begun.
+    fn stops_while_it_loads(&mut self, case: &Case) -> Result<(), Error> {
+        let other = case.deployment(|scene| scene.name.push_str("-2"))?;
+        self.must(0, Command::Load(other.load()), CommandStatus::Done)?;
+        self.session.ask_last(Command::Arm)?;
+        self.pass(ARMED_TICKS)?;
+        if !self.session.last_drives()? {
+            return wrong("it is not driven before the loading board is to stop");
+        }
+        // It reads nothing that names a board.
+        let command = Command::Stop;
+        self.session
+            .request(None, TaggedCommand { tag: 0, command })?;
+        self.pass(STOPPED_TICKS)?;
+        if self.session.last_drives()? {
+            return wrong("a board that loads passes no stop on");
+        }
+        Ok(())
     }
 
     fn pass(&mut self, ticks: u32) -> Result<(), Error> {

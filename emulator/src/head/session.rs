@@ -6,7 +6,7 @@ use firmware::Packet;
 use host_sim::Error;
 use host_sim::run::Run;
 use scene::{Scene, Texture};
-use wire::TaggedCommand;
+use wire::{Command, TaggedCommand};
 
 use super::Head;
 use crate::board;
@@ -88,6 +88,25 @@ impl HeadSession {
     /// As [`HeadSession::request`].
     pub fn log(&mut self) -> Result<Vec<String>, Error> {
         Ok(self.first()?.lines())
+    }
+
+    /// Has the last board asked by its own probe.
+    pub(crate) fn ask_last(&mut self, command: Command) -> Result<bool, Error> {
+        let request = TaggedCommand { tag: 1, command };
+        Ok(self.last()?.request(&wire::frame(&request))?)
+    }
+
+    /// Whether the last board drives a motor.
+    pub(crate) fn last_drives(&mut self) -> Result<bool, Error> {
+        let machine = &mut self.last()?.machine;
+        let duties = machine.with_chip(|chip| chip.motor_duties());
+        Ok(duties.iter().any(|(on, _)| *on > 0))
+    }
+
+    fn last(&mut self) -> Result<&mut board::Board, Error> {
+        let last = self.run.module_mut().nodes.last_mut();
+        let last = last.map(|node| &mut node.board);
+        last.ok_or_else(|| Error::Work("the head has no boards".to_owned()))
     }
 
     fn first(&mut self) -> Result<&mut board::Board, Error> {

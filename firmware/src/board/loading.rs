@@ -12,7 +12,7 @@ use firmware::boards::{self, Slot, SlotHeader};
 use tactile::Model;
 use wire::{Answer, Command, CommandStatus, Load, LoadedWord, Request, TaggedCommand};
 
-use super::bus::Post;
+use super::bus::{Post, Stop};
 use super::serial::Serial;
 use super::slots::{self, SLOTS};
 use super::telemetry::ProbeLine;
@@ -82,6 +82,7 @@ pub(crate) struct Order {
     pub(crate) load: Load,
     pub(crate) in_use: Option<usize>,
     pub(crate) answer: Answer,
+    pub(crate) stop: Stop,
 }
 
 /// Erases, writes what comes, and resets the chip.
@@ -97,6 +98,7 @@ pub(crate) fn run(mut line: Line<'_>, order: Order) -> ! {
         load,
         in_use,
         mut answer,
+        stop,
     } = order;
     let mut loading = Loading::new(load, in_use);
     answer.status = written(loading.erase(&mut watchdog));
@@ -117,9 +119,10 @@ pub(crate) fn run(mut line: Line<'_>, order: Order) -> ! {
         let status = match request.command {
             Command::Word(number, word) => loading.word(number, word),
             Command::Restart => CommandStatus::Done,
-            // They are off, and stay so after the reset.
+            // Its own are off, and stay so after the reset.
             Command::Stop => {
                 retained::set_stopped(true);
+                stop.say_alone();
                 CommandStatus::Done
             }
             _ => CommandStatus::NotHere,

@@ -417,6 +417,7 @@ impl Idle {
         let Some((load, answer, origin)) = self.exchange.load_due() else {
             return;
         };
+        let stop = self.exchange.post.stop();
         let line = match (origin, &mut self.serial) {
             (Origin::Board(_), _) => Line::Head(&mut self.exchange.post),
             (origin, Some(serial)) if origin.is_serial() => Line::Serial(serial),
@@ -426,6 +427,7 @@ impl Idle {
             load,
             in_use: self.in_use,
             answer,
+            stop,
         };
         loading::run(line, order);
     }

@@ -33,7 +33,12 @@ impl Node {
             self.stops = self.stops.min(STOPS);
             say(Message::Stop);
         }
-        if core::mem::take(&mut self.arms) {
+        let since_stop = self.since_stop;
+        self.since_stop = since_stop.saturating_add(1);
+        // A stop waits for the bus no longer than the delay. Whoever hears it and the arm in one
+        // tick could not know which was made first.
+        if self.arms && since_stop > self.times.delay {
+            self.arms = false;
             say(Message::Arm);
             let at = tick.wrapping_add(self.times.delay.into());
             let frame = Message::Arm.frame(number, stamp);

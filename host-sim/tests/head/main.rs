@@ -195,3 +195,32 @@ fn a_stop_reaches_boards_that_were_cut_off() {
         }
     }
 }
+
+/// Of two that are asked for at once the stop holds, whichever board says it.
+#[test]
+fn an_arm_that_was_made_before_a_stop_arms_no_board() {
+    for (armed_by, stopped_by, after, is_armed) in [
+        (0, 2, 0, false),
+        (2, 0, 0, false),
+        (1, 0, 0, false),
+        // Its own stop it need not say again, and those of others are over.
+        (0, 0, 1, true),
+        (0, 2, 80, true),
+    ] {
+        let mut run = Run::new(&whole(3, 2.0, &[]), None).unwrap();
+        for tick in 0..1_300 {
+            let bus = run.bus().unwrap();
+            if tick == 1_000 || tick == 1_100 {
+                bus.arm(stopped_by, false);
+            }
+            if tick == 1_100 + after {
+                bus.arm(armed_by, true);
+            }
+            if tick > 1_100 + after + 20 {
+                let armed = [0, 1, 2].map(|node| bus.is_armed(node));
+                assert_eq!(armed, [is_armed; 3], "{armed_by} {stopped_by} {tick}");
+            }
+            run.tick();
+        }
+    }
+}

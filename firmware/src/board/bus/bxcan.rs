@@ -4,7 +4,7 @@
 //! queue of three that have come, which lasts for 150 µs or more. What waits for a mailbox does so
 //! here, in the same order.
 
-use can::{Frame, Letter, PARTS};
+use can::{Frame, Letter};
 use firmware::boards::CanTiming;
 use heapless::Vec;
 use stm32_metapac::can::vals::{Ide, Rtr};
@@ -223,8 +223,8 @@ fn accept([id, mask]: [u16; 2]) {
 const IDE_AND_RTR: u32 = 0b110;
 const STID_AT: u32 = 21;
 
-/// Has a letter go where no tick does, in place of what is in the mailboxes.
-pub(super) fn say_alone(frames: &[Frame; PARTS]) {
+/// Has up to three frames go where no tick does, in place of what is in the mailboxes.
+pub(super) fn say_alone(frames: &[Frame]) {
     let all = (0..BOXES).fold(0, |all, n| all | ABRQ << (8 * n));
     CAN.tsr().write_value(regs::Tsr(all));
     if crate::board::reset::comes(has_sent) {

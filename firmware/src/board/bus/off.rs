@@ -16,6 +16,14 @@ pub(crate) struct Head;
 /// No other board.
 pub(crate) struct Post;
 
+/// No other board hears it.
+#[derive(Clone, Copy)]
+pub(crate) struct Stop;
+
+impl Stop {
+    pub(crate) fn say_alone(self) {}
+}
+
 impl Post {
     pub(crate) const fn is_own(&self, _: u8) -> bool {
         false
@@ -45,6 +53,10 @@ impl Post {
 
     pub(crate) fn every(&self) -> u32 {
         1
+    }
+
+    pub(crate) fn stop(&self) -> Stop {
+        Stop
     }
 
     pub(crate) fn begin_loading(&mut self) {}

@@ -21,7 +21,7 @@ use crate::board::types::{Inner, Settings};
 use crate::board::{pace, retained, tick_timer};
 use crate::here::Counter;
 use bxcan::Controller;
-pub(crate) use post::Post;
+pub(crate) use post::{Post, Stop};
 
 /// Bits of the board's number, the lowest first: jumpers to ground. A board without one is node
 /// 0; a second one without stays off, and is silent, as soon as it hears the first.

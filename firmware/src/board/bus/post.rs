@@ -1,7 +1,7 @@
 //! Letters to and from other boards of a head, as idle has them: it makes requests, answers and
 //! packets of what the interrupts of the controller bring, and back.
 
-use can::{Frame, PARTS};
+use can::{Frame, Message, PARTS};
 use firmware::{Frames, Heard, Packet, Relay};
 use heapless::spsc::{Consumer, Producer, Queue};
 use wire::{Answer, ForNode, TaggedCommand, UnknownCommand};
@@ -32,6 +32,19 @@ struct Link {
 
 /// Nothing where one board has all whiskers.
 pub(crate) struct Post(Option<Link>);
+
+/// The board that would say it; nothing where one board has all whiskers.
+#[derive(Clone, Copy)]
+pub(crate) struct Stop(Option<u8>);
+
+impl Stop {
+    /// Says it, where no tick does. Whoever misses it, and is armed, hears it again from others.
+    pub(crate) fn say_alone(self) {
+        if let Some(number) = self.0 {
+            bxcan::say_alone(&[Message::Stop.frame(number, 0)]);
+        }
+    }
+}
 
 impl Queues {
     pub(super) const fn new() -> Self {
@@ -144,6 +157,11 @@ impl Post {
 
 /// What a loader uses, which has the controller for itself.
 impl Post {
+    /// A stop of the whole head, as this board would say it.
+    pub(crate) fn stop(&self) -> Stop {
+        Stop(self.0.as_ref().map(|link| link.relay.number()))
+    }
+
     pub(crate) fn begin_loading(&mut self) {
         bxcan::accept_requests();
     }
