@@ -8,7 +8,7 @@ mod samples;
 mod touches;
 
 pub(crate) use checks::Checks;
-pub(crate) use file::{FIRST_TOUCH, Recording};
+pub(crate) use file::{CALIBRATION, FIRST_TOUCH, Recording, SIDE};
 pub(crate) use label::{Label, Stands, stands, token};
 pub(crate) use samples::Sampler;
 pub(crate) use touches::Touches;

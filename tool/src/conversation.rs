@@ -11,6 +11,11 @@ use crate::source::{Incoming, Source};
 
 const PATIENCE_S: f64 = 2.0;
 
+/// After how long without a record they are asked for again: a module that was reset sends none. And
+/// for how long none may come, s.
+const ASKED_AGAIN_S: f64 = 1.0;
+const SILENCE_S: f64 = 20.0;
+
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct AboutModule {
     pub(crate) scene: String,
@@ -25,6 +30,8 @@ pub(crate) struct Conversation {
     kept: VecDeque<Incoming>,
     /// Ticks a second and the classes of a module whose log is made of its events.
     logs: Option<(u32, Vec<String>)>,
+    /// When the last record came, or records were asked for first and last, while they are to.
+    streams: Option<[f64; 2]>,
 }
 
 impl Conversation {
@@ -34,6 +41,7 @@ impl Conversation {
             tag: 0,
             kept: VecDeque::new(),
             logs: None,
+            streams: None,
         }
     }
 
@@ -47,12 +55,30 @@ impl Conversation {
             Some(incoming) => incoming,
             None => self.source.next()?,
         };
+        self.stream_again(&incoming)?;
         if let Some((tick_hz, classes)) = &self.logs {
             let packets = incoming.packets.iter();
             let lines = packets.filter_map(|packet| line(packet, *tick_hz, classes));
             incoming.lines.extend(lines);
         }
         Ok(incoming)
+    }
+
+    fn stream_again(&mut self, incoming: &Incoming) -> Result<(), Error> {
+        let now_s = self.source.now_s();
+        let Some([since_s, asked_s]) = &mut self.streams else {
+            return Ok(());
+        };
+        if incoming.records().next().is_some() {
+            [*since_s, *asked_s] = [now_s; 2];
+        } else if now_s - *since_s > SILENCE_S {
+            let fault = format!("no record has come for {SILENCE_S} s");
+            return Err(Error::Work(fault));
+        } else if now_s - *asked_s > ASKED_AGAIN_S {
+            *asked_s = now_s;
+            self.send(Command::Stream(true))?;
+        }
+        Ok(())
     }
 
     /// Has its log come with what else does. That of a board which another one asks is made of the
@@ -135,6 +161,9 @@ impl Conversation {
     }
 
     pub(crate) fn answer(&mut self, command: Command) -> Result<Answer, Error> {
+        if let Command::Stream(on) = command {
+            self.streams = on.then(|| [self.source.now_s(); 2]);
+        }
         let tag = self.send(command)?;
         self.await_answer(tag, command)
     }

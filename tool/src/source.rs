@@ -42,6 +42,8 @@ use crate::loading::load;
 pub(crate) struct Incoming {
     pub(crate) packets: Vec<Packet>,
     pub(crate) lines: Vec<String>,
+    /// Whether the module has started again before these, as far as its numbers do not say so.
+    pub(crate) has_restarted: bool,
 }
 
 impl Incoming {

@@ -17,6 +17,8 @@ pub(crate) struct Tally {
     /// Of so many ticks there is one record; 0: of each.
     every: u32,
     last: [Option<u32>; 2],
+    /// Whether the module has started again since.
+    again: [bool; 2],
     pub(crate) records: u64,
     pub(crate) lost: u64,
     pub(crate) restarts: u64,
@@ -42,9 +44,35 @@ impl Tally {
         self.last = [None; 2];
     }
 
+    /// The module has started again: what comes next follows nothing.
+    pub(crate) const fn restart(&mut self) {
+        self.restarts += 1;
+        self.last = [None; 2];
+        self.again = [true; 2];
+    }
+
+    /// Records are asked for up to this tick, which is none of them: those that have not come by now
+    /// are lost.
+    pub(crate) fn end(&mut self, sequence: u32) {
+        for last in self.last.into_iter().flatten() {
+            let left = sequence.wrapping_sub(last).wrapping_sub(1);
+            if left < 0x8000_0000 {
+                self.lost += u64::from(left / self.every.max(1));
+            }
+        }
+    }
+
     pub(crate) fn take(&mut self, record: &TickRecord) -> Before {
         self.records += 1;
-        let last = self.last[side(record)].replace(record.sequence);
+        self.before(record)
+    }
+
+    fn before(&mut self, record: &TickRecord) -> Before {
+        let side = side(record);
+        let last = self.last[side].replace(record.sequence);
+        if std::mem::take(&mut self.again[side]) {
+            return Before::Restart;
+        }
         let Some(last) = last else {
             return Before::Nothing;
         };
@@ -59,8 +87,8 @@ impl Tally {
                 Before::Lost(lost)
             }
             _ => {
-                self.restarts += 1;
-                Before::Restart
+                self.restart();
+                self.before(record)
             }
         }
     }
@@ -102,6 +130,7 @@ impl TickTime {
 pub(crate) struct TickCount {
     ticks: u64,
     last: Option<u32>,
+    has_restarted: bool,
 }
 
 impl TickCount {
@@ -109,11 +138,25 @@ impl TickCount {
     pub(crate) fn take(&mut self, sequence: u32) -> u64 {
         let last = self.last.replace(sequence);
         let ahead = sequence.wrapping_sub(last.unwrap_or(0));
+        let has_restarted = std::mem::take(&mut self.has_restarted);
         self.ticks += match last {
-            Some(_) if ahead >= 0x8000_0000 => 1,
+            Some(_) if has_restarted || ahead >= 0x8000_0000 => 1,
             _ => u64::from(ahead),
         };
         self.ticks
+    }
+
+    /// The module has started again.
+    pub(crate) const fn restart(&mut self) {
+        self.has_restarted = true;
+    }
+
+    /// Goes on to a tick that is soon after the last; to any other it does not.
+    pub(crate) fn reach(&mut self, sequence: u32) {
+        let is_soon = |last| (1..=LATE).contains(&sequence.wrapping_sub(last));
+        if self.last.is_some_and(is_soon) {
+            self.take(sequence);
+        }
     }
 
     pub(crate) const fn now(&self) -> u64 {
@@ -140,6 +183,16 @@ mod tests {
         assert_eq!(take(1, left), Before::Nothing);
         assert_eq!(take(1, left), Before::Restart);
         assert_eq!((tally.records, tally.lost, tally.restarts), (6, 2, 1));
+        // The same start.
+        let mut take = |sequence, flags| tally.take(&record(sequence, flags));
+        assert_eq!(take(1, right), Before::Restart);
+        assert_eq!(take(2, right), Before::Nothing);
+        assert_eq!((tally.lost, tally.restarts), (2, 1));
+        // Of the left side 2 to 4, of the right 3 and 4.
+        tally.end(5);
+        assert_eq!(tally.lost, 7);
+        tally.restart();
+        assert_eq!(tally.take(&record(900, Flags::default())), Before::Restart);
     }
 
     #[test]

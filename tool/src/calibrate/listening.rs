@@ -145,6 +145,9 @@ impl<'m> Listening<'m> {
             interrupt::check()?;
             let incoming = self.module.receive()?;
             self.note_faults(&incoming.packets);
+            if incoming.has_restarted {
+                self.tally.restart();
+            }
             let now_s = self.module.source().now_s();
             for record in incoming.records() {
                 if side(record) != usize::from(self.whisker.side) {

@@ -15,7 +15,13 @@ use super::label::Stands;
 use super::touches::count;
 
 /// Parts of the origin that must stay the same in one recording.
-const SAME: [&str; 2] = ["scene", "tick_hz"];
+const SAME: [&str; 3] = ["scene", "tick_hz", SIDE];
+
+/// Of the whisker that was recorded.
+pub(crate) const SIDE: &str = "side";
+
+/// What stands before the keys of its calibration.
+pub(crate) const CALIBRATION: &str = "calibration.";
 
 /// When the first touch ended, by the PC's clock.
 pub(crate) const FIRST_TOUCH: &str = "first_touch";
@@ -66,9 +72,12 @@ impl Recording {
             self.origin = origin;
             return Ok(());
         }
-        for key in SAME {
+        let calibrated = origin.iter().map(|(key, _)| key);
+        let calibrated = calibrated.filter(|key| key.starts_with(CALIBRATION));
+        for key in SAME.into_iter().chain(calibrated) {
             let (found, here) = (self.origin.get(key), origin.get(key));
-            if found != here {
+            // Older files do not say which side they are of.
+            if found != here && (found.is_some() || key != SIDE) {
                 let [found, here] = [found, here].map(|value| value.unwrap_or("none"));
                 let fault = format!(
                     "is of a module whose {key} is {found}, this one's is {here}; capture to \

@@ -12,10 +12,12 @@ use toml_edit::DocumentMut;
 use wire::Command;
 
 use super::order::SideName;
-use crate::capture::{Checks, Label, Recording, Sampler, Stands, Touches, stands, token};
+use crate::capture::{
+    CALIBRATION, Checks, Label, Recording, SIDE, Sampler, Stands, Touches, stands, token,
+};
 use crate::conversation::Conversation;
 use crate::source::{Source, SourceChoice, seconds};
-use crate::tally::{Before, Tally, side};
+use crate::tally::{Before, SIDES, Tally, side};
 
 /// Poses from which on a model names textures between them.
 const POSES: usize = 3;
@@ -115,7 +117,8 @@ fn complete(
     let origin = module.origin()?;
     let origin = origin
         .with("scene", &about.scene)
-        .with("tick_hz", about.tick_hz);
+        .with("tick_hz", about.tick_hz)
+        .with(SIDE, SIDES[usize::from(arguments.side.number() & 1)]);
     let all = calibration.iter();
     recording.comes_from(all.fold(origin, |origin, (key, value)| origin.with(key, value)))?;
 
@@ -238,7 +241,7 @@ fn calibration(path: &Path) -> Result<Origin, Error> {
     Ok(document
         .iter()
         .fold(Origin::default(), |origin, (key, item)| {
-            origin.with(&format!("calibration.{key}"), item.to_string().trim())
+            origin.with(&format!("{CALIBRATION}{key}"), item.to_string().trim())
         }))
 }
 
@@ -270,6 +273,9 @@ impl Capture {
         let mut counts = false;
         while touches.felt.len() < most {
             let incoming = self.module.receive()?;
+            if incoming.has_restarted {
+                self.tally.restart();
+            }
             let now_s = self.module.source().now_s();
             let is_laid = self.module.source().is_laid()?;
             if is_by_hand && !is_laid {

@@ -45,7 +45,7 @@ pub(crate) fn check(arguments: &Arguments) -> Result<(), Error> {
         return Err(Error::Input(fault));
     }
     let scene = arguments.which.scene_file()?;
-    let simulation = Box::new(Simulated::of(scene)?);
+    let simulation = Box::new(Simulated::in_the_air(scene)?);
     let file = |name: &str| Output::create(&arguments.out.join(name));
     let [md, svg, png] = [file("check.md")?, file("check.svg")?, file("check.png")?];
     report::warn(format_args!(

@@ -161,6 +161,7 @@ fn begin(arguments: &Arguments, wishes: Receiver<Wish>) -> Result<(Watching, Rea
         history,
         message: None,
         has_ended: false,
+        saving: Vec::new(),
     }));
     let pictures = arguments
         .frames

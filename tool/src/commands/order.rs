@@ -72,6 +72,9 @@ pub(crate) fn order(order: &Order) -> Result<(), Error> {
         Order::Home(to) => (&to.source, Command::Home(to.whisker()), "is being homed"),
         Order::Status(of) => return status(&of.source),
     };
+    if command == Command::Stop {
+        source.stop();
+    }
     let answer = source.module()?.ask(command)?;
     report::say(format_args!("{done}, after tick {}", answer.sequence));
     Ok(())

@@ -13,7 +13,7 @@ use wire::{Command, Flags, TickRecord};
 use crate::record_file::{self, RecordFile};
 use crate::script::Script;
 use crate::source::{SourceChoice, seconds};
-use crate::tally::{Tally, side};
+use crate::tally::{Tally, TickCount, side};
 
 #[derive(Debug, Args)]
 #[command(group(clap::ArgGroup::new("source").required(true)))]
@@ -86,40 +86,57 @@ pub(crate) fn records(arguments: &Arguments, verbosity: Verbosity) -> Result<(),
         ..Summary::default()
     };
     let mut progress = Progress::new(verbosity, "records", most.into());
+    let mut ticks = TickCount::default();
     let mut first = None;
-    'incoming: loop {
+    let mut listen = || loop {
         if let Some(line) = script.play(&mut module)? {
             progress.pause(|| say(line));
         }
         let incoming = module.receive()?;
+        if incoming.has_restarted {
+            summary.tally.restart();
+            ticks.restart();
+        }
         for packet in &incoming.packets {
             if let Some(line) = script.answered(packet, about.tick_hz) {
                 progress.pause(|| say(line));
             }
             if let Packet::Record(record) = packet {
-                let first = *first.get_or_insert(record.sequence);
-                let ticks = record.sequence.wrapping_sub(first);
-                if ticks >= most {
-                    break 'incoming;
+                let now = ticks.take(record.sequence);
+                let since = now - *first.get_or_insert(now);
+                if let Some(beyond) = since.checked_sub(most.into()) {
+                    summary
+                        .tally
+                        .end(record.sequence.wrapping_sub(beyond as u32));
+                    return Ok(());
                 }
                 summary.take(record);
-                progress.tick(ticks.into());
+                progress.tick(since);
             }
             kept.packets(std::slice::from_ref(packet))?;
         }
         for line in &incoming.lines {
             kept.line(line)?;
         }
-    }
+    };
+    let listened: Result<(), Error> = listen();
     drop(progress);
+    // What has come is kept, whatever has ended it.
+    let finished = kept.finish();
+    listened.and(finished)?;
     module.ask(Command::Stream(false))?;
     let lost = module.ask(Command::Status)?.values[0];
-    kept.finish()?;
     say(format!(
         "{}: {}",
         out.display(),
         summary.text(Some(about.tick_hz))
     ));
+    // It counts from its last start.
+    let lost_before = if summary.tally.restarts > 0 {
+        0
+    } else {
+        lost_before
+    };
     let own = lost.wrapping_sub(lost_before).cast_unsigned();
     if summary.tally.lost > 0 || own > 0 {
         say(format!(

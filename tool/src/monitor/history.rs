@@ -92,6 +92,10 @@ impl History {
 
     pub(crate) fn take(&mut self, incoming: &Incoming) -> Vec<Answer> {
         let mut answers = Vec::new();
+        if incoming.has_restarted {
+            self.tally.restart();
+            self.ticks.restart();
+        }
         for packet in &incoming.packets {
             match packet {
                 Packet::Record(record) => self.record(record),

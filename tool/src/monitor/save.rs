@@ -28,7 +28,13 @@ impl Held {
         packets.extend(events.map(|said| (said.ticks, Packet::Event(said.what))));
         // The left side's first, as they came.
         packets.sort_by_key(|(ticks, _)| *ticks);
-        let lines = history.lines.iter();
+        // What was said before the first record that is held has no time in the file.
+        let first = packets
+            .iter()
+            .find(|(_, packet)| matches!(packet, Packet::Record(_)));
+        let first = first.map_or(0, |(ticks, _)| *ticks);
+        packets.retain(|(ticks, _)| *ticks >= first);
+        let lines = history.lines.iter().filter(|said| said.ticks >= first);
         Self {
             tick_hz: history.tick_hz,
             records: count,

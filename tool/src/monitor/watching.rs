@@ -33,6 +33,8 @@ pub(crate) struct Shared {
     /// What is said at the bottom, and the tick by then.
     pub(crate) message: Option<(u64, String)>,
     pub(crate) has_ended: bool,
+    /// Files that are being written; each says at its end what became of it.
+    pub(crate) saving: Vec<JoinHandle<String>>,
 }
 
 impl Shared {

@@ -11,8 +11,8 @@ use std::time::{Duration, Instant};
 
 use crossterm::event::{self, Event};
 use crossterm::terminal;
-use host_sim::Error;
 use host_sim::origin::Origin;
+use host_sim::{Error, report};
 use ratatui::DefaultTerminal;
 
 use super::draw::{Theme, draw};
@@ -97,6 +97,7 @@ pub(crate) fn open(
     };
     // Nothing can be done about a terminal that is gone.
     let _ = ratatui::try_restore();
+    saved(shared);
     let ended_by = match signal.load(Ordering::Relaxed) {
         0 => Ok(()),
         signal => Err(Error::Work(format!(
@@ -187,12 +188,25 @@ fn pictures(
 
 fn save(shared: &Arc<Mutex<Shared>>, about: &About) {
     let held = Held::of(&lock(shared).history);
-    let (shared, path, origin) = (shared.clone(), about.save.clone(), about.origin.clone());
-    thread::spawn(move || {
+    let (path, origin, said) = (about.save.clone(), about.origin.clone(), shared.clone());
+    let saving = thread::spawn(move || {
         let message = match held.write(&path, &origin) {
             Ok((path, records)) => format!("saved {}: {records} records", path.display()),
             Err(error) => format!("not saved: {error}"),
         };
-        lock(&shared).say(message);
+        lock(&said).say(message.clone());
+        message
     });
+    lock(shared).saving.push(saving);
+}
+
+/// Waits for files that are still being written, and says what became of them.
+fn saved(shared: &Mutex<Shared>) {
+    let mut saving = std::mem::take(&mut lock(shared).saving);
+    saving.retain(|saving| !saving.is_finished());
+    for saving in saving {
+        report::warn("a file is being saved: please wait");
+        let failed = |_| "not saved".to_owned();
+        report::warn(saving.join().unwrap_or_else(failed));
+    }
 }

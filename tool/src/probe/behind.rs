@@ -131,6 +131,7 @@ impl Source for Behind {
         Ok(Incoming {
             packets: self.receiver.packets(&bytes),
             lines: lines.unwrap_or_default(),
+            ..Incoming::default()
         })
     }
 

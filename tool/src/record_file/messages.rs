@@ -91,6 +91,8 @@ impl Messages {
 
     fn event(&mut self, EventRecord { sequence, event }: &EventRecord) -> io::Result<()> {
         let t_s = self.t_s(*sequence);
+        // It comes before the record of its tick.
+        self.ticks.reach(*sequence);
         let (channel, message) = match event {
             Event::Decision(place, decision) => {
                 let among = decisions::among(*decision, &self.classes);

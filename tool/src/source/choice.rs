@@ -13,7 +13,7 @@ use super::elsewhere::Elsewhere;
 use super::emulated::Emulated;
 use super::flash::Flash;
 use super::laying::Laying;
-use super::port::Port;
+use super::port::{self, Port};
 use super::program::{self, BoardName};
 use super::simulated::Simulated;
 use crate::conversation::Conversation;
@@ -88,6 +88,13 @@ impl SourceChoice {
     /// Seconds in a second at which a module that has no clock of its own is watched.
     pub(crate) fn pace(&self) -> Option<f64> {
         self.sim.as_ref().map(|_| 1.0)
+    }
+
+    /// Stops motors by what takes a stop before any question; others are asked to soon enough.
+    pub(crate) fn stop(&self) {
+        if let Some(path) = &self.port {
+            port::stop(path, self.baud);
+        }
     }
 
     pub(crate) fn module(&self) -> Result<Conversation, Error> {

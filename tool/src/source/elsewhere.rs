@@ -49,7 +49,11 @@ impl Source for Elsewhere {
         }
         // Its lines are those of the board between.
         let lines = Vec::new();
-        Ok(Incoming { packets, lines })
+        Ok(Incoming {
+            packets,
+            lines,
+            ..Incoming::default()
+        })
     }
 
     fn request(&mut self, node: Option<u8>, request: TaggedCommand) -> Result<(), Error> {

@@ -64,7 +64,11 @@ impl Source for Emulated {
                 (head.packets()?, head.log()?)
             }
         };
-        Ok(Incoming { packets, lines })
+        Ok(Incoming {
+            packets,
+            lines,
+            ..Incoming::default()
+        })
     }
 
     fn request(&mut self, node: Option<u8>, request: TaggedCommand) -> Result<(), Error> {

@@ -12,7 +12,9 @@ const SAMPLE: &str = "SAMPLE";
 /// Who is asked for samples, one at a time.
 #[derive(Debug)]
 pub(crate) enum Laying {
-    Person(Person),
+    /// Nobody, until they are asked first: until then the keyboard is somebody else's, such as the
+    /// window's, whose keys stop motors.
+    Person(Option<Person>),
     Command {
         /// For the shell.
         line: String,
@@ -24,7 +26,7 @@ pub(crate) enum Laying {
 impl Laying {
     pub(crate) fn by(line: Option<&str>) -> Self {
         match line {
-            None => Self::Person(Person::at_standard_input()),
+            None => Self::Person(None),
             Some(line) => Self::Command {
                 line: line.to_owned(),
                 running: None,
@@ -34,7 +36,10 @@ impl Laying {
 
     pub(super) fn lay(&mut self, sample: &str) -> Result<(), Error> {
         match self {
-            Self::Person(person) => person.lay(sample),
+            Self::Person(person) => {
+                let person = person.get_or_insert_with(Person::at_standard_input);
+                person.lay(sample);
+            }
             Self::Command { line, running } => {
                 report::warn(format_args!("{sample}: laid by {line}"));
                 let child = shell(line).env(SAMPLE, sample).spawn();
@@ -48,7 +53,7 @@ impl Laying {
     /// Whether it lies there. Does not wait.
     pub(super) fn is_laid(&mut self) -> Result<bool, Error> {
         let (line, running) = match self {
-            Self::Person(person) => return person.is_laid(),
+            Self::Person(person) => return person.as_mut().map_or(Ok(true), Person::is_laid),
             Self::Command { line, running } => (line, running),
         };
         let Some((sample, child)) = running else {

@@ -16,6 +16,12 @@ use super::{Incoming, Source, framed};
 
 const WAIT: Duration = Duration::from_millis(50);
 
+const NOTHING: [ErrorKind; 3] = [
+    ErrorKind::TimedOut,
+    ErrorKind::WouldBlock,
+    ErrorKind::Interrupted,
+];
+
 /// For how long nothing may come. A board says how it fares every second of its time, of which
 /// an emulated one may take some.
 const SILENCE: Duration = Duration::from_secs(20);
@@ -42,15 +48,16 @@ struct BoardTime {
 }
 
 impl BoardTime {
-    /// It says that so much has passed since its start, which may be a new one. A line may be
+    /// It says that so much has passed since its start; whether that is a new one. A line may be
     /// older than a record before it.
-    fn is(&mut self, t_s: f64) {
+    fn is(&mut self, t_s: f64) -> bool {
         let since = self.last_s.map_or(0.0, |last_s| t_s - last_s);
         let is_late = (-LATE_S..0.0).contains(&since);
         if !is_late {
             self.elapsed_s += since.max(0.0);
             self.last_s = Some(t_s);
         }
+        since < -LATE_S
     }
 }
 
@@ -64,6 +71,16 @@ pub(super) struct Port {
     tick_hz: Option<u32>,
     /// The tag of what another board was asked for last, whose ticks are its own.
     elsewhere: Option<u16>,
+}
+
+/// Asks the board on a port to stop, before anything else and whatever becomes of it: who asks
+/// properly does so after it.
+pub(super) fn stop(path: &Path, baud: u32) {
+    let command = Command::Stop;
+    if let Ok(line) = SerialPort::open(path, baud) {
+        let _ = line.write_all(&framed(None, TaggedCommand { tag: TAG, command }));
+        let _ = line.flush();
+    }
 }
 
 impl Port {
@@ -151,8 +168,13 @@ impl Source for Port {
         let mut incoming = Incoming::default();
         let mut bytes = [0; 4096];
         let count = match self.line.read(&mut bytes) {
+            // What waits before it reads has something, or is gone.
+            Ok(0) if cfg!(unix) => {
+                return Err(Error::Work(format!("{}: is gone", self.name)));
+            }
             Ok(count) => count,
-            Err(error) if error.kind() == ErrorKind::TimedOut => 0,
+            // Another program may have been faster, or a signal.
+            Err(error) if NOTHING.contains(&error.kind()) => 0,
             Err(error) => return Err(Error::Work(format!("{}: {error}", self.name))),
         };
         let now = Instant::now();
@@ -167,7 +189,7 @@ impl Source for Port {
         }
         for received in self.receiver.take(bytes.get(..count).unwrap_or_default()) {
             if let Some(t_s) = self.time_s(&received) {
-                self.time.is(t_s);
+                incoming.has_restarted |= self.time.is(t_s);
             }
             match received {
                 Received::Line(line) => incoming.lines.push(line),
@@ -238,7 +260,7 @@ mod tests {
             (0.5, 1.5),
             (1.0, 2.0),
         ] {
-            time.is(t_s);
+            assert_eq!(time.is(t_s), t_s == 0.5);
             assert_eq!(time.elapsed_s, elapsed_s, "{t_s}");
         }
     }

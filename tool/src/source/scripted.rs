@@ -42,7 +42,7 @@ impl Incoming {
     pub(crate) fn of(packets: impl Into<Vec<Packet>>) -> Self {
         Self {
             packets: packets.into(),
-            lines: Vec::new(),
+            ..Self::default()
         }
     }
 }

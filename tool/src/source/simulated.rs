@@ -20,6 +20,9 @@ use super::{Incoming, Source, no_board};
 use crate::decides::Decides;
 use crate::deployment::Deployment;
 
+/// Where no whisker comes.
+const BEYOND_DEG: f64 = 340.0;
+
 pub(crate) struct Simulated {
     loaded: Loaded,
     flash: Flash,
@@ -35,8 +38,13 @@ const ROOM: usize = NUCLEO_F446RE.flash.slots[0].model.bytes as usize;
 
 impl Simulated {
     /// That of a scene file, whose flash is not kept.
-    pub(crate) fn of(scene: &Path) -> Result<Self, Error> {
-        Self::open(Loaded::new(scene)?, Flash::open(None)?, 0)
+    /// The module of a scene with nothing within its whiskers' reach.
+    pub(crate) fn in_the_air(scene: &Path) -> Result<Self, Error> {
+        let mut loaded = Loaded::new(scene)?;
+        if let Some(obstacle) = &mut loaded.scene.plant.obstacle {
+            obstacle.obstacle_deg.fill(BEYOND_DEG);
+        }
+        Self::open(loaded, Flash::open(None)?, 0)
     }
 
     pub(super) fn open(mut loaded: Loaded, flash: Flash, node: usize) -> Result<Self, Error> {
@@ -87,6 +95,7 @@ impl Source for Simulated {
         Ok(Incoming {
             packets: self.run.module_mut().take_packets(),
             lines,
+            ..Incoming::default()
         })
     }
 

@@ -42,7 +42,7 @@ fn labels_have_as_many_touches_as_were_asked_for() {
         ]
     );
     assert!(place.text("c.csv").starts_with(
-        "# board = simulated\n# firmware = 0.1.0\n# scene = bench\n# tick_hz = 2000\nlabel,"
+        "# board = simulated\n# firmware = 0.1.0\n# scene = bench\n# tick_hz = 2000\n# side = left\nlabel,"
     ));
     assert!(ran.stdout.starts_with("carpet: 7 touches, "), "{ran:?}");
     ran.prints("14 touches; records lost: 0 of ");
@@ -89,6 +89,11 @@ fn a_file_is_not_overwritten_but_gone_on_with() {
     place.write("other.toml", &bench_with(&[OTHER]));
     let other = "capture --sim other.toml --out c.csv --label felt=carpet --resume";
     place.refuses(other, "scene is bench, this one's is other");
+    place.write("zero.toml", "zero_codes = [8190, 8200]\n");
+    let calibrated = format!("{capture} --label felt=carpet --resume --calibration zero.toml");
+    place.refuses(&calibrated, "whose calibration.zero_codes is none");
+    let right = format!("{capture} --label felt=carpet --resume --side right");
+    place.refuses(&right, "whose side is left, this one's is right");
     assert_eq!(place.text("c.csv"), after);
 }
 

@@ -1,6 +1,6 @@
 //! `whisker monitor`, as a person has it before them: in a terminal, by its keys.
 
-mod terminal;
+pub(crate) mod terminal;
 
 use std::time::Duration;
 

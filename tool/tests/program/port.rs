@@ -3,6 +3,7 @@
 
 use std::io::{BufRead, BufReader, Write};
 use std::process::{Child, Command, Stdio};
+use std::time::Duration;
 
 use firmware::Packet;
 use firmware::boards::NUCLEO_F446RE;
@@ -11,6 +12,7 @@ use serial2::SerialPort;
 use wire::{Command as Request, CommandStatus, Load, TaggedCommand};
 
 use crate::common::{Place, scenes, words};
+use crate::monitor::terminal::Terminal;
 
 /// The scene that all boards here are built with: its program is then built once.
 const BOARD: &str = "board @bench.toml --world @textures.toml";
@@ -88,6 +90,53 @@ fn a_board_on_a_port_is_talked_with_as_any_other() {
     ] {
         ran.prints(said);
     }
+}
+
+/// No key is lost to whoever would lay samples.
+#[test]
+fn one_key_stops_a_board_on_a_port() {
+    let place = Place::new();
+    let served = Served::new(&place);
+    let line = format!("monitor {}", served.port);
+    for _ in 0..3 {
+        let mut seen = Terminal::start(&place, &line, (80, 24), &[]);
+        seen.wait_for("live");
+        seen.press(b"a");
+        seen.wait_for("[ARMED]");
+        seen.press(b"x");
+        seen.wait_for("stop: done");
+        seen.press(b"q");
+        assert_eq!(seen.ends(), Some(0));
+    }
+}
+
+#[test]
+fn a_board_that_is_reset_is_asked_for_records_again() {
+    let place = Place::new();
+    place.write("off.toml", "[[event]]\nat_s = 10.0\nkind = \"power-off\"\n");
+    let served = Served::with(&place, "--scenario off.toml");
+    let ran = place.done(&format!("records {} --seconds 18 --out r.csv", served.port));
+    ran.prints("starts of the module meanwhile: 1");
+}
+
+#[test]
+fn what_a_board_that_goes_has_said_is_kept() {
+    let place = Place::new();
+    let mut served = Served::new(&place);
+    let mut listening = Command::new(env!("CARGO_BIN_EXE_whisker"))
+        .args(words(&format!(
+            "records {} --seconds 100 --out r.csv",
+            served.port
+        )))
+        .current_dir(place.path(""))
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap();
+    std::thread::sleep(Duration::from_secs(4));
+    served.board.kill().unwrap();
+    assert_eq!(listening.wait().unwrap().code(), Some(1));
+    let rows = place.text("r.csv").lines().count();
+    assert!(rows > 1_000, "{rows}");
 }
 
 #[test]

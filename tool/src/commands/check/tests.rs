@@ -15,7 +15,7 @@ fn signs(alter: Alter) -> Vec<&'static str> {
     std::fs::write(&scene, SCENE).unwrap();
     let words = ["--seconds", "12", "--out", "unused", "--sim"];
     let arguments: Arguments = parsed(&[&words[..], &[scene.to_str().unwrap()]].concat());
-    let simulation = || Box::new(Simulated::of(&scene).unwrap());
+    let simulation = || Box::new(Simulated::in_the_air(&scene).unwrap());
     let module = Box::new(Altered {
         module: simulation(),
         alter,

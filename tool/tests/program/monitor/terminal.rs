@@ -17,13 +17,13 @@ use vt100::Parser;
 
 use crate::common::{Place, words};
 
-pub(super) const TERM: Signal = Signal::TERM;
-pub(super) const HANGUP: Signal = Signal::HUP;
-pub(super) const INTERRUPT: Signal = Signal::INT;
+pub(crate) const TERM: Signal = Signal::TERM;
+pub(crate) const HANGUP: Signal = Signal::HUP;
+pub(crate) const INTERRUPT: Signal = Signal::INT;
 
 const PATIENCE: Duration = Duration::from_secs(30);
 
-pub(super) struct Terminal {
+pub(crate) struct Terminal {
     program: Child,
     keyboard: File,
     inside: OwnedFd,
@@ -33,7 +33,7 @@ pub(super) struct Terminal {
 }
 
 impl Terminal {
-    pub(super) fn start(
+    pub(crate) fn start(
         place: &Place,
         arguments: &str,
         (columns, rows): (u16, u16),
@@ -84,17 +84,17 @@ impl Terminal {
         }
     }
 
-    pub(super) fn text(&self) -> String {
+    pub(crate) fn text(&self) -> String {
         format!("\n{}", self.seen.lock().unwrap().screen().contents())
     }
 
-    pub(super) fn line(&self, word: &str) -> String {
+    pub(crate) fn line(&self, word: &str) -> String {
         let text = self.text();
         let line = text.lines().find(|line| line.contains(word));
         line.unwrap_or_else(|| panic!("{word}:\n{text}")).to_owned()
     }
 
-    pub(super) fn has_colour(&self) -> bool {
+    pub(crate) fn has_colour(&self) -> bool {
         let seen = self.seen.lock().unwrap();
         let (rows, columns) = seen.screen().size();
         let (rows, columns) = (rows.get(), columns.get());
@@ -106,7 +106,7 @@ impl Terminal {
     }
 
     #[track_caller]
-    pub(super) fn wait_until(&mut self, is_so: impl Fn(&str) -> bool) {
+    pub(crate) fn wait_until(&mut self, is_so: impl Fn(&str) -> bool) {
         let begun = Instant::now();
         while !is_so(&self.text()) {
             assert!(begun.elapsed() < PATIENCE, "waited in vain:{}", self.text());
@@ -115,15 +115,15 @@ impl Terminal {
     }
 
     #[track_caller]
-    pub(super) fn wait_for(&mut self, word: &str) {
+    pub(crate) fn wait_for(&mut self, word: &str) {
         self.wait_until(|text| text.contains(word));
     }
 
-    pub(super) fn press(&mut self, keys: &[u8]) {
+    pub(crate) fn press(&mut self, keys: &[u8]) {
         self.keyboard.write_all(keys).unwrap();
     }
 
-    pub(super) fn resize(&mut self, columns: u16, rows: u16) {
+    pub(crate) fn resize(&mut self, columns: u16, rows: u16) {
         self.seen
             .lock()
             .unwrap()
@@ -132,15 +132,15 @@ impl Terminal {
         size(&self.inside, columns, rows);
     }
 
-    pub(super) fn stop_reading(&mut self) {
+    pub(crate) fn stop_reading(&mut self) {
         self.reads.store(false, Ordering::Relaxed);
     }
 
-    pub(super) fn signal(&mut self, signal: Signal) {
+    pub(crate) fn signal(&mut self, signal: Signal) {
         kill_process(Pid::from_child(&self.program), signal).unwrap();
     }
 
-    pub(super) fn ends(&mut self) -> Option<i32> {
+    pub(crate) fn ends(&mut self) -> Option<i32> {
         let begun = Instant::now();
         loop {
             if let Some(status) = self.program.try_wait().unwrap() {
@@ -158,14 +158,14 @@ impl Terminal {
     }
 
     /// Whether keys go to the program one by one, unseen.
-    pub(super) fn is_raw(&self) -> bool {
+    pub(crate) fn is_raw(&self) -> bool {
         !self
             .now()
             .local_modes
             .intersects(LocalModes::ECHO | LocalModes::ICANON | LocalModes::ISIG)
     }
 
-    pub(super) fn is_restored(&self) -> bool {
+    pub(crate) fn is_restored(&self) -> bool {
         let (now, before) = (self.now(), &self.modes);
         now.local_modes == before.local_modes
             && now.input_modes == before.input_modes
@@ -174,7 +174,7 @@ impl Terminal {
     }
 
     /// Whether the program has a screen of its own, what was there before being kept.
-    pub(super) fn is_alternate(&self) -> bool {
+    pub(crate) fn is_alternate(&self) -> bool {
         self.seen.lock().unwrap().screen().alternate_screen()
     }
 }
