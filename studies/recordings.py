@@ -4,16 +4,22 @@ Usage: recordings.py HOST_SIM CWRU BIOTAC LEGO > docs/measured/recordings.md
 
 HOST_SIM is the program, CWRU a checkout of github.com/srigas/CWRU_Bearing_NumPy (b1179d28),
 BIOTAC one of github.com/dexrob/BioTac_slide_20_50 (c19638b0) and LEGO one of
-github.com/sethstanton/Lego-Mindstorms-Terrain-Classifier (dd2055bf). Needs numpy.
+github.com/sethstanton/Lego-Mindstorms-Terrain-Classifier (dd2055bf). Needs numpy and scikit-learn.
 """
 
 import csv
 import subprocess
 import sys
 import tempfile
+from functools import reduce
+from operator import add
 from pathlib import Path
 
 import numpy as np
+from sklearn.discriminant_analysis import LinearDiscriminantAnalysis
+from sklearn.ensemble import ExtraTreesClassifier
+from sklearn.pipeline import make_pipeline
+from sklearn.preprocessing import StandardScaler
 
 HOST_SIM, CWRU, BIOTAC, LEGO = sys.argv[1:]
 TEMPORARY = tempfile.TemporaryDirectory()
@@ -25,6 +31,7 @@ FAN_END += ["OR@3_7_FE", "OR@3_14_FE", "OR@6_7_FE"]
 DIRECTIONS = ["Forward", "Left", "Right"]
 SAMPLES = 2400
 """Of a trial of a bearing, 0.2 s."""
+BANDS = 16
 
 
 class Scale:
@@ -48,13 +55,69 @@ def write(name, trials):
     return path
 
 
+class Found:
+    """Of a model, trials, named ones, those named rightly first, names, right and stated; of each
+    bound and trial whether it was right, and how sure."""
+
+    def __init__(self, counts, bounds):
+        self.counts, self.bounds = counts, bounds
+
+    def __add__(self, other):
+        bounds = [np.vstack(both) for both in zip(self.bounds, other.bounds)]
+        return Found(self.counts + other.counts, bounds)
+
+
 def judge(train, tests, rate, *options):
-    """Of each recording: trials, named ones, those named rightly first, names, right and stated."""
+    """What is found of each recording in `tests`."""
     model = DIRECTORY / "model"
     data = [part for path in train for part in ("--data", path)]
     asked = [HOST_SIM, "train", "--quiet", *data, "--rate", rate, "--out", model]
     subprocess.run([*map(str, asked), *options], check=True, capture_output=True)
-    return [classify(model, test) for test in tests]
+    bounds = trained_bounds(train)
+    return [Found(classify(model, test), [bound(test) for bound in bounds]) for test in tests]
+
+
+def read(path):
+    """Of each trial its label, and codes by samples and channels."""
+    trials = {}
+    with path.open() as file:
+        for row in csv.DictReader(file):
+            trials.setdefault((row["label"], row["trial"]), []).append((row["x"], row["y"]))
+    return [(label, np.array(codes, float)) for (label, _), codes in trials.items()]
+
+
+def features(codes):
+    """Of a whole trial, which no stream has: logarithms of its power in bands, of both channels."""
+    apart = codes - codes.mean(axis=0)
+    power = np.abs(np.fft.rfft(apart, axis=0)[1:]) ** 2
+    edges = np.unique(np.geomspace(1, len(power), BANDS + 1).astype(int)) - 1
+    bands = np.add.reduceat(power, edges[:-1], axis=0) / np.diff(edges)[:, None]
+    return np.log(bands + 1).ravel()
+
+
+def trained_bounds(paths):
+    """A discriminant and trees that see trials as a whole: of a recording whether each was right, and
+    how sure."""
+    trials = [trial for path in paths for trial in read(path)]
+    of = np.array([features(codes) for _, codes in trials])
+    labels = np.array([label for label, _ in trials])
+    discriminant = LinearDiscriminantAnalysis(solver="lsqr", shrinkage="auto")
+    trees = ExtraTreesClassifier(500, random_state=0, n_jobs=2)
+    judges = [make_pipeline(StandardScaler(), discriminant), trees]
+
+    def bound(judge):
+        judge.fit(of, labels)
+
+        def said(path):
+            trials = read(path)
+            sure = judge.predict_proba(np.array([features(codes) for _, codes in trials]))
+            named = judge.classes_[sure.argmax(axis=1)]
+            right = named == np.array([label for label, _ in trials])
+            return np.column_stack([right, sure.max(axis=1)])
+
+        return said
+
+    return [bound(judge) for judge in judges]
 
 
 def classify(model, test):
@@ -89,9 +152,12 @@ def interval(part, whole):
     return f"{share(part, whole)} ({low:.1f} to {high:.1f})"
 
 
-def row(name, counts):
-    trials, named, first, names, right, stated = counts
+def row(name, found):
+    trials, named, first, names, right, stated = found.counts
     shares = [interval(named, trials), share(right, names), share(stated, names), interval(first, named)]
+    for bound in found.bounds:
+        surest = bound[np.argsort(-bound[:, 1], kind="stable")][: int(named)]
+        shares.append(f"{share(bound[:, 0].sum(), trials)}, {share(surest[:, 0].sum(), named)}")
     print("|", " | ".join([name, str(int(trials)), *shares]), "|")
 
 
@@ -117,22 +183,20 @@ def bearings(name, faults):
             yield f"name {at % 3}", *trial
 
     paths = [[write(f"{rpm}-{part}", trials(rpm, part)) for part in (0, 1)] for rpm in RPM]
-    apart = np.zeros((4, 6))
+    apart = [[] for _ in RPM]
     for trained, (train, _) in enumerate(paths):
-        for tested, counts in enumerate(judge([train], [test for _, test in paths], 12_000)):
-            apart[abs(trained - tested)] += counts
-    for n, counts in enumerate(apart):
-        row(f"bearings, {name}: {n} loads apart", counts)
-    others = np.zeros(6)
-    for _, test in paths:
-        others += judge([train for train, of in paths if of != test], [test], 12_000)[0]
-    row(f"bearings, {name}: trained at the three others", others)
+        for tested, found in enumerate(judge([train], [test for _, test in paths], 12_000)):
+            apart[abs(trained - tested)].append(found)
+    for n, found in enumerate(apart):
+        row(f"bearings, {name}: {n} loads apart", reduce(add, found))
+    others = [judge([train for train, of in paths if of != test], [test], 12_000)[0] for _, test in paths]
+    row(f"bearings, {name}: trained at the three others", reduce(add, others))
     # Each fault of the first load: its trials, by turns, under three names.
-    alike = np.zeros(6)
+    alike = []
     for fault in faults:
         train, test = (write(f"placebo-{part}", renamed(fault, part)) for part in (0, 1))
-        alike += judge([train], [test], 12_000)[0]
-    row(f"bearings, {name}: placebo, one fault under three names", alike)
+        alike += judge([train], [test], 12_000)
+    row(f"bearings, {name}: placebo, one fault under three names", reduce(add, alike))
 
 
 def slides(materials):
@@ -160,8 +224,8 @@ def fingertip(materials, tests, train, *options):
     trained = write("train", trials(train, 0))
     paths = [write(f"test {n}", trials(*test[1:])) for n, test in enumerate(tests)]
     span = f"{materials[0]} to {materials[-1]}"
-    for (name, *_), counts in zip(tests, judge([trained], paths, 2200, *options)):
-        row(f"fingertip, materials {span}: {name}", counts)
+    for (name, *_), found in zip(tests, judge([trained], paths, 2200, *options)):
+        row(f"fingertip, materials {span}: {name}", found)
 
 
 def grounds():
@@ -185,18 +249,14 @@ def grounds():
                 yield ground, n, *(scale.codes(runs[n, :, channel]) for channel, scale in scales)
 
     paths = [[write(f"{way}-{part}", trials(way, part)) for part in (0, 1)] for way in DIRECTIONS]
-    same, another, others = np.zeros((3, 6))
+    same, another = [], []
     for trained, (train, _) in enumerate(paths):
-        for tested, counts in enumerate(judge([train], [test for _, test in paths], 3)):
-            if tested == trained:
-                same += counts
-            else:
-                another += counts
-    for _, test in paths:
-        others += judge([train for train, of in paths if of != test], [test], 3)[0]
-    row("robot on five grounds: the same direction", same)
-    row("robot on five grounds: another direction", another)
-    row("robot on five grounds: trained in the two others", others)
+        for tested, found in enumerate(judge([train], [test for _, test in paths], 3)):
+            (same if tested == trained else another).append(found)
+    others = [judge([train for train, of in paths if of != test], [test], 3)[0] for _, test in paths]
+    row("robot on five grounds: the same direction", reduce(add, same))
+    row("robot on five grounds: another direction", reduce(add, another))
+    row("robot on five grounds: trained in the two others", reduce(add, others))
 
 
 def main():
@@ -213,11 +273,13 @@ github.com/dexrob/BioTac_slide_20_50). A robot of Lego drives over five grounds;
 acceleration is x and its rate of pitching y, three samples a second
 (github.com/sethstanton/Lego-Mindstorms-Terrain-Classifier, which was not looked at before the rule
 was chosen). Each trial is one touch that lasts. *Named* is of trials, *right* and *stated* of all
-names, *first* of the first name of each trial, in brackets 95 % intervals. Made by `python3
+names, *first* of the first name of each trial, in brackets 95 % intervals. Upper bounds are a linear
+discriminant and 500 trees that see each trial as a whole, by its power in bands: right of all trials,
+which they must name, and of as many of their surest ones as are named. Made by `python3
 studies/recordings.py HOST_SIM CWRU BIOTAC LEGO`, with the program and the three repositories.
 
-| condition | trials | named, % | right, % | stated, % | first right, % |
-|---|---|---|---|---|---|"""
+| condition | trials | named, % | right, % | stated, % | first right, % | discriminant | trees |
+|---|---|---|---|---|---|---|---|"""
     )
     bearings("drive end", DRIVE_END)
     bearings("fan end", FAN_END)

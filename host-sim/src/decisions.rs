@@ -290,7 +290,8 @@ pub struct Score {
     classes: usize,
     confusion: Confusion,
     reasons: Reasons,
-    /// Of the decisions that count, the sums of their samples and posteriors.
+    /// Of the decisions that count the sum of their samples, and of those that name a class the sum
+    /// of their posteriors.
     samples: u64,
     stated: f64,
 }
@@ -318,6 +319,8 @@ impl Score {
             }
             if d.verdict(classes) != Verdict::Refused {
                 samples += u64::from(d.samples);
+            }
+            if d.decision != UNKNOWN {
                 stated += d.posterior;
             }
         }
@@ -362,7 +365,8 @@ impl Score {
         self.confusion.count(class, other) as f64 / self.named(class).max(1) as f64
     }
 
-    fn named(&self, truth: usize) -> u64 {
+    /// Decisions on a class that name one.
+    pub fn named(&self, truth: usize) -> u64 {
         let classes = 0..self.classes;
         classes
             .map(|class| self.confusion.count(truth, class))
@@ -386,27 +390,23 @@ impl Score {
         Statistics::of(rates).map(|rates| rates.mean)
     }
 
-    /// The classes that [`Score::hit_rate`] leaves out: all decisions on them said "unknown".
+    /// The classes that [`Score::hit_rate`] leaves out: no decision names one there.
     pub fn left_out(&self) -> Vec<&str> {
         let names = self.names.iter().take(self.classes).enumerate();
-        let is_refused = |truth: usize| self.named(truth) == 0 && self.confusion.missed(truth) > 0;
-        let names = names.filter(|(truth, _)| is_refused(*truth));
+        let names = names.filter(|(truth, _)| self.named(*truth) == 0);
         names.map(|(_, name)| name.as_str()).collect()
     }
 
     /// Mean decision time in samples; `None` without a decision.
     pub fn mean_samples(&self) -> Option<f64> {
-        self.mean(self.samples as f64)
-    }
-
-    /// Mean posterior of the decisions; `None` without one.
-    pub fn stated(&self) -> Option<f64> {
-        self.mean(self.stated)
-    }
-
-    fn mean(&self, sum: f64) -> Option<f64> {
         let decisions = self.decisions();
-        (decisions > 0).then(|| sum / decisions as f64)
+        (decisions > 0).then(|| self.samples as f64 / decisions as f64)
+    }
+
+    /// Mean posterior of the decisions that name a class; `None` without one.
+    pub fn stated(&self) -> Option<f64> {
+        let named = self.confusion.named();
+        (named > 0).then(|| self.stated / named as f64)
     }
 }
 

@@ -69,10 +69,13 @@ pub struct Evaluation {
     pub classes: Vec<ClassFigures>,
     /// Mean samples of a decision; not a number without one.
     pub samples: f64,
-    /// The standard error of that, as if decisions were independent.
+    /// The standard error of that, as if decisions were independent; not a number without two.
     pub samples_error: f64,
     /// Stated against found.
     pub calibration: Calibration,
+    /// The share of these that were right, whose interval counts those of one presentation as far
+    /// as they differ.
+    pub by_presentation: Interval,
     /// Share of decisions that said "unknown".
     pub refused: Interval,
     /// Why these named no class.
@@ -96,7 +99,6 @@ impl Evaluation {
         let rates = of_class.iter().filter(|class| class.hits.count > 0);
         let hits = Statistics::of(rates.map(|class| class.hits.share));
         let samples = Statistics::of(named().map(|d| f64::from(d.samples)));
-        let error = |s: Statistics| s.sd / (s.count as f64).sqrt();
         Self {
             score: Score::new(classes, presentations.iter().flat_map(|p| &p.decided)),
             hits: hits.map(|hits| hits.mean),
@@ -106,8 +108,9 @@ impl Evaluation {
                 .then(|| [0, 1].map(|part| right_in(part, named().copied()))),
             classes: of_class,
             samples: samples.map_or(f64::NAN, |samples| samples.mean),
-            samples_error: samples.map_or(f64::NAN, error),
+            samples_error: samples.and_then(|s| s.error()).unwrap_or(f64::NAN),
             calibration: Calibration::of(named().map(|d| (d.posterior, d.is_right()))),
+            by_presentation: by_presentation(known()),
             refused: unknown(decided.iter().copied()),
             reasons: Reasons::of(decided.iter().copied()),
             strange: unknown(strange.flat_map(|p| &p.decided)),
@@ -141,6 +144,32 @@ fn undecided<'p>(presentations: impl Iterator<Item = &'p Shown> + Clone) -> Inte
     Interval::of(all - presentations.filter(named).count(), all)
 }
 
+/// The share of decisions that were right. Those of one presentation may be right or wrong together:
+/// it counts as so many as the variance of the share between presentations is that of; where all or
+/// none are right, as one a presentation.
+fn by_presentation<'p>(presentations: impl Iterator<Item = &'p Shown>) -> Interval {
+    let counts = presentations.filter_map(|shown| {
+        let named = shown.decided.iter().filter(|d| d.decision != UNKNOWN);
+        let count = named.clone().count() as f64;
+        let right = named.filter(|d| d.is_right()).count() as f64;
+        (count > 0.0).then_some([right, count])
+    });
+    let counts: Vec<[f64; 2]> = counts.collect();
+    let presented = counts.len() as f64;
+    let all: f64 = counts.iter().map(|[_, count]| count).sum();
+    let share = counts.iter().map(|[right, _]| right).sum::<f64>() / all;
+    let apart = counts.iter().map(|[right, count]| right - share * count);
+    let squares: f64 = apart.map(|of| of * of).sum();
+    let variance = squares / (all * all) * presented / (presented - 1.0);
+    let worth = share * (1.0 - share) / variance;
+    let worth = if worth.is_finite() {
+        worth.clamp(1.0, all)
+    } else {
+        presented
+    };
+    Interval::of_share(share, worth as usize)
+}
+
 /// What a model does with a recording by the sequential rule, a presentation a stream.
 ///
 /// # Errors
@@ -165,8 +194,9 @@ pub fn presentations(
 pub struct Outside {
     /// Its share of the samples that count.
     pub share: f64,
-    /// The first such sample, counted from 0 over all streams, and its channel.
-    pub first: Option<(usize, usize)>,
+    /// The first such sample, counted from 0 over all streams, its channel, and the model's
+    /// channel, which may be of its whisker.
+    pub first: Option<(usize, [usize; 2])>,
 }
 
 /// Of the samples that count those that lie outside of the model's range in one of the
@@ -188,7 +218,7 @@ pub fn outside(model: &ModelBuf, streams: &[Stream]) -> Outside {
             quantiser
                 .is_some_and(|q| q.low < q.high && !(q.low..=q.high).contains(&q.code_from_f64(*x)))
         });
-        first = first.or(channel.map(|channel| (n, channel)));
+        first = first.or(channel.map(|channel| (n, [channel, of_whisker + channel])));
         count += u64::from(channel.is_some());
         all += 1;
     }
@@ -225,9 +255,9 @@ impl Candidate {
         1.0 - self.evaluation.calibration.found.share
     }
 
-    /// The 95 % interval of that share, 0 to 1.
+    /// The 95 % interval of that share, 0 to 1, by presentations.
     pub fn wrong_interval(&self) -> [f64; 2] {
-        let found = self.evaluation.calibration.found;
+        let found = self.evaluation.by_presentation;
         [1.0 - found.high, 1.0 - found.low]
     }
 

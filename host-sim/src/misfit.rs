@@ -26,10 +26,10 @@ pub fn misfits(
 ) -> Vec<String> {
     let mut found = Vec::new();
     let outside = evaluation::outside(model, streams);
-    if let Some((sample, channel)) = outside.first.filter(|_| outside.share > OUTSIDE) {
+    if let Some((sample, [channel, of_model])) = outside.first.filter(|_| outside.share > OUTSIDE) {
         let mut samples = streams.iter().flat_map(|stream| &stream.samples);
         let value = samples.nth(sample).and_then(|values| values.get(channel));
-        let (low, high) = model.quantiser(channel).map_or((0.0, 0.0), |quantiser| {
+        let (low, high) = model.quantiser(of_model).map_or((0.0, 0.0), |quantiser| {
             let unit = f64::from(-quantiser.exponent).exp2();
             let value = |code: i32| quantiser.origin + f64::from(code) * unit;
             (value(quantiser.low), value(quantiser.high))

@@ -159,6 +159,11 @@ impl<W: Write> TraceWriter<W> {
         self.line.write(&mut self.table)
     }
 
+    /// The writer, for who takes out of it what was written.
+    pub const fn inner_mut(&mut self) -> &mut W {
+        &mut self.table
+    }
+
     /// The writer.
     pub fn into_inner(self) -> W {
         self.table

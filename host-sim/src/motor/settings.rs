@@ -55,9 +55,8 @@ impl MotorSettings {
         resistance_ohm: 25.0,
         torque_nm_per_a: 2.5e-3,
         rotor_kg_m2: 1e-8,
-        // A cone of 112 mm, 2 mm to 0.25 mm thick (BIOTACT section II-C) at
-        // 1300 kg/m³ weighs 0.17 g and has m L²/10 = 2.2e-7 about its base; a
-        // gram of hub and magnet at 5 mm adds 0.3e-7.
+        // Chosen. A frustum of 112 mm, 2 mm to 0.25 mm thick (BIOTACT section II-C), at 1300 kg/m³
+        // has 2.8e-7 about its base, and a gram of hub and magnet at 5 mm 0.3e-7.
         whisker_kg_m2: 2.5e-7,
         viscous_nm_s: 1e-9,
         // A twentieth of the stall torque.

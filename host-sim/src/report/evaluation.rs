@@ -71,12 +71,11 @@ impl fmt::Display for Figures<'_> {
                     writeln!(f, "- before the @     {}", percent(*before))?;
                     writeln!(f, "- after it         {}", percent(*after))?;
                 }
-                let error = samples_error * 1000.0 / tick_hz;
-                writeln!(
-                    f,
-                    "decision time      {samples:.0} samples ({ms:.0} ms), standard error \
-                     {error:.1} ms"
-                )?;
+                write!(f, "decision time      {samples:.0} samples ({ms:.0} ms)")?;
+                match samples_error * 1000.0 / tick_hz {
+                    error if error.is_nan() => writeln!(f)?,
+                    error => writeln!(f, ", standard error {error:.1} ms")?,
+                }
                 write!(f, "{}", stated(calibration))?;
             }
             None => writeln!(f, "no decision for a class")?,
@@ -93,9 +92,10 @@ impl fmt::Display for Figures<'_> {
 fn of_class(class: &ClassFigures, tick_hz: f64) -> String {
     let decided = class.samples.map_or_else(String::new, |samples| {
         let ms = 1000.0 / tick_hz;
-        let error = ms * (samples.sd / (samples.count as f64).sqrt());
+        let error = samples.error().map(|error| format!(" ± {:.1}", ms * error));
+        let error = error.unwrap_or_default();
         let (hits, ms) = (percent(class.hits), ms * samples.mean);
-        format!("right {hits}; after {ms:.0} ± {error:.1} ms; ")
+        format!("right {hits}; after {ms:.0}{error} ms; ")
     });
     let [refused, undecided] = [class.refused, class.undecided].map(percent);
     format!("{decided}refused {refused}; without a decision {undecided}")
@@ -114,6 +114,8 @@ pub struct Doubts<'a> {
 
 /// Presentations of a class below which a warning is due.
 const FEW: usize = 3;
+/// Decisions that name a class below which they say of none that it is another.
+const FEW_NAMED: u64 = 5;
 /// Share of its decisions by which a class may be taken for another before the two cannot be
 /// distinguished.
 const MISTAKEN: f64 = 0.25;
@@ -151,7 +153,8 @@ impl fmt::Display for Doubts<'_> {
         }
         for (a, b) in pairs(classes.len()) {
             let mistaken = f64::midpoint(score.mistaken(a, b), score.mistaken(b, a));
-            if mistaken > MISTAKEN {
+            let are_judged = [a, b].iter().all(|class| score.named(*class) >= FEW_NAMED);
+            if mistaken > MISTAKEN && are_judged {
                 let names = [a, b].map(|class| classes[class].clone());
                 let alike = Warning::Alike { names, mistaken };
                 write!(f, "\nwarning: {}", in_words(&alike))?;
@@ -198,10 +201,11 @@ impl fmt::Display for Thresholds<'_> {
         for at in *scan {
             let evaluation = &at.evaluation;
             let found = evaluation.calibration.found;
+            let [low, high] = at.wrong_interval();
             let [wrong, low, high, refused, undecided] = [
                 at.wrong(),
-                1.0 - found.high,
-                1.0 - found.low,
+                low,
+                high,
                 evaluation.refused.share,
                 evaluation.undecided.share,
             ]

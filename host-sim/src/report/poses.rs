@@ -45,7 +45,7 @@ pub fn of_model(model: &ModelBuf) -> String {
     }
     match model.poses() {
         _ if !model.names_between_poses() => {
-            "trained in one pose or two: honest there, silent elsewhere".to_owned()
+            "honest in the poses of its training, silent elsewhere".to_owned()
         }
         1 => names_between("more than 12 poses"),
         count => names_between(&poses(count)),

@@ -42,18 +42,16 @@ impl OverRuns<'_> {
     ) -> fmt::Result {
         // A run without a decision has no such figure.
         let figures = || self.runs.iter().map(&figure).filter(|x| !x.is_nan());
-        let Some(Statistics {
-            count, mean, sd, ..
-        }) = Statistics::of(figures())
-        else {
+        let Some(found) = Statistics::of(figures()) else {
             return writeln!(f, "{name:<36} -");
         };
         let worst = match worst {
             Worst::Low => figures().fold(f64::INFINITY, f64::min),
             Worst::High => figures().fold(f64::NEG_INFINITY, f64::max),
         };
-        let error = sd / (count as f64).sqrt();
-        writeln!(f, "{name:<36} {mean:8.2} {error:15.2} {worst:9.2}")
+        let error = found.error().map(|error| format!("{error:.2}"));
+        let (mean, error) = (found.mean, error.unwrap_or("-".to_owned()));
+        writeln!(f, "{name:<36} {mean:8.2} {error:>15} {worst:9.2}")
     }
 }
 

@@ -18,6 +18,7 @@ impl fmt::Display for TrainingReport<'_> {
         let names: Vec<_> = report.classes.iter().map(|class| &class.name).collect();
         let longest = names.iter().map(|name| name.chars().count()).max();
         let width = longest.unwrap_or(0).max("decided".len());
+        let names_between = self.0.opinion.as_ref().is_some_and(|of| of.names);
         writeln!(f, "{}\n", of_training(self.0))?;
         writeln!(
             f,
@@ -48,13 +49,24 @@ impl fmt::Display for TrainingReport<'_> {
                     percent(class.refused)
                 )?;
             }
-            writeln!(
+            let parts = match class.trials {
+                trials if trials < class.parts => "halves",
+                _ => "trials",
+            };
+            write!(
                 f,
-                "nothing decided in {} of {} trials; were it not trained, unknown {}",
-                class.undecided,
-                class.trials,
-                percent(class.noticed)
+                "nothing decided in {} of {} {parts}",
+                class.undecided, class.parts
             )?;
+            // Tables and floors say so, which a model that names between poses does not have.
+            if !names_between {
+                write!(
+                    f,
+                    "; were it not trained, unknown {}",
+                    percent(class.noticed)
+                )?;
+            }
+            writeln!(f)?;
         }
         let decided = report.calibration.iter().filter(|at| at.found.count > 0);
         if decided.clone().next().is_some() {
@@ -84,7 +96,7 @@ impl fmt::Display for TrainingReport<'_> {
             write!(f, "\n{}", held_out(&report.poses, &classes))?;
         }
         write!(f, "{}", standing(self.0))?;
-        let objects = self.0.opinion.as_ref().is_some_and(|of| !of.names);
+        let objects = self.0.opinion.is_some() && !names_between;
         for warning in &report.warnings {
             write!(f, "\nwarning: {}", in_words(warning))?;
             if objects && matches!(warning, Warning::Alike { .. }) {

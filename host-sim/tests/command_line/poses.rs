@@ -125,7 +125,7 @@ fn one_pose_is_said_to_be_one() {
     let said = evaluated(&place, "the.model");
     line(
         &said,
-        "trained in one pose or two: honest there, silent elsewhere",
+        "honest in the poses of its training, silent elsewhere",
     );
     // What the second opinion costs: beside it stands what is without.
     trained(&place, &["long.csv"], "--expect same");

@@ -15,6 +15,11 @@ pub struct Statistics {
 }
 
 impl Statistics {
+    /// The standard error of the mean; none of one number.
+    pub fn error(&self) -> Option<f64> {
+        (self.count > 1).then(|| self.sd / (self.count as f64).sqrt())
+    }
+
     /// Of numbers; `None` if there are none. One pass (Welford), which keeps
     /// its precision however far the mean is from zero.
     pub fn of(numbers: impl IntoIterator<Item = f64>) -> Option<Self> {

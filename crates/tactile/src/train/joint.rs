@@ -128,6 +128,7 @@ fn once(trials: &[Trial], options: &Options) -> Result<JointModel, TrainError> {
         weights: Vec::new(),
         sources: layout.sources(),
         unknown: None,
+        apart: false,
     };
     let floors = fit(&mut rule, &folded, &evidence, options);
     let poses = Poses::of(trials);

@@ -1,7 +1,7 @@
 //! Training the second opinion: see [`crate::opinion`] for what it says.
 //!
 //! Of recordings in one pose it objects, and what poses do to the roughness is learnt from
-//! copies whose deflection in y is scaled: how much may differ between training and use only
+//! copies whose deflections are scaled: how much may differ between training and use only
 //! who trains knows ([`Expect`]). Of recordings in several poses, each of all classes, it names,
 //! and what differs between poses is learnt from them. Where touches last, which have neither
 //! onset nor way, it objects in either case.
@@ -54,12 +54,22 @@ pub enum Expect {
 }
 
 impl Expect {
-    /// By what copies of a recording are scaled in y.
-    const fn gains(self) -> &'static [f64] {
+    /// By what copies of a recording are scaled, in x and y: y alone, and both. By both more is
+    /// known of what differs, and so a sixth teaches a fifth.
+    const fn gains(self) -> &'static [[f64; CHANNELS]] {
         match self {
             Self::Same => &[],
-            Self::Bench => &[0.8, 1.25],
-            Self::Other => &[0.5, 0.7, 1.4, 2.0],
+            Self::Bench => &[[1.0, 0.8], [1.0, 1.25], [0.83, 0.83], [1.2, 1.2]],
+            Self::Other => &[
+                [1.0, 0.5],
+                [1.0, 0.7],
+                [1.0, 1.4],
+                [1.0, 2.0],
+                [0.5, 0.5],
+                [0.7, 0.7],
+                [1.4, 1.4],
+                [2.0, 2.0],
+            ],
         }
     }
 
@@ -242,7 +252,7 @@ fn of_felt(
 }
 
 impl Felt {
-    fn of(material: &Material<'_>, gains: &[f64]) -> Self {
+    fn of(material: &Material<'_>, gains: &[[f64; CHANNELS]]) -> Self {
         let Material {
             trials,
             names,
@@ -263,11 +273,11 @@ impl Felt {
             .collect();
         let sense = Sense::of(trials, scales, block);
         let numbers = (of_class.as_slice(), of_trial.as_slice());
-        let mut touches = sense.touches(trials, scales, numbers, (1.0, false));
+        let mut touches = sense.touches(trials, scales, numbers, ([1.0; CHANNELS], false));
         let long = touches.iter().filter(|touch| touch.goes_on).count();
         let begins_again = long * 3 > touches.len();
         if begins_again {
-            touches = sense.touches(trials, scales, numbers, (1.0, true));
+            touches = sense.touches(trials, scales, numbers, ([1.0; CHANNELS], true));
         }
         touches.retain(|touch| begins_again || !touch.goes_on);
         let mut with_copies = touches.clone();

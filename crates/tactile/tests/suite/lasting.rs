@@ -79,3 +79,31 @@ fn a_touch_that_lasts_a_little_is_named_before_it_ends() {
         assert!(said.iter().any(|(of, _)| of.class() == class));
     }
 }
+
+/// What would be another class at a scale that is a fifth off is not named as that one.
+#[test]
+fn a_sensor_that_reads_less_makes_no_other_class_of_one() {
+    let known = [("soft", 40.0), ("middling", 64.0), ("rough", 80.0)];
+    let trials = (0..12).flat_map(|n| {
+        let seeded = known.iter().zip(3 * n..);
+        seeded.map(move |((label, amplitude), seed)| lasting(label, *amplitude, seed))
+    });
+    let trained = train(&trials.collect::<Vec<_>>(), &Options::default()).unwrap();
+    let model = trained.model().unwrap();
+    let named = |(label, amplitude): (&str, f64)| {
+        let class = model.names().position(|name| name == label);
+        let said = decisions(&model, &lasting(label, amplitude, 200));
+        let named = said.iter().map(|(of, _)| of.class());
+        let of = |right: bool| move |of: &Option<usize>| of.is_some() && (*of == class) == right;
+        let [right, wrong] = [true, false].map(|right| named.clone().filter(of(right)).count());
+        (right, wrong, said.len())
+    };
+    for (label, amplitude) in known {
+        for gain in [0.8, 1.2] {
+            let (_, wrong, all) = named((label, gain * amplitude));
+            assert!(20 * wrong <= all, "{label} {gain}: {wrong} of {all}");
+        }
+    }
+    let (right, _, all) = named(known[0]);
+    assert!(10 * right >= 9 * all, "{right} of {all}");
+}

@@ -11,9 +11,12 @@ use crate::error::ModelError;
 use crate::format::{ENTRIES_PER_BIT, ENTRY_OFFSET_BITS};
 use crate::layout::TouchRule;
 use crate::model::Floors;
-use crate::model_buf::{ModelBuf, ModelParts, TableParts};
+use crate::model_buf::{ModelBuf, ModelParts, TableParts, TableSource};
 use crate::quantiser::Quantiser;
 use crate::train::opinion::Opinion;
+
+/// Where the largest entries of all tables of a source are smaller, it has no floor.
+const LEAST_ENTRY: u16 = 256;
 
 /// What training gives.
 #[derive(Debug, Clone, PartialEq)]
@@ -74,9 +77,18 @@ impl JointModel {
             .collect();
         let floors = self.floors.as_ref().filter(|_| !names);
         let floors = floors.map(|floors| {
-            let floors = floors.iter().map(|floor| Floors {
-                samples: entry(floor.samples),
-                roughness: entry(floor.roughness),
+            // Of entries of some units rounding would decide.
+            let weighs = |is_of: fn(&TableSource) -> bool| {
+                let of = self.tables.iter().zip(&self.weights);
+                let mut of = of.filter(|(table, _)| is_of(&table.source));
+                of.any(|(_, weight)| entry(weight * f64::from(ENTRY_OFFSET_BITS)) >= LEAST_ENTRY)
+            };
+            let samples = weighs(|source| matches!(source, TableSource::Samples));
+            let roughness = weighs(|source| !matches!(source, TableSource::Samples));
+            let floor = |weighs: bool, bits: f64| if weighs { entry(bits) } else { 0 };
+            let floors = floors.iter().map(|floor_of| Floors {
+                samples: floor(samples, floor_of.samples),
+                roughness: floor(roughness, floor_of.roughness),
             });
             floors.collect::<Vec<_>>()
         });

@@ -21,7 +21,10 @@ pub struct ClassReport {
     pub name: String,
     /// Trials of it.
     pub trials: usize,
-    /// Trials (or halves of one) in which nothing was decided, "unknown" among it.
+    /// Trials (or halves of one) that were held out, and in how many of them nothing was
+    /// decided, "unknown" among it.
+    pub parts: usize,
+    /// See `parts`.
     pub undecided: usize,
     /// Decisions that named a class, by the class named.
     pub named: Vec<usize>,
@@ -150,6 +153,7 @@ impl ClassReport {
         Self {
             name: names[class].clone(),
             trials: own.count(),
+            parts: silent.count,
             undecided: (silent.share * silent.count as f64).round() as usize,
             named: (0..names.len()).map(as_other).collect(),
             unknown: of().count() - count,
@@ -191,6 +195,7 @@ impl Maker<'_> {
     fn said(&self, rule: &Rule, threshold: f64) -> Vec<Said> {
         let rule = Rule {
             threshold,
+            apart: true,
             ..rule.clone()
         };
         let decided = decisions(&self.folded.pieces, self.evidence, &rule);

@@ -21,6 +21,8 @@ pub(super) struct Rule {
     pub(super) sources: Vec<TableSource>,
     /// A class that it does not know: what would be made of it is asked.
     pub(super) unknown: Option<usize>,
+    /// Whether each piece is judged for itself; else evidence goes on within a recording.
+    pub(super) apart: bool,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -92,8 +94,7 @@ pub(super) fn of_unknown(
 }
 
 /// Runs the rule; calls `at` with each decision, and with `None` at the end of a piece that
-/// had none. Evidence goes on within a recording: of a piece only its beginning, the onset of a
-/// touch, is known.
+/// had none. Of a piece only its beginning, the onset of a touch, is known.
 fn follow(
     pieces: &[Piece<'_>],
     evidence: &[Evidence],
@@ -103,7 +104,7 @@ fn follow(
     let mut state: Option<State<'_>> = None;
     let mut last = None;
     for (n, (piece, evidence)) in pieces.iter().zip(evidence).enumerate() {
-        if last != Some(piece.recording) {
+        if rule.apart || last != Some(piece.recording) {
             state = None;
             last = Some(piece.recording);
         }

@@ -29,12 +29,11 @@ struct OfFold {
     own: Vec<Said>,
 }
 
-/// Replaces the report of a model by one of the classifier as it streams: of several poses
-/// each is held out, of one some trials of each class. Where these are too few to be held
-/// out, the report stays that of tables and floors.
+/// Replaces the report of a model by one of the classifier as it streams: where each class was
+/// felt in several poses each is held out, else some trials of each class. Where these are too few
+/// to be held out, the report stays that of tables and floors.
 pub(super) fn report(model: &mut JointModel, trials: &[Trial]) -> Result<(), TrainError> {
-    let names = model.opinion.as_ref().is_some_and(|opinion| opinion.names);
-    let poses = names.then(|| Poses::of(trials));
+    let poses = Some(Poses::of(trials)).filter(|poses| are_whole(poses, trials, &model.names));
     let folds = folds(model, trials, poses.as_ref());
     let last = folds.iter().copied().max().unwrap_or(0);
     let thresholds: Vec<f64> = model
@@ -111,6 +110,16 @@ fn of_fold(
     }))
 }
 
+/// Whether each class was felt in several poses.
+fn are_whole(poses: &Poses, trials: &[Trial], names: &[String]) -> bool {
+    names.iter().all(|name| {
+        let of_class = trials.iter().zip(&poses.of_trial);
+        let mut of_class = of_class.filter(|(trial, _)| trial.label == *name);
+        let first = of_class.next().map(|(_, pose)| pose);
+        of_class.any(|(_, pose)| Some(pose) != first)
+    })
+}
+
 /// With which part each trial is held out.
 fn folds(model: &JointModel, trials: &[Trial], poses: Option<&Poses>) -> Vec<usize> {
     if let Some(poses) = poses {
@@ -127,7 +136,7 @@ fn folds(model: &JointModel, trials: &[Trial], poses: Option<&Poses>) -> Vec<usi
     trials.iter().map(fold).collect()
 }
 
-/// What a model decides on trials in their order; `names` are the classes as they are numbered.
+/// What a model decides on trials, each for itself; `names` are the classes as they are numbered.
 fn stream(
     model: &JointModel,
     names: &[String],
@@ -139,14 +148,9 @@ fn stream(
     let number = |name: &String| names.iter().position(|of| of == name).unwrap_or(0);
     let mut classifier =
         Sequential::new(buffer, threshold).map_err(|_| TrainError::Model(ModelError::Opinion))?;
-    let (mut said, mut recording) = (Vec::new(), None);
+    let mut said = Vec::new();
     for (trial, of) in trials {
-        if recording != Some(&of.recording) {
-            recording = Some(&of.recording);
-            classifier.reset();
-        }
-        // Between trials samples are missing.
-        classifier.interrupt();
+        classifier.reset();
         let mut last = 0;
         for (sample, &touch) in of.samples.iter().zip(&of.touches) {
             let codes: [i32; 2] =

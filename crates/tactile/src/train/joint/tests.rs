@@ -194,6 +194,7 @@ fn what_floors_refuse_does_not_weigh() {
         weights: vec![1.0],
         sources: vec![TableSource::Samples],
         unknown: None,
+        apart: false,
     };
     let floor = floors::Floor {
         samples: 10.0,

@@ -131,19 +131,19 @@ impl Sense {
         core::array::from_fn(|n| self.narrow.of(scales[n].code_from_f64(sample[n])))
     }
 
-    /// The touches of trials whose deflection in y is `gain` times what it was, without blocks
+    /// The touches of trials whose deflections are `gains` times what they were, without blocks
     /// that are not whole where touches `lasts`. `classes` and `recordings` have a number a trial.
     pub(super) fn touches(
         &self,
         trials: &[Trial],
         scales: &[Quantiser; CHANNELS],
         (classes, recordings): (&[usize], &[usize]),
-        (gain, lasts): (f64, bool),
+        (gains, lasts): ([f64; CHANNELS], bool),
     ) -> Vec<Touch> {
         let mut touches: Vec<Touch> = Vec::new();
         let mut last_recording = None;
         let mut differences = Differences::new(self.rest);
-        let rest = f64::from(self.rest[1]) / 256.0;
+        let rest = self.rest.map(|rest| f64::from(rest) / 256.0);
         let most = f64::from(NARROW_MOST);
         for (trial, of) in trials.iter().enumerate() {
             if last_recording != Some(recordings[trial]) {
@@ -155,15 +155,17 @@ impl Sense {
             differences.clear();
             let (mut last, mut open, mut is_new) = (0, 0, true);
             for (sample, &touch) in of.samples.iter().zip(&of.touches) {
-                let [x, y] = self.codes(sample, scales);
-                let y = (rest + gain * (f64::from(y) - rest)).round();
-                let y = y.clamp(-most - 1.0, most) as i16;
+                let felt = self.codes(sample, scales);
+                let codes = core::array::from_fn(|n| {
+                    let code = rest[n] + gains[n] * (f64::from(felt[n]) - rest[n]);
+                    code.round().clamp(-most - 1.0, most) as i16
+                });
                 if touch != 0 && touch != last {
                     last = touch;
                     (open, is_new) = (0, true);
                     differences.clear();
                 }
-                differences.push([x, y], touch != 0);
+                differences.push(codes, touch != 0);
                 if touch == 0 {
                     continue;
                 }
@@ -237,7 +239,12 @@ mod tests {
         let scales = [Quantiser::of_codes(0, 16_384); CHANNELS];
         let felt = |trials: &[Trial], lasts| {
             let numbers = vec![0; trials.len()];
-            let touches = sense.touches(trials, &scales, (&numbers, &numbers), (1.0, lasts));
+            let touches = sense.touches(
+                trials,
+                &scales,
+                (&numbers, &numbers),
+                ([1.0; CHANNELS], lasts),
+            );
             touches.last().unwrap().features.clone()
         };
         let [before, trial] = [trial(3_000.0, 400.0), trial(12_000.0, 30.0)];
