@@ -6,11 +6,12 @@ export function encoded(scene) {
   return `#${code.replaceAll("+", "-").replaceAll("/", "_").replace(/=+$/, "")}`;
 }
 
-/** What an address holds; null if it holds no scene, an error if it cannot be read. */
+/** What an address holds; null if it is empty, an error if it holds no scene. */
 export function decoded(hash) {
   if (hash.length < 2) return null;
   const code = atob(hash.slice(1).replaceAll("-", "+").replaceAll("_", "/"));
   const bytes = Uint8Array.from(code, (c) => c.charCodeAt(0));
   const found = JSON.parse(new TextDecoder().decode(bytes));
-  return typeof found?.text === "string" ? found : null;
+  if (typeof found?.text !== "string") throw new Error("no scene");
+  return found;
 }

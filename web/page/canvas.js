@@ -31,9 +31,15 @@ export const SIDES = [
 ];
 
 const seen = new Map();
+let onShown = () => {};
 const watcher = new IntersectionObserver((entries) => {
   for (const { target, isIntersecting } of entries) seen.set(target, isIntersecting);
+  if (entries.some((entry) => entry.isIntersecting)) onShown();
 });
+/** Has it called when a canvas comes onto the screen, where what it shows may be old. */
+export function whenShown(call) {
+  onShown = call;
+}
 /** Whether a canvas is on the screen, as far as is known: what is not need not be drawn. */
 export function isSeen(canvas) {
   if (!seen.has(canvas)) {

@@ -38,10 +38,15 @@ export function traceOn() {
   }
 }
 
-/** Saves the whole trace of a new tracer that keeps it. */
-export function download(whole) {
-  while (!whole.step(100000));
-  const href = URL.createObjectURL(new Blob([whole.bytes()], { type: "text/csv" }));
+/** Saves the whole trace of a new tracer that keeps it; the picture goes on meanwhile. */
+export async function download(whole) {
+  const parts = [];
+  for (let ended = false; !ended;) {
+    ended = whole.step(5000);
+    parts.push(new Blob([whole.bytes()]));
+    await new Promise((done) => { setTimeout(done); });
+  }
+  const href = URL.createObjectURL(new Blob(parts, { type: "text/csv" }));
   element("a", { href, download: "trace.csv" }).click();
   setTimeout(() => URL.revokeObjectURL(href), 10000);
   whole.free();

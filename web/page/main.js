@@ -1,6 +1,6 @@
 // The page: one scene, played, and what a person does with it.
 import { decoded, encoded } from "./address.js";
-import { isSeen, restyle } from "./canvas.js";
+import { isSeen, restyle, whenShown } from "./canvas.js";
 import { columns, gather } from "./columns.js";
 import { load } from "./core.js";
 import { drawCurves, drawLegend } from "./curves.js";
@@ -10,11 +10,11 @@ import { clearMind, decide, drawMind } from "./mind.js";
 import { SLIDERS, asked, changes, look, makeSliders, showSliders } from "./settings.js";
 import { hear, listen, sounds } from "./sound.js";
 import { drawStage, restage } from "./stage.js";
-import { ask, drawTiles, endGame, isPlayed, isSecret, paintTiles, showTiles } from "./tiles.js";
+import { ask, drawTiles, endGame, focusTiles, isPlayed, isSecret, paintTiles, showTiles } from "./tiles.js";
 import { PRESETS } from "./words.js";
 
 const begun = performance.now();
-const { Player, Tracer, scenes, scene_text, fault_of } = await load();
+const { Player, Tracer, scenes, scene_text, fault_of, lacks } = await load();
 const still = matchMedia("(prefers-reduced-motion: reduce)");
 
 let text = scene_text("whisker"), looked = null;
@@ -23,12 +23,13 @@ let sides = 1, owed = 0, stale = true;
 
 // Restarts the scene as text and sliders say; after an error the last scene stays.
 function start() {
-  const keys = asked(player);
+  const keys = asked(text, lacks);
   let next;
   try {
     next = new Player(text, keys);
   } catch (fault) {
     report(String(fault), text);
+    showMenus();
     return false;
   }
   report("", text);
@@ -38,7 +39,7 @@ function start() {
   if (laid) player.lay(laid);
   player.listen(sounds());
   sides = player.obstacles().length;
-  if (text !== looked) look(player, text, fault_of);
+  if (text !== looked) look(text, { fault_of, lacks });
   looked = text;
   columns.length = 0;
   [owed, stale] = [0, true];
@@ -63,8 +64,9 @@ function showMenus() {
 
 function advance(ticks) {
   gather(player.step(ticks), sides);
-  decide(player.decisions(), sides, player.tick_hz());
-  if (sounds()) hear(player.heard(), player.tick_hz() * Number($("speed").value));
+  decide(player, sides);
+  const speed = Number($("speed").value);
+  if (sounds()) hear(player.heard(), player.tick_hz() * speed, speed);
   stale = true;
 }
 
@@ -110,7 +112,7 @@ function play(on) {
 
 function edited(next) {
   text = next;
-  Object.assign(changes, { set: {}, gates: {} });
+  changes.set = {};
   $("editor").value = text;
   return start();
 }
@@ -137,10 +139,10 @@ function fromAddress() {
   laid = typeof found.laid === "string" ? found.laid : null;
   text = found.text;
   $("editor").value = text;
-  Object.assign(changes, { set: {}, gates: {} });
+  changes.set = {};
   for (const [key] of SLIDERS) {
-    if (typeof found.set?.[key] === "number") changes.set[key] = found.set[key];
-    if (found.gates?.[key]) changes.gates[key] = true;
+    const value = Number(found.set?.[key] ?? NaN);
+    if (Number.isFinite(value)) changes.set[key] = value;
   }
   return start();
 }
@@ -170,7 +172,7 @@ $("game").onclick = () => {
   showTiles(player, null);
   stale = true;
 };
-$("next").onclick = () => { ask(player); stale = true; };
+$("next").onclick = () => { ask(player); focusTiles(); stale = true; };
 $("sound").onclick = () => {
   listen(!sounds());
   player.listen(sounds());
@@ -187,17 +189,18 @@ $("play").onclick = () => play(!playing);
 $("step").onclick = forward;
 $("restart").onclick = start;
 $("link").onclick = () => link(encoded({ text, ...changes, laid }));
-$("download").onclick = () => {
+$("download").onclick = async () => {
   try {
-    download(new Tracer(text, asked(player), true));
+    await download(new Tracer(text, asked(text, lacks), true));
   } catch (fault) {
     report(String(fault), text);
   }
 };
 document.addEventListener("keydown", (event) => {
-  const busy = event.target.matches("textarea, input, select, button, summary");
-  if (busy || event.ctrlKey || event.metaKey) return;
-  if (event.key === " ") { play(!playing); event.preventDefault(); }
+  const busy = event.target.matches("textarea, input, select");
+  if (busy || event.ctrlKey || event.metaKey || event.altKey) return;
+  const presses = event.target.matches("button, summary");
+  if (event.key === " " && !presses) { play(!playing); event.preventDefault(); }
   if (event.key === "ArrowRight") { forward(); event.preventDefault(); }
 });
 const repaint = () => {
@@ -210,6 +213,7 @@ const repaint = () => {
 };
 matchMedia("(prefers-color-scheme: dark)").addEventListener("change", repaint);
 still.addEventListener("change", () => play(!still.matches));
+whenShown(() => { stale = true; });
 window.addEventListener("resize", () => { stale = true; });
 window.addEventListener("hashchange", fromAddress);
 

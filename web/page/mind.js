@@ -36,13 +36,15 @@ export function clearMind(player) {
   $("decisions").replaceChildren();
 }
 
-/** Takes the core's lines of decisions in. */
-export function decide(lines, sides, tick_hz) {
-  for (const line of lines) {
+/** Takes the core's lines of decisions in. Samples of several hairs are no time. */
+export function decide(player, sides) {
+  const [tick_hz, together] = [player.tick_hz(), player.decides_together()];
+  for (const line of player.decisions()) {
     const [t, whisker, decision, posterior, samples, truth, verdict, reason, among, touch] = line.split("\t");
     const made = { decision, truth, verdict, reason, among, sure: Number(posterior) };
     mind.counts[verdict] += 1;
-    mind.last = { ...made, t: Number(t), ms: Math.round(1000 * Number(samples) / tick_hz) };
+    mind.last = { ...made, felt: together ? `${samples} readings`
+      : `${Math.round(1000 * Number(samples) / tick_hz)} ms of touch` };
     // One line for all decisions of a touch that say the same.
     const key = [whisker, touch, truth, decision, among].join();
     if (mind.top?.key === key) {
@@ -78,7 +80,7 @@ export function drawMind(player, secret, playing) {
   write("said", secret ? covered : last ? spoken(last) : playing ? "feeling…" : "press Play");
   // Of a decision that names nothing the posterior is that of the class that came nearest.
   const named = last && last.decision !== "unknown";
-  const sure = named ? ` · ${percent(last.sure)} sure · after ${last.ms} ms of touch` : "";
+  const sure = named ? ` · ${percent(last.sure)} sure · after ${last.felt}` : "";
   write("judged", last && !secret ? worth(last.verdict) + sure : "");
   $("judged").className = last && !secret ? `is-${last.verdict}` : "";
   write("score", `${counts.right} right, ${counts.wrong} wrong, ${counts.refused} unsure`);

@@ -5,7 +5,7 @@ import { $, element } from "./dom.js";
 export const SLIDERS = [
   ["whisking.gain", "How wide it swings", "How strongly the motor is driven to and fro.", 0, 2, 0.05],
   ["whisking.frequency_hz", "Strokes a second", "Faster ones make the surface sound higher.", 0.5, 10, 0.1],
-  ["rcp.gain", "Retreat (RCP)", "How far a touch makes the hair pull back.", 0, 1.5, 0.05],
+  ["rcp.gain", "Retreat (RCP)", "How far a touch makes the hair pull back.", 0, 2, 0.05],
   ["cia.gain", "Excitement (CIA)", "How much a touch makes all hairs reach further.", 0, 1.5, 0.05],
   ["plant.friction", "Friction", "How much surfaces hold the tip, in place of their own.", 0, 2, 0.05],
   ["classifier.threshold", "How sure it must be", "The notch on the bars: later and surer, or sooner and "
@@ -14,17 +14,14 @@ export const SLIDERS = [
 // What a gate needs besides, where the scene has none.
 const BESIDE = { "rcp.gain": "rcp.tau_s=0.125", "cia.gain": "cia.tau_s=0.125" };
 
-export const changes = { set: {}, gates: {} };
+export const changes = { set: {} };
 
-/** The lines `key=value` that the core takes. A gate that `player` lacks is the page's from here on. */
-export function asked(player) {
-  const { set, gates } = changes;
-  for (const key of Object.keys(BESIDE)) {
-    if (key in set && player && player.setting(key) === undefined) gates[key] = true;
-  }
-  const all = Object.entries(set).map(([key, value]) => `${key}=${value}`);
-  for (const key of Object.keys(gates)) if (key in set) all.push(BESIDE[key]);
-  return all.join("\n");
+/** The lines `key=value` that the core takes, with what a gate needs that `text` lacks. */
+export function asked(text, lacks) {
+  return Object.entries(changes.set).map(([key, value]) => {
+    const line = `${key}=${value}`;
+    return BESIDE[key] && lacks(text, key) ? `${line}\n${BESIDE[key]}` : line;
+  }).join("\n");
 }
 
 /** Makes the sliders; `start` restarts the scene with what is set and says whether it could. */
@@ -40,16 +37,18 @@ export function makeSliders(start) {
     input.oninput = () => {
       const before = { ...changes.set };
       changes.set[key] = Number(input.value);
-      if (!start()) changes.set = before;
+      if (start()) return;
+      changes.set = before;
+      input.value = input.dataset.runs;
     };
   }
 }
 
 // Which sliders the scene can take that has no value for them; it depends on the text alone.
 const usable = {};
-export function look(player, text, fault_of) {
+export function look(text, { fault_of, lacks }) {
   for (const [key, , , low, high] of SLIDERS) {
-    const beside = BESIDE[key] && player.setting(key) === undefined ? `\n${BESIDE[key]}` : "";
+    const beside = BESIDE[key] && lacks(text, key) ? `\n${BESIDE[key]}` : "";
     usable[key] = fault_of(text, `${key}=${(low + high) / 2}${beside}`) === "";
   }
 }
@@ -57,8 +56,11 @@ export function look(player, text, fault_of) {
 export function showSliders(player) {
   for (const [key] of SLIDERS) {
     const value = player.setting(key), input = $(key);
-    if (document.activeElement !== input) input.value = value ?? input.min;
-    input.disabled = value === undefined && !usable[key];
+    input.dataset.runs = value ?? input.min;
+    if (document.activeElement !== input) input.value = input.dataset.runs;
+    // It is the notch on the bars, which a scene without classes has not.
+    const hasNone = key === "classifier.threshold" && player.classes().length === 0;
+    input.disabled = hasNone || value === undefined && !usable[key];
     const none = key === "plant.friction" ? "each its own" : "off";
     const lacking = usable[key] ? none : "no use here";
     $(`${key}-value`).textContent = value === undefined ? lacking : +value.toFixed(4);

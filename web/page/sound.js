@@ -2,10 +2,10 @@
 // swing.
 
 const RATE_HZ = 8000;
-// The whisk is at 2 Hz, what surfaces make of it above.
+// The whisk is at 2 Hz, what surfaces make of it above; at another speed both are elsewhere.
 const LOW_CUT_HZ = 60;
 const AHEAD_S = 0.08;
-const sound = { context: null, into: null, until: 0, last: 0 };
+const sound = { context: null, cut: null, until: 0, last: 0 };
 
 export const sounds = () => sound.context !== null;
 
@@ -21,13 +21,14 @@ export function listen(on) {
   const loud = new GainNode(sound.context, { gain: 6 });
   const limit = new DynamicsCompressorNode(sound.context);
   cut.connect(loud).connect(limit).connect(sound.context.destination);
-  [sound.into, sound.until, sound.last] = [cut, 0, null];
+  [sound.cut, sound.until, sound.last] = [cut, 0, null];
 }
 
-/** Plays codes, `hz` of them a second, after those before. */
-export function hear(codes, hz) {
+/** Plays codes, `hz` of them a second, after those before, at so many times real time. */
+export function hear(codes, hz, speed) {
   const { context } = sound;
   if (context?.state !== "running" || codes.length === 0) return;
+  sound.cut.frequency.value = LOW_CUT_HZ * speed;
   const values = Array.from(codes, (code) => (code - 8192) / 8192);
   const before = sound.last ?? values[0];
   sound.last = values.at(-1);
@@ -42,7 +43,7 @@ export function hear(codes, hz) {
     wave[n] = from + (at - k) * (values[Math.min(k + 1, values.length - 1)] - from);
   }
   const source = new AudioBufferSourceNode(context, { buffer });
-  source.connect(sound.into);
+  source.connect(sound.cut);
   const late = sound.until < context.currentTime || sound.until > context.currentTime + 0.5;
   if (late) sound.until = context.currentTime + AHEAD_S;
   source.start(sound.until);

@@ -196,7 +196,8 @@ export function drawStage(canvas, player, shown) {
       pen.transform(way * dx, dy, way * dy, -dx, x, y);
       drawBody(pen, shown, outline.map((far) => far * reach), share * HALF * size);
       pen.restore();
-      if (n === 0) {
+      // Before the first tick nothing is laid yet.
+      if (n === 0 && shown !== "free") {
         const name = shown === "hidden" ? "surface: ?" : `surface: ${plain(shown)}`;
         const over = (HALF * Math.abs(dy) + THICK * dx) * size + 6;
         // Between both, where there are two.

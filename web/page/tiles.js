@@ -9,6 +9,8 @@ const TURNS = "they take turns";
 // Of the game: what lies there while it is asked for, and who was right how often.
 const game = { on: false, wanted: null, rounds: 0, you: 0, hair: 0 };
 const tiles = new Map();
+// Of the tiles there are, and who is asked.
+let [tilesOf, present] = ["", null];
 
 export const isSecret = () => game.wanted !== null;
 
@@ -23,13 +25,18 @@ function tile(name, words, press) {
 /** Makes a tile for each surface that the scene can lay; `lay` takes a name, or null: in turns. */
 export function drawTiles(player, lay) {
   const names = player.textures(), learnt = player.classes();
+  present = player;
   $("choose").hidden = $("textures").hidden = names.length === 0;
   $("game").hidden = names.length === 0 || learnt.length === 0;
+  // The same ones stay, lest the focus is lost.
+  const of = JSON.stringify([names, learnt]);
+  if (of === tilesOf) return;
+  tilesOf = of;
   tiles.clear();
   tiles.set(null, tile("", TURNS, () => lay(null)));
   for (const name of names) {
     const strange = learnt.length > 0 && !learnt.includes(name);
-    const made = tile(name, plain(name), () => (game.on ? guess(player, name) : lay(name)));
+    const made = tile(name, plain(name), () => (game.on ? guess(present, name) : lay(name)));
     if (strange) made.ariaLabel = `${plain(name)}, never learnt`;
     made.classList.toggle("is-strange", strange);
     tiles.set(name, made);
@@ -64,6 +71,9 @@ export function showTiles(player, laid) {
   }
   $("strange").hidden = !strange;
 }
+
+/** Puts the focus on the first surface that can be named. */
+export const focusTiles = () => [...tiles.values()].find((tile) => !tile.hidden)?.focus();
 
 /** Lays one, covered. */
 export function ask(player) {

@@ -44,7 +44,14 @@ fn started(text: &str, set: &str) -> Result<(Scene, Run), String> {
 /// What is wrong with a scene's text and the lines `key=value` of `set`; empty: nothing.
 #[wasm_bindgen]
 pub fn fault_of(text: &str, set: &str) -> String {
-    loaded(text, set).err().unwrap_or_default()
+    started(text, set).err().unwrap_or_default()
+}
+
+/// Whether a scene's text has no number for the key of a slider.
+#[wasm_bindgen]
+pub fn lacks(text: &str, key: &str) -> bool {
+    let loaded = loaded(text, "");
+    loaded.is_ok_and(|loaded| player::setting(&loaded.scene, key).is_none())
 }
 
 /// The names of the scenes that are on the page.

@@ -5,7 +5,7 @@ use host_sim::decisions::Decided;
 use host_sim::run::Run;
 use host_sim::trace::WhiskerRow;
 use physics::{At, Bent};
-use scene::{PlantKind, Rule, Scene, Texture};
+use scene::{Deciding, PlantKind, Rule, Scene, Texture};
 use wasm_bindgen::prelude::wasm_bindgen;
 
 use crate::started;
@@ -227,7 +227,15 @@ impl Player {
         self.run.classes().to_vec()
     }
 
-    /// The posterior of each; empty without a classifier.
+    /// Whether all whiskers decide as one, by the samples of all.
+    pub fn decides_together(&self) -> bool {
+        let classifier = self.scene.classifier.as_ref();
+        let is_together = classifier.is_some_and(|of| of.whiskers == Deciding::Together);
+        is_together && self.array.stands().len() > 1
+    }
+
+    /// The posterior of each, where whiskers decide for themselves of the first; empty without a
+    /// classifier.
     pub fn posteriors(&mut self) -> Vec<f64> {
         let posteriors = self.run.posteriors();
         posteriors.map_or_else(Vec::new, |posteriors| posteriors.to_f64().collect())
@@ -235,10 +243,7 @@ impl Player {
 
     /// The posterior at which it decides; none where it does not.
     pub fn threshold(&self) -> Option<f64> {
-        match self.scene.classifier.as_ref()?.rule {
-            Rule::Sequential { threshold } => Some(threshold),
-            Rule::Costs { .. } | Rule::Window { .. } => None,
-        }
+        threshold(&self.scene)
     }
 
     /// What is touched, which no module knows.
@@ -280,17 +285,27 @@ impl Player {
 
     /// The scene's number for the key of a slider; none where it has none.
     pub fn setting(&self, key: &str) -> Option<f64> {
-        let Scene { whisking, .. } = &self.scene;
-        let whisking = || whisking.as_ref();
-        match key {
-            "whisking.gain" => whisking()?.gain.first().copied(),
-            "whisking.frequency_hz" => Some(whisking()?.frequency_hz),
-            "rcp.gain" => Some(self.scene.rcp.as_ref()?.gain),
-            "cia.gain" => Some(self.scene.cia.as_ref()?.gain),
-            "plant.friction" => self.scene.plant.textured.as_ref()?.friction,
-            "classifier.threshold" => self.threshold(),
-            _ => None,
-        }
+        setting(&self.scene, key)
+    }
+}
+
+pub(crate) fn setting(scene: &Scene, key: &str) -> Option<f64> {
+    let whisking = || scene.whisking.as_ref();
+    match key {
+        "whisking.gain" => whisking()?.gain.first().copied(),
+        "whisking.frequency_hz" => Some(whisking()?.frequency_hz),
+        "rcp.gain" => Some(scene.rcp.as_ref()?.gain),
+        "cia.gain" => Some(scene.cia.as_ref()?.gain),
+        "plant.friction" => scene.plant.textured.as_ref()?.friction,
+        "classifier.threshold" => threshold(scene),
+        _ => None,
+    }
+}
+
+fn threshold(scene: &Scene) -> Option<f64> {
+    match scene.classifier.as_ref()?.rule {
+        Rule::Sequential { threshold } => Some(threshold),
+        Rule::Costs { .. } | Rule::Window { .. } => None,
     }
 }
 

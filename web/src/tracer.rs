@@ -91,8 +91,9 @@ impl Tracer {
         hash.iter().flat_map(digits).map(char::from).collect()
     }
 
-    /// The trace, if it was kept.
-    pub fn bytes(&self) -> Vec<u8> {
-        self.written.bytes.clone()
+    /// What was written since the last call, if it is kept.
+    pub fn bytes(&mut self) -> Vec<u8> {
+        let table = self.table.as_mut().map(TraceWriter::inner_mut);
+        core::mem::take(&mut table.unwrap_or(&mut self.written).bytes)
     }
 }

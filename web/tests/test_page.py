@@ -196,6 +196,8 @@ def test_the_editor_says_what_is_wrong(page):
     editor.send_keys(Keys.CONTROL, "a")
     editor.send_keys(text.replace("tick_hz    = 2000", "tick_hz    = 20"))
     page.wait(lambda: "tick_hz: found 20" in page.text("problems"))
+    # So that a menu can take it back.
+    assert page.element("scene").get_attribute("value") == ""
     line = text.splitlines().index("tick_hz    = 2000") + 1
     assert f"line {line}" in page.text("problems")
     page.element("download").click()
@@ -226,6 +228,44 @@ def test_keys_play_and_step(page):
     body.send_keys(Keys.ARROW_RIGHT)
     body.send_keys(" ")
     assert page.text("play") == "Pause"
+    # A button takes Space, and no arrow.
+    page.element("play").click()
+    before = page.js("return document.querySelector('#whisker').toDataURL()")
+    page.element("play").send_keys(Keys.ARROW_RIGHT * 5)
+    assert page.text("play") == "Play"
+    page.wait(lambda: page.js("return document.querySelector('#whisker').toDataURL()") != before)
+
+
+def test_what_a_slider_needs_besides_is_the_text_s_where_it_has_any(page):
+    page.choose("rcp")
+    editor = page.element("editor")
+    without, _, behind = editor.get_attribute("value").partition("[rcp]\n")
+    without += behind[behind.index("\n[") + 1:] if "\n[" in behind else ""
+    hashes = [page.hash()]
+    editor.send_keys(Keys.CONTROL, "a")
+    editor.send_keys(without)
+    for tau_s in [None, "0.5", "0.02"]:
+        if tau_s is None:
+            page.wait(lambda: "rcp.gain" not in editor.get_attribute("value"))
+            slide(page, "rcp.gain", 0.5)
+        else:
+            editor.send_keys(Keys.CONTROL, "a")
+            editor.send_keys(f"{without}\n[rcp]\ngain = 0.1\ntau_s = {tau_s}\n")
+        page.wait(lambda: len(page.text("hash")) == 64 and page.text("hash") not in hashes, 120)
+        hashes.append(page.text("hash"))
+    assert page.text("problems") == ""
+
+
+def test_what_comes_onto_the_screen_is_drawn_though_nothing_plays(browser):
+    page = browser().phone(412, 500, 2).open()
+    page.choose("cia")
+    inked = "const c = document.querySelector('#strips'); return c.getContext('2d')" \
+        ".getImageData(0, 0, c.width, c.height).data.some((value) => value > 0)"
+    page.js("window.scrollTo(0, 0)")
+    page.js("document.querySelector('#restart').click()")
+    page.js("const p = document.querySelector('#play'); if (p.textContent === 'Pause') p.click()")
+    page.js("document.querySelector('#strips').scrollIntoView()")
+    page.wait(lambda: page.js(inked))
 
 
 @pytest.mark.alone

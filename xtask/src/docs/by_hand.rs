@@ -117,7 +117,7 @@ fn field(z: f64) -> [f64; 2] {
 #[test]
 fn the_page_of_the_mount_has_the_field_of_its_magnet() {
     let page = docs("build.md");
-    let (_, table) = page.split_once("B across at 0.15 rad, mT |").unwrap();
+    let (_, table) = page.split_once("k B · 0.15, mT |").unwrap();
     let rows = table.lines().skip(2).take_while(|line| !line.is_empty());
     let mut count = 0;
     for row in rows {
