@@ -8,9 +8,10 @@
 //!
 //! Values that were chosen, on recordings of the scene `whisker` with seeds that no page uses:
 //! α 1 and 1 + 4/(poses − 1), s 0 and 0.03, what no copy shows, the 0.8 of an objection, the shares
-//! of `typical`, `paths` and patience, their shrinking and least deviations, the gains of copies,
-//! by how much a sensor may be turned and scaled; of `bench-textures` the spread of T; of bearings
-//! and of a fingertip's recordings the 0.9, and what is near in the mean, typical, and waited for.
+//! of `typical`, `paths` and patience, their shrinking and least deviations, the gains of copies
+//! in y, by how much a sensor may be turned and scaled; of `bench-textures` the spread of T; of
+//! bearings and of a fingertip's recordings the 0.9, the gains of both axes (and of synthetic
+//! ones), and what is near in the mean, typical, and waited for.
 
 mod linear;
 mod matrix;
@@ -54,22 +55,22 @@ pub enum Expect {
 }
 
 impl Expect {
-    /// By what copies of a recording are scaled, in x and y: y alone, and both. By both more is
-    /// known of what differs, and so a sixth teaches a fifth.
-    const fn gains(self) -> &'static [[f64; CHANNELS]] {
+    /// By what copies of a recording are scaled in y.
+    const fn gains(self) -> &'static [f64] {
         match self {
             Self::Same => &[],
-            Self::Bench => &[[1.0, 0.8], [1.0, 1.25], [0.83, 0.83], [1.2, 1.2]],
-            Self::Other => &[
-                [1.0, 0.5],
-                [1.0, 0.7],
-                [1.0, 1.4],
-                [1.0, 2.0],
-                [0.5, 0.5],
-                [0.7, 0.7],
-                [1.4, 1.4],
-                [2.0, 2.0],
-            ],
+            Self::Bench => &[0.8, 1.25],
+            Self::Other => &[0.5, 0.7, 1.4, 2.0],
+        }
+    }
+
+    /// By what others are in x and y, of touches that last: these have no way that tells their
+    /// scale. A sixth is enough for a fifth.
+    const fn gains_of_both(self) -> &'static [f64] {
+        match self {
+            Self::Same => &[],
+            Self::Bench => &[0.83, 1.2],
+            Self::Other => &[0.5, 0.7, 1.4, 2.0],
         }
     }
 
@@ -149,7 +150,7 @@ struct Felt {
 /// Trains from what there is; none where a class was not touched often enough, or nothing is
 /// expected to differ.
 pub(super) fn train(material: &Material<'_>) -> Trained {
-    let felt = Felt::of(material, material.expect.gains());
+    let felt = Felt::of(material);
     let names = felt.poses.len() >= LEAST_POSES && !felt.begins_again;
     let mut warnings = felt.lacking(material);
     if !names && material.expect == Expect::Same {
@@ -252,12 +253,13 @@ fn of_felt(
 }
 
 impl Felt {
-    fn of(material: &Material<'_>, gains: &[[f64; CHANNELS]]) -> Self {
+    fn of(material: &Material<'_>) -> Self {
         let Material {
             trials,
             names,
             scales,
             block,
+            expect,
             ..
         } = *material;
         let Poses { of_trial, .. } = material.poses;
@@ -281,8 +283,11 @@ impl Felt {
         }
         touches.retain(|touch| begins_again || !touch.goes_on);
         let mut with_copies = touches.clone();
-        for (n, gain) in gains.iter().enumerate() {
-            let mut copies = sense.touches(trials, scales, numbers, (*gain, begins_again));
+        let of_both = expect.gains_of_both().iter().filter(|_| begins_again);
+        let of_both = of_both.map(|gain| [*gain; CHANNELS]);
+        let gains = expect.gains().iter().map(|gain| [1.0, *gain]);
+        for (n, gains) in gains.chain(of_both).enumerate() {
+            let mut copies = sense.touches(trials, scales, numbers, (gains, begins_again));
             copies.retain(|touch| begins_again || !touch.goes_on);
             for copy in &mut copies {
                 copy.recording += (n + 1) * recordings;
