@@ -161,11 +161,10 @@ fn by_presentation<'p>(presentations: impl Iterator<Item = &'p Shown>) -> Interv
     let apart = counts.iter().map(|[right, count]| right - share * count);
     let squares: f64 = apart.map(|of| of * of).sum();
     let variance = squares / (all * all) * presented / (presented - 1.0);
-    let worth = share * (1.0 - share) / variance;
-    let worth = if worth.is_finite() {
-        worth.clamp(1.0, all)
-    } else {
+    let worth = if presented < 2.0 || share <= 0.0 || share >= 1.0 {
         presented
+    } else {
+        (share * (1.0 - share) / variance).clamp(1.0, all)
     };
     Interval::of_share(share, worth as usize)
 }

@@ -114,8 +114,8 @@ pub struct Doubts<'a> {
 
 /// Presentations of a class below which a warning is due.
 const FEW: usize = 3;
-/// Decisions that name a class below which they say of none that it is another.
-const FEW_NAMED: u64 = 5;
+/// Decisions on a class that name one, below which nothing is said of what it is taken for.
+const FEW_NAMED: u64 = 2;
 /// Share of its decisions by which a class may be taken for another before the two cannot be
 /// distinguished.
 const MISTAKEN: f64 = 0.25;

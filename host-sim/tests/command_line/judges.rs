@@ -83,7 +83,8 @@ fn evaluate_judges_texture_and_distance_apart() {
 #[test]
 fn evaluate_suggests_a_threshold() {
     // One sample is wrong in a fifth of cases, two that agree never.
-    let test = |times| "a,0,0,0\na,0,0,0\na,0,100,0\na,0,0,0\na,0,0,0\n".repeat(times);
+    let trial = |n: usize| [0, 0, 100, 0, 0].map(|x| format!("a,{n},{x},0\n")).concat();
+    let test = |trials| (0..trials).map(trial).collect::<String>();
     let place = evaluating(&test(40));
     let evaluate = "evaluate --model m --data test.csv";
     let suggested = |place: &Place, wish: &str| {
@@ -100,13 +101,23 @@ fn evaluate_suggests_a_threshold() {
     let both = suggested(&place, "--time 0.0005 --error-rate 0.1");
     assert_eq!(both, ["--threshold 0.9", "--threshold 0.85"]);
 
-    // Of twenty decisions none is wrong, which a sixth may be.
-    let few = evaluating(&test(8));
+    // In ten presentations none is wrong, which a quarter may be.
+    let few = evaluating(&test(10));
     assert_eq!(suggested(&few, "--error-rate 0.3"), ["--threshold 0.9"]);
     let [chance] = &suggested(&few, "--error-rate 0.1")[..] else {
         panic!("one line");
     };
     line(chance, "no threshold, as of decisions at 0.9 0.0 to ");
+    // What is right or wrong together counts once: in half of twenty presentations all are wrong.
+    let together = (0..20).map(|n| format!("a,{n},{},0\n", 100 * (n % 2)).repeat(20));
+    let together = evaluating(&together.collect::<String>());
+    let [chance] = &suggested(&together, "--error-rate 0.55")[..] else {
+        panic!("one line");
+    };
+    line(
+        chance,
+        "no threshold, as of decisions at 0.5 29.5 to 70.5 %",
+    );
     // One decision: all may be wrong, however fast it was.
     let one = evaluating("a,0,0,0\na,0,0,0\n");
     let [chance] = &suggested(&one, "--time 0.1")[..] else {

@@ -78,7 +78,8 @@ pub(super) struct Port {
 pub(super) fn stop(path: &Path, baud: u32) {
     let command = Command::Stop;
     if let Ok(line) = SerialPort::open(path, baud) {
-        let _ = line.write_all(&framed(None, TaggedCommand { tag: TAG, command }));
+        let tag = u16::MAX;
+        let _ = line.write_all(&framed(None, TaggedCommand { tag, command }));
         let _ = line.flush();
     }
 }
