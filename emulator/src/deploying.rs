@@ -257,6 +257,7 @@ impl Case<'_> {
         let deployed = self.agree(&self.new, &session.flash()?, COMPARED_S)?;
 
         stop(&mut session)?;
+        stays_off(&mut session)?;
         // In the middle of the model, which comes first.
         load(&mut session, right, usize::from(right.load().model / 2))?;
         pass(&mut session, SHORT_S)?;
@@ -287,4 +288,19 @@ impl Case<'_> {
             format!("deployed again, cut off in the middle of the model: {again}"),
         ])
     }
+}
+
+/// A board that somebody has armed and stopped since its deployment arms nothing as the supply comes
+/// back, which its scene would do as it comes first.
+fn stays_off(session: &mut Session) -> Result<(), Error> {
+    session.bear_resets(true);
+    let board = session.board_mut();
+    board.set_power(false)?;
+    board.set_power(true)?;
+    let (lines, driven) = pass(session, WATCHED_S)?;
+    session.bear_resets(false);
+    if driven {
+        return missing("what somebody has stopped is off", &lines);
+    }
+    Ok(())
 }

@@ -375,6 +375,12 @@ impl Idle {
             self.exchange.take_from_probe(&self.names);
         }
         self.load();
+        if Part::Motion.is_built()
+            && retained::STOPPED.take()
+            && let Some(slot) = self.in_use
+        {
+            let _ = slots::arm_once(slot);
+        }
         self.exchange.log_changes(now);
         self.integrity.step();
         // Both are alive: the tick, and idle itself.

@@ -7,6 +7,7 @@ use core::sync::atomic::{AtomicU32, Ordering};
 use firmware::{RECORD_WORDS, Record, StartCause, Started, Startup};
 
 use super::pace;
+use super::user_button::Request;
 use crate::here::power;
 
 /// Words that a reset leaves as they are.
@@ -80,10 +81,16 @@ pub(crate) fn note(fault: u8) {
     RETAINED.store(&record);
 }
 
+/// From whoever stops motors to idle, which notes it in flash: RAM forgets it where power is lost.
+pub(crate) static STOPPED: Request = Request::none();
+
 /// For the tick, and a loader in its place.
 #[cold]
 #[inline(never)]
 pub(crate) fn set_stopped(is_stopped: bool) {
+    if is_stopped {
+        STOPPED.make();
+    }
     let mut record = RETAINED.load().unwrap_or_default();
     record.set_stopped(is_stopped);
     RETAINED.store(&record);

@@ -87,11 +87,12 @@ pub(crate) fn model(slot: &Slot) -> &'static [u8] {
     contents(slot.model)
 }
 
-/// Notes in the flash of a slot that its scene arms motors by itself, before it does: a loss of
-/// power leaves RAM without what it knew of a stop, and a whisker where it is not at rest.
+/// Notes in the flash of a slot that its scene arms motors by itself, before it does, or that
+/// somebody has stopped them: a loss of power leaves RAM without what it knew of a stop, and a
+/// whisker where it is not at rest.
 ///
 /// # Errors
-/// It has done so before, or flash does not take the note.
+/// It was noted before, or flash does not take the note.
 #[cold]
 #[inline(never)]
 pub(crate) fn arm_once(slot: usize) -> Result<(), NotArmed> {

@@ -14,15 +14,19 @@ use super::pin_config::PinConfig;
 use super::wiring::USER_BUTTON;
 
 /// From idle to the tick: motors are to be armed.
-pub(crate) static REQUEST: Request = Request(AtomicBool::new(false));
+pub(crate) static REQUEST: Request = Request::none();
 
 /// From the tick to idle: the button has stopped them.
-pub(crate) static HAS_STOPPED: Request = Request(AtomicBool::new(false));
+pub(crate) static HAS_STOPPED: Request = Request::none();
 
 /// Something that is to be done once.
 pub(crate) struct Request(AtomicBool);
 
 impl Request {
+    pub(crate) const fn none() -> Self {
+        Self(AtomicBool::new(false))
+    }
+
     pub(crate) fn make(&self) {
         self.0.store(true, Ordering::Relaxed);
     }
