@@ -107,6 +107,13 @@ impl Event {
         let ends = self.until_s.is_some_and(|until| t_s >= until - ROUNDING);
         t_s >= self.at_s - ROUNDING && !ends
     }
+
+    /// Whether this one, other than `event` but of its kind and node, has begun before `t_s` and lasts.
+    pub(super) fn goes_on(&self, event: &Self, t_s: f64) -> bool {
+        let kind = std::mem::discriminant(&self.what) == std::mem::discriminant(&event.what);
+        let lasts = self.what.lasts_at_board() && self.at_s < t_s && self.lasts(t_s);
+        kind && lasts && self.node == event.node && !std::ptr::eq(self, event)
+    }
 }
 
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -162,6 +169,9 @@ impl Scenario {
                 _ if scene.head.nodes.is_some() && !what.is_of_head() => {
                     "an event that befalls no board of a head"
                 }
+                _ if scene.head.nodes.is_some() && event.repeat_hz.is_some() => {
+                    "repeat_hz, which events of a head do not have"
+                }
                 What::Serial { .. } | What::Configuration { .. }
                     if scene.telemetry.serial_baud.is_none() =>
                 {
@@ -210,6 +220,11 @@ fn read(path: &Path) -> Result<String, String> {
 }
 
 impl What {
+    /// Whether it is a state of a board of a head, which ends.
+    const fn lasts_at_board(&self) -> bool {
+        matches!(self, Self::PowerOff | Self::BusCut | Self::BusNoise { .. })
+    }
+
     const fn is_of_head(&self) -> bool {
         matches!(
             self,

@@ -89,6 +89,18 @@ pub(super) fn run(
         for (event, lasted) in scenario.events.iter().zip(&mut lasted) {
             let lasts = event.lasts(t_s);
             if lasts != std::mem::replace(lasted, lasts) {
+                // What another of its kind still does goes on.
+                let others = scenario
+                    .events
+                    .iter()
+                    .filter(|other| other.goes_on(event, t_s));
+                if let Some(other) = others.max_by(|a, b| a.at_s.total_cmp(&b.at_s)) {
+                    let last = if lasts { event } else { other };
+                    if let What::BusNoise { .. } = last.what {
+                        befall(head, last, true)?;
+                    }
+                    continue;
+                }
                 figures.stops.extend(befall(head, event, lasts)?);
             }
         }
@@ -173,6 +185,9 @@ impl Figures {
             seen.lister.hear(t_s, &lines, board)?;
             let was_reset = board.reset.take().is_some();
             of_node.resets += u64::from(was_reset);
+            if was_reset {
+                seen.lister.list_reset(t_s);
+            }
             of_node.ticks += u64::from(node.ended);
             let (duties, errors);
             (duties, errors, of_node.is_overrun) = board.machine.with_chip(|chip| {

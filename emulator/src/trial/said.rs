@@ -41,7 +41,7 @@ pub(super) struct Lister {
 }
 
 /// First words of the lines that are events.
-const KINDS: [&str; 16] = [
+const KINDS: [&str; 18] = [
     "armed",
     "back",
     "decision",
@@ -53,9 +53,11 @@ const KINDS: [&str; 16] = [
     "node",
     "not-armed",
     "off",
+    "pose",
     "retry",
     "self-test",
     "start",
+    "stopped",
     "touch",
     "zero",
 ];
@@ -98,6 +100,16 @@ fn in_words(answer: &Answer) -> String {
 }
 
 impl Lister {
+    /// The board was reset.
+    pub(super) fn list_reset(&mut self, t_s: f64) {
+        self.listed.push(Listed {
+            t_s,
+            kind: "reset".to_owned(),
+            text: "reset".to_owned(),
+            ..Listed::default()
+        });
+    }
+
     pub(super) fn listen(&mut self, session: &mut Session) -> Result<(), Error> {
         let (t_s, lines) = (session.run.t_s(), session.log());
         self.hear(t_s, &lines, session.board_mut())

@@ -53,6 +53,12 @@ fn what_befalls_what_a_scene_lacks_is_refused() {
         ("bus-cut", &head, &own, "head.nodes"),
         ("power-off'\nnode = 1\n#'", &head, &own, "node"),
         ("held", &own, &head, "no board of a head"),
+        (
+            "serial'\ntext = 'stop'\nrepeat_hz = 2.0\n#'",
+            &own,
+            &head,
+            "repeat_hz",
+        ),
     ] {
         let event = format!("[[event]]\nat_s = 0.0\nkind = '{kind}'");
         let event = Scenario::parse(&event).unwrap();
@@ -61,6 +67,28 @@ fn what_befalls_what_a_scene_lacks_is_refused() {
         let refused = event.fits(path, lacks).unwrap_err().to_string();
         assert!(refused.contains(why), "{refused}");
     }
+}
+
+/// As one that ends while another of its kind lasts does not end that.
+#[test]
+fn what_befalls_a_board_of_a_head_goes_on_with_the_last() {
+    let of = |kind: &str, node, at_s, for_s| {
+        format!("[[event]]\nkind = '{kind}'\nnode = {node}\nat_s = {at_s:?}\nfor_s = {for_s:?}\n")
+    };
+    let text = [
+        of("power-off", 1, 1.0, 0.5),
+        of("power-off", 1, 1.2, 1.8),
+        of("power-off", 0, 1.2, 1.8),
+        of("bus-cut", 1, 1.2, 1.8),
+    ];
+    let events = Scenario::parse(&text.concat()).unwrap().events;
+    let goes_on = |t_s| {
+        let others = events.iter().map(|other| other.goes_on(&events[0], t_s));
+        others.collect::<Vec<_>>()
+    };
+    assert_eq!(goes_on(1.5), [false, true, false, false]);
+    assert_eq!(goes_on(1.0), [false; 4]);
+    assert!(!events[0].goes_on(&events[1], 3.0));
 }
 
 #[test]

@@ -78,7 +78,7 @@ pub(super) fn read_event(mut event: Table) -> Result<Event, String> {
     }
     let what = what(&common.kind, event)?;
     let at_s = within("at_s", common.at_s, 0.0..=LATEST_S)?;
-    let is_short = matches!(what, What::Button | What::PowerOff);
+    let is_short = matches!(what, What::Button | What::PowerOff | What::SensorRestart);
     let for_s = common.for_s.or(is_short.then_some(SHORT_S));
     let for_s = for_s.map(|for_s| within("for_s", for_s, 1e-6..=LATEST_S));
     Ok(Event {
