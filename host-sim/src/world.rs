@@ -217,17 +217,31 @@ pub(crate) const SHAFTS: [(ShaftName, Shaft); 5] = [
     (ShaftName::XyTable, Shaft::xy_table()),
 ];
 
-/// What is simulated otherwise than it would be, though the scene can be run.
+/// What is simulated otherwise than it would be, or than was meant, though the scene can be run.
 pub(crate) fn caution(scene: &Scene) -> Option<String> {
-    let touches = scene.plant.kind == PlantKind::Whisker && scene.plant.obstacle.is_some();
-    let shaft = shaft(scene.plant.shaft);
+    let plant = &scene.plant;
+    let obstacle = plant.obstacle.as_ref();
+    let obstacle = obstacle.filter(|_| plant.kind == PlantKind::Whisker)?;
+    let shaft = shaft(plant.shaft);
     let taper = shaft.hub_diameter_m / shaft.tip_diameter_m;
-    (touches && taper > TOUCHING_TAPER).then(|| {
-        format!(
+    if taper > TOUCHING_TAPER {
+        return Some(format!(
             "plant.tip_diameter_m: it tapers by {taper:.0}; beyond {TOUCHING_TAPER} a simulated tip passes \
              through what it touches, and moments come out too small; host-sim press has them right"
-        )
-    })
+        ));
+    }
+    // A plate that goes on to both sides cuts the circle of the tip twice: where it is touched, and
+    // so much further.
+    let facing = plant
+        .facing
+        .filter(|of| of.begins_m.is_none() && of.ends_m.is_none())?;
+    let behind_deg = 2.0f64.mul_add(-facing.slant_deg, 180.0);
+    let mut all = obstacle.obstacle_deg.iter();
+    let found = all.find(|at| (whisking::REST_DEG - **at).rem_euclid(360.0) < behind_deg)?;
+    Some(format!(
+        "plant.obstacle_deg: a plate at {found} reaches round to the whisker at rest, which it holds; \
+         for free air take 200"
+    ))
 }
 
 /// The physical shaft of a scene; the default where the scene names none.

@@ -161,11 +161,13 @@ impl Conversation {
     }
 
     pub(crate) fn answer(&mut self, command: Command) -> Result<Answer, Error> {
-        if let Command::Stream(on) = command {
-            self.streams = on.then(|| [self.source.now_s(); 2]);
-        }
         let tag = self.send(command)?;
-        self.await_answer(tag, command)
+        let answer = self.await_answer(tag, command)?;
+        if let Command::Stream(on) = command {
+            let streams = on && answer.status == CommandStatus::Done;
+            self.streams = streams.then(|| [self.source.now_s(); 2]);
+        }
+        Ok(answer)
     }
 
     fn await_answer(&mut self, tag: u16, command: Command) -> Result<Answer, Error> {

@@ -40,7 +40,14 @@ pub(crate) fn rest(module: &mut Conversation) -> Result<(), Error> {
     if found == 0 {
         return Ok(());
     }
-    module.ask(Command::Stream(true))?;
+    if module.answer(Command::Stream(true))?.status != CommandStatus::Done {
+        // Its link is too slow for records: they have had time to.
+        let begun = module.source().now_s();
+        while module.source().now_s() - begun < PATIENCE_S {
+            module.receive()?;
+        }
+        return module.ask(Command::Stop).map(drop);
+    }
     let is_near = |record: &TickRecord| (degrees(record.measured) - degrees(0)).abs() < NEAR_DEG;
     until(module, whiskers, near_ticks, is_near)?;
     module.ask(Command::Stop)?;
@@ -53,6 +60,17 @@ pub(crate) fn rest(module: &mut Conversation) -> Result<(), Error> {
     Err(Error::Work(format!(
         "a motor is still driven {PATIENCE_S} s after the command to stop; nothing was written"
     )))
+}
+
+/// Lets whiskers go that [`rest`] has held, with their motors off: nothing was restarted.
+pub(crate) fn let_go(module: &mut Conversation) -> Result<(), Error> {
+    module.ask(Command::Stop)?;
+    for number in 0..MOST_A_SIDE {
+        for side in [0, 1] {
+            module.answer(Command::Release(WhiskerId { side, number }))?;
+        }
+    }
+    Ok(())
 }
 
 /// Waits until all records have been such for so many ticks, with one of each whisker at least;

@@ -131,6 +131,16 @@ pub fn run(arguments: &Arguments, verbosity: Verbosity) -> Result<String, Error>
     if !played.classes.is_empty() {
         summary.push_str(", decisions.csv");
     }
+    if scene
+        .motor
+        .as_ref()
+        .is_some_and(|motor| !motor.arms_at_start())
+    {
+        summary.push_str(
+            "\nits motors were not armed: the scene waits for a command; \
+             --set motor.arm=at-start has them armed",
+        );
+    }
     if !no_plot {
         summary.push_str(", trace.svg, trace.png");
     }

@@ -9,7 +9,8 @@ use crate::columns::{Column, columns};
 pub const FIRST: [Column; 17] = columns! {
     "t_s", "s", "end of the tick; the first row is at 1/`tick_hz`";
     "theta_left_deg", "degrees",
-        "setpoint θ′ of the side's first whisker; 50 is rest, more is protraction";
+        "setpoint θ′ of the side's first whisker, before `min_deg` and `max_deg` limit it; 50 is \
+        rest, more is protraction";
     "theta_right_deg", "degrees", "the same of the right side";
     "z_left", "", "suppression of protraction by contact (RCP), 0 without `[rcp]`";
     "z_right", "", "the same of the right side";
@@ -30,8 +31,8 @@ pub const FIRST: [Column; 17] = columns! {
     "y_left", "codes", "the same across the direction of whisking";
     "y_right", "codes", "the same of the right side";
     "touch", "",
-        "number of the touch of the left side's first whisker, from 1; 0 in the air, and where \
-        no classifier reads it";
+        "number of the touch of the left side's first whisker, from 1; 0 in the air, and where a \
+        classifier decides by windows";
     "decision", "",
         "class that a whisker of the left side decided for in this tick, or `unknown`; empty \
         where no decision fell";

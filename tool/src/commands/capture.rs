@@ -3,6 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use clap::Args;
+use host_sim::files::load_model;
 use host_sim::origin::Origin;
 use host_sim::progress::{Progress, Verbosity};
 use host_sim::{Error, report};
@@ -202,7 +203,7 @@ fn next(out: &Path, tick_hz: u32, [labels, poses]: [usize; 2], is_simulated: boo
     let mut lines = vec![format!(
         "next: cargo run -p host-sim -- train --data {name} --rate {tick_hz} --out MODEL"
     )];
-    if let Some(model) = model_beside(out) {
+    if let Some(model) = model_beside(out, tick_hz) {
         lines.push(format!(
             "or, if it was not trained on these touches: cargo run -p host-sim -- evaluate --model {} \
              --data {name}",
@@ -218,14 +219,21 @@ fn next(out: &Path, tick_hz: u32, [labels, poses]: [usize; 2], is_simulated: boo
     lines.join("\n")
 }
 
-fn model_beside(recording: &Path) -> Option<PathBuf> {
+/// The first model that can judge it.
+fn model_beside(recording: &Path, tick_hz: u32) -> Option<PathBuf> {
     let folder = match recording.parent() {
         Some(folder) if folder != Path::new("") => folder,
         _ => Path::new("."),
     };
     let files = std::fs::read_dir(folder).into_iter().flatten().flatten();
-    let is_model = |path: &PathBuf| path.extension().is_some_and(|end| end == "model");
-    files.map(|file| file.path()).filter(is_model).min()
+    let can_judge = |path: &PathBuf| {
+        let is_model = path.extension().is_some_and(|end| end == "model");
+        let model = is_model.then(|| load_model(path).ok()).flatten();
+        model.is_some_and(|(_, model)| {
+            model.channels() == 2 && model.rate_hz().is_none_or(|hz| hz == tick_hz)
+        })
+    };
+    files.map(|file| file.path()).filter(can_judge).min()
 }
 
 /// What a calibration says, as a recording has it in its header.

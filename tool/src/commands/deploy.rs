@@ -15,7 +15,7 @@ use crate::configuration::{Program, Running, RunsBy};
 use crate::conversation::Conversation;
 use crate::decides::Decides;
 use crate::deployment::{Deployment, model_of};
-use crate::resting::rest;
+use crate::resting::{let_go, rest};
 use crate::source::{SourceChoice, seconds};
 
 #[derive(Debug, Args)]
@@ -127,9 +127,14 @@ pub(crate) fn deploy(arguments: &Arguments) -> Result<(), Error> {
     if let Ok(before) = Decides::ask(&mut module) {
         report::say(format_args!("before, the module {before}"));
     }
-    rest(&mut module)?;
-    what.try_out(&mut module)?;
-    module.source().deploy(&what)?;
+    let done = rest(&mut module)
+        .and_then(|()| what.try_out(&mut module))
+        .and_then(|()| module.source().deploy(&what));
+    if done.is_err() {
+        // It may not answer any more.
+        let _ = let_go(&mut module);
+    }
+    done?;
     let after = RunsBy::ask(&mut module)?;
     report::say(format_args!("now it {after}"));
     after.is(&what.config)?;

@@ -69,7 +69,7 @@ pub(crate) fn get(arguments: &Arguments) -> Result<(), Error> {
     if keys.is_empty() {
         report::say(format_args!("the module {}", RunsBy::ask(&mut module)?));
     }
-    report::say(table(&values, &keys));
+    report::say(table(&values, &keys, has.other.is_none()));
     if let Some(other) = &has.other {
         report::say(other);
     }
@@ -92,7 +92,8 @@ fn list() -> String {
     text
 }
 
-pub(super) fn table(values: &[(&str, Value, Value)], keys: &[&str]) -> String {
+/// `is_same`: but for what was set the module has the file's values; else they are not known.
+pub(super) fn table(values: &[(&str, Value, Value)], keys: &[&str], is_same: bool) -> String {
     let mut text = format!("{:<26}{:>12}{:>12}", "key", "scene", "module");
     for (key, file, module) in values {
         if !keys.is_empty() && !keys.contains(key) {
@@ -100,7 +101,9 @@ pub(super) fn table(values: &[(&str, Value, Value)], keys: &[&str]) -> String {
         }
         let unit = key_facts(key).map_or("", |facts| facts.unit);
         let differs = if file == module { "" } else { "differs" };
+        let is_known = is_same || file != module;
         let [file, module] = [file, module].map(Value::to_string);
+        let module = if is_known { &*module } else { "?" };
         let line = format!("{key:<26}{file:>12} {module:>11}  {differs:<8}{unit}");
         // Writing to a string does not fail.
         let _ = write!(text, "\n{}", line.trim_end());

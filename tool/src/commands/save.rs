@@ -85,11 +85,17 @@ fn values(arguments: &Arguments) -> Result<Vec<Override>, Error> {
     if let Some(other) = &has.other {
         report::warn(other);
     }
+    let other = has.other;
     let is_asked = |key: &str| arguments.all || arguments.keys.iter().any(|asked| asked == key);
     let differing = has.differing.iter().filter(|(key, _)| is_asked(key));
     let found = differing.map(|(key, value)| {
         let value = format!("{value:#}");
         Override::new(format!("{key}={value}"), key, &value)
     });
-    Ok(found.chain(given.into_iter().flatten()).collect())
+    let values: Vec<_> = found.chain(given.into_iter().flatten()).collect();
+    match other {
+        // What the module has in place of the file's values is not known.
+        Some(other) if values.is_empty() => Err(Error::Work(other)),
+        _ => Ok(values),
+    }
 }

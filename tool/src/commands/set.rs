@@ -26,7 +26,7 @@ pub(crate) fn set(arguments: &Arguments) -> Result<(), Error> {
     let mut module = arguments.which.source.module()?;
     let has = tuner.set(&mut module, &arguments.set)?.done()?;
     let keys: Vec<&str> = arguments.set.iter().map(Override::key).collect();
-    report::say(table(&has.values(tuner.scene()), &keys));
+    report::say(table(&has.values(tuner.scene()), &keys, true));
     if !has.differing.is_empty() {
         report::say("to keep it: whisker save; a reset brings the scene's back");
     }

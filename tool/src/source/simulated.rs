@@ -10,7 +10,7 @@ use host_sim::loaded::Loaded;
 use host_sim::origin::Origin;
 use host_sim::run::Run;
 use host_sim::{Error, report};
-use scene::Scene;
+use scene::{PlantKind, Scene};
 use tactile::ModelBuf;
 use wire::TaggedCommand;
 
@@ -20,8 +20,9 @@ use super::{Incoming, Source, no_board};
 use crate::decides::Decides;
 use crate::deployment::Deployment;
 
-/// Where no whisker comes.
-const BEYOND_DEG: f64 = 340.0;
+/// The world of a module whose scene has none: an elastic whisker, which moves its sensor as it is
+/// swung.
+const WORLD: &str = include_str!("../../../scenes/whisker.toml");
 
 pub(crate) struct Simulated {
     loaded: Loaded,
@@ -38,11 +39,23 @@ const ROOM: usize = NUCLEO_F446RE.flash.slots[0].model.bytes as usize;
 
 impl Simulated {
     /// That of a scene file, whose flash is not kept.
+    #[cfg(test)]
+    pub(crate) fn of(scene: &Path) -> Result<Self, Error> {
+        Self::open(Loaded::new(scene)?, Flash::open(None)?, 0)
+    }
+
     /// The module of a scene with nothing within its whiskers' reach.
     pub(crate) fn in_the_air(scene: &Path) -> Result<Self, Error> {
         let mut loaded = Loaded::new(scene)?;
+        let plant = &loaded.scene.plant;
+        if plant.kind == PlantKind::Ideal || plant.obstacle.is_none() {
+            let world = Scene::from_str("whisker", WORLD);
+            let world = world.map_err(|fault| Error::file(scene, fault))?;
+            loaded.scene.plant = world.plant;
+        }
         if let Some(obstacle) = &mut loaded.scene.plant.obstacle {
-            obstacle.obstacle_deg.fill(BEYOND_DEG);
+            let sides = loaded.scene.head.sides.count();
+            obstacle.obstacle_deg = vec![f64::INFINITY; sides];
         }
         Self::open(loaded, Flash::open(None)?, 0)
     }

@@ -172,6 +172,29 @@ fn a_board_on_a_port_is_taught_without_a_probe() {
     again.prints("before, the module decides by model");
 }
 
+/// Its whiskers are held while it is asked.
+#[test]
+fn a_board_that_refuses_a_scene_whisks_again_once_it_is_armed() {
+    let place = Place::new();
+    let served = Served::new(&place);
+    let port = &served.port;
+    let scene = std::fs::read_to_string(scenes("bench.toml")).unwrap();
+    let other = scene.replace("[sensor]", "[sensor]\nmodel = \"tmag5170\"");
+    assert_ne!(other, scene);
+    place.write("other.toml", &other);
+    place.done(&format!("arm {port}"));
+    place.fails(&format!("deploy {port} --scene other.toml"));
+    place.done(&format!("arm {port}"));
+    place.done(&format!("records {port} --seconds 2 --out r.csv"));
+    let table = place.text("r.csv");
+    let mut rows = table.lines().filter(|line| !line.starts_with('#'));
+    let mut names = rows.next().unwrap().split(',');
+    let column = names.position(|name| name == "setpoint_deg").unwrap();
+    let setpoints = rows.map(|row| row.split(',').nth(column).unwrap().parse::<f64>().unwrap());
+    let most = setpoints.fold(0.0, f64::max);
+    assert!(most > 80.0, "{most}");
+}
+
 #[test]
 fn a_board_on_a_port_runs_the_scene_that_is_deployed() {
     let place = Place::new();

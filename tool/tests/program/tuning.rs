@@ -162,6 +162,11 @@ fn a_module_of_another_version_of_the_scene_is_left_alone() {
     let renews = "the module's scene bench is of another version than newer.toml, it differs in \
                   motion.whisking.rcp.gain; whisker deploy --scene newer.toml renews it";
     ran.prints(renews);
+    let gain = ran.stdout.lines().find(|line| line.starts_with("rcp.gain"));
+    let cells: Vec<_> = gain.unwrap().split_whitespace().collect();
+    assert_eq!(cells, ["rcp.gain", "0.8", "?"]);
+    let ran = place.fails("save rcp.gain --sim bench.toml --scene newer.toml");
+    ran.warns(renews);
     let ran = place.fails("set motor.kp=0.06 --sim bench.toml --scene newer.toml");
     ran.warns(renews);
     place.write("other.toml", &bench_with(&[OTHER]));

@@ -76,8 +76,8 @@ keys! {
         /// On a board at most 90.
         following_limit_deg: f64 = number(1.0..=720.0).unit("degrees").default("40.0"),
 
-        /// How far beyond `min_deg` and `max_deg` the whisker may be turned without a fault. On a
-        /// board at most 45.
+        /// How far beyond `min_deg`, or rest where that is lower, and `max_deg` the whisker may be
+        /// turned without a fault. On a board at most 45.
         travel_margin_deg: f64 = number(0.0..=720.0).unit("degrees").default("20.0"),
 
         /// Faster than the motor can turn the whisker: a fault. A quarter more than its speed
@@ -87,7 +87,7 @@ keys! {
         /// Duty that friction of motor and gear takes, both ways together. Where a duty beyond half
         /// of it does not move the whisker as the motor should, a short stroke tests it, and is a
         /// fault if it fails; friction up to four times as large is none. From 1.6 on nothing is
-        /// expected of the motor. On a board at most 0.5, if `duty_limit` is above 0.25.
+        /// expected of the motor, but that it moves by more than half of `duty_limit`. On a board at most 0.5, if `duty_limit` is above 0.25.
         unmoved_duty: f64 = number(0.0..=2.0).default("0.12"),
 
         /// Time in which the motor comes to 63 % of its speed, with gear and whisker (`whisker

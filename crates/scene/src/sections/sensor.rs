@@ -89,7 +89,8 @@ keys! {
 
         /// Least codes by which a whisk of 30 degrees or more moves x in the air (`whisker
         /// calibrate` shows it). Where x moves by less for 2 s, the magnet or the whisker is gone:
-        /// a limit, and no contact is reported. 0: not checked.
+        /// a limit, and no contact is reported; once it has moved by that much after a start. 0: not
+        /// checked.
         swing_codes: Option<u16> = integer(0..=8_191).unit("codes")
             .optional("50 from 1.25 Hz on; below, where noise moves it as far, 0"),
 

@@ -29,6 +29,9 @@ impl Measured {
         let mut decided: Vec<Decided> = Vec::new();
         let (mut touches, mut faults) = (0, 0);
         let (mut squares, mut count) = (0.0, 0_u64);
+        let motor = scene.motor.as_ref();
+        let limited =
+            |theta: f64| motor.map_or(theta, |motor| theta.max(motor.min_deg).min(motor.max_deg));
         for _ in 0..run.ticks() {
             let row = run.tick();
             decided.extend(run.decisions());
@@ -41,7 +44,7 @@ impl Measured {
             }
             let errors = row.theta_deg.into_iter().zip(row.angle_deg);
             for (theta, angle) in errors.filter(|(theta, _)| !theta.is_nan()) {
-                squares += (angle - theta).powi(2);
+                squares += (angle - limited(theta)).powi(2);
                 count += 1;
             }
             tick();

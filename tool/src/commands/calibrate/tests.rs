@@ -29,7 +29,7 @@ fn calibrated(more: &str, wire: Option<Wire>) -> Result<(Results, Vec<Sample>), 
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("scene.toml");
     std::fs::write(&path, format!("{SCENE}{more}")).unwrap();
-    let mut simulated = Simulated::in_the_air(&path).unwrap();
+    let mut simulated = Simulated::of(&path).unwrap();
     let source = chosen(&["--sim", path.to_str().unwrap()]);
     let tuner = Tuner::open(&path, &source).unwrap();
     let motor = tuner.scene().motor.as_ref().unwrap();
@@ -109,7 +109,7 @@ fn the_zero_that_the_module_finds_is_the_sensors_all_the_same() {
     let path = folder.path().join("scene.toml");
     let more = "[sensor]\nzero_after_s = 1\n[plant]\nkind = \"ideal\"\nzero_codes = [[120, -70]]\n";
     std::fs::write(&path, format!("{SCENE}{more}")).unwrap();
-    let mut simulated = Simulated::in_the_air(&path).unwrap();
+    let mut simulated = Simulated::of(&path).unwrap();
     simulated.run.tick();
     let mut module = Conversation::new(Box::new(simulated));
     let left = WhiskerId::default();

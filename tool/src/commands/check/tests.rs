@@ -15,7 +15,7 @@ fn signs(alter: Alter) -> Vec<&'static str> {
     std::fs::write(&scene, SCENE).unwrap();
     let words = ["--seconds", "12", "--out", "unused", "--sim"];
     let arguments: Arguments = parsed(&[&words[..], &[scene.to_str().unwrap()]].concat());
-    let simulation = || Box::new(Simulated::in_the_air(&scene).unwrap());
+    let simulation = || Box::new(Simulated::of(&scene).unwrap());
     let module = Box::new(Altered {
         module: simulation(),
         alter,
@@ -106,5 +106,50 @@ fn what_is_wrong_is_named() {
     for (alter, is_there, sign) in cases {
         let signs = signs(alter);
         assert!(is_there(&signs, sign), "{sign}: {signs:?}");
+    }
+}
+
+/// Whatever shaft it has, and whether its scene has a world or not.
+#[test]
+fn a_whisker_in_the_air_needs_no_look() {
+    let folder = tempfile::tempdir().unwrap();
+    let scene = |name: &str| {
+        let scenes = PathBuf::from(concat!(env!("CARGO_MANIFEST_DIR"), "/../scenes"));
+        scenes.join(name).with_extension("toml")
+    };
+    for (module, world) in [
+        ("bench", "textures"),
+        ("bench", "whisker"),
+        ("textures", "textures"),
+        ("whisker", "whisker"),
+    ] {
+        let of_world = std::fs::read_to_string(scene(world)).unwrap();
+        let lines = of_world.lines().map(|line| {
+            let is_obstacle = line.starts_with("obstacle_deg");
+            if is_obstacle {
+                "obstacle_deg = [200.0]"
+            } else {
+                line
+            }
+        });
+        let air = folder.path().join("air.toml");
+        std::fs::write(&air, lines.collect::<Vec<_>>().join("\n")).unwrap();
+        let module = scene(module);
+        let of_module = ["--sim", module.to_str().unwrap()];
+        let of_world = ["--world", air.to_str().unwrap()];
+        let how = ["--seconds", "12", "--out", "unused"];
+        let arguments: Arguments = parsed(
+            &[of_module, of_world]
+                .concat()
+                .into_iter()
+                .chain(how)
+                .collect::<Vec<_>>(),
+        );
+        let seen = Seen::of(arguments.which.source.open(0).unwrap(), &arguments).unwrap();
+        let simulated = Box::new(Simulated::in_the_air(&module).unwrap());
+        let simulated = Seen::of(simulated, &arguments).unwrap();
+        let found = findings(&seen.watched, &simulated.watched);
+        let off: Vec<_> = found.iter().filter(|finding| finding.is_off()).collect();
+        assert!(off.is_empty(), "{module:?} {world}: {off:?}");
     }
 }
