@@ -16,7 +16,7 @@ use crate::quantiser::Quantiser;
 use crate::train::opinion::Opinion;
 
 /// Where the largest entries of all tables of a source are smaller, it has no floor.
-const LEAST_ENTRY: u16 = 256;
+const LEAST_ENTRY: u16 = 32;
 
 /// What training gives.
 #[derive(Debug, Clone, PartialEq)]
