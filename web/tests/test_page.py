@@ -246,7 +246,7 @@ def test_what_a_slider_needs_besides_is_the_text_s_where_it_has_any(page):
     editor.send_keys(without)
     for tau_s in [None, "0.5", "0.02"]:
         if tau_s is None:
-            page.wait(lambda: "rcp.gain" not in editor.get_attribute("value"))
+            page.wait(lambda: "[rcp]" not in editor.get_attribute("value"))
             slide(page, "rcp.gain", 0.5)
         else:
             editor.send_keys(Keys.CONTROL, "a")

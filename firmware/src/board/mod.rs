@@ -48,6 +48,7 @@ pub(crate) mod pin_config;
 #[macro_use]
 pub mod program;
 pub(crate) mod pwm;
+mod request;
 pub(crate) mod reset;
 pub(crate) mod retained;
 pub(crate) mod rtt;

@@ -7,7 +7,7 @@ use core::sync::atomic::{AtomicU32, Ordering};
 use firmware::{RECORD_WORDS, Record, StartCause, Started, Startup};
 
 use super::pace;
-use super::user_button::Request;
+use super::request::Request;
 use crate::here::power;
 
 /// Words that a reset leaves as they are.

@@ -3,14 +3,13 @@
 //! The tick stops motors that are armed as soon as the button is down, and none is armed while it
 //! is. Idle finds out what a press is, which arms motors that are not armed.
 
-use core::sync::atomic::{AtomicBool, Ordering};
-
 use embedded_hal::digital::InputPin;
 use firmware::{Button, ButtonLimits, design_parameters};
 
 use super::gpio::Pin;
 use super::pace;
 use super::pin_config::PinConfig;
+use super::request::Request;
 use super::wiring::USER_BUTTON;
 
 /// From idle to the tick: motors are to be armed.
@@ -18,30 +17,6 @@ pub(crate) static REQUEST: Request = Request::none();
 
 /// From the tick to idle: the button has stopped them.
 pub(crate) static HAS_STOPPED: Request = Request::none();
-
-/// Something that is to be done once.
-pub(crate) struct Request(AtomicBool);
-
-impl Request {
-    pub(crate) const fn none() -> Self {
-        Self(AtomicBool::new(false))
-    }
-
-    pub(crate) fn make(&self) {
-        self.0.store(true, Ordering::Relaxed);
-    }
-
-    /// Whether it is to be done now. A load and a store, because a Cortex-M0+ has no swap: what is
-    /// asked for again between both was asked for before it is done.
-    #[inline]
-    pub(crate) fn take(&self) -> bool {
-        let is_made = self.0.load(Ordering::Relaxed);
-        if is_made {
-            self.0.store(false, Ordering::Relaxed);
-        }
-        is_made
-    }
-}
 
 /// Whether it is down now, once it is watched.
 #[inline]

@@ -116,6 +116,24 @@ fn a_shaft_that_tapers_too_much_is_said() {
     assert!(!run("1e-4").stderr.contains("it tapers"));
 }
 
+/// At a slant of 30 degrees a plate that goes on cuts the circle of the tip again 120 further on, and
+/// holds a whisker at rest (50, or 410) from 290 on; by a run, 250 does not and 300 does.
+#[test]
+fn a_plate_that_reaches_round_to_rest_is_said() {
+    let scene = concat!(env!("CARGO_MANIFEST_DIR"), "/../scenes/whisker.toml");
+    let place = Place::new();
+    let says = |obstacle_deg: &str, more: &str| {
+        let set = format!("--set plant.obstacle_deg=[{obstacle_deg}] --set duration_s=0.1 {more}");
+        let ran = place.run(&format!("run {scene} --out o --no-plot {set}"));
+        assert_eq!(ran.status, Some(0), "{ran:?}");
+        ran.stderr.contains("reaches round to the whisker at rest")
+    };
+    for (obstacle_deg, is_said) in [("115", false), ("250", false), ("300", true), ("340", true)] {
+        assert_eq!(says(obstacle_deg, ""), is_said, "{obstacle_deg}");
+    }
+    assert!(!says("340", "--set plant.begins_m=-0.01"), "it ends");
+}
+
 /// Where no model says which classes there are.
 #[test]
 fn priors_that_are_more_than_one_together() {

@@ -96,9 +96,7 @@ impl Figures {
 /// Mean of some figures and its standard error; not numbers of none.
 pub(crate) fn mean_of(figures: impl IntoIterator<Item = f64>) -> (f64, f64) {
     let figures = figures.into_iter().filter(|x| !x.is_nan());
-    Statistics::of(figures).map_or((f64::NAN, f64::NAN), |s| {
-        (s.mean, s.sd / (s.count as f64).sqrt())
-    })
+    Statistics::of(figures).map_or((f64::NAN, f64::NAN), |s| (s.mean, s.error().unwrap_or(0.0)))
 }
 
 pub(super) fn over<'f>(

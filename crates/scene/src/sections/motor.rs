@@ -87,7 +87,8 @@ keys! {
         /// Duty that friction of motor and gear takes, both ways together. Where a duty beyond half
         /// of it does not move the whisker as the motor should, a short stroke tests it, and is a
         /// fault if it fails; friction up to four times as large is none. From 1.6 on nothing is
-        /// expected of the motor, but that it moves by more than half of `duty_limit`. On a board at most 0.5, if `duty_limit` is above 0.25.
+        /// expected of the motor, but that it moves by more than half of `duty_limit`. On a board at
+        /// most 0.5, if `duty_limit` is above 0.25.
         unmoved_duty: f64 = number(0.0..=2.0).default("0.12"),
 
         /// Time in which the motor comes to 63 % of its speed, with gear and whisker (`whisker

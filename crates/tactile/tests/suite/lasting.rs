@@ -36,6 +36,9 @@ fn a_touch_that_lasts_is_judged_from_its_first_block_to_its_last() {
         let trained = train(&trials.collect::<Vec<_>>(), &Options::default()).unwrap();
         let model = trained.model().unwrap();
         assert!(model.has_opinion() && !model.names_between_poses());
+        // Of several recordings each is held out, as what to expect of another.
+        let held_out = trained.report.poses.len() as u64;
+        assert_eq!(held_out, if recordings > 1 { recordings } else { 0 });
         for ((label, amplitude), seed) in known.iter().zip(100..) {
             let class = model.names().position(|name| name == *label);
             let said = decisions(&model, &lasting(label, *amplitude, seed));
