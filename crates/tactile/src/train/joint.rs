@@ -8,6 +8,8 @@
 //! 3. Weights: samples, and tables, are not independent. Evidence of a block =
 //!    Σ wₜ · mean of log₂ p of table t; the w ≥ 0 minimise the log loss over
 //!    stretches of blocks that their tables have not seen, and that floors let pass.
+//!    Where no second opinion objects to names, they are lowered until the first names
+//!    of trials are right as often as they state.
 //! 4. Floors: below what mean log-likelihood a decision is "unknown".
 //! 5. A report: what the rule does with trials that its tables have not seen.
 //!
@@ -17,6 +19,7 @@
 
 mod axes;
 mod blocks;
+mod first_names;
 mod floors;
 mod model;
 mod pieces;
@@ -50,35 +53,38 @@ pub use warnings::Warning;
 pub use weights::MAX_WEIGHT;
 use weights::{Known, Prior};
 
-/// Weights of the rule, and its floors. Each asks for the other: weights are fitted to all
-/// stretches, then to those that the floors let pass.
-fn fit(
-    rule: &mut Rule,
-    folded: &Folded<'_>,
-    evidence: &[Evidence],
-    options: &Options,
-) -> Option<Vec<Floor>> {
-    let pieces = &folded.pieces;
+/// Weights of the rule. Floors and they ask for each other: weights are fitted to all stretches,
+/// then to those that the floors let pass.
+fn fit(rule: &mut Rule, folded: &Folded<'_>, evidence: &[Evidence], options: &Options) {
     let classes = evidence.first().map_or(0, |piece| piece.classes);
     let lengths = weights::lengths(folded, classes);
     let prior = Some(Prior::TEXTURES);
     rule.weights = weights::fitted(evidence, &lengths, prior, None);
+    if let Some(floors) = floors_of(rule, folded, evidence, options) {
+        let known = Known {
+            rule,
+            floors: &floors,
+        };
+        rule.weights = weights::fitted(evidence, &lengths, prior, Some(known));
+    }
+}
+
+/// Floors that go with the weights of a rule; none where nothing is to be refused.
+fn floors_of(
+    rule: &Rule,
+    folded: &Folded<'_>,
+    evidence: &[Evidence],
+    options: &Options,
+) -> Option<Vec<Floor>> {
     if options.refused <= 0.0 {
         return None;
     }
-    let floors = |rule: &Rule| {
-        let unknown = |class| of_unknown(class, pieces, evidence, rule);
-        let unknown: Vec<_> = (0..classes).map(unknown).collect();
-        let felt = felt(pieces, evidence, rule);
-        floors::of(&felt, classes, options.refused, &unknown)
-    };
-    let known = Known {
-        rule,
-        floors: &floors(rule),
-    };
-    let weights = weights::fitted(evidence, &lengths, prior, Some(known));
-    rule.weights = weights;
-    Some(floors(rule))
+    let pieces = &folded.pieces;
+    let classes = evidence.first().map_or(0, |piece| piece.classes);
+    let unknown = |class| of_unknown(class, pieces, evidence, rule);
+    let unknown: Vec<_> = (0..classes).map(unknown).collect();
+    let felt = felt(pieces, evidence, rule);
+    Some(floors::of(&felt, classes, options.refused, &unknown))
 }
 
 /// Trains from trials in the order in which they were felt.
@@ -130,7 +136,7 @@ fn once(trials: &[Trial], options: &Options) -> Result<JointModel, TrainError> {
         unknown: None,
         apart: false,
     };
-    let floors = fit(&mut rule, &folded, &evidence, options);
+    fit(&mut rule, &folded, &evidence, options);
     let poses = Poses::of(trials);
     let doubts = Doubts {
         names: &names,
@@ -154,6 +160,12 @@ fn once(trials: &[Trial], options: &Options) -> Result<JointModel, TrainError> {
     });
     let mut warnings = doubts.warnings();
     warnings.extend(scarce);
+    let floors = |rule: &Rule| floors_of(rule, &folded, &evidence, options);
+    if opinion.is_none() {
+        // Nothing else objects to a name.
+        rule.weights = first_names::lowered(&rule, pieces, &evidence, floors);
+    }
+    let floors = floors(&rule);
     if opinion.as_ref().is_some_and(|opinion| opinion.names) {
         // Poses of one recording are held out as recordings are.
         warnings.retain(|warning| *warning != Warning::OneRecording);

@@ -5,11 +5,12 @@ use std::vec;
 use std::vec::Vec;
 
 use super::blocks::{Blocks, scales};
-use super::run::{Decided, Felt, Rule};
+use super::pieces::Piece;
+use super::run::{Decided, Felt, Rule, decisions};
 use super::tables::Evidence;
 use super::trial::{Options, Trial};
 use super::weights::Prior;
-use super::{floors, weights};
+use super::{first_names, floors, weights};
 use crate::model_buf::TableSource;
 
 /// Uniform in 0 to 1: a linear congruential generator is random enough.
@@ -176,6 +177,70 @@ fn many_trials_outweigh_the_prior() {
     assert!(few > 0.1 && many > 0.0 && many < few / 3.0, "{few} {many}");
 }
 
+fn rule(weight: f64) -> Rule {
+    Rule {
+        threshold: 0.99,
+        limit_bits: 2.0,
+        block: 20,
+        weights: vec![weight],
+        sources: vec![TableSource::Samples],
+        unknown: None,
+        apart: false,
+    }
+}
+
+/// Pieces of one touch for evidence of two classes: in each block the right one is ahead by a
+/// normal number, in a whole trial by one more of this deviation.
+fn trials(seed: u64, count: usize, deviation: f64) -> (Vec<Piece<'static>>, Vec<Evidence>) {
+    let mut dice = Dice(seed);
+    let mut all: Vec<Evidence> = (0..count / 200)
+        .flat_map(|part| evidence(seed + part as u64, 1))
+        .collect();
+    for piece in &mut all {
+        let character = deviation * dice.normal();
+        for block in piece.means.chunks_exact_mut(2) {
+            block[piece.class] += character;
+        }
+    }
+    let piece = |(fold, of): (usize, &Evidence)| Piece {
+        class: of.class,
+        recording: "",
+        fold,
+        blocks: blocks(vec![[0.0; 2]; 50], vec![1; 50], 1),
+    };
+    (all.iter().enumerate().map(piece).collect(), all)
+}
+
+#[test]
+fn first_names_are_right_as_often_as_stated_where_trials_have_a_character() {
+    let right = |factor: f64, deviation: f64| {
+        let (pieces, evidence) = trials(100, 2000, deviation);
+        let rule = Rule {
+            apart: true,
+            ..rule(factor)
+        };
+        let mut names = decisions(&pieces, &evidence, &rule);
+        names.dedup_by_key(|name| name.piece);
+        let right = names.iter().filter(|name| name.class == name.truth);
+        right.count() as f64 / names.len() as f64
+    };
+    let lowered = |weight: f64, deviation: f64| {
+        let (pieces, evidence) = trials(8, 200, deviation);
+        first_names::lowered(&rule(weight), &pieces, &evidence, |_| None)[0]
+    };
+    // The log-likelihood ratio, as above: trials that do not differ ask for nothing less.
+    let weight = 2.0 * 0.2 / core::f64::consts::LN_2;
+    assert_eq!(lowered(weight, 0.0), weight);
+    assert!(right(weight, 0.0) > 0.985);
+    // Others, which were not there, bear it out.
+    let less = lowered(weight, 0.2);
+    let [before, after] = [weight, less].map(|weight| right(weight, 0.2));
+    assert!(
+        before < 0.96 && after > 0.97,
+        "{weight} {less}: {before} {after}"
+    );
+}
+
 #[test]
 fn what_floors_refuse_does_not_weigh() {
     let clean = evidence(7, 1);
@@ -187,15 +252,7 @@ fn what_floors_refuse_does_not_weigh() {
             *x -= 15.0;
         }
     }
-    let rule = Rule {
-        threshold: 0.99,
-        limit_bits: 2.0,
-        block: 20,
-        weights: vec![1.0],
-        sources: vec![TableSource::Samples],
-        unknown: None,
-        apart: false,
-    };
+    let rule = rule(1.0);
     let floor = floors::Floor {
         samples: 10.0,
         roughness: 0.0,
