@@ -118,6 +118,13 @@ impl Evaluation {
         }
     }
 
+    /// Whether what decisions state is not above the 95 % interval of those that were right.
+    pub fn keeps_what_it_states(&self) -> bool {
+        let stated = self.calibration.stated;
+        // Of none there is neither.
+        stated.is_nan() || stated <= self.by_presentation.high
+    }
+
     /// The classes that were presented and of which no decision named a class: there is no share
     /// of right ones.
     pub fn left_out(&self) -> Vec<&str> {

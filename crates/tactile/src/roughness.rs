@@ -9,7 +9,7 @@ use crate::format::ROUGH_CHANNELS;
 
 /// Samples between the terms of the difference.
 const DELAY: usize = 4;
-const KEPT: usize = 2 * DELAY;
+pub(crate) const KEPT: usize = 2 * DELAY;
 /// Bits of a code's fraction: 1/64 octave.
 const FRACTION_BITS: u32 = 6;
 
@@ -51,7 +51,7 @@ impl Roughness {
         };
         let middle = self.line[self.oldest.wrapping_add(DELAY) % KEPT];
         let oldest = core::mem::replace(&mut self.line[self.oldest % KEPT], new);
-        if counts && self.oldest >= KEPT {
+        if counts && self.is_full() {
             for channel in 0..ROUGH_CHANNELS {
                 let ends = new[channel].wrapping_add(oldest[channel]);
                 let difference = ends.wrapping_sub(middle[channel].wrapping_mul(2));
@@ -65,6 +65,12 @@ impl Roughness {
         } else {
             KEPT
         };
+    }
+
+    /// Whether the next sample has a difference.
+    #[inline]
+    pub const fn is_full(&self) -> bool {
+        self.oldest >= KEPT
     }
 
     /// The code of a channel over the open block; 0 to 2047.

@@ -126,7 +126,8 @@ impl<E> StreamState<E> {
     }
 
     /// Takes a sample that counts, of the stream of this number where streams can have tables of
-    /// their own; whether it was the last of its block of `interval`.
+    /// their own; whether it was the last of its block of `interval`. Where roughness is weighed, one
+    /// without a difference is of no block: a sum of fewer would be that of a smoother surface.
     #[inline]
     pub(crate) fn push<W: Words>(
         &mut self,
@@ -137,6 +138,10 @@ impl<E> StreamState<E> {
     ) -> Result<bool, WrongChannels> {
         let first = first_channel(model, codes, stream)?;
         self.feel(model, codes, true);
+        if model.has_roughness() && !self.sums.roughness.is_full() {
+            self.sums.roughness.push(codes, false);
+            return Ok(false);
+        }
         Ok(self.sums.push(model, (codes, first), interval))
     }
 

@@ -96,7 +96,10 @@ pub fn evaluate(arguments: &Arguments, verbosity: Verbosity) -> Result<String, E
         misfits: [misfits(data, channels, &model, &streams), odd].concat(),
     };
     let figures = Figures(&evaluation, tick_hz);
-    let mut sections = vec![format!("{figures}\n{}", report::of_model(&model))];
+    let mut sections = vec![format!(
+        "{figures}\n{}",
+        report::of_model(&model, &evaluation)
+    )];
     if let Some(same) = model.without_opinion() {
         let presented = evaluation::presentations(&same, *threshold, &streams).map_err(wrong)?;
         let same = Evaluation::new(&classes, &presented);
@@ -118,6 +121,10 @@ pub fn evaluate(arguments: &Arguments, verbosity: Verbosity) -> Result<String, E
         let percent = (1e12 * rate).round() / 1e10;
         let wanted = format!("at most {percent} % of decisions wrong");
         sections.push(suggestion(found, &wanted));
+        if evaluation.strange.count > 0 {
+            let strange = "; decisions on what the model does not know are not among them";
+            sections.push(strange.to_owned());
+        }
     }
     if let Some(seconds) = time {
         let found = evaluation::for_samples(&scan, seconds * tick_hz);

@@ -1,7 +1,7 @@
 //! In what poses a model can be trusted, for people.
 
 use tactile::ModelBuf;
-use tactile::train::joint::{JointModel, PoseReport};
+use tactile::train::joint::{JointModel, PoseReport, Warning};
 
 use super::evaluation::percent;
 use crate::evaluation::Evaluation;
@@ -15,6 +15,15 @@ fn poses(count: usize) -> String {
 
 /// In how many poses a model was trained, and what it is worth in others: as who trains it knows.
 pub(super) fn of_training(model: &JointModel) -> String {
+    let mut warnings = model.report.warnings.iter();
+    let is_honest = !warnings.any(|warning| matches!(warning, Warning::Overstated { .. }));
+    let honest = |poses: String, honest: &str| {
+        if is_honest {
+            format!("trained in {poses}: {honest}")
+        } else {
+            format!("trained in {poses}")
+        }
+    };
     match &model.opinion {
         Some(opinion) if opinion.names => {
             let names = names_between(&poses(opinion.poses));
@@ -27,26 +36,26 @@ pub(super) fn of_training(model: &JointModel) -> String {
             format!("{names}{more}")
         }
         Some(_) if model.poses > 1 => {
-            let poses = poses(model.poses);
-            format!("trained in {poses}: honest in them, silent elsewhere")
+            honest(poses(model.poses), "honest in them, silent elsewhere")
         }
-        Some(_) => "trained in 1 pose: honest in it, silent elsewhere".to_owned(),
-        None if model.poses > 1 => {
-            format!("trained in {}: honest there only", poses(model.poses))
-        }
-        None => "trained in one pose: honest there only".to_owned(),
+        Some(_) => honest(poses(1), "honest in it, silent elsewhere"),
+        None if model.poses > 1 => honest(poses(model.poses), "honest there only"),
+        None => honest("one pose".to_owned(), "honest there only"),
     }
 }
 
-/// The same, as its file says it.
-pub fn of_model(model: &ModelBuf) -> String {
+/// The same, as its file says it, and what it is worth if the recording does not contradict it.
+pub fn of_model(model: &ModelBuf, evaluation: &Evaluation) -> String {
+    let is_honest = evaluation.keeps_what_it_states();
     if !model.has_opinion() {
-        return "trained at one pose; honest there only".to_owned();
+        let honest = if is_honest { "; honest there only" } else { "" };
+        return format!("trained at one pose{honest}");
     }
     match model.poses() {
-        _ if !model.names_between_poses() => {
+        _ if !model.names_between_poses() && is_honest => {
             "honest in the poses of its training, silent elsewhere".to_owned()
         }
+        _ if !model.names_between_poses() => "of other poses than its training, silent".to_owned(),
         1 => names_between("more than 12 poses"),
         count => names_between(&poses(count)),
     }

@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use tactile::train::joint::{JointModel, Warning};
+use tactile::train::joint::{CHANCE, JointModel, Warning};
 
 use super::evaluation::percent;
 use super::poses::{held_out, of_training};
@@ -96,10 +96,13 @@ impl fmt::Display for TrainingReport<'_> {
             write!(f, "\n{}", held_out(&report.poses, &classes))?;
         }
         write!(f, "{}", standing(self.0))?;
-        let objects = self.0.opinion.is_some() && !names_between;
+        let opinion = self.0.opinion.as_ref();
         for warning in &report.warnings {
             write!(f, "\nwarning: {}", in_words(warning))?;
-            if objects && matches!(warning, Warning::Alike { .. }) {
+            let Warning::Alike { mistaken, .. } = warning else {
+                continue;
+            };
+            if opinion.map_or(*mistaken > CHANCE, |opinion| !opinion.names) {
                 write!(f, "; the model names neither")?;
             }
         }

@@ -63,6 +63,13 @@ pub(super) fn in_words(warning: &Warning) -> String {
             names[1],
             100.0 * mistaken
         ),
+        Warning::Overstated { stated, found } => format!(
+            "decisions state {:.1} %, and {:.1} % ({:.1} to {:.1}) were right",
+            100.0 * stated,
+            100.0 * found.share,
+            100.0 * found.low,
+            100.0 * found.high
+        ),
         Warning::Weight { table, weight } if *weight <= 0.0 => {
             format!("table {} tells nothing: its weight is zero", table + 1)
         }

@@ -7,8 +7,8 @@
 //!
 //! with weights of their own for each class and k, as friction turns a deflection as a tilt does:
 //! of a surface whose friction is not known the tilt cannot be. The error beside an estimate is the
-//! root mean square over touches of poses that its weights have not seen; an estimate stays within
-//! the poses of training. Both hold for the sensor and the surfaces of training: another scale, a
+//! root mean square over touches of poses that its weights have not seen. An estimate stays within
+//! the poses of training; by what it would lie beyond them its error is larger. Both hold for the sensor and the surfaces of training: another scale, a
 //! turn about the shaft and another friction bend a whisker as another pose does, and the error
 //! knows of them only what differed between the recordings.
 
@@ -135,10 +135,11 @@ pub(crate) fn estimate(
         let value = (sum >> shift).saturating_add(bias.cast_signed().into());
         let [least, most] = [limits, limits >> 16].map(|limit| (limit as u16).cast_signed());
         // Within 16 bits; limits that contradict each other are no trainer's.
-        let value = value.min(most.into()).max(least.into());
+        let within = value.min(most.into()).max(least.into());
+        let beyond = value.abs_diff(within).min(u16::MAX.into()) as u16;
         Some(Estimate {
-            hundredths: value as i16,
-            error_hundredths: (errors >> half) as u16,
+            hundredths: within as i16,
+            error_hundredths: ((errors >> half) as u16).saturating_add(beyond),
         })
     };
     let [of_tilt, of_depth] = limits;

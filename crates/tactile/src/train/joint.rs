@@ -9,7 +9,8 @@
 //!    Σ wₜ · mean of log₂ p of table t; the w ≥ 0 minimise the log loss over
 //!    stretches of blocks that their tables have not seen, and that floors let pass.
 //!    Where no second opinion objects to names, they are lowered until the first names
-//!    of trials are right as often as they state.
+//!    of trials are right as often as they state, and classes whose names are chance have
+//!    the same tables.
 //! 4. Floors: below what mean log-likelihood a decision is "unknown".
 //! 5. A report: what the rule does with trials that its tables have not seen.
 //!
@@ -46,10 +47,10 @@ use pieces::{Folded, Piece, names};
 pub use report::{AtThreshold, ClassReport, PoseReport, Report};
 use run::{Rule, felt, of_unknown};
 pub use tables::LogTable;
-use tables::{Evidence, Tables};
+use tables::{Evidence, Tables, unite};
 pub use trial::{CHANNELS, Options, Trial};
 use warnings::Doubts;
-pub use warnings::Warning;
+pub use warnings::{CHANCE, Warning};
 pub use weights::MAX_WEIGHT;
 use weights::{Known, Prior};
 
@@ -98,6 +99,7 @@ pub fn train(trials: &[Trial], options: &Options) -> Result<JointModel, TrainErr
     if model.opinion.is_some() {
         streamed::report(&mut model, trials)?;
     }
+    model.report.doubt();
     Ok(model)
 }
 
@@ -126,7 +128,7 @@ fn once(trials: &[Trial], options: &Options) -> Result<JointModel, TrainError> {
     let axes = Axes::of(pieces, options.bins);
     let layout = Layout::joint(&axes, options.block);
     let tables = Tables::count(&layout, pieces, names.len(), options.smooth);
-    let evidence = tables.held_out(pieces);
+    let mut evidence = tables.held_out(pieces);
     let mut rule = Rule {
         threshold: options.threshold,
         limit_bits: options.limit_bits,
@@ -160,9 +162,19 @@ fn once(trials: &[Trial], options: &Options) -> Result<JointModel, TrainError> {
     });
     let mut warnings = doubts.warnings();
     warnings.extend(scarce);
-    let floors = |rule: &Rule| floors_of(rule, &folded, &evidence, options);
+    let groups = doubts.groups_of_chance();
+    let mut tables = tables.finished();
     if opinion.is_none() {
         // Nothing else objects to a name.
+        for piece in &mut evidence {
+            unite(&mut piece.means, &groups);
+        }
+        for table in &mut tables {
+            unite(&mut table.log2_p, &groups);
+        }
+    }
+    let floors = |rule: &Rule| floors_of(rule, &folded, &evidence, options);
+    if opinion.is_none() {
         rule.weights = first_names::lowered(&rule, pieces, &evidence, floors);
     }
     let floors = floors(&rule);
@@ -181,7 +193,7 @@ fn once(trials: &[Trial], options: &Options) -> Result<JointModel, TrainError> {
     .report(&rule);
     Ok(JointModel {
         poses: poses.count(),
-        tables: tables.finished(),
+        tables,
         opinion,
         options: options.clone(),
         names,

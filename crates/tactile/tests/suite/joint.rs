@@ -105,6 +105,12 @@ fn warnings_say_what_the_trials_cannot_tell() {
     });
     let alike: Vec<_> = alike.collect();
     assert_eq!(alike, [["a".to_owned(), "b".to_owned()]]);
+    // Tables that decide alone say the same of both.
+    let rows = trained
+        .tables
+        .iter()
+        .flat_map(|table| table.log2_p.chunks(3));
+    assert!(rows.clone().all(|row| row[0] == row[1]) && rows.clone().any(|row| row[1] != row[2]));
 
     let mut trials = two(2.0, 2_000);
     for (n, trial) in trials.iter_mut().enumerate() {

@@ -305,6 +305,54 @@ fn surfaces_that_tremble_alike_are_named_by_their_deflection() {
     }
 }
 
+/// Where it would lie beyond what was trained, an estimate stays there, and its error says so.
+#[test]
+fn an_estimate_beyond_what_was_trained_says_a_larger_error() {
+    let (_, model) = learnt(0.0);
+    let class = model.names().position(|name| name == "rough");
+    for (tilt, least) in [(28.0, 2.0), (33.0, 5.0)] {
+        let (sin, cos) = f64::to_radians(tilt).sin_cos();
+        let trial = trial("rough", 60.0, [800.0 * cos, 800.0 * sin], 200);
+        let rule = RuleSettings::Sequential(common::threshold(0.99));
+        let mut classifier = StreamClassifier::new(model.view(), rule, Deciding::First, 1).unwrap();
+        classifier.begin_touch(0, 1);
+        let felt = trial.samples.iter().zip(&trial.touches);
+        for (sample, _) in felt.take_while(|(_, touch)| **touch == 1) {
+            classifier
+                .push_to(0, &sample.map(|code| code as i32))
+                .unwrap();
+        }
+        let pose = classifier.pose(0, class.unwrap()).unwrap();
+        assert!(pose.tilt.value() <= 25.0, "{pose:?}");
+        assert!(
+            pose.tilt.value() + pose.tilt.error() >= tilt - 1.0,
+            "{pose:?}"
+        );
+        assert!(pose.tilt.error() > least, "{pose:?}");
+    }
+}
+
+/// What is called alike is of one pose, however often it was measured.
+#[test]
+fn poses_that_are_measured_twice_are_held_out_together() {
+    let errors = |jitter: f64| {
+        let mut trials = standings(3.0, |stands| stands);
+        let again = trials.clone().into_iter().enumerate();
+        trials.extend(again.map(|(n, trial)| {
+            Trial {
+                stands: trial
+                    .stands
+                    .map(|[tilt, depth]| [tilt + jitter * n as f64, depth]),
+                ..trial
+            }
+        }));
+        let trained = train(&trials, &Options::default()).unwrap();
+        trained.opinion.unwrap().pose_errors[0][5][0]
+    };
+    let [expected, found] = [0.0, 1e-4].map(errors);
+    assert!((found / expected - 1.0).abs() < 0.01, "{found} {expected}");
+}
+
 /// Of poses that were not trained: as near as is said, and that is a tenth of their spread at most,
 /// though one class turns the deflection by three degrees more.
 #[test]

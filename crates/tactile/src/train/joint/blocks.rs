@@ -36,8 +36,10 @@ impl Blocks {
         for (sample, &touch) in trial.samples.iter().zip(&trial.touches) {
             let codes: [i32; CHANNELS] =
                 core::array::from_fn(|channel| scales[channel].code_from_f64(sample[channel]));
-            roughness.push(&codes, touch != 0);
-            if touch == 0 {
+            // As the module, which takes none into a block that has no difference.
+            let counts = touch != 0 && roughness.is_full();
+            roughness.push(&codes, counts);
+            if !counts {
                 continue;
             }
             if touch != last {

@@ -86,6 +86,19 @@ pub struct Report {
     pub warnings: Vec<Warning>,
 }
 
+impl Report {
+    /// Warns where decisions at the threshold state more than they keep.
+    pub(super) fn doubt(&mut self) {
+        let own = self.calibration.iter();
+        let own = own.filter(|at| at.threshold == self.threshold && at.stated > at.found.high);
+        let doubts = own.map(|at| Warning::Overstated {
+            stated: at.stated,
+            found: at.found,
+        });
+        self.warnings.extend(doubts);
+    }
+}
+
 /// What was said of a part that was held out, by tables and floors or by the whole model.
 pub(super) struct Said {
     /// Which of the parts.

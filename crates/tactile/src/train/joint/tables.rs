@@ -39,6 +39,19 @@ impl Evidence {
     }
 }
 
+/// Gives classes of one group the mean of what is said of them; `first` has for each class the first
+/// one of its group.
+pub(super) fn unite(of_classes: &mut [f64], first: &[usize]) {
+    for row in of_classes.chunks_exact_mut(first.len()) {
+        let mean = |group: &usize| {
+            let of = row.iter().zip(first).filter(|(_, of)| *of == group);
+            of.clone().map(|(value, _)| value).sum::<f64>() / of.count() as f64
+        };
+        let means: Vec<f64> = first.iter().map(mean).collect();
+        row.copy_from_slice(&means);
+    }
+}
+
 pub(super) struct Tables<'l> {
     layout: &'l Layout,
     classes: usize,

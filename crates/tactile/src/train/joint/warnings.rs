@@ -7,6 +7,7 @@ use super::pieces::Folded;
 use super::tables::Evidence;
 use super::trial::Trial;
 use super::weights::{MAX_WEIGHT, sums};
+use crate::score::Interval;
 
 /// Trials of a class below which a warning is due.
 const FEW_TRIALS: usize = 3;
@@ -14,6 +15,8 @@ const FEW_TRIALS: usize = 3;
 const COMPARED: [usize; 4] = [32, 16, 8, 4];
 /// Share of those that may be taken for another class before two cannot be distinguished.
 const MISTAKEN: f64 = 0.25;
+/// The share of those from which on tables that decide alone name neither: their names are chance.
+pub const CHANCE: f64 = 0.4;
 
 /// What a user has to know before trusting the model.
 #[derive(Debug, Clone, PartialEq)]
@@ -87,6 +90,13 @@ pub enum Warning {
         /// Share of the longest stretches that the other class wins.
         mistaken: f64,
     },
+    /// What decisions state lies above the 95 % interval of those that were right.
+    Overstated {
+        /// The mean of what they state.
+        stated: f64,
+        /// The share that was right.
+        found: Interval,
+    },
     /// A table's weight is zero, or the most there is.
     Weight {
         /// The table.
@@ -159,6 +169,12 @@ impl Doubts<'_> {
     /// Of each class the first one that cannot be distinguished from it; itself if there is none.
     pub(super) fn groups(&self) -> Vec<usize> {
         joined(self.alike().map(|(pair, _)| pair), self.names.len())
+    }
+
+    /// The same of those whose names are chance.
+    pub(super) fn groups_of_chance(&self) -> Vec<usize> {
+        let pairs = self.alike().filter(|(_, mistaken)| *mistaken > CHANCE);
+        joined(pairs.map(|(pair, _)| pair), self.names.len())
     }
 
     /// Pairs that cannot be distinguished, and how often one is taken for the other.

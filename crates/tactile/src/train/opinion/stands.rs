@@ -44,7 +44,8 @@ pub(super) struct Stands {
 struct Row<'t> {
     touch: &'t Touch,
     stands: [f64; TARGETS],
-    part: usize,
+    /// The number of its pose.
+    pose: usize,
 }
 
 impl Stands {
@@ -57,20 +58,24 @@ impl Stands {
         stages: usize,
     ) -> (Option<Self>, Option<Warning>) {
         let stood = |touch: &Touch| trials.get(touch.trial)?.stands;
-        let mut known: Vec<[f64; TARGETS]> = Vec::new();
+        // Of each pose what it is called, if it is, and how it stands. What is called alike may be
+        // measured twice.
+        let mut known: Vec<(Option<&String>, [f64; TARGETS])> = Vec::new();
         let mut rows = Vec::new();
         for touch in touches {
             let Some(stands) = stood(touch) else { continue };
-            let found = known.iter().position(|of| *of == stands);
-            let number = found.unwrap_or(known.len());
-            if found.is_none() {
-                known.push(stands);
+            let name = trials.get(touch.trial).and_then(|of| of.pose.as_ref());
+            let is_same = |(called, at): &(Option<&String>, [f64; TARGETS])| {
+                *at == stands || (name.is_some() && *called == name)
+            };
+            let pose = known.iter().position(is_same).unwrap_or(known.len());
+            if pose == known.len() {
+                known.push((name, stands));
             }
-            let part = number % PARTS;
             rows.push(Row {
                 touch,
                 stands,
-                part,
+                pose,
             });
         }
         if rows.is_empty() {
@@ -79,9 +84,10 @@ impl Stands {
         let of_class = |class: usize| -> Vec<&Row<'_>> {
             rows.iter().filter(|row| row.touch.class == class).collect()
         };
-        let wide = known.iter().flatten().find(|value| value.abs() > MOST);
+        let mut values_of_all = rows.iter().flat_map(|row| row.stands);
+        let wide = values_of_all.find(|value| value.abs() > MOST);
         if let Some(found) = wide {
-            let (found, most) = (*found, MOST);
+            let most = MOST;
             return (None, Some(Warning::WidePose { found, most }));
         }
         let touches = |class: usize| {
@@ -130,15 +136,18 @@ fn least_touches(stage: usize) -> usize {
     LEAST_TOUCHES_AN_INPUT * inputs_of(stage)
 }
 
-/// How many values that target has which has fewer.
+/// How many poses there are, or values of that target which has fewer.
 fn values(rows: &[&Row<'_>]) -> usize {
+    let mut poses: Vec<usize> = rows.iter().map(|row| row.pose).collect();
+    poses.sort_unstable();
+    poses.dedup();
     let of = |target: usize| {
         let mut values: Vec<f64> = rows.iter().map(|row| row.stands[target]).collect();
         values.sort_unstable_by(f64::total_cmp);
         values.dedup();
         values.len()
     };
-    (0..TARGETS).map(of).min().unwrap_or(0)
+    (0..TARGETS).map(of).fold(poses.len(), usize::min)
 }
 
 /// What a way says, as a board weighs it.
@@ -183,7 +192,8 @@ fn held_out(
 ) -> [f64; TARGETS] {
     let mut squares = [0.0; TARGETS];
     for part in 0..PARTS {
-        let (held_out, kept): (Vec<_>, Vec<_>) = rows.iter().partition(|(row, _)| row.part == part);
+        let (held_out, kept): (Vec<_>, Vec<_>) =
+            rows.iter().partition(|(row, _)| row.pose % PARTS == part);
         if held_out.is_empty() {
             continue;
         }
