@@ -25,7 +25,7 @@ use mlx90333::Decoder;
 use rtt::LogDecoder;
 use scene::{Scene, SensorMode, SensorModel};
 
-use crate::chip::{Chip, Fault, Ps, ResetCause, WELL_MV};
+use crate::chip::{Fault, Ps, ResetCause, WELL_MV};
 use crate::machine::{Machine, Stop};
 use crate::meter::Meter;
 use crate::notice::Notice;
@@ -124,16 +124,14 @@ impl Board {
         };
         match (scene.sensor.model, scene.sensor.mode) {
             (SensorModel::Mlx90333, SensorMode::Fast) => {}
-            (SensorModel::Mlx90333, SensorMode::Slow) => {
-                board.machine.with_chip(Chip::slow_sensors);
-            }
-            (SensorModel::Tmag5170, _) => board.machine.with_chip(Chip::tilt_sensors),
+            (SensorModel::Mlx90333, SensorMode::Slow) => board.machine.chip().slow_sensors(),
+            (SensorModel::Tmag5170, _) => board.machine.chip().tilt_sensors(),
         }
-        board.machine.with_chip(|chip| chip.set_number(number));
+        board.machine.chip().set_number(number);
         for side in 0..sides {
             board.program_sensor(side, config::decoder(&scene.sensor), 0);
         }
-        match board.machine.run(PATIENCE, &mut board.sensors, &mut ())? {
+        match board.machine.run(PATIENCE, &mut board.sensors, None)? {
             Stop::Ready => {}
             Stop::Reset(cause) => return Err(Fault::Reset(cause)),
             Stop::Tick | Stop::Time => {
@@ -149,8 +147,8 @@ impl Board {
         if let Some(slave) = self.slave_mut(side) {
             slave.program(decoder);
         }
-        self.machine
-            .with_chip(|chip| chip.program_sensor(side, decoder, rest_us));
+        let mut chip = self.machine.chip();
+        chip.program_sensor(side, decoder, rest_us);
     }
 
     /// The sensor of a side has so many new readings a second; none: one in each frame.
@@ -167,27 +165,7 @@ impl Board {
             self.set_power(false)?;
             self.set_power(true)?;
         }
-        self.stop_clock(is_without).map(drop)
-    }
-
-    pub(crate) fn stop_clock(&mut self, is_stopped: bool) -> Result<bool, Fault> {
-        self.machine.disturb(|chip| chip.stop_clock(is_stopped))
-    }
-
-    pub(crate) fn set_button(&mut self, is_down: bool) {
-        self.machine.with_chip(|chip| chip.set_button(is_down));
-    }
-
-    /// The other end of the serial line has this baud.
-    pub(crate) fn attach_serial(&mut self, baud: Option<u32>) {
-        if let Some(baud) = baud {
-            self.machine.with_chip(|chip| chip.attach_serial(baud));
-        }
-    }
-
-    /// Bytes that the other end has not sent yet.
-    pub(crate) fn serial_waiting(&mut self) -> usize {
-        self.machine.with_chip(|chip| chip.serial_waiting())
+        self.machine.disturbed().stop_clock(is_without).map(drop)
     }
 
     /// The world has moved on: what the next tick reads. A board of a head is then run by
@@ -211,7 +189,7 @@ impl Board {
         loop {
             let stop = self
                 .machine
-                .run(limit, &mut self.sensors, &mut self.meter)?;
+                .run(limit, &mut self.sensors, Some(&mut self.meter))?;
             self.is_late = stop == Stop::Time;
             match stop {
                 Stop::Tick => break,
@@ -255,7 +233,7 @@ impl Board {
         loop {
             match self
                 .machine
-                .run(until, &mut self.sensors, &mut self.meter)?
+                .run(until, &mut self.sensors, Some(&mut self.meter))?
             {
                 Stop::Time => return Ok(ended),
                 Stop::Reset(cause) => self.was_reset(cause),
@@ -283,7 +261,7 @@ impl Board {
     /// Lets `time` pass on the chip alone; whether the tick ends within it.
     pub(crate) fn run_for(&mut self, time: Ps) -> Result<bool, Fault> {
         let until = self.machine.now + time;
-        match self.machine.run(until, &mut self.sensors, &mut ())? {
+        match self.machine.run(until, &mut self.sensors, None)? {
             Stop::Time => Ok(false),
             Stop::Tick => Ok(true),
             Stop::Reset(cause) => Err(Fault::Reset(cause)),
@@ -294,7 +272,7 @@ impl Board {
     pub(crate) fn wait(&mut self, time: Ps) -> Result<(), Fault> {
         let limit = self.machine.now + time;
         loop {
-            match self.machine.run(limit, &mut self.sensors, &mut ())? {
+            match self.machine.run(limit, &mut self.sensors, None)? {
                 Stop::Time => return self.drain(),
                 Stop::Reset(cause) => self.was_reset(cause),
                 Stop::Tick | Stop::Ready => {}
@@ -355,20 +333,8 @@ impl Board {
     }
 
     pub(crate) fn received(&mut self) -> Result<Vec<Received>, Fault> {
-        let bytes = self.serial_read();
+        let bytes = self.machine.chip().serial_read();
         read(&mut self.line, &bytes)
-    }
-
-    pub(crate) fn serial_write(&mut self, bytes: &[u8]) {
-        self.machine.disturb(|chip| chip.serial_write(bytes));
-    }
-
-    pub(crate) fn serial_read(&mut self) -> Vec<u8> {
-        self.machine.with_chip(Chip::serial_read)
-    }
-
-    pub(crate) fn signals(&mut self) -> [bool; 2] {
-        self.machine.with_chip(|chip| chip.signals())
     }
 
     pub(crate) fn logged(&self) -> &[u8] {
@@ -395,20 +361,19 @@ impl Board {
                     (pins.encoder.counts(), Some(halls.map(|Ok(high)| high)))
                 }
             };
-            self.machine.with_chip(|chip| {
-                chip.set_encoder(side, position);
-                if let Some(halls) = halls {
-                    chip.set_halls(halls);
-                }
-            });
+            let mut chip = self.machine.chip();
+            chip.set_encoder(side, position);
+            if let Some(halls) = halls {
+                chip.set_halls(halls);
+            }
         }
     }
 
     fn outputs(&mut self) {
-        let (duties, directions, enables) = self.machine.with_chip(|chip| {
-            let (directions, enables) = (chip.motor_directions(), chip.motor_enables());
-            (chip.motor_duties(), directions, enables)
-        });
+        let chip = self.machine.chip();
+        let (duties, enables) = (chip.motor_duties(), chip.motor_enables());
+        let directions = chip.motor_directions();
+        drop(chip);
         for (side, pins) in self.pins.iter_mut().enumerate() {
             match pins {
                 Pins::Ideal(_) => {}

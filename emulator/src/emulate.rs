@@ -46,8 +46,10 @@ pub(crate) fn start(
     // What hangs on the board, by whichever model it decides.
     image(&without_class_settings(scene), None, model.facts)?;
     let (world, pins) = World::wired(scene, pwm_counts(scene, model))?;
-    let mut board = Board::new(program, scene, pins)?;
-    board.attach_serial(scene.telemetry.serial_baud);
+    let board = Board::new(program, scene, pins)?;
+    let mut chip = board.machine.chip();
+    chip.attach_serial(scene.telemetry.serial_baud);
+    drop(chip);
     Ok(Run::of(scene, Box::new(board), classes, world))
 }
 

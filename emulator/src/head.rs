@@ -156,7 +156,7 @@ impl Head {
         };
         for node in &mut head.nodes {
             node.board.run_until(node.crystal.own(head.now))?;
-            node.is_on = node.board.machine.with_chip(|chip| chip.is_on_bus());
+            node.is_on = node.board.machine.chip().is_on_bus();
         }
         Ok(head)
     }
@@ -174,10 +174,10 @@ impl Head {
         (0..self.wires.len()).for_each(|wire| self.carry(wire, until));
         for (n, node) in self.nodes.iter_mut().enumerate() {
             node.ended += node.board.run_until(node.crystal.own(until))?;
-            let (requests, is_on, pending) = node.board.machine.with_chip(|chip| {
-                let requests = chip.take_requests(self.bit)?;
-                Ok::<_, Fault>((requests, chip.is_on_bus(), chip.can.pending()))
-            })?;
+            let mut chip = node.board.machine.chip();
+            let requests = chip.take_requests(self.bit)?;
+            let (is_on, pending) = (chip.is_on_bus(), chip.can.pending());
+            drop(chip);
             let Some(wire) = self.wires.get_mut(node.wire) else {
                 continue;
             };

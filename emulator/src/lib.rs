@@ -35,7 +35,6 @@ mod machine;
 mod memory;
 mod meter;
 mod notice;
-mod paint;
 pub mod picture;
 mod program;
 pub mod registers;

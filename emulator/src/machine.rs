@@ -4,17 +4,20 @@
 //! Cortex-M4 (flash without wait states), are the time on every core. While the core
 //! sleeps time jumps to the next event of a peripheral.
 
-use std::sync::Arc;
+use std::ops::Range;
+use std::sync::{Arc, MutexGuard};
 
 use crate::chip::{Chip, Fault, Model, Ps, ResetCause, SensorEnd};
 use crate::core::{BRANCH_CYCLES, Core, EXCEPTION, IT_BLOCK, ROUND_CYCLES, ROUND_INSTRUCTIONS};
 use crate::memory::{FLASH, Memories, Shared};
-use crate::paint::Stack;
+use crate::meter::Meter;
 use crate::program::Program;
 use crate::upset::{Planned, Upset};
 use rsemu::cpu::arm::v7m::Regs;
 use rtt::Rtt;
 
+/// What cortex-m-rt fills the stack with at a reset (its feature `paint-stack`).
+const PAINT: u32 = 0xCCCC_CCCC;
 /// Interrupts are exceptions from this number on.
 const INTERRUPTS: u32 = 16;
 
@@ -41,15 +44,6 @@ pub(crate) struct Spent {
     pub other: u64,
 }
 
-pub(crate) trait Observer {
-    fn tick_begins(&mut self, _now: Ps, _latency: Ps, _spent: &Spent) {}
-
-    fn tick_ends(&mut self, _now: Ps, _spent: &Spent) {}
-}
-
-/// Without an observer.
-impl Observer for () {}
-
 /// The emulated board, without what hangs on its pins.
 #[derive(Debug)]
 pub(crate) struct Machine {
@@ -61,7 +55,8 @@ pub(crate) struct Machine {
     shared: Arc<Shared>,
     pub(crate) memories: Memories,
     pub(crate) rtt: Rtt,
-    stack: Stack,
+    /// The stack, which grows down.
+    stack: Range<u32>,
     pub(crate) now: Ps,
     due: Option<Ps>,
     pub(crate) cycle: Ps,
@@ -96,7 +91,7 @@ impl Machine {
             frames: model.frame_irqs().map(exception).collect(),
             memories,
             rtt: Rtt::of_program(program.bytes())?,
-            stack: Stack::new(program)?,
+            stack: program.symbol("_stack_end")?..program.symbol("_stack_start")?,
             now: 0,
             due: None,
             cycle,
@@ -113,10 +108,17 @@ impl Machine {
         })
     }
 
-    pub(crate) fn with_chip<T>(&mut self, work: impl FnOnce(&mut Chip) -> T) -> T {
+    /// The chip at this time; nothing runs while it is held.
+    pub(crate) fn chip(&self) -> MutexGuard<'_, Chip> {
         let mut chip = self.shared.chip();
         chip.now = self.now;
-        work(&mut chip)
+        chip
+    }
+
+    /// The same, for what changes from outside what the core sees.
+    pub(crate) fn disturbed(&self) -> MutexGuard<'_, Chip> {
+        self.shared.touch();
+        self.chip()
     }
 
     pub(crate) fn stands_still(&self) -> Fault {
@@ -127,16 +129,9 @@ impl Machine {
         }
     }
 
-    /// Works on the chip from outside where that changes what the core sees.
-    pub(crate) fn disturb<T>(&mut self, work: impl FnOnce(&mut Chip) -> T) -> T {
-        let done = self.with_chip(work);
-        self.shared.touch();
-        done
-    }
-
     /// The chip is in reset while that is too low; its RAM keeps its contents.
     pub(crate) fn set_supply(&mut self, supply_mv: u32) -> Result<Option<ResetCause>, Fault> {
-        let held = self.disturb(|chip| chip.set_supply(supply_mv))?;
+        let held = self.disturbed().set_supply(supply_mv)?;
         if let Some(cause) = held {
             self.reset(cause)?;
         }
@@ -158,8 +153,19 @@ impl Machine {
         self.exception == self.tick
     }
 
+    /// How much stack the program has used: what was never written still has its paint.
     pub(crate) fn stack_used(&self) -> Result<u32, Fault> {
-        self.stack.used(&self.memories)
+        let Range { start, end } = self.stack;
+        if self.memories.word(start)? != PAINT {
+            let what = "the stack was not painted, or ran over its end";
+            return Err(Fault::Program(what.to_owned()));
+        }
+        for address in (start..end).step_by(4) {
+            if self.memories.word(address)? != PAINT {
+                return Ok(end - address);
+            }
+        }
+        Ok(0)
     }
 
     /// Lets something befall the core before an instruction of the next tick's handler,
@@ -175,7 +181,7 @@ impl Machine {
         &mut self,
         until: Ps,
         sensors: &mut [impl SensorEnd],
-        observer: &mut impl Observer,
+        mut meter: Option<&mut Meter>,
     ) -> Result<Stop, Fault> {
         if self.held {
             self.now = until;
@@ -218,7 +224,7 @@ impl Machine {
             self.shared.set_now(self.now);
             // Nothing befalls it before a certain instruction.
             let is_left_alone = self.planned.is_none();
-            if self.account(xpsr, observer)? {
+            if self.account(xpsr, &mut meter)? {
                 return Ok(Stop::Tick);
             }
             let has_looped = cycles == BRANCH_CYCLES && self.pc.wrapping_add(2) == from;
@@ -270,7 +276,7 @@ impl Machine {
     }
 
     /// Counts the step that was just made; whether the tick's handler has returned.
-    fn account(&mut self, xpsr: u32, observer: &mut impl Observer) -> Result<bool, Fault> {
+    fn account(&mut self, xpsr: u32, meter: &mut Option<&mut Meter>) -> Result<bool, Fault> {
         let before = self.exception;
         self.exception = xpsr & EXCEPTION;
         let block = std::mem::replace(&mut self.block, xpsr & IT_BLOCK);
@@ -279,13 +285,13 @@ impl Machine {
         }
         if self.exception != 0 && before != self.exception && (before == 0 || self.exception < 16) {
             // An entry is no instruction.
-            self.look_for_tick(observer);
+            self.look_for_tick(meter);
             return Ok(false);
         }
         *self.spent_in(before) += 1;
         // No handler of the program's is more urgent than the tick's: behind another it begins.
         if before >= INTERRUPTS && before != self.exception {
-            self.look_for_tick(observer);
+            self.look_for_tick(meter);
         }
         if let Some(upset) = self.planned.due(self.spent.tick) {
             let held = upset.happen(&self.core, &self.memories)?;
@@ -295,7 +301,9 @@ impl Machine {
         }
         // Another handler of its priority may follow at once.
         if before == self.tick && self.exception != self.tick {
-            observer.tick_ends(self.now, &self.spent);
+            if let Some(meter) = meter {
+                meter.tick_ends(self.now);
+            }
             return Ok(true);
         }
         self.is_locked_up = before != 0 && before < INTERRUPTS && self.core.has_locked_up();
@@ -312,10 +320,12 @@ impl Machine {
         }
     }
 
-    fn look_for_tick(&mut self, observer: &mut impl Observer) {
+    fn look_for_tick(&mut self, meter: &mut Option<&mut Meter>) {
         if self.exception == self.tick {
             let latency = self.now - self.shared.chip().tick_began();
-            observer.tick_begins(self.now, latency, &self.spent);
+            if let Some(meter) = meter {
+                meter.tick_begins(self.now, latency, &self.spent);
+            }
             self.planned.tick_begins(self.spent.tick);
         }
     }

@@ -2,7 +2,7 @@
 //! from one tick to the next.
 
 use crate::chip::Ps;
-use crate::machine::{Observer, Spent};
+use crate::machine::Spent;
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub(crate) struct Tally {
@@ -79,10 +79,8 @@ impl Meter {
         };
         figures.whole.add(spent.tick + handlers + idle);
     }
-}
 
-impl Observer for Meter {
-    fn tick_begins(&mut self, now: Ps, latency: Ps, spent: &Spent) {
+    pub(crate) fn tick_begins(&mut self, now: Ps, latency: Ps, spent: &Spent) {
         self.figures.latency.add(latency);
         if let Some((began, before)) = self.began.replace((now, *spent)) {
             self.figures.period.add(now - began);
@@ -95,7 +93,7 @@ impl Observer for Meter {
         }
     }
 
-    fn tick_ends(&mut self, now: Ps, _spent: &Spent) {
+    pub(crate) const fn tick_ends(&mut self, now: Ps) {
         if let Some((began, _)) = self.began {
             self.figures.length.add(now - began);
         }

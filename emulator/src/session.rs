@@ -139,7 +139,7 @@ impl Session {
     /// By how much of its period the motor of each side is driven. One side may have all three
     /// outputs.
     pub(crate) fn efforts(&mut self) -> Vec<f64> {
-        let duties = self.machine().with_chip(|chip| chip.motor_duties());
+        let duties = self.machine().chip().motor_duties();
         let share = |(on, period): (u32, u32)| f64::from(on) / f64::from(period.max(1));
         if self.sides == 1 {
             return vec![duties.into_iter().map(share).fold(0.0, f64::max)];
@@ -148,8 +148,7 @@ impl Session {
     }
 
     pub(crate) fn drives(&mut self) -> bool {
-        let duties = self.machine().with_chip(|chip| chip.motor_duties());
-        duties.iter().any(|(on, _)| *on > 0)
+        self.machine().chip().drives_a_motor()
     }
 
     pub(crate) fn drives_all(&mut self) -> bool {
@@ -294,12 +293,12 @@ impl Session {
     /// Has the other end of the board's serial line, which has the scene's baud, send bytes
     /// from now on.
     pub fn serial_write(&mut self, bytes: &[u8]) {
-        self.board_mut().serial_write(bytes);
+        self.machine().disturbed().serial_write(bytes);
     }
 
     /// What the other end has received since the last call.
     pub fn serial_read(&mut self) -> Vec<u8> {
-        self.board_mut().serial_read()
+        self.machine().chip().serial_read()
     }
 
     /// The lines that it has logged since the last call.

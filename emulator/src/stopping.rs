@@ -200,7 +200,7 @@ impl Flooded<'_> {
 
     /// Bytes that the other end has sent.
     fn sent(&mut self) -> usize {
-        self.written - self.session.board_mut().serial_waiting()
+        self.written - self.session.machine().chip().serial_waiting()
     }
 
     fn tick(&mut self) -> Result<(), Error> {
@@ -296,7 +296,7 @@ impl Flooded<'_> {
             }
             By::SerialFrame => self.write(&wire::frame(&request)),
             By::Probe => self.request(request)?,
-            By::Button => self.session.board_mut().set_button(true),
+            By::Button => self.session.machine().chip().set_button(true),
         }
         // What a probe writes, and a button, is there at once.
         let end = match self.flood.by {
@@ -305,7 +305,7 @@ impl Flooded<'_> {
         };
         let mut late = self.until_off(end)?;
         if self.flood.by == By::Button {
-            self.session.board_mut().set_button(false);
+            self.session.machine().chip().set_button(false);
         }
         let mut answered = 0;
         while !self.is_answered(tag) {

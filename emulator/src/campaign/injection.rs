@@ -10,7 +10,7 @@ use wire::{Command, WhiskerId};
 
 use super::on_board::OnBoard;
 use super::subject::Subject;
-use crate::chip::{Chip, Fault};
+use crate::chip::Fault;
 
 /// A fault that can be injected.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
@@ -332,8 +332,8 @@ impl Injection {
             Kind::RamBit => board.flip_ram(self.detail)?,
             Kind::CoreBit => board.flip_core(self.detail),
             Kind::RegisterBit => board.flip_register(self.detail),
-            Kind::DmaStopped => board.session.machine().with_chip(Chip::stop_dma),
-            Kind::ClockStopped => drop(board.session.board_mut().stop_clock(true)?),
+            Kind::DmaStopped => board.session.machine().chip().stop_dma(),
+            Kind::ClockStopped => _ = board.session.machine().disturbed().stop_clock(true)?,
             _ => board.hold(self.detail),
         }
         Ok(())

@@ -76,7 +76,7 @@ impl OnBoard<'_> {
         let frame = wire::frame(&TaggedCommand { tag, command });
         let board = self.session.board_mut();
         let is_sent = if is_by_serial {
-            board.serial_write(&frame);
+            board.machine.disturbed().serial_write(&frame);
             true
         } else {
             // Half of a frame would spoil the next.
@@ -134,7 +134,7 @@ impl OnBoard<'_> {
     }
 
     pub(super) fn flip_register(&mut self, detail: u64) {
-        self.changed = self.session.machine().with_chip(|chip| chip.flip(detail));
+        self.changed = self.session.machine().chip().flip(detail);
     }
 
     pub(super) fn hold(&mut self, detail: u64) {

@@ -54,6 +54,10 @@ impl Chip {
         })
     }
 
+    pub(crate) fn drives_a_motor(&self) -> bool {
+        self.motor_duties().iter().any(|(on, _)| *on > 0)
+    }
+
     fn is_high(&self, pin: Pin) -> bool {
         self.role(pin) == Role::Output(true)
     }

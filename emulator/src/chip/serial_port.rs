@@ -35,8 +35,9 @@ impl SerialLine {
 }
 
 impl Chip {
-    pub(crate) const fn attach_serial(&mut self, baud: u32) {
-        self.serial.bit = Some(SECOND / baud as Ps);
+    /// The other end has this baud; none: nothing is there.
+    pub(crate) fn attach_serial(&mut self, baud: Option<u32>) {
+        self.serial.bit = baud.map(|baud| SECOND / Ps::from(baud));
     }
 
     pub(crate) fn serial_write(&mut self, bytes: &[u8]) {

@@ -58,9 +58,9 @@ fn read(board: &Board, leaf: &Leaf) -> Result<u32, Fault> {
     Ok(u32::from_le_bytes(word))
 }
 
-fn set_count(board: &mut Board, timer: u32, count: u32) -> Result<(), Fault> {
-    let machine = &mut board.machine;
-    machine.with_chip(|chip| chip.write(timer + CNT, count, u32::MAX))
+fn set_count(board: &Board, timer: u32, count: u32) -> Result<(), Fault> {
+    let mut chip = board.machine.chip();
+    chip.write(timer + CNT, count, u32::MAX)
 }
 
 impl Started {

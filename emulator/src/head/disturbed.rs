@@ -11,7 +11,7 @@ impl Node {
     /// Something comes to its controller when it is `at` by the bus.
     pub(super) fn expect(&mut self, at: Ps, what: Arrival) {
         let at = self.crystal.own(at);
-        self.board.machine.disturb(|chip| chip.expect(at, what));
+        self.board.machine.disturbed().expect(at, what);
     }
 }
 
@@ -49,7 +49,8 @@ impl Head {
         };
         node.wire = if is_cut { n + 1 } else { 0 };
         if let Some(wire) = self.wires.get_mut(node.wire).filter(|_| node.is_on) {
-            for frame in node.board.machine.with_chip(|chip| chip.can.pending()) {
+            let pending = node.board.machine.chip().can.pending();
+            for frame in pending {
                 wire.queue(n, frame, now_us);
             }
         }

@@ -98,9 +98,7 @@ impl HeadSession {
 
     /// Whether the last board drives a motor.
     pub(crate) fn last_drives(&mut self) -> Result<bool, Error> {
-        let machine = &mut self.last()?.machine;
-        let duties = machine.with_chip(|chip| chip.motor_duties());
-        Ok(duties.iter().any(|(on, _)| *on > 0))
+        Ok(self.last()?.machine.chip().drives_a_motor())
     }
 
     fn last(&mut self) -> Result<&mut board::Board, Error> {

@@ -255,7 +255,7 @@ impl Runner {
 
     fn press(&mut self, ms: u32) -> Result<(), Error> {
         for (is_down, ms) in [(false, 50), (true, ms), (false, 50)] {
-            self.session.board_mut().set_button(is_down);
+            self.session.machine().chip().set_button(is_down);
             self.pass(self.ticks(ms))?;
         }
         Ok(())

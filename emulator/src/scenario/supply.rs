@@ -9,7 +9,7 @@ use scene::Scene;
 use super::step::Step::{Do, Forget, Pass, Press, SaysTimes, Stand, Supply, UntilDriven, Within};
 use super::step::{Case, MS, Step, US, says, whisk};
 use super::trouble::{case, rest};
-use crate::chip::{Chip, Ps, ResetCause, WELL_MV};
+use crate::chip::{Ps, ResetCause, WELL_MV};
 use crate::session::Session;
 
 /// Within which the pins must be low, and the chip be reset after that.
@@ -103,7 +103,7 @@ fn falls(scene: &Scene, facts: &BoardFacts) -> Vec<Case> {
         .chain(refuses(scene, "power-up", 53));
     cases.push(case("the supply goes, and comes back slowly", steps));
 
-    let highest = |board: &mut Session| Ok(board.machine().disturb(Chip::set_brown_out));
+    let highest = |board: &mut Session| Ok(board.machine().disturbed().set_brown_out());
     let browns_out = [
         says(TOO_LOW),
         Within(0, "the brown-out reset at its highest level", highest),
@@ -118,7 +118,7 @@ fn falls(scene: &Scene, facts: &BoardFacts) -> Vec<Case> {
         browns_out.into_iter().chain(refused).collect()
     } else {
         vec![Within(0, "no brown-out reset", |board| {
-            Ok(!board.machine().disturb(Chip::set_brown_out))
+            Ok(!board.machine().disturbed().set_brown_out())
         })]
     };
     let silent = SaysTimes(0, TOO_LOW.to_owned());
@@ -132,14 +132,14 @@ const INTERNAL_CLOCK: &str = "limit 37 ";
 
 fn clock_fails(scene: &Scene, facts: &BoardFacts) -> [Case; 4] {
     let what = "pins low as the clock stops in a tick";
-    let stops = |board: &mut Session| board.board_mut().stop_clock(true);
+    let stops = |board: &mut Session| board.machine().disturbed().stop_clock(true);
     let stopped = [
         Within(0, "the clock from outside stops", stops),
         low(what),
-        Do(|board| board.board_mut().stop_clock(false).map(drop)),
+        Do(|board| board.machine().disturbed().stop_clock(false).map(drop)),
     ];
     let steps: Vec<Step> = if facts.code == BoardCode::NucleoG071rb {
-        let unused = |board: &mut Session| Ok(!board.board_mut().stop_clock(true)?);
+        let unused = |board: &mut Session| Ok(!board.machine().disturbed().stop_clock(true)?);
         vec![
             Within(0, "no clock from outside is needed", unused),
             whisk(250),
@@ -164,7 +164,7 @@ fn clock_fails(scene: &Scene, facts: &BoardFacts) -> [Case; 4] {
 fn never_comes(facts: &BoardFacts) -> Case {
     // Power that has come back arms none: somebody does.
     let starts = Do(|board| {
-        board.board_mut().stop_clock(true)?;
+        board.machine().disturbed().stop_clock(true)?;
         board.board_mut().reset_now(ResetCause::Power)
     });
     let is_said = if facts.code == BoardCode::NucleoG071rb {
@@ -184,13 +184,10 @@ fn never_comes(facts: &BoardFacts) -> Case {
 
 fn lets_go() -> Case {
     let lets_go = Do(|board| {
-        board.machine().with_chip(Chip::let_go);
+        board.machine().chip().let_go();
         Ok(())
     });
-    let stops = |board: &mut Session| {
-        let machine = board.machine();
-        Ok(machine.with_chip(|chip| chip.stops_with_the_core()))
-    };
+    let stops = |board: &mut Session| Ok(board.machine().chip().stops_with_the_core());
     let steps = [
         whisk(250),
         lets_go,

@@ -62,7 +62,7 @@ pub(super) fn compare(talk: &mut Talk, scene: &Scene) -> Result<String, Error> {
         }
         // Idle, which follows the tick, had brought the pins to what was so in the last one.
         if scene.telemetry.pins {
-            let found = talk.pair.target.board_mut().signals();
+            let found = talk.pair.target.machine().chip().signals();
             if found != shown {
                 return wrong(format!(
                     "in tick {tick} the pins are {found:?}, not {shown:?}"

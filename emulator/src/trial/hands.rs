@@ -148,8 +148,7 @@ impl Hands {
                 let board = session.board_mut();
                 board.program_sensor(side, part.decoder, part.rest_us.into());
                 board.update_sensor(side, part.update_hz);
-                let machine = &mut board.machine;
-                machine.with_chip(|chip| chip.stick_select(side, around.is_stuck));
+                board.machine.chip().stick_select(side, around.is_stuck);
                 if let Some(slave) = session.run.slave_mut(side) {
                     slave.set_error_word(Faults::new(part.report));
                 }
@@ -158,7 +157,7 @@ impl Hands {
         }
         let before = std::mem::replace(&mut self.at_board, now);
         if before.is_pressed != now.is_pressed {
-            session.board_mut().set_button(now.is_pressed);
+            session.machine().chip().set_button(now.is_pressed);
         }
         if before.is_off != now.is_off {
             session.board_mut().set_power(!now.is_off)?;

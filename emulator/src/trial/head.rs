@@ -80,7 +80,8 @@ pub(super) fn run(
     let head = run.module_mut();
     head.bear();
     for node in &mut head.nodes {
-        node.board.attach_serial(scene.telemetry.serial_baud);
+        let baud = scene.telemetry.serial_baud;
+        node.board.machine.chip().attach_serial(baud);
     }
     let mut lasted = vec![false; scenario.events.len()];
     for _ in 0..run.ticks() {
@@ -122,7 +123,7 @@ fn befall(head: &mut Head, event: &Event, begins: bool) -> Result<Option<Stop>, 
         What::PowerOff => head.strike(node, |board| board.set_power(!begins))?,
         What::Reset if begins => head.strike(node, |board| board.reset_now(ResetCause::Pin))?,
         What::Jumpers { number } if begins => head.strike(node, |board| {
-            board.machine.with_chip(|chip| chip.set_number(*number));
+            board.machine.chip().set_number(*number);
             board.reset_now(ResetCause::Pin)
         })?,
         What::BusCut => head.cut(node, begins),
@@ -135,7 +136,8 @@ fn befall(head: &mut Head, event: &Event, begins: bool) -> Result<Option<Stop>, 
         }
         What::Serial { text } if begins => {
             if let Some(node) = head.nodes.get_mut(node) {
-                node.board.serial_write(format!("{text}\n").as_bytes());
+                let mut chip = node.board.machine.disturbed();
+                chip.serial_write(format!("{text}\n").as_bytes());
             }
             let arrived = None;
             return Ok((text.trim() == "stop").then_some(Stop { node, arrived }));
@@ -189,12 +191,10 @@ impl Figures {
                 seen.lister.list_reset(t_s);
             }
             of_node.ticks += u64::from(node.ended);
-            let (duties, errors);
-            (duties, errors, of_node.is_overrun) = board.machine.with_chip(|chip| {
-                let errors = chip.can.errors();
-                (chip.motor_duties(), errors, chip.can.has_overrun())
-            });
-            let is_driven = duties.iter().any(|(on, _)| *on > 0);
+            let chip = board.machine.chip();
+            of_node.is_overrun = chip.can.has_overrun();
+            let (is_driven, errors) = (chip.drives_a_motor(), chip.can.errors());
+            drop(chip);
             if is_driven {
                 of_node.driven_s += self.tick_s;
             }
@@ -244,7 +244,7 @@ impl Figures {
         }
         for stop in &mut self.stops {
             let node = head.nodes.get_mut(stop.node);
-            let waits = node.map(|node| node.board.serial_waiting());
+            let waits = node.map(|node| node.board.machine.chip().serial_waiting());
             if stop.arrived.is_none() && waits == Some(0) {
                 stop.arrived = Some(self.ticks);
             }

@@ -169,7 +169,7 @@ impl<'s> Links<'s> {
 
     /// Writes a line, unless the serial line has enough to do.
     fn write(&mut self, line: &str, is_flood: bool, session: &mut Session) -> bool {
-        let waiting = session.board_mut().serial_waiting();
+        let waiting = session.machine().chip().serial_waiting();
         let enough = if is_flood {
             self.tick_bytes
         } else {
@@ -217,7 +217,7 @@ impl<'s> Links<'s> {
 
     /// What has arrived in the tick that was just made; what came while none was, is lost.
     pub(super) fn arrived(&mut self, session: &mut Session) -> Arrived {
-        let pending = session.board_mut().serial_waiting();
+        let pending = session.machine().chip().serial_waiting();
         let carried = self.written - pending as u64;
         let mut arrived = std::mem::take(&mut self.arrived);
         let is_heard = !session.board_mut().is_late;

@@ -126,7 +126,7 @@ impl Lister {
             self.list(of_log(t_s, line));
         }
         let by_probe = board.heard()?.into_iter();
-        let bytes = board.serial_read();
+        let bytes = board.machine.chip().serial_read();
         for seen in by_probe.chain(self.line.take(&bytes)) {
             match seen {
                 Received::Packet(Packet::Answer(answer)) => self.answered(t_s, in_words(&answer)),

@@ -41,7 +41,7 @@ fn open(divider: u32) -> Rig {
     ] {
         rig.write(address, value);
     }
-    rig.chip.attach_serial(BAUD);
+    rig.chip.attach_serial(Some(BAUD));
     rig
 }
 
