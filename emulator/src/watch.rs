@@ -1,7 +1,8 @@
 //! The module's state in the board's RAM, read as a debugger would: by the
 //! names of its members, while the core is between two ticks.
 //!
-//! It costs the firmware nothing. What a scene leaves out is not there.
+//! It costs the firmware nothing. What a scene leaves out is not there. Cells, lists and RTIC put
+//! names around those that are looked up here, which are seen through.
 
 mod servos;
 
@@ -18,75 +19,6 @@ use crate::notice::Notice;
 use crate::program::Program;
 
 pub(crate) use servos::Servos;
-
-/// Every name that is looked up, in one place.
-mod name {
-    use crate::notice::Notice;
-
-    pub(super) const MODULE: &str = "INNER";
-    /// The queues between the tick and idle, and in them that of the events with their ticks.
-    pub(super) const QUEUES: &str = "__rtic_internal_local_init_queues";
-    pub(super) const EVENTS: &str = "events";
-    pub(super) const EVENT: &str = "event";
-    /// In a queue: its ring, and where the next goes.
-    pub(super) const RING: &str = "buffer";
-    pub(super) const TAIL: &str = "tail";
-    pub(super) const CONTACT: &str = "contact";
-    pub(super) const STATE: [&str; 2] = ["motion", "state"];
-    /// In it: the sides, and the gate of each.
-    pub(super) const SIDES: &str = "sides";
-    pub(super) const Z: &str = "z";
-    /// In it: the whiskers.
-    pub(super) const WHISKERS: &str = "whiskers";
-    /// In a whisker: its protraction.
-    pub(super) const THETA: [&str; 2] = ["muscle", "theta"];
-    /// What contact adds to its nominal gain, and that.
-    pub(super) const LIFT: &str = "lift";
-    pub(super) const NOMINAL: [&str; 2] = ["nominal", "first"];
-    /// In the state: the oscillator of the left side, as its integrator keeps it.
-    pub(super) const KEPT: [&str; 2] = ["oscillators", "kept"];
-    /// A board of a head on its bus: whether it has joined, and messages that it could not use.
-    pub(super) const ON_BUS: &str = "ON_BUS";
-    pub(super) const JOINED: [&str; 2] = ["node", "is_joined"];
-    pub(super) const LOST: [&str; 2] = ["node", "lost"];
-    /// Ticks that did not happen in time.
-    pub(super) const MISSED: [&str; 2] = ["timing", "missed"];
-    /// What tells the touches of the whiskers.
-    pub(super) const TOUCHES: [&str; 2] = ["perception", "touches"];
-    /// In that: the number of the touch.
-    pub(super) const TOUCHING: [&str; 2] = ["touching", "number"];
-    /// The event, and what stands in it.
-    pub(super) const DECISION: &str = "Decision";
-    pub(super) const SAMPLES: &str = "samples";
-    pub(super) const PACKED: &str = "packed";
-    pub(super) const TOUCH: &str = "touch";
-    /// The event of a pose, and in it each estimate and what stands in that.
-    pub(super) const POSE: &str = "Pose";
-    pub(super) const ESTIMATES: [&str; 2] = ["tilt", "depth"];
-    pub(super) const ESTIMATE: [&str; 2] = ["hundredths", "error_hundredths"];
-    /// Events that are faults, or their ends.
-    pub(super) const NOTICES: [(&str, Notice); 5] = [
-        ("SensorLost", Notice::SensorLost),
-        ("SensorBack", Notice::SensorBack),
-        ("MotorFault", Notice::MotorFault),
-        ("MotorRetry", Notice::MotorRetry),
-        ("MotorGivenUp", Notice::MotorGivenUp),
-    ];
-    /// In a whisker of the module: its motor; in that what it does, and what was commanded.
-    pub(super) const SERVO: &str = "servo";
-    pub(super) const DOES: &str = "state";
-    pub(super) const RUNNING: &str = "Running";
-    pub(super) const HOMING: &str = "Homing";
-    pub(super) const BEHIND: &str = "behind";
-    pub(super) const COMMANDED: [&str; 2] = ["setpoint", "first"];
-    pub(super) const SOME: &str = "Some";
-    /// Whether motors are armed.
-    pub(super) const ARMED: [&str; 2] = ["motion", "is_armed"];
-    /// In an event: the whisker, and the decision if it is one.
-    pub(super) const PLACED: [&str; 2] = ["__0", "__1"];
-    pub(super) const SIDE: &str = "side";
-    pub(super) const WHISKER: &str = "whisker";
-}
 
 #[derive(Debug, Clone, Copy)]
 struct Variable {
@@ -161,7 +93,7 @@ impl Watch {
     /// Of a board that runs `scene`, and has so many of its whiskers.
     pub(crate) fn new(program: &Program, scene: &Scene, whiskers: usize) -> Result<Self, Fault> {
         let info = DebugInfo::new(program)?;
-        let module = info.variable(name::MODULE)?;
+        let module = info.variable("INNER")?;
         let sides = scene.head.sides.count() as u32;
         let whiskers = whiskers as u32;
         let some = |count: u32, names: &[&str], part: &[&str]| -> Result<Vec<Place<'_>>, Fault> {
@@ -173,25 +105,24 @@ impl Watch {
             places.into_iter().map(Variable::at).collect()
         };
         let mut watch = Self {
-            missed: along(module, &name::MISSED)?.scalar()?.0,
+            missed: along(module, &["timing", "missed"])?.scalar()?.0,
             touch: Vec::new(),
-            contact: numbers(some(sides, &[name::CONTACT], &[])?)?,
+            contact: numbers(some(sides, &["contact"], &[])?)?,
             z: Vec::new(),
             theta: Vec::new(),
             gain: Vec::new(),
             queue: Queue::new(&info)?,
         };
         if scene.classifier.is_some() {
-            let numbers = each(&name::TOUCHES, &name::TOUCHING)?.into_iter();
+            let numbers = each(&["perception", "touches"], &["touching", "number"])?.into_iter();
             watch.touch = numbers.map(|number| number.address).collect();
         }
         if scene.whisking.is_some() {
-            let [motion, state] = name::STATE;
-            let all = [motion, state, name::WHISKERS];
-            watch.z = numbers(some(sides, &[motion, state, name::SIDES], &[name::Z])?)?;
-            watch.theta = numbers(each(&all, &name::THETA)?)?;
-            let nominal = numbers(each(&all, &name::NOMINAL)?)?;
-            let lift = numbers(each(&all, &[name::LIFT])?)?;
+            let all = ["motion", "state", "whiskers"];
+            watch.z = numbers(some(sides, &["motion", "state", "sides"], &["z"])?)?;
+            watch.theta = numbers(each(&all, &["muscle", "theta"])?)?;
+            let nominal = numbers(each(&all, &["nominal", "first"])?)?;
+            let lift = numbers(each(&all, &["lift"])?)?;
             let gains = nominal.into_iter().zip(lift);
             watch.gain = gains.map(|(nominal, lift)| [nominal, lift]).collect();
         }
@@ -235,40 +166,45 @@ impl Watch {
 
 impl Queue {
     fn new(info: &DebugInfo) -> Result<Self, Fault> {
-        let queue = info.variable(name::QUEUES)?.member(name::EVENTS)?;
-        let events = queue.member(name::RING)?;
+        let queue = info
+            .variable("__rtic_internal_local_init_queues")?
+            .member("events")?;
+        let events = queue.member("buffer")?;
         let first = events.element(0)?;
-        let of_first = first.member(name::EVENT)?;
-        let (tag, value, event) = of_first.variant(name::DECISION)?;
-        let [whisker, decision] = name::PLACED.map(|part| event.member(part));
-        let (whisker, decision) = (whisker?, decision?);
-        let (_, posed, event) = of_first.variant(name::POSE)?;
-        let pose = event.member(name::PLACED[1])?;
+        let of_first = first.member("event")?;
+        let (tag, value, event) = of_first.variant("Decision")?;
+        let (whisker, decision) = (event.member("__0")?, event.member("__1")?);
+        let (_, posed, event) = of_first.variant("Pose")?;
+        let pose = event.member("__1")?;
         let mut numbers = Vec::new();
-        for estimate in name::ESTIMATES {
-            for part in name::ESTIMATE {
+        for estimate in ["tilt", "depth"] {
+            for part in ["hundredths", "error_hundredths"] {
                 let number = pose.member(estimate)?.member(part)?;
                 numbers.push(number.address - first.address);
             }
         }
-        let notices = name::NOTICES.into_iter();
-        let notices = notices.map(|(name, notice)| Ok((of_first.variant(name)?.1, notice)));
+        let notices = [
+            ("SensorLost", Notice::SensorLost),
+            ("SensorBack", Notice::SensorBack),
+            ("MotorFault", Notice::MotorFault),
+            ("MotorRetry", Notice::MotorRetry),
+            ("MotorGivenUp", Notice::MotorGivenUp),
+        ];
+        let notices = notices
+            .into_iter()
+            .map(|(name, notice)| Ok((of_first.variant(name)?.1, notice)));
         let offset =
             |name| -> Result<u32, Fault> { Ok(decision.member(name)?.scalar()?.0 - first.address) };
         Ok(Self {
-            tail: queue.member(name::TAIL)?.address,
+            tail: queue.member("tail")?.address,
             length: events.length()?,
             events: first.address,
             stride: first.size()?,
             tag: (tag - first.address, value),
-            words: [
-                offset(name::SAMPLES)?,
-                offset(name::PACKED)?,
-                offset(name::TOUCH)?,
-            ],
+            words: [offset("samples")?, offset("packed")?, offset("touch")?],
             whisker: [
-                whisker.member(name::SIDE)?.address - first.address,
-                whisker.member(name::WHISKER)?.address - first.address,
+                whisker.member("side")?.address - first.address,
+                whisker.member("whisker")?.address - first.address,
             ],
             pose: (posed, std::array::from_fn(|n| numbers[n])),
             notices: notices.collect::<Result<_, Fault>>()?,

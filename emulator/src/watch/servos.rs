@@ -3,7 +3,7 @@
 
 use scene::Scene;
 
-use super::{Variable, along, name};
+use super::{Variable, along};
 use crate::chip::Fault;
 use crate::debug_info::{DebugInfo, Place};
 use crate::memory::Memories;
@@ -43,12 +43,12 @@ struct Servo {
 impl Servo {
     fn at(servo: Place<'_>) -> Self {
         Self {
-            homing: within(servo, &[name::DOES], name::HOMING).map(|(tag, _)| tag),
-            behind: within(servo, &[name::DOES], name::RUNNING).and_then(|(tag, held)| {
-                let behind = Variable::at(held.member(name::BEHIND).ok()?).ok()?;
+            homing: within(servo, &["state"], "Homing").map(|(tag, _)| tag),
+            behind: within(servo, &["state"], "Running").and_then(|(tag, held)| {
+                let behind = Variable::at(held.member("behind").ok()?).ok()?;
                 Some((tag, behind))
             }),
-            commanded: within(servo, &name::COMMANDED, name::SOME)
+            commanded: within(servo, &["setpoint", "first"], "Some")
                 .and_then(|(tag, held)| Some((tag, Variable::at(held.member("__0").ok()?).ok()?))),
         }
     }
@@ -65,27 +65,30 @@ fn within<'d>(from: Place<'d>, names: &[&str], variant: &str) -> Option<(Tag, Pl
 pub(crate) struct Servos {
     motors: Vec<Servo>,
     armed: Option<u32>,
+    /// That of the left side, as its integrator keeps it.
     oscillator: Option<[Variable; 2]>,
+    /// Whether a board of a head has joined, and messages that it could not use.
     on_bus: Option<[u32; 2]>,
 }
 
 impl Servos {
     pub(crate) fn new(program: &Program, scene: &Scene) -> Result<Self, Fault> {
         let info = DebugInfo::new(program)?;
-        let module = info.variable(name::MODULE)?;
-        let whiskers = module.member(name::WHISKERS)?;
+        let module = info.variable("INNER")?;
+        let whiskers = module.member("whiskers")?;
         let sides = scene.head.sides.count() as u32;
         let servos = (0..sides).filter_map(|n| {
-            let servo = whiskers.element(n).ok()?.member(name::SERVO).ok()?;
+            let servo = whiskers.element(n).ok()?.member("servo").ok()?;
             Some(Servo::at(servo))
         });
-        let armed = along(module, &name::ARMED).ok();
-        let kept = along(module, &name::STATE).and_then(|state| along(state, &name::KEPT));
+        let armed = along(module, &["motion", "is_armed"]).ok();
+        let kept = along(module, &["motion", "state"])
+            .and_then(|state| along(state, &["oscillators", "kept"]));
         let kept = kept.and_then(|kept| kept.element(0));
         let part = |n| Variable::at(kept.as_ref().ok()?.element(n).ok()?).ok();
-        let on_bus = info.variable(name::ON_BUS).ok().and_then(|on_bus| {
+        let on_bus = info.variable("ON_BUS").ok().and_then(|on_bus| {
             let at = |names| Some(along(on_bus, names).ok()?.address);
-            at(&name::JOINED).zip(at(&name::LOST))
+            at(&["node", "is_joined"]).zip(at(&["node", "lost"]))
         });
         Ok(Self {
             motors: servos.collect(),
