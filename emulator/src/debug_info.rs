@@ -5,9 +5,10 @@ mod leaves;
 mod place;
 
 use gimli::{
-    AttributeValue, DW_AT_data_member_location, DW_AT_location, DW_AT_name, DW_AT_type,
-    DW_TAG_member, DebuggingInformationEntry, DwAt, Dwarf, EndianRcSlice, LittleEndian, Operation,
-    Unit, UnitOffset,
+    AttributeValue, DW_AT_count, DW_AT_data_member_location, DW_AT_discr_value, DW_AT_location,
+    DW_AT_name, DW_AT_type, DW_AT_upper_bound, DW_TAG_member, DW_TAG_variable,
+    DebuggingInformationEntry, DwAt, DwTag, Dwarf, EndianRcSlice, LittleEndian, Operation, Unit,
+    UnitOffset,
 };
 use object::{Object, ObjectSection};
 
@@ -31,6 +32,20 @@ pub(crate) struct DebugInfo {
 struct Type {
     unit: usize,
     at: UnitOffset,
+}
+
+/// An entry directly below another: a member, a variant, or the range of an array.
+struct Child {
+    at: Type,
+    tag: DwTag,
+    name: Option<String>,
+    /// Where a member is, and of what type.
+    offset: Option<u32>,
+    of: Option<Type>,
+    /// The tag's value of a variant.
+    value: Option<u64>,
+    /// Of an array.
+    length: Option<u32>,
 }
 
 fn bad(what: impl std::fmt::Display) -> Fault {
@@ -103,32 +118,69 @@ impl DebugInfo {
         })
     }
 
-    /// Walks over the entries directly below `of`, until `visit` has found something.
-    fn children<T>(
-        &self,
-        of: Type,
-        mut visit: impl FnMut(&Entry<'_>) -> Result<Option<T>, Fault>,
+    fn children(&self, of: Type) -> Result<Vec<Child>, Fault> {
+        let unit = of.unit;
+        let mut tree = self.units[unit].entries_tree(Some(of.at)).map_err(bad)?;
+        let mut below = tree.root().map_err(bad)?.children();
+        let mut children = Vec::new();
+        while let Some(child) = below.next().map_err(bad)? {
+            let entry = child.entry();
+            let count = number(entry, DW_AT_count)?;
+            let last = number(entry, DW_AT_upper_bound)?;
+            children.push(Child {
+                at: Type {
+                    unit,
+                    at: entry.offset(),
+                },
+                tag: entry.tag(),
+                name: self.name(unit, entry)?,
+                offset: number(entry, DW_AT_data_member_location)?.map(|offset| offset as u32),
+                of: self.type_of(unit, entry)?,
+                value: number(entry, DW_AT_discr_value)?,
+                length: count
+                    .or(last.map(|last| last + 1))
+                    .map(|length| length as u32),
+            });
+        }
+        Ok(children)
+    }
+
+    /// The member of that name, directly below `of`, and its offset.
+    fn member(&self, of: Type, name: &str) -> Result<Option<(u32, Type)>, Fault> {
+        let mut children = self.children(of)?.into_iter();
+        Ok(children.find_map(|child| {
+            let is_it = child.tag == DW_TAG_member && child.name.as_deref() == Some(name);
+            Some((child.offset.unwrap_or(0), child.of.filter(|_| is_it)?))
+        }))
+    }
+
+    /// Walks over the variables that have an address, until `visit` has found something.
+    fn variables<'d, T>(
+        &'d self,
+        mut visit: impl FnMut(String, Place<'d>) -> Result<Option<T>, Fault>,
     ) -> Result<Option<T>, Fault> {
-        let mut tree = self.units[of.unit].entries_tree(Some(of.at)).map_err(bad)?;
-        let mut children = tree.root().map_err(bad)?.children();
-        while let Some(child) = children.next().map_err(bad)? {
-            if let Some(found) = visit(child.entry())? {
-                return Ok(Some(found));
+        for unit in 0..self.units.len() {
+            let mut entries = self.units[unit].entries();
+            while let Some((_, entry)) = entries.next_dfs().map_err(bad)? {
+                if entry.tag() == DW_TAG_variable
+                    && let Some(address) = self.address(unit, entry)?
+                    && let Some(name) = self.name(unit, entry)?
+                    && let Some(of) = self.type_of(unit, entry)?
+                {
+                    let info = self;
+                    let found = visit(name, Place { info, address, of })?;
+                    if found.is_some() {
+                        return Ok(found);
+                    }
+                }
             }
         }
         Ok(None)
     }
 
-    /// The member of that name, directly below `of`, and its offset.
-    fn member(&self, of: Type, name: &str) -> Result<Option<(u32, Type)>, Fault> {
-        self.children(of, |entry| {
-            if entry.tag() != DW_TAG_member || self.name(of.unit, entry)?.as_deref() != Some(name) {
-                return Ok(None);
-            }
-            let offset = number(entry, DW_AT_data_member_location)?.unwrap_or(0);
-            let found = self.type_of(of.unit, entry)?;
-            Ok(found.map(|found| (offset as u32, found)))
-        })
+    pub(crate) fn variable(&self, name: &str) -> Result<Place<'_>, Fault> {
+        let found = self.variables(|found, place| Ok((found == name).then_some(place)))?;
+        found.ok_or_else(|| bad(format!("no variable {name}")))
     }
 }
 

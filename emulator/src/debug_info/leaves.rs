@@ -1,14 +1,13 @@
 //! All numbers in RAM, by the names of the variables and members that lead to them.
 
 use gimli::{
-    DW_AT_data_member_location, DW_TAG_array_type, DW_TAG_member, DW_TAG_structure_type,
-    DW_TAG_union_type, DW_TAG_variable, DW_TAG_variant, DW_TAG_variant_part,
+    DW_TAG_array_type, DW_TAG_member, DW_TAG_structure_type, DW_TAG_union_type, DW_TAG_variant,
+    DW_TAG_variant_part,
 };
 
-use super::{DebugInfo, Place, Type, bad, number};
+use super::{DebugInfo, Place, Type};
 use crate::chip::Fault;
-
-const RAM: u32 = 0x2000_0000;
+use crate::memory::RAM;
 
 /// A number in RAM.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -47,20 +46,12 @@ fn short(path: &str) -> String {
 impl DebugInfo {
     pub(crate) fn leaves(&self) -> Result<Vec<Leaf>, Fault> {
         let mut leaves = Vec::new();
-        for unit in 0..self.units.len() {
-            let mut entries = self.units[unit].entries();
-            while let Some((_, entry)) = entries.next_dfs().map_err(bad)? {
-                if entry.tag() == DW_TAG_variable
-                    && let Some(name) = self.name(unit, entry)?
-                    && let Some(address) = self.address(unit, entry)?
-                    && address >= RAM
-                    && let Some(of) = self.type_of(unit, entry)?
-                {
-                    let info = self;
-                    Place { info, address, of }.leaves(&name, &mut leaves)?;
-                }
+        self.variables::<()>(|name, place| {
+            if place.address >= RAM {
+                place.leaves(&name, &mut leaves)?;
             }
-        }
+            Ok(None)
+        })?;
         Ok(leaves)
     }
 }
@@ -88,34 +79,17 @@ impl Place<'_> {
 
     /// The numbers in the members directly below `of`, and in those of every variant.
     fn members(self, of: Type, path: &str, into: &mut Vec<Leaf>) -> Result<(), Fault> {
-        let mut parts = Vec::new();
-        let mut members = Vec::new();
-        let unit = of.unit;
-        self.info.children::<()>(of, |entry| {
-            let below = Type {
-                unit,
-                at: entry.offset(),
-            };
-            match entry.tag() {
-                tag if tag == DW_TAG_variant_part || tag == DW_TAG_variant => parts.push(below),
-                tag if tag == DW_TAG_member => {
-                    let offset = number(entry, DW_AT_data_member_location)?.unwrap_or(0);
-                    if let Some(of) = self.info.type_of(unit, entry)? {
-                        // The tag of a variant has no name.
-                        let name = self.info.name(unit, entry)?;
-                        members.push((offset as u32, of, name.unwrap_or_else(|| "tag".to_owned())));
-                    }
-                }
-                _ => {}
+        for child in self.info.children(of)? {
+            if child.tag == DW_TAG_variant_part || child.tag == DW_TAG_variant {
+                self.members(child.at, path, into)?;
+            } else if child.tag == DW_TAG_member
+                && let Some(of) = child.of
+            {
+                // The tag of a variant has no name.
+                let name = child.name.as_deref().unwrap_or("tag");
+                let part = self.part(child.offset.unwrap_or(0), of);
+                part.leaves(&format!("{path}.{name}"), into)?;
             }
-            Ok(None)
-        })?;
-        for part in parts {
-            self.members(part, path, into)?;
-        }
-        for (offset, of, name) in members {
-            self.part(offset, of)
-                .leaves(&format!("{path}.{name}"), into)?;
         }
         Ok(())
     }

@@ -1,10 +1,9 @@
 //! Walking from a variable to its parts by their names.
 
 use gimli::{
-    AttributeValue, DW_AT_byte_size, DW_AT_count, DW_AT_data_member_location, DW_AT_discr_value,
-    DW_AT_encoding, DW_AT_upper_bound, DW_ATE_float, DW_TAG_array_type, DW_TAG_base_type,
-    DW_TAG_member, DW_TAG_structure_type, DW_TAG_subrange_type, DW_TAG_union_type, DW_TAG_variable,
-    DW_TAG_variant, DW_TAG_variant_part,
+    AttributeValue, DW_AT_byte_size, DW_AT_encoding, DW_ATE_float, DW_TAG_array_type,
+    DW_TAG_base_type, DW_TAG_member, DW_TAG_structure_type, DW_TAG_union_type, DW_TAG_variant,
+    DW_TAG_variant_part,
 };
 
 use super::{DebugInfo, Type, bad, number};
@@ -31,28 +30,6 @@ const WRAPPERS: [&str; 5] = ["value", "__0", "inner", "val", "buffer"];
 
 /// Variants that hold what is there.
 const PRESENT: [&str; 2] = ["Some", "Ok"];
-
-impl DebugInfo {
-    pub(crate) fn variable(&self, name: &str) -> Result<Place<'_>, Fault> {
-        for unit in 0..self.units.len() {
-            let mut entries = self.units[unit].entries();
-            while let Some((_, entry)) = entries.next_dfs().map_err(bad)? {
-                if entry.tag() == DW_TAG_variable
-                    && self.name(unit, entry)?.as_deref() == Some(name)
-                    && let Some(address) = self.address(unit, entry)?
-                    && let Some(of) = self.type_of(unit, entry)?
-                {
-                    return Ok(Place {
-                        info: self,
-                        address,
-                        of,
-                    });
-                }
-            }
-        }
-        Err(bad(format!("no variable {name}")))
-    }
-}
 
 impl Place<'_> {
     pub(super) fn part(self, offset: u32, of: Type) -> Self {
@@ -108,24 +85,14 @@ impl Place<'_> {
         let unit = &self.info.units[self.of.unit];
         let entry = unit.entry(self.of.at).map_err(bad)?;
         let size = number(&entry, DW_AT_byte_size)?;
-        size.map(|size| size as u32)
-            .ok_or_else(|| bad("a type without a size"))
+        let size = size.map(|size| size as u32);
+        size.ok_or_else(|| bad("a type without a size"))
     }
 
     pub(crate) fn length(self) -> Result<u32, Fault> {
-        let length = self.info.children(self.of, |entry| {
-            if entry.tag() != DW_TAG_subrange_type {
-                return Ok(None);
-            }
-            if let Some(count) = number(entry, DW_AT_count)? {
-                return Ok(Some(count));
-            }
-            let last = number(entry, DW_AT_upper_bound)?;
-            Ok(last.map(|last| last + 1))
-        })?;
-        length
-            .map(|length| length as u32)
-            .ok_or_else(|| bad("an array without a length"))
+        let mut children = self.info.children(self.of)?.into_iter();
+        let length = children.find_map(|child| child.length);
+        length.ok_or_else(|| bad("an array without a length"))
     }
 
     pub(crate) fn element(self, index: u32) -> Result<Self, Fault> {
@@ -192,34 +159,19 @@ impl Place<'_> {
 
     /// Of itself; a variant that is every other tag has no value of its own.
     fn own_variant(self, name: &str) -> Result<Option<(u32, Option<u64>, Self)>, Fault> {
-        let info = self.info;
-        let unit = self.of.unit;
-        let part = info.children(self.of, |entry| {
-            Ok((entry.tag() == DW_TAG_variant_part).then(|| entry.offset()))
-        })?;
-        let Some(part) = part else {
+        let mut children = self.info.children(self.of)?.into_iter();
+        let Some(part) = children.find(|child| child.tag == DW_TAG_variant_part) else {
             return Ok(None);
         };
-        let part = Type { unit, at: part };
-        let tag = info.children(part, |entry| {
-            if entry.tag() != DW_TAG_member {
-                return Ok(None);
+        let parts = self.info.children(part.at)?;
+        let tag = parts.iter().find(|part| part.tag == DW_TAG_member);
+        let tag = tag.and_then(|tag| tag.offset).unwrap_or(0);
+        for variant in parts.iter().filter(|part| part.tag == DW_TAG_variant) {
+            if let Some((offset, of)) = self.info.member(variant.at, name)? {
+                let held = self.part(offset, of);
+                return Ok(Some((self.address + tag, variant.value, held)));
             }
-            number(entry, DW_AT_data_member_location)
-        })?;
-        let found = info.children(part, |entry| {
-            if entry.tag() != DW_TAG_variant {
-                return Ok(None);
-            }
-            let value = number(entry, DW_AT_discr_value)?;
-            let at = Type {
-                unit,
-                at: entry.offset(),
-            };
-            let member = info.member(at, name)?;
-            Ok(member.map(|member| (value, member)))
-        })?;
-        let tag = self.address + tag.unwrap_or(0) as u32;
-        Ok(found.map(|(value, (offset, of))| (tag, value, self.part(offset, of))))
+        }
+        Ok(None)
     }
 }
