@@ -47,17 +47,16 @@ fn once(scene: &Scene, program: &Program) -> Result<(usize, String), Error> {
     for n in 1..=session.run.ticks() {
         session.tick()?;
         let row = *session.run.row();
-        let Some(contact) = Contact::of(&row, &before)? else {
+        let Some(side) = touching(&row)? else {
             before = row;
             continue;
         };
         if n == 1 {
             return wrong("there is contact from the start");
         }
-        if !contact.excites(&row) {
+        if !excites(side, &before, &row) {
             return wrong("excitation comes in another tick");
         }
-        let side = contact.side;
         // Its frame was begun in the tick before this one.
         let (latched, now) = (session.board_mut().latched(side), session.machine().now);
         let us = (now - latched) as f64 / 1e6;
@@ -72,37 +71,24 @@ fn once(scene: &Scene, program: &Program) -> Result<(usize, String), Error> {
     wrong("no contact excites the other side")
 }
 
-#[derive(Debug, Clone, Copy, PartialEq)]
-struct Contact {
-    side: usize,
-    /// g of the other side before it.
-    gain: f64,
+/// The side that is not at rest.
+fn touching(row: &Row) -> Result<Option<usize>, Error> {
+    let rest = f64::from(Word::MID.code14());
+    match row.x.map(|x| x != rest) {
+        [false, false] => Ok(None),
+        [true, true] => wrong("both sides touch at once"),
+        [left, _] => Ok(Some(usize::from(!left))),
+    }
 }
 
-impl Contact {
-    /// The contact in `row`, whose forerunner is `before`.
-    fn of(row: &Row, before: &Row) -> Result<Option<Self>, Error> {
-        let rest = f64::from(Word::MID.code14());
-        let touches = row.x.map(|x| x != rest);
-        let side = match touches {
-            [false, false] => return Ok(None),
-            [true, true] => return wrong("both sides touch at once"),
-            [left, _] => usize::from(!left),
-        };
-        Ok(Some(Self {
-            side,
-            gain: before.g[1 - side],
-        }))
-    }
-
-    fn excites(&self, row: &Row) -> bool {
-        row.g[1 - self.side] > self.gain
-    }
+/// Whether contact on a side has raised the g of the other.
+fn excites(side: usize, before: &Row, row: &Row) -> bool {
+    row.g[1 - side] > before.g[1 - side]
 }
 
 #[cfg(test)]
 mod tests {
-    use super::{Contact, Row};
+    use super::{Row, excites, touching};
 
     const REST: f64 = 8192.0;
 
@@ -117,15 +103,17 @@ mod tests {
     #[test]
     fn contact_is_the_first_code_off_rest_and_excites_the_other_side() {
         let before = row([REST, REST], [1.0, 0.5]);
-        assert_eq!(Contact::of(&before, &before).unwrap(), None);
+        assert_eq!(touching(&before).unwrap(), None);
         let touch = row([REST, REST - 1.0], [1.25, 0.5]);
-        let contact = Contact::of(&touch, &before).unwrap().unwrap();
-        assert_eq!((contact.side, contact.gain), (1, 1.0));
-        assert!(contact.excites(&touch));
+        assert_eq!(touching(&touch).unwrap(), Some(1));
+        assert!(excites(1, &before, &touch));
         let own = row([REST, REST - 1.0], [1.0, 0.75]);
-        assert!(!contact.excites(&own), "its own side's g does not count");
-        let left = Contact::of(&row([REST + 3.0, REST], [1.0, 0.5]), &before);
-        assert_eq!(left.unwrap().unwrap().gain, 0.5);
-        assert!(Contact::of(&row([0.0, 0.0], [1.0, 0.5]), &before).is_err());
+        assert!(
+            !excites(1, &before, &own),
+            "its own side's g does not count"
+        );
+        let left = row([REST + 3.0, REST], [1.0, 0.5]);
+        assert_eq!(touching(&left).unwrap(), Some(0));
+        assert!(touching(&row([0.0, 0.0], [1.0, 0.5])).is_err());
     }
 }
