@@ -9,7 +9,7 @@ use host_sim::loaded::Loaded;
 use host_sim::run::Run;
 use host_sim::trace::Row;
 
-use super::row::ShardRow;
+use super::ShardRow;
 use super::span::Span;
 use crate::notice::Notice;
 
