@@ -91,56 +91,32 @@ fn what_befalls_a_board_of_a_head_goes_on_with_the_last() {
     assert!(!events[0].goes_on(&events[1], 3.0));
 }
 
+/// Kind and keys of an event, and what is said of it.
+const WRONG: &str = "
+    encoder-stock  |                                | encoder-stock
+    encoder-stuck  | count = 3                      | count
+    encoder-stuck  | counts = 3                     | event 1 (encoder-stuck): counts:
+    button         | repeat_hz = 3.0                | event 1 (button): repeat_hz:
+    sensor-part    | reports = 3                    | event 1 (sensor-part): reports:
+    encoder-jitter |                                | missing field `counts`
+    encoder-slip   | share = 1.5                    | share: found 1.5, allowed: 0 to 1
+    supply         | volts = nan                    | volts: found NaN
+    probe          | request = 'jump'               | request: \"jump\": unknown command
+    serial         | text = 'stop'; repeat_hz = 0.0 | repeat_hz: found 0
+    configuration  |                                | missing field `change`
+    configuration  | change = 'all'                 | unknown variant `all`
+    button         | for_s = 0.0                    | for_s: found 0
+    sensor-part    | update_hz = 0.5                | update_hz: found 0.5, allowed: 1 to 10000
+    select-stuck   | report = 1                     | event 1 (select-stuck): report:
+    button         | side = 'both'                  | both";
+
 #[test]
 fn what_is_wrong_is_named() {
-    for (kind, keys, named) in [
-        ("encoder-stock", "", "encoder-stock"),
-        ("encoder-stuck", "count = 3", "count"),
-        (
-            "encoder-stuck",
-            "counts = 3",
-            "event 1 (encoder-stuck): counts: ",
-        ),
-        ("button", "repeat_hz = 3.0", "event 1 (button): repeat_hz: "),
-        (
-            "sensor-part",
-            "reports = 3",
-            "event 1 (sensor-part): reports: ",
-        ),
-        ("encoder-jitter", "", "missing field `counts`"),
-        (
-            "encoder-slip",
-            "share = 1.5",
-            "share: found 1.5, allowed: 0 to 1",
-        ),
-        ("supply", "volts = nan", "volts: found NaN"),
-        (
-            "probe",
-            "request = 'jump'",
-            "request: \"jump\": unknown command",
-        ),
-        (
-            "serial",
-            "text = 'stop'\nrepeat_hz = 0.0",
-            "repeat_hz: found 0",
-        ),
-        ("configuration", "", "missing field `change`"),
-        ("configuration", "change = 'all'", "unknown variant `all`"),
-        ("button", "for_s = 0.0", "for_s: found 0"),
-        (
-            "sensor-part",
-            "update_hz = 0.5",
-            "update_hz: found 0.5, allowed: 1 to 10000",
-        ),
-        (
-            "select-stuck",
-            "report = 1",
-            "event 1 (select-stuck): report: ",
-        ),
-        ("button", "side = 'both'", "both"),
-    ] {
+    for line in WRONG.trim().lines() {
+        let [kind, keys, named] = std::array::from_fn(|n| line.split('|').nth(n).unwrap().trim());
+        let keys = keys.replace("; ", "\n");
         let said = refused(&format!("[[event]]\nat_s = 1.0\nkind = '{kind}'\n{keys}"));
-        assert!(said.contains(named), "{kind}, {keys}: {said}");
+        assert!(said.contains(named), "{line}: {said}");
     }
     assert!(refused("durations_s = 1.0").contains("durations_s"));
     assert!(refused("[[event]]\nkind = 'button'").contains("at_s"));
