@@ -1,7 +1,7 @@
 //! The emulated board's command line; `cargo xtask emulate` builds the program
 //! and calls it.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::process::ExitCode;
 
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
@@ -104,17 +104,6 @@ fn scenarios() -> impl TypedValueParser<Value = &'static Scenario> {
     })
 }
 
-fn draw(Several { scenes, program }: &Several, out: &Path) -> Result<(), Error> {
-    output::check(out)?;
-    if scenes.len() != program.len() {
-        return Err(Error::Input("each scene needs its program".to_owned()));
-    }
-    let flashed = scenes.iter().zip(program);
-    let flashed: Vec<_> = flashed.map(|(scene, elf)| (&**scene, &**elf)).collect();
-    write_whole(out, picture::picture(&flashed)?.as_bytes())?;
-    Ok(())
-}
-
 fn work(arguments: Arguments) -> Result<(), Error> {
     let verbosity = Verbosity::of(arguments.quiet);
     match arguments.command {
@@ -131,7 +120,10 @@ fn work(arguments: Arguments) -> Result<(), Error> {
             given.verbosity = verbosity;
             report::say(scenario.run(&given)?.join("\n"));
         }
-        Command::Picture { several, out } => draw(&several, &out)?,
+        Command::Picture { several, out } => {
+            output::check(&out)?;
+            write_whole(&out, picture::picture(&several)?.as_bytes())?;
+        }
         Command::Try(choice) => choice.run()?,
         Command::Campaign(choice) => choice.run()?,
         Command::Endure(choice) => choice.run()?,

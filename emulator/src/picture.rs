@@ -6,6 +6,7 @@ use host_sim::Error;
 use host_sim::plot::{Panel, sides};
 
 use crate::deployment::flashed;
+use crate::scenario::Several;
 use crate::session::Session;
 
 /// Runs each scene on the board that the program beside it was built for, and draws them one
@@ -14,8 +15,12 @@ use crate::session::Session;
 /// # Errors
 /// [`Error::Input`] for a scene that is wrong or has not an obstacle on each of two sides,
 /// [`Error::Work`] for what the board cannot go along with.
-pub fn picture(flashed: &[(&Path, &Path)]) -> Result<String, Error> {
-    let panels = flashed.iter().map(|(scene, program)| panel(scene, program));
+pub fn picture(Several { scenes, program }: &Several) -> Result<String, Error> {
+    if scenes.len() != program.len() {
+        return Err(Error::Input("each scene needs its program".to_owned()));
+    }
+    let panels = scenes.iter().zip(program);
+    let panels = panels.map(|(scene, program)| panel(scene, program));
     sides(&panels.collect::<Result<Vec<_>, Error>>()?)
 }
 
