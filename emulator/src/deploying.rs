@@ -13,11 +13,10 @@ use wire::{Command, CommandStatus, Load};
 
 use crate::damaged;
 use crate::deployment::Deployment;
-use crate::loading::{load, load_watched, refuses};
 use crate::scenario;
 use crate::session::Session;
 use crate::talk::wrong;
-use case::{Case, Flashed, Way, missing, pass, running, says, stop};
+use case::{Case, Flashed, Way, load, load_watched, missing, pass, refuses, running, says, stop};
 
 /// How long PC and board are compared, s, and how long after what changes nothing.
 const COMPARED_S: f64 = 3.0;
@@ -81,7 +80,7 @@ impl Case<'_> {
     fn refuses_to_load(&self) -> Result<String, Error> {
         let right = self.new.deployment.load();
         let program = self.with(&self.old.flash)?;
-        let mut session = Session::of(&self.old.loaded.scene, &program)?;
+        let mut session = Session::of(&self.old.loaded.scene, Vec::new(), &program)?;
         session.must(Command::Load(right), CommandStatus::Armed)?;
         pass(&mut session, 0.5)?;
         let is_driven = session.drives();
@@ -156,7 +155,7 @@ impl Case<'_> {
             ..self.new.deployment.clone()
         };
         wrong.flash(&mut program)?;
-        let session = Session::of(&self.new.loaded.scene, &program)?;
+        let session = Session::of(&self.new.loaded.scene, Vec::new(), &program)?;
         self.has_refused(session, refusal)
     }
 
@@ -179,7 +178,7 @@ impl Case<'_> {
         let [slot, _] = self.facts()?.flash.slots;
         let header = SlotHeader::linked(!self.new.deployment.model_crc());
         program.add(slot.head.start, &header.bytes())?;
-        let session = Session::of(&self.new.loaded.scene, &program)?;
+        let session = Session::of(&self.new.loaded.scene, Vec::new(), &program)?;
         let said = self.has_refused(session, Refusal::Other)?;
         Ok(format!("another: {said}"))
     }

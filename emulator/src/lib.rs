@@ -30,7 +30,6 @@ pub mod emulate;
 pub mod endurance;
 pub mod head;
 mod latency;
-mod loading;
 mod machine;
 mod memory;
 mod meter;

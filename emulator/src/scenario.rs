@@ -1,9 +1,9 @@
 //! What a board is put through, in one table: each scenario says what is disturbed, how long it
-//! runs and what is expected. Most are steps that one runner makes; what measures, or talks with
-//! the board, is a function.
+//! runs and what is expected. Most are cases, each with a board that one runner has; what
+//! measures, or talks with the board, is a function.
 
 mod broken;
-mod step;
+mod runner;
 mod supply;
 mod trouble;
 
@@ -19,7 +19,7 @@ use crate::deployment::flashed;
 use crate::program::Program;
 use crate::session::Session;
 use crate::{deadlines, deploying, head, latency, serial, stopping, telemetry};
-use step::Case;
+use runner::Case;
 
 /// A scene and what is flashed for it; to a program that brings no scene with it this one is
 /// deployed.
@@ -86,7 +86,7 @@ pub struct Given {
 }
 
 enum What {
-    /// Steps on one board, or each case on its own.
+    /// Cases, each on a board of its own.
     Steps(fn(&Loaded, &Program) -> Result<Vec<Case>, Error>),
     /// More than that, by the files of scene and program; what was seen.
     Work(fn(&Given, &Path, &Path) -> Result<Vec<String>, Error>),
@@ -157,13 +157,13 @@ pub const ALL: [Scenario; 14] = [
         name: "starting",
         what: "Resets the chip in every way that was not asked for; fails if a motor is driven \
                after it before the user button is pressed",
-        how: What::Steps(|loaded, _| Ok(trouble::starting(&loaded.scene))),
+        how: What::Steps(|_, _| Ok(trouble::starting())),
     },
     Scenario {
         name: "supply",
         what: "Lets the supply dip and the clock stop; fails if the motor pins are not low in \
                time, or the next start does not say why",
-        how: What::Steps(|loaded, program| Ok(supply::dip(&loaded.scene, program.model()?.facts))),
+        how: What::Steps(|_, program| Ok(supply::dip(program.model()?.facts.code))),
     },
     Scenario {
         name: "sensor-loss",
@@ -235,7 +235,7 @@ impl Scenario {
         let mut said = Vec::new();
         for case in cases(&loaded, &program)? {
             let board = Session::running(&loaded.scene, Vec::new(), &program)?;
-            said.extend(step::run(board, &case)?);
+            said.extend(runner::run(board, &case)?);
         }
         Ok(said)
     }

@@ -32,7 +32,7 @@ pub struct Session {
     /// Where scenes and models lie.
     place: Range<u32>,
     slots: [Slot; 2],
-    sides: usize,
+    pub(crate) sides: usize,
     pub(crate) tick_hz: u32,
     /// Whether requests go by the serial line.
     is_by_serial: bool,
@@ -75,12 +75,8 @@ impl Session {
             )));
         }
         program.add(program.scenes()?.start, flash)?;
-        Self::of(scene, &program)
-    }
-
-    pub(crate) fn of(scene: &Scene, program: &Program) -> Result<Self, Error> {
         // Decisions are in the log, by their names.
-        Self::around(scene, Vec::new(), program)
+        Self::of(scene, Vec::new(), &program)
     }
 
     /// A board that runs `scene`, and says its classes by their names.
@@ -89,7 +85,7 @@ impl Session {
         classes: Vec<String>,
         program: &Program,
     ) -> Result<Self, Error> {
-        let mut session = Self::around(scene, classes, program)?;
+        let mut session = Self::of(scene, classes, program)?;
         let log = session.board_mut().logged();
         let lines = program.log_decoder()?.lines(log);
         if lines.iter().any(|line| line.contains("no scene: ")) {
@@ -98,12 +94,18 @@ impl Session {
         Ok(session)
     }
 
-    fn around(scene: &Scene, classes: Vec<String>, program: &Program) -> Result<Self, Error> {
+    /// A board with this program, which may have another scene, or none.
+    pub(crate) fn of(
+        scene: &Scene,
+        classes: Vec<String>,
+        program: &Program,
+    ) -> Result<Self, Error> {
+        let model = program.model()?;
         Ok(Self {
             run: start(scene, classes, program)?,
-            board: program.model()?.program,
+            board: model.program,
             place: program.scenes()?,
-            slots: program.model()?.facts.flash.slots,
+            slots: model.facts.flash.slots,
             sides: scene.head.sides.count(),
             tick_hz: scene.tick_hz,
             is_by_serial: false,

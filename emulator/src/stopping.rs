@@ -121,7 +121,7 @@ pub(crate) fn stopping(path: &Path, program: &Path, stops: u32) -> Result<Vec<St
 
 /// A stop and an arming that come in one tick: the later one holds.
 fn together(scene: &scene::Scene, program: &Program) -> Result<String, Error> {
-    let mut session = Session::of(scene, program)?;
+    let mut session = Session::of(scene, Vec::new(), program)?;
     for (said, answers, is_driven) in [
         ("stop\narm\n", "ok stop\r\nok arm\r\n", true),
         (
@@ -155,7 +155,7 @@ fn flooded(
     stops: u32,
 ) -> Result<String, Error> {
     let mut on = Flooded {
-        session: Session::of(scene, program)?,
+        session: Session::of(scene, Vec::new(), program)?,
         flood,
         ticks: 0,
         written: 0,

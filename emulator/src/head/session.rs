@@ -8,8 +8,8 @@ use host_sim::run::Run;
 use scene::{Scene, Texture};
 use wire::{Command, TaggedCommand};
 
-use super::Head;
-use crate::board;
+use super::{Head, Node};
+use crate::board::{self, Board};
 use crate::program::Program;
 use crate::session::PS;
 
@@ -101,16 +101,12 @@ impl HeadSession {
         Ok(self.last()?.machine.chip().drives_a_motor())
     }
 
-    fn last(&mut self) -> Result<&mut board::Board, Error> {
-        let last = self.run.module_mut().nodes.last_mut();
-        let last = last.map(|node| &mut node.board);
-        last.ok_or_else(|| Error::Work("the head has no boards".to_owned()))
+    fn last(&mut self) -> Result<&mut Board, Error> {
+        board_of(self.run.module_mut().nodes.last_mut())
     }
 
-    fn first(&mut self) -> Result<&mut board::Board, Error> {
-        let first = self.run.module_mut().nodes.first_mut();
-        let first = first.map(|node| &mut node.board);
-        first.ok_or_else(|| Error::Work("the head has no boards".to_owned()))
+    fn first(&mut self) -> Result<&mut Board, Error> {
+        board_of(self.run.module_mut().nodes.first_mut())
     }
 
     /// As [`Run::lay`].
@@ -132,4 +128,9 @@ impl HeadSession {
     pub const fn board(&self) -> &'static str {
         self.board
     }
+}
+
+fn board_of(node: Option<&mut Node>) -> Result<&mut Board, Error> {
+    let board = node.map(|node| &mut node.board);
+    board.ok_or_else(|| Error::Work("the head has no boards".to_owned()))
 }

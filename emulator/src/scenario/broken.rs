@@ -7,11 +7,7 @@ use mlx90333::Faults;
 use scene::{Driver, OnFault, Scene, SensorModel};
 use tmag5170::StatusFaults;
 
-use super::step::Step::{
-    Flip, Forget, Move, NoContact, Pass, SaysTimes, Sensors, Stand, UntilDriven,
-};
-use super::step::{Case, Trouble, says, whisk};
-use super::trouble::all;
+use super::runner::{Case, Done, Runner, Trouble};
 use crate::chip::{Fault, Ps, SIDE_NAMES};
 use crate::debug_info::DebugInfo;
 use crate::program::Program;
@@ -46,57 +42,54 @@ const WELL: StatusFaults = StatusFaults::NONE;
 /// all where the scene says so, nothing be felt and decided there, the log say whose sensor fails
 /// and why, and all be well again once the sensor is back.
 pub(super) fn sensor_loss(scene: &Scene) -> Vec<Case> {
-    let losses: &[Loss] = match scene.sensor.model {
+    let losses: &'static [Loss] = match scene.sensor.model {
         SensorModel::Mlx90333 => &LOSSES,
         SensorModel::Tmag5170 => &TMAG_LOSSES,
     };
-    let sides = all(scene);
-    let mut lost: Vec<&[usize]> = sides.chunks(1).collect();
-    if sides.len() > 1 {
-        lost.push(&sides);
-    }
     let motor = scene.motor.as_ref();
     let stops_all = motor.is_some_and(|motor| motor.on_fault == OnFault::StopAll);
-    let mut steps = vec![Pass(100)];
-    for lost in lost {
-        let off = if stops_all { &sides } else { lost };
-        for &(trouble, fault, found_ms) in losses {
-            steps.extend([
-                Forget,
-                Sensors(lost.to_vec(), trouble),
-                Pass(found_ms),
-                Move {
-                    ms: 100,
-                    off: off.to_vec(),
-                },
-                NoContact(lost.to_vec()),
-            ]);
-            for (side, name) in SIDE_NAMES.into_iter().enumerate() {
-                steps.push(if lost.contains(&side) {
-                    says(format!("fault {name} {fault} "))
-                } else {
-                    SaysTimes(0, format!("fault {name} "))
-                });
+    let steps = move |on: &mut Runner| {
+        let sides: Vec<usize> = (0..on.session.sides).collect();
+        let both = Some(&*sides).filter(|sides| sides.len() > 1);
+        on.pass(100)?;
+        for lost in sides.chunks(1).chain(both) {
+            let off = if stops_all { &sides[..] } else { lost };
+            for loss in losses {
+                lose(on, lost, off, *loss)?;
             }
-            if let Trouble::Mlx(_, Faults::FIELD_TOO_LOW) = trouble {
-                steps.push(says("field too low"));
-            }
-            steps.extend([
-                Sensors(lost.to_vec(), trouble.over()),
-                Pass(100),
-                whisk(100),
-            ]);
-            steps.extend(
-                lost.iter()
-                    .map(|side| says(format!("back {}", SIDE_NAMES[*side]))),
-            );
         }
-    }
+        Ok(())
+    };
     vec![Case {
         what: "sensors that are lost".to_owned(),
         may_reset: false,
-        steps,
+        steps: Box::new(steps),
     }]
+}
+
+/// These sides' sensors are lost, by which motors are off, and come back.
+fn lose(on: &mut Runner, lost: &[usize], off: &[usize], loss: Loss) -> Done {
+    let (trouble, fault, found_ms) = loss;
+    on.forget();
+    on.sensors(lost, trouble)?;
+    on.pass(found_ms)?;
+    on.moves(100, off)?;
+    on.has_no_contact(lost)?;
+    for (side, name) in SIDE_NAMES.into_iter().enumerate() {
+        if lost.contains(&side) {
+            on.says(&format!("fault {name} {fault} "))?;
+        } else {
+            on.says_times(0, &format!("fault {name} "))?;
+        }
+    }
+    if let Trouble::Mlx(_, Faults::FIELD_TOO_LOW) = trouble {
+        on.says("field too low")?;
+    }
+    on.sensors(lost, trouble.over())?;
+    on.pass(100)?;
+    on.whisk(100)?;
+    let mut lost = lost.iter();
+    lost.try_for_each(|side| on.says(&format!("back {}", SIDE_NAMES[*side])))
 }
 
 /// A bit flips in the settings in RAM, in the model in flash, in what the classifier holds of it in
@@ -150,24 +143,21 @@ pub(super) fn damage(scene: &Scene, program: &Program) -> Result<Vec<Case>, Erro
             }
         }
     }
+    let has_motor = scene.motor.is_some();
     let cases = flips.into_iter().map(|(fault, (address, bit, bytes))| {
-        let mut steps = vec![Pass(100)];
-        steps.extend(
-            scene
-                .motor
-                .is_some()
-                .then_some(UntilDriven { in_tick: false }),
-        );
-        let period = 1_000_000_000_000 / Ps::from(scene.tick_hz);
-        steps.extend([
-            Flip { address, bit },
-            Stand(Ps::from(looked_at_within(bytes)) * period),
-            says(format!("fault board {fault} ")),
-        ]);
+        let steps = move |on: &mut Runner| {
+            on.pass(100)?;
+            if has_motor {
+                on.until_driven(false)?;
+            }
+            on.session.machine().memories.flip(address, 1 << bit)?;
+            on.stand(Ps::from(looked_at_within(bytes)) * on.session.period())?;
+            on.says(&format!("fault board {fault} "))
+        };
         Case {
             what: format!("bit {bit} at {address:#010x}"),
             may_reset: false,
-            steps,
+            steps: Box::new(steps),
         }
     });
     Ok(cases.collect())
