@@ -246,12 +246,8 @@ pub(crate) fn compare_loaded(
     program: &Program,
     circumstances: Circumstances,
 ) -> Result<Agreement, Error> {
-    let Circumstances {
-        probe,
-        wraps,
-        duration_s,
-    } = circumstances;
-    if let Some(duration_s) = duration_s {
+    let probe = circumstances.probe;
+    if let Some(duration_s) = circumstances.duration_s {
         loaded.scene.duration_s = duration_s;
     }
     let mut pair = Pair::new(&mut loaded, program)?;
@@ -259,7 +255,8 @@ pub(crate) fn compare_loaded(
     let named = |fault: &dyn std::fmt::Display| Error::Work(format!("{}: {fault}", path.display()));
 
     let board = pair.target.board_mut();
-    let started = wraps.then(|| Started::new(program, board, scene));
+    let started = circumstances.wraps;
+    let started = started.then(|| Started::new(program, board, scene));
     let mut started = started.transpose()?;
     if probe == Probe::Pulled {
         board.attach_reader()?;
@@ -288,7 +285,7 @@ pub(crate) fn compare_loaded(
         }
     }
     let board = pair.target.board_mut();
-    let period = board.meter.figures.period.mean() * 1e-12 * f64::from(scene.tick_hz);
+    let period = board.meter.period.mean() * 1e-12 * f64::from(scene.tick_hz);
     if (period - 1.0).abs() > PERIOD_ERROR {
         let fault = format!("a tick lasts {period} times as long as it should");
         return Err(named(&fault));

@@ -74,5 +74,5 @@ fn mean(scene: &Scene, program: &Program, asks: Asks) -> Result<f64, Error> {
             session.packets()?;
         }
     }
-    Ok(session.board_mut().meter.figures.tick.mean())
+    Ok(session.board_mut().meter.tick.mean())
 }

@@ -35,7 +35,7 @@ pub(crate) fn measure(
     }
     let board = session.board_mut();
     let machine = &board.machine;
-    let figures = &board.meter.figures;
+    let meter = &board.meter;
     let cycles = |time: Ps| time / machine.cycle.max(1);
     let missed = board.missed()?;
     let mean = |tally: &Tally| (Some(tally.mean()), tally.worst);
@@ -46,13 +46,13 @@ pub(crate) fn measure(
             "bytes of stack by its paint",
             (None, machine.stack_used()?.into()),
         ),
-        ("latency cycles", (None, cycles(figures.latency.worst))),
-        ("tick cycles", (None, cycles(figures.length.worst))),
-        ("tick's handler", mean(&figures.tick)),
-        ("handler at the end of a frame", mean(&figures.handlers)),
-        ("idle without a line to log", mean(&figures.idle)),
-        ("whole tick", mean(&figures.whole)),
-        ("idle while it logs", mean(&figures.logging)),
+        ("latency cycles", (None, cycles(meter.latency.worst))),
+        ("tick cycles", (None, cycles(meter.length.worst))),
+        ("tick's handler", mean(&meter.tick)),
+        ("handler at the end of a frame", mean(&meter.handlers)),
+        ("idle without a line to log", mean(&meter.idle)),
+        ("whole tick", mean(&meter.whole)),
+        ("idle while it logs", mean(&meter.logging)),
     ];
     let lines = rows.map(|(what, (mean, worst))| {
         let mean = mean.map_or(String::new(), |mean| format!("{mean:.1}"));

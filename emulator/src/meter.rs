@@ -25,10 +25,10 @@ impl Tally {
     }
 }
 
-/// What was measured. A whole tick is from the first instruction of its handler
-/// to that of the next; idle's sleep executes nothing.
-#[derive(Debug, Clone, PartialEq, Eq, Default)]
-pub(crate) struct Figures {
+/// A whole tick is from the first instruction of its handler to that of the next; idle's sleep
+/// executes nothing.
+#[derive(Debug, Default)]
+pub(crate) struct Meter {
     /// From the timer's update to the first instruction of the tick's handler, ps.
     pub latency: Tally,
     /// From there to the handler's return, ps.
@@ -46,11 +46,6 @@ pub(crate) struct Figures {
     /// Instructions of a whole tick but for the log: where idle logs, its mean
     /// without logging stands for it.
     pub whole: Tally,
-}
-
-#[derive(Debug, Default)]
-pub(crate) struct Meter {
-    pub(crate) figures: Figures,
     began: Option<(Ps, Spent)>,
     /// The whole tick that has ended last, until it is known whether it logged.
     ended: Option<Spent>,
@@ -66,24 +61,23 @@ impl Meter {
         let Some(spent) = self.ended.take() else {
             return;
         };
-        let figures = &mut self.figures;
         let handlers = spent.frame + spent.other;
-        figures.tick.add(spent.tick);
-        figures.handlers.add(handlers);
+        self.tick.add(spent.tick);
+        self.handlers.add(handlers);
         let idle = if moved {
-            figures.logging.add(spent.thread);
-            figures.idle.mean().round() as u64
+            self.logging.add(spent.thread);
+            self.idle.mean().round() as u64
         } else {
-            figures.idle.add(spent.thread);
+            self.idle.add(spent.thread);
             spent.thread
         };
-        figures.whole.add(spent.tick + handlers + idle);
+        self.whole.add(spent.tick + handlers + idle);
     }
 
     pub(crate) fn tick_begins(&mut self, now: Ps, latency: Ps, spent: &Spent) {
-        self.figures.latency.add(latency);
+        self.latency.add(latency);
         if let Some((began, before)) = self.began.replace((now, *spent)) {
-            self.figures.period.add(now - began);
+            self.period.add(now - began);
             self.ended = Some(Spent {
                 tick: spent.tick - before.tick,
                 frame: spent.frame - before.frame,
@@ -95,7 +89,7 @@ impl Meter {
 
     pub(crate) const fn tick_ends(&mut self, now: Ps) {
         if let Some((began, _)) = self.began {
-            self.figures.length.add(now - began);
+            self.length.add(now - began);
         }
     }
 }

@@ -30,7 +30,7 @@ fn expected(bus: Option<&Bus>, number: u8) -> Vec<String> {
 /// How busy the bus was, and its boards.
 fn cost(head: &Head, run_s: f64) -> String {
     let lengths = head.nodes.iter().map(|node| {
-        let length = node.board.meter.figures.length;
+        let length = node.board.meter.length;
         [length.mean(), length.worst as f64].map(|time| time / US)
     });
     let longest = lengths

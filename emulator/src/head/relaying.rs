@@ -183,12 +183,7 @@ impl Talk {
 
     /// Records, and looks, each against the record of the same tick in the simulated head; how many.
     fn same_records(&mut self, case: &Case) -> Result<[usize; 2], Error> {
-        let Case {
-            loaded,
-            feels,
-            each,
-            ..
-        } = case;
+        let (loaded, feels) = (&case.loaded, case.feels);
         let scene = &loaded.scene;
         self.done(Command::Stream(true))?;
         let ticks = (COMPARED_S * f64::from(scene.tick_hz)) as u32;
@@ -205,12 +200,12 @@ impl Talk {
             host.tick();
             let packets = host.module_mut().take_packets();
             let records = records(&packets);
-            expected.extend(records.map(|record| (key(record), plain(record, *feels))));
+            expected.extend(records.map(|record| (key(record), plain(record, feels))));
         }
         let every = Relay::every(scene.tick_hz);
         for found in &self.records {
             let of_host = expected.get(&key(found));
-            if of_host != Some(&plain(found, *feels)) || !found.sequence.is_multiple_of(every) {
+            if of_host != Some(&plain(found, feels)) || !found.sequence.is_multiple_of(every) {
                 return wrong(format!("{found:?}\n  in the simulated head {of_host:?}"));
             }
         }
@@ -223,7 +218,7 @@ impl Talk {
                 flags: record.flags.without(Flags::DECIDED),
                 ..*looked
             });
-            let contact = if *feels { looked.contact } else { 0 };
+            let contact = if feels { looked.contact } else { 0 };
             let looked = Looked { contact, ..*looked };
             if of_host != Some(looked) {
                 return wrong(format!(
@@ -231,7 +226,7 @@ impl Talk {
                 ));
             }
         }
-        let least = (COMPARED_S * f64::from(RELAYED_HZ)) as usize * each - 1;
+        let least = (COMPARED_S * f64::from(RELAYED_HZ)) as usize * case.each - 1;
         if self.records.len() < least {
             return wrong(format!("{} records, expected {least}", self.records.len()));
         }
