@@ -3,7 +3,7 @@
 //!
 //! Every run is one scene, one fault and one time, all drawn from the run's number: the
 //! same number gives the same run. What must hold in every tick of every run is in
-//! [`judge`]; how a run is called afterwards is in [`outcome`].
+//! [`judge`]; how a run is called afterwards is in [`table`].
 //!
 //! # Glossary
 //!
@@ -16,12 +16,10 @@ mod draw;
 mod injection;
 mod judge;
 mod on_board;
-mod outcome;
 mod page;
 mod prepared;
 mod subject;
 mod table;
-mod words;
 
 use std::collections::BTreeMap;
 use std::collections::btree_map::Entry;
@@ -32,9 +30,8 @@ use host_sim::Error;
 use host_sim::output::write_whole;
 
 pub use injection::Kind;
-pub use outcome::{Ending, RunRow};
 pub use page::{described, page};
-pub use table::{merge, read};
+pub use table::{Ending, RunRow, merge, read};
 
 use crate::scenario::Several;
 use draw::Plan;

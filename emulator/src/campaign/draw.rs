@@ -5,7 +5,7 @@ use std::iter;
 use rand_core::{Rng, SeedableRng};
 use rand_xoshiro::Xoshiro256PlusPlus;
 
-use super::injection::{Injection, Kind};
+use super::injection::{Befallen, Injection, Kind};
 
 /// How long a run lasts, s: injections, rests after a fault, and whisks after that.
 pub(super) const RUN_S: f64 = 10.0;
@@ -43,9 +43,9 @@ fn below(random: &mut Xoshiro256PlusPlus, bound: u64) -> u64 {
     random.next_u64() % bound.max(1)
 }
 
-fn one_of(random: &mut Xoshiro256PlusPlus, kinds: &[Kind]) -> Kind {
-    let n = below(random, kinds.len() as u64) as usize;
-    kinds.get(n).copied().unwrap_or(Kind::SensorSilent)
+fn one_of(random: &mut Xoshiro256PlusPlus, at: Befallen) -> Kind {
+    let kinds = Kind::all(at);
+    kinds[below(random, kinds.len() as u64) as usize]
 }
 
 pub(super) fn injections(
@@ -84,9 +84,9 @@ pub(super) fn injections(
 /// Half of those that can be taken away again stay to the end.
 fn injection(random: &mut Xoshiro256PlusPlus, has: Has, to_s: f64) -> Injection {
     let kind = match below(random, 10) {
-        0..6 if has.chip => one_of(random, &Kind::CHIP),
-        n if has.motors && n % 2 == 0 => one_of(random, &Kind::MOTOR),
-        _ => one_of(random, &Kind::SENSOR),
+        0..6 if has.chip => one_of(random, Befallen::Chip),
+        n if has.motors && n % 2 == 0 => one_of(random, Befallen::Motor),
+        _ => one_of(random, Befallen::Sensor),
     };
     let ticks = |seconds: f64| (seconds * f64::from(has.tick_hz)) as u64;
     let start = ticks(FROM_S) + below(random, ticks(to_s - FROM_S));

@@ -1,5 +1,6 @@
 //! What can be injected, and how it is done.
 
+use clap::ValueEnum;
 use host_sim::bus::WireFault;
 use host_sim::motor::{EncoderFlaws, SimMotor, Wire};
 use mlx90333::Faults;
@@ -12,8 +13,11 @@ use super::on_board::OnBoard;
 use super::subject::Subject;
 use crate::chip::Fault;
 
-/// A fault that can be injected.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+/// A fault that can be injected: those of a motor's wires first, then those of a sensor and of the
+/// chip.
+#[derive(
+    Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize, ValueEnum,
+)]
 #[serde(rename_all = "kebab-case")]
 pub enum Kind {
     /// The encoder's cable is cut: its count stands still.
@@ -86,53 +90,21 @@ pub(super) enum Befallen {
 }
 
 impl Kind {
-    /// Those that befall the wires of a motor. Not an encoder that loses counts or has another
-    /// scale: while it whisks nothing tells them from one that does not, and they are harmful until
-    /// home is looked for again (record 49).
-    pub(super) const MOTOR: [Self; 12] = [
-        Self::EncoderStuck,
-        Self::EncoderExchanged,
-        Self::EncoderLoose,
-        Self::EncoderJitter,
-        Self::WindingOpen,
-        Self::WindingLoose,
-        Self::WindingExchanged,
-        Self::Held,
-        Self::Pushed,
-        Self::Friction,
-        Self::Supply,
-        Self::Commands,
-    ];
-    pub(super) const SENSOR: [Self; 12] = [
-        Self::SensorSilent,
-        Self::SensorLoose,
-        Self::SensorLow,
-        Self::SensorLowTail,
-        Self::SensorFrozen,
-        Self::SensorJumps,
-        Self::SensorNoise,
-        Self::ByteLost,
-        Self::ByteDoubled,
-        Self::SumWrong,
-        Self::ErrorWord,
-        Self::BusError,
-    ];
-    pub(super) const CHIP: [Self; 6] = [
-        Self::RamBit,
-        Self::CoreBit,
-        Self::RegisterBit,
-        Self::DmaStopped,
-        Self::ClockStopped,
-        Self::Late,
-    ];
+    /// All that befall this. Not an encoder that loses counts or has another scale: while it whisks
+    /// nothing tells them from one that does not, and they are harmful until home is looked for
+    /// again (record 49).
+    pub(super) fn all(at: Befallen) -> Vec<Self> {
+        let all = Self::value_variants().iter().copied();
+        all.filter(|kind| kind.befalls() == at).collect()
+    }
 
     pub(super) fn befalls(self) -> Befallen {
-        if Self::MOTOR.contains(&self) {
+        if self <= Self::Commands {
             Befallen::Motor
-        } else if Self::CHIP.contains(&self) {
-            Befallen::Chip
-        } else {
+        } else if self <= Self::BusError {
             Befallen::Sensor
+        } else {
+            Befallen::Chip
         }
     }
 
@@ -260,7 +232,7 @@ impl Injection {
                 _ => {}
             }
         } else if let Some(motor) = subject.motor(self.whisker)
-            && Kind::MOTOR.contains(&self.kind)
+            && self.kind.befalls() == Befallen::Motor
         {
             self.at_motor(motor, lasts);
         } else if let Some(slave) = subject.slave(self.whisker) {

@@ -5,7 +5,7 @@ use scene::Scene;
 use wire::Command;
 
 use super::injection::Injection;
-use super::subject::{OfMotor, Seen};
+use super::subject::Seen;
 use crate::notice::Notice;
 
 /// Within how many ticks of a fault's report its motor is off.
@@ -248,12 +248,8 @@ impl Judge {
 
     fn look_at(&mut self, n: usize, seen: &Seen) -> Option<Harm> {
         let away_ticks = (AWAY_S * self.tick_hz) as u32;
-        let OfMotor {
-            effort,
-            is_into_stop,
-            is_homing,
-            ..
-        } = *seen.motors.get(n)?;
+        let motor = *seen.motors.get(n)?;
+        let (effort, is_homing) = (motor.effort, motor.is_homing);
         let whisker = self.whiskers.get_mut(n)?;
         if effort > self.limit {
             return Some(Harm::Effort);
@@ -279,7 +275,7 @@ impl Judge {
             whisker.approaches = self.approach;
             return None;
         }
-        count(&mut whisker.at_stop_for, is_into_stop);
+        count(&mut whisker.at_stop_for, motor.is_into_stop);
         if f64::from(whisker.at_stop_for) > AT_STOP_S * self.tick_hz {
             return Some(Harm::AtStop);
         }

@@ -6,16 +6,46 @@ use host_sim::loaded::Loaded;
 use wire::{Command, TaggedCommand};
 
 use super::subject::{OfMotor, Seen, number, seen};
-use super::words::{STACK, Words};
 use crate::chip::Fault;
+use crate::debug_info::DebugInfo;
 use crate::program::Program;
 use crate::session::Session;
 use crate::upset::{MIDDLE, REGISTERS, Upset};
 use crate::watch::Servos;
 
+const STACK: &str = "stack";
+/// Bytes at the top of the stack, which a tick with a decision uses.
+const STACK_BYTES: u32 = 1024;
+/// Rings of the log and of packets are written by the program and read by a probe only.
+const RINGS: [&str; 3] = ["_SEGGER_RTT", "LOG_BYTES", "PACKETS"];
+
+/// The words of a board's RAM that a program uses, each with the name of its variable.
+pub(super) fn words(program: &Program) -> Result<Vec<(u32, String)>, Fault> {
+    let info = DebugInfo::new(program)?;
+    let mut words = Vec::new();
+    for leaf in info.leaves()? {
+        if RINGS.iter().any(|ring| leaf.path.starts_with(ring)) {
+            continue;
+        }
+        let first = leaf.address / 4;
+        let last = (leaf.address + leaf.size.max(1) - 1) / 4;
+        let name = leaf.path.clone();
+        words.extend((first..=last).map(|word| (4 * word, name.clone())));
+    }
+    let top = program.symbol("_stack_start")?;
+    let stack = (top - STACK_BYTES..top).step_by(4);
+    words.extend(stack.map(|address| (address, STACK.to_owned())));
+    words.sort();
+    words.dedup_by_key(|(address, _)| *address);
+    if words.is_empty() {
+        return Err(Fault::Program("it has no variables".to_owned()));
+    }
+    Ok(words)
+}
+
 pub(super) struct OnBoard<'p> {
     pub(super) session: Session,
-    words: &'p Words,
+    words: &'p [(u32, String)],
     servos: Servos,
     commands: Vec<Command>,
     tag: u16,
@@ -23,7 +53,11 @@ pub(super) struct OnBoard<'p> {
 }
 
 impl<'p> OnBoard<'p> {
-    pub(super) fn new(loaded: &Loaded, program: &Program, words: &'p Words) -> Result<Self, Error> {
+    pub(super) fn new(
+        loaded: &Loaded,
+        program: &Program,
+        words: &'p [(u32, String)],
+    ) -> Result<Self, Error> {
         let mut session = Session::running(&loaded.scene, loaded.classes()?, program)?;
         session.bear_resets(true);
         Ok(Self {
@@ -89,7 +123,8 @@ impl OnBoard<'_> {
     }
 
     pub(super) fn flip_ram(&mut self, detail: u64) -> Result<(), Fault> {
-        let (word, name) = self.words.pick(detail as u32);
+        // After the last from the first again.
+        let (word, name) = &self.words[detail as u32 as usize % self.words.len()];
         let [bit, byte, within, instruction] = parts(detail);
         let (address, bits) = (word + byte % 4, 1_u8 << (bit % 8));
         let machine = self.session.machine();

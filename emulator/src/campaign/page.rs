@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::fmt::Write as _;
 
 use super::injection::Kind;
-use super::outcome::{Ending, RunRow};
+use super::table::{Ending, RunRow};
 use crate::counters::bare;
 
 /// Why what is silent is silent, by the kind of fault or the beginning of a variable's name.

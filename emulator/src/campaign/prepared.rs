@@ -12,17 +12,16 @@ use wire::Command;
 use super::draw::{self, Has, Plan, RUN_S};
 use super::injection::Injection;
 use super::judge::{Harm, Judge};
-use super::on_board::OnBoard;
-use super::outcome::{Findings, RunRow};
+use super::on_board::{OnBoard, words};
 use super::subject::{Seen, Subject};
-use super::words::Words;
+use super::table::{Findings, RunRow};
 use crate::chip::Fault;
 use crate::deployment::flashed;
 use crate::program::Program;
 
 pub(super) struct Prepared {
     loaded: Loaded,
-    board: Option<(Program, Words)>,
+    board: Option<(Program, Vec<(u32, String)>)>,
     has: Has,
     ticks: u64,
     undisturbed: Vec<Seen>,
@@ -51,7 +50,7 @@ impl Prepared {
             None => (Loaded::new(scene)?, None),
             Some(path) => {
                 let (loaded, program) = flashed(scene, path)?;
-                let words = Words::new(&program)?;
+                let words = words(&program)?;
                 (loaded, Some((program, words)))
             }
         };
@@ -80,7 +79,10 @@ impl Prepared {
 
     fn subject(&self) -> Result<Subject<'_>, Error> {
         let board = self.board.as_ref();
-        Subject::new(&self.loaded, board.map(|(program, words)| (program, words)))
+        Subject::new(
+            &self.loaded,
+            board.map(|(program, words)| (program, &**words)),
+        )
     }
 
     fn tick(&self, subject: &mut Subject<'_>, tick: u64) -> Result<Seen, Fault> {

@@ -10,7 +10,6 @@ use host_sim::trace::Row;
 use wire::{Command, TaggedCommand};
 
 use super::on_board::OnBoard;
-use super::words::Words;
 use crate::chip::{Fault, ResetCause};
 use crate::notice::Notice;
 use crate::program::Program;
@@ -88,7 +87,7 @@ pub(super) enum Subject<'p> {
 impl<'p> Subject<'p> {
     pub(super) fn new(
         loaded: &Loaded,
-        board: Option<(&Program, &'p Words)>,
+        board: Option<(&Program, &'p [(u32, String)])>,
     ) -> Result<Self, Error> {
         Ok(match board {
             None => Self::OnPc {
