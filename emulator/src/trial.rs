@@ -121,7 +121,11 @@ fn run(
             period * 3 / 2
         });
         let arrived = links.arrived(&mut session);
-        lister.listen(&mut session)?;
+        let (t_s, lines) = (session.run.t_s(), session.log());
+        lister.hear(t_s, &lines, session.board_mut())?;
+        if was_reset {
+            lister.list_reset(t_s);
+        }
         figures.look(&mut session, servos, was_reset, arrived)?;
     }
     Ok(figures.outcome(lister))

@@ -53,7 +53,6 @@ struct Span {
     most: f64,
 }
 
-/// It is empty.
 impl Default for Span {
     fn default() -> Self {
         let (least, most) = (f64::INFINITY, f64::NEG_INFINITY);
@@ -103,7 +102,7 @@ pub(super) struct Figures {
     driven: u64,
     squares: f64,
     duties: u64,
-    resets: Vec<f64>,
+    resets: u64,
     max_following_deg: f64,
     longest_excursion: u64,
     is_armed: Option<bool>,
@@ -131,9 +130,7 @@ impl Figures {
         arrived: Arrived,
     ) -> Result<(), Error> {
         self.ticks += 1;
-        if was_reset {
-            self.resets.push(session.run.t_s());
-        }
+        self.resets += u64::from(was_reset);
         self.note_faults(session, was_reset, arrived);
         let efforts = session.efforts();
         let is_driven = efforts.iter().any(|effort| *effort > 0.0);
@@ -165,10 +162,8 @@ impl Figures {
                 let [least, most] = self.limits_deg;
                 let whole = whole.max(least).min(most);
                 let following = angle - (whole - wants.behind_deg);
-                let was_homing = match self.sides.get_mut(side) {
-                    Some(of_side) => std::mem::replace(&mut of_side.was_homing, wants.is_homing),
-                    None => false,
-                };
+                let was_homing = &mut self.sides[side].was_homing;
+                let was_homing = std::mem::replace(was_homing, wants.is_homing);
                 // The tick that ends it was still driven by it.
                 let homes = wants.is_homing || was_homing;
                 self.follow(side, whole, effort > 0.0 && !homes, following);
@@ -176,9 +171,7 @@ impl Figures {
                     continue;
                 }
             }
-            if let Some(of_side) = self.sides.get_mut(side) {
-                of_side.reached.take(angle);
-            }
+            self.sides[side].reached.take(angle);
         }
         self.at_stop += u64::from(is_at_stop);
         self.count_with_fault(session);
@@ -187,9 +180,7 @@ impl Figures {
 
     /// A side's setpoint, and by how much the whisker is off the one that it follows.
     fn follow(&mut self, side: usize, setpoint_deg: f64, is_driven: bool, off_deg: f64) {
-        let Some(side) = self.sides.get_mut(side) else {
-            return;
-        };
+        let side = &mut self.sides[side];
         side.whisk.take(setpoint_deg);
         if !is_driven {
             side.excursion = 0;
@@ -205,13 +196,11 @@ impl Figures {
     }
 
     fn note_faults(&mut self, session: &mut Session, was_reset: bool, arrived: Arrived) {
-        if was_reset {
-            for side in &mut self.sides {
+        for side in &mut self.sides {
+            if was_reset {
                 side.faults = [None; 2];
             }
-        }
-        if arrived.is_arm || arrived.is_clear {
-            for side in &mut self.sides {
+            if arrived.is_arm || arrived.is_clear {
                 side.faults[1] = None;
             }
         }
@@ -239,17 +228,9 @@ impl Figures {
         }
     }
 
-    pub(super) fn outcome(mut self, mut lister: Lister) -> Outcome {
+    pub(super) fn outcome(mut self, lister: Lister) -> Outcome {
         let seconds = |ticks: u64| ticks as f64 / self.tick_hz;
         self.stops.end();
-        let resets = self.resets.iter().map(|t_s| Listed {
-            t_s: *t_s,
-            kind: "reset".to_owned(),
-            text: "reset".to_owned(),
-            ..Listed::default()
-        });
-        lister.listed.extend(resets);
-        lister.listed.sort_by(|a, b| a.t_s.total_cmp(&b.t_s));
         let first = lister.listed.iter().find(|listed| listed.kind == "fault");
         let named = |listed: &Listed| {
             let number = listed.number.unwrap_or_default();
@@ -265,7 +246,7 @@ impl Figures {
             driven_with_fault_s: seconds(self.with_fault),
             at_stop_s: seconds(self.at_stop),
             rms_duty: (self.squares / self.duties.max(1) as f64).sqrt(),
-            resets: self.resets.len() as u64,
+            resets: self.resets,
             max_following_deg: self.max_following_deg,
             off_after_5deg_s: seconds(self.longest_excursion),
             stops: self.stops.arrived,

@@ -18,7 +18,6 @@ use written::{WrittenFile, WrittenPart, read_event, within};
 /// Bytes of the longest file, and most events in it.
 const MOST_BYTES: u64 = 1 << 20;
 const MOST_EVENTS: usize = 1_000;
-/// Latest time, s.
 const LATEST_S: f64 = 3_600.0;
 
 /// What befalls a board, by the words and keys of the file.
@@ -56,7 +55,6 @@ pub(super) enum What {
     BusNoise { share: f64 },
 }
 
-/// What a probe asks for.
 #[derive(Debug, Clone, Copy, PartialEq, Deserialize)]
 #[serde(try_from = "String")]
 pub(super) struct Asked(pub(super) Command);

@@ -9,7 +9,6 @@ use serde::Serialize;
 use wire::{Answer, Command, CommandStatus, Load, WhiskerId};
 
 use crate::board::Board;
-use crate::session::Session;
 
 /// More events than so many are counted, and not listed.
 const MOST_LISTED: usize = 100_000;
@@ -39,28 +38,6 @@ pub(super) struct Lister {
     /// Events that are not listed, as there were too many.
     pub(super) unlisted: u64,
 }
-
-/// First words of the lines that are events.
-const KINDS: [&str; 18] = [
-    "armed",
-    "back",
-    "decision",
-    "end",
-    "fault",
-    "frame",
-    "health",
-    "limit",
-    "node",
-    "not-armed",
-    "off",
-    "pose",
-    "retry",
-    "self-test",
-    "start",
-    "stopped",
-    "touch",
-    "zero",
-];
 
 /// Commands that can be asked for.
 const SPOKEN: [Command; 15] = {
@@ -100,7 +77,6 @@ fn in_words(answer: &Answer) -> String {
 }
 
 impl Lister {
-    /// The board was reset.
     pub(super) fn list_reset(&mut self, t_s: f64) {
         self.listed.push(Listed {
             t_s,
@@ -110,12 +86,7 @@ impl Lister {
         });
     }
 
-    pub(super) fn listen(&mut self, session: &mut Session) -> Result<(), Error> {
-        let (t_s, lines) = (session.run.t_s(), session.log());
-        self.hear(t_s, &lines, session.board_mut())
-    }
-
-    /// The same of a board that has logged these lines.
+    /// What a board says that has logged these lines.
     pub(super) fn hear(
         &mut self,
         t_s: f64,
@@ -159,7 +130,7 @@ impl Lister {
         *self.answers.entry(counted).or_default() += 1;
     }
 
-    pub(super) fn list(&mut self, listed: Listed) {
+    fn list(&mut self, listed: Listed) {
         if self.listed.len() < MOST_LISTED {
             self.listed.push(listed);
         } else {
@@ -187,7 +158,6 @@ fn of_log(t_s: f64, line: &str) -> Listed {
         "fault" | "limit" | "not-armed" | "self-test" => word().parse().ok(),
         _ => None,
     };
-    let is_known = KINDS.contains(&&*kind);
     // That of a self-test counts frames.
     let fault = number.filter(|_| kind != "self-test");
     let name = fault.map(|_: u8| {
@@ -196,7 +166,12 @@ fn of_log(t_s: f64, line: &str) -> Listed {
     });
     Listed {
         t_s,
-        kind: if is_known { kind } else { "log".to_owned() },
+        kind: match &*kind {
+            "armed" | "back" | "decision" | "end" | "fault" | "frame" | "health" | "limit"
+            | "node" | "not-armed" | "off" | "pose" | "retry" | "self-test" | "start"
+            | "stopped" | "touch" | "zero" => kind,
+            _ => "log".to_owned(),
+        },
         side: side.filter(|side| side != "board"),
         number,
         name: name.filter(|name| !name.is_empty()),

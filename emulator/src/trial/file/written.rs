@@ -11,7 +11,6 @@ use wire::{Command, Load};
 
 use super::{Asked, Event, LATEST_S, Part, What};
 
-/// Most bytes of a text.
 const MOST_TEXT: usize = 4_096;
 /// For how long a button is pressed and power is off, unless the event says so, s.
 const SHORT_S: f64 = 0.1;
