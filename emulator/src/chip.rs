@@ -18,7 +18,6 @@ mod fields;
 mod flash;
 mod gpio;
 mod lines;
-mod map;
 mod model;
 mod models;
 mod mux;
@@ -29,30 +28,25 @@ mod rcc;
 mod registers;
 mod remap;
 mod requests;
-mod reset;
 mod sensor_lines;
 mod serial_port;
 mod spi;
-mod time;
 mod timer;
-mod timers;
 mod trouble;
-mod upset;
 mod usart;
 mod watchdog;
 mod wiring;
 
 pub(crate) use can::{Arrival, Request};
 pub(crate) use facts::{Fact, FactKind, facts};
-pub(crate) use fault::Fault;
+pub(crate) use fault::{Fault, ResetCause};
 pub(crate) use model::{CoreKind, Model};
 pub(crate) use models::MODELS;
 pub(crate) use power::WELL_MV;
-pub(crate) use reset::ResetCause;
 pub(crate) use sensor_lines::SensorEnd;
-pub(crate) use time::Ps;
 pub(crate) use wiring::SIDE_NAMES;
 
+use crate::memory::Memories;
 use can::BxCan;
 use dma::Dma;
 use flash::Flash;
@@ -70,6 +64,9 @@ use timer::Timer;
 use usart::Usart;
 use watchdog::Watchdog;
 use wiring::CAN_IRQS;
+
+/// Time since power-up, picoseconds: wraps after half a year.
+pub(crate) type Ps = u64;
 
 /// The voltage detector's interrupt in the NVIC, of every chip.
 const SUPPLY_IRQ: u16 = 1;
@@ -118,17 +115,17 @@ impl Chip {
             clocks,
             power: Power::new(model.power),
             exti: Lines::new(model.lines),
-            flash: Flash::new(model.flash_registers, model.flash_version),
+            flash: Flash::new(model.flash_registers, model.flash_interface),
             system: Plain::new(&[(0x00, 0)]),
             debug: Plain::new(model.debug_registers),
             gpio: model.ports.map(Gpio::new),
             remap: Remap::default(),
             timers: timers.map(|(kind, _)| Timer::new(*kind)).collect(),
             spis: spis.map(|_| Spi::new(model.spi_version)).collect(),
-            dmas: model.dmas.iter().map(|dma| dma.controller()).collect(),
+            dmas: model.dmas.iter().map(|layout| Dma::new(layout)).collect(),
             mux: Mux::default(),
-            watchdog: Watchdog::new(model.lsi_hz, model.has_window),
-            usart: Usart::new(model.usart_version),
+            watchdog: Watchdog::new(1_000_000_000_000 / model.lsi_hz, model.has_window),
+            usart: Usart::new(model.usart),
             serial: SerialLine::default(),
             can: BxCan::default(),
             lines: SIDE_NAMES.map(SensorLines::new),
@@ -149,8 +146,7 @@ impl Chip {
         self.remap = Remap::default();
         self.timers.iter_mut().for_each(Timer::reset);
         self.spis.iter_mut().for_each(Spi::reset);
-        let dmas = self.model.dmas.iter();
-        self.dmas = dmas.map(|dma| dma.controller()).collect();
+        self.dmas.iter_mut().for_each(Dma::reset);
         self.mux = Mux::default();
         self.watchdog.reset();
         self.usart.reset();
@@ -206,14 +202,14 @@ impl Chip {
     pub(crate) fn advance(
         &mut self,
         now: Ps,
-        memory: &dyn Memory,
+        memories: &Memories,
         sensors: &mut [impl SensorEnd],
     ) -> Result<Option<ResetCause>, Fault> {
         loop {
             if let Some(fault) = self.fault.take() {
                 return Err(fault);
             }
-            self.serve_requests(memory)?;
+            self.serve_requests(memories)?;
             self.begin_bytes(sensors)?;
             let Some(due) = self.next_event().filter(|&due| due <= now) else {
                 break;
@@ -285,13 +281,6 @@ impl Chip {
     pub(crate) fn keep(&mut self, fault: Fault) {
         self.fault.get_or_insert(fault);
     }
-}
-
-/// The chip's memories, as the DMA sees them.
-pub(crate) trait Memory {
-    fn get(&self, address: u32) -> Option<u8>;
-
-    fn put(&self, address: u32, byte: u8) -> Option<()>;
 }
 
 #[cfg(test)]

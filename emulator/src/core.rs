@@ -18,7 +18,7 @@ use rsemu::core::space::AddressSpace;
 use rsemu::cpu::arm::v7m::sys::Exception;
 use rsemu::cpu::arm::v7m::{ArmV7m, Config};
 
-use crate::chip::{CoreKind, Fault, Memory, Model, Ps};
+use crate::chip::{CoreKind, Fault, Model, Ps};
 use crate::memory::{FLASH, Memories};
 
 /// The exception number in xPSR.

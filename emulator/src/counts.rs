@@ -7,11 +7,12 @@ use std::path::Path;
 
 use host_sim::Error;
 
-use crate::chip::{Chip, Fault, MODELS, Memory};
+use crate::chip::{Chip, Fault};
 use crate::core::{Core, EXCEPTION};
 use crate::memory::{Memories, Shared};
 use crate::meter::Tally;
 use crate::program::Program;
+use crate::registers::model;
 
 /// Bytes of flash and RAM: the program's own memory map, more than a chip has.
 const FLASH_LEN: u32 = 1 << 20;
@@ -57,9 +58,7 @@ impl Kernel {
 /// # Errors
 /// [`Error::Input`] for a board that there is not, [`Error::Work`] for a program that fails.
 pub fn count(program: &Path, board: &str) -> Result<String, Error> {
-    let mut models = MODELS.iter();
-    let model = models.find(|model| model.program == board.replace('-', "_"));
-    let model = model.ok_or_else(|| Error::Input(format!("no board {board}")))?;
+    let model = model(board)?;
     let program = Program::load(program)?;
     let announcement = program.symbol("count_calls")? & !THUMB;
     let memories = Memories::flashed(program.segments(), FLASH_LEN, RAM_LEN)?;

@@ -184,8 +184,7 @@ impl Machine {
         mut meter: Option<&mut Meter>,
     ) -> Result<Stop, Fault> {
         if self.held {
-            self.now = until;
-            self.shared.set_now(until);
+            self.reach(until);
             return Ok(Stop::Time);
         }
         self.pc = self.core.pc();
@@ -220,8 +219,7 @@ impl Machine {
                 self.sleep(until, cycles * self.cycle)?;
                 continue;
             }
-            self.now += cycles * self.cycle;
-            self.shared.set_now(self.now);
+            self.reach(self.now + cycles * self.cycle);
             // Nothing befalls it before a certain instruction.
             let is_left_alone = self.planned.is_none();
             if self.account(xpsr, &mut meter)? {
@@ -241,17 +239,20 @@ impl Machine {
         let most = free.saturating_sub(self.now) / round;
         let rounds = self.core.count_down(most, &self.memories);
         *self.spent_in(self.exception) += ROUND_INSTRUCTIONS * rounds;
-        self.now += rounds * round;
-        self.shared.set_now(self.now);
+        self.reach(self.now + rounds * round);
+    }
+
+    fn reach(&mut self, now: Ps) {
+        self.now = now;
+        self.shared.set_now(now);
     }
 
     /// Nothing is pending: on to the next event, of which SysTick has counted a part.
     fn sleep(&mut self, until: Ps, counted: Ps) -> Result<(), Fault> {
         let due = self.due.ok_or(Fault::Asleep)?;
         let slept = due.min(until).saturating_sub(self.now);
-        self.now += slept;
+        self.reach(self.now + slept);
         self.core.pass(slept.saturating_sub(counted), self.cycle);
-        self.shared.set_now(self.now);
         Ok(())
     }
 
@@ -259,9 +260,8 @@ impl Machine {
     fn stall(&mut self, until: Ps) {
         let due = self.due.unwrap_or(Ps::MAX);
         let waited = self.stalled.min(until).min(due).saturating_sub(self.now);
-        self.now += waited;
+        self.reach(self.now + waited);
         self.core.pass(waited, self.cycle);
-        self.shared.set_now(self.now);
     }
 
     /// The time is up. A reset that the core asks for touches no peripheral, and so is seen

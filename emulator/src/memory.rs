@@ -9,7 +9,7 @@ use rsemu::core::space::{
     UnassignedPolicy,
 };
 
-use crate::chip::{Chip, Fault, Memory, Model, Ps};
+use crate::chip::{Chip, Fault, Model, Ps};
 use crate::program::Program;
 
 pub(crate) const FLASH: u32 = 0x0800_0000;
@@ -116,7 +116,7 @@ struct FlashStores {
 
 impl MemOps for FlashStores {
     fn read(&self, offset: u64, bytes: &mut [u8], _: MemAttrs) -> MemResult {
-        self.memories.flash.read_at(offset, bytes).map(drop)
+        self.memories.flash.bytes.read_at(offset, bytes).map(drop)
     }
 
     fn write(&self, offset: u64, bytes: &[u8], _: MemAttrs) -> MemResult {
@@ -131,16 +131,50 @@ impl MemOps for FlashStores {
     }
 }
 
-#[derive(Debug, Clone)]
-pub(crate) struct Memories {
-    flash: Arc<RamStore>,
-    flash_len: u32,
-    ram: Arc<RamStore>,
-    ram_len: u32,
-}
-
 fn refused(error: impl std::fmt::Debug) -> Fault {
     Fault::Memory(format!("{error:?}"))
+}
+
+/// Bytes from an address on.
+#[derive(Debug, Clone)]
+struct Store {
+    name: &'static str,
+    base: u32,
+    len: u32,
+    bytes: Arc<RamStore>,
+}
+
+impl Store {
+    fn new(name: &'static str, base: u32, len: u32) -> Self {
+        Self {
+            name,
+            base,
+            len,
+            bytes: Arc::new(RamStore::new(len.into())),
+        }
+    }
+
+    fn offset(&self, address: u32) -> Result<u64, Fault> {
+        let outside = || Fault::Memory(format!("{address:#010x} is not in {}", self.name));
+        let offset = address.checked_sub(self.base).map(u64::from);
+        offset.ok_or_else(outside)
+    }
+
+    fn read(&self, address: u32, into: &mut [u8]) -> Result<(), Fault> {
+        let read = self.bytes.read_at(self.offset(address)?, into);
+        read.map_err(refused).map(drop)
+    }
+
+    fn write(&self, address: u32, bytes: &[u8]) -> Result<(), Fault> {
+        let written = self.bytes.write_at(self.offset(address)?, bytes);
+        written.map_err(refused).map(drop)
+    }
+}
+
+#[derive(Debug, Clone)]
+pub(crate) struct Memories {
+    flash: Store,
+    ram: Store,
 }
 
 impl Memories {
@@ -155,20 +189,15 @@ impl Memories {
         ram_len: u32,
     ) -> Result<Self, Fault> {
         let memories = Self {
-            flash: Arc::new(RamStore::new(flash_len.into())),
-            flash_len,
-            ram: Arc::new(RamStore::new(ram_len.into())),
-            ram_len,
+            flash: Store::new("flash", FLASH, flash_len),
+            ram: Store::new("RAM", RAM, ram_len),
         };
         memories.erase(FLASH..FLASH + flash_len)?;
         for (address, contents) in segments {
-            let offset = address
-                .checked_sub(FLASH)
-                .ok_or_else(|| Fault::Program(format!("a segment at {address:#x}")))?;
-            memories
-                .flash
-                .write_at(offset.into(), contents)
-                .map_err(refused)?;
+            if address < FLASH {
+                return Err(Fault::Program(format!("a segment at {address:#x}")));
+            }
+            memories.flash.write(address, contents)?;
         }
         Ok(memories)
     }
@@ -179,7 +208,7 @@ impl Memories {
             .with_unassigned(UnassignedPolicy::FAULT)
             .with_dispatch(DispatchPolicy::Dense {
                 page_bits: 12,
-                cover: u64::from(RAM) + u64::from(self.ram_len),
+                cover: u64::from(RAM) + u64::from(self.ram.len),
             });
         {
             let registers = |base| {
@@ -189,7 +218,7 @@ impl Memories {
                 })
             };
             let mut map = space.topology();
-            let (flash, ram) = (Arc::clone(&self.flash), Arc::clone(&self.ram));
+            let [flash, ram] = [&self.flash, &self.ram].map(|store| Arc::clone(&store.bytes));
             // Read as memory; what is stored goes to the flash interface.
             let read = Mapping::new(Region::ram("flash", flash), FLASH.into());
             map.map_with(read.with_perms(Perms::RX)).map_err(refused)?;
@@ -197,7 +226,7 @@ impl Memories {
                 shared: Arc::clone(shared),
                 memories: self.clone(),
             });
-            let stores = Region::io("stores into flash", self.flash_len.into(), stores);
+            let stores = Region::io("stores into flash", self.flash.len.into(), stores);
             map.map_with(
                 Mapping::new(stores, FLASH.into())
                     .with_perms(Perms::WRITE)
@@ -215,12 +244,15 @@ impl Memories {
     }
 
     pub(crate) const fn flash_len(&self) -> u32 {
-        self.flash_len
+        self.flash.len
     }
 
     pub(crate) fn read(&self, address: u32, bytes: &mut [u8]) -> Result<(), Fault> {
-        let offset = ram_offset(address)?;
-        self.ram.read_at(offset, bytes).map_err(refused).map(drop)
+        self.ram.read(address, bytes)
+    }
+
+    pub(crate) fn write(&self, address: u32, bytes: &[u8]) -> Result<(), Fault> {
+        self.ram.write(address, bytes)
     }
 
     pub(crate) fn bytes<const N: usize>(&self, address: u32) -> Result<[u8; N], Fault> {
@@ -233,55 +265,47 @@ impl Memories {
         self.bytes(address).map(u32::from_le_bytes)
     }
 
+    /// That of the two which an address would be in.
+    const fn store(&self, address: u32) -> &Store {
+        if address < RAM {
+            &self.flash
+        } else {
+            &self.ram
+        }
+    }
+
     pub(crate) fn flip(&self, address: u32, bits: u8) -> Result<(), Fault> {
         let outside = || Fault::Memory(format!("{address:#010x} is not in memory"));
-        let byte = [self.get(address).ok_or_else(outside)? ^ bits];
-        let (store, base) = if address < RAM {
-            (&self.flash, FLASH)
-        } else {
-            (&self.ram, RAM)
-        };
-        let done = store.write_at((address - base).into(), &byte);
-        done.map_err(refused).map(drop)
+        let byte = self.get(address).ok_or_else(outside)?;
+        self.store(address).write(address, &[byte ^ bits])
     }
 
     pub(crate) fn erase(&self, place: Range<u32>) -> Result<(), Fault> {
-        let ones = vec![ERASED; place.len()];
-        let offset = place.start - FLASH;
-        self.flash
-            .write_at(offset.into(), &ones)
-            .map_err(refused)
-            .map(drop)
+        self.flash.write(place.start, &vec![ERASED; place.len()])
     }
 
     /// Programs bytes of flash, which can clear bits and set none.
     pub(crate) fn program(&self, address: u32, bytes: &[u8]) -> Result<(), Fault> {
         let there = self.flashed_bytes(address, bytes.len())?;
         let left: Vec<u8> = there.iter().zip(bytes).map(|(a, b)| a & b).collect();
-        let offset = address - FLASH;
-        self.flash
-            .write_at(offset.into(), &left)
-            .map_err(refused)
-            .map(drop)
+        self.flash.write(address, &left)
     }
 
     pub(crate) fn flashed_bytes(&self, address: u32, length: usize) -> Result<Vec<u8>, Fault> {
-        let outside = || Fault::Memory(format!("{address:#010x} is not in flash"));
-        let offset = address.checked_sub(FLASH).ok_or_else(outside)?;
         let mut bytes = vec![0; length];
-        self.flash
-            .read_at(offset.into(), &mut bytes)
-            .map_err(refused)?;
+        self.flash.read(address, &mut bytes)?;
         Ok(bytes)
     }
 
     pub(crate) fn lose_ram(&self) -> Result<(), Fault> {
-        self.write(RAM, &vec![0; self.ram_len as usize])
+        self.write(RAM, &vec![0; self.ram.len as usize])
     }
 
-    pub(crate) fn write(&self, address: u32, bytes: &[u8]) -> Result<(), Fault> {
-        let offset = ram_offset(address)?;
-        self.ram.write_at(offset, bytes).map_err(refused).map(drop)
+    /// A byte of either.
+    pub(crate) fn get(&self, address: u32) -> Option<u8> {
+        let mut byte = [0];
+        self.store(address).read(address, &mut byte).ok()?;
+        Some(byte[0])
     }
 }
 
@@ -294,29 +318,5 @@ impl rtt::Ram for &Memories {
 
     fn write(&mut self, at: u32, bytes: &[u8]) -> Result<(), Fault> {
         Memories::write(self, at, bytes)
-    }
-}
-
-fn ram_offset(address: u32) -> Result<u64, Fault> {
-    let outside = || Fault::Memory(format!("{address:#010x} is not in RAM"));
-    address.checked_sub(RAM).map(u64::from).ok_or_else(outside)
-}
-
-impl Memory for Memories {
-    fn get(&self, address: u32) -> Option<u8> {
-        let mut byte = [0];
-        if let Some(offset) = address.checked_sub(RAM).filter(|&o| o < self.ram_len) {
-            self.ram.read_at(offset.into(), &mut byte).ok()?;
-        } else {
-            let offset = address.checked_sub(FLASH).filter(|&o| o < self.flash_len)?;
-            self.flash.read_at(offset.into(), &mut byte).ok()?;
-        }
-        Some(byte[0])
-    }
-
-    fn put(&self, address: u32, byte: u8) -> Option<()> {
-        let offset = address.checked_sub(RAM).filter(|&o| o < self.ram_len)?;
-        self.ram.write_at(offset.into(), &[byte]).ok()?;
-        Some(())
     }
 }

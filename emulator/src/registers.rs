@@ -38,25 +38,18 @@ const CHIPS: [Chip; 3] = [
     },
 ];
 
-const fn word(kind: FactKind) -> &'static str {
-    match kind {
-        FactKind::Chip => "chip",
-        FactKind::Address => "address",
-        FactKind::Gate => "gate",
-        FactKind::Reset => "reset",
-        FactKind::Interrupt => "interrupt",
-        FactKind::Pin => "pin",
-        FactKind::Request => "request",
-        FactKind::Bits => "bits",
-        FactKind::Kind => "kind",
-    }
-}
-
 /// Where else a fact stands that no description has: the gate and the reset of a debug unit.
 fn alone(model: &Model, fact: &Fact) -> Option<&'static str> {
     let is_gate = matches!(fact.kind, FactKind::Gate | FactKind::Reset);
     let is_alone = is_gate && model.program == "nucleo_g071rb" && fact.of == "DBGMCU";
     is_alone.then_some("stm32g0xx-hal `src/rcc/enable.rs`: DBG")
+}
+
+/// The model of the chip of a board, by its name.
+pub(crate) fn model(board: &str) -> Result<&'static Model, Error> {
+    let mut models = MODELS.iter().copied();
+    let model = models.find(|model| model.program == board.replace('-', "_"));
+    model.ok_or_else(|| Error::Input(format!("no board {board}")))
 }
 
 /// The facts of a board's chip, a line each: kind, peripheral, part, two numbers, and where
@@ -65,20 +58,14 @@ fn alone(model: &Model, fact: &Fact) -> Option<&'static str> {
 /// # Errors
 /// [`Error::Input`] if there is no such board.
 pub fn table(board: &str) -> Result<String, Error> {
-    let mut models = MODELS.iter();
-    let model = models.find(|model| model.program == board.replace('-', "_"));
-    let model = model.ok_or_else(|| Error::Input(format!("no board {board}")))?;
+    let model = model(board)?;
     let mut text = String::new();
     for fact in facts(model) {
-        let Fact {
-            kind,
-            of,
-            part,
-            value: [first, second],
-        } = &fact;
         let alone = alone(model, &fact).unwrap_or_default();
+        let kind = format!("{:?}", fact.kind).to_lowercase();
+        let (of, part, [first, second]) = (fact.of, fact.part, fact.value);
         // Writing to a string does not fail.
-        let _ = writeln!(text, "{},{of},{part},{first},{second},{alone}", word(*kind));
+        let _ = writeln!(text, "{kind},{of},{part},{first},{second},{alone}");
     }
     Ok(text)
 }
@@ -126,29 +113,20 @@ fn of_chip(chip: &Chip, model: &Model) -> String {
             hex(address.value[0])
         ));
     }
-    line("\n| interrupt | number |\n|---|---|".to_owned());
-    for Fact {
-        of, part, value, ..
-    } in of(FactKind::Interrupt)
-    {
-        line(format!("| {of} {part} | {} |", value[0]));
-    }
-    for (kind, title, others) in [
-        (FactKind::Pin, "pin | alternate function", chip.pins),
+    let others = |others| format!("\nThe same say {others}.\n");
+    let (pins, requests) = (others(chip.pins), others(chip.requests));
+    for (kind, before, title) in [
+        (FactKind::Interrupt, String::new(), "interrupt | number"),
+        (FactKind::Pin, pins, "pin | alternate function"),
         (
             FactKind::Request,
+            requests,
             "DMA request | channel or number",
-            chip.requests,
         ),
     ] {
-        line(format!(
-            "\nThe same say {others}.\n\n| {title} |\n|---|---|"
-        ));
-        for Fact {
-            of, part, value, ..
-        } in of(kind)
-        {
-            line(format!("| {of} {part} | {} |", value[0]));
+        line(format!("{before}\n| {title} |\n|---|---|"));
+        for fact in of(kind) {
+            line(format!("| {} {} | {} |", fact.of, fact.part, fact.value[0]));
         }
     }
     line("\n| register | offset | bits |\n|---|---|---|".to_owned());

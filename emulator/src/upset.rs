@@ -9,7 +9,6 @@ pub(crate) const MIDDLE: u64 = 200;
 
 /// Between flash and RAM.
 const NOWHERE: u32 = 0x1800_0000;
-/// The register of the stack pointer.
 const SP: u8 = 13;
 /// R0 to R15, and xPSR after them.
 pub(crate) const REGISTERS: [&str; 17] = [

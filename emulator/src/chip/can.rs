@@ -7,9 +7,9 @@ use std::collections::VecDeque;
 
 use can::Frame;
 
+use super::Ps;
 use super::can_errors::{BOFF, ErrorCounts, REC, TEC};
 use super::fields::{Field, field, whole};
-use super::time::Ps;
 
 const MCR: u32 = 0x00;
 const MSR: u32 = 0x04;
@@ -29,45 +29,44 @@ const FA1R: u32 = 0x21C;
 const F0R1: u32 = 0x240;
 const F0R2: u32 = 0x244;
 
-const INRQ: u32 = 1 << 0;
-const SLEEP: u32 = 1 << 1;
+const INRQ: Field = field("MCR", MCR, "INRQ", 1 << 0);
+const SLEEP: Field = field("MCR", MCR, "SLEEP", 1 << 1);
 /// After a reset, with DBF.
 const MCR_RESET: u32 = 0x0001_0002;
-const INAK: u32 = 1 << 0;
-const SLAK: u32 = 1 << 1;
+const INAK: Field = field("MSR", MSR, "INAK", 1 << 0);
+const SLAK: Field = field("MSR", MSR, "SLAK", 1 << 1);
 /// RX and its last sample are recessive.
 const RECESSIVE: u32 = 3 << 10;
 
 /// Of the first mailbox; the next have theirs eight bits above.
-const RQCP: u32 = 1 << 0;
-const TXOK: u32 = 1 << 1;
-const ABRQ: u32 = 1 << 7;
+const RQCP: Field = field("TSR", TSR, "RQCP0", 1 << 0);
+const TXOK: Field = field("TSR", TSR, "TXOK0", 1 << 1);
+const ABRQ: Field = field("TSR", TSR, "ABRQ0", 1 << 7);
 /// The next have theirs one bit above.
-const TME: u32 = 1 << 26;
+const TME: Field = field("TSR", TSR, "TME0", 1 << 26);
 
-const FMP: u32 = 3;
-const FULL: u32 = 1 << 3;
-const FOVR: u32 = 1 << 4;
-const RFOM: u32 = 1 << 5;
+const FMP: Field = field("RF0R", RF0R, "FMP0", 3);
+const FULL: Field = field("RF0R", RF0R, "FULL0", 1 << 3);
+const FOVR: Field = field("RF0R", RF0R, "FOVR0", 1 << 4);
+const RFOM: Field = field("RF0R", RF0R, "RFOM0", 1 << 5);
 
-const TMEIE: u32 = 1 << 0;
-const FMPIE0: u32 = 1 << 1;
+const TMEIE: Field = field("IER", IER, "TMEIE", 1 << 0);
+const FMPIE0: Field = field("IER", IER, "FMPIE0", 1 << 1);
 
-/// Of an identifier's register.
-const TXRQ: u32 = 1 << 0;
-const RTR: u32 = 1 << 1;
-const IDE: u32 = 1 << 2;
-const STID: u32 = 0x7FF << 21;
-const DLC: u32 = 15;
+const TXRQ: Field = field("TI0R", TI0R, "TXRQ", 1 << 0);
+const RTR: Field = field("TI0R", TI0R, "RTR", 1 << 1);
+const IDE: Field = field("TI0R", TI0R, "IDE", 1 << 2);
+const STID: Field = field("TI0R", TI0R, "STID", 0x7FF << 21);
+const DLC: Field = field("TDT0R", TI0R + 4, "DLC", 15);
 
 /// After a reset: 36 quanta and more, which nothing keeps.
 const BTR_RESET: u32 = 0x0123_0000;
-const BRP: u32 = 0x3FF;
-const TS1: u32 = 15 << 16;
-const TS2: u32 = 7 << 20;
-const SJW: u32 = 3 << 24;
+const BRP: Field = field("BTR", BTR, "BRP", 0x3FF);
+const TS1: Field = field("BTR", BTR, "TS1", 15 << 16);
+const TS2: Field = field("BTR", BTR, "TS2", 7 << 20);
+const SJW: Field = field("BTR", BTR, "SJW", 3 << 24);
 
-const FINIT: u32 = 1 << 0;
+const FINIT: Field = field("FMR", FMR, "FINIT", 1 << 0);
 const FMR_RESET: u32 = 0x2A1C_0E01;
 
 const MAILBOXES: usize = 3;
@@ -75,47 +74,33 @@ const DEPTH: usize = 3;
 
 /// What is known of its registers: of mailboxes those of the first.
 pub(super) fn fields() -> Vec<Field> {
-    vec![
-        field("MCR", MCR, "INRQ", INRQ),
-        field("MCR", MCR, "SLEEP", SLEEP),
-        field("MSR", MSR, "INAK", INAK),
-        field("MSR", MSR, "SLAK", SLAK),
-        field("TSR", TSR, "RQCP0", RQCP),
-        field("TSR", TSR, "TXOK0", TXOK),
-        field("TSR", TSR, "ABRQ0", ABRQ),
-        field("TSR", TSR, "TME0", TME),
-        field("RF0R", RF0R, "FMP0", FMP),
-        field("RF0R", RF0R, "FULL0", FULL),
-        field("RF0R", RF0R, "FOVR0", FOVR),
-        field("RF0R", RF0R, "RFOM0", RFOM),
-        field("IER", IER, "TMEIE", TMEIE),
-        field("IER", IER, "FMPIE0", FMPIE0),
+    let errors = [
         field("ESR", ESR, "BOFF", BOFF),
         field("ESR", ESR, "TEC", TEC),
         field("ESR", ESR, "REC", REC),
-        field("BTR", BTR, "BRP", BRP),
-        field("BTR", BTR, "TS1", TS1),
-        field("BTR", BTR, "TS2", TS2),
-        field("BTR", BTR, "SJW", SJW),
-        field("TI0R", TI0R, "TXRQ", TXRQ),
-        field("TI0R", TI0R, "RTR", RTR),
-        field("TI0R", TI0R, "IDE", IDE),
-        field("TI0R", TI0R, "STID", STID),
-        field("TDT0R", TI0R + 4, "DLC", DLC),
-        whole("TDL0R", TI0R + 8),
-        whole("TDH0R", TI0R + 12),
-        field("RI0R", RI0R, "STID", STID),
-        field("RDT0R", RI0R + 4, "DLC", DLC),
+    ];
+    let data = [whole("TDL0R", TI0R + 8), whole("TDH0R", TI0R + 12)];
+    let received = [
+        field("RI0R", RI0R, "STID", STID.bits),
+        field("RDT0R", RI0R + 4, "DLC", DLC.bits),
         whole("RDL0R", RI0R + 8),
         whole("RDH0R", RI0R + 12),
-        field("FMR", FMR, "FINIT", FINIT),
-        whole("FM1R", FM1R),
-        whole("FS1R", FS1R),
-        whole("FFA1R", FFA1R),
-        whole("FA1R", FA1R),
-        whole("F0R1", F0R1),
-        whole("F0R2", F0R2),
+    ];
+    let filters = ["FM1R", "FS1R", "FFA1R", "FA1R", "F0R1", "F0R2"];
+    let filters = filters.into_iter().zip(FILTERS);
+    let filters: Vec<Field> = filters.map(|(name, offset)| whole(name, offset)).collect();
+    [
+        &[
+            INRQ, SLEEP, INAK, SLAK, RQCP, TXOK, ABRQ, TME, FMP, FULL, FOVR, RFOM, TMEIE, FMPIE0,
+        ][..],
+        &errors,
+        &[BRP, TS1, TS2, SJW, TXRQ, RTR, IDE, STID, DLC],
+        &data,
+        &received,
+        &[FINIT],
+        &filters,
     ]
+    .concat()
 }
 
 /// A transmit mailbox: identifier, length, data, and what became of its last request.
@@ -130,24 +115,26 @@ struct Mailbox {
 
 impl Mailbox {
     const fn is_pending(&self) -> bool {
-        self.words[0] & TXRQ != 0
+        TXRQ.is_in(self.words[0])
     }
 
     fn frame(&self) -> Frame {
         let [id, length, low, high] = self.words;
         let [low, high] = [low, high].map(u32::to_le_bytes);
         let data = [low, high].concat();
-        Frame::new((id >> 21) as u16, &data[..(length & DLC).min(8) as usize])
+        Frame::new(
+            (id >> 21) as u16,
+            &data[..DLC.number_in(length).min(8) as usize],
+        )
     }
 
     const fn complete(&mut self, is_sent: bool) {
-        self.words[0] &= !TXRQ;
+        self.words[0] &= !TXRQ.bits;
         (self.is_completed, self.is_sent) = (true, is_sent);
         self.is_aborted = false;
     }
 }
 
-/// What the bus brings, and when.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Arrival {
     /// A frame of another chip.
@@ -224,7 +211,7 @@ impl BxCan {
     }
 
     pub(super) const fn is_on(&self) -> bool {
-        self.mcr & (INRQ | SLEEP) == 0 && !self.errors.is_off
+        !INRQ.is_in(self.mcr) && !SLEEP.is_in(self.mcr) && !self.errors.is_off
     }
 
     pub(crate) const fn errors(&self) -> ErrorCounts {
@@ -246,8 +233,8 @@ impl BxCan {
     }
 
     pub(super) const fn bit(&self, bus: Ps) -> Ps {
-        let quanta = 3 + (self.btr >> 16 & 15) + (self.btr >> 20 & 7);
-        bus * ((self.btr & BRP) + 1) as Ps * quanta as Ps
+        let quanta = 3 + TS1.number_in(self.btr) + TS2.number_in(self.btr);
+        bus * (BRP.number_in(self.btr) + 1) as Ps * quanta as Ps
     }
 
     pub(super) fn expect(&mut self, at: Ps, what: Arrival) {
@@ -265,7 +252,7 @@ impl BxCan {
     pub(super) fn advance(&mut self, now: Ps) {
         while let Some((_, what)) = self.arriving.pop_front_if(|(at, _)| *at <= now) {
             if let Arrival::Silent(times) = what
-                && self.mcr & INRQ == 0
+                && !INRQ.is_in(self.mcr)
             {
                 self.errors.silent(times);
             }
@@ -319,34 +306,34 @@ impl BxCan {
 
     const fn accepts(&self, frame: &Frame) -> bool {
         let [_, _, _, active, id, mask] = self.filter;
-        let is_active = self.filter_mode & FINIT == 0 && active & 1 != 0;
-        is_active && ((frame.id() as u32) << 21 ^ id) & mask & (STID | IDE | RTR) == 0
+        let is_active = !FINIT.is_in(self.filter_mode) && active & 1 != 0;
+        is_active
+            && ((frame.id() as u32) << 21 ^ id) & mask & (STID.bits | IDE.bits | RTR.bits) == 0
     }
 
     pub(super) fn interrupts(&self) -> [bool; 2] {
         let sent = self.mailboxes.iter().any(|one| one.is_completed);
         [
-            self.ier & FMPIE0 != 0 && !self.received.is_empty(),
-            self.ier & TMEIE != 0 && sent,
+            FMPIE0.is_in(self.ier) && !self.received.is_empty(),
+            TMEIE.is_in(self.ier) && sent,
         ]
     }
 
     pub(super) fn read(&self, offset: u32) -> Option<u32> {
-        let flag = |on: bool, bit: u32| if on { bit } else { 0 };
         Some(match offset {
             MCR => self.mcr,
             // It follows at once.
             MSR => {
-                let initialises = self.mcr & INRQ != 0 && self.mcr & SLEEP == 0;
-                flag(initialises, INAK) | flag(self.mcr & SLEEP != 0, SLAK) | RECESSIVE
+                let sleeps = SLEEP.is_in(self.mcr);
+                INAK.when(INRQ.is_in(self.mcr) && !sleeps) | SLAK.when(sleeps) | RECESSIVE
             }
             TSR => (0..).zip(&self.mailboxes).fold(0, |status, (n, one)| {
-                let of_request = flag(one.is_completed, RQCP) | flag(one.is_sent, TXOK);
-                status | of_request << (8 * n) | flag(!one.is_pending(), TME << n)
+                let of_request = RQCP.when(one.is_completed) | TXOK.when(one.is_sent);
+                status | of_request << (8 * n) | TME.when(!one.is_pending()) << n
             }),
             RF0R => {
                 let count = self.received.len();
-                count as u32 | flag(count == DEPTH, FULL) | flag(self.overrun, FOVR)
+                count as u32 | FULL.when(count == DEPTH) | FOVR.when(self.overrun)
             }
             IER => self.ier,
             ESR => self.errors.status(),
@@ -379,10 +366,10 @@ impl BxCan {
     /// Whether register and setting are modelled.
     pub(super) fn write(&mut self, offset: u32, value: u32, now: Ps) -> bool {
         match offset {
-            MCR if value & !(INRQ | SLEEP) == 0 => {
-                let was_starting = self.mcr & INRQ != 0;
+            MCR if value & !(INRQ.bits | SLEEP.bits) == 0 => {
+                let was_starting = INRQ.is_in(self.mcr);
                 self.mcr = value;
-                if was_starting && value & INRQ == 0 {
+                if was_starting && !INRQ.is_in(value) {
                     self.errors.restart();
                 }
             }
@@ -390,11 +377,11 @@ impl BxCan {
                 let is_on = self.is_on();
                 for (n, one) in (0..).zip(&mut self.mailboxes) {
                     let of_one = value >> (8 * n);
-                    if of_one & RQCP != 0 {
+                    if RQCP.is_in(of_one) {
                         (one.is_completed, one.is_sent) = (false, false);
                     }
                     // One that is on the bus is given up as it ends, unless it comes through.
-                    if of_one & ABRQ != 0 && one.is_pending() && !one.is_aborted {
+                    if ABRQ.is_in(of_one) && one.is_pending() && !one.is_aborted {
                         one.is_aborted = is_on;
                         if is_on {
                             self.requests.push((now, Request::Withdraw(one.frame())));
@@ -405,20 +392,20 @@ impl BxCan {
                 }
             }
             RF0R => {
-                if value & RFOM != 0 {
+                if RFOM.is_in(value) {
                     self.received.pop_front();
                 }
-                self.overrun &= value & FOVR == 0;
+                self.overrun &= !FOVR.is_in(value);
             }
-            IER if value & !(TMEIE | FMPIE0) == 0 => self.ier = value,
+            IER if value & !(TMEIE.bits | FMPIE0.bits) == 0 => self.ier = value,
             // Only while it initialises.
-            BTR if self.mcr & INRQ != 0 => {
-                if value & !(BRP | TS1 | TS2 | SJW) != 0 {
+            BTR if INRQ.is_in(self.mcr) => {
+                if value & !(BRP.bits | TS1.bits | TS2.bits | SJW.bits) != 0 {
                     return false;
                 }
                 self.btr = value;
             }
-            FMR => self.filter_mode = FMR_RESET & !FINIT | value & FINIT,
+            FMR => self.filter_mode = FMR_RESET & !FINIT.bits | value & FINIT.bits,
             _ if FILTERS.contains(&offset) => {
                 // One filter of 32 bits with a mask, to the first FIFO.
                 let modelled = match offset {
@@ -441,8 +428,8 @@ impl BxCan {
                     return false;
                 }
                 one.words[word] = value;
-                if word == 0 && value & TXRQ != 0 {
-                    if value & (RTR | IDE) != 0 {
+                if word == 0 && TXRQ.is_in(value) {
+                    if RTR.is_in(value) || IDE.is_in(value) {
                         return false;
                     }
                     (one.is_completed, one.is_sent) = (false, false);

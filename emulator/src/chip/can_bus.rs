@@ -1,10 +1,9 @@
 //! A chip on the bus of a head: what comes, and what it sends; and its number.
 
 use super::can::{Arrival, Request};
-use super::map::Unit;
-use super::time::Ps;
+use super::model::Unit;
 use super::wiring::{CAN, NUMBER, PORTS_BUS};
-use super::{Chip, Fault};
+use super::{Chip, Fault, Ps};
 
 /// By how many thousandths the chip's bits may differ from those of the others.
 const OFF_PERMILLE: Ps = 5;

@@ -2,38 +2,8 @@
 
 mod layout;
 
-use super::fields::Field;
-use layout::{CHANNELS, Layout, STREAMS};
+pub(super) use layout::{CHANNELS, Layout, STREAMS};
 
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Version {
-    Streams,
-    /// Channels, whose requests are wired, or selected by a DMAMUX.
-    Channels,
-}
-
-impl Version {
-    /// As it is after a reset.
-    pub(super) fn controller(self) -> Dma {
-        Dma {
-            layout: self.layout(),
-            streams: [Stream::default(); 8],
-        }
-    }
-
-    pub(super) const fn fields(self) -> &'static [Field] {
-        self.layout().fields
-    }
-
-    const fn layout(self) -> &'static Layout {
-        match self {
-            Self::Streams => &STREAMS,
-            Self::Channels => &CHANNELS,
-        }
-    }
-}
-
-/// What a controller moves.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct Move {
     pub(super) peripheral: u32,
@@ -77,6 +47,17 @@ enum Place {
 }
 
 impl Dma {
+    pub(super) fn new(layout: &'static Layout) -> Self {
+        Self {
+            layout,
+            streams: [Stream::default(); 8],
+        }
+    }
+
+    pub(super) fn reset(&mut self) {
+        *self = Self::new(self.layout);
+    }
+
     pub(super) fn stop(&mut self, stream: usize) {
         if let Some(stream) = self.streams.get_mut(stream) {
             stream.cr &= !EN;
@@ -180,19 +161,15 @@ impl Dma {
     }
 
     fn place(&self, offset: u32) -> Option<Place> {
-        let Layout {
-            flags_at,
-            flag_registers,
-            size,
-            ..
-        } = *self.layout;
-        let streams = flags_at.len() * flag_registers as usize;
+        let layout = self.layout;
+        let (flag_registers, size) = (layout.flag_registers, layout.size);
+        let streams = layout.flags_at.len() * flag_registers as usize;
         if let Some(offset) = offset.checked_sub(8 * flag_registers) {
             let n = (offset / size) as usize;
             return (n < streams).then_some(Place::Stream(n, offset % size));
         }
         let [register, clear] = [offset / 4 % flag_registers, offset / 4 / flag_registers];
-        let first = flags_at.len() * register as usize;
+        let first = layout.flags_at.len() * register as usize;
         match (offset % 4, clear) {
             (0, 0) => Some(Place::Flags(first)),
             (0, _) => Some(Place::Clear(first)),

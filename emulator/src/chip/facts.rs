@@ -5,13 +5,11 @@
 use firmware::BoardCode;
 
 use super::fields::Field;
-use super::map::Unit;
+use super::model::Unit;
 use super::rcc::Bus;
-use super::timers::Kind;
+use super::timer::Kind;
 use super::wiring::{CAN, CAN_IRQS, PWM, Pin, Request, SERIAL, SERIAL_DMA};
-use super::{
-    Model, SUPPLY_IRQ, can, dma, flash, lines, mux, power, remap, spi, timer, usart, watchdog,
-};
+use super::{Model, SUPPLY_IRQ, can, flash, lines, mux, power, remap, spi, timer, usart, watchdog};
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum FactKind {
@@ -96,12 +94,12 @@ fn fields(model: &Model, unit: Unit) -> Vec<Field> {
         Unit::Rcc => model.rcc.fields(),
         Unit::Flash => power::options(model.power)
             .into_iter()
-            .chain(flash::fields(model.flash_version))
+            .chain(flash::fields(model.flash_interface))
             .collect(),
         Unit::Power => power::fields(model.power),
         Unit::Lines => lines::fields(model.lines),
-        Unit::Dma(n) => model.dmas[n].fields().to_vec(),
-        Unit::Usart => usart::fields(model.usart_version),
+        Unit::Dma(n) => model.dmas[n].fields.to_vec(),
+        Unit::Usart => usart::fields(model.usart),
         Unit::Can => can::fields(),
         Unit::Requests => mux::FIELDS.to_vec(),
         Unit::Remap => remap::FIELDS.to_vec(),
@@ -161,9 +159,8 @@ fn kinds(model: &Model) -> Vec<Fact> {
         let word = if has_queues { "queues" } else { "no queues" };
         kind(Unit::Spi(n), word, Some(*bus))
     });
-    let dmas = model.dmas.iter().enumerate().map(|(n, version)| {
-        let has_channels = *version == dma::Version::Channels;
-        let word = if has_channels { "bdma" } else { "dma" };
+    let dmas = model.dmas.iter().enumerate().map(|(n, layout)| {
+        let word = if layout.has_channels { "bdma" } else { "dma" };
         kind(Unit::Dma(n), word, None)
     });
     timers.chain(spis).chain(dmas).collect()
@@ -240,6 +237,6 @@ fn pins(of: &str, signals: &[&str], pins: &[Pin], function: u32) -> Vec<Fact> {
 
 /// The manuals' name of a stream, or of a channel, which are counted from 1.
 fn channel(model: &Model, dma: usize, request: Request) -> String {
-    let first = usize::from(model.dmas[dma] == dma::Version::Channels);
+    let first = usize::from(model.dmas[dma].has_channels);
     format!("CH{}", request.stream + first)
 }

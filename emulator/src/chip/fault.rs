@@ -1,4 +1,4 @@
-//! What the emulated chip cannot go along with.
+//! What the emulated chip cannot go along with, and what resets it.
 
 /// Why an emulated run ended early.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
@@ -33,7 +33,7 @@ pub enum Fault {
     NoStart(String),
     /// The chip was reset within a run that must not be interrupted.
     #[error("the chip was reset by {0:?}")]
-    Reset(super::reset::ResetCause),
+    Reset(ResetCause),
     /// Boards of a head do not tick alike.
     #[error("a board of the head ticked not once while another did")]
     Unequal,
@@ -55,4 +55,19 @@ impl From<rtt::BadProgram> for Fault {
     fn from(bad: rtt::BadProgram) -> Self {
         Self::Program(bad.to_string())
     }
+}
+
+/// What resets the chip.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum ResetCause {
+    /// The supply came.
+    Power,
+    /// The independent watchdog.
+    Watchdog,
+    /// The reset button.
+    Pin,
+    /// The core asked for it (SYSRESETREQ).
+    Software,
+    /// The supply fell below the level of the option bytes.
+    BrownOut,
 }

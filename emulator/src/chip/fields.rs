@@ -12,6 +12,21 @@ pub(super) struct Field {
     pub(super) bits: u32,
 }
 
+impl Field {
+    pub(super) const fn is_in(self, value: u32) -> bool {
+        self.bits & value != 0
+    }
+
+    /// Its bits, where something `is_so`.
+    pub(super) const fn when(self, is_so: bool) -> u32 {
+        if is_so { self.bits } else { 0 }
+    }
+
+    pub(super) const fn number_in(self, value: u32) -> u32 {
+        (self.bits & value) >> self.bits.trailing_zeros()
+    }
+}
+
 pub(super) const fn field(
     register: &'static str,
     offset: u32,

@@ -6,11 +6,12 @@ mod layout;
 
 use std::ops::Range;
 
+use super::Ps;
 use super::fields::Field;
 use super::plain::Plain;
-use super::time::Ps;
-pub(super) use layout::Version;
-use layout::{ACR, Layout, WIDTH, WORDS};
+use crate::memory::FLASH;
+use layout::{ACR, WIDTH, WORDS};
+pub(super) use layout::{F1, F4, G0, Layout};
 
 const KEYS: [u32; 2] = [0x4567_0123, 0xCDEF_89AB];
 
@@ -18,10 +19,8 @@ const KEYS: [u32; 2] = [0x4567_0123, 0xCDEF_89AB];
 const PG: u32 = 1 << 0;
 const ERASES: u32 = 1 << 1;
 
-const BASE: u32 = 0x0800_0000;
-
-pub(super) fn fields(version: Version) -> Vec<Field> {
-    version.layout().fields()
+pub(super) fn fields(layout: &Layout) -> Vec<Field> {
+    layout.fields()
 }
 
 #[derive(Debug, Clone)]
@@ -42,8 +41,8 @@ pub(crate) struct Flash {
 
 impl Flash {
     /// With registers that only keep what is written.
-    pub(super) fn new(registers: &'static [(u32, u32)], version: Version) -> Self {
-        Self::of(Plain::new(registers), version.layout())
+    pub(super) fn new(registers: &'static [(u32, u32)], layout: &'static Layout) -> Self {
+        Self::of(Plain::new(registers), layout)
     }
 
     fn of(waits: Plain, layout: &'static Layout) -> Self {
@@ -117,7 +116,7 @@ impl Flash {
             return value & !known == 0;
         }
         let number = match layout.ar {
-            Some(_) => self.address.wrapping_sub(BASE) / layout.unit,
+            Some(_) => self.address.wrapping_sub(FLASH) / layout.unit,
             None => (value & layout.number) >> layout.number.trailing_zeros(),
         };
         let place = layout.place(number);
@@ -160,20 +159,20 @@ impl Flash {
 
 #[cfg(test)]
 mod tests {
-    use super::{ACR, Flash, KEYS, PG, Version, WORDS};
+    use super::{ACR, F1, F4, Flash, G0, KEYS, Layout, PG, WORDS};
 
-    fn unlocked(version: Version) -> Flash {
-        let mut flash = Flash::new(&[(ACR, 0)], version);
-        let keyr = version.layout().keyr;
-        assert!(KEYS.iter().all(|key| flash.write(keyr, *key, 0)));
+    /// One that is unlocked, with this written into CR.
+    fn ready(layout: &'static Layout, control: u32) -> Flash {
+        let mut flash = Flash::new(&[(ACR, 0)], layout);
+        assert!(KEYS.iter().all(|key| flash.write(layout.keyr, *key, 0)));
+        flash.write(layout.cr, control, 0);
         flash
     }
 
     #[test]
     fn nothing_is_written_without_both_keys() {
-        for version in [Version::F1, Version::F4, Version::G0] {
-            let layout = version.layout();
-            let mut flash = Flash::new(&[(ACR, 0)], version);
+        for layout in [&F1, &F4, &G0] {
+            let mut flash = Flash::new(&[(ACR, 0)], layout);
             assert!(!flash.write(layout.cr, PG, 0));
             assert!(!flash.store(0, layout.bytes, 0));
             assert_eq!(flash.read(layout.sr, 0), Some(layout.refused));
@@ -186,14 +185,11 @@ mod tests {
 
     #[test]
     fn only_what_a_chip_writes_at_once_is_written() {
-        let mut flash = unlocked(Version::F4);
-        flash.write(Version::F4.layout().cr, PG | WORDS, 0);
+        let mut flash = ready(&F4, PG | WORDS);
         assert!(!flash.store(2, 2, 0) && !flash.store(2, 4, 0));
-        let mut flash = unlocked(Version::F1);
-        flash.write(Version::F1.layout().cr, PG, 0);
+        let mut flash = ready(&F1, PG);
         assert!(!flash.store(4, 4, 0) && flash.store(4, 2, 0));
-        let mut flash = unlocked(Version::G0);
-        flash.write(Version::G0.layout().cr, PG, 0);
+        let mut flash = ready(&G0, PG);
         // The second word of a pair alone, and then both.
         assert!(!flash.store(4, 4, 0));
         assert!(flash.store(8, 4, 0) && flash.store(12, 4, 0));

@@ -3,11 +3,35 @@
 
 use firmware::boards::BoardFacts;
 
-use super::map::Entry;
 use super::rcc::{Bus, Layout};
-use super::timers::Kind;
+use super::timer::Kind;
 use super::wiring::Wiring;
 use super::{dma, flash, gpio, lines, power, spi, usart};
+
+/// A peripheral of the chip, by its place among its like.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Unit {
+    Tim(usize),
+    Watchdog,
+    Spi(usize),
+    Gpio(usize),
+    Rcc,
+    Flash,
+    Dma(usize),
+    Requests,
+    Remap,
+    System,
+    Debug,
+    Power,
+    Lines,
+    /// USART2.
+    Usart,
+    /// CAN1.
+    Can,
+}
+
+/// A unit, its base address, and its gate in RCC where it has one.
+pub(super) type Entry = (Unit, u32, Option<(Bus, u32)>);
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum CoreKind {
@@ -36,9 +60,9 @@ pub(crate) struct Model {
     /// What each timer can do, and the bus whose clock it counts.
     pub(super) timers: &'static [(Kind, Bus)],
     pub(super) spi_version: spi::Version,
-    pub(super) usart_version: usart::Version,
+    pub(super) usart: &'static usart::Layout,
     pub(super) spis: &'static [Bus],
-    pub(super) dmas: &'static [dma::Version],
+    pub(super) dmas: &'static [&'static dma::Layout],
     /// Whether a DMAMUX says which request a channel listens to.
     pub(super) has_mux: bool,
     /// Ports A, B and C after a reset.
@@ -49,7 +73,7 @@ pub(crate) struct Model {
     /// The clock that a wait state of the flash adds, Hz, from so many mV of the supply on;
     /// the highest supply first.
     pub(super) flash_hz: &'static [(u32, u64)],
-    pub(super) flash_version: flash::Version,
+    pub(super) flash_interface: &'static flash::Layout,
     /// Registers that only keep what is written, and their values after a reset: of the
     /// flash interface and of the debug unit.
     pub(super) flash_registers: &'static [(u32, u32)],

@@ -3,7 +3,7 @@
 
 use super::Chip;
 use super::gpio::Role;
-use super::map::Unit;
+use super::model::Unit;
 use super::wiring::{BUTTON, ENABLES, HALLS, PWM, Pin, SIGNALS};
 
 impl Chip {
@@ -44,7 +44,7 @@ impl Chip {
     pub(crate) fn motor_duties(&self) -> [(u32, u32); 3] {
         [0, 1, 2].map(|channel| {
             let (on, period) = self.timers[self.model.wiring.pwm_timer].duty(channel);
-            match self.role(PWM[channel]) {
+            match self.role(PWM[channel as usize]) {
                 Role::Alternate(function) if function == self.model.wiring.pwm_function => {
                     (on, period)
                 }

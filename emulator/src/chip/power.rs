@@ -2,8 +2,8 @@
 //! chapter 4.2), the level below which the chip is in reset, and the option bytes that set it.
 //! Thresholds are the typical ones of the data sheets.
 
+use super::ResetCause;
 use super::fields::{Field, field};
-use super::reset::ResetCause;
 
 /// The supply of a board that is well, mV.
 pub(crate) const WELL_MV: u32 = 3_300;
@@ -215,14 +215,10 @@ impl Power {
     }
 
     pub(super) fn write(&mut self, offset: u32, value: u32) -> bool {
-        let Layout {
-            registers,
-            switch,
-            levels,
-            ..
-        } = self.layout;
-        let (control, after_reset) = registers[0];
-        let own = levels.iter().fold(*switch, |bits, shift| bits | 7 << shift);
+        let layout = self.layout;
+        let (control, after_reset) = layout.registers[0];
+        let levels = layout.levels.iter();
+        let own = levels.fold(layout.switch, |bits, shift| bits | 7 << shift);
         let known = offset == control
             && value & !own == after_reset & !own
             && self.thresholds_mv(value).is_some();

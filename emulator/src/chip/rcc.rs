@@ -6,12 +6,10 @@
 
 pub(super) mod f1;
 pub(super) mod f4;
-mod fields;
 pub(super) mod g0;
 
-use super::fault::Fault;
-use super::reset::ResetCause;
-use super::time::Ps;
+use super::fields::{Field, field};
+use super::{Fault, Ps, ResetCause};
 
 /// What the ST-LINK feeds into the HSE input, Hz.
 const HSE_HZ: u64 = 8_000_000;
@@ -22,6 +20,13 @@ const CR: u32 = 0x00;
 const CSSON: u32 = 1 << 19;
 const HSEON: u32 = 1 << 16;
 const PLLON: u32 = 1 << 24;
+/// On the STM32F1 and F4, with the switches there and their ready flags.
+const HSION: u32 = 1 << 0;
+const SWITCHES: [(u32, u32); 3] = [
+    (HSION, HSION << 1),
+    (HSEON, HSEON << 1),
+    (PLLON, PLLON << 1),
+];
 /// In the register of clock interrupts: HSE has failed, and that is cleared.
 const CSSF: u32 = 1 << 7;
 const CSSC: u32 = 1 << 23;
@@ -131,6 +136,46 @@ pub(super) struct Layout {
     ahb: u32,
     /// Likewise of both peripheral buses, with their highest clocks, Hz.
     apb: [(u32, u64); 2],
+}
+
+/// Switches and ready flags of oscillators and PLL, in the order of [`Layout::switches`].
+const SWITCH_NAMES: [[&str; 2]; 3] = [
+    ["HSION", "HSIRDY"],
+    ["HSEON", "HSERDY"],
+    ["PLLON", "PLLRDY"],
+];
+
+impl Layout {
+    /// The registers of gates, or of resets, of a peripheral's bus.
+    pub(super) fn gate(&self, bus: Bus) -> Option<u32> {
+        let mut gates = self.gates.iter();
+        gates.find(|gate| gate.0 == bus).map(|gate| gate.1)
+    }
+
+    pub(super) fn reset(&self, bus: Bus) -> Option<u32> {
+        let mut resets = self.resets.iter();
+        resets.find(|reset| reset.0 == bus).map(|reset| reset.1)
+    }
+
+    pub(super) fn fields(&self) -> Vec<Field> {
+        let (cfgr, mask, above) = self.selection;
+        let (csr, clear) = self.csr;
+        let pin = self.causes[2];
+        let switches = self.switches.iter().zip(SWITCH_NAMES);
+        let switches = switches.flat_map(|((on, ready), [switch, flag])| {
+            [field("CR", CR, switch, *on), field("CR", CR, flag, *ready)]
+        });
+        switches
+            .chain([
+                field("CFGR", cfgr, "SW", mask),
+                field("CFGR", cfgr, "SWS", mask << above),
+                field("CSR", csr, "RMVF", clear),
+                field("CSR", csr, "PINRSTF", pin),
+                field("CSR", csr, "IWDGRSTF", self.causes[1] & !pin),
+                field("CSR", csr, "SFTRSTF", self.causes[3] & !pin),
+            ])
+            .collect()
+    }
 }
 
 #[derive(Debug, Clone)]
@@ -321,6 +366,7 @@ impl Rcc {
 }
 
 const STOPPED: Fault = Fault::Clock("the system clock does not run");
+
 /// What divides the clock of the core, by the four bits of its setting.
 fn ahb_divider(bits: u32) -> Result<u64, Fault> {
     match bits & 0xF {

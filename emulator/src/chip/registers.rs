@@ -1,7 +1,7 @@
 //! The registers of all peripherals by address: reads, writes, clock gates and
 //! peripheral resets.
 
-use super::map::Unit;
+use super::model::Unit;
 use super::mux::Mux;
 use super::remap::Remap;
 use super::{Chip, Fault};
@@ -150,7 +150,7 @@ impl Chip {
                 Unit::Tim(n) => self.timers[n].reset(),
                 Unit::Spi(n) => self.spis[n].reset(),
                 Unit::Gpio(n) => self.gpio[n].reset(),
-                Unit::Dma(n) => self.dmas[n] = self.model.dmas[n].controller(),
+                Unit::Dma(n) => self.dmas[n].reset(),
                 Unit::Requests => self.mux = Mux::default(),
                 Unit::Remap => self.remap = Remap::default(),
                 Unit::System => self.system.reset(),

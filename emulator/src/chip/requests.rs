@@ -1,8 +1,9 @@
 //! The DMA's requests: which peripheral asks for a byte, and who moves it.
 
-use super::dma::{Move, Version};
+use super::dma::Move;
 use super::wiring::{Request, Side};
-use super::{Chip, Fault, Memory};
+use super::{Chip, Fault};
+use crate::memory::Memories;
 
 /// The peripherals on APB1, which are all that the peripheral port of a DMA1 with streams
 /// reaches (AN4031, section 2.1: it is not connected to the bus matrix).
@@ -12,16 +13,16 @@ const APB1: std::ops::Range<u32> = 0x4000_0000..0x4000_8000;
 const BYTE: u32 = 0xFF;
 
 impl Chip {
-    pub(super) fn serve_requests(&mut self, memory: &dyn Memory) -> Result<(), Fault> {
+    pub(super) fn serve_requests(&mut self, memories: &Memories) -> Result<(), Fault> {
         for (n, side) in self.model.wiring.sides.iter().enumerate() {
             while let Some(moved) = self.requested(n, side) {
                 if moved.to_memory {
                     self.lines[n].put(moved.memory);
                 }
-                self.move_byte(side.dma, moved, memory)?;
+                self.move_byte(side.dma, moved, memories)?;
             }
         }
-        while self.serve_serial(memory)? {}
+        while self.serve_serial(memories)? {}
         Ok(())
     }
 
@@ -53,22 +54,23 @@ impl Chip {
         &mut self,
         dma: usize,
         moved: Move,
-        memory: &dyn Memory,
+        memories: &Memories,
     ) -> Result<(), Fault> {
         let misused = |what| Fault::Misused {
             peripheral: if dma == 0 { "DMA1" } else { "DMA2" },
             what,
         };
-        let streams = self.model.dmas[dma] == Version::Streams;
-        if streams && dma == 0 && !APB1.contains(&moved.peripheral) {
+        let has_streams = !self.model.dmas[dma].has_channels;
+        if has_streams && dma == 0 && !APB1.contains(&moved.peripheral) {
             return Err(misused("its peripheral port reaches APB1 alone"));
         }
         let no_memory = || misused("there is no memory at the address of a stream");
         if moved.to_memory {
             let byte = self.read(moved.peripheral, BYTE)? as u8;
-            memory.put(moved.memory, byte).ok_or_else(no_memory)
+            let put = memories.write(moved.memory, &[byte]);
+            put.map_err(|_| no_memory())
         } else {
-            let byte = memory.get(moved.memory).ok_or_else(no_memory)?;
+            let byte = memories.get(moved.memory).ok_or_else(no_memory)?;
             self.write(moved.peripheral, byte.into(), BYTE)
         }
     }

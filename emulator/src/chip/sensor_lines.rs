@@ -15,8 +15,7 @@ use mlx90333::timing::{
 use mlx90333::{Decoder, FRAME_LEN};
 use tmag5170::timing;
 
-use super::fault::Fault;
-use super::time::Ps;
+use super::{Fault, Ps};
 
 pub(crate) trait SensorEnd {
     /// A frame begins: the sensor takes what it will answer with. Its bytes are fetched by the core,

@@ -2,11 +2,10 @@
 
 use std::collections::VecDeque;
 
-use super::fault::Fault;
-use super::map::Unit;
-use super::time::Ps;
+use super::model::Unit;
 use super::wiring::{PORTS_BUS, SERIAL, SERIAL_DMA};
-use super::{Chip, Memory};
+use super::{Chip, Fault, Ps};
+use crate::memory::Memories;
 
 const SECOND: Ps = 1_000_000_000_000;
 
@@ -100,7 +99,7 @@ impl Chip {
     }
 
     /// Moves bytes between memory and the USART; whether it has moved one.
-    pub(super) fn serve_serial(&mut self, memory: &dyn Memory) -> Result<bool, Fault> {
+    pub(super) fn serve_serial(&mut self, memories: &Memories) -> Result<bool, Fault> {
         let wires = &self.model.wiring.serial;
         let fetched = self.usart.requests_fetch();
         let fetched = fetched.then(|| self.moves(SERIAL_DMA, wires.rx_request));
@@ -111,7 +110,7 @@ impl Chip {
         let Some(moved) = moved else {
             return Ok(false);
         };
-        self.move_byte(SERIAL_DMA, moved, memory)?;
+        self.move_byte(SERIAL_DMA, moved, memories)?;
         Ok(true)
     }
 }

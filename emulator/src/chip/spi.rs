@@ -1,61 +1,44 @@
 //! An SPI as master of eight-bit frames (RM0390, chapter 26; RM0008, chapter 25; RM0444,
 //! chapter 35).
 
+use super::Ps;
 use super::fields::{Field, field, whole};
-use super::time::Ps;
 
 const CR1: u32 = 0x00;
 const CR2: u32 = 0x04;
 const SR: u32 = 0x08;
 const DR: u32 = 0x0C;
 
-const CPHA: u32 = 1 << 0;
-const CPOL: u32 = 1 << 1;
-const MSTR: u32 = 1 << 2;
-const BR: u32 = 7 << 3;
-const SPE: u32 = 1 << 6;
-const LSBFIRST: u32 = 1 << 7;
-const SSI: u32 = 1 << 8;
-const SSM: u32 = 1 << 9;
+const CPHA: Field = field("CR1", CR1, "CPHA", 1 << 0);
+const CPOL: Field = field("CR1", CR1, "CPOL", 1 << 1);
+const MSTR: Field = field("CR1", CR1, "MSTR", 1 << 2);
+const BR: Field = field("CR1", CR1, "BR", 7 << 3);
+const SPE: Field = field("CR1", CR1, "SPE", 1 << 6);
+const LSBFIRST: Field = field("CR1", CR1, "LSBFIRST", 1 << 7);
+const SSI: Field = field("CR1", CR1, "SSI", 1 << 8);
+const SSM: Field = field("CR1", CR1, "SSM", 1 << 9);
 /// Receive-only, 16 bits, CRC, one line: not modelled.
 const OTHERS: u32 = 0xFC00;
-const RXDMAEN: u32 = 1 << 0;
+const RXDMAEN: Field = field("CR2", CR2, "RXDMAEN", 1 << 0);
 /// With queues: bits of a frame, less one; and whether a byte received is reported, or a pair.
-const DS: u32 = 15 << 8;
+const DS: Field = field("CR2", CR2, "DS", 15 << 8);
 const DS_8: u32 = 7 << 8;
-const FRXTH: u32 = 1 << 12;
+const FRXTH: Field = field("CR2", CR2, "FRXTH", 1 << 12);
 
-const RXNE: u32 = 1 << 0;
-const TXE: u32 = 1 << 1;
-const OVR: u32 = 1 << 6;
-const BSY: u32 = 1 << 7;
-
-const FIELDS: [Field; 14] = [
-    field("CR1", CR1, "CPHA", CPHA),
-    field("CR1", CR1, "CPOL", CPOL),
-    field("CR1", CR1, "MSTR", MSTR),
-    field("CR1", CR1, "BR", BR),
-    field("CR1", CR1, "SPE", SPE),
-    field("CR1", CR1, "LSBFIRST", LSBFIRST),
-    field("CR1", CR1, "SSI", SSI),
-    field("CR1", CR1, "SSM", SSM),
-    field("CR2", CR2, "RXDMAEN", RXDMAEN),
-    field("SR", SR, "RXNE", RXNE),
-    field("SR", SR, "TXE", TXE),
-    field("SR", SR, "OVR", OVR),
-    field("SR", SR, "BSY", BSY),
-    whole("DR", DR),
-];
-const OF_QUEUES: [Field; 2] = [
-    field("CR2", CR2, "DS", DS),
-    field("CR2", CR2, "FRXTH", FRXTH),
-];
+const RXNE: Field = field("SR", SR, "RXNE", 1 << 0);
+const TXE: Field = field("SR", SR, "TXE", 1 << 1);
+const OVR: Field = field("SR", SR, "OVR", 1 << 6);
+const BSY: Field = field("SR", SR, "BSY", 1 << 7);
 
 pub(super) fn fields(version: Version) -> Vec<Field> {
-    match version {
-        Version::One => FIELDS.to_vec(),
-        Version::Queues => FIELDS.into_iter().chain(OF_QUEUES).collect(),
+    let mut fields = vec![
+        CPHA, CPOL, MSTR, BR, SPE, LSBFIRST, SSI, SSM, RXDMAEN, RXNE, TXE, OVR, BSY,
+    ];
+    fields.push(whole("DR", DR));
+    if version == Version::Queues {
+        fields.extend([DS, FRXTH]);
     }
+    fields
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -135,14 +118,14 @@ impl Spi {
 
     /// The SPI mode, 0 to 3, by clock polarity and phase; `None`: the least bit goes first.
     pub(super) const fn mode(&self) -> Option<u32> {
-        match self.cr1 & LSBFIRST {
-            0 => Some(self.cr1 & (CPOL | CPHA)),
-            _ => None,
+        if LSBFIRST.is_in(self.cr1) {
+            return None;
         }
+        Some(self.cr1 & (CPOL.bits | CPHA.bits))
     }
 
     pub(super) fn bit(&self, bus: Ps) -> Ps {
-        bus << (((self.cr1 & BR) >> BR.trailing_zeros()) + 1)
+        bus << (BR.number_in(self.cr1) + 1)
     }
 
     fn begin(&mut self, now: Ps, bus: Ps) {
@@ -166,12 +149,12 @@ impl Spi {
     }
 
     const fn is_received(&self) -> bool {
-        let pairs = matches!(self.version, Version::Queues) && self.cr2 & FRXTH == 0;
+        let pairs = matches!(self.version, Version::Queues) && !FRXTH.is_in(self.cr2);
         self.received.len >= if pairs { 2 } else { 1 }
     }
 
     pub(super) const fn asks_dma(&self) -> bool {
-        self.cr2 & RXDMAEN != 0
+        RXDMAEN.is_in(self.cr2)
     }
 
     /// Whether a received byte asks the DMA to fetch it.
@@ -195,11 +178,10 @@ impl Spi {
                     self.overrun = false;
                     self.overrun_seen = false;
                 }
-                let flag = |on: bool, bit: u32| if on { bit } else { 0 };
-                flag(self.is_received(), RXNE)
-                    | flag(self.waiting.len <= self.room() / 2, TXE)
-                    | flag(self.overrun, OVR)
-                    | flag(self.shift.is_some(), BSY)
+                RXNE.when(self.is_received())
+                    | TXE.when(self.waiting.len <= self.room() / 2)
+                    | OVR.when(self.overrun)
+                    | BSY.when(self.shift.is_some())
                     | self.levels()
             }
             DR => {
@@ -230,8 +212,8 @@ impl Spi {
     pub(super) fn write(&mut self, offset: u32, value: u32, bytes: u32, now: Ps, bus: Ps) -> bool {
         match offset {
             CR1 => {
-                let master = value & (MSTR | SSM | SSI) == MSTR | SSM | SSI;
-                if value & OTHERS != 0 || (value & SPE != 0 && !master) {
+                let is_master = [MSTR, SSM, SSI].iter().all(|field| field.is_in(value));
+                if value & OTHERS != 0 || SPE.is_in(value) && !is_master {
                     return false;
                 }
                 self.cr1 = value;
@@ -239,8 +221,10 @@ impl Spi {
             CR2 => {
                 // Requests for transmission are made by a timer here.
                 let other = match self.version {
-                    Version::One => value & !RXDMAEN,
-                    Version::Queues => value & !(RXDMAEN | FRXTH | DS) | (value & DS) ^ DS_8,
+                    Version::One => value & !RXDMAEN.bits,
+                    Version::Queues => {
+                        value & !(RXDMAEN.bits | FRXTH.bits | DS.bits) | (value & DS.bits) ^ DS_8
+                    }
                 };
                 if other != 0 {
                     return false;
@@ -248,7 +232,7 @@ impl Spi {
                 self.cr2 = value;
             }
             SR => {}
-            DR if self.cr1 & SPE == 0 => {}
+            DR if !SPE.is_in(self.cr1) => {}
             DR => {
                 let mut rest = value;
                 for _ in 0..self.moved(bytes) {

@@ -9,10 +9,11 @@ mod side;
 mod tilt;
 mod time;
 
-use std::cell::RefCell;
+use std::iter;
 
 use super::models::F446;
-use super::{Chip, CoreKind, Fault, Memory, Model, Ps, ResetCause, SensorEnd};
+use super::{Chip, CoreKind, Fault, Model, Ps, ResetCause, SensorEnd};
+use crate::memory::{Memories, RAM};
 
 const RCC: u32 = 0x4002_3800;
 /// On the STM32F103 and the STM32G071.
@@ -25,7 +26,6 @@ const TIM6: u32 = 0x4000_1000;
 const GPIOA: u32 = 0x4002_0000;
 const GPIOB: u32 = 0x4002_0400;
 const GPIOC: u32 = 0x4002_0800;
-const RAM: u32 = 0x2000_0000;
 
 const MS: Ps = 1_000_000_000;
 const US: Ps = 1_000_000;
@@ -57,21 +57,6 @@ impl SensorEnd for Script {
     }
 }
 
-struct Ram(RefCell<[u8; 64]>);
-
-impl Memory for Ram {
-    fn get(&self, address: u32) -> Option<u8> {
-        let offset = address.checked_sub(RAM)? as usize;
-        self.0.borrow().get(offset).copied()
-    }
-
-    fn put(&self, address: u32, byte: u8) -> Option<()> {
-        let offset = address.checked_sub(RAM)? as usize;
-        *self.0.borrow_mut().get_mut(offset)? = byte;
-        Some(())
-    }
-}
-
 /// What a sensor does not bear.
 fn why<T: std::fmt::Debug>(fault: Result<T, Fault>) -> &'static str {
     match fault {
@@ -82,7 +67,7 @@ fn why<T: std::fmt::Debug>(fault: Result<T, Fault>) -> &'static str {
 
 struct Rig {
     chip: Chip,
-    ram: Ram,
+    memories: Memories,
     sensors: [Script; 2],
     now: Ps,
 }
@@ -95,7 +80,7 @@ impl Rig {
     fn of(model: &'static Model) -> Self {
         Self {
             chip: Chip::new(model).unwrap(),
-            ram: Ram(RefCell::new([0; 64])),
+            memories: Memories::flashed(iter::empty(), 0, 64).unwrap(),
             sensors: Default::default(),
             now: 0,
         }
@@ -108,6 +93,11 @@ impl Rig {
             rig.write(RCC + gates, u32::MAX);
         }
         rig
+    }
+
+    /// Bytes of RAM, from so many on.
+    fn ram<const N: usize>(&self, from: u32) -> [u8; N] {
+        self.memories.bytes(RAM + from).unwrap()
     }
 
     fn write(&mut self, address: u32, value: u32) {
@@ -128,7 +118,7 @@ impl Rig {
         self.now += time;
         let sides = usize::from(self.chip.model.facts.max_sides);
         let sensors = &mut self.sensors[..sides];
-        self.chip.advance(self.now, &self.ram, sensors)
+        self.chip.advance(self.now, &self.memories, sensors)
     }
 
     fn pass(&mut self, time: Ps) {

@@ -7,13 +7,11 @@
 //! a DMA request, are events. Compare values act at once: the buffering of
 //! a PWM period, 50 µs, is not modelled.
 
+use super::Ps;
 use super::fields::{Field, field, whole};
-use super::time::Ps;
-use super::timers::Kind;
 use super::wiring::ByteSignal;
 
 const CR1: u32 = 0x00;
-const CR2: u32 = 0x04;
 const SMCR: u32 = 0x08;
 const DIER: u32 = 0x0C;
 const SR: u32 = 0x10;
@@ -24,61 +22,58 @@ const CCER: u32 = 0x20;
 const CNT: u32 = 0x24;
 const PSC: u32 = 0x28;
 const ARR: u32 = 0x2C;
+/// The repetition counter, which is not modelled.
+const RCR: u32 = 0x30;
 const CCR1: u32 = 0x34;
 const CCR4: u32 = 0x40;
 const BDTR: u32 = 0x44;
 
-const CEN: u32 = 1 << 0;
-const UDIS: u32 = 1 << 1;
-const URS: u32 = 1 << 2;
-const ARPE: u32 = 1 << 7;
-const SMS: u32 = 7;
-const UIE: u32 = 1 << 0;
-const UDE: u32 = 1 << 8;
-const CC1DE: u32 = 1 << 9;
-const UIF: u32 = 1 << 0;
-const UG: u32 = 1 << 0;
-/// Of channel 1; those of the others stand at equal distances.
-const OC1M: u32 = 7 << 4;
-const CC1E: u32 = 1 << 0;
-const MOE: u32 = 1 << 15;
+const CEN: Field = field("CR1", CR1, "CEN", 1 << 0);
+const UDIS: Field = field("CR1", CR1, "UDIS", 1 << 1);
+const URS: Field = field("CR1", CR1, "URS", 1 << 2);
+const ARPE: Field = field("CR1", CR1, "ARPE", 1 << 7);
+const SMS: Field = field("SMCR", SMCR, "SMS", 7);
+const UIE: Field = field("DIER", DIER, "UIE", 1 << 0);
+const UDE: Field = field("DIER", DIER, "UDE", 1 << 8);
+const CC1DE: Field = field("DIER", DIER, "CC1DE", 1 << 9);
+const UIF: Field = field("SR", SR, "UIF", 1 << 0);
+const UG: Field = field("EGR", EGR, "UG", 1 << 0);
+/// Those of the other channels stand at equal distances.
+const OC1M: Field = field("CCMR1", CCMR1, "OC1M", 7 << 4);
+const OC2M: Field = field("CCMR1", CCMR1, "OC2M", OC1M.bits << 8);
+const OC3M: Field = field("CCMR2", CCMR2, "OC3M", OC1M.bits);
+const CC1E: Field = field("CCER", CCER, "CC1E", 1 << 0);
+const CC2E: Field = field("CCER", CCER, "CC2E", CC1E.bits << 4);
+const MOE: Field = field("BDTR", BDTR, "MOE", 1 << 15);
 
-const FIELDS: [Field; 19] = [
-    field("CR1", CR1, "CEN", CEN),
-    field("CR1", CR1, "UDIS", UDIS),
-    field("CR1", CR1, "URS", URS),
-    field("CR1", CR1, "ARPE", ARPE),
-    field("SMCR", SMCR, "SMS", SMS),
-    field("DIER", DIER, "UIE", UIE),
-    field("DIER", DIER, "UDE", UDE),
-    field("DIER", DIER, "CC1DE", CC1DE),
-    field("SR", SR, "UIF", UIF),
-    field("EGR", EGR, "UG", UG),
-    field("CCMR1", CCMR1, "OC1M", OC1M),
-    field("CCMR1", CCMR1, "OC2M", OC1M << 8),
-    field("CCMR2", CCMR2, "OC3M", OC1M),
-    field("CCER", CCER, "CC1E", CC1E),
-    field("CCER", CCER, "CC2E", CC1E << 4),
-    whole("CNT", CNT),
-    whole("PSC", PSC),
-    whole("ARR", ARR),
-    field("BDTR", BDTR, "MOE", MOE),
-];
+/// What a timer can do.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub(super) enum Kind {
+    /// It counts 16 bits of time.
+    #[default]
+    Basic,
+    /// It has channels, too.
+    General,
+    /// It counts 32 bits, and has channels.
+    Wide,
+    /// It has channels, and its outputs need BDTR.MOE.
+    Advanced,
+}
+
+impl Kind {
+    pub(super) const fn mask(self) -> u32 {
+        match self {
+            Self::Wide => u32::MAX,
+            Self::Basic | Self::General | Self::Advanced => 0xFFFF,
+        }
+    }
+}
 
 #[derive(Debug, Clone, Default)]
 pub(super) struct Timer {
     kind: Kind,
-    cr1: u32,
-    cr2: u32,
-    smcr: u32,
-    dier: u32,
-    sr: u32,
-    ccmr: [u32; 2],
-    ccer: u32,
-    psc: u32,
-    arr: u32,
-    ccr: [u32; 4],
-    bdtr: u32,
+    /// What was written, by offset; the count apart.
+    registers: [u32; 18],
     /// The prescaler and period in effect.
     active: [u32; 2],
     /// The count at `since`, with the prescaler at zero.
@@ -94,29 +89,35 @@ pub(super) struct Timer {
 }
 
 const fn has(kind: Kind, offset: u32) -> bool {
-    match kind {
+    let is_there = match kind {
         Kind::Basic => !matches!(offset, SMCR | CCMR1..=CCER | CCR1..),
         Kind::General | Kind::Wide => offset != BDTR,
         Kind::Advanced => true,
-    }
+    };
+    is_there && offset != RCR && offset <= BDTR
 }
 
 pub(super) fn fields(kind: Kind) -> Vec<Field> {
-    let fields = FIELDS.into_iter();
+    let fields = [
+        CEN, UDIS, URS, ARPE, SMS, UIE, UDE, CC1DE, UIF, UG, OC1M, OC2M, OC3M, CC1E, CC2E,
+    ];
+    let counts = [whole("CNT", CNT), whole("PSC", PSC), whole("ARR", ARR)];
+    let fields = fields.into_iter().chain(counts).chain([MOE]);
     // The request of a channel that it has.
-    let is_there = |field: &Field| field.bits != CC1DE || has(kind, CCR1);
+    let is_there = |field: &Field| *field != CC1DE || has(kind, CCR1);
     let fields = fields.filter(|field| has(kind, field.offset) && is_there(field));
     fields.collect()
 }
 
 impl Timer {
     pub(super) fn new(kind: Kind) -> Self {
-        Self {
+        let mut timer = Self {
             kind,
-            arr: kind.mask(),
             active: [0, kind.mask()],
             ..Self::default()
-        }
+        };
+        timer.registers[ARR as usize / 4] = kind.mask();
+        timer
     }
 
     pub(super) fn reset(&mut self) {
@@ -126,16 +127,20 @@ impl Timer {
         };
     }
 
-    const fn has(&self, offset: u32) -> bool {
-        has(self.kind, offset)
+    const fn at(&self, offset: u32) -> u32 {
+        self.registers[offset as usize / 4]
+    }
+
+    const fn is_on(&self, field: Field) -> bool {
+        field.is_in(self.at(field.offset))
     }
 
     const fn is_encoder(&self) -> bool {
-        matches!(self.smcr & SMS, 1..=3)
+        matches!(SMS.number_in(self.at(SMCR)), 1..=3)
     }
 
     const fn counts_time(&self) -> bool {
-        self.cr1 & CEN != 0 && !self.is_encoder()
+        self.is_on(CEN) && !self.is_encoder()
     }
 
     fn step(&self, clock: Ps) -> Ps {
@@ -153,10 +158,11 @@ impl Timer {
         let total = Ps::from(self.count) + steps;
         let wraps = total / period;
         // Matches in the counts after the last look, up to now.
-        if self.dier & CC1DE != 0 {
-            let first = (Ps::from(self.ccr[0]) + period - Ps::from(self.count) % period) % period;
+        if self.is_on(CC1DE) {
+            let compare = Ps::from(self.at(CCR1));
+            let first = (compare + period - Ps::from(self.count) % period) % period;
             let first = if first == 0 { period } else { first };
-            self.match_waits |= Ps::from(self.ccr[0]) < period && first <= steps;
+            self.match_waits |= compare < period && first <= steps;
         }
         if wraps > 0 {
             let wrapped = wraps * period - Ps::from(self.count);
@@ -167,23 +173,24 @@ impl Timer {
         self.since += steps * step;
     }
 
-    fn update(&mut self, by_software: bool) {
-        if self.cr1 & UDIS != 0 {
+    const fn update(&mut self, by_software: bool) {
+        if self.is_on(UDIS) {
             return;
         }
-        self.active = [self.psc, self.arr];
-        if by_software && self.cr1 & URS != 0 {
+        self.active = [self.at(PSC), self.at(ARR)];
+        if by_software && self.is_on(URS) {
             return;
         }
-        self.sr |= UIF;
-        self.update_waits |= self.dier & UDE != 0;
+        self.registers[SR as usize / 4] |= UIF.bits;
+        self.update_waits |= self.is_on(UDE);
     }
 
     pub(super) fn next(&self, clock: Ps) -> Option<Ps> {
         let (period, count) = (Ps::from(self.active[1]) + 1, Ps::from(self.count));
-        let update = (self.dier & (UIE | UDE) != 0).then(|| period.saturating_sub(count).max(1));
-        let compare = Ps::from(self.ccr[0]);
-        let compares = self.dier & CC1DE != 0 && compare < period;
+        let updates = self.is_on(UIE) || self.is_on(UDE);
+        let update = updates.then(|| period.saturating_sub(count).max(1));
+        let compare = Ps::from(self.at(CCR1));
+        let compares = self.is_on(CC1DE) && compare < period;
         let compare = compares.then(|| match compare.checked_sub(count) {
             None | Some(0) => (period + compare).saturating_sub(count).max(1),
             Some(left) => left,
@@ -208,29 +215,28 @@ impl Timer {
     }
 
     pub(super) const fn interrupts(&self) -> bool {
-        self.sr & self.dier & UIF != 0
+        UIF.is_in(self.at(SR) & self.at(DIER))
     }
 
     pub(super) const fn set_position(&mut self, position: i32, connected: bool) {
         let moved = position.wrapping_sub(self.position);
         self.position = position;
-        if connected && self.is_encoder() && self.cr1 & CEN != 0 {
+        if connected && self.is_encoder() && self.is_on(CEN) {
             // From the reload value it goes on to zero, and the other way round.
-            let range = self.arr as i64 + 1;
+            let range = self.at(ARR) as i64 + 1;
             self.count = (self.count as i64 + moved as i64).rem_euclid(range) as u32;
         }
     }
 
     /// Duty of channel 0 to 3, as a fraction: on and of how many counts.
-    pub(super) fn duty(&self, channel: usize) -> (u32, u32) {
-        let mode = self.ccmr[channel / 2] >> (8 * (channel % 2));
-        let mode = (mode & OC1M) >> OC1M.trailing_zeros();
-        let enabled = self.cr1 & CEN != 0
-            && self.ccer & (CC1E << (4 * channel)) != 0
-            && (self.bdtr & MOE != 0 || self.kind != Kind::Advanced);
-        let period = self.arr.saturating_add(1);
-        let on = if enabled && mode == 6 {
-            self.ccr[channel].min(period)
+    pub(super) fn duty(&self, channel: u32) -> (u32, u32) {
+        let mode = self.at(CCMR1 + 4 * (channel / 2)) >> (8 * (channel % 2));
+        let enabled = self.is_on(CEN)
+            && CC1E.is_in(self.at(CCER) >> (4 * channel))
+            && (self.is_on(MOE) || self.kind != Kind::Advanced);
+        let period = self.at(ARR).saturating_add(1);
+        let on = if enabled && OC1M.number_in(mode) == 6 {
+            self.at(CCR1 + 4 * channel).min(period)
         } else {
             0
         };
@@ -239,75 +245,51 @@ impl Timer {
 
     pub(super) fn read(&mut self, offset: u32, now: Ps, clock: Ps) -> Option<u32> {
         self.sync(now, clock);
-        if !self.has(offset) {
-            return None;
-        }
-        Some(match offset {
-            CR1 => self.cr1,
-            CR2 => self.cr2,
-            SMCR => self.smcr,
-            DIER => self.dier,
-            SR => self.sr,
+        let value = match offset {
             EGR => 0,
-            CCMR1 => self.ccmr[0],
-            CCMR2 => self.ccmr[1],
-            CCER => self.ccer,
             CNT => self.count,
-            PSC => self.psc,
-            ARR => self.arr,
-            CCR1..=CCR4 => self.ccr[((offset - CCR1) / 4) as usize],
-            BDTR => self.bdtr,
+            _ if has(self.kind, offset) => self.at(offset),
             _ => return None,
-        })
+        };
+        Some(value)
     }
 
     pub(super) fn write(&mut self, offset: u32, value: u32, now: Ps, clock: Ps) -> bool {
         self.sync(now, clock);
-        if !self.has(offset) {
-            return false;
-        }
-        match offset {
+        let is_modelled = match offset {
             // Up-counting, edge aligned, without one-pulse mode.
-            CR1 if value & !(CEN | UDIS | URS | ARPE) != 0 => return false,
-            CR1 => self.cr1 = value,
-            CR2 => self.cr2 = value,
+            CR1 => value & !(CEN.bits | UDIS.bits | URS.bits | ARPE.bits) == 0,
             // The other modes of synchronisation are not modelled.
-            SMCR if !matches!(value, 0 | 3) => return false,
-            SMCR => self.smcr = value,
-            DIER if value & !(UIE | UDE | CC1DE) != 0 => return false,
-            DIER if value & CC1DE != 0 && !self.has(CCR1) => return false,
+            SMCR => matches!(value, 0 | 3),
             DIER => {
-                self.dier = value;
-                self.update_waits &= value & UDE != 0;
-                self.match_waits &= value & CC1DE != 0;
-            }
-            SR => self.sr &= value,
-            EGR => {
-                if value & UG != 0 {
-                    self.count = 0;
-                    self.since = now;
-                    self.update(true);
-                }
+                let is_there = !CC1DE.is_in(value) || has(self.kind, CCR1);
+                is_there && value & !(UIE.bits | UDE.bits | CC1DE.bits) == 0
             }
             // The modes above 16 bits are not modelled.
-            CCMR1 | CCMR2 if value > 0xFFFF => return false,
-            CCMR1 => self.ccmr[0] = value,
-            CCMR2 => self.ccmr[1] = value,
-            CCER => self.ccer = value,
-            CNT => {
-                self.count = value & self.kind.mask();
-                self.since = now;
+            CCMR1 | CCMR2 => value <= 0xFFFF,
+            _ => true,
+        };
+        if !is_modelled || !has(self.kind, offset) {
+            return false;
+        }
+        self.registers[offset as usize / 4] = match offset {
+            SR => self.at(SR) & value,
+            PSC | BDTR => value & 0xFFFF,
+            CNT | ARR | CCR1..=CCR4 => value & self.kind.mask(),
+            _ => value,
+        };
+        match offset {
+            DIER => {
+                self.update_waits &= UDE.is_in(value);
+                self.match_waits &= CC1DE.is_in(value);
             }
-            PSC => self.psc = value & 0xFFFF,
-            ARR => {
-                self.arr = value & self.kind.mask();
-                if self.cr1 & ARPE == 0 {
-                    self.active[1] = self.arr;
-                }
+            EGR if UG.is_in(value) => {
+                (self.count, self.since) = (0, now);
+                self.update(true);
             }
-            CCR1..=CCR4 => self.ccr[((offset - CCR1) / 4) as usize] = value & self.kind.mask(),
-            BDTR => self.bdtr = value & 0xFFFF,
-            _ => return false,
+            CNT => (self.count, self.since) = (self.at(CNT), now),
+            ARR if !self.is_on(ARPE) => self.active[1] = self.at(ARR),
+            _ => {}
         }
         true
     }

@@ -2,13 +2,11 @@
 //! ways by DMA (RM0390, chapter 25; RM0008, chapter 27; RM0444, chapter 33). Interrupts, other
 //! formats, other clocks than the bus's and what comes while no program listens are not modelled.
 
+use super::Ps;
 use super::fields::{Field, field, whole};
-use super::time::Ps;
 
-const UE_ONE: u32 = 1 << 13;
 const TE: u32 = 1 << 3;
 const RE: u32 = 1 << 2;
-const UE_TWO: u32 = 1 << 0;
 const DMAR: u32 = 1 << 6;
 const DMAT: u32 = 1 << 7;
 const OVRDIS: u32 = 1 << 12;
@@ -21,17 +19,10 @@ const TXE: u32 = 1 << 7;
 /// Start, eight bits and stop.
 const BITS: Ps = 10;
 
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub(super) enum Version {
-    /// One data register (STM32F1, STM32F4).
-    #[default]
-    One,
-    /// One each way (STM32G0).
-    Two,
-}
-
-struct Layout {
+#[derive(Debug)]
+pub(super) struct Layout {
     status: u32,
+    status_name: &'static str,
     received: u32,
     sent: u32,
     brr: u32,
@@ -43,35 +34,35 @@ struct Layout {
     cr3_modelled: u32,
 }
 
-const fn layout(version: Version) -> Layout {
-    match version {
-        Version::One => Layout {
-            status: 0x00,
-            received: 0x04,
-            sent: 0x04,
-            brr: 0x08,
-            cr1: 0x0C,
-            cr2: 0x10,
-            cr3: 0x14,
-            ue: UE_ONE,
-            cr3_modelled: DMAR | DMAT,
-        },
-        Version::Two => Layout {
-            status: 0x1C,
-            received: 0x24,
-            sent: 0x28,
-            brr: 0x0C,
-            cr1: 0x00,
-            cr2: 0x04,
-            cr3: 0x08,
-            ue: UE_TWO,
-            cr3_modelled: DMAR | DMAT | OVRDIS,
-        },
-    }
-}
+/// One data register (STM32F1, STM32F4).
+pub(super) static ONE: Layout = Layout {
+    status: 0x00,
+    status_name: "SR",
+    received: 0x04,
+    sent: 0x04,
+    brr: 0x08,
+    cr1: 0x0C,
+    cr2: 0x10,
+    cr3: 0x14,
+    ue: 1 << 13,
+    cr3_modelled: DMAR | DMAT,
+};
 
-pub(super) fn fields(version: Version) -> Vec<Field> {
-    let at = layout(version);
+/// One each way (STM32G0).
+pub(super) static TWO: Layout = Layout {
+    status: 0x1C,
+    status_name: "ISR",
+    received: 0x24,
+    sent: 0x28,
+    brr: 0x0C,
+    cr1: 0x00,
+    cr2: 0x04,
+    cr3: 0x08,
+    ue: 1 << 0,
+    cr3_modelled: DMAR | DMAT | OVRDIS,
+};
+
+pub(super) fn fields(at: &Layout) -> Vec<Field> {
     let mut fields = vec![
         whole("BRR", at.brr),
         field("CR1", at.cr1, "UE", at.ue),
@@ -81,35 +72,33 @@ pub(super) fn fields(version: Version) -> Vec<Field> {
         field("CR3", at.cr3, "DMAT", DMAT),
     ];
     let flags = [("ORE", ORE), ("RXNE", RXNE), ("TC", TC), ("TXE", TXE)];
-    let status = match version {
-        Version::One => "SR",
-        Version::Two => "ISR",
-    };
-    fields.extend(flags.map(|(name, bit)| field(status, at.status, name, bit)));
-    match version {
-        Version::One => fields.push(whole("DR", at.sent)),
-        Version::Two => fields.extend([
+    fields.extend(flags.map(|(name, bit)| field(at.status_name, at.status, name, bit)));
+    if at.has_one_data_register() {
+        fields.push(whole("DR", at.sent));
+    } else {
+        fields.extend([
             whole("RDR", at.received),
             whole("TDR", at.sent),
             field("CR3", at.cr3, "OVRDIS", OVRDIS),
-        ]),
+        ]);
     }
     fields
 }
 
-#[derive(Debug, Clone, Copy)]
-struct Shift {
-    byte: u8,
-    ends: Ps,
+impl Layout {
+    const fn has_one_data_register(&self) -> bool {
+        self.sent == self.received
+    }
 }
 
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone)]
 pub(super) struct Usart {
-    version: Version,
+    layout: &'static Layout,
     cr1: u32,
     cr3: u32,
     brr: u32,
-    shift: Option<Shift>,
+    /// The byte on its way, and when it has gone.
+    shift: Option<(u8, Ps)>,
     waiting: Option<u8>,
     received: Option<u8>,
     last: u8,
@@ -117,19 +106,26 @@ pub(super) struct Usart {
 }
 
 impl Usart {
-    pub(super) fn new(version: Version) -> Self {
+    pub(super) const fn new(layout: &'static Layout) -> Self {
         Self {
-            version,
-            ..Self::default()
+            layout,
+            cr1: 0,
+            cr3: 0,
+            brr: 0,
+            shift: None,
+            waiting: None,
+            received: None,
+            last: 0,
+            overrun: false,
         }
     }
 
-    pub(super) fn reset(&mut self) {
-        *self = Self::new(self.version);
+    pub(super) const fn reset(&mut self) {
+        *self = Self::new(self.layout);
     }
 
     const fn does(&self, what: u32) -> bool {
-        let ue = layout(self.version).ue;
+        let ue = self.layout.ue;
         self.cr1 & (ue | what) == ue | what
     }
 
@@ -152,13 +148,13 @@ impl Usart {
     }
 
     pub(super) fn sends_until(&self) -> Option<Ps> {
-        self.shift.map(|shift| shift.ends)
+        self.shift.map(|(_, ends)| ends)
     }
 
     pub(super) fn sent(&mut self, now: Ps, bus: Ps) -> Option<u8> {
-        let gone = self.shift.take_if(|shift| shift.ends <= now)?;
+        let (gone, _) = self.shift.take_if(|(_, ends)| *ends <= now)?;
         self.begin(now, bus);
-        Some(gone.byte)
+        Some(gone)
     }
 
     fn begin(&mut self, now: Ps, bus: Ps) {
@@ -166,8 +162,7 @@ impl Usart {
             && self.does(TE)
             && let Some(byte) = self.waiting.take()
         {
-            let ends = now + BITS * self.bit(bus);
-            self.shift = Some(Shift { byte, ends });
+            self.shift = Some((byte, now + BITS * self.bit(bus)));
         }
     }
 
@@ -180,7 +175,7 @@ impl Usart {
     }
 
     pub(super) fn read(&mut self, offset: u32) -> Option<u32> {
-        let at = layout(self.version);
+        let at = self.layout;
         let flag = |on: bool, bit: u32| if on { bit } else { 0 };
         Some(match offset {
             _ if offset == at.status => {
@@ -191,7 +186,7 @@ impl Usart {
             }
             _ if offset == at.received => {
                 self.last = self.received.take().unwrap_or(self.last);
-                self.overrun &= self.version == Version::Two;
+                self.overrun &= !at.has_one_data_register();
                 self.last.into()
             }
             _ if offset == at.brr => self.brr,
@@ -203,7 +198,7 @@ impl Usart {
     }
 
     pub(super) fn write(&mut self, offset: u32, value: u32, now: Ps, bus: Ps) -> bool {
-        let at = layout(self.version);
+        let at = self.layout;
         match offset {
             _ if offset == at.sent => {
                 self.waiting = Some(value as u8);

@@ -1,8 +1,8 @@
 //! The independent watchdog (RM0390, chapter 20; RM0008, chapter 19; RM0444, chapter 28),
 //! on an LSI of its nominal frequency. A window is not modelled: only that there is none.
 
+use super::Ps;
 use super::fields::{Field, field};
-use super::time::Ps;
 
 /// A setting takes so many periods of the LSI to cross into the watchdog's clock.
 const CROSSING: Ps = 5;
@@ -44,9 +44,9 @@ pub(super) struct Watchdog {
 }
 
 impl Watchdog {
-    pub(super) fn new(lsi_hz: u64, has_window: bool) -> Self {
+    pub(super) fn new(lsi: Ps, has_window: bool) -> Self {
         Self {
-            lsi: 1_000_000_000_000 / lsi_hz,
+            lsi,
             has_window,
             reload: 0xFFF,
             ..Self::default()
@@ -54,12 +54,7 @@ impl Watchdog {
     }
 
     pub(super) fn reset(&mut self) {
-        *self = Self {
-            lsi: self.lsi,
-            has_window: self.has_window,
-            reload: 0xFFF,
-            ..Self::default()
-        };
+        *self = Self::new(self.lsi, self.has_window);
     }
 
     pub(super) fn bites(&self) -> Option<Ps> {

@@ -4,11 +4,10 @@ use rsemu::cpu::arm::v7m::sys::{DEMCR_TRCENA, DWT_CTRL_CYCCNTENA};
 
 use super::{Core, EXCEPTION, IT_BLOCK, ROUND_CYCLES, ROUND_INSTRUCTIONS, v6m};
 use crate::chip::{Chip, CoreKind, MODELS};
-use crate::memory::{FLASH, Memories, Shared};
+use crate::memory::{FLASH, Memories, RAM, Shared};
 
 const CODE: u32 = FLASH + 0x100;
 const HANDLER: u32 = FLASH + 0x80;
-const RAM: u32 = 0x2000_0000;
 const HARD_FAULT: u32 = 3;
 
 impl Core {

@@ -6,8 +6,10 @@ use super::{CR, EN, MAR, NDTR, PAR};
 use crate::chip::fields::{Field, field, whole};
 
 #[derive(Debug)]
-pub(super) struct Layout {
-    pub(super) fields: &'static [Field],
+pub(in crate::chip) struct Layout {
+    pub(in crate::chip) fields: &'static [Field],
+    /// Channels, whose requests are wired, or selected by a DMAMUX.
+    pub(in crate::chip) has_channels: bool,
     /// Registers of flags, each with one that clears them; then come the streams.
     pub(super) flag_registers: u32,
     pub(super) size: u32,
@@ -32,7 +34,7 @@ pub(super) struct Layout {
     pub(super) ends: u32,
 }
 
-pub(super) static STREAMS: Layout = {
+pub(in crate::chip) static STREAMS: Layout = {
     const LISR: u32 = 0x00;
     const LIFCR: u32 = 0x08;
     const HIFCR: u32 = 0x0C;
@@ -65,6 +67,7 @@ pub(super) static STREAMS: Layout = {
             whole("S0M0AR", FIRST + MAR),
             field("S3CR", FIRST + 3 * SIZE, "EN", EN),
         ],
+        has_channels: false,
         flag_registers: 2,
         size: SIZE,
         flags_at: &FLAGS_AT,
@@ -84,7 +87,7 @@ pub(super) static STREAMS: Layout = {
     }
 };
 
-pub(super) static CHANNELS: Layout = {
+pub(in crate::chip) static CHANNELS: Layout = {
     const ISR: u32 = 0x00;
     const IFCR: u32 = 0x04;
     const FIRST: u32 = 0x08;
@@ -115,6 +118,7 @@ pub(super) static CHANNELS: Layout = {
             whole("CMAR1", FIRST + MAR),
             field("CCR2", FIRST + SIZE, "EN", EN),
         ],
+        has_channels: true,
         flag_registers: 1,
         size: SIZE,
         flags_at: &[0, 4, 8, 12, 16, 20, 24],

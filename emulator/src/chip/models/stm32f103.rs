@@ -2,17 +2,15 @@
 
 use firmware::boards;
 
-use crate::chip::dma::Version;
 use crate::chip::gpio::Reset;
-use crate::chip::map::Unit;
-use crate::chip::model::{CoreKind, Model};
+use crate::chip::model::{CoreKind, Model, Unit};
 use crate::chip::rcc::{Bus, f1};
-use crate::chip::timers::Kind;
+use crate::chip::timer::Kind;
 use crate::chip::wiring::{
     ByteSignal, LEFT_DIRECTION, LEFT_ENCODER, LEFT_SELECT, LEFT_SPI, Request, SerialPort, Side,
     Wiring,
 };
-use crate::chip::{flash, lines, power, spi, usart};
+use crate::chip::{dma, flash, lines, power, spi, usart};
 
 const TIM2: usize = 0;
 const TIM3: usize = 1;
@@ -59,14 +57,14 @@ pub(crate) static F103: Model = Model {
         (Kind::Advanced, Bus::Apb2),
     ],
     spi_version: spi::Version::One,
-    usart_version: usart::Version::One,
+    usart: &usart::ONE,
     spis: &[Bus::Apb2],
-    dmas: &[Version::Channels],
+    dmas: &[&dma::CHANNELS],
     has_mux: false,
     ports: [Reset::V1; 3],
     lsi_hz: 40_000,
     has_window: false,
-    flash_version: flash::Version::F1,
+    flash_interface: &flash::F1,
     flash_registers: &[(0x00, 0x30)],
     // RM0008, chapter 3.3.3.
     flash_hz: &[(2_000, 24_000_000)],

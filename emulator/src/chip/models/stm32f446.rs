@@ -2,17 +2,15 @@
 
 use firmware::boards;
 
-use crate::chip::dma::Version;
 use crate::chip::gpio::Reset;
-use crate::chip::map::Unit;
-use crate::chip::model::{CoreKind, Model};
+use crate::chip::model::{CoreKind, Model, Unit};
 use crate::chip::rcc::{Bus, f4};
-use crate::chip::timers::Kind;
+use crate::chip::timer::Kind;
 use crate::chip::wiring::{
     ByteSignal, LEFT_DIRECTION, LEFT_ENCODER, LEFT_SELECT, LEFT_SPI, Pin, Request, SerialPort,
     Side, Wiring,
 };
-use crate::chip::{flash, lines, power, spi, usart};
+use crate::chip::{dma, flash, lines, power, spi, usart};
 
 const TIM2: usize = 0;
 const TIM3: usize = 1;
@@ -66,9 +64,9 @@ pub(crate) static F446: Model = Model {
         (Kind::Advanced, Bus::Apb2),
     ],
     spi_version: spi::Version::One,
-    usart_version: usart::Version::One,
+    usart: &usart::ONE,
     spis: &[Bus::Apb2, Bus::Apb1],
-    dmas: &[Version::Streams; 2],
+    dmas: &[&dma::STREAMS; 2],
     has_mux: false,
     ports: [
         Reset::v2([0xA800_0000, 0x0C00_0000, 0x6400_0000]),
@@ -77,7 +75,7 @@ pub(crate) static F446: Model = Model {
     ],
     lsi_hz: 32_000,
     has_window: false,
-    flash_version: flash::Version::F4,
+    flash_interface: &flash::F4,
     flash_registers: &[(0x00, 0)],
     // RM0390, table 5.
     flash_hz: &[

@@ -2,17 +2,15 @@
 
 use firmware::boards;
 
-use crate::chip::dma::Version;
 use crate::chip::gpio::Reset;
-use crate::chip::map::Unit;
-use crate::chip::model::{CoreKind, Model};
+use crate::chip::model::{CoreKind, Model, Unit};
 use crate::chip::rcc::{Bus, g0};
-use crate::chip::timers::Kind;
+use crate::chip::timer::Kind;
 use crate::chip::wiring::{
     ByteSignal, LEFT_DIRECTION, LEFT_ENCODER, LEFT_SELECT, LEFT_SPI, Request, SerialPort, Side,
     Wiring,
 };
-use crate::chip::{flash, lines, power, spi, usart};
+use crate::chip::{dma, flash, lines, power, spi, usart};
 
 const TIM2: usize = 0;
 const TIM3: usize = 1;
@@ -56,9 +54,9 @@ pub(crate) static G071: Model = Model {
         (Kind::Advanced, Bus::Apb2),
     ],
     spi_version: spi::Version::Queues,
-    usart_version: usart::Version::Two,
+    usart: &usart::TWO,
     spis: &[Bus::Apb2],
-    dmas: &[Version::Channels],
+    dmas: &[&dma::CHANNELS],
     has_mux: true,
     ports: [
         Reset::v2([0xEBFF_FFFF, 0x0C00_0000, 0x2400_0000]),
@@ -67,7 +65,7 @@ pub(crate) static G071: Model = Model {
     ],
     lsi_hz: 32_000,
     has_window: true,
-    flash_version: flash::Version::G0,
+    flash_interface: &flash::G0,
     flash_registers: &[(0x00, 0x0004_0600)],
     // RM0444, table of the wait states in range 1.
     flash_hz: &[(1_700, 24_000_000)],

@@ -1,12 +1,10 @@
 //! RCC of the STM32F103 of medium density (RM0008, chapter 7).
 
-use super::{Bus, CR, HSE_HZ, HSEON, Layout, PLLON, Rcc};
+use super::{Bus, CR, HSE_HZ, HSEON, HSION, Layout, Rcc, SWITCHES};
 
 const HSI_HZ: u64 = 8_000_000;
 
 const CFGR: u32 = 0x04;
-
-const HSION: u32 = 1 << 0;
 
 /// In CFGR: the PLL's input is HSE, and that is halved.
 const PLLSRC: u32 = 1 << 16;
@@ -21,11 +19,7 @@ const IWDGRSTF: u32 = 1 << 29;
 
 pub(in crate::chip) static LAYOUT: Layout = Layout {
     kept: &[(CR, 0x83), (CFGR, 0)],
-    switches: &[
-        (HSION, HSION << 1),
-        (HSEON, HSEON << 1),
-        (PLLON, PLLON << 1),
-    ],
+    switches: &SWITCHES,
     selection: (CFGR, 3, 2),
     resets: &[(Bus::Apb2, 0x0C), (Bus::Apb1, 0x10)],
     gates: &[

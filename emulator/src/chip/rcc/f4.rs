@@ -1,13 +1,11 @@
 //! RCC of the STM32F446 (RM0390, chapter 6).
 
-use super::{Bus, CR, HSE_HZ, HSEON, Layout, PLLON, Rcc};
+use super::{Bus, CR, HSE_HZ, HSEON, HSION, Layout, Rcc, SWITCHES};
 
 const HSI_HZ: u64 = 16_000_000;
 
 const PLLCFGR: u32 = 0x04;
 const CFGR: u32 = 0x08;
-
-const HSION: u32 = 1 << 0;
 
 /// Flags of CSR: what caused the reset.
 const RMVF: u32 = 1 << 24;
@@ -19,11 +17,7 @@ const IWDGRSTF: u32 = 1 << 29;
 
 pub(in crate::chip) static LAYOUT: Layout = Layout {
     kept: &[(CR, 0x83), (PLLCFGR, 0x2400_3010), (CFGR, 0)],
-    switches: &[
-        (HSION, HSION << 1),
-        (HSEON, HSEON << 1),
-        (PLLON, PLLON << 1),
-    ],
+    switches: &SWITCHES,
     selection: (CFGR, 3, 2),
     resets: &[(Bus::Ahb, 0x10), (Bus::Apb1, 0x20), (Bus::Apb2, 0x24)],
     gates: &[

@@ -1,6 +1,6 @@
 //! What reaches motors and comes from encoders, pin by pin.
 
-use super::{GPIOA, GPIOC, RCC, Rig, TIM1};
+use super::{GPIOA, GPIOC, Rig, TIM1};
 
 const TIM3: u32 = 0x4000_0400;
 const SMCR: u32 = 0x08;
@@ -69,19 +69,4 @@ fn an_encoder_is_not_heard_through_pins_that_are_not_its_timers() {
         rig.chip.set_encoder(1, 9);
         assert_eq!(rig.read(TIM3 + CNT), 2, "from where it is connected on");
     }
-}
-
-#[test]
-fn a_side_without_its_clocks_stands_still() {
-    let mut rig = Rig::clocked();
-    connect_encoders(&mut rig);
-    start_encoder(&mut rig, TIM3);
-    rig.write(RCC + 0x20, 1 << 1);
-    rig.write(RCC + 0x20, 0);
-    rig.chip.set_encoder(1, 7);
-    assert_eq!(rig.read(TIM3 + CNT), 0, "TIM3 was reset: bit 1 of APB1RSTR");
-    start_encoder(&mut rig, TIM3);
-    rig.write(RCC + 0x40, !(1 << 1));
-    rig.write(TIM3 + CNT, 5);
-    assert_eq!(rig.read(TIM3 + CNT), 0, "bit 1 of APB1ENR");
 }

@@ -1,8 +1,9 @@
 //! The serial port by USART2 and DMA1, as a driver for the STM32F446 sees it. What the ports of the
 //! other chips differ in is where registers stand, which `cargo xtask descriptions` checks.
 
-use super::{RAM, Rig};
+use super::Rig;
 use crate::chip::{Fault, Ps};
+use crate::memory::RAM;
 
 const USART2: u32 = 0x4000_4400;
 const DR: u32 = USART2 + 0x04;
@@ -59,11 +60,11 @@ fn bytes_come_round_a_ring_and_leave_by_dma() {
     rig.chip.now = rig.now;
     rig.chip.serial_write(b"0123456789");
     rig.pass(BYTE - 1);
-    assert_eq!(rig.ram.0.borrow()[0], 0, "before its last bit");
+    assert_eq!(rig.ram(0), [0], "before its last bit");
     rig.pass(1);
-    assert_eq!(rig.ram.0.borrow()[0], b'0');
+    assert_eq!(rig.ram(0), *b"0");
     rig.pass(9 * BYTE);
-    assert_eq!(rig.ram.0.borrow()[..8], *b"89234567");
+    assert_eq!(rig.ram(0), *b"89234567");
     assert_eq!(rig.read(RX + 4), 6, "two of the ring's next turn");
     send(&mut rig, RAM + 2, 6);
     rig.pass(6 * BYTE + BYTE / 10);
@@ -107,7 +108,7 @@ fn pins_of_another_peripheral_carry_nothing() {
     send(&mut rig, RAM, 1);
     rig.pass(3 * BYTE);
     assert!(rig.chip.serial_read().is_empty());
-    assert_eq!(rig.ram.0.borrow()[0], 0);
+    assert_eq!(rig.ram(0), [0]);
 }
 
 #[test]

@@ -1,8 +1,9 @@
 //! What a side's frames go by, as the driver sets it up: on the left SPI1, TIM8 and
 //! DMA2, on the right SPI2, TIM6 and DMA1.
 
-use super::{GPIOA, GPIOB, MS, RAM, RCC, Rig, US};
+use super::{GPIOA, GPIOB, MS, RCC, Rig, US};
 use crate::chip::Ps;
+use crate::memory::RAM;
 
 pub(super) const ANSWERS: [u8; 8] = [0xFF, 1, 2, 3, 4, 5, 6, 7];
 /// From the start of a byte to that of the next.
@@ -115,7 +116,7 @@ impl Registers {
         rig.write(rx + 0x0C, ram + 8);
         rig.write(rx + 0x04, 8);
         rig.write(rx, self.channels[0] << 25 | 3 << 16 | 1 << 10 | 1 << 4 | 1);
-        rig.ram.0.borrow_mut()[16 * self.side] = 0xFF;
+        rig.memories.write(ram, &[0xFF]).unwrap();
         rig.write(tx + 0x08, self.spi + 0x0C);
         rig.write(tx + 0x0C, ram);
         rig.write(tx + 0x04, 8);
@@ -131,8 +132,6 @@ impl Registers {
     }
 
     pub(super) fn received(&self, rig: &Rig) -> [u8; 8] {
-        let begin = 16 * self.side + 8;
-        let ram = rig.ram.0.borrow();
-        std::array::from_fn(|n| ram[begin + n])
+        rig.ram(16 * self.side as u32 + 8)
     }
 }

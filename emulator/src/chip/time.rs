@@ -1,4 +1,0 @@
-//! The emulated chip's time.
-
-/// Time since power-up, picoseconds: wraps after half a year.
-pub(crate) type Ps = u64;
