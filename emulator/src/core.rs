@@ -90,10 +90,8 @@ impl Core {
             config.cpuid = CPUID_M0_PLUS;
             config.bit_band = false;
         }
-        let config = config
-            .with_reset_vtor(FLASH)
-            .with_priority_bits(model.priority_bits);
-        let inner = ArmV7m::new(config);
+        let config = config.with_reset_vtor(FLASH);
+        let inner = ArmV7m::new(config.with_priority_bits(model.priority_bits));
         inner.attach_space(Arc::new(space));
         if is_v6m {
             inner.with_sys(|sys| sys.ccr |= UNALIGN_TRP);

@@ -90,10 +90,8 @@ fn plain(classes: usize, channels: usize) -> Result<Vec<u8>, Error> {
     };
     let axes: Vec<Axis> = (0..channels).map(axis).collect();
     let entries = vec![1_024; 2 * classes];
-    let tables: Vec<_> = axes
-        .iter()
-        .map(|axis| TableParts::of_channel(axis, &entries))
-        .collect();
+    let table = |axis| TableParts::of_channel(axis, &entries);
+    let tables: Vec<_> = axes.iter().map(table).collect();
     let model = ModelBuf::new(&ModelParts {
         names: &names,
         block: 20,

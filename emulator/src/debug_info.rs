@@ -75,10 +75,8 @@ impl DebugInfo {
         let Some(name) = entry.attr_value(DW_AT_name).map_err(bad)? else {
             return Ok(None);
         };
-        let name = self
-            .dwarf
-            .attr_string(&self.units[unit], name)
-            .map_err(bad)?;
+        let unit = &self.units[unit];
+        let name = self.dwarf.attr_string(unit, name).map_err(bad)?;
         Ok(Some(String::from_utf8_lossy(&name).into_owned()))
     }
 
@@ -125,8 +123,8 @@ impl DebugInfo {
         let mut children = Vec::new();
         while let Some(child) = below.next().map_err(bad)? {
             let entry = child.entry();
-            let count = number(entry, DW_AT_count)?;
             let last = number(entry, DW_AT_upper_bound)?;
+            let length = number(entry, DW_AT_count)?.or(last.map(|last| last + 1));
             children.push(Child {
                 at: Type {
                     unit,
@@ -137,9 +135,7 @@ impl DebugInfo {
                 offset: number(entry, DW_AT_data_member_location)?.map(|offset| offset as u32),
                 of: self.type_of(unit, entry)?,
                 value: number(entry, DW_AT_discr_value)?,
-                length: count
-                    .or(last.map(|last| last + 1))
-                    .map(|length| length as u32),
+                length: length.map(|length| length as u32),
             });
         }
         Ok(children)

@@ -40,9 +40,8 @@ pub(crate) fn flashed_for(scene: &Scene, path: &Path, program: &Path) -> Result<
 
 pub(crate) fn model_of(scene: &Scene, path: &Path) -> Result<Option<ModelBuf>, Error> {
     let folder = path.parent().unwrap_or(Path::new("."));
-    let model = scene
-        .model_path(folder)
-        .map(|path| files::load_model(&path));
+    let path = scene.model_path(folder);
+    let model = path.map(|path| files::load_model(&path));
     Ok(model.transpose()?.map(|(_, model)| model))
 }
 

@@ -121,14 +121,11 @@ pub(crate) fn stopping(path: &Path, program: &Path, stops: u32) -> Result<Vec<St
 
 /// A stop and an arming that come in one tick: the later one holds.
 fn together(scene: &scene::Scene, program: &Program) -> Result<String, Error> {
+    const REFUSED: &str = "ok stop\r\nrefused arm: a stop has come since\r\n";
     let mut session = Session::of(scene, Vec::new(), program)?;
     for (said, answers, is_driven) in [
         ("stop\narm\n", "ok stop\r\nok arm\r\n", true),
-        (
-            "arm\nstop\n",
-            "ok stop\r\nrefused arm: a stop has come since\r\n",
-            false,
-        ),
+        ("arm\nstop\n", REFUSED, false),
     ] {
         session.serial_read();
         session.serial_write(said.as_bytes());
@@ -186,10 +183,8 @@ fn flooded(
 
 impl Flooded<'_> {
     fn drawn(&mut self, most: u32) -> u32 {
-        self.random = self
-            .random
-            .wrapping_mul(1_664_525)
-            .wrapping_add(1_013_904_223);
+        let product = self.random.wrapping_mul(1_664_525);
+        self.random = product.wrapping_add(1_013_904_223);
         (self.random >> 16) % most
     }
 
@@ -215,13 +210,8 @@ impl Flooded<'_> {
             }
             Line::Full(again) => {
                 let waiting = self.written - self.sent();
-                let bytes: Vec<u8> = again
-                    .iter()
-                    .cycle()
-                    .skip(self.next)
-                    .take(AHEAD.saturating_sub(waiting))
-                    .copied()
-                    .collect();
+                let rest = again.iter().copied().cycle().skip(self.next);
+                let bytes: Vec<u8> = rest.take(AHEAD.saturating_sub(waiting)).collect();
                 self.next = (self.next + bytes.len()) % again.len();
                 self.write(&bytes);
             }
@@ -231,12 +221,9 @@ impl Flooded<'_> {
         }
         self.session.tick()?;
         self.ticks += 1;
-        let received = self.session.serial_read();
-        self.received.extend(received);
-        let packets = self.session.packets()?;
-        self.packets.extend(packets);
-        let log = self.session.log();
-        self.log.extend(log);
+        self.received.extend(self.session.serial_read());
+        self.packets.extend(self.session.packets()?);
+        self.log.extend(self.session.log());
         Ok(())
     }
 

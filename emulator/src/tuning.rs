@@ -91,11 +91,9 @@ fn other(scene: &Scene) -> Scene {
     if let Some(rcp) = &mut other.rcp {
         rcp.gain *= 0.5;
     }
-    let rule = other
-        .classifier
-        .as_mut()
-        .map(|classifier| &mut classifier.rule);
-    if let Some(Rule::Sequential { threshold }) = rule {
+    if let Some(classifier) = &mut other.classifier
+        && let Rule::Sequential { threshold } = &mut classifier.rule
+    {
         *threshold = 0.5 * (*threshold + 1.0);
     }
     other
@@ -110,11 +108,8 @@ fn refusable(
     let mut named = scene.clone();
     named.name.insert(0, 'x');
     refused.push((bytes_of(&named)?, ConfigError::Shape(Field::Name)));
-    let is_armed = scene
-        .motor
-        .as_ref()
-        .is_some_and(MotorSection::arms_at_start);
-    if is_armed {
+    let motor = scene.motor.as_ref();
+    if motor.is_some_and(MotorSection::arms_at_start) {
         let mut held = scene.clone();
         held.sensor.frozen_s *= 2.0;
         refused.push((bytes_of(&held)?, ConfigError::Armed(Field::SensorLimits)));

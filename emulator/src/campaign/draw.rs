@@ -54,14 +54,9 @@ pub(super) fn injections(
     has: Has,
     random: &mut Xoshiro256PlusPlus,
 ) -> Vec<Injection> {
-    let to_s = if plan == Plan::Words {
-        WORDS_TO_S
-    } else {
-        TO_S
-    };
-    let first = injection(random, has, to_s);
     match plan {
         Plan::Words => {
+            let first = injection(random, has, WORDS_TO_S);
             let word = number & u64::from(u32::MAX);
             vec![Injection {
                 kind: Kind::RamBit,
@@ -71,9 +66,10 @@ pub(super) fn injections(
             }]
         }
         Plan::Drawn => {
+            let first = injection(random, has, TO_S);
             let is_alone = below(random, TWO_IN) != 0;
             // Two at one motor, or one sensor, would undo each other.
-            let second = injection(random, has, to_s);
+            let second = injection(random, has, TO_S);
             let is_elsewhere = second.kind.befalls() != first.kind.befalls();
             let second = (is_elsewhere && !is_alone).then_some(second);
             iter::once(first).chain(second).collect()

@@ -154,9 +154,7 @@ impl Judge {
             return Some(Harm::LockedUp);
         }
         self.obey(&seen.commands);
-        let mut stuck = injections
-            .iter()
-            .filter(|injection| injection.cuts_encoder());
+        let mut stuck = injections.iter().filter(|one| one.cuts_encoder());
         let cut = stuck.any(|injection| injection.lasts(tick));
         for (whisker, motor) in self.whiskers.iter_mut().zip(&seen.motors) {
             let displaced = motor.displaced_deg;

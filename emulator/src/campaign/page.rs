@@ -1,6 +1,6 @@
 //! `docs/measured/reliability.md`: what became of all runs.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write as _;
 
 use super::injection::Kind;
@@ -22,9 +22,8 @@ const OUTCOMES: [Ending; 5] = [
 
 fn name(value: impl serde::Serialize) -> String {
     let value = toml::Value::try_from(value).ok();
-    value
-        .and_then(|value| value.as_str().map(str::to_owned))
-        .unwrap_or_default()
+    let name = value.and_then(|value| value.as_str().map(str::to_owned));
+    name.unwrap_or_default()
 }
 
 fn with(rows: &[RunRow], outcome: Ending) -> impl Iterator<Item = &RunRow> {
@@ -62,9 +61,8 @@ fn place(row: &RunRow) -> String {
 }
 
 fn reason(place: &str, reasons: &BTreeMap<String, String>) -> Option<String> {
-    let fitting = reasons
-        .iter()
-        .filter(|(of, _)| place.starts_with(of.as_str()));
+    let reasons = reasons.iter();
+    let fitting = reasons.filter(|(of, _)| place.starts_with(of.as_str()));
     let longest = fitting.max_by_key(|(of, _)| of.len());
     longest.map(|(_, reason)| reason.clone())
 }
@@ -84,9 +82,7 @@ pub fn page(rows: &[RunRow]) -> Result<String, String> {
         "\n## By where it ran\n\n| | runs | masked | noticed | silent | harmful | not followed |\n\
          |---|---|---|---|---|---|---|"
     );
-    let mut subjects: Vec<&str> = rows.iter().map(|row| row.subject.as_str()).collect();
-    subjects.sort_unstable();
-    subjects.dedup();
+    let subjects: BTreeSet<&str> = rows.iter().map(|row| row.subject.as_str()).collect();
     for subject in subjects {
         let of: Vec<&RunRow> = rows.iter().filter(|row| row.subject == subject).collect();
         let _ = writeln!(text, "| {subject} | {} | {}", of.len(), cells(&of));
@@ -123,9 +119,8 @@ pub fn page(rows: &[RunRow]) -> Result<String, String> {
         silent.entry(place(row)).or_default().push(row);
     }
     for (place, of) in &silent {
-        let mut ends: Vec<&str> = of.iter().map(|row| row.reason.as_str()).collect();
-        ends.sort_unstable();
-        ends.dedup();
+        let ends: BTreeSet<&str> = of.iter().map(|row| row.reason.as_str()).collect();
+        let ends: Vec<&str> = ends.into_iter().collect();
         let reason = reason(place, &reasons).unwrap_or_else(|| {
             let runs: Vec<String> = of.iter().map(|row| row.run.to_string()).collect();
             format!("**not known**: runs {}", runs.join(", "))

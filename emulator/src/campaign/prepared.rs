@@ -10,7 +10,7 @@ use scene::{Arm, PlantKind};
 use wire::Command;
 
 use super::draw::{self, Has, Plan, RUN_S};
-use super::injection::Injection;
+use super::injection::{Injection, Kind};
 use super::judge::{Harm, Judge};
 use super::on_board::{OnBoard, words};
 use super::subject::{Seen, Subject};
@@ -69,9 +69,8 @@ impl Prepared {
             undisturbed: Vec::new(),
         };
         let mut subject = prepared.subject()?;
-        let seen: Result<Vec<_>, Fault> = (1..=ticks)
-            .map(|tick| prepared.tick(&mut subject, tick))
-            .collect();
+        let seen = (1..=ticks).map(|tick| prepared.tick(&mut subject, tick));
+        let seen: Result<Vec<_>, Fault> = seen.collect();
         drop(subject);
         prepared.undisturbed = seen?;
         Ok(prepared)
@@ -108,9 +107,8 @@ impl Prepared {
         let ends = injections.iter().map(Injection::end);
         let end = ends.collect::<Option<Vec<_>>>().unwrap_or_default();
         let end = end.into_iter().max();
-        let all_momentary = injections
-            .iter()
-            .all(|injection| injection.kind.is_momentary());
+        let mut kinds = injections.iter().map(|injection| injection.kind);
+        let all_momentary = kinds.all(Kind::is_momentary);
         let settled = (SETTLED_S * f64::from(self.has.tick_hz)) as u64;
         let given_up = (GIVEN_UP_S * f64::from(self.has.tick_hz)) as u64;
         let [mut same_for, mut late_for] = [0, 0];
@@ -158,10 +156,8 @@ impl Prepared {
             if plan == Plan::Words && findings.noticed.is_some() && late_for >= given_up {
                 break;
             }
-            if findings.noticed.is_none()
-                && same_for >= settled
-                && end.is_some_and(|end| tick >= end + settled)
-            {
+            let is_settled = same_for >= settled && end.is_some_and(|end| tick >= end + settled);
+            if findings.noticed.is_none() && is_settled {
                 break;
             }
         }
@@ -172,8 +168,7 @@ impl Prepared {
             && disturbed.len() as u64 == self.ticks
             && end + recovered <= self.ticks
         {
-            let tick = self.ticks;
-            findings.harm = judge.end(last).map(|harm| (tick, harm));
+            findings.harm = judge.end(last).map(|harm| (self.ticks, harm));
         }
         if !findings.is_over() && disturbed.len() as u64 == self.ticks {
             findings.difference = self.difference(first.start as usize, &disturbed);
@@ -216,9 +211,8 @@ impl Prepared {
         }
         let decisions = |seen: &[Seen]| -> Vec<(usize, String)> {
             let from = seen.get(start..).unwrap_or_default();
-            from.iter()
-                .flat_map(|seen| seen.decisions.clone())
-                .collect()
+            let decided = from.iter().flat_map(|seen| seen.decisions.clone());
+            decided.collect()
         };
         (decisions(disturbed) != decisions(&self.undisturbed)).then_some("decides otherwise")
     }

@@ -117,8 +117,8 @@ impl<'p> Subject<'p> {
         for n in 0.. {
             let is_homing = run.module_mut().is_homing(n);
             let Some(motor) = run.motor_mut(n) else { break };
-            let of_motor = OfMotor::new(motor.effort(), is_homing, Some(motor));
-            seen.motors.push(of_motor);
+            seen.motors
+                .push(OfMotor::new(motor.effort(), is_homing, Some(motor)));
         }
         Ok(seen)
     }
@@ -165,15 +165,14 @@ pub(super) fn number(place: Place, per_side: usize) -> usize {
 
 pub(super) fn seen<B: host_sim::bench::Bench + ?Sized>(run: &Run<B>, per_side: usize) -> Seen {
     let notices = run.events().iter().filter_map(Notice::of);
+    let notices = notices.map(|(place, notice)| (number(place, per_side), notice));
     let decisions = run.decisions().filter_map(|decided| {
         let place = decided.place?;
         Some((number(place, per_side), decided.decision))
     });
     Seen {
         row: *run.row(),
-        notices: notices
-            .map(|(place, notice)| (number(place, per_side), notice))
-            .collect(),
+        notices: notices.collect(),
         decisions: decisions.collect(),
         ..Seen::default()
     }

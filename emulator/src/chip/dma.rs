@@ -75,11 +75,10 @@ impl Dma {
             return None;
         }
         let done = s.length - s.ndtr;
+        let moved = if s.cr & layout.minc != 0 { done } else { 0 };
         let moved = Move {
             peripheral: s.par,
-            memory: s
-                .mar
-                .wrapping_add(if s.cr & layout.minc != 0 { done } else { 0 }),
+            memory: s.mar.wrapping_add(moved),
             to_memory: s.cr & layout.from_memory == 0,
         };
         s.ndtr -= 1;

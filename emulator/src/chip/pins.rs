@@ -64,11 +64,9 @@ impl Chip {
 
     /// Level of the direction of each side's H-bridge. A pin that is not driven is low.
     pub(crate) fn motor_directions(&self) -> [bool; 2] {
-        let sides = self.model.wiring.sides;
         [0, 1].map(|side| {
-            sides
-                .get(side)
-                .is_some_and(|side| self.is_high(side.direction))
+            let side = self.model.wiring.sides.get(side);
+            side.is_some_and(|side| self.is_high(side.direction))
         })
     }
 

@@ -59,8 +59,8 @@ impl Watchdog {
 
     pub(super) fn bites(&self) -> Option<Ps> {
         let count = self.lsi * (4 << self.prescaler.min(6));
-        self.running
-            .then(|| self.fed + count * (Ps::from(self.reload) + 1))
+        let bites = self.fed + count * (Ps::from(self.reload) + 1);
+        self.running.then_some(bites)
     }
 
     pub(super) fn read(&self, offset: u32, now: Ps) -> Option<u32> {

@@ -33,28 +33,20 @@ fn is_used(path: &str, scene: &Scene) -> bool {
     let whiskers = scene.whiskers();
     let classifier = scene.classifier.as_ref();
     let heard = classifier.map_or(0, |classifier| classifier.whiskers.heard(whiskers));
-    let driven = if scene.whisking.is_some() {
-        whiskers
-    } else {
-        0
-    };
-    [("touches[", heard), ("INNER.whiskers[", driven)]
-        .into_iter()
-        .all(|(list, count)| {
-            let index = path
-                .split_once(list)
-                .and_then(|(_, rest)| rest.split(']').next());
-            index.is_none_or(|index| index.parse().is_ok_and(|index: usize| index < count))
-        })
+    let driven = scene.whisking.as_ref().map_or(0, |_| whiskers);
+    let mut lists = [("touches[", heard), ("INNER.whiskers[", driven)].into_iter();
+    lists.all(|(list, count)| {
+        let rest = path.split_once(list).map(|(_, rest)| rest);
+        let index = rest.and_then(|rest| rest.split(']').next());
+        index.is_none_or(|index| index.parse().is_ok_and(|index: usize| index < count))
+    })
 }
 
 fn read(board: &Board, leaf: &Leaf) -> Result<u32, Fault> {
     let mut word = [0; 4];
     let size = word.len().min(leaf.size as usize);
-    board
-        .machine
-        .memories
-        .read(leaf.address, &mut word[..size])?;
+    let memories = &board.machine.memories;
+    memories.read(leaf.address, &mut word[..size])?;
     Ok(u32::from_le_bytes(word))
 }
 
@@ -66,12 +58,9 @@ fn set_count(board: &Board, timer: u32, count: u32) -> Result<(), Fault> {
 impl Started {
     /// Starts every counter that `program` has for `scene`, before the first tick of `board`.
     pub(crate) fn new(program: &Program, board: &mut Board, scene: &Scene) -> Result<Self, Fault> {
-        let leaves = DebugInfo::new(program)?.leaves()?;
-        let named: Vec<(String, Leaf)> = leaves
-            .into_iter()
-            .filter(|leaf| is_used(&leaf.path, scene))
-            .map(|leaf| (bare(&leaf.path), leaf))
-            .collect();
+        let leaves = DebugInfo::new(program)?.leaves()?.into_iter();
+        let used = leaves.filter(|leaf| is_used(&leaf.path, scene));
+        let named: Vec<(String, Leaf)> = used.map(|leaf| (bare(&leaf.path), leaf)).collect();
         let all = |end: &'static str| {
             let ends = named.iter().filter(move |(path, _)| path.ends_with(end));
             ends.map(|(_, leaf)| leaf.clone())

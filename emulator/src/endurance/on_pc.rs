@@ -73,9 +73,8 @@ pub(super) fn on_pc(path: &Path, seed: u64, hours: f64) -> Result<ShardRow, Erro
             pages = resident_pages();
         }
         if tick == ticks {
-            let grown = resident_pages()
-                .zip(pages)
-                .map(|(end, begin)| end.saturating_sub(begin));
+            let grown = resident_pages().zip(pages);
+            let grown = grown.map(|(end, begin)| end.saturating_sub(begin));
             if let Some(grown) = grown.filter(|grown| *grown > PAGES) {
                 return Err(broken(&format!("memory has grown by {grown} pages")));
             }

@@ -33,9 +33,8 @@ impl Span {
         }
         self.ticks += 1;
         self.decisions += decided.len() as u64;
-        let right = decided
-            .iter()
-            .filter(|decided| decided.verdict(classes) == Verdict::Right);
+        let verdicts = decided.iter().map(|decided| decided.verdict(classes));
+        let right = verdicts.filter(|verdict| *verdict == Verdict::Right);
         self.right += right.count() as u64;
     }
 

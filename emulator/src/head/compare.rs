@@ -128,10 +128,8 @@ pub(crate) fn compare(
     lines.extend(names.into_iter().zip(most).map(|(name, most)| {
         let of_side = |(side, theta): (&str, f64)| format!("{side} {theta:.2}");
         let sides = SIDE_NAMES.into_iter().zip(most);
-        let sides: Vec<String> = sides
-            .filter(|(_, theta)| !theta.is_nan())
-            .map(of_side)
-            .collect();
+        let sides = sides.filter(|(_, theta)| !theta.is_nan());
+        let sides: Vec<String> = sides.map(of_side).collect();
         format!("{name}: largest θ′ {} degrees", sides.join(", "))
     }));
     Ok(lines)

@@ -96,10 +96,8 @@ impl Head {
         if passed == 0 && was_idle && wire.is_idle(until as f64 / US) {
             passed = ((until - self.now) / self.bit / SILENCE_BITS) as u32;
         }
-        for (_, node) in there
-            .iter_mut()
-            .filter(|(_, node)| !node.is_on && passed > 0)
-        {
+        let off = there.iter_mut().filter(|(_, node)| !node.is_on);
+        for (_, node) in off.filter(|_| passed > 0) {
             node.expect(until, Arrival::Silent(passed));
         }
     }

@@ -74,10 +74,8 @@ pub(super) fn compare(talk: &mut Talk, scene: &Scene) -> Result<String, Error> {
             raised += u32::from(is_decided);
         }
     }
-    let overdue = due
-        .iter()
-        .find(|line| line.came.unwrap_or(talk.ticks) > line.tick + late);
-    if let Some(line) = overdue {
+    let is_overdue = |line: &&Due| line.came.unwrap_or(talk.ticks) > line.tick + late;
+    if let Some(line) = due.iter().find(is_overdue) {
         return wrong(format!(
             "{:?} of tick {}: {:?}",
             line.line, line.tick, line.came
@@ -90,10 +88,8 @@ pub(super) fn compare(talk: &mut Talk, scene: &Scene) -> Result<String, Error> {
             "{touches} touches, {decisions} decisions, {healths} times health"
         ));
     }
-    let took = due
-        .iter()
-        .filter_map(|line| Some(line.came? - line.tick))
-        .max();
+    let took = due.iter().filter_map(|line| Some(line.came? - line.tick));
+    let took = took.max();
     let pins = if scene.telemetry.pins {
         format!("; pins as on the PC, {raised} ticks with a decision")
     } else {
@@ -145,16 +141,13 @@ fn first_or_healthy(text: &str, scene: &Scene) -> Result<(), Error> {
             (found, name, rate) == (version, &*scene.name, &*hz)
         }
         ["health", worst, found, "0", "0", "0"] => {
-            found == period
-                && worst
-                    .parse()
-                    .is_ok_and(|worst: f64| worst > 1.0 && worst < 500.0)
+            let is_within = |worst: f64| worst > 1.0 && worst < 500.0;
+            found == period && worst.parse().is_ok_and(is_within)
         }
         _ => false,
     };
-    if is_right {
-        Ok(())
-    } else {
-        wrong(format!("{text:?}"))
+    if !is_right {
+        return wrong(format!("{text:?}"));
     }
+    Ok(())
 }

@@ -170,12 +170,12 @@ impl<'s> Links<'s> {
     /// Writes a line, unless the serial line has enough to do.
     fn write(&mut self, line: &str, is_flood: bool, session: &mut Session) -> bool {
         let waiting = session.machine().chip().serial_waiting();
-        let enough = if is_flood {
+        let own = if is_flood {
             self.tick_bytes
         } else {
             MOST_WAITING
         };
-        if waiting > enough {
+        if waiting > own {
             return false;
         }
         for part in line.split_inclusive('\n') {
