@@ -147,8 +147,7 @@ impl Board {
         if let Some(slave) = self.slave_mut(side) {
             slave.program(decoder);
         }
-        let mut chip = self.machine.chip();
-        chip.program_sensor(side, decoder, rest_us);
+        self.machine.chip().lines[side].program(decoder, rest_us);
     }
 
     /// The sensor of a side has so many new readings a second; none: one in each frame.
@@ -282,7 +281,7 @@ impl Board {
     }
 
     pub(crate) fn missed(&self) -> Result<u32, Fault> {
-        self.watch.missed(&self.machine.memories)
+        self.machine.memories.word(self.watch.missed)
     }
 
     /// When the sensor of a side latched the frame that the last tick has used.

@@ -98,7 +98,8 @@ pub(crate) struct Chip {
     serial: SerialLine,
     /// The controller of a head's bus, where the chip has one.
     pub(crate) can: BxCan,
-    lines: [SensorLines; 2],
+    /// The sensors' wires, the left side's first.
+    pub(crate) lines: [SensorLines; 2],
     fault: Option<Fault>,
 }
 
@@ -271,11 +272,6 @@ impl Chip {
     fn timer_clock(&self, n: usize) -> Ps {
         let (_, bus) = self.model.timers[n];
         self.clocks.timer(bus)
-    }
-
-    /// Takes a store of so many bytes into flash, by its offset; whether it is programmed.
-    pub(crate) fn store_flash(&mut self, offset: u32, bytes: usize) -> bool {
-        self.flash.store(offset, bytes, self.now)
     }
 
     pub(crate) fn keep(&mut self, fault: Fault) {

@@ -81,19 +81,14 @@ impl Pair {
         })
     }
 
-    /// One tick of both, of which the `n`-th must be the same, with the touches of the PC
-    /// numbered as on the board; how many decisions fell.
-    pub(crate) fn tick(&mut self, n: u64, touch: impl Fn(u16) -> u16) -> Result<u64, Error> {
-        let found = self.tick_board()?;
-        self.follow(n, found, touch)
-    }
-
     pub(crate) fn tick_board(&mut self) -> Result<Seen, Error> {
         self.target.tick()?;
         let run = &self.target.run;
         Ok((*run.row(), run.decisions().collect()))
     }
 
+    /// The PC makes the `n`-th tick, which must be as on the board, with the touches of the PC numbered
+    /// as there; how many decisions fell.
     pub(crate) fn follow(
         &mut self,
         n: u64,
@@ -271,12 +266,11 @@ pub(crate) fn compare_loaded(
         if gone_at == Some(n) {
             pair.target.board_mut().lose_reader()?;
         }
-        let touch = |number| {
-            started
-                .as_ref()
-                .map_or(number, |started| started.touch(number))
-        };
-        let decisions = pair.tick(n, touch).map_err(|fault| named(&fault))?;
+        let started_at = started.as_ref();
+        let touch = |number| started_at.map_or(number, |started| started.touch(number));
+        let seen = pair.tick_board();
+        let decisions = seen.and_then(|seen| pair.follow(n, seen, touch));
+        let decisions = decisions.map_err(|fault| named(&fault))?;
         agreement.decisions += decisions;
         agreement.ticks = n;
         agreement.touches = agreement.touches.max(pair.host.row().touch[0].into());

@@ -12,7 +12,7 @@ use crate::core::{BRANCH_CYCLES, Core, EXCEPTION, IT_BLOCK, ROUND_CYCLES, ROUND_
 use crate::memory::{FLASH, Memories, Shared};
 use crate::meter::Meter;
 use crate::program::Program;
-use crate::upset::{Planned, Upset};
+use crate::upset::Planned;
 use rsemu::cpu::arm::v7m::Regs;
 use rtt::Rtt;
 
@@ -48,7 +48,7 @@ pub(crate) struct Spent {
 #[derive(Debug)]
 pub(crate) struct Machine {
     model: &'static Model,
-    core: Core,
+    pub(crate) core: Core,
     /// The exceptions of the tick and of the ends of frames.
     tick: u32,
     frames: Vec<u32>,
@@ -72,7 +72,7 @@ pub(crate) struct Machine {
     is_locked_up: bool,
     /// The supply holds the chip in reset.
     held: bool,
-    planned: Planned,
+    pub(crate) planned: Planned,
     spent: Spent,
 }
 
@@ -145,10 +145,6 @@ impl Machine {
         bytes.try_for_each(|(place, byte)| self.memories.write(place, &[*byte]))
     }
 
-    pub(crate) fn raise_nmi(&self) {
-        self.core.raise_nmi();
-    }
-
     pub(crate) const fn is_in_tick(&self) -> bool {
         self.exception == self.tick
     }
@@ -166,12 +162,6 @@ impl Machine {
             }
         }
         Ok(0)
-    }
-
-    /// Lets something befall the core before an instruction of the next tick's handler,
-    /// counted from 1; if that has fewer, in the tick after it.
-    pub(crate) const fn upset_next_tick(&mut self, instruction: u64, upset: Upset) {
-        self.planned.plan(instruction, upset);
     }
 
     /// Runs, with `sensors` on the wires, the left one first, until the tick's handler

@@ -122,7 +122,8 @@ impl MemOps for FlashStores {
     fn write(&self, offset: u64, bytes: &[u8], _: MemAttrs) -> MemResult {
         let offset = offset as u32;
         let mut chip = self.shared.access();
-        if chip.store_flash(offset, bytes.len())
+        let now = chip.now;
+        if chip.flash.store(offset, bytes.len(), now)
             && let Err(fault) = self.memories.program(FLASH + offset, bytes)
         {
             chip.keep(fault);

@@ -10,7 +10,7 @@ use object::read::elf::{FileHeader, ProgramHeader};
 use object::{Endianness, Object, ObjectSection};
 use rtt::LogDecoder;
 use scene::{Scene, file};
-use whisking::{Fix, FormatCode, Real};
+use whisking::{Fix, FormatCode};
 
 use crate::chip::{Fault, MODELS, Model};
 
@@ -43,9 +43,8 @@ impl Program {
         let endian = header.endian().map_err(bad)?;
         let mut segments = Vec::new();
         for segment in header.program_headers(endian, data).map_err(bad)? {
-            let contents = segment
-                .data(endian, data)
-                .map_err(|()| bad("a segment lies outside the file"))?;
+            let contents = segment.data(endian, data);
+            let contents = contents.map_err(|()| bad("a segment lies outside the file"))?;
             if segment.p_type(endian) == PT_LOAD && !contents.is_empty() {
                 segments.push((segment.p_paddr(endian), contents.to_vec()));
             }
@@ -69,9 +68,8 @@ impl Program {
         let names = names.unwrap_or_default();
         let is_named = |model: &&&Model| {
             let main = format!("src/bin/{}.rs", model.program);
-            names
-                .windows(main.len())
-                .any(|found| found == main.as_bytes())
+            let mut names = names.windows(main.len());
+            names.any(|found| found == main.as_bytes())
         };
         let model = MODELS.iter().find(is_named).copied();
         let model = model.ok_or_else(|| bad("it is of no board that is emulated"))?;
@@ -83,9 +81,8 @@ impl Program {
     }
 
     pub(crate) fn segments(&self) -> impl Iterator<Item = (u32, &[u8])> {
-        self.segments
-            .iter()
-            .map(|(at, contents)| (*at, contents.as_slice()))
+        let segments = self.segments.iter();
+        segments.map(|(at, contents)| (*at, contents.as_slice()))
     }
 
     pub(crate) fn log_decoder(&self) -> Result<LogDecoder, Fault> {
@@ -163,11 +160,7 @@ fn head(bytes: &[u8], board: BoardCode) -> Result<HeadConfig, ConfigError> {
     let end = HEADER_BYTES.saturating_add(header.length as usize);
     let bytes = bytes.get(..end).unwrap_or(bytes);
     if header.format == FormatCode::Fixed as u8 {
-        return read::<Fix>(bytes, board);
+        return decode::<Fix>(bytes, board).map(|config| config.head);
     }
-    read::<f32>(bytes, board)
-}
-
-fn read<R: Real>(bytes: &[u8], board: BoardCode) -> Result<HeadConfig, ConfigError> {
-    decode::<R>(bytes, board).map(|config| config.head)
+    decode::<f32>(bytes, board).map(|config| config.head)
 }

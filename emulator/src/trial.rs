@@ -114,12 +114,13 @@ fn run(
         // While no tick ends time passes as fast as it should; ticks are not equally long.
         let period = session.period();
         let board = session.board_mut();
-        let was_reset = board.reset.take().is_some() || hands.has_cut_power();
-        board.world_waits = Some(if board.is_late {
+        let was_reset = board.reset.take().is_some() || hands.has_cut;
+        let waits = if board.is_late {
             period
         } else {
             period * 3 / 2
-        });
+        };
+        board.world_waits = Some(waits);
         let arrived = links.arrived(&mut session);
         let (t_s, lines) = (session.run.t_s(), session.log());
         lister.hear(t_s, &lines, session.board_mut())?;
@@ -144,11 +145,7 @@ pub(crate) fn befalling(path: &Path, scene: &Scene) -> Result<Hands, Error> {
     };
     if scenario.events.iter().any(|event| is_sent(&event.what)) {
         let fault = "found an event that sends something, but whoever talks with the board does";
-        return Err(wrong(path, fault));
+        return Err(Error::file(path, fault));
     }
     Ok(Hands::new(&scenario, scene))
-}
-
-fn wrong(path: &Path, what: impl std::fmt::Display) -> Error {
-    Error::file(path, what)
 }

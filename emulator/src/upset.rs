@@ -56,6 +56,8 @@ pub(crate) struct Planned {
 }
 
 impl Planned {
+    /// Lets something befall the core before an instruction of the next tick's handler, counted
+    /// from 1; if that has fewer, in the tick after it.
     pub(crate) const fn plan(&mut self, instruction: u64, upset: Upset) {
         self.next = Some((instruction, upset));
     }

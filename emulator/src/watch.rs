@@ -77,16 +77,17 @@ pub(crate) struct Watch {
     /// θ and g of every whisker, left side first.
     theta: Vec<Variable>,
     gain: Vec<[Variable; 2]>,
-    missed: u32,
+    /// Where ticks are counted that did not happen in time.
+    pub(crate) missed: u32,
     /// Of each whisker.
     touch: Vec<u32>,
     queue: Queue,
 }
 
-fn along<'d>(from: Place<'d>, names: &[&str]) -> Result<Place<'d>, Fault> {
-    names
-        .iter()
-        .try_fold(from, |place, name| place.member(name))
+/// What these names lead to.
+pub(crate) fn along<'d>(from: Place<'d>, names: &[&str]) -> Result<Place<'d>, Fault> {
+    let mut names = names.iter();
+    names.try_fold(from, |place, name| place.member(name))
 }
 
 impl Watch {
@@ -150,10 +151,6 @@ impl Watch {
         Ok(())
     }
 
-    pub(crate) fn missed(&self, ram: &Memories) -> Result<u32, Fault> {
-        ram.word(self.missed)
-    }
-
     pub(crate) const fn restart(&mut self) {
         self.queue.seen = 0;
     }
@@ -166,9 +163,8 @@ impl Watch {
 
 impl Queue {
     fn new(info: &DebugInfo) -> Result<Self, Fault> {
-        let queue = info
-            .variable("__rtic_internal_local_init_queues")?
-            .member("events")?;
+        let queues = info.variable("__rtic_internal_local_init_queues")?;
+        let queue = queues.member("events")?;
         let events = queue.member("buffer")?;
         let first = events.element(0)?;
         let of_first = first.member("event")?;

@@ -303,7 +303,7 @@ impl Injection {
         match self.kind {
             Kind::RamBit => board.flip_ram(self.detail)?,
             Kind::CoreBit => board.flip_core(self.detail),
-            Kind::RegisterBit => board.flip_register(self.detail),
+            Kind::RegisterBit => board.changed = board.session.machine().chip().flip(self.detail),
             Kind::DmaStopped => board.session.machine().chip().stop_dma(),
             Kind::ClockStopped => _ = board.session.machine().disturbed().stop_clock(true)?,
             _ => board.hold(self.detail),

@@ -89,17 +89,16 @@ impl OnBoard<'_> {
         let mut seen = seen(&self.session.run, 1);
         let board = self.session.board_mut();
         let notices = std::mem::take(&mut board.notices).into_iter();
-        seen.notices = notices
-            .map(|(place, notice)| (number(place, 1), notice))
-            .collect();
+        let notices = notices.map(|(place, notice)| (number(place, 1), notice));
+        seen.notices = notices.collect();
         seen.reset = board.reset.take();
         seen.is_late = board.is_late;
         seen.commands = std::mem::take(&mut self.commands);
         for (n, effort) in self.session.efforts().into_iter().enumerate() {
             let wants = self.servos.wants(n, &self.session.machine().memories)?;
             let motor = self.session.run.motor_mut(n);
-            let of_motor = OfMotor::new(effort, wants.is_homing, motor);
-            seen.motors.push(of_motor);
+            seen.motors
+                .push(OfMotor::new(effort, wants.is_homing, motor));
         }
         Ok(seen)
     }
@@ -109,16 +108,13 @@ impl OnBoard<'_> {
         let tag = self.tag;
         let frame = wire::frame(&TaggedCommand { tag, command });
         let board = self.session.board_mut();
-        let is_sent = if is_by_serial {
+        if is_by_serial {
             board.machine.disturbed().serial_write(&frame);
-            true
-        } else {
+        } else if board.request_room()? < frame.len() || !board.request(&frame)? {
             // Half of a frame would spoil the next.
-            board.request_room()? >= frame.len() && board.request(&frame)?
-        };
-        if is_sent {
-            self.commands.push(command);
+            return Ok(());
         }
+        self.commands.push(command);
         Ok(())
     }
 
@@ -132,27 +128,20 @@ impl OnBoard<'_> {
         let within = within % 2 == 0 || name == STACK;
         if within {
             let upset = Upset::Ram { address, bits };
-            machine.upset_next_tick(instruction.into(), upset);
+            machine.planned.plan(instruction.into(), upset);
         } else {
             machine.memories.flip(address, bits)?;
         }
         let bit = 8 * (byte % 4) + bit % 8;
-        let when = if within { "within a tick" } else { "" };
-        self.changed = Some(
-            format!("{word:#010x} {name} bit {bit} {when}")
-                .trim()
-                .to_owned(),
-        );
+        let when = if within { " within a tick" } else { "" };
+        self.changed = Some(format!("{word:#010x} {name} bit {bit}{when}"));
         Ok(())
     }
 
     pub(super) fn flip_core(&mut self, detail: u64) {
         let [bit, register, _, instruction] = parts(detail);
         let register = register % REGISTERS.len() as u32;
-        let name = REGISTERS
-            .get(register as usize)
-            .copied()
-            .unwrap_or_default();
+        let name = REGISTERS[register as usize];
         // Of xPSR the flags, which are its top five bits.
         let bit = if name == "xpsr" {
             27 + bit % 5
@@ -164,12 +153,8 @@ impl OnBoard<'_> {
             bits: 1 << bit,
         };
         let machine = self.session.machine();
-        machine.upset_next_tick(instruction.into(), upset);
+        machine.planned.plan(instruction.into(), upset);
         self.changed = Some(format!("{name} bit {bit}"));
-    }
-
-    pub(super) fn flip_register(&mut self, detail: u64) {
-        self.changed = self.session.machine().chip().flip(detail);
     }
 
     pub(super) fn hold(&mut self, detail: u64) {
@@ -177,7 +162,7 @@ impl OnBoard<'_> {
         let share = 0.1 * 100.0_f64.powf((detail % 1001) as f64 / 1000.0);
         let time = share * 1e12 / f64::from(self.session.tick_hz);
         let machine = self.session.machine();
-        machine.upset_next_tick(MIDDLE, Upset::Held(time as u64));
+        machine.planned.plan(MIDDLE, Upset::Held(time as u64));
     }
 
     pub(super) fn complaints(&mut self) -> Vec<String> {

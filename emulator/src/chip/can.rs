@@ -165,10 +165,10 @@ pub(crate) struct BxCan {
     mcr: u32,
     ier: u32,
     btr: u32,
-    errors: ErrorCounts,
+    pub(crate) errors: ErrorCounts,
     mailboxes: [Mailbox; MAILBOXES],
     received: VecDeque<Frame>,
-    overrun: bool,
+    pub(crate) overrun: bool,
     filter_mode: u32,
     /// FM1R, FS1R, FFA1R, FA1R, F0R1, F0R2.
     filter: [u32; 6],
@@ -212,14 +212,6 @@ impl BxCan {
 
     pub(super) const fn is_on(&self) -> bool {
         !INRQ.is_in(self.mcr) && !SLEEP.is_in(self.mcr) && !self.errors.is_off
-    }
-
-    pub(crate) const fn errors(&self) -> ErrorCounts {
-        self.errors
-    }
-
-    pub(crate) const fn has_overrun(&self) -> bool {
-        self.overrun
     }
 
     pub(crate) fn pending(&self) -> Vec<Frame> {

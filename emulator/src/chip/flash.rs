@@ -127,7 +127,7 @@ impl Flash {
     }
 
     /// Takes a store of the core, `bytes` long; whether it programs flash.
-    pub(super) fn store(&mut self, offset: u32, bytes: usize, now: Ps) -> bool {
+    pub(crate) fn store(&mut self, offset: u32, bytes: usize, now: Ps) -> bool {
         let layout = self.layout;
         let width = if layout.has_width { WIDTH } else { 0 };
         let is_set = self.control & (PG | layout.lock | width) == PG | width & WORDS;

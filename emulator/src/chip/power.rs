@@ -160,12 +160,9 @@ impl Power {
 
     /// The threshold for a falling supply, and for a rising one, mV.
     fn thresholds_mv(&self, control: u32) -> Option<[u32; 2]> {
-        let level = |shift: u32| {
-            self.layout
-                .thresholds_mv
-                .get((control >> shift) as usize & 7)
-        };
-        let [falling, rising] = self.layout.levels.map(level);
+        let layout = self.layout;
+        let level = |shift: u32| layout.thresholds_mv.get((control >> shift) as usize & 7);
+        let [falling, rising] = layout.levels.map(level);
         Some([falling?[0], rising?[1]])
     }
 
@@ -190,14 +187,13 @@ impl Power {
         (self.supply_mv < *level_mv).then_some(ResetCause::BrownOut)
     }
 
-    pub(super) fn set_brown_out(&mut self, level: u32) {
-        if let Some(BrownOut { shift, .. }) = self.layout.brown_out {
-            self.options = self.options & !(3 << shift) | level << shift;
-        }
-    }
-
-    pub(super) fn has_brown_out(&self) -> bool {
-        self.layout.brown_out.is_some()
+    /// Whether there is such a level to set.
+    pub(super) const fn set_brown_out(&mut self, level: u32) -> bool {
+        let Some(BrownOut { shift, .. }) = self.layout.brown_out else {
+            return false;
+        };
+        self.options = self.options & !(3 << shift) | level << shift;
+        true
     }
 
     /// The option bytes, if the register of the flash interface shows them.

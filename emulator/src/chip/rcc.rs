@@ -190,7 +190,7 @@ pub(super) struct Rcc {
     /// There is nothing on the HSE input.
     stopped: bool,
     /// The clock security system has found that out.
-    has_failed: bool,
+    pub(super) has_failed: bool,
 }
 
 impl Rcc {
@@ -228,20 +228,12 @@ impl Rcc {
         taken
     }
 
-    pub(super) const fn has_clock_failed(&self) -> bool {
-        self.has_failed
-    }
-
     /// As after a reset; the flags that tell why outlive it.
     pub(super) fn reset(&mut self, cause: ResetCause) {
         let flags = self.layout.causes[cause as usize];
-        let kept = if cause == ResetCause::Power {
-            0
-        } else {
-            self.csr
-        };
+        let is_first = cause == ResetCause::Power;
         *self = Self {
-            csr: kept | flags,
+            csr: if is_first { flags } else { self.csr | flags },
             stopped: self.stopped,
             ..Self::new(self.layout)
         };
@@ -323,10 +315,8 @@ impl Rcc {
             self.has_failed &= value & CSSC == 0;
             return value & !CSSC == 0;
         } else if let Some(place) = self.place(offset) {
-            let ready = layout
-                .switches
-                .iter()
-                .fold(0, |all, (_, ready)| all | ready);
+            let switches = layout.switches.iter();
+            let ready = switches.fold(0, |all, (_, ready)| all | ready);
             self.kept[place] = if offset == CR { value & !ready } else { value };
         } else {
             return false;

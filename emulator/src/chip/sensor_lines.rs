@@ -96,7 +96,7 @@ impl Needs {
 }
 
 #[derive(Debug, Clone, Default)]
-pub(super) struct SensorLines {
+pub(crate) struct SensorLines {
     needs: Needs,
     /// How its frames are read.
     decoder: Decoder,
@@ -144,12 +144,12 @@ impl SensorLines {
 
     /// Its frames are read by `decoder`; it is silent in those that come sooner than `rest_us` after
     /// the last.
-    pub(super) fn program(&mut self, decoder: Decoder, rest_us: u32) {
+    pub(crate) fn program(&mut self, decoder: Decoder, rest_us: u32) {
         self.decoder = decoder;
         self.silence = ps(rest_us * 1_000);
     }
 
-    pub(super) const fn stick(&mut self, is_stuck: bool) {
+    pub(crate) const fn stick(&mut self, is_stuck: bool) {
         self.stuck = if is_stuck { Some(false) } else { None };
     }
 

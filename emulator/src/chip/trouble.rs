@@ -1,7 +1,5 @@
 //! What befalls supply, clocks and registers from outside, and what the chip makes of it by itself.
 
-use mlx90333::Decoder;
-
 use super::model::Unit;
 use super::sensor_lines::SensorLines;
 use super::{Chip, Fault, ResetCause};
@@ -33,24 +31,11 @@ impl Chip {
 
     /// Has the option bytes set to the highest brown-out level; whether there is any.
     pub(crate) fn set_brown_out(&mut self) -> bool {
-        self.power.set_brown_out(HIGHEST);
-        self.power.has_brown_out()
+        self.power.set_brown_out(HIGHEST)
     }
 
     pub(crate) fn slow_sensors(&mut self) {
         self.lines.iter_mut().for_each(SensorLines::slow_down);
-    }
-
-    pub(crate) fn program_sensor(&mut self, side: usize, decoder: Decoder, rest_us: u32) {
-        if let Some(lines) = self.lines.get_mut(side) {
-            lines.program(decoder, rest_us);
-        }
-    }
-
-    pub(crate) fn stick_select(&mut self, side: usize, is_stuck: bool) {
-        if let Some(lines) = self.lines.get_mut(side) {
-            lines.stick(is_stuck);
-        }
     }
 
     pub(crate) fn tilt_sensors(&mut self) {
@@ -75,7 +60,7 @@ impl Chip {
     }
 
     pub(crate) fn has_nmi(&self) -> bool {
-        self.rcc.has_clock_failed()
+        self.rcc.has_failed
     }
 
     /// Takes the clocks that the registers make, where the flash keeps up with them.

@@ -11,6 +11,7 @@ use super::runner::{Case, Done, Runner, Trouble};
 use crate::chip::{Fault, Ps, SIDE_NAMES};
 use crate::debug_info::DebugInfo;
 use crate::program::Program;
+use crate::watch::along;
 
 /// What befalls sensors, the fault that their whiskers then have, and within how many ms that is
 /// found.
@@ -178,10 +179,7 @@ fn evenly(info: &DebugInfo, path: &[&str]) -> Result<impl Iterator<Item = (u32, 
     let [variable, members @ ..] = path else {
         return Err(Fault::Program("no variable".to_owned()));
     };
-    let found = info.variable(variable)?;
-    let found = members
-        .iter()
-        .try_fold(found, |place, name| place.member(name))?;
+    let found = along(info.variable(variable)?, members)?;
     let (first, bytes) = (found.address, found.size()?);
     let last = bytes / 4 - 1;
     let mut words: Vec<u32> = (0..WORDS).map(|n| last * n / (WORDS - 1)).collect();

@@ -184,7 +184,7 @@ impl Runner {
 
     /// Befalls the core in the middle of the next tick.
     pub(super) fn upset(&mut self, upset: Upset) {
-        self.session.machine().upset_next_tick(MIDDLE, upset);
+        self.session.machine().planned.plan(MIDDLE, upset);
     }
 
     /// The user button is held down so long, ms.

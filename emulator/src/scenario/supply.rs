@@ -87,7 +87,7 @@ pub(super) fn dip(board: BoardCode) -> Vec<Case> {
         }),
         case(stray, move |on| {
             begin(on, true)?;
-            on.session.machine().raise_nmi();
+            on.session.machine().core.raise_nmi();
             low(on, stray)?;
             dies(on, 51)
         }),

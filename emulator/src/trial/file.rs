@@ -12,7 +12,6 @@ use scene::{Scene, SensorModel};
 use serde::Deserialize;
 use wire::Command;
 
-use super::wrong;
 use written::{WrittenFile, WrittenPart, read_event, within};
 
 /// Bytes of the longest file, and most events in it.
@@ -124,8 +123,8 @@ pub(super) struct Scenario {
 
 impl Scenario {
     pub(super) fn load(path: &Path) -> Result<Self, Error> {
-        let text = read(path).map_err(|fault| wrong(path, fault))?;
-        Self::parse(&text).map_err(|fault| wrong(path, fault))
+        let parsed = read(path).and_then(|text| Self::parse(&text));
+        parsed.map_err(|fault| Error::file(path, fault))
     }
 
     fn parse(text: &str) -> Result<Self, String> {
@@ -194,7 +193,7 @@ impl Scenario {
                 _ if event.side >= sides => "an event on the right, which the scene has not",
                 _ => continue,
             };
-            return Err(wrong(path, format_args!("found {missing}")));
+            return Err(Error::file(path, format_args!("found {missing}")));
         }
         Ok(())
     }
@@ -208,9 +207,8 @@ fn read(path: &Path) -> Result<String, String> {
     }
     let mut text = String::new();
     let file = File::open(path).map_err(said)?;
-    file.take(MOST_BYTES + 1)
-        .read_to_string(&mut text)
-        .map_err(said)?;
+    let mut file = file.take(MOST_BYTES + 1);
+    file.read_to_string(&mut text).map_err(said)?;
     if text.len() as u64 > MOST_BYTES {
         return Err(format!("found more than {MOST_BYTES} bytes"));
     }

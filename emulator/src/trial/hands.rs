@@ -107,7 +107,7 @@ pub(crate) struct Hands {
     around: Vec<Around>,
     at_board: AtBoard,
     /// In this tick power has gone.
-    has_cut: bool,
+    pub(super) has_cut: bool,
 }
 
 impl Hands {
@@ -148,7 +148,7 @@ impl Hands {
                 let board = session.board_mut();
                 board.program_sensor(side, part.decoder, part.rest_us.into());
                 board.update_sensor(side, part.update_hz);
-                board.machine.chip().stick_select(side, around.is_stuck);
+                board.machine.chip().lines[side].stick(around.is_stuck);
                 if let Some(slave) = session.run.slave_mut(side) {
                     slave.set_error_word(Faults::new(part.report));
                 }
@@ -167,10 +167,6 @@ impl Hands {
         }
         self.has_cut = now.is_off && !before.is_off || now.is_late && !before.is_late;
         Ok(())
-    }
-
-    pub(super) const fn has_cut_power(&self) -> bool {
-        self.has_cut
     }
 }
 

@@ -91,10 +91,8 @@ pub(super) fn run(
             let lasts = event.lasts(t_s);
             if lasts != std::mem::replace(lasted, lasts) {
                 // What another of its kind still does goes on.
-                let others = scenario
-                    .events
-                    .iter()
-                    .filter(|other| other.goes_on(event, t_s));
+                let others = scenario.events.iter();
+                let others = others.filter(|other| other.goes_on(event, t_s));
                 if let Some(other) = others.max_by(|a, b| a.at_s.total_cmp(&b.at_s)) {
                     let last = if lasts { event } else { other };
                     if let What::BusNoise { .. } = last.what {
@@ -192,8 +190,8 @@ impl Figures {
             }
             of_node.ticks += u64::from(node.ended);
             let chip = board.machine.chip();
-            of_node.is_overrun = chip.can.has_overrun();
-            let (is_driven, errors) = (chip.drives_a_motor(), chip.can.errors());
+            of_node.is_overrun = chip.can.overrun;
+            let (is_driven, errors) = (chip.drives_a_motor(), chip.can.errors);
             drop(chip);
             if is_driven {
                 of_node.driven_s += self.tick_s;
@@ -236,9 +234,9 @@ impl Figures {
             may_drive |= is_driven || seen.is_armed;
         }
         let mut phases = self.nodes.iter().filter_map(|(seen, _)| seen.phase_deg);
+        let apart = |a: f64, b: f64| ((a - b + 540.0).rem_euclid(360.0) - 180.0).abs();
         if let Some(first) = phases.next()
-            && phases
-                .any(|phase| ((phase - first + 540.0).rem_euclid(360.0) - 180.0).abs() > SAME_DEG)
+            && phases.any(|phase| apart(phase, first) > SAME_DEG)
         {
             self.apart_s = t_s;
         }
