@@ -49,7 +49,6 @@ pub(crate) struct Board {
     decoder: LogDecoder,
     has_reader: bool,
     pub(crate) notices: Vec<(Place, Notice)>,
-    /// What has reset the chip last.
     pub(crate) reset: Option<ResetCause>,
     /// The world moves on after so long, even if no tick has ended; none: it waits.
     pub(crate) world_waits: Option<Ps>,

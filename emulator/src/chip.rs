@@ -89,7 +89,6 @@ pub(crate) struct Chip {
     timers: Vec<Timer>,
     /// SPI1, and SPI2 where it is used: that of the left side, and of the right.
     spis: Vec<Spi>,
-    /// DMA1, and DMA2 where it is used.
     dmas: Vec<Dma>,
     mux: Mux,
     watchdog: Watchdog,

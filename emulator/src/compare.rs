@@ -42,7 +42,6 @@ pub(crate) enum Probe {
 
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(crate) struct Circumstances {
-    /// Who fetches its log.
     pub probe: Probe,
     /// Whether every counter that wraps starts just below its wrap, and must pass it.
     pub wraps: bool,
@@ -193,17 +192,13 @@ pub(crate) fn same_numbers(
 /// What was compared, and found equal to the last bit.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub(crate) struct Agreement {
-    /// Rows of the trace.
     pub ticks: u64,
-    /// Decisions.
     pub decisions: u64,
     /// Touches of the first whisker.
     pub touches: u64,
     /// The most bytes that the board's stack has held.
     pub stack: u32,
-    /// Ticks that the board has missed.
     pub missed: u32,
-    /// Counters that have wrapped.
     pub wrapped: usize,
 }
 

@@ -63,7 +63,6 @@ fn is_known_at(pc: u32, memories: &Memories) -> bool {
     half(pc, memories).is_none_or(|first| v6m::is_known(first, second()))
 }
 
-/// The half-word at `at`.
 fn half(at: u32, memories: &Memories) -> Option<u16> {
     let [low, high] = [memories.get(at), memories.get(at.wrapping_add(1))];
     Some(u16::from_le_bytes([low?, high?]))

@@ -53,7 +53,6 @@ const fn counter(
     }
 }
 
-/// A part of the encoder's total.
 const fn total(what: &'static str, path: &'static str) -> Counter {
     Counter {
         is_signed: true,

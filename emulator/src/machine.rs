@@ -34,13 +34,11 @@ pub(crate) enum Stop {
 /// What the core has executed, instructions.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub(crate) struct Spent {
-    /// In the tick's handler.
     pub tick: u64,
     /// In the handlers at the end of a frame.
     pub frame: u64,
     /// In idle, and before it.
     pub thread: u64,
-    /// In other handlers.
     pub other: u64,
 }
 
@@ -60,7 +58,6 @@ pub(crate) struct Machine {
     pub(crate) now: Ps,
     due: Option<Ps>,
     pub(crate) cycle: Ps,
-    /// Where the core is.
     pc: u32,
     exception: u32,
     /// What is left of an IT block, as in xPSR.

@@ -302,7 +302,6 @@ impl Memories {
         self.write(RAM, &vec![0; self.ram.len as usize])
     }
 
-    /// A byte of either.
     pub(crate) fn get(&self, address: u32) -> Option<u8> {
         let mut byte = [0];
         self.store(address).read(address, &mut byte).ok()?;

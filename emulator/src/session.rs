@@ -34,11 +34,8 @@ pub struct Session {
     slots: [Slot; 2],
     pub(crate) sides: usize,
     pub(crate) tick_hz: u32,
-    /// Whether requests go by the serial line.
     is_by_serial: bool,
-    /// That of the last request.
     tag: u16,
-    /// What befalls it.
     hands: Option<Hands>,
 }
 

@@ -99,7 +99,6 @@ struct Flooded<'f> {
     written: usize,
     /// Of what is sent again and again, the next byte.
     next: usize,
-    /// Lines that have begun.
     lines: u32,
     received: Vec<u8>,
     packets: Vec<Packet>,

@@ -33,7 +33,6 @@ pub(crate) struct Talk {
     pub(crate) part: u32,
     /// Ticks that an answer may take.
     pub(crate) patience: u32,
-    /// All that the board has sent.
     pub(crate) packets: Vec<Packet>,
     pub(crate) lines: Vec<String>,
     /// Of each tick, the angles before the world moved on, and what was so after it.

@@ -79,7 +79,6 @@ pub(crate) struct Watch {
     gain: Vec<[Variable; 2]>,
     /// Where ticks are counted that did not happen in time.
     pub(crate) missed: u32,
-    /// Of each whisker.
     touch: Vec<u32>,
     queue: Queue,
 }

@@ -30,7 +30,6 @@ struct Mlx {
     /// The last frame as it began, and as it is now.
     begun: Option<Exchange>,
     exchange: Option<Exchange>,
-    /// What the master has sent in it.
     sent: Vec<u8>,
     /// From one reading to the next, and when the last was taken; 0: one a frame.
     period: Ps,
@@ -40,7 +39,6 @@ struct Mlx {
 #[derive(Debug)]
 struct Tmag {
     below: BelowMagnet,
-    /// The frame that is under way.
     frame: Option<Frame>,
 }
 

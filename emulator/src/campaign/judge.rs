@@ -63,7 +63,6 @@ struct Whisker {
     off_for: u32,
     /// Ticks for which it has been driven too far from its setpoint.
     away_for: u32,
-    /// Ticks for which it has been driven into an end stop.
     at_stop_for: u32,
     was_homing: bool,
     /// By how much it is displaced from what its encoder has counted since the cable came

@@ -71,7 +71,6 @@ impl Queue {
     }
 }
 
-/// A byte on its way.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct Shift {
     pub(super) sent: u8,

@@ -9,7 +9,6 @@ use super::{DebugInfo, Place, Type};
 use crate::chip::Fault;
 use crate::memory::RAM;
 
-/// A number in RAM.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct Leaf {
     pub(crate) address: u32,

@@ -34,7 +34,6 @@ pub(super) enum Way {
     Serial,
 }
 
-/// A board that has a scene without a model, and the same scene with one.
 pub(super) struct Case<'p> {
     pub(super) path: &'p Path,
     pub(super) program: Program,

@@ -19,7 +19,6 @@ const PULSE_S: f64 = 0.01;
 const LATE_S: f64 = 0.003;
 
 struct Due {
-    /// The tick of its event.
     tick: u32,
     line: String,
     /// The tick after which it had come.

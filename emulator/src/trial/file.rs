@@ -67,7 +67,6 @@ pub(super) struct Part {
     pub(super) rest_us: u16,
     /// So often it has a new reading; none: in each frame.
     pub(super) update_hz: Option<u16>,
-    /// What it reports in its error word.
     pub(super) report: u16,
 }
 

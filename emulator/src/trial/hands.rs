@@ -32,7 +32,6 @@ const fn wrong_sensor(what: &What) -> Option<Wrong> {
 /// The encoder's cable, and the motor's two wires.
 const WIRES: [Wire; 2] = [Wire::Encoder, Wire::Windings];
 
-/// What is so at the board itself.
 #[derive(Debug, Clone, Copy, Default)]
 struct AtBoard {
     is_pressed: bool,
@@ -97,13 +96,10 @@ impl Around {
     }
 }
 
-/// Does what the events say.
 #[derive(Debug)]
 pub(crate) struct Hands {
-    /// The scene's own sensor.
     own: Part,
     events: Vec<Event>,
-    /// Of each side.
     around: Vec<Around>,
     at_board: AtBoard,
     /// In this tick power has gone.

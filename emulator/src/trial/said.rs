@@ -26,7 +26,6 @@ pub(super) struct Listed {
     /// Of a fault or a limit.
     pub(super) number: Option<u8>,
     pub(super) name: Option<String>,
-    /// The whole line.
     pub(super) text: String,
 }
 
