@@ -6,22 +6,18 @@ mod behind;
 #[cfg(feature = "probe")]
 mod brown_out;
 #[cfg(feature = "probe")]
-mod debug_unit;
-#[cfg(feature = "probe")]
 mod find;
 #[cfg(feature = "probe")]
 mod flash;
 #[cfg(feature = "probe")]
 mod memory;
-#[cfg(feature = "probe")]
-mod seen;
 #[cfg(not(feature = "probe"))]
 mod without;
 
 #[cfg(not(feature = "probe"))]
 pub(crate) use without::{flash, is_there, open, seen};
 #[cfg(feature = "probe")]
-pub(crate) use {behind::open, find::is_there, flash::flash, seen::seen};
+pub(crate) use {behind::open, find::is_there, find::seen, flash::flash};
 
 /// A probe on USB, as far as it is seen without the chip behind it.
 #[derive(Debug, Clone, PartialEq, Eq)]

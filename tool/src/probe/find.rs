@@ -1,12 +1,17 @@
-//! Finding the probe that is meant.
+//! Finding the probe that is meant; which there are, the chips behind them, and what runs in those.
 
 use host_sim::Error;
 use probe_rs::probe::Probe;
 use probe_rs::probe::list::{Accessibility, Lister, ProbeListItem};
 
 use super::SeenProbe;
+use super::behind::Behind;
+use super::memory::MemoryPort;
+use crate::configuration::RunsBy;
+use crate::conversation::Conversation;
+use crate::source::{BoardName, Laying};
 
-pub(super) fn seen_as(item: &ProbeListItem) -> SeenProbe {
+fn seen_as(item: &ProbeListItem) -> SeenProbe {
     SeenProbe {
         name: item.info.identifier.clone(),
         serial: item.info.serial_number.clone().unwrap_or_default(),
@@ -58,6 +63,39 @@ fn chosen(seen: &[SeenProbe], selector: &str) -> Result<usize, String> {
         )),
         (Some(n), None) => Ok(n),
     }
+}
+
+/// All probes on USB, and the chips behind those that may be opened.
+#[allow(
+    clippy::unnecessary_wraps,
+    reason = "without probe-rs nothing can be seen"
+)]
+pub(crate) fn seen(board: BoardName) -> Result<Vec<SeenProbe>, String> {
+    let mut all = Vec::new();
+    for item in Lister::new().list_all_with_access() {
+        let mut probe = seen_as(&item);
+        if probe.may_open {
+            let chip = item.info.open().map_err(|error| error.to_string());
+            let chip = chip.and_then(|open| {
+                let mut memory = MemoryPort::of(open).map_err(|error| error.to_string())?;
+                memory.chip_id(board).map_err(|error| error.to_string())
+            });
+            if chip == Ok(board.board().chip_id) {
+                probe.module = runs(&item, board).ok();
+            }
+            probe.chip = chip;
+        }
+        all.push(probe);
+    }
+    Ok(all)
+}
+
+fn runs(item: &ProbeListItem, board: BoardName) -> Result<String, Error> {
+    let probe = item.info.open();
+    let probe = probe.map_err(|error| Error::Work(error.to_string()))?;
+    let module = Behind::new(probe, board, None, Laying::by(None))?;
+    let runs_by = RunsBy::ask(&mut Conversation::new(Box::new(module)))?;
+    Ok(runs_by.to_string())
 }
 
 #[cfg(test)]

@@ -44,11 +44,8 @@ pub(crate) fn flash(
         )),
     }
     let mut session = program(selector, board, elf, verbosity)?;
-    let level = if keeps_brown_out || board != BoardName::NucleoF446re {
-        None
-    } else {
-        Some(brown_out(&mut session)?)
-    };
+    let raises = board == BoardName::NucleoF446re && !keeps_brown_out;
+    let level = raises.then(|| brown_out(&mut session)).transpose()?;
     // Last, and by the memory port: letting go of the core halts it once more.
     drop(session);
     let mut memory = MemoryPort::of(find::open(selector)?)?;
@@ -87,7 +84,11 @@ fn program(
     let mut session = session.map_err(|error| failed("the core cannot be halted", &error))?;
     let loader = build_loader(&mut session, elf, ElfLoader(ElfOptions::default()), None);
     let loader = loader.map_err(|error| Error::file(elf, chain(&error)))?;
-    let mut bars = Bars::new(verbosity);
+    let mut bars = Bars {
+        verbosity,
+        totals: [0; 3],
+        now: None,
+    };
     let mut options = DownloadOptions::new();
     options.verify = true;
     options.progress = FlashProgress::new(|event| bars.take(&event));
@@ -131,14 +132,6 @@ struct Bars {
 
 impl Bars {
     const NAMES: [&str; 3] = ["erasing", "programming", "comparing"];
-
-    const fn new(verbosity: Verbosity) -> Self {
-        Self {
-            verbosity,
-            totals: [0; 3],
-            now: None,
-        }
-    }
 
     const fn step(operation: ProgressOperation) -> Option<usize> {
         match operation {
