@@ -2,7 +2,6 @@
 
 mod checks;
 mod facts;
-mod usb;
 
-pub(crate) use checks::{Purpose, checks, is_well};
+pub(crate) use checks::{Purpose, checks};
 pub(crate) use facts::Facts;

@@ -3,7 +3,7 @@
 use clap::Args;
 use host_sim::{Error, report};
 
-use crate::doctor::{Facts, Purpose, checks, is_well};
+use crate::doctor::{Facts, Purpose, checks};
 use crate::source::BoardName;
 
 #[derive(Debug, Args)]
@@ -19,8 +19,8 @@ pub(crate) struct Arguments {
 pub(crate) fn doctor(arguments: &Arguments) -> Result<(), Error> {
     let facts = Facts::gather(arguments.board);
     let checks = checks(&facts, arguments.board, &arguments.purposes);
-    checks.iter().for_each(report::say);
-    if is_well(&checks) {
+    checks.lines.iter().for_each(report::say);
+    if checks.is_well {
         return Ok(());
     }
     let fault = "something is missing; after a colon stands what mends it";

@@ -1,6 +1,6 @@
 //! What is missing, by what was found, and the command that mends it.
 
-use std::fmt::{self, Display};
+use std::fmt::Display;
 
 use clap::ValueEnum;
 
@@ -19,30 +19,6 @@ pub(crate) enum Purpose {
     Port,
 }
 
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub(crate) struct Check {
-    what: String,
-    mend: Option<String>,
-    is_needed: bool,
-}
-
-impl Display for Check {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self { what, mend, .. } = self;
-        match mend {
-            None => write!(f, "ok       {what}"),
-            Some(mend) if self.is_needed => write!(f, "missing  {what}: {mend}"),
-            Some(mend) => write!(f, "absent   {what} (not needed here): {mend}"),
-        }
-    }
-}
-
-pub(crate) fn is_well(checks: &[Check]) -> bool {
-    checks
-        .iter()
-        .all(|check| check.mend.is_none() || !check.is_needed)
-}
-
 /// Free room for a first build of host-sim and of this program, which took 1.3 GiB (`du -sm target`
 /// after `cargo build -p host-sim` and `-p whisker`), and of a board's program, some hundred MiB;
 /// and for what speaks to probes besides, an estimate. GiB.
@@ -55,30 +31,34 @@ const RULES: &str = "echo 'SUBSYSTEM==\"usb\", ATTR{idVendor}==\"0483\", MODE=\"
                      /etc/udev/rules.d/69-whisker.rules && sudo udevadm control --reload && \
                      sudo udevadm trigger";
 
-struct List {
-    checks: Vec<Check>,
+/// A line for each check, and whether all is there that is needed.
+pub(crate) struct Checks {
+    pub(crate) lines: Vec<String>,
+    pub(crate) is_well: bool,
     is_needed: bool,
 }
 
-impl List {
-    fn put(&mut self, what: impl Into<String>, is_there: bool, mend: impl Into<String>) {
-        self.checks.push(Check {
-            what: what.into(),
-            mend: (!is_there).then(|| mend.into()),
-            is_needed: self.is_needed,
+impl Checks {
+    fn put(&mut self, what: impl Display, is_there: bool, mend: impl Display) {
+        self.lines.push(match (is_there, self.is_needed) {
+            (true, _) => format!("ok       {what}"),
+            (false, true) => format!("missing  {what}: {mend}"),
+            (false, false) => format!("absent   {what} (not needed here): {mend}"),
         });
+        self.is_well &= is_there || !self.is_needed;
     }
 
-    fn found(&mut self, what: impl Into<String>) {
+    fn found(&mut self, what: impl Display) {
         self.put(what, true, "");
     }
 }
 
 /// All checks for these purposes; without any, for all of them.
-pub(crate) fn checks(facts: &Facts, board: BoardName, purposes: &[Purpose]) -> Vec<Check> {
+pub(crate) fn checks(facts: &Facts, board: BoardName, purposes: &[Purpose]) -> Checks {
     let is_for = |purpose| purposes.is_empty() || purposes.contains(&purpose);
-    let mut list = List {
-        checks: Vec::new(),
+    let mut list = Checks {
+        lines: Vec::new(),
+        is_well: true,
         // A release builds nothing.
         is_needed: workspace().is_some(),
     };
@@ -89,17 +69,14 @@ pub(crate) fn checks(facts: &Facts, board: BoardName, purposes: &[Purpose]) -> V
     probes(facts, board, &mut list);
     list.is_needed = is_for(Purpose::Port);
     ports(facts, &mut list);
-    list.checks
+    list
 }
 
-fn toolchain(facts: &Facts, list: &mut List) {
+fn toolchain(facts: &Facts, list: &mut Checks) {
+    let install = "curl --proto '=https' --tlsv1.2 -sSf https://sh.rustup.rs | sh";
     match &facts.rustup {
         Some(version) => list.found(format!("rustup {version}")),
-        None => list.put(
-            "rustup",
-            false,
-            "curl --proto '=https' --tlsv1.2 -sSf https://sh.rustup.rs | sh",
-        ),
+        None => list.put("rustup", false, install),
     }
     let toolchain = &facts.toolchain;
     let begins = format!("{toolchain}-");
@@ -119,7 +96,7 @@ fn toolchain(facts: &Facts, list: &mut List) {
     }
 }
 
-fn room(facts: &Facts, needed_gib: u64, list: &mut List) {
+fn room(facts: &Facts, needed_gib: u64, list: &mut Checks) {
     let Some(free) = facts.free_mib else {
         return list.found(format!(
             "free disk, which is unknown here (needed: {needed_gib} GiB)"
@@ -135,7 +112,7 @@ fn room(facts: &Facts, needed_gib: u64, list: &mut List) {
 
 const PLUG_IN: &str = "plug the board in by its ST-LINK socket, with a cable that carries data";
 
-fn probes(facts: &Facts, board: BoardName, list: &mut List) {
+fn probes(facts: &Facts, board: BoardName, list: &mut Checks) {
     let seen = match &facts.probes {
         Ok(probes) => probes,
         Err(why) => return list.put("debug probe", false, why),
@@ -167,20 +144,19 @@ fn probes(facts: &Facts, board: BoardName, list: &mut List) {
     }
 }
 
-fn chip(probe: &SeenProbe, board: BoardName, list: &mut List) {
+fn chip(probe: &SeenProbe, board: BoardName, list: &mut Checks) {
     let Board { chip, chip_id, .. } = board.board();
     match &probe.chip {
         Ok(found) if *found == chip_id => list.found(format!("chip {chip}")),
-        Ok(found) => list.put(
-            format!("chip {chip} (found identity {found:#05x})"),
-            false,
-            "--board says which board it is",
-        ),
+        Ok(found) => {
+            let found = format!("chip {chip} (found identity {found:#05x})");
+            list.put(found, false, "--board says which board it is");
+        }
         Err(why) => list.put(format!("chip {chip}"), false, why),
     }
 }
 
-fn ports(facts: &Facts, list: &mut List) {
+fn ports(facts: &Facts, list: &mut Checks) {
     if !facts.is_linux {
         list.found("serial port, which is looked for on Linux alone");
     } else if facts.ports.is_empty() {

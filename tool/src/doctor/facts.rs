@@ -1,8 +1,10 @@
-//! What is found on this PC.
+//! What is found on this PC. On USB only Linux says what there is: elsewhere devices need no
+//! permission, and none is found.
 
+use std::fs;
+use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use super::usb::{SerialPort, has_rules, serial_ports};
 use crate::probe::{SeenProbe, seen};
 use crate::source::{BoardName, workspace};
 
@@ -79,19 +81,112 @@ fn pinned(file: &str) -> (String, Vec<String>) {
 }
 
 fn free_mib(said: &str) -> Option<u64> {
-    let kib: u64 = said
-        .lines()
-        .nth(1)?
-        .split_whitespace()
-        .nth(3)?
-        .parse()
-        .ok()?;
-    Some(kib / 1024)
+    let kib = said.lines().nth(1)?.split_whitespace().nth(3)?;
+    Some(kib.parse::<u64>().ok()? / 1024)
 }
 
-#[cfg(test)]
+/// Who makes ST-LINKs, as USB has it.
+const ST: &str = "0483";
+
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(crate) struct SerialPort {
+    pub(crate) path: PathBuf,
+    pub(crate) may_open: bool,
+}
+
+fn serial_ports() -> Vec<SerialPort> {
+    ports_in(Path::new("/sys/class/tty"), Path::new("/dev"))
+}
+
+fn ports_in(class: &Path, devices: &Path) -> Vec<SerialPort> {
+    let entries = fs::read_dir(class).into_iter().flatten().flatten();
+    let mut names: Vec<_> = entries.map(|entry| entry.file_name()).collect();
+    names.sort();
+    let is_st = |name: &std::ffi::OsString| {
+        // The port is of an interface, whose parent is the device.
+        let Ok(interface) = fs::canonicalize(class.join(name).join("device")) else {
+            return false;
+        };
+        let maker = interface.parent().map(|device| device.join("idVendor"));
+        let maker = maker.and_then(|file| fs::read_to_string(file).ok());
+        maker.is_some_and(|maker| maker.trim() == ST)
+    };
+    let ports = names.iter().filter(|name| is_st(name));
+    let ports = ports.map(|name| devices.join(name));
+    let both = fs::File::options().read(true).write(true).clone();
+    let ports = ports.map(|path| SerialPort {
+        may_open: both.open(&path).is_ok(),
+        path,
+    });
+    ports.collect()
+}
+
+/// Whether rules of udev are there that let a user open an ST-LINK.
+fn has_rules() -> bool {
+    let folders = ["/etc", "/usr/lib", "/lib"].map(|folder| Path::new(folder).join("udev/rules.d"));
+    folders.iter().any(|folder| rules_in(folder))
+}
+
+/// Whether one of the folder's files has a rule for devices of that maker that gives them away.
+fn rules_in(folder: &Path) -> bool {
+    let entries = fs::read_dir(folder).into_iter().flatten().flatten();
+    let mut texts = entries.filter_map(|entry| fs::read_to_string(entry.path()).ok());
+    let gives = |line: &str| {
+        let line = line.trim();
+        !line.starts_with('#')
+            && line.contains("idVendor")
+            && line.contains(ST)
+            && (line.contains("uaccess") || line.contains("MODE") || line.contains("GROUP"))
+    };
+    texts.any(|text| text.lines().any(gives))
+}
+
+#[cfg(all(test, unix))]
 mod tests {
-    use super::free_mib;
+    use std::fs;
+    use std::os::unix::fs::symlink;
+
+    use super::{free_mib, ports_in, rules_in};
+
+    #[test]
+    fn a_port_is_found_by_the_maker_of_its_device() {
+        let folder = tempfile::tempdir().unwrap();
+        let at = |name: &str| folder.path().join(name);
+        for (device, port, maker) in [("1-1", "ttyACM0", "0483"), ("1-2", "ttyACM1", "2341")] {
+            let interface = at(&format!("usb/{device}/{device}:1.2"));
+            fs::create_dir_all(&interface).unwrap();
+            fs::write(at(&format!("usb/{device}/idVendor")), format!("{maker}\n")).unwrap();
+            fs::create_dir_all(at(&format!("class/{port}"))).unwrap();
+            symlink(&interface, at(&format!("class/{port}/device"))).unwrap();
+        }
+        // A console, which has no device.
+        fs::create_dir_all(at("class/tty0")).unwrap();
+        fs::create_dir_all(at("dev")).unwrap();
+        let found = ports_in(&at("class"), &at("dev"));
+        assert_eq!(found.len(), 1);
+        assert_eq!(found[0].path, at("dev/ttyACM0"));
+        assert!(!found[0].may_open, "there is no such file");
+        fs::write(at("dev/ttyACM0"), "").unwrap();
+        assert!(ports_in(&at("class"), &at("dev"))[0].may_open);
+        assert_eq!(ports_in(&at("none"), &at("dev")), []);
+    }
+
+    #[test]
+    fn a_rule_must_give_devices_of_that_maker_away() {
+        let gives = |rule: &str| {
+            let folder = tempfile::tempdir().unwrap();
+            fs::write(folder.path().join("69-some.rules"), format!("{rule}\n")).unwrap();
+            rules_in(folder.path())
+        };
+        assert!(gives(
+            r#"ATTRS{idVendor}=="0483", MODE="660", TAG+="uaccess""#
+        ));
+        assert!(!gives(r#"# ATTRS{idVendor}=="0483", MODE="660""#));
+        assert!(!gives(
+            r#"ATTRS{idVendor}=="0483", ENV{ID_MM_DEVICE_IGNORE}="1""#
+        ));
+        assert!(!gives(r#"ATTRS{idVendor}=="2341", MODE="666""#));
+    }
 
     #[test]
     fn free_room_is_the_fourth_column() {
