@@ -23,6 +23,7 @@ const FLAGS: [(&str, Flags); 10] = [
     ("lost", Flags::LOST),
 ];
 
+const SIDE: &str = "side";
 const NUMBERS: [&str; 10] = [
     "sequence",
     "t_s",
@@ -36,12 +37,7 @@ const NUMBERS: [&str; 10] = [
     "contact",
 ];
 
-const SIDE: &str = "side";
-
 const FULL: f32 = 32767.0;
-
-/// What is above the table: ticks a second.
-pub(crate) use host_sim::origin::TICK_HZ;
 
 /// The columns of numbers of a record at a time, s, as text; the side is a name.
 fn numbers(record: &TickRecord, t_s: f64) -> [String; NUMBERS.len()] {
@@ -104,7 +100,7 @@ pub(crate) struct RecordWriter<W: Write> {
 impl<W: Write> RecordWriter<W> {
     /// Writes what is above the first row; `tick_hz` are the module's ticks a second.
     pub(crate) fn new(mut to: W, origin: Origin, tick_hz: u32) -> io::Result<Self> {
-        origin.with(TICK_HZ, tick_hz).write(&mut to)?;
+        origin.with(origin::TICK_HZ, tick_hz).write(&mut to)?;
         let mut table = csv::Writer::from_writer(to);
         let flags = FLAGS.iter().map(|(name, _)| *name);
         table.write_record(NUMBERS.into_iter().chain(flags))?;
@@ -260,6 +256,13 @@ mod tests {
 
     #[test]
     fn what_is_written_is_read() {
+        let flags = |n: u16| {
+            let flags = FLAGS.iter().enumerate();
+            let right = Flags::RIGHT.when(n & 1 > 0);
+            flags.fold(right, |all, (bit, (_, flag))| {
+                all | flag.when(n >> bit & 1 > 0)
+            })
+        };
         let records: Vec<TickRecord> = (0..=u16::MAX)
             .step_by(17)
             .map(|n| TickRecord {
@@ -271,12 +274,7 @@ mod tests {
                 duty: n.cast_signed().max(-32767),
                 z: n.cast_signed().wrapping_mul(3),
                 contact: n.cast_signed().wrapping_add(99),
-                flags: FLAGS
-                    .iter()
-                    .enumerate()
-                    .fold(Flags::RIGHT.when(n & 1 > 0), |all, (bit, (_, flag))| {
-                        all | flag.when(n >> bit & 1 > 0)
-                    }),
+                flags: flags(n),
             })
             .collect();
         let kept = read(&written(&records)).unwrap();
@@ -294,18 +292,13 @@ mod tests {
         assert_eq!(fault("left,0,", "left,16384,"), "line 4: x is \"16384\"");
         assert_eq!(fault(",duty", ",force"), "line 3: no column \"duty\"");
         assert!(fault("= 2000", "= 0").starts_with("tick_hz is"));
-        assert_eq!(
-            fault(",0\n", ",foo\n"),
-            "line 4: lost is \"foo\", allowed: 0 or 1"
-        );
+        let truth = "line 4: lost is \"foo\", allowed: 0 or 1";
+        assert_eq!(fault(",0\n", ",foo\n"), truth);
         assert_eq!(fault(",0\n", "\n"), "line 4: 19 cells; the header has 20");
         for (no, yes) in [("0.0", "1.0"), ("False", "True")] {
             let others = text.replace(",0\n", &format!(",{yes}\n"));
-            let others = others.replacen(
-                ",0,0,0,0,0,0,0,0,0,",
-                &format!(",0,0,0{},", format!(",{no}").repeat(6)),
-                1,
-            );
+            let flags = format!(",0,0,0{},", format!(",{no}").repeat(6));
+            let others = others.replacen(",0,0,0,0,0,0,0,0,0,", &flags, 1);
             let flags = read(others.as_bytes()).unwrap().records[0].flags;
             assert_eq!(flags, Flags::LOST, "{others}");
         }

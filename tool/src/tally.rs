@@ -64,10 +64,6 @@ impl Tally {
 
     pub(crate) fn take(&mut self, record: &TickRecord) -> Before {
         self.records += 1;
-        self.before(record)
-    }
-
-    fn before(&mut self, record: &TickRecord) -> Before {
         let side = side(record);
         let last = self.last[side].replace(record.sequence);
         if std::mem::take(&mut self.again[side]) {
@@ -88,7 +84,9 @@ impl Tally {
             }
             _ => {
                 self.restart();
-                self.before(record)
+                self.last[side] = Some(record.sequence);
+                self.again[side] = false;
+                Before::Restart
             }
         }
     }
@@ -106,7 +104,6 @@ pub(crate) struct TickTime {
 const LATE: u32 = 64;
 
 impl TickTime {
-    /// Those of this number, the next that comes.
     pub(crate) fn take(&mut self, sequence: u32) -> u64 {
         let last = self.last.unwrap_or(sequence);
         let back = last.wrapping_sub(sequence);
@@ -174,20 +171,21 @@ mod tests {
     #[test]
     fn sides_are_counted_apart_and_numbers_wrap() {
         let mut tally = Tally::default();
-        let mut take = |sequence, flags| tally.take(&record(sequence, flags));
         let (left, right) = (Flags::default(), Flags::RIGHT);
-        assert_eq!(take(u32::MAX, left), Before::Nothing);
-        assert_eq!(take(u32::MAX, right), Before::Nothing);
-        assert_eq!(take(0, left), Before::Nothing);
-        assert_eq!(take(2, right), Before::Lost(2));
-        assert_eq!(take(1, left), Before::Nothing);
-        assert_eq!(take(1, left), Before::Restart);
-        assert_eq!((tally.records, tally.lost, tally.restarts), (6, 2, 1));
-        // The same start.
-        let mut take = |sequence, flags| tally.take(&record(sequence, flags));
-        assert_eq!(take(1, right), Before::Restart);
-        assert_eq!(take(2, right), Before::Nothing);
-        assert_eq!((tally.lost, tally.restarts), (2, 1));
+        for (sequence, flags, before) in [
+            (u32::MAX, left, Before::Nothing),
+            (u32::MAX, right, Before::Nothing),
+            (0, left, Before::Nothing),
+            (2, right, Before::Lost(2)),
+            (1, left, Before::Nothing),
+            (1, left, Before::Restart),
+            // The same start.
+            (1, right, Before::Restart),
+            (2, right, Before::Nothing),
+        ] {
+            assert_eq!(tally.take(&record(sequence, flags)), before);
+        }
+        assert_eq!((tally.records, tally.lost, tally.restarts), (8, 2, 1));
         // Of the left side 2 to 4, of the right 3 and 4.
         tally.end(5);
         assert_eq!(tally.lost, 7);

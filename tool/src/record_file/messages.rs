@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use std::io;
 
 use firmware::{Event, EventRecord, Packet};
-use host_sim::origin::Origin;
+use host_sim::origin::{self, Origin};
 use host_sim::output::Output;
 use host_sim::{decisions, report};
 use mcap::records::{MessageHeader, Metadata};
@@ -13,7 +13,7 @@ use mcap::write::NoSeek;
 use mcap::{McapError, WriteOptions, Writer};
 use serde_json::{Value, json};
 use tactile::{Pose, Reason};
-use wire::{Answer, TickRecord};
+use wire::TickRecord;
 
 use crate::faults::number;
 use crate::table;
@@ -33,7 +33,7 @@ pub(super) struct Messages {
     classes: Vec<String>,
 }
 
-/// Places among [`channels`], behind the records of the left and of the right.
+/// Places among [`CHANNELS`], behind the records of the left and of the right.
 const ANSWERS: usize = 2;
 const DECISIONS: usize = 3;
 const POSES: usize = 4;
@@ -52,20 +52,20 @@ impl Messages {
             .compression(None)
             .library(concat!("whisker ", env!("CARGO_PKG_VERSION")));
         let mut writer = options.create(NoSeek::new(output)).map_err(failed)?;
-        let origin = origin.clone().with(table::TICK_HZ, tick_hz);
+        let origin = origin.clone().with(origin::TICK_HZ, tick_hz);
         let metadata = origin.iter().map(|(key, value)| (key.into(), value.into()));
-        writer
-            .write_metadata(&Metadata {
-                name: "origin".to_owned(),
-                metadata: metadata.collect(),
-            })
-            .map_err(failed)?;
-        let channel = |(topic, schema, properties): (&str, &str, Value)| {
-            let schema_text = json!({"type": "object", "properties": properties}).to_string();
+        let metadata = Metadata {
+            name: "origin".to_owned(),
+            metadata: metadata.collect(),
+        };
+        writer.write_metadata(&metadata).map_err(failed)?;
+        let schemas = schemas();
+        let channel = |(topic, schema)| {
+            let schema_text = json!({"type": "object", "properties": schemas[schema]}).to_string();
             let schema = writer.add_schema(schema, "jsonschema", schema_text.as_bytes())?;
             writer.add_channel(schema, topic, "json", &BTreeMap::new())
         };
-        let channels = channels().into_iter().map(channel);
+        let channels = CHANNELS.into_iter().map(channel);
         let channels = channels.collect::<Result<_, _>>().map_err(failed)?;
         Ok(Self {
             writer,
@@ -82,7 +82,14 @@ impl Messages {
         match packet {
             Packet::Record(record) => self.record(record),
             Packet::Answer(answer) => {
-                let message = answer_message(answer, self.t_s(answer.sequence));
+                let message = json!({
+                    "t_s": self.t_s(answer.sequence),
+                    "tag": answer.tag,
+                    "command": answer.command,
+                    "status": answer.status.code(),
+                    "said": answer.status.to_string(),
+                    "values": answer.values,
+                });
                 self.write(ANSWERS, message.to_string().as_bytes())
             }
             Packet::Event(event) => self.event(event),
@@ -194,92 +201,69 @@ fn failed(error: McapError) -> io::Error {
     }
 }
 
-fn answer_message(answer: &Answer, t_s: f64) -> Value {
-    json!({
-        "t_s": t_s,
-        "tag": answer.tag,
-        "command": answer.command,
-        "status": answer.status.code(),
-        "said": answer.status.to_string(),
-        "values": answer.values,
-    })
-}
+/// Topic and schema of each channel; the log's is the one that Foxglove's panel of logs reads.
+const CHANNELS: [(&str, &str); 7] = [
+    ("/left/records", "whisker.Record"),
+    ("/right/records", "whisker.Record"),
+    ("/answers", "whisker.Answer"),
+    ("/decisions", "whisker.Decision"),
+    ("/poses", "whisker.Pose"),
+    ("/events", "whisker.Event"),
+    ("/log", "foxglove.Log"),
+];
 
-/// Topic, schema, and what is in its messages, of each channel.
-fn channels() -> [(&'static str, &'static str, Value); 7] {
-    let record = table::schema();
-    [
-        ("/left/records", "whisker.Record", record.clone()),
-        ("/right/records", "whisker.Record", record),
-        (
-            "/answers",
-            "whisker.Answer",
-            json!({
-                "t_s": {"type": "number", "description": "when it was carried out, s"},
-                "tag": {"type": "integer", "description": "that of the request"},
-                "command": {"type": "integer", "description": "its number (docs/protocol.md)"},
-                "status": {"type": "integer", "description": "0 done, otherwise refused"},
-                "said": {"type": "string", "description": "the status in words"},
-                "values": {"type": "array", "items": {"type": "integer"}},
-            }),
-        ),
-        (
-            "/decisions",
-            "whisker.Decision",
-            json!({
-                "t_s": {"type": "number", "description": "when it fell, s"},
-                "side": {"type": "string"},
-                "decision": {"type": "string", "description": "the class, or unknown"},
-                "posterior": {"type": "number", "description": "its probability, 0 to 1"},
-                "samples": {"type": "integer", "description": "samples that it used"},
-                "reason": {
-                    "type": "string",
-                    "description": "why no class is named: unknown, pose or between; otherwise empty",
-                },
-                "among": {
-                    "type": "array",
-                    "items": {"type": "string"},
-                    "description": "the two classes of between, the likelier one first; otherwise empty",
-                },
-            }),
-        ),
-        (
-            "/poses",
-            "whisker.Pose",
-            json!({
-                "t_s": {"type": "number", "description": "when its decision fell, s"},
-                "side": {"type": "string"},
-                "tilt_deg": {"type": "number", "description": "tilt of what was named"},
-                "tilt_error_deg": {"type": "number", "description": "root mean square of its error"},
-                "depth_deg": {"type": "number", "description": "depth of contact"},
-                "depth_error_deg": {"type": "number", "description": "root mean square of its error"},
-            }),
-        ),
-        (
-            "/events",
-            "whisker.Event",
-            json!({
-                "t_s": {"type": "number", "description": "when it was, s"},
-                "fault": {"type": "integer", "description": "its number (docs/faults.md); 0: none"},
-                "said": {"type": "string", "description": "what (docs/protocol.md)"},
-            }),
-        ),
-        // The one that Foxglove's panel of logs reads.
-        (
-            "/log",
-            "foxglove.Log",
-            json!({
-                "timestamp": {
-                    "type": "object",
-                    "title": "time",
-                    "properties": {"sec": {"type": "integer"}, "nsec": {"type": "integer"}},
-                },
-                "level": {"type": "integer", "description": "1 debug, 2 info, 3 warning, 4 error"},
-                "message": {"type": "string"},
-                "name": {"type": "string"},
-                "file": {"type": "string"},
-                "line": {"type": "integer"},
-            }),
-        ),
-    ]
+/// What is in the messages of each schema.
+fn schemas() -> Value {
+    json!({
+        "whisker.Record": table::schema(),
+        "whisker.Answer": {
+            "t_s": {"type": "number", "description": "when it was carried out, s"},
+            "tag": {"type": "integer", "description": "that of the request"},
+            "command": {"type": "integer", "description": "its number (docs/protocol.md)"},
+            "status": {"type": "integer", "description": "0 done, otherwise refused"},
+            "said": {"type": "string", "description": "the status in words"},
+            "values": {"type": "array", "items": {"type": "integer"}},
+        },
+        "whisker.Decision": {
+            "t_s": {"type": "number", "description": "when it fell, s"},
+            "side": {"type": "string"},
+            "decision": {"type": "string", "description": "the class, or unknown"},
+            "posterior": {"type": "number", "description": "its probability, 0 to 1"},
+            "samples": {"type": "integer", "description": "samples that it used"},
+            "reason": {
+                "type": "string",
+                "description": "why no class is named: unknown, pose or between; otherwise empty",
+            },
+            "among": {
+                "type": "array",
+                "items": {"type": "string"},
+                "description": "the two classes of between, the likelier one first; otherwise empty",
+            },
+        },
+        "whisker.Pose": {
+            "t_s": {"type": "number", "description": "when its decision fell, s"},
+            "side": {"type": "string"},
+            "tilt_deg": {"type": "number", "description": "tilt of what was named"},
+            "tilt_error_deg": {"type": "number", "description": "root mean square of its error"},
+            "depth_deg": {"type": "number", "description": "depth of contact"},
+            "depth_error_deg": {"type": "number", "description": "root mean square of its error"},
+        },
+        "whisker.Event": {
+            "t_s": {"type": "number", "description": "when it was, s"},
+            "fault": {"type": "integer", "description": "its number (docs/faults.md); 0: none"},
+            "said": {"type": "string", "description": "what (docs/protocol.md)"},
+        },
+        "foxglove.Log": {
+            "timestamp": {
+                "type": "object",
+                "title": "time",
+                "properties": {"sec": {"type": "integer"}, "nsec": {"type": "integer"}},
+            },
+            "level": {"type": "integer", "description": "1 debug, 2 info, 3 warning, 4 error"},
+            "message": {"type": "string"},
+            "name": {"type": "string"},
+            "file": {"type": "string"},
+            "line": {"type": "integer"},
+        },
+    })
 }
