@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
 
-use crate::common::{Place, scenes};
+use crate::common::{Place, scene};
 
 /// The program of the bench's scene, which is built by the first that asks for it.
 fn program() -> &'static Path {
@@ -24,12 +24,8 @@ fn program() -> &'static Path {
 /// The command line of these steps of a bring-up that asks nothing, where this befalls the board.
 fn bringup(place: &Place, events: &[&str], steps: &str) -> String {
     let events = events.iter().map(|event| {
-        let at_s = if event.starts_with("at_s") {
-            ""
-        } else {
-            "at_s = 0.0\n"
-        };
-        format!("[[event]]\n{at_s}{event}\n")
+        let begins = ["at_s = 0.0\n", ""][usize::from(event.starts_with("at_s"))];
+        format!("[[event]]\n{begins}{event}\n")
     });
     place.write("befalls.toml", &events.collect::<Vec<_>>().concat());
     let program = program().display();
@@ -46,8 +42,7 @@ fn finds(events: &[&str], steps: &str, found: &[&str]) {
         ran.prints(found);
     }
     ran.prints(&format!("findings: {}\n", found.len()));
-    let json = place.text("seen.json");
-    assert!(json.contains("\"findings\""), "{json}");
+    place.holds("seen.json", "\"findings\"");
 }
 
 /// A hand that turns the whisker forward, which takes it for a moment.
@@ -73,39 +68,27 @@ fn a_board_that_is_well_passes_every_step() {
     }
     let json: serde_json::Value = serde_json::from_str(&place.text("seen.json")).unwrap();
     let steps = json["steps"].as_array().unwrap();
-    let names: Vec<&str> = steps
-        .iter()
-        .map(|step| step["step"].as_str().unwrap())
-        .collect();
-    let all = [
-        "module", "frames", "rest", "rate", "noise", "encoder", "motor",
-    ];
-    assert_eq!(names, all);
+    let names = steps.iter().map(|step| step["step"].as_str().unwrap());
+    let all = "module frames rest rate noise encoder motor";
+    assert!(names.eq(all.split(' ')), "{json}");
     assert_eq!(steps[1]["seen"]["sum_rule"], "b1-b6");
 }
 
 /// What is known of the sensor from one source or none: each is another than the board takes it for.
 #[test]
 fn a_sensor_that_is_another_than_guessed_is_found() {
-    for (part, found) in [
-        ("sum_rule = 'b0-b6'", &["sensor.sum_rule = \"b0-b6\""][..]),
-        (
-            "sum_rule = 'not-b1-b6'\nbyte_order = 'high-first'",
-            &[
-                "sensor.sum_rule = \"not-b1-b6\"",
-                "sensor.byte_order = \"high-first\"",
-            ],
-        ),
-        (
-            "sum_rule = 'not-b0-b6'\nwords = 'xyz'",
-            &["sensor.sum_rule = \"not-b0-b6\"", "sensor.words = \"xyz\""],
-        ),
-        ("report = 128", &["the sensor reports field too low"]),
-    ] {
-        finds(&[&format!("kind = 'sensor-part'\n{part}")], "frames", found);
-    }
-    let slow = "kind = 'sensor-part'\nupdate_hz = 500";
-    finds(&[slow], "rate", &["new readings a second: set tick_hz"]);
+    let part = |key: &str| format!("kind = 'sensor-part'\n{key}");
+    let keys = "sum_rule = 'not-b1-b6'\nbyte_order = 'high-first'\nwords = 'xyz'";
+    let found = [
+        "sensor.sum_rule = \"not-b1-b6\"",
+        "sensor.byte_order = \"high-first\"",
+        "sensor.words = \"xyz\"",
+    ];
+    finds(&[&part(keys)], "frames", &found);
+    let low = &["the sensor reports field too low"];
+    finds(&[&part("report = 128")], "frames", low);
+    let slow = &["new readings a second: set tick_hz"];
+    finds(&[&part("update_hz = 500")], "rate", slow);
 }
 
 #[test]
@@ -159,32 +142,37 @@ fn an_encoder_and_a_motor_that_are_the_wrong_way_round_are_found() {
     let exchange = &["exchange the motor's two wires: the encoder is right"];
     finds(&[reversed, SOON], "encoder,motor", exchange);
     let off = "kind = 'supply'\nvolts = 0.0";
-    finds(
-        &[off],
-        "motor",
-        &["the motor's supply and its emergency switch"],
-    );
+    let supply = &["the motor's supply and its emergency switch"];
+    finds(&[off], "motor", supply);
 }
 
 #[test]
 fn a_program_of_another_scene_is_refused() {
     let place = Place::new();
     let program = program().display();
-    let bench = std::fs::read_to_string(scenes("bench.toml")).unwrap();
+    let hz = "found tick_hz = 2000, allowed: 1000";
     for (from, to, why) in [
         ("\"bench\"", "\"other\"", "allowed: that of \"other\""),
-        (
-            "tick_hz    = 2000",
-            "tick_hz = 1000",
-            "found tick_hz = 2000, allowed: 1000",
-        ),
+        ("tick_hz    = 2000", "tick_hz = 1000", hz),
     ] {
-        place.write("other.toml", &bench.replace(from, to));
-        place.refuses(
-            &format!("log --emulated other.toml --program {program}"),
-            why,
-        );
+        place.write("other.toml", &scene("bench.toml").replace(from, to));
+        let log = format!("log --emulated other.toml --program {program}");
+        place.refuses(&log, why);
     }
+}
+
+/// A simulated sensor sends as its scene has it.
+#[test]
+fn a_sensor_is_held_against_the_scene_that_the_module_runs() {
+    let place = Place::new();
+    let keys = "[sensor]\nsum_rule = \"not-b0-b6\"\nbyte_order = \"high-first\"";
+    place.write(
+        "other.toml",
+        &scene("bench.toml").replacen("[sensor]", keys, 1),
+    );
+    let ran = place.done("bringup --sim other.toml --frames 60 --yes --steps frames");
+    ran.prints("sum rule not-b0-b6; ");
+    ran.prints("means: the sensor answers, as the scene has it\n");
 }
 
 #[test]
@@ -200,8 +188,6 @@ fn an_empty_keyboard_is_no_answer() {
     let ran = place.done("bringup --sim @bringup.toml --frames 60 --yes");
     ran.prints("not done: no yes was given");
     ran.prints("not done: no hand turns a simulated whisker");
-    place.refuses(
-        "bringup --sim @bringup.toml --scenario befalls.toml",
-        "cannot be used with",
-    );
+    let scenario = "bringup --sim @bringup.toml --scenario befalls.toml";
+    place.refuses(scenario, "cannot be used with");
 }

@@ -5,7 +5,7 @@ use std::fs;
 use host_sim::files::read_recording;
 use host_sim::recording::{CHANNELS, GATE, Stream};
 
-use crate::common::{OTHER, Place, bench_with};
+use crate::common::{OTHER, Place};
 
 fn recording(place: &Place, name: &str) -> Vec<Stream> {
     read_recording(&place.path(name), CHANNELS).unwrap()
@@ -13,16 +13,12 @@ fn recording(place: &Place, name: &str) -> Vec<Stream> {
 
 fn shape(streams: &[Stream]) -> Vec<(&str, &str, usize)> {
     let of = |stream: &Stream| {
-        let mut touches: Vec<_> = stream
-            .touches(GATE, 1)
-            .filter(|touch| *touch != 0)
-            .collect();
+        let touches = stream.touches(GATE, 1);
+        let mut touches: Vec<_> = touches.filter(|touch| *touch != 0).collect();
         touches.dedup();
         touches.len()
     };
-    let shape = streams
-        .iter()
-        .map(|s| (s.label.as_str(), s.trial.as_str(), of(s)));
+    let shape = streams.iter().map(|s| (&*s.label, &*s.trial, of(s)));
     shape.collect()
 }
 
@@ -32,15 +28,9 @@ fn labels_have_as_many_touches_as_were_asked_for() {
     let ran = place.done(
         "capture --sim bench.toml --label carpet --label floor=smooth --touches 7 --out c.csv",
     );
-    assert_eq!(
-        shape(&recording(&place, "c.csv")),
-        [
-            ("carpet", "0", 5),
-            ("carpet", "1", 2),
-            ("floor", "0", 5),
-            ("floor", "1", 2)
-        ]
-    );
+    let trials = |label| [(label, "0", 5), (label, "1", 2)];
+    let expected = ["carpet", "floor"].map(trials).concat();
+    assert_eq!(shape(&recording(&place, "c.csv")), expected);
     assert!(place.text("c.csv").starts_with(
         "# board = simulated\n# firmware = 0.1.0\n# scene = bench\n# tick_hz = 2000\n# side = left\nlabel,"
     ));
@@ -67,18 +57,11 @@ fn a_file_is_not_overwritten_but_gone_on_with() {
     place.done(&format!("{capture} --label carpet --touches 8 --resume"));
     let after = place.text("c.csv");
     assert!(after.starts_with(&before), "what was there has changed");
-    assert_eq!(
-        shape(&recording(&place, "c.csv")),
-        [
-            ("smooth", "0", 5),
-            ("smooth", "1", 1),
-            ("smooth", "2", 2),
-            ("carpet", "0", 5),
-            ("carpet", "1", 3)
-        ]
-    );
-    // Not the same touches again.
     let streams = recording(&place, "c.csv");
+    let smooth = [("smooth", "0", 5), ("smooth", "1", 1), ("smooth", "2", 2)];
+    let carpet = [("carpet", "0", 5), ("carpet", "1", 3)];
+    assert_eq!(shape(&streams), [&smooth[..], &carpet].concat());
+    // Not the same touches again.
     assert_ne!(streams[0].samples[..2000], streams[2].samples[..2000]);
 
     let ran = place.done(&format!("{capture} --touches 8 --resume"));
@@ -86,7 +69,7 @@ fn a_file_is_not_overwritten_but_gone_on_with() {
     assert_eq!(place.text("c.csv"), after);
 
     // Another module's touches do not belong there.
-    place.write("other.toml", &bench_with(&[OTHER]));
+    place.bench("other.toml", &[OTHER]);
     let other = "capture --sim other.toml --out c.csv --label felt=carpet --resume";
     place.refuses(other, "scene is bench, this one's is other");
     place.write("zero.toml", "zero_codes = [8190, 8200]\n");
@@ -106,18 +89,11 @@ fn a_file_has_several_poses() {
     place.done(&format!("{capture} --pose tilted --resume"));
     let streams = recording(&place, "c.csv");
     assert_eq!(shape(&streams), [("smooth", "0", 2), ("smooth", "1", 2)]);
-    let poses: Vec<_> = streams
-        .iter()
-        .map(|stream| stream.pose.as_deref())
-        .collect();
-    assert_eq!(poses, [Some("flat"), Some("tilted")]);
-    let stands: Vec<_> = streams.iter().map(|stream| stream.stands).collect();
-    assert_eq!(stands, [Some([-1.5, 20.0]), None]);
-    let other = format!("{capture} --pose other --resume --stands");
-    place.refuses(
-        &format!("{other} 3"),
-        "allowed: two numbers with a comma between them",
-    );
+    let poses = streams.iter().map(|of| (of.pose.as_deref(), of.stands));
+    let flat = (Some("flat"), Some([-1.5, 20.0]));
+    assert!(poses.eq([flat, (Some("tilted"), None)]));
+    let other = format!("{capture} --pose other --resume --stands 3");
+    place.refuses(&other, "allowed: two numbers with a comma between them");
     let ran = place.done(&format!("{capture} --pose flat --resume"));
     ran.prints("2 touches of each label already");
 }
@@ -126,7 +102,7 @@ fn a_file_has_several_poses() {
 fn where_nothing_is_touched_it_says_what_to_look_at() {
     let place = Place::new();
     // Out of reach.
-    place.write("far.toml", &bench_with(&[("[100.0]", "[150.0]")]));
+    place.bench("far.toml", &[("[100.0]", "[150.0]")]);
     let ran = place.fails("capture --sim far.toml --out c.csv --label smooth --patience 3");
     ran.warns("smooth: no touch in 3 s; is the sample within reach");
     assert!(!place.path("c.csv").exists());
@@ -136,7 +112,7 @@ fn where_nothing_is_touched_it_says_what_to_look_at() {
 #[test]
 fn a_sensor_at_its_ends_is_reported_at_once() {
     let place = Place::new();
-    place.write("stiff.toml", &bench_with(&[("ness = 0.1", "ness = 10.0")]));
+    place.bench("stiff.toml", &[("ness = 0.1", "ness = 10.0")]);
     let ran = place.done("capture --sim stiff.toml --out c.csv --label smooth --touches 3");
     ran.warns("smooth: x is at the end of its range");
 }
@@ -149,7 +125,7 @@ fn what_is_wrong_is_said_before_anything_is_captured() {
         ("textures", "#textures"),
         ("present_s", "#present_s"),
     ];
-    place.write("ideal.toml", &bench_with(&ideal));
+    place.bench("ideal.toml", &ideal);
     for (options, why) in [
         ("", "--label"),
         ("--label p240", "allowed: smooth, carpet"),

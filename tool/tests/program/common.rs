@@ -33,9 +33,9 @@ present_s = 1.0
 
 /// Changes to a whisker on each side, for [`bench_with`].
 pub(crate) const TWO_SIDES: &[(&str, &str)] = &[
-    ("sides = \"left\"", "sides = \"both\""),
-    ("start = [[1.0, 0.0]]", "start = [[1.0, 0.0], [1.0, 0.0]]"),
-    ("obstacle_deg = [100.0]", "obstacle_deg = [100.0, 100.0]"),
+    ("\"left\"", "\"both\""),
+    ("[[1.0, 0.0]]", "[[1.0, 0.0], [1.0, 0.0]]"),
+    ("[100.0]", "[100.0, 100.0]"),
 ];
 
 /// A change to another name, for [`bench_with`].
@@ -87,8 +87,31 @@ impl Place {
         std::fs::write(self.path(name), text).unwrap();
     }
 
+    /// [`BENCH`] with these changes, as a file.
+    pub(crate) fn bench(&self, name: &str, changes: &[(&str, &str)]) {
+        self.write(name, &bench_with(changes));
+    }
+
     pub(crate) fn text(&self, name: &str) -> String {
         std::fs::read_to_string(self.path(name)).unwrap()
+    }
+
+    pub(crate) fn bytes(&self, name: &str) -> Vec<u8> {
+        std::fs::read(self.path(name)).unwrap()
+    }
+
+    #[track_caller]
+    pub(crate) fn holds(&self, name: &str, text: &str) {
+        contains(&self.text(name), text);
+    }
+
+    /// The numbers of a column of a table of records.
+    pub(crate) fn column(&self, name: &str, column: &str) -> Vec<f64> {
+        let table = self.text(name);
+        let mut rows = table.lines().filter(|line| !line.starts_with('#'));
+        let at = rows.next().unwrap().split(',').position(|of| of == column);
+        let cells = rows.map(|row| row.split(',').nth(at.unwrap()).unwrap());
+        cells.map(|cell| cell.parse().unwrap()).collect()
     }
 
     pub(crate) fn run(&self, arguments: &str) -> Ran {
@@ -106,18 +129,21 @@ impl Place {
         }
     }
 
+    #[track_caller]
     pub(crate) fn done(&self, arguments: &str) -> Ran {
         let ran = self.run(arguments);
         assert_eq!(ran.status, Some(0), "{arguments}: {}", ran.stderr);
         ran
     }
 
+    #[track_caller]
     pub(crate) fn fails(&self, arguments: &str) -> Ran {
         let ran = self.run(arguments);
         assert_eq!(ran.status, Some(1), "{arguments}: {}", ran.stderr);
         ran
     }
 
+    #[track_caller]
     pub(crate) fn refuses(&self, arguments: &str, why: &str) {
         let ran = self.run(arguments);
         assert_eq!(ran.status, Some(2), "{arguments}: {}", ran.stderr);
@@ -127,11 +153,23 @@ impl Place {
 }
 
 impl Ran {
+    #[track_caller]
     pub(crate) fn prints(&self, text: &str) {
-        assert!(self.stdout.contains(text), "no {text:?}: {}", self.stdout);
+        contains(&self.stdout, text);
     }
 
+    #[track_caller]
     pub(crate) fn warns(&self, text: &str) {
-        assert!(self.stderr.contains(text), "no {text:?}: {}", self.stderr);
+        contains(&self.stderr, text);
     }
+}
+
+#[track_caller]
+pub(crate) fn contains(found: &str, text: &str) {
+    assert!(found.contains(text), "no {text:?}: {found}");
+}
+
+/// The text of a scene of the workspace.
+pub(crate) fn scene(name: &str) -> String {
+    std::fs::read_to_string(scenes(name)).unwrap()
 }

@@ -1,6 +1,6 @@
 //! `whisker deploy`, and what a module does that has a model deployed, or none.
 
-use crate::common::{OTHER, Place, TWO_SIDES, bench_with, scenes};
+use crate::common::{OTHER, Place, TWO_SIDES, bench_with, contains, scene, scenes};
 
 /// The bench in the world of the main job, and how its flash is kept.
 const IN_WORLD: &str = "--sim @bench.toml --world @textures.toml --flash board.flash";
@@ -19,11 +19,7 @@ fn a_model_that_is_deployed_decides_as_one_that_is_linked() {
     let without = log(IN_WORLD);
     let limit = "0.000 WARN  limit 34 no model to decide by (";
     assert!(without.starts_with(limit), "{without}");
-    let why = without.lines().nth(1).unwrap();
-    assert!(
-        why.starts_with("0.000 WARN  - none was deployed"),
-        "{without}"
-    );
+    contains(&without, "\n0.000 WARN  - none was deployed");
     assert!(without.contains("touch left 1") && !without.contains("decision"));
 
     let ran = place.done(DEPLOY);
@@ -52,21 +48,19 @@ fn a_model_that_is_deployed_decides_as_one_that_is_linked() {
 fn flash_that_was_not_written_whole_is_refused_at_the_start() {
     let place = Place::new();
     place.done(DEPLOY);
-    let whole = std::fs::read(place.path("board.flash")).unwrap();
+    let whole = place.bytes("board.flash");
     assert_eq!(whole.len(), 124 * 1024);
     let with = |at: usize, bytes: &[u8]| {
         let mut flash = whole.clone();
         flash[at..at + bytes.len()].copy_from_slice(bytes);
         flash
     };
+    let erased = "- none was deployed, or writing it was interrupted";
     for (flash, why) in [
         (with(1_000, &[!whole[1_000]]), "it is damaged"),
         (with(4, &[9]), "another version"),
         (with(3, &[0]), "is no model"),
-        (
-            with(0, &[0xFF; 8]),
-            "- none was deployed, or writing it was interrupted",
-        ),
+        (with(0, &[0xFF; 8]), erased),
     ] {
         std::fs::write(place.path("board.flash"), flash).unwrap();
         let log = place.done(&format!("log --seconds 0.1 {IN_WORLD}"));
@@ -87,21 +81,17 @@ fn what_does_not_fit_is_refused_before_anything_is_written() {
     place.refuses(&newer, "newer.model: model format version 4");
     assert!(!place.path("board.flash").exists());
 
-    let bench = std::fs::read_to_string(scenes("bench.toml")).unwrap();
+    let bench = scene("bench.toml");
     let least = bench.replace("[classifier]\n", "[classifier]\ncontact_min = 0.2\n");
     place.write("least.toml", &least);
     let window = bench.replace("\"sequential\"", "\"window\"\nwindow = 7");
     place.write("window.toml", &window);
+    let brings = "textures.toml:36: classifier.model: found, so the scene brings its model";
+    let least = "classifier.contact_min: found 0.2; allowed: 0.05";
     for (scene, why) in [
-        (
-            "@textures.toml",
-            "textures.toml:36: classifier.model: found, so the scene brings its model",
-        ),
+        ("@textures.toml", brings),
         ("bench.toml", "bench.toml: it has no [classifier]"),
-        (
-            "least.toml",
-            "classifier.contact_min: found 0.2; allowed: 0.05",
-        ),
+        ("least.toml", least),
         ("window.toml", "multiple of the block"),
     ] {
         let line = format!("deploy --sim {scene} --model @models/textures.model");
@@ -156,10 +146,8 @@ fn a_scene_that_is_deployed_is_what_the_module_runs() {
     let ran = place.run("deploy --scene other.toml --sim bench.toml --flash f");
     ran.warns("--flash keeps the model");
     place.write("wrong.toml", &other.replace("gain = 0.9", "gain = 900"));
-    place.refuses(
-        "deploy --scene wrong.toml --sim bench.toml",
-        "rcp.gain: found 900",
-    );
+    let wrong = "deploy --scene wrong.toml --sim bench.toml";
+    place.refuses(wrong, "rcp.gain: found 900");
     place.refuses("deploy --sim bench.toml", "--scene <FILE>");
 }
 
@@ -171,23 +159,17 @@ fn a_scene_that_the_board_does_not_take_changes_nothing_in_it() {
     place.write("other.toml", &other);
     let ran = place.done(&format!("deploy --scene other.toml {board}"));
     let now = ran.stdout.lines().last().unwrap();
-    let kept = std::fs::read(place.path("board.flash")).unwrap();
+    let kept = place.bytes("board.flash");
 
-    let two = bench_with(TWO_SIDES);
-    place.write(
-        "two.toml",
-        &format!("{two}[motor]\ndriver = \"six-step\"\n"),
-    );
-    let fault = "two.toml: motor.driver: found \"six-step\" on two sides; allowed on the \
+    let two = bench_with(TWO_SIDES) + "[motor]\ndriver = \"six-step\"\n";
+    let fault = "no.toml: motor.driver: found \"six-step\" on two sides; allowed on the \
                  NUCLEO-F446RE: \"h-bridge\" on two sides";
-    place.refuses(&format!("deploy --scene two.toml {board}"), fault);
-    let mute = format!("{other}[telemetry]\nrtt = false\n");
-    place.write("mute.toml", &mute);
-    place.refuses(
-        &format!("deploy --scene mute.toml {board}"),
-        "telemetry.rtt: found false",
-    );
-    assert_eq!(std::fs::read(place.path("board.flash")).unwrap(), kept);
+    let mute = other + "[telemetry]\nrtt = false\n";
+    for (text, why) in [(two, fault), (mute, "telemetry.rtt: found false")] {
+        place.write("no.toml", &text);
+        place.refuses(&format!("deploy --scene no.toml {board}"), why);
+    }
+    assert_eq!(place.bytes("board.flash"), kept);
     assert_runs(&place, now, &format!("get --scene other.toml {board}"));
 }
 

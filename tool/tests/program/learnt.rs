@@ -33,23 +33,17 @@ fn train(streams: Vec<Stream>, expect: Expected) -> ModelBuf {
         expect,
         ..How::of(Tables::Joint)
     };
-    how.train(&[("it".to_owned(), streams)], TICK_HZ)
-        .unwrap()
-        .model
+    let trained = how.train(&[("it".to_owned(), streams)], TICK_HZ);
+    trained.unwrap().model
 }
 
 fn hits(model: &ModelBuf, seed: u64) -> f64 {
-    let scene = Scene {
-        seed,
-        ..main_scene()
-    };
+    let mut scene = main_scene();
+    scene.seed = seed;
     let rule = Rule::Sequential { threshold: 0.99 };
     let classifier = Classifier::new(model.clone(), rule).unwrap();
-    scoring::run(&scene, classifier, || {})
-        .unwrap()
-        .evaluation
-        .hits
-        .unwrap()
+    let scored = scoring::run(&scene, classifier, || {}).unwrap();
+    scored.evaluation.hits.unwrap()
 }
 
 #[test]
@@ -58,23 +52,16 @@ fn until_the_first_exchange_it_is_what_record_writes() {
     let captured = capture(&Place::new(), "--label smooth --touches 3");
     let (recorded, captured) = (&recorded[0], &captured[0]);
     let n = captured.samples.len();
-    assert_eq!(
-        (recorded.label.as_str(), captured.label.as_str()),
-        ("smooth", "smooth")
-    );
+    assert_eq!([&*recorded.label, &*captured.label], ["smooth"; 2]);
     assert!((4000..5000).contains(&n), "{n}");
     assert_eq!(recorded.samples[..n], captured.samples);
-    assert_eq!(
-        recorded.touch.as_ref().unwrap()[..n],
-        captured.touch.clone().unwrap()
-    );
+    let touches = [recorded, captured].map(|of| &of.touch.as_ref().unwrap()[..n]);
+    assert_eq!(touches[0], touches[1]);
     let contacts = recorded.contact.iter().zip(&captured.contact);
     for (recorded, captured) in contacts.flat_map(|(a, b)| a.iter().zip(b)) {
         // Q13, rounded downwards.
-        assert!(
-            (0.0..1.3e-4).contains(&(recorded - captured)),
-            "{recorded} {captured}"
-        );
+        let off = recorded - captured;
+        assert!((0.0..1.3e-4).contains(&off), "{recorded} {captured}");
     }
 }
 
@@ -89,10 +76,7 @@ fn a_model_of_it_scores_as_one_of_what_record_writes() {
     let (captured, recorded) = (mean(&captured), mean(&recorded));
     println!("captured {captured:.3}, recorded {recorded:.3}");
     // Standard error of the difference of three runs of some 200 decisions each: 2 %.
-    assert!(
-        recorded > 0.9 && (captured - recorded).abs() < 0.05,
-        "{captured} {recorded}"
-    );
+    assert!(recorded > 0.9 && (captured - recorded).abs() < 0.05);
 }
 
 /// What training cannot tell apart a second opinion lets nothing name; without one, names are right
@@ -119,8 +103,5 @@ fn a_texture_under_two_labels_is_distinguished_by_chance_alone() {
     assert_eq!(all[0], 0);
     let share = f64::from(right[1]) / f64::from(all[1]);
     // Twice the standard error of so many decisions, of which some share a touch.
-    assert!(
-        all[1] > 150 && (share - 0.5).abs() < 0.1,
-        "{right:?} of {all:?}"
-    );
+    assert!(all[1] > 150 && (share - 0.5).abs() < 0.1);
 }

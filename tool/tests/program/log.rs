@@ -1,11 +1,11 @@
 //! `whisker log`.
 
-use crate::common::{Place, bench_with};
+use crate::common::Place;
 
 #[test]
 fn where_nothing_is_logged_it_says_why() {
     let place = Place::new();
-    place.write("still.toml", &bench_with(&[("[100.0]", "[140.0]")]));
+    place.bench("still.toml", &[("[100.0]", "[140.0]")]);
     let ran = place.done("log --sim still.toml --seconds 0.5");
     assert_eq!(ran.stdout, "");
     ran.warns("nothing was logged");
@@ -14,7 +14,7 @@ fn where_nothing_is_logged_it_says_why() {
 #[test]
 fn it_needs_one_module() {
     let place = Place::new();
-    place.write("two.toml", &bench_with(&[("side = 1", "side = 2")]));
+    place.bench("two.toml", &[("side = 1", "side = 2")]);
     place.write("text.elf", "no program");
     for (options, why) in [
         ("", "--sim <SCENE>"),

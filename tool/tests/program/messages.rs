@@ -13,13 +13,8 @@ pub(crate) fn channels(bytes: &[u8]) -> BTreeMap<String, Vec<(u64, Value)>> {
     for message in MessageStream::new(bytes).unwrap() {
         let message = message.unwrap();
         let schema = message.channel.schema.as_ref().unwrap();
-        assert_eq!(
-            (
-                schema.encoding.as_str(),
-                message.channel.message_encoding.as_str()
-            ),
-            ("jsonschema", "json")
-        );
+        assert_eq!(schema.encoding, "jsonschema");
+        assert_eq!(message.channel.message_encoding, "json");
         let value: Value = serde_json::from_slice(&message.data).unwrap();
         let schema: Value = serde_json::from_slice(&schema.data).unwrap();
         fits(&value, &schema);
@@ -83,15 +78,11 @@ fn messages_are_the_table_and_the_log() {
 
     let log = place.done(&format!("log {of}")).stdout;
     let logged = &channels["/log"];
-    let said = logged
-        .iter()
-        .map(|(_, line)| line["message"].as_str().unwrap());
+    let said = logged.iter().map(|(_, line)| &line["message"]);
     assert!(said.eq(log.lines()), "{logged:?}");
     let decisions = &channels["/decisions"];
-    let lines: Vec<&str> = log
-        .lines()
-        .filter(|line| line.contains("decision"))
-        .collect();
+    let lines = log.lines().filter(|line| line.contains("decision"));
+    let lines: Vec<&str> = lines.collect();
     assert!(lines.len() >= 3 && lines.len() == decisions.len(), "{log}");
     for (line, (_, decision)) in lines.iter().zip(decisions) {
         // The line cuts it.

@@ -4,34 +4,26 @@ pub(crate) mod terminal;
 
 use std::time::Duration;
 
+use rustix::process::Signal;
 use serde_json::Value;
 
-use crate::common::Place;
+use crate::common::{Place, contains, scene};
 use crate::messages::channels;
 use terminal::Terminal;
 
 const SMALL: (u16, u16) = (80, 24);
 const CONTROL_C: &[u8] = b"\x03";
 
-/// The records of a side in a file of messages, and whether a `Stop` was answered that it is done.
-fn recorded(place: &Place, name: &str) -> (Vec<Value>, bool) {
-    let mut channels = channels(&std::fs::read(place.path(name)).unwrap());
+/// The records of `r.mcap`, none of which is missing, and whether a `Stop` was answered that it is done.
+fn recorded(place: &Place) -> (Vec<Value>, bool) {
+    let mut channels = channels(&place.bytes("r.mcap"));
     let records = channels.remove("/left/records").unwrap();
-    let answers = channels.remove("/answers").unwrap_or_default();
-    let is_stopped = answers
-        .iter()
-        .any(|(_, answer)| answer["command"] == 5 && answer["status"] == 0);
-    (
-        records.into_iter().map(|(_, record)| record).collect(),
-        is_stopped,
-    )
-}
-
-fn is_whole(records: &[Value]) -> bool {
+    let records: Vec<_> = records.into_iter().map(|(_, record)| record).collect();
     let number = |record: &Value| record["sequence"].as_u64().unwrap();
-    records
-        .windows(2)
-        .all(|pair| number(&pair[1]) == number(&pair[0]) + 1)
+    assert!(records.is_sorted_by(|a, b| number(a) + 1 == number(b)));
+    let answers = channels.remove("/answers").unwrap_or_default();
+    let is_stop = |answer: &Value| answer["command"] == 5 && answer["status"] == 0;
+    (records, answers.iter().any(|(_, answer)| is_stop(answer)))
 }
 
 /// In how many ticks both have decided, and in how many the module.
@@ -42,18 +34,13 @@ fn agreed(text: &str) -> Option<[u32; 2]> {
     Some([same.parse().ok()?, all.parse().ok()?])
 }
 
-fn assert_stopped(place: &Place, name: &str) {
-    let (records, is_stopped) = recorded(place, name);
-    assert!(is_stopped && is_whole(&records));
+fn assert_stopped(place: &Place) -> Vec<Value> {
+    let (records, is_stopped) = recorded(place);
+    assert!(is_stopped);
     let (first, last) = (&records[0], records.last().unwrap());
-    assert_eq!(
-        (&first["armed"], &last["armed"]),
-        (&true.into(), &false.into())
-    );
-    assert_eq!(
-        (&last["duty"], &last["running"]),
-        (&0.into(), &false.into())
-    );
+    assert!(first["armed"] == true && last["armed"] == false);
+    assert!(last["duty"] == 0 && last["running"] == false);
+    records
 }
 
 #[test]
@@ -61,14 +48,8 @@ fn a_person_watches_and_stops() {
     let place = Place::new();
     let line = "monitor --sim @textures.toml --out r.mcap --out r.csv";
     let mut seen = Terminal::start(&place, line, SMALL, &[]);
-    for word in [
-        "textures, simulated, 2000 Hz",
-        "live",
-        "[ARMED]",
-        "measured",
-        "smooth",
-        "lost 0",
-    ] {
+    seen.wait_for("textures, simulated, 2000 Hz");
+    for word in ["live", "[ARMED]", "measured", "smooth", "lost 0"] {
         seen.wait_for(word);
     }
     assert!(seen.is_raw() && seen.is_alternate() && seen.has_colour());
@@ -114,22 +95,12 @@ fn a_person_watches_and_stops() {
     assert_eq!(seen.ends(), Some(0));
     assert!(seen.is_restored() && !seen.is_alternate());
 
-    assert_stopped(&place, "r.mcap");
-    let (records, _) = recorded(&place, "r.mcap");
-    let rows = |name: &str| {
-        place
-            .text(name)
-            .lines()
-            .filter(|line| !line.starts_with('#'))
-            .count()
-            - 1
-    };
+    let records = assert_stopped(&place);
+    let rows = |name: &str| place.column(name, "sequence").len();
     assert_eq!(rows("r.csv"), records.len());
     // x and a are in it, too: armed, not, armed, not.
-    let mut states: Vec<bool> = records
-        .iter()
-        .map(|record| record["armed"].as_bool().unwrap())
-        .collect();
+    let states = records.iter().map(|record| record["armed"].as_bool());
+    let mut states: Vec<bool> = states.map(Option::unwrap).collect();
     states.dedup();
     assert_eq!(states, [true, false, true, false]);
     // Held is what had come by then.
@@ -149,12 +120,12 @@ fn motors_stop_where_the_terminal_takes_no_more() {
     seen.press(CONTROL_C);
     assert_eq!(seen.ends(), Some(1));
     assert!(seen.is_restored());
-    assert_stopped(&place, "r.mcap");
+    assert_stopped(&place);
 }
 
 #[test]
 fn motors_stop_before_a_signal_ends_it() {
-    for signal in [terminal::TERM, terminal::HANGUP, terminal::INTERRUPT] {
+    for signal in [Signal::TERM, Signal::HUP, Signal::INT] {
         let place = Place::new();
         let line = "monitor --sim bench.toml --out r.mcap";
         let mut seen = Terminal::start(&place, line, SMALL, &[]);
@@ -163,7 +134,7 @@ fn motors_stop_before_a_signal_ends_it() {
         assert_eq!(seen.ends(), Some(1));
         assert!(seen.is_restored() && !seen.is_alternate());
         seen.wait_for("the motors were stopped");
-        assert_stopped(&place, "r.mcap");
+        assert_stopped(&place);
     }
 }
 
@@ -178,8 +149,8 @@ fn who_ends_by_q_leaves_the_module_as_it_is() {
     seen.press(b"q");
     assert_eq!(seen.ends(), Some(0));
     assert!(seen.is_restored());
-    let (records, is_stopped) = recorded(&place, "r.mcap");
-    assert!(!is_stopped && is_whole(&records));
+    let (records, is_stopped) = recorded(&place);
+    assert!(!is_stopped);
     assert_eq!(records.last().unwrap()["armed"], true);
 }
 
@@ -196,10 +167,8 @@ fn a_window_keeps_the_time_and_a_picture_needs_no_terminal() {
     let picture = |more: &str| place.done(&format!("{monitor} {more}")).stdout;
     let text = picture("--size 80x24");
     assert_eq!(text.lines().count(), 24);
-    assert!(
-        text.contains("3.00 s  live") && text.contains("smooth"),
-        "{text}"
-    );
+    contains(&text, "3.00 s  live");
+    contains(&text, "smooth");
     assert_eq!(text, picture("--size 80x24"));
     assert_eq!(picture("--snapshot m.svg"), "");
     assert!(place.text("m.svg").starts_with("<svg"));
@@ -212,9 +181,7 @@ fn a_window_keeps_the_time_and_a_picture_needs_no_terminal() {
 #[test]
 fn a_head_is_watched_through_any_of_its_boards() {
     let place = Place::new();
-    let cia = std::fs::read_to_string(crate::common::scenes("cia.toml")).unwrap();
-    let each = "whiskers_per_side = 1";
-    let head = |keys: &str| cia.replace(each, keys);
+    let head = |keys: &str| scene("cia.toml").replace("whiskers_per_side = 1", keys);
     place.write("head.toml", &head("whiskers_per_side = 3\nnodes = 6"));
     let picture = |node: u8| {
         let monitor = "monitor --sim head.toml --frames 40 --size 120x40 --node";
@@ -222,13 +189,11 @@ fn a_head_is_watched_through_any_of_its_boards() {
     };
     let [left, right] = [0, 3].map(picture);
     assert!(left.contains("\nleft  [ARMED]") && right.contains("\nright [ARMED]"));
-    assert!(left.contains(" 6 whiskers on 6 boards"), "{left}");
+    contains(&left, " 6 whiskers on 6 boards");
     // The whisker that is heard is the first of the left.
     assert!(left.contains("touch 1") && !right.contains("touch 1"));
-    place.refuses(
-        "monitor --sim head.toml --frames 9 --node 6",
-        "--node: found 6",
-    );
+    let monitor = "monitor --sim head.toml --frames 9";
+    place.refuses(&format!("{monitor} --node 6"), "--node: found 6");
     place.write("head.toml", &head("whiskers_per_side = 2\nnodes = 2"));
-    place.refuses("monitor --sim head.toml --frames 9", "a board a whisker");
+    place.refuses(monitor, "a board a whisker");
 }

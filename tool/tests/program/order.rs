@@ -1,6 +1,6 @@
 //! One command to a module, and `whisker doctor` and `flash` where there is no board.
 
-use crate::common::{Place, bench_with};
+use crate::common::Place;
 
 #[test]
 fn a_command_is_carried_out_and_its_tick_printed() {
@@ -35,7 +35,7 @@ fn what_a_module_has_not_is_refused() {
 #[test]
 fn the_status_is_what_the_module_says_of_itself() {
     let place = Place::new();
-    place.write("slow.toml", &bench_with(&[("hz = 2000", "hz = 1000")]));
+    place.bench("slow.toml", &[("hz = 2000", "hz = 1000")]);
     let ran = place.done("status --sim slow.toml");
     ran.prints("scene bench\n1000 ticks a second, whiskers: 1\n");
     ran.prints(" ticks since the start, 0 missed\n0 records found no room\n");

@@ -11,7 +11,7 @@ use host_sim::received::Receiver;
 use serial2::SerialPort;
 use wire::{Command as Request, CommandStatus, Load, TaggedCommand};
 
-use crate::common::{Place, scenes, words};
+use crate::common::{Place, contains, scene, scenes, words};
 use crate::monitor::terminal::Terminal;
 
 /// The scene that all boards here are built with: its program is then built once.
@@ -65,22 +65,15 @@ fn a_board_on_a_port_is_talked_with_as_any_other() {
     let port = &served.port;
     let ran = place.done(&format!("records {port} --seconds 1 --out r.csv"));
     ran.prints(" records at 2000 ticks a second, 0 lost");
-    let table = place.text("r.csv");
-    assert!(table.contains("# scene = bench\n"), "{table}");
-    assert!(table.contains("# firmware = 0.1.0\n"), "{table}");
-    let rows = table
-        .lines()
-        .filter(|line| line.starts_with(|c: char| c.is_ascii_digit()));
-    let sequences = rows.map(|row| row.split(',').next().unwrap().parse::<u32>().unwrap());
-    let sequences: Vec<u32> = sequences.collect();
+    place.holds("r.csv", "# scene = bench\n");
+    place.holds("r.csv", "# firmware = 0.1.0\n");
+    let sequences = place.column("r.csv", "sequence");
     assert!(sequences.len() >= 1_900, "{}", sequences.len());
-    assert!(sequences.is_sorted_by(|a, b| a + 1 == *b));
+    assert!(sequences.is_sorted_by(|a, b| a + 1.0 == *b));
 
     // The board is the next client's as it was the first's.
-    place.write(
-        "script",
-        "0 gain left 0.5\n0.1 gain left 3\n0.2 setpoint left 70\n",
-    );
+    let script = "0 gain left 0.5\n0.1 gain left 3\n0.2 setpoint left 70\n";
+    place.write("script", script);
     let ran = place.fails(&format!("log {port} --seconds 1.5 --script script"));
     for said in [
         "gain left 0.5: done\n",
@@ -123,11 +116,9 @@ fn a_board_that_is_reset_is_asked_for_records_again() {
 fn what_a_board_that_goes_has_said_is_kept() {
     let place = Place::new();
     let mut served = Served::new(&place);
+    let records = format!("records {} --seconds 100 --out r.csv", served.port);
     let mut listening = Command::new(env!("CARGO_BIN_EXE_whisker"))
-        .args(words(&format!(
-            "records {} --seconds 100 --out r.csv",
-            served.port
-        )))
+        .args(words(&records))
         .current_dir(place.path(""))
         .stderr(Stdio::piped())
         .spawn()
@@ -147,19 +138,15 @@ fn a_board_on_a_port_is_taught_without_a_probe() {
     let ran = place.done(&format!("{deploy} --seconds 3"));
     let model = std::fs::read(scenes("models/textures.model")).unwrap();
     let crc = u32::from_le_bytes(*model.last_chunk().unwrap());
-    for said in [
-        "before, the module decides by no model: none was deployed".to_owned(),
-        format!("now it decides by model {crc:08x}, 4 classes\n"),
-    ] {
-        ran.prints(&said);
-    }
+    ran.prints("before, the module decides by no model: none was deployed");
+    ran.prints(&format!("now it decides by model {crc:08x}, 4 classes\n"));
     // No reset arms a motor.
     assert!(!ran.stdout.contains(" touch "), "{}", ran.stdout);
     let armed = place.done(&format!("arm {}", served.port));
     armed.prints("armed, after tick ");
     let log = place.done(&format!("log {} --seconds 3", served.port));
     log.prints(" decision left ");
-    let kept = std::fs::read(place.path("kept.flash")).unwrap();
+    let kept = place.bytes("kept.flash");
     let [first, second] = NUCLEO_F446RE.flash.slots;
     let of_models = [first, second].map(|slot| {
         let at = (slot.model.start - first.head.start) as usize;
@@ -178,19 +165,13 @@ fn a_board_that_refuses_a_scene_whisks_again_once_it_is_armed() {
     let place = Place::new();
     let served = Served::new(&place);
     let port = &served.port;
-    let scene = std::fs::read_to_string(scenes("bench.toml")).unwrap();
-    let other = scene.replace("[sensor]", "[sensor]\nmodel = \"tmag5170\"");
-    assert_ne!(other, scene);
+    let other = scene("bench.toml").replace("[sensor]", "[sensor]\nmodel = \"tmag5170\"");
     place.write("other.toml", &other);
     place.done(&format!("arm {port}"));
     place.fails(&format!("deploy {port} --scene other.toml"));
     place.done(&format!("arm {port}"));
     place.done(&format!("records {port} --seconds 2 --out r.csv"));
-    let table = place.text("r.csv");
-    let mut rows = table.lines().filter(|line| !line.starts_with('#'));
-    let mut names = rows.next().unwrap().split(',');
-    let column = names.position(|name| name == "setpoint_deg").unwrap();
-    let setpoints = rows.map(|row| row.split(',').nth(column).unwrap().parse::<f64>().unwrap());
+    let setpoints = place.column("r.csv", "setpoint_deg").into_iter();
     let most = setpoints.fold(0.0, f64::max);
     assert!(most > 80.0, "{most}");
 }
@@ -200,62 +181,29 @@ fn a_board_on_a_port_runs_the_scene_that_is_deployed() {
     let place = Place::new();
     let served = Served::new(&place);
     let port = &served.port;
-    let scene = std::fs::read_to_string(scenes("bench.toml")).unwrap();
-    let other = scene.replace("\"bench\"", "\"other\"");
+    let other = scene("bench.toml").replace("\"bench\"", "\"other\"");
     place.write("other.toml", &other.replace("= 0.7", "= 0.9"));
     let silent = other.replace("serial_baud = 921600", "rtt = true");
     place.write("silent.toml", &silent);
-    place.refuses(
-        &format!("deploy {port} --scene silent.toml"),
-        "telemetry.serial_baud: found none",
-    );
+    let silent = format!("deploy {port} --scene silent.toml");
+    place.refuses(&silent, "telemetry.serial_baud: found none");
 
     let ran = place.done(&format!("deploy {port} --scene other.toml"));
     let lines: Vec<&str> = ran.stdout.lines().collect();
-    let [before, _, now, _] = lines[..] else {
-        panic!("{lines:?}");
-    };
-    assert!(before.starts_with("before, the module runs scene bench ("));
-    assert!(now.starts_with("now it runs scene other ("), "{now}");
+    assert_eq!(lines.len(), 4, "{lines:?}");
+    assert!(lines[0].starts_with("before, the module runs scene bench ("));
+    assert!(lines[2].starts_with("now it runs scene other ("));
 
     // What is set there stays until the next reset; it is read back.
-    place.done(&format!(
-        "set {port} --scene other.toml rcp.gain=1.5 whisking.frequency_hz=3"
-    ));
-    let get = place.done(&format!("get {port} --scene other.toml")).stdout;
-    assert!(get.contains(", with keys that were set"), "{get}");
-    assert_eq!(get.matches("differs").count(), 2, "{get}");
-    place.done(&format!("save {port} --scene other.toml --all"));
-    let saved = place.text("other.toml");
-    assert!(
-        saved.contains("gain  = 1.5") && saved.contains("frequency_hz = 3"),
-        "{saved}"
-    );
-    let get = place.done(&format!("get {port} --scene other.toml")).stdout;
-    assert!(!get.contains("differs"), "{get}");
-}
-
-/// The sensor hangs on the board as before, whatever scene the board has.
-#[test]
-fn a_sensor_that_sums_otherwise_than_the_scene_has_it_is_found() {
-    let place = Place::new();
-    let served = Served::new(&place);
-    let bringup = format!(
-        "bringup {} --frames 60 --yes --steps frames --json seen.json",
-        served.port
-    );
-    let ran = place.done(&bringup);
-    ran.prints("means: the sensor answers, as the scene has it\n");
-    let scene = std::fs::read_to_string(scenes("bench.toml")).unwrap();
-    let keys = "[sensor]\nsum_rule = \"not-b1-b6\"";
-    place.write("other.toml", &scene.replacen("[sensor]", keys, 1));
-    place.done(&format!("deploy {} --scene other.toml", served.port));
-    let ran = place.fails(&bringup);
-    ran.prints(
-        "frames left: the sum is another than the scene has: set sensor.sum_rule = \"b1-b6\"\n",
-    );
-    let seen = place.text("seen.json");
-    assert!(seen.contains("\"sum_rule\": \"b1-b6\""), "{seen}");
+    let port = format!("{port} --scene other.toml");
+    let get = || place.done(&format!("get {port}")).stdout;
+    place.done(&format!("set {port} rcp.gain=1.5 whisking.frequency_hz=3"));
+    contains(&get(), ", with keys that were set");
+    assert_eq!(get().matches("differs").count(), 2);
+    place.done(&format!("save {port} --all"));
+    place.holds("other.toml", "gain  = 1.5");
+    place.holds("other.toml", "frequency_hz = 3");
+    assert!(!get().contains("differs"));
 }
 
 #[test]
@@ -264,10 +212,10 @@ fn a_deployment_that_is_cut_off_leaves_the_scene_before() {
     let served = Served::new(&place);
     let status = || place.done(&format!("status {}", served.port)).stdout;
     let runs = |status: &str| {
-        let line = status
-            .lines()
-            .find(|line| line.starts_with("runs scene bench ("));
-        line.unwrap().to_owned()
+        let mut lines = status.lines().map(str::to_owned);
+        lines
+            .find(|line| line.starts_with("runs scene bench ("))
+            .unwrap()
     };
     let before = status();
     let line = SerialPort::open(place.path("port"), 921_600).unwrap();
@@ -289,10 +237,8 @@ fn a_deployment_that_is_cut_off_leaves_the_scene_before() {
     };
     // Whoever deploys has switched the motors off.
     assert_eq!(ask(1, Request::Stop), CommandStatus::Done);
-    let load = Load {
-        config: 80,
-        model: 0,
-    };
+    let (config, model) = (80, 0);
+    let load = Load { config, model };
     assert_eq!(ask(2, Request::Load(load)), CommandStatus::Done);
     for number in 0..20 {
         let word = Request::Word(number, 0x1234_5678);
@@ -313,9 +259,7 @@ fn a_deployment_that_is_cut_off_leaves_the_scene_before() {
 fn ports_and_scenes_that_are_none_are_refused() {
     let place = Place::new();
     place.refuses("log --port no-such-port --seconds 1", "no-such-port");
-    place.refuses(
-        "board bench.toml",
-        "it has no serial port; allowed: [telemetry] serial_baud",
-    );
+    let none = "it has no serial port; allowed: [telemetry] serial_baud";
+    place.refuses("board bench.toml", none);
     place.refuses("log --port a --sim bench.toml", "cannot be used with");
 }

@@ -1,16 +1,21 @@
 //! `whisker set`, `get` and `save`.
 
-use crate::common::{BENCH, OTHER, Place, bench_with, scenes};
+use crate::common::{BENCH, OTHER, Place, Ran, scene, scenes};
 
-fn rows_from(table: &str, from_s: f64) -> Vec<&str> {
-    let rows = table
-        .lines()
-        .filter(|row| row.starts_with(|c: char| c.is_ascii_digit()));
-    let is_later = |row: &&str| {
-        let t_s: f64 = row.split(',').nth(1).unwrap().parse().unwrap();
-        t_s > from_s
+/// The rows of a table after the motor is armed.
+fn later(table: &str) -> Vec<&str> {
+    let rows = table.lines().skip_while(|row| !row.starts_with("901,"));
+    rows.collect()
+}
+
+/// Whether one of the lines begins with these words.
+#[track_caller]
+fn assert_row(ran: &Ran, words: &str) {
+    let is_it = |line: &str| {
+        let mut found = line.split_whitespace();
+        words.split(' ').all(|word| found.next() == Some(word))
     };
-    rows.filter(is_later).collect()
+    assert!(ran.stdout.lines().any(is_it), "{words}: {}", ran.stdout);
 }
 
 #[test]
@@ -22,16 +27,14 @@ fn a_key_that_is_set_before_the_motor_runs_is_the_scene_s() {
     place.write("arm.txt", "0.4 arm\n");
     place.write("set.txt", "0.1 set motor.kp 0.08\n0.4 arm\n");
     let table = |scene: &str, script: &str| {
-        let ran = place.done(&format!(
-            "records --sim {scene}.toml --script {script}.txt --seconds 2 --out r.csv"
-        ));
+        let records = format!("records --sim {scene}.toml --script {script}.txt");
+        let ran = place.done(&format!("{records} --seconds 2 --out r.csv"));
         (ran.stdout, place.text("r.csv"))
     };
     let (_, expected) = table("new", "arm");
     let (said, found) = table("old", "set");
     assert!(said.contains("set motor.kp 0.08: done"), "{said}");
     let (_, untouched) = table("old", "arm");
-    let later = |table| rows_from(table, 0.45);
     assert_eq!(later(&expected).len(), 3_100);
     assert!(later(&found) == later(&expected));
     assert!(later(&found) != later(&untouched));
@@ -41,13 +44,8 @@ fn a_key_that_is_set_before_the_motor_runs_is_the_scene_s() {
 fn it_says_what_differs() {
     let place = Place::new();
     let ran = place.done("set motor.kp=0.08 rcp.tau_s=0.2 --sim bench.toml");
-    let lines: Vec<Vec<&str>> = ran
-        .stdout
-        .lines()
-        .map(|line| line.split_whitespace().collect())
-        .collect();
-    assert_eq!(lines[1][..4], ["motor.kp", "0.05", "0.08", "differs"]);
-    assert_eq!(lines[2][..4], ["rcp.tau_s", "0.125", "0.2", "differs"]);
+    assert_row(&ran, "motor.kp 0.05 0.08 differs");
+    assert_row(&ran, "rcp.tau_s 0.125 0.2 differs");
     let ran = place.done("get --sim bench.toml");
     assert!(!ran.stdout.contains("differs"), "{}", ran.stdout);
     ran.prints("motor.approach_deg_s");
@@ -61,54 +59,35 @@ fn it_says_what_differs() {
 #[test]
 fn priors_and_thresholds_of_classes_are_set_by_name() {
     let place = Place::new();
-    let own = std::fs::read_to_string(scenes("textures.toml")).unwrap();
-    let models = scenes("models").display().to_string();
-    let own = own.replace("\"models/", &format!("\"{models}/"));
+    let models = format!("\"{}/", scenes("models").display());
+    let own = scene("textures.toml").replace("\"models/", &models);
     place.write("own.toml", &own);
     let set = "classifier.prior={smooth=0.7} classifier.thresholds={carpet=0.999,p600=0.99}";
     let ran = place.done(&format!("set {set} --sim own.toml"));
-    for row in [
-        ["classifier.thresholds", "-", "{carpet=0.999,p600=0.99}"],
-        ["classifier.prior", "-", "{smooth=0.7}"],
-    ] {
-        let words = |line: &str| {
-            line.split_whitespace()
-                .map(str::to_owned)
-                .collect::<Vec<_>>()
-        };
-        let is_it = |line: &str| words(line).starts_with(&row.map(str::to_owned));
-        assert!(ran.stdout.lines().any(is_it), "{row:?}: {}", ran.stdout);
-    }
+    assert_row(&ran, "classifier.thresholds - {carpet=0.999,p600=0.99}");
+    assert_row(&ran, "classifier.prior - {smooth=0.7}");
     // What was set stays, whatever is set then.
     let more = "0.1 set classifier.prior {smooth=0.7}\n0.3 set classifier.thresholds {p240=0.999}\n\
                 0.5 set classifier.prior {smooth=0.25}\n";
     place.write("more.txt", more);
     let ran = place.done("log --sim own.toml --script more.txt --seconds 0.8");
     assert_eq!(ran.stdout.matches(": done").count(), 3, "{}", ran.stdout);
+    let classes = "found \"felt\"; allowed: the model's classes, smooth";
+    let costs = "decides by thresholds: write costs in their place in own.toml";
     for (set, why) in [
-        (
-            "classifier.prior={felt=0.5}",
-            "found \"felt\"; allowed: the model's classes, smooth",
-        ),
+        ("classifier.prior={felt=0.5}", classes),
         ("classifier.prior={smooth=1.5}", "classifier.prior"),
-        (
-            "classifier.cost_error=3",
-            "decides by thresholds: write costs in their place in own.toml",
-        ),
+        ("classifier.cost_error=3", costs),
     ] {
         place.refuses(&format!("set {set} --sim own.toml"), why);
     }
-    let line = own
-        .lines()
-        .find(|line| line.starts_with("threshold"))
-        .unwrap();
-    let costs = own.replace(line, "cost_error = 20\ncost_delay_per_s = 1");
+    let line = own.lines().find(|line| line.starts_with("threshold"));
+    let costs = own.replace(line.unwrap(), "cost_error = 20\ncost_delay_per_s = 1");
     place.write("costs.toml", &costs);
     let ran = place.done("set classifier.cost_error=2000 --sim costs.toml");
     ran.prints("2000  differs");
     place.done("save classifier.prior={smooth=0.7,carpet=0.1} --scene own.toml");
-    let saved = place.text("own.toml");
-    assert!(saved.contains("prior = {smooth=0.7,carpet=0.1}"), "{saved}");
+    place.holds("own.toml", "prior = {smooth=0.7,carpet=0.1}");
 }
 
 const RESTART: &str = "it needs a restart: whisker deploy --scene";
@@ -118,6 +97,8 @@ const AT_START: &str =
 #[test]
 fn what_cannot_be_set_is_refused_with_the_reason() {
     let place = Place::new();
+    let part = "its part is not in the module's scene: add it to bench.toml, then whisker deploy";
+    let noise = "noise: cannot change while the module runs; deploy the scene: whisker deploy";
     for (set, why) in [
         ("motor.kp=11", "found 11; allowed: a number from 0 to 10"),
         ("motor.min_deg=170", "allowed: below max_deg, which is 160"),
@@ -127,16 +108,8 @@ fn what_cannot_be_set_is_refused_with_the_reason() {
         ("head.whiskers_per_side=2", RESTART),
         ("sensor.mode=slow", RESTART),
         ("telemetry.serial_baud=9600", RESTART),
-        (
-            "cia.gain=1",
-            "its part is not in the module's scene: add it",
-        ),
-        ("cia.gain=1", " to bench.toml, then whisker deploy"),
-        (
-            "whisking.noise=0",
-            "noise: cannot change while the module runs",
-        ),
-        ("whisking.noise=0", "; deploy the scene: whisker deploy"),
+        ("cia.gain=1", part),
+        ("whisking.noise=0", noise),
         ("whisking.gain=1", "only the start uses it"),
         ("plant.stiffness=1", "it is of the simulated world"),
         ("motor.kq=1", "no key of a scene that can be set"),
@@ -157,22 +130,19 @@ fn what_cannot_be_set_is_refused_with_the_reason() {
 #[test]
 fn a_module_of_another_version_of_the_scene_is_left_alone() {
     let place = Place::new();
-    place.write("newer.toml", &bench_with(&[("gain = 0.7", "gain = 0.8")]));
+    place.bench("newer.toml", &[("gain = 0.7", "gain = 0.8")]);
     let ran = place.done("get --sim bench.toml --scene newer.toml");
     let renews = "the module's scene bench is of another version than newer.toml, it differs in \
                   motion.whisking.rcp.gain; whisker deploy --scene newer.toml renews it";
     ran.prints(renews);
-    let gain = ran.stdout.lines().find(|line| line.starts_with("rcp.gain"));
-    let cells: Vec<_> = gain.unwrap().split_whitespace().collect();
-    assert_eq!(cells, ["rcp.gain", "0.8", "?"]);
+    assert_row(&ran, "rcp.gain 0.8 ?");
     let ran = place.fails("save rcp.gain --sim bench.toml --scene newer.toml");
     ran.warns(renews);
     let ran = place.fails("set motor.kp=0.06 --sim bench.toml --scene newer.toml");
     ran.warns(renews);
-    place.write("other.toml", &bench_with(&[OTHER]));
+    place.bench("other.toml", &[OTHER]);
     let ran = place.run("get --sim bench.toml --scene other.toml");
-    let runs = "the module runs the scene bench, other.toml is of other";
-    ran.warns(runs);
+    ran.warns("the module runs the scene bench, other.toml is of other");
     // World and seed are no other version.
     let ran = place.done("set motor.kp=0.06 --sim bench.toml --world bench.toml --seed 7");
     ran.prints("differs");
@@ -260,9 +230,7 @@ fn an_image_that_was_built_without_it_is_read_all_the_same() {
         ("deploy --scene @passive.toml", "deployment by command"),
     ] {
         let ran = place.fails(&format!("{command} {board}"));
-        ran.warns(&format!(
-            "the module's image was built without {without}; {any_scene}"
-        ));
+        ran.warns(&format!("image was built without {without}; {any_scene}"));
     }
     let get = place.done(&format!("get {board}")).stdout;
     assert!(get.starts_with("the module runs scene passive ("), "{get}");
@@ -282,15 +250,9 @@ fn a_stop_that_is_set_is_that_of_the_next_homing() {
     let place = Place::new();
     let motor = "[motor]\narm = \"on-command\"\nrest = \"find\"\nstop_deg = 5.0\n";
     place.write("find.toml", &format!("{BENCH}{motor}"));
-    place.write(
-        "s.txt",
-        "0.1 arm\n4.0 stop\n4.2 set motor.stop_deg 8\n4.5 arm\n",
-    );
+    let script = "0.1 arm\n4.0 stop\n4.2 set motor.stop_deg 8\n4.5 arm\n";
+    place.write("s.txt", script);
     let ran = place.done("log --sim find.toml --script s.txt --seconds 7");
-    assert!(
-        ran.stdout.contains("set motor.stop_deg 8: done"),
-        "{}",
-        ran.stdout
-    );
+    ran.prints("set motor.stop_deg 8: done");
     assert!(!ran.stdout.contains("fault"), "{}", ran.stdout);
 }

@@ -17,10 +17,6 @@ use vt100::Parser;
 
 use crate::common::{Place, words};
 
-pub(crate) const TERM: Signal = Signal::TERM;
-pub(crate) const HANGUP: Signal = Signal::HUP;
-pub(crate) const INTERRUPT: Signal = Signal::INT;
-
 const PATIENCE: Duration = Duration::from_secs(30);
 
 pub(crate) struct Terminal {
@@ -124,11 +120,9 @@ impl Terminal {
     }
 
     pub(crate) fn resize(&mut self, columns: u16, rows: u16) {
-        self.seen
-            .lock()
-            .unwrap()
-            .screen_mut()
-            .set_size(some(rows), some(columns));
+        let mut seen = self.seen.lock().unwrap();
+        seen.screen_mut().set_size(some(rows), some(columns));
+        drop(seen);
         size(&self.inside, columns, rows);
     }
 
@@ -159,10 +153,8 @@ impl Terminal {
 
     /// Whether keys go to the program one by one, unseen.
     pub(crate) fn is_raw(&self) -> bool {
-        !self
-            .now()
-            .local_modes
-            .intersects(LocalModes::ECHO | LocalModes::ICANON | LocalModes::ISIG)
+        let cooked = LocalModes::ECHO | LocalModes::ICANON | LocalModes::ISIG;
+        !self.now().local_modes.intersects(cooked)
     }
 
     pub(crate) fn is_restored(&self) -> bool {
