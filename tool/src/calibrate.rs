@@ -6,7 +6,6 @@ mod identify;
 mod listening;
 mod moves;
 mod picture;
-mod rest;
 mod watched;
 
 pub(crate) use findings::{Finding, findings, table};
@@ -14,5 +13,4 @@ pub(crate) use identify::{Gains, Motor, identify, suggest};
 pub(crate) use listening::Listening;
 pub(crate) use moves::{Push, REST_DEG, lead, push, steps};
 pub(crate) use picture::{ANGLE, Panel, picture};
-pub(crate) use rest::{HALF_RANGE, MIDDLE, Zero, is_at_end};
-pub(crate) use watched::{LEAST_S, Watched, watch};
+pub(crate) use watched::{HALF_RANGE, LEAST_S, MIDDLE, Watched, Zero, at_rest, is_at_end, watch};

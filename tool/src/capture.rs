@@ -4,11 +4,9 @@ mod alike;
 mod checks;
 mod file;
 mod label;
-mod samples;
 mod touches;
 
 pub(crate) use checks::Checks;
-pub(crate) use file::{CALIBRATION, FIRST_TOUCH, Recording, SIDE};
+pub(crate) use file::{CALIBRATION, FIRST_TOUCH, Recording, SIDE, origin_of};
 pub(crate) use label::{Label, Stands, stands, token};
-pub(crate) use samples::Sampler;
-pub(crate) use touches::Touches;
+pub(crate) use touches::{Touches, sampled};

@@ -1,4 +1,4 @@
-//! The configuration that a module runs by: read back, made from a scene, and changed.
+//! The configuration that a module runs by: read back, made from a scene, changed, and sent.
 
 mod program;
 mod runs_by;
@@ -6,6 +6,7 @@ mod runs_by;
 use config::{RunsOn, Target};
 use firmware::{
     BoardCode, ConfigBytes, ConfigError, HeadConfig, Header, Links, Part, decode, encode,
+    refusal_of,
 };
 use host_sim::Error;
 use mlx90333::Decoder;
@@ -14,9 +15,12 @@ use serde_json::Value;
 use tactile::ClassList;
 use whisking::Real;
 use whisking::motor::Duty;
+use wire::{Command, CommandStatus};
+
+use crate::conversation::Conversation;
 
 pub(crate) use program::Program;
-pub(crate) use runs_by::RunsBy;
+pub(crate) use runs_by::{Decides, RunsBy};
 
 /// `function::<R>(arguments)` in a number format.
 macro_rules! in_format {
@@ -30,7 +34,6 @@ macro_rules! in_format {
 }
 pub(crate) use in_format;
 
-/// The configuration that a module runs by.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Running {
     program: Program,
@@ -47,11 +50,18 @@ pub(crate) struct Running {
     pub(crate) has_motor: bool,
     pub(crate) decides: bool,
     contact_min: Option<f64>,
-    /// The priors and thresholds of its model's classes.
     pub(crate) classes: ClassList,
 }
 
-pub(crate) const ANY_SCENE: &str = "cargo xtask firmware --any-scene builds one that has it";
+/// What has become of a configuration that was sent to a module.
+pub(crate) enum Taken {
+    Runs,
+    Refused(ConfigError),
+    /// Its image was built without taking any ([`firmware::Part::Set`]).
+    NotBuilt,
+}
+
+const ANY_SCENE: &str = "cargo xtask firmware --any-scene builds one that has it";
 
 /// What to do about an image that was built without this.
 pub(crate) const fn builds(part: Part) -> &'static str {
@@ -135,12 +145,56 @@ fn differing(path: &str, one: &Value, other: &Value) -> Vec<String> {
 }
 
 impl Running {
-    pub(crate) fn of(bytes: Vec<u8>) -> Result<Self, Error> {
-        let strange = |fault: ConfigError| {
-            Error::Work(format!(
-                "the configuration of the module cannot be read: {fault}"
-            ))
+    pub(crate) fn ask(module: &mut Conversation) -> Result<Self, Error> {
+        let runs_by = RunsBy::ask(module)?;
+        let RunsBy::Scene { crc, length, .. } = runs_by else {
+            return Err(Error::Work(format!(
+                "the module {runs_by}; whisker deploy --scene FILE gives it one"
+            )));
         };
+        let mut bytes = Vec::with_capacity(length);
+        for word in (0..length.div_ceil(4)).step_by(2) {
+            let two = module.ask(Command::Config(word as u32))?.values;
+            bytes.extend(two.map(i32::to_le_bytes).as_flattened());
+        }
+        bytes.truncate(length);
+        let found = Self::of(bytes)?;
+        if found.crc == crc {
+            return Ok(found);
+        }
+        let fault = "somebody else sets keys in the module meanwhile; try again";
+        Err(Error::Work(fault.to_owned()))
+    }
+
+    /// Has a module go on by it, between two ticks.
+    pub(crate) fn send(&self, module: &mut Conversation) -> Result<Taken, Error> {
+        let first = module.answer(Command::Forget)?;
+        match first.status {
+            CommandStatus::Done => {}
+            CommandStatus::NotHere => return Ok(Taken::NotBuilt),
+            status => return Err(Error::Work(format!("the module takes no scene: {status}"))),
+        }
+        // Zeros follow the last byte.
+        let mut bytes = self.bytes().to_vec();
+        bytes.resize(bytes.len().next_multiple_of(4), 0);
+        for (number, word) in bytes.as_chunks().0.iter().enumerate() {
+            module.ask(Command::Stage(number as u8, u32::from_le_bytes(*word)))?;
+        }
+        let answer = module.answer(Command::Apply(self.bytes().len() as u32))?;
+        match (answer.status, refusal_of(answer.values)) {
+            (CommandStatus::Done, _) => Ok(Taken::Runs),
+            (CommandStatus::OutOfRange | CommandStatus::Armed, Some(refused)) => {
+                Ok(Taken::Refused(refused))
+            }
+            (status, _) => Err(Error::Work(format!(
+                "the module does not take the configuration: {status}"
+            ))),
+        }
+    }
+
+    pub(crate) fn of(bytes: Vec<u8>) -> Result<Self, Error> {
+        let fault = "the configuration of the module cannot be read";
+        let strange = |why: ConfigError| Error::Work(format!("{fault}: {why}"));
         let header = Header::of(&bytes).map_err(strange)?;
         let program = Program::of(header.board, header.format)?;
         in_format!(program.format, read(program, bytes)).map_err(strange)
@@ -153,11 +207,8 @@ impl Running {
     ) -> Result<Self, Error> {
         let program = Program::for_scene(board, scene)?;
         let built = in_format!(program.format, built(scene, target, board));
-        Self::of(
-            built
-                .map_err(|fault| Error::Input(fault.to_string()))?
-                .to_vec(),
-        )
+        let built = built.map_err(|fault| Error::Input(fault.to_string()))?;
+        Self::of(built.to_vec())
     }
 
     /// That of a scene for the same module with the same model, with these keys in place of the
@@ -179,12 +230,10 @@ impl Running {
         // What the model was trained from; a recording has none.
         let own = scene.classifier.as_ref().and_then(|own| own.contact_min);
         let is_models = own.is_none() && !is_recording;
+        let gate = self.contact_min.filter(|_| is_models);
         let target = Target {
             runs_on,
-            gate: self
-                .contact_min
-                .filter(|_| is_models)
-                .map(|gate| gate as f32),
+            gate: gate.map(|gate| gate as f32),
             classes: Some(classes),
             overrides,
         };

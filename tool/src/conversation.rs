@@ -1,6 +1,7 @@
 //! Requests to a module, and their answers from among all that it tells.
 
 use std::collections::VecDeque;
+use std::time::{Duration, Instant};
 
 use firmware::{Packet, Relay};
 use host_sim::origin::Origin;
@@ -16,6 +17,9 @@ const PATIENCE_S: f64 = 2.0;
 const ASKED_AGAIN_S: f64 = 1.0;
 const SILENCE_S: f64 = 20.0;
 
+/// For how long a board of a head that sends records may be silent, s.
+const ELSEWHERE_S: f64 = 3.0;
+
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct AboutModule {
     pub(crate) scene: String,
@@ -25,6 +29,11 @@ pub(crate) struct AboutModule {
 
 pub(crate) struct Conversation {
     source: Box<dyn Source>,
+    /// The board of a head that is asked by way of the one that is connected.
+    node: Option<u8>,
+    begun: Instant,
+    /// When something has come of that board last, s, while it is to send records.
+    came_s: Option<f64>,
     tag: u16,
     /// What has come while an answer was waited for.
     kept: VecDeque<Incoming>,
@@ -36,13 +45,58 @@ pub(crate) struct Conversation {
 
 impl Conversation {
     pub(crate) fn new(source: Box<dyn Source>) -> Self {
+        Self::with(source, None)
+    }
+
+    /// With that board of a head, by way of the one that is connected.
+    pub(crate) fn with(source: Box<dyn Source>, node: Option<u8>) -> Self {
         Self {
             source,
+            node,
+            begun: Instant::now(),
+            came_s: None,
             tag: 0,
             kept: VecDeque::new(),
             logs: None,
             streams: None,
         }
+    }
+
+    pub(crate) const fn node(&self) -> Option<u8> {
+        self.node
+    }
+
+    /// The time where the module is, s.
+    pub(crate) fn now_s(&mut self) -> f64 {
+        match self.node {
+            // The source's is by the clock of the board between.
+            Some(_) if !self.source.has_clock() => self.begun.elapsed().as_secs_f64(),
+            _ => self.source.now_s(),
+        }
+    }
+
+    fn next(&mut self) -> Result<Incoming, Error> {
+        let incoming = self.source.next()?;
+        let Some(node) = self.node else {
+            return Ok(incoming);
+        };
+        let now_s = self.now_s();
+        if let Some(came_s) = &mut self.came_s {
+            if !incoming.packets.is_empty() {
+                *came_s = now_s;
+            }
+            if now_s - *came_s > ELSEWHERE_S {
+                return Err(Error::Work(format!(
+                    "board {node} has sent nothing for {ELSEWHERE_S} s: has it lost its supply or \
+                     its bus, or started again?"
+                )));
+            }
+        }
+        // Lines and restarts are those of the board between.
+        Ok(Incoming {
+            packets: incoming.packets,
+            ..Incoming::default()
+        })
     }
 
     pub(crate) fn source(&mut self) -> &mut dyn Source {
@@ -53,7 +107,7 @@ impl Conversation {
     pub(crate) fn receive(&mut self) -> Result<Incoming, Error> {
         let mut incoming = match self.kept.pop_front() {
             Some(incoming) => incoming,
-            None => self.source.next()?,
+            None => self.next()?,
         };
         self.stream_again(&incoming)?;
         if let Some((tick_hz, classes)) = &self.logs {
@@ -65,7 +119,7 @@ impl Conversation {
     }
 
     fn stream_again(&mut self, incoming: &Incoming) -> Result<(), Error> {
-        let now_s = self.source.now_s();
+        let now_s = self.now_s();
         let Some([since_s, asked_s]) = &mut self.streams else {
             return Ok(());
         };
@@ -84,7 +138,7 @@ impl Conversation {
     /// Has its log come with what else does. That of a board which another one asks is made of the
     /// events that it sends.
     pub(crate) fn follow_log(&mut self) -> Result<(), Error> {
-        if self.source.node().is_none() {
+        if self.node.is_none() {
             return self.source.has_log();
         }
         self.ask(Command::Stream(true))?;
@@ -102,7 +156,7 @@ impl Conversation {
 
     /// Of how many of its ticks one has its records sent.
     pub(crate) fn every(&self, tick_hz: u32) -> u32 {
-        match self.source.node() {
+        match self.node {
             Some(_) => Relay::every(tick_hz),
             None => 1,
         }
@@ -112,11 +166,11 @@ impl Conversation {
         if seconds <= 0.0 {
             return Ok(());
         }
-        if self.source.node().is_some() {
+        if self.node.is_some() {
             self.follow_log()?;
         }
-        let begun = self.source.now_s();
-        while self.source.now_s() - begun < seconds {
+        let begun = self.now_s();
+        while self.now_s() - begun < seconds {
             self.receive()?.lines.iter().for_each(report::say);
         }
         self.leave_log()
@@ -135,8 +189,29 @@ impl Conversation {
     pub(crate) fn send_to(&mut self, node: Option<u8>, command: Command) -> Result<u16, Error> {
         self.tag = self.tag.wrapping_add(1);
         let tag = self.tag;
-        self.source.request(node, TaggedCommand { tag, command })?;
+        if let (None, Command::Stream(on)) = (node, command) {
+            self.came_s = on.then(|| self.now_s());
+        }
+        let request = TaggedCommand { tag, command };
+        self.source.request(node.or(self.node), request)?;
         Ok(tag)
+    }
+
+    /// Asks for something and waits so long for the answer, by the PC's clock; drops what else comes.
+    pub(crate) fn ask_within(
+        &mut self,
+        command: Command,
+        patience: Duration,
+    ) -> Result<Option<Answer>, Error> {
+        let tag = self.send(command)?;
+        let begun = Instant::now();
+        while begun.elapsed() < patience {
+            let found = answer_of(&mut self.next()?, tag);
+            if found.is_some() {
+                return Ok(found);
+            }
+        }
+        Ok(None)
     }
 
     /// Whether it is a board of a head: then that has a first one.
@@ -149,14 +224,13 @@ impl Conversation {
     /// Asks for something and waits for the answer, which must be that it is done.
     pub(crate) fn ask(&mut self, command: Command) -> Result<Answer, Error> {
         let answer = self.answer(command)?;
+        let name = command.name();
         match answer.status {
             CommandStatus::Done => Ok(answer),
-            CommandStatus::NotHere => Err(Error::Work(format!(
-                "{}: {}, scene or simulation",
-                command.name(),
-                CommandStatus::NotHere
+            status @ CommandStatus::NotHere => Err(Error::Work(format!(
+                "{name}: {status}, scene or simulation"
             ))),
-            status => Err(Error::Work(format!("{}: {status}", command.name()))),
+            status => Err(Error::Work(format!("{name}: {status}"))),
         }
     }
 
@@ -165,21 +239,18 @@ impl Conversation {
         let answer = self.await_answer(tag, command)?;
         if let Command::Stream(on) = command {
             let streams = on && answer.status == CommandStatus::Done;
-            self.streams = streams.then(|| [self.source.now_s(); 2]);
+            self.streams = streams.then(|| [self.now_s(); 2]);
         }
         Ok(answer)
     }
 
     fn await_answer(&mut self, tag: u16, command: Command) -> Result<Answer, Error> {
-        let begun = self.source.now_s();
-        while self.source.now_s() - begun < PATIENCE_S {
-            let mut incoming = self.source.next()?;
-            let is_it =
-                |packet: &Packet| matches!(packet, Packet::Answer(answer) if answer.tag == tag);
-            let found = incoming.packets.iter().position(is_it);
-            let found = found.map(|at| incoming.packets.remove(at));
+        let begun = self.now_s();
+        while self.now_s() - begun < PATIENCE_S {
+            let mut incoming = self.next()?;
+            let found = answer_of(&mut incoming, tag);
             self.kept.push_back(incoming);
-            if let Some(Packet::Answer(answer)) = found {
+            if let Some(answer) = found {
                 return Ok(answer);
             }
         }
@@ -200,20 +271,23 @@ impl Conversation {
         let [version, patch] = self.ask(Command::Version)?.values;
         let (major, minor) = (version >> 16, version & 0xFFFF);
         let version = format!("{major}.{minor}.{patch}");
-        Ok(self.source.origin().with("firmware", version))
+        let origin = self.source.origin();
+        let origin = match self.node {
+            Some(node) => origin.with("node", node),
+            None => origin,
+        };
+        Ok(origin.with("firmware", version))
     }
 
     pub(crate) fn about(&mut self) -> Result<AboutModule, Error> {
         let [tick_hz, whiskers] = self.ask(Command::Hello)?.values;
         let tick_hz = tick_hz.cast_unsigned();
         if tick_hz == 0 {
-            return Err(Error::Work(
-                "the module says that it does not tick".to_owned(),
-            ));
+            let fault = "the module says that it does not tick";
+            return Err(Error::Work(fault.to_owned()));
         }
-        let scene = self.name(Command::Name)?;
         Ok(AboutModule {
-            scene,
+            scene: self.name(Command::Name)?,
             tick_hz,
             whiskers: usize::try_from(whiskers).unwrap_or(1),
         })
@@ -246,6 +320,15 @@ impl Conversation {
     }
 }
 
+/// Takes the answer to a request from among what has come.
+pub(crate) fn answer_of(incoming: &mut Incoming, tag: u16) -> Option<Answer> {
+    let is_it = |packet: &mut Packet| matches!(packet, Packet::Answer(answer) if answer.tag == tag);
+    match incoming.packets.extract_if(.., is_it).next() {
+        Some(Packet::Answer(answer)) => Some(answer),
+        _ => None,
+    }
+}
+
 fn line(packet: &Packet, tick_hz: u32, classes: &[String]) -> Option<String> {
     let Packet::Event(event) = packet else {
         return None;
@@ -253,4 +336,35 @@ fn line(packet: &Packet, tick_hz: u32, classes: &[String]) -> Option<String> {
     let tick_hz = tick_hz.max(1);
     let t_s = f64::from(event.sequence) / f64::from(tick_hz);
     report::logged(t_s, &event.event, classes, Some(1_000_000 / tick_hz))
+}
+
+#[cfg(test)]
+mod tests {
+    use wire::{Command, CommandStatus};
+
+    use super::{Conversation, ELSEWHERE_S};
+    use crate::source::Scripted;
+
+    #[test]
+    fn a_board_that_was_to_send_records_and_is_silent_has_gone() {
+        let source = Scripted::new(|_| Some((CommandStatus::Done, [0; 2])));
+        let mut module = Conversation::with(Box::new(source), Some(1));
+        let mut send = |command| {
+            module.send(command).unwrap();
+            let begun_s = module.now_s();
+            while module.now_s() - begun_s < 10.0 {
+                if let Err(error) = module.receive() {
+                    return Some((module.now_s() - begun_s, error.to_string()));
+                }
+            }
+            None
+        };
+        assert_eq!(send(Command::Stream(false)), None);
+        let (after_s, fault) = send(Command::Stream(true)).unwrap();
+        let expected_s = ELSEWHERE_S..ELSEWHERE_S + 0.4;
+        assert!(expected_s.contains(&after_s), "{after_s}");
+        assert!(fault.contains("board 1 has sent nothing"), "{fault}");
+        // What asks for something else waits for that by itself.
+        assert_eq!(send(Command::Stream(false)), None);
+    }
 }

@@ -11,8 +11,10 @@ use host_sim::{Error, files};
 use scene::Scene;
 use tactile::ModelBuf;
 use whisking::Real;
+use wire::{Command, HAS_OPINIONS};
 
-use crate::configuration::{Program, Running, in_format};
+use crate::configuration::{Program, Running, Taken, builds, in_format};
+use crate::conversation::Conversation;
 
 #[derive(Debug)]
 pub(crate) struct Deployment {
@@ -60,10 +62,8 @@ fn with_model<R: Real>(
     let Some((classifier, rule)) = classifier.and_then(|of| of.rule.map(|rule| (of, rule))) else {
         return Err("it has no [classifier], and so no use for a model".to_owned());
     };
-    let boards = config.head.bus.map_or(1, |bus| bus.nodes);
-    let deciding = classifier
-        .deciding
-        .heard(whiskers / usize::from(boards).max(1));
+    let boards = config.head.bus.map_or(1, |bus| usize::from(bus.nodes));
+    let deciding = classifier.deciding.heard(whiskers / boards.max(1));
     let limits = ModelLimits {
         classes: board.max_classes,
         poses: board.poses_of_each(deciding),
@@ -136,10 +136,8 @@ impl Deployment {
         has_room(&model, board, board.name)?;
         let bytes = in_format!(program.format, with_model(running, &model, board));
         let bytes = bytes.map_err(|fault| {
-            let name = &running.head.name;
-            Error::Input(format!(
-                "the scene {name} of the module: {fault}; --scene FILE deploys both"
-            ))
+            let scene = format!("the scene {} of the module", running.head.name);
+            Error::Input(format!("{scene}: {fault}; --scene FILE deploys both"))
         })?;
         Ok(Self {
             config: Running::of(bytes.to_vec())?,
@@ -148,13 +146,39 @@ impl Deployment {
         })
     }
 
+    /// Whether a module whose motors are off can read it: what its image was built without it
+    /// refuses by name. Nothing is written. An image that takes no configuration so says it after
+    /// its restart, and goes on by the scene before.
+    pub(crate) fn try_out(&self, module: &mut Conversation) -> Result<(), Error> {
+        if self.model.as_ref().is_some_and(ModelBuf::has_opinion) {
+            let [_, flags] = module.ask(Command::Board)?.values;
+            if flags & HAS_OPINIONS == 0 {
+                let fault = "the model has a second opinion, and the module's image was built \
+                             without: cargo xtask firmware --scene SCENE builds one for it";
+                return Err(Error::Work(fault.to_owned()));
+            }
+        }
+        let refused = match self.config.send(module)? {
+            // Another scene is what a restart is for.
+            Taken::Refused(ConfigError::Shape(_) | ConfigError::Armed(_))
+            | Taken::Runs
+            | Taken::NotBuilt => return Ok(()),
+            Taken::Refused(refused) => refused,
+        };
+        let help = match refused {
+            ConfigError::NotBuilt(part) => format!("; {}", builds(part)),
+            _ => String::new(),
+        };
+        Err(Error::Work(format!(
+            "the module refuses the scene: {refused}{help}; nothing was written"
+        )))
+    }
+
     /// The words of the configuration and of the model, each an even number of them, with zeros
     /// at the end: the flash of some boards is written by two.
     pub(crate) fn words(&self) -> [Vec<u32>; 2] {
-        let model = self
-            .model
-            .as_ref()
-            .map_or(&[][..], |model| model.as_bytes());
+        let model = self.model.as_ref();
+        let model = model.map_or(&[][..], |model| model.as_bytes());
         [self.config.bytes(), model].map(|bytes| {
             let mut bytes = bytes.to_vec();
             bytes.resize(bytes.len().next_multiple_of(8), 0);

@@ -18,6 +18,8 @@ const CLEAN: f64 = 0.99;
 /// By so much words change more from frame to frame when their bytes are exchanged.
 const ROUGHER: f64 = 4.0;
 
+pub(crate) type Frame = [u8; FRAME_LEN];
+
 /// Frames of one sensor, one after the other, as they came.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub(crate) struct Seen {
@@ -41,20 +43,14 @@ pub(crate) struct Seen {
 }
 
 impl Seen {
-    pub(crate) fn of(frames: &[[u8; FRAME_LEN]]) -> Self {
-        let count = |is_it: &dyn Fn(&[u8; FRAME_LEN]) -> bool| {
-            frames.iter().filter(|frame| is_it(frame)).count()
-        };
-        let silent = count(&|frame| *frame == [u8::MAX; FRAME_LEN]);
-        let low = count(&|frame| *frame == [0; FRAME_LEN]);
-        let begins = |frame: &[u8; FRAME_LEN]| frame[0] == START_BYTE;
+    pub(crate) fn of(frames: &[Frame]) -> Self {
+        let count = |all: Frame| frames.iter().filter(|frame| **frame == all).count();
+        let [silent, low] = [u8::MAX, 0].map(|byte| count([byte; FRAME_LEN]));
         // All ones begin as a frame does.
-        let bad_start = count(&|frame| !begins(frame)) - low;
-        let is_frame = |frame: &&[u8; FRAME_LEN]| begins(frame) && **frame != [u8::MAX; FRAME_LEN];
+        let is_frame = |frame: &&Frame| frame[0] == START_BYTE && **frame != [u8::MAX; FRAME_LEN];
         let begun: Vec<_> = frames.iter().filter(is_frame).copied().collect();
-        let keeps = |rule: SumRule, frame: &[u8; FRAME_LEN]| {
-            rule.expected(frame).is_some_and(|sum| sum == frame[7])
-        };
+        let bad_start = frames.len() - silent - low - begun.len();
+        let keeps = |rule: SumRule, frame: &Frame| rule.expected(frame) == Some(frame[7]);
         let kept = RULES.map(|(rule, _)| begun.iter().filter(|frame| keeps(rule, frame)).count());
         let most = kept.iter().max().copied().unwrap_or_default();
         let is_clean = most > 0 && most as f64 >= CLEAN * begun.len() as f64;
@@ -62,14 +58,8 @@ impl Seen {
         let is_alone = kept.iter().filter(|kept| **kept == most).count() == 1;
         let found = kept.iter().position(|kept| *kept == most);
         let rule = found.filter(|_| is_clean && is_alone).map(|at| RULES[at]);
-        let good: Vec<_> = match rule {
-            Some((rule, _)) => begun
-                .iter()
-                .filter(|frame| keeps(rule, frame))
-                .copied()
-                .collect(),
-            None => begun,
-        };
+        let mut good = begun;
+        good.retain(|frame| rule.is_none_or(|(rule, _)| keeps(rule, frame)));
         let changes = |order| change(&good, order);
         let [low_first, high_first] = [ByteOrder::Little, ByteOrder::Big].map(changes);
         let [smooth, rough] = [low_first, high_first].map(|[x, y]| x.hypot(y));
@@ -81,10 +71,8 @@ impl Seen {
             None
         };
         let decoder_order = order.map_or(ByteOrder::Little, |(order, _)| order);
-        let thirds: BTreeSet<u16> = good
-            .iter()
-            .map(|frame| decoder_order.number([frame[5], frame[6]]))
-            .collect();
+        let third = |frame: &Frame| decoder_order.number([frame[5], frame[6]]);
+        let thirds: BTreeSet<u16> = good.iter().map(third).collect();
         // A field has bits that stand for no fault.
         let is_report = |word: &u16| Faults::new(*word).unknown() == 0;
         let mode = if thirds.is_empty() {
@@ -94,6 +82,7 @@ impl Seen {
         } else {
             Some((Mode::Xyz, "xyz"))
         };
+        let all_bits = thirds.iter().fold(0, |all, word| all | word);
         let repeats = good.windows(2).filter(|pair| pair[0] == pair[1]).count();
         Self {
             frames: frames.len(),
@@ -105,11 +94,7 @@ impl Seen {
             words: mode.map(|(_, name)| name),
             byte_order: order.map(|(_, name)| name),
             reports: match mode {
-                Some((Mode::AlphaBeta, _)) => thirds
-                    .iter()
-                    .copied()
-                    .reduce(|all, word| all | word)
-                    .filter(|word| *word != 0),
+                Some((Mode::AlphaBeta, _)) => Some(all_bits).filter(|bits| *bits != 0),
                 _ => None,
             },
             change_codes: match decoder_order {
@@ -165,28 +150,27 @@ impl Seen {
         if !found.is_empty() {
             return found;
         }
-        match self.sum_rule {
-            None => found.push(
-                "no rule fits the sum of nearly all frames, or two do alike: noise on the line, or \
-                 a magnet that stands still; move it and look again"
-                    .to_owned(),
-            ),
-            Some(rule) if self.decoder.sum_rule != takes.sum_rule => found.push(format!(
-                "the sum is another than the scene has: set sensor.sum_rule = \"{rule}\""
-            )),
-            Some(_) => {}
+        if self.sum_rule.is_none() {
+            let fault = "no rule fits the sum of nearly all frames, or two do alike: noise on the \
+                         line, or a magnet that stands still; move it and look again";
+            found.push(fault.to_owned());
         }
-        if let Some(order) = self.byte_order
-            && self.decoder.byte_order != takes.byte_order
+        let own = self.decoder;
+        if let Some(rule) = self.sum_rule.filter(|_| own.sum_rule != takes.sum_rule) {
+            found.push(format!(
+                "the sum is another than the scene has: set sensor.sum_rule = \"{rule}\""
+            ));
+        }
+        if let Some(order) = self
+            .byte_order
+            .filter(|_| own.byte_order != takes.byte_order)
         {
             found.push(format!(
                 "words come in the other order than the scene has: set sensor.byte_order = \
                  \"{order}\""
             ));
         }
-        if let Some(words) = self.words
-            && self.decoder.mode != takes.mode
-        {
+        if let Some(words) = self.words.filter(|_| own.mode != takes.mode) {
             found.push(format!(
                 "the third word is not what the scene takes it for: set sensor.words = \"{words}\", \
                  or the other mode in the sensor's EEPROM"
@@ -229,13 +213,11 @@ impl Seen {
 }
 
 /// By how much each of the first two words changes from frame to frame, codes, root mean square.
-fn change(frames: &[[u8; FRAME_LEN]], order: ByteOrder) -> [f64; 2] {
-    let word =
-        |frame: &[u8; FRAME_LEN], at| f64::from(order.number([frame[at], frame[at + 1]]) >> 2);
+fn change(frames: &[Frame], order: ByteOrder) -> [f64; 2] {
+    let word = |frame: &Frame, at| f64::from(order.number([frame[at], frame[at + 1]]) >> 2);
     [1, 3].map(|at| {
-        let squares = frames
-            .windows(2)
-            .map(|pair| (word(&pair[1], at) - word(&pair[0], at)).powi(2));
+        let pairs = frames.windows(2);
+        let squares = pairs.map(|pair| (word(&pair[1], at) - word(&pair[0], at)).powi(2));
         let count = frames.len().max(2) - 1;
         (squares.sum::<f64>() / count as f64).sqrt()
     })
@@ -243,13 +225,14 @@ fn change(frames: &[[u8; FRAME_LEN]], order: ByteOrder) -> [f64; 2] {
 
 #[cfg(test)]
 mod tests {
-    use mlx90333::{ByteOrder, Decoder, FRAME_LEN, Mode, SumRule, encode};
+    use mlx90333::{ByteOrder, Decoder, FRAME_LEN, Mode, encode};
     use proptest::prelude::*;
+    use proptest::sample::select;
 
-    use super::{RULES, Seen};
+    use super::{Frame, RULES, Seen};
 
     /// A magnet that swings, with noise of a code or two, as this decoder takes it.
-    fn swinging(decoder: Decoder, phase: f64) -> Vec<[u8; FRAME_LEN]> {
+    fn swinging(decoder: Decoder, phase: f64) -> Vec<Frame> {
         let words = (0..400).map(|n| {
             let angle = 0.05 * f64::from(n) + phase;
             let noise = (n * 7919 % 13) as u16;
@@ -269,12 +252,7 @@ mod tests {
         let rules = RULES.map(|(rule, _)| rule).to_vec();
         let modes = vec![Mode::AlphaBeta, Mode::Xyz];
         let orders = vec![ByteOrder::Little, ByteOrder::Big];
-        let select = proptest::sample::select::<SumRule>(rules);
-        let parts = (
-            select,
-            proptest::sample::select(modes),
-            proptest::sample::select(orders),
-        );
+        let parts = (select(rules), select(modes), select(orders));
         parts.prop_map(|(sum_rule, mode, byte_order)| Decoder {
             mode,
             sum_rule,
@@ -302,7 +280,7 @@ mod tests {
 
     #[test]
     fn silence_a_short_and_a_report_are_found() {
-        let says = |frames: &[[u8; FRAME_LEN]], what: &str| {
+        let says = |frames: &[Frame], what: &str| {
             let found = Seen::of(frames).findings(Decoder::new());
             assert!(found.iter().any(|found| found.contains(what)), "{found:?}");
         };
@@ -317,9 +295,8 @@ mod tests {
         assert!(seen.is_silent_at_times());
         assert_eq!(seen.findings(Decoder::new()), Vec::<String>::new());
         assert!(!Seen::of(&[[0xFF; FRAME_LEN]; 50]).is_silent_at_times());
-        let low: Vec<_> = (0..50)
-            .map(|n| encode::words([30_000 + n, 32_768, 0x0080], Decoder::new()))
-            .collect();
+        let low = |n: u16| encode::words([30_000 + n, 32_768, 0x0080], Decoder::new());
+        let low: Vec<_> = (0..50).map(low).collect();
         says(&low, "field too low");
     }
 }

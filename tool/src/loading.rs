@@ -1,64 +1,38 @@
 //! A scene and its model to a board whose own program writes them: by whatever its requests go.
 
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
-use firmware::{Packet, Part};
+use firmware::Part;
 use host_sim::Error;
-use wire::{Answer, Command, CommandStatus, Load, LoadedWord, TaggedCommand};
+use wire::{Command, CommandStatus, Load, LoadedWord};
 
 use crate::configuration::not_built;
+use crate::conversation::Conversation;
 use crate::deployment::Deployment;
-use crate::source::Source;
 
 /// After so long without its answer a word is sent again, which changes nothing.
 const AGAIN: Duration = Duration::from_secs(1);
-
 const TIMES: usize = 10;
-
 /// How long flash may take to be erased, and a board to start; an emulated one has its own time.
 const LONG: Duration = Duration::from_secs(20);
 
-/// Tags of these requests begin here, beyond those of a conversation that has just begun.
-const FIRST_TAG: u16 = 0x8000;
-
-struct Asking<'s, S: ?Sized> {
-    source: &'s mut S,
-    tag: u16,
-}
-
-impl<S: Source + ?Sized> Asking<'_, S> {
-    fn ask(&mut self, command: Command, patience: Duration) -> Result<Option<Answer>, Error> {
-        self.tag = self.tag.wrapping_add(1) | FIRST_TAG;
-        let tag = self.tag;
-        self.source.request(None, TaggedCommand { tag, command })?;
-        let begun = Instant::now();
-        while begun.elapsed() < patience {
-            let found = self.source.next()?.packets.into_iter().find_map(|packet| {
-                let Packet::Answer(answer) = packet else {
-                    return None;
-                };
-                (answer.tag == tag).then_some(answer)
-            });
-            if found.is_some() {
-                return Ok(found);
-            }
+/// Asks for what can be asked more than once; it must be done.
+fn done(
+    module: &mut Conversation,
+    command: Command,
+    times: usize,
+    patience: Duration,
+) -> Result<(), Error> {
+    for _ in 0..times {
+        if let Some(answer) = module.ask_within(command, patience)? {
+            return match answer.status {
+                CommandStatus::Done => Ok(()),
+                status => Err(refused(command, status)),
+            };
         }
-        Ok(None)
     }
-
-    /// Asks for what can be asked more than once; it must be done.
-    fn done(&mut self, command: Command, times: usize, patience: Duration) -> Result<(), Error> {
-        for _ in 0..times {
-            if let Some(answer) = self.ask(command, patience)? {
-                return match answer.status {
-                    CommandStatus::Done => Ok(()),
-                    status => Err(refused(command, status)),
-                };
-            }
-        }
-        let fault = "the board does not answer any more; switch it off and on, and deploy again";
-        Err(Error::Work(fault.to_owned()))
-    }
+    let fault = "the board does not answer any more; switch it off and on, and deploy again";
+    Err(Error::Work(fault.to_owned()))
 }
 
 fn refused(command: Command, status: CommandStatus) -> Error {
@@ -71,10 +45,22 @@ fn refused(command: Command, status: CommandStatus) -> Error {
     Error::Work(why.to_owned())
 }
 
+/// Writes a scene and its model where the module looks for them, and has it start by them; comes
+/// back once it has. Its motors are off already.
+pub(crate) fn deploy(module: &mut Conversation, what: &Deployment) -> Result<(), Error> {
+    if module.source().deploy(what)? {
+        return Ok(());
+    }
+    module.source().loads(true)?;
+    let loaded = load(module, what);
+    module.source().loads(false)?;
+    loaded
+}
+
 /// Has the board erase the slot that it does not run by, write a scene and its model there, and
 /// start by them; comes back once it answers again. Interrupted, it leaves the board the scene
 /// before.
-pub(crate) fn load<S: Source + ?Sized>(source: &mut S, what: &Deployment) -> Result<(), Error> {
+fn load(module: &mut Conversation, what: &Deployment) -> Result<(), Error> {
     let [config, model] = what.words();
     let count = |words: &[u32]| {
         let fault = |_| Error::Work("the model is longer than any board's flash".to_owned());
@@ -84,11 +70,7 @@ pub(crate) fn load<S: Source + ?Sized>(source: &mut S, what: &Deployment) -> Res
         config: count(&config)?,
         model: count(&model)?,
     };
-    let mut board = Asking {
-        source,
-        tag: FIRST_TAG,
-    };
-    board.done(Command::Load(load), 1, LONG)?;
+    done(module, Command::Load(load), 1, LONG)?;
     let words = (0..).map_while(|number| {
         let word = match load.word(number)? {
             LoadedWord::Config(n) => config.get(usize::from(n)),
@@ -97,13 +79,15 @@ pub(crate) fn load<S: Source + ?Sized>(source: &mut S, what: &Deployment) -> Res
         Some((number as u8, *word?))
     });
     for (number, word) in words {
-        board.done(Command::Word(number, word), TIMES, AGAIN)?;
+        done(module, Command::Word(number, word), TIMES, AGAIN)?;
     }
     // The answer may be lost with the reset.
-    board.ask(Command::Restart, AGAIN)?;
-    board.source.speaks(what.config.links)?;
+    module.ask_within(Command::Restart, AGAIN)?;
+    if module.node().is_none() {
+        module.source().speaks(what.config.links)?;
+    }
     let times = LONG.as_secs() / AGAIN.as_secs();
-    board.done(Command::Hello, times as usize, AGAIN)
+    done(module, Command::Hello, times as usize, AGAIN)
 }
 
 #[cfg(test)]

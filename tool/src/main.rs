@@ -12,10 +12,8 @@ mod capture;
 mod commands;
 mod configuration;
 mod conversation;
-mod decides;
 mod deployment;
 mod doctor;
-mod exchange;
 mod faults;
 mod frames;
 mod interrupt;
@@ -88,11 +86,11 @@ enum Command {
     #[cfg(unix)]
     Board(commands::board::Arguments),
     /// Prints what the module has for keys of its scene, beside what the scene says
-    Get(commands::get::Arguments),
+    Get(commands::tuning::GetArguments),
     /// Sets keys of the scene in the module while it runs
-    Set(commands::set::Arguments),
+    Set(commands::tuning::SetArguments),
     /// Writes what the module has into its scene file
-    Save(commands::save::Arguments),
+    Save(commands::tuning::SaveArguments),
 }
 
 fn main() -> ExitCode {
@@ -122,8 +120,8 @@ fn run(command: &Command, verbosity: Verbosity) -> Result<(), Error> {
         Command::Deploy(arguments) => commands::deploy::deploy(arguments),
         #[cfg(unix)]
         Command::Board(arguments) => commands::board::board(arguments),
-        Command::Get(arguments) => commands::get::get(arguments),
-        Command::Set(arguments) => commands::set::set(arguments),
-        Command::Save(arguments) => commands::save::save(arguments),
+        Command::Get(arguments) => commands::tuning::get(arguments),
+        Command::Set(arguments) => commands::tuning::set(arguments),
+        Command::Save(arguments) => commands::tuning::save(arguments),
     }
 }

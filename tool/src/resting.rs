@@ -31,19 +31,16 @@ pub(crate) fn rest(module: &mut Conversation) -> Result<(), Error> {
         }
         let answer = module.answer(Command::Setpoint(whisker, REST))?;
         // Its range may leave rest out.
-        let is_there = matches!(
-            answer.status,
-            CommandStatus::Done | CommandStatus::OutOfRange
-        );
-        found += usize::from(is_there);
+        let are_there = [CommandStatus::Done, CommandStatus::OutOfRange];
+        found += usize::from(are_there.contains(&answer.status));
     }
     if found == 0 {
         return Ok(());
     }
     if module.answer(Command::Stream(true))?.status != CommandStatus::Done {
         // Its link is too slow for records: they have had time to.
-        let begun = module.source().now_s();
-        while module.source().now_s() - begun < PATIENCE_S {
+        let begun = module.now_s();
+        while module.now_s() - begun < PATIENCE_S {
             module.receive()?;
         }
         return module.ask(Command::Stop).map(drop);
@@ -57,9 +54,8 @@ pub(crate) fn rest(module: &mut Conversation) -> Result<(), Error> {
     if are_off {
         return Ok(());
     }
-    Err(Error::Work(format!(
-        "a motor is still driven {PATIENCE_S} s after the command to stop; nothing was written"
-    )))
+    let fault = format!("a motor is still driven {PATIENCE_S} s after the command to stop");
+    Err(Error::Work(format!("{fault}; nothing was written")))
 }
 
 /// Lets whiskers go that [`rest`] has held, with their motors off: nothing was restarted.
@@ -82,8 +78,8 @@ fn until(
     is_such: impl Fn(&TickRecord) -> bool,
 ) -> Result<bool, Error> {
     let mut since: Option<(u32, usize)> = None;
-    let begun = module.source().now_s();
-    while module.source().now_s() - begun < PATIENCE_S {
+    let begun = module.now_s();
+    while module.now_s() - begun < PATIENCE_S {
         for record in module.receive()?.records() {
             if !is_such(record) {
                 since = None;

@@ -11,7 +11,7 @@ use wire::{Command, CommandStatus};
 
 use crate::conversation::Conversation;
 use crate::source::SourceChoice;
-use crate::tuning::{Became, Tuner, live_key};
+use crate::tuning::{Tuner, live_key};
 
 #[derive(Debug, Clone, PartialEq)]
 struct Entry {
@@ -46,7 +46,24 @@ impl Script {
         };
         let text = file::read_text(path).map_err(|error| Error::file(path, error))?;
         let mut script = Self::parse(&text).map_err(|fault| Error::file(path, fault))?;
-        script.tuner = script.tuner(source)?;
+        let keys = script
+            .entries
+            .iter()
+            .filter_map(|entry| match &entry.action {
+                Action::Set(set) => Some(set.key()),
+                Action::Give(_) => None,
+            });
+        let keys: Vec<&str> = keys.collect();
+        if keys.is_empty() {
+            return Ok(script);
+        }
+        let fault = "set: nothing says which scene the module runs";
+        let none = || Error::Input(fault.to_owned());
+        let tuner = Tuner::open(source.scene().ok_or_else(none)?, source)?;
+        for key in keys {
+            live_key(key, tuner.scene()).map_err(Error::Input)?;
+        }
+        script.tuner = Some(tuner);
         Ok(script)
     }
 
@@ -60,9 +77,8 @@ impl Script {
             }
             let entry = entry(words).map_err(|fault| format!("line {n}: {fault}"))?;
             if entries.back().is_some_and(|last| last.at_s > entry.at_s) {
-                return Err(format!(
-                    "line {n}: its time is before that of the last command"
-                ));
+                let fault = "its time is before that of the last command";
+                return Err(format!("line {n}: {fault}"));
             }
             entries.push_back(entry);
         }
@@ -72,45 +88,24 @@ impl Script {
         })
     }
 
-    fn tuner(&self, source: &SourceChoice) -> Result<Option<Tuner>, Error> {
-        let sets = self.entries.iter().filter_map(|entry| match &entry.action {
-            Action::Set(set) => Some(set.key()),
-            Action::Give(_) => None,
-        });
-        let keys: Vec<&str> = sets.collect();
-        if keys.is_empty() {
-            return Ok(None);
-        }
-        let file = source.scene().ok_or_else(|| {
-            Error::Input("set: nothing says which scene the module runs".to_owned())
-        })?;
-        let tuner = Tuner::open(file, source)?;
-        for key in keys {
-            live_key(key, tuner.scene()).map_err(Error::Input)?;
-        }
-        Ok(Some(tuner))
-    }
-
     /// Returns the line of a key that was set, or was refused.
     pub(crate) fn play(&mut self, module: &mut Conversation) -> Result<Option<String>, Error> {
-        let now_s = module.source().now_s();
+        let now_s = module.now_s();
         let begun_s = *self.begun_s.get_or_insert(now_s);
         let is_due = |entry: &Entry| now_s - begun_s >= entry.at_s;
         if self.pending.is_none()
             && self.entries.front().is_some_and(is_due)
             && let Some(entry) = self.entries.pop_front()
         {
-            match entry.action {
-                Action::Give(command) => {
-                    self.pending = Some((module.send(command)?, entry.text));
-                }
-                Action::Set(set) => return self.set(module, set, &entry.text).map(Some),
+            let Entry { text, action, .. } = entry;
+            match action {
+                Action::Give(command) => self.pending = Some((module.send(command)?, text)),
+                Action::Set(set) => return self.set(module, set, &text).map(Some),
             }
         }
         Ok(None)
     }
 
-    /// Sets a key; the line of what became of it.
     fn set(
         &mut self,
         module: &mut Conversation,
@@ -121,11 +116,11 @@ impl Script {
             Some(tuner) => tuner.set(module, &[set]),
             None => Err(Error::Input("nothing says of which scene".to_owned())),
         };
-        let t_s = module.source().now_s();
+        let t_s = module.now_s();
         let became = match done {
-            Ok(Became::Set(_)) => "done".to_owned(),
+            Ok(Ok(_)) => "done".to_owned(),
             // What comes later in the script, such as a stop, is given all the same.
-            Ok(Became::Refused(fault)) | Err(Error::Input(fault)) => {
+            Ok(Err(fault)) | Err(Error::Input(fault)) => {
                 self.refused += 1;
                 fault
             }
@@ -150,13 +145,12 @@ impl Script {
         let left = self.entries.len() + usize::from(self.pending.is_some());
         match (self.refused, left) {
             (0, 0) => Ok(()),
-            (refused, 0) => Err(Error::Work(format!(
-                "commands that were refused: {refused}"
-            ))),
-            (_, left) => Err(Error::Work(format!(
+            (refused, 0) => Err(format!("commands that were refused: {refused}")),
+            (_, left) => Err(format!(
                 "commands without an answer at the end: {left}; a longer time is --seconds"
-            ))),
+            )),
         }
+        .map_err(Error::Work)
     }
 }
 

@@ -1,42 +1,33 @@
 //! Where a module is that can be talked with.
 
-#[cfg(test)]
-mod altered;
-mod board;
 mod choice;
-mod elsewhere;
 mod emulated;
 mod flash;
 mod laying;
-mod person;
 mod port;
 mod program;
-#[cfg(test)]
-mod scripted;
 mod simulated;
-mod texture;
-
 #[cfg(test)]
-pub(crate) use altered::{Alter, Altered, Around, GOOD};
-pub(crate) use board::Board;
+mod testing;
+
 pub(crate) use choice::{SourceChoice, seconds};
 #[cfg(unix)]
 pub(crate) use flash::Flash;
 pub(crate) use laying::Laying;
-pub(crate) use program::{BoardName, build, is_of, with_scene, workspace};
-#[cfg(test)]
-pub(crate) use scripted::{Scripted, chosen, parsed, record, scene_file};
+pub(crate) use program::{Board, BoardName, build, is_of, with_scene, workspace};
 pub(crate) use simulated::Simulated;
-pub(crate) use texture::texture;
+#[cfg(test)]
+pub(crate) use testing::{
+    Alter, Altered, Around, GOOD, Scripted, chosen, parsed, record, scene_file,
+};
 
 use firmware::{Links, Packet};
 use host_sim::Error;
 use host_sim::origin::Origin;
-use scene::Scene;
+use scene::{Scene, Texture};
 use wire::{TaggedCommand, TickRecord};
 
 use crate::deployment::Deployment;
-use crate::loading::load;
 
 #[derive(Debug, Default)]
 pub(crate) struct Incoming {
@@ -55,7 +46,6 @@ impl Incoming {
     }
 }
 
-/// A module that can be talked with.
 pub(crate) trait Source {
     /// Waits for what comes next, and takes it. Nothing may have come after a while.
     fn next(&mut self) -> Result<Incoming, Error>;
@@ -63,11 +53,6 @@ pub(crate) trait Source {
     /// Sends a request, whose answer is among what comes next; with a `node` for that board of its
     /// head.
     fn request(&mut self, node: Option<u8>, request: TaggedCommand) -> Result<(), Error>;
-
-    /// The board of a head that is asked by way of another one, if it is one.
-    fn node(&self) -> Option<u8> {
-        None
-    }
 
     /// Whether its log can be read; where not, what would help.
     fn has_log(&self) -> Result<(), Error> {
@@ -118,7 +103,6 @@ pub(crate) trait Source {
         self.scene().map(|scene| scene.duration_s)
     }
 
-    /// Where it is: its board.
     fn origin(&self) -> Origin;
 
     /// Whether it could be talked with as here by a scene with these links; what would help.
@@ -131,11 +115,14 @@ pub(crate) trait Source {
         Ok(())
     }
 
-    /// Writes a scene and its model where the module looks for them, and has it start by them;
-    /// comes back once it has: the program that is there writes them, by requests. Its motors are
-    /// off already.
-    fn deploy(&mut self, what: &Deployment) -> Result<(), Error> {
-        load(self, what)
+    /// Starts by a scene and its model; `false`: the program that is there has to write them.
+    fn deploy(&mut self, _: &Deployment) -> Result<bool, Error> {
+        Ok(false)
+    }
+
+    /// Its program is about to write them, or has.
+    fn loads(&mut self, _: bool) -> Result<(), Error> {
+        Ok(())
     }
 }
 
@@ -144,6 +131,26 @@ pub(crate) fn framed(node: Option<u8>, request: TaggedCommand) -> Vec<u8> {
         Some(node) => wire::frame_for(node, request.tag, request.command).to_vec(),
         None => wire::frame(&request).to_vec(),
     }
+}
+
+/// A sample in a simulated world, which is one of the scene's textures.
+pub(crate) fn texture(sample: &str, scene: &Scene) -> Result<Texture, Error> {
+    let Some(textured) = &scene.plant.textured else {
+        let fault = "the scene has no textures to lay before the whisker; allowed: plant.kind = \
+                     \"textured\" or \"whisker\", with plant.textures, or --world SCENE with such \
+                     a scene";
+        return Err(Error::Input(fault.to_owned()));
+    };
+    let mut known = textured.textures.iter();
+    let found = known.find(|texture| texture.name() == sample);
+    found.copied().ok_or_else(|| {
+        let names: Vec<_> = textured.textures.iter().map(|of| of.name()).collect();
+        Error::Input(format!(
+            "--label: found {sample:?}, which is none of the scene's textures; allowed: {}, or \
+             LABEL=TEXTURE with one of them",
+            names.join(", ")
+        ))
+    })
 }
 
 fn no_board(node: u8) -> Error {

@@ -11,12 +11,11 @@ use scene::{Override, Scene, file};
 use tactile::ClassList;
 use wire::Command;
 
-use crate::configuration::{Running, not_built};
+use crate::configuration::{Running, Taken, not_built};
 use crate::conversation::Conversation;
-use crate::exchange::Taken;
 use crate::source::SourceChoice;
 
-pub(crate) use live::{LIVE, Value, is_of_classes, live_key};
+pub(crate) use live::{LIVE, LiveKey, Value, is_of_classes, live_key};
 
 #[derive(Debug)]
 pub(crate) struct Tuner {
@@ -35,21 +34,9 @@ pub(crate) struct Has {
     pub(crate) other: Option<String>,
 }
 
-/// What became of keys that were to be set.
-pub(crate) enum Became {
-    /// The module has them.
-    Set(Box<Has>),
-    /// The module refuses them, for this reason.
-    Refused(String),
-}
-
-impl Became {
-    /// That a refusal is a fault.
-    pub(crate) fn done(self) -> Result<Has, Error> {
-        match self {
-            Self::Set(has) => Ok(*has),
-            Self::Refused(why) => Err(Error::Work(why)),
-        }
+impl Has {
+    pub(crate) fn values(&self, file: &Scene) -> Vec<(&'static str, Value, Value)> {
+        values(file, &self.scene)
     }
 }
 
@@ -108,12 +95,10 @@ impl Tuner {
             Ok((scene, found, running.differs_in(&remade)))
         });
         let (scene, keys, why) = match remade {
-            Ok((scene, keys, names)) if names.is_empty() => (scene, keys, None),
-            Ok((scene, keys, names)) => (
-                scene,
-                keys,
-                Some(format!("it differs in {}", names.join(", "))),
-            ),
+            Ok((scene, keys, names)) => {
+                let why = format!("it differs in {}", names.join(", "));
+                (scene, keys, (!names.is_empty()).then_some(why))
+            }
             // The file does not take what was set any more.
             Err(fault) => (self.scene.clone(), Vec::new(), Some(fault.to_string())),
         };
@@ -168,9 +153,8 @@ impl Tuner {
         let found = has.differing.iter().map(|(key, _)| *key);
         let keys: Vec<&str> = found.chain(set.iter().map(Override::key)).collect();
         let differing = differing(&self.scene, &loaded.scene, &keys);
-        let differing = differing
-            .iter()
-            .map(|(key, value)| format!("{key}={value}"));
+        let differing = differing.into_iter();
+        let differing = differing.map(|(key, value)| format!("{key}={value}"));
         let overrides = differing.collect::<Vec<_>>().join(" ");
         if overrides.len() > OVERRIDES_BYTES {
             return Err(Error::Input(format!(
@@ -217,15 +201,20 @@ impl Tuner {
         of(&wanted.scene)
     }
 
-    /// All between the same two ticks; where it fails or is refused, nothing has changed.
-    pub(crate) fn set(&self, module: &mut Conversation, set: &[Override]) -> Result<Became, Error> {
+    /// All between the same two ticks; where it fails or is refused, nothing has changed. What the
+    /// module has then, or why it refuses them.
+    pub(crate) fn set(
+        &self,
+        module: &mut Conversation,
+        set: &[Override],
+    ) -> Result<Result<Has, String>, Error> {
         let has = self.look(module)?;
         if let Some(other) = has.other {
-            return Ok(Became::Refused(other));
+            return Ok(Err(other));
         }
         let wanted = self.wanted(module, &has, set)?;
         if wanted == has.running {
-            return Ok(Became::Set(Box::new(has)));
+            return Ok(Ok(has));
         }
         if let Err(refused) = has.running.may_become(&wanted) {
             let keys: Vec<_> = set.iter().map(Override::key).collect();
@@ -233,7 +222,7 @@ impl Tuner {
             return Err(Error::Input(format!("{keys}: {refused}: {remedy}")));
         }
         let refused = match wanted.send(module)? {
-            Taken::Runs => return Ok(Became::Set(Box::new(self.held(wanted)))),
+            Taken::Runs => return Ok(Ok(self.held(wanted))),
             Taken::NotBuilt => return Err(not_built(Part::Set)),
             Taken::Refused(refused) => refused,
         };
@@ -241,14 +230,13 @@ impl Tuner {
             ConfigError::Armed(_) => "; whisker stop switches them off",
             _ => "",
         };
-        Ok(Became::Refused(format!(
-            "the module refuses {refused}{help}; nothing has changed"
-        )))
+        let why = format!("the module refuses {refused}{help}; nothing has changed");
+        Ok(Err(why))
     }
 }
 
 /// A key and its value, which messages name as they are.
-fn named(key: &str, value: &str) -> Override {
+pub(crate) fn named(key: &str, value: &str) -> Override {
     Override::new(format!("{key}={value}"), key, value)
 }
 
@@ -266,10 +254,4 @@ fn values(file: &Scene, module: &Scene) -> Vec<(&'static str, Value, Value)> {
         Some((live.key, own, has))
     });
     values.collect()
-}
-
-impl Has {
-    pub(crate) fn values(&self, file: &Scene) -> Vec<(&'static str, Value, Value)> {
-        values(file, &self.scene)
-    }
 }

@@ -3,8 +3,7 @@
 
 use std::fmt::Write as _;
 
-use super::rest::MIDDLE;
-use super::watched::Watched;
+use super::watched::{MIDDLE, Watched};
 
 /// One figure of a module, and of the simulation of its scene.
 #[derive(Debug, Clone, PartialEq)]
@@ -24,122 +23,87 @@ impl Finding {
     }
 }
 
-/// What a figure is a sign of that exceeds so many times that of the simulation and so much more.
-/// The limits are chosen, from what the simulated sensor does: wide of its noise, and within what
-/// the classifier bears.
-type Sign = ([f64; 2], &'static str);
+const TILT: &str = "tilt: the magnet is not above the sensor, or turned in its hub";
+const GAP: &str = "gap: the magnet is too far from the sensor, and its field too weak";
+const SLOW: &str = "a field that changes: a neighbour's magnet that moves, a motor, or the mains";
+const SWING: &str = "gap or mount: the whisker or its magnet is loose, or the magnet too near";
+const FOLLOWS: &str = "a neighbour's field, or a magnet off the axis: readings follow the angle";
+const END: &str = "saturation: the magnet is too near, or the range too small";
+const DRIFT: &str = "drift: temperature, or a magnet that gives way";
+const LINE: &str =
+    "line errors: wires of the sensor's SPI too long or loose; whisker log names them";
+const LOST: &str = "the PC or the line does not keep up: close other programs, use a higher baud";
+const MISSED: &str = "the module misses ticks: a scene with a lower tick_hz";
+const MOTOR: &str = "motor or gear: friction, or gains too low; whisker calibrate";
 
-const TILT: Sign = (
-    [1.0, 400.0],
-    "tilt: the magnet is not above the sensor, or turned in its hub",
-);
-const GAP: Sign = (
-    [2.0, 1.0],
-    "gap: the magnet is too far from the sensor, and its field too weak",
-);
-const SLOW: Sign = (
-    [1.0, 2.0],
-    "a field that changes: a neighbour's magnet that moves, a motor, or the mains",
-);
-const SWING: Sign = (
-    [3.0, 60.0],
-    "gap or mount: the whisker or its magnet is loose, or the magnet too near",
-);
-const FOLLOWS: Sign = (
-    [1.0, 0.5],
-    "a neighbour's field, or a magnet off the axis: readings follow the angle",
-);
-const END: Sign = (
-    [1.0, 0.0],
-    "saturation: the magnet is too near, or the range too small",
-);
-const DRIFT: Sign = (
-    [1.0, 20.0],
-    "drift: temperature, or a magnet that gives way",
-);
-const LINE: Sign = (
-    [1.0, 0.01],
-    "line errors: wires of the sensor's SPI too long or loose; whisker log names them",
-);
-const LOST: Sign = (
-    [0.0, 0.0],
-    "the PC or the line does not keep up: close other programs, use a higher baud",
-);
-const MISSED: Sign = (
-    [0.0, 0.0],
-    "the module misses ticks: a scene with a lower tick_hz",
-);
-const MOTOR: Sign = (
-    [2.0, 0.5],
-    "motor or gear: friction, or gains too low; whisker calibrate",
-);
+/// Name and unit of a figure, what it is a sign of where it exceeds so many times that of the
+/// simulation and so much more, and what it is of. A star in its name stands for an axis: there is
+/// one for each. The limits are chosen, from what the simulated sensor does: wide of its noise, and
+/// within what the classifier bears.
+type Figure = ([&'static str; 3], [f64; 2], fn(&Watched, usize) -> f64);
 
-/// A figure of all readings: name, unit, what it is of, and what it is a sign of.
-type OfAll = (&'static str, &'static str, fn(&Watched) -> f64, Sign);
-
-/// The same of each axis, whose name stands in place of the star.
-type OfAxis = (&'static str, &'static str, fn(&Watched, usize) -> f64, Sign);
-
-const FIRST: [OfAll; 4] = [
-    ("records lost", "", |w| w.lost as f64, LOST),
-    ("ticks missed", "", |w| w.missed as f64, MISSED),
+const FIGURES: [Figure; 11] = [
+    (["records lost", "", LOST], [0.0, 0.0], |w, _| w.lost as f64),
+    (["ticks missed", "", MISSED], [0.0, 0.0], |w, _| {
+        w.missed as f64
+    }),
     (
-        "readings that do not count",
-        "%",
-        |w| 100.0 * w.invalid,
-        LINE,
+        ["readings that do not count", "%", LINE],
+        [1.0, 0.01],
+        |w, _| 100.0 * w.invalid,
     ),
-    ("at an end of the range", "%", |w| 100.0 * w.at_end, END),
-];
-
-const OF_AXES: [OfAxis; 6] = [
-    ("* at rest from the middle", "codes", zero, TILT),
-    ("noise of * at rest", "codes", noise, GAP),
+    (["at an end of the range", "%", END], [1.0, 0.0], |w, _| {
+        100.0 * w.at_end
+    }),
     (
-        "slow noise of * at rest",
-        "of white noise's",
+        ["* at rest from the middle", "codes", TILT],
+        [1.0, 400.0],
+        zero,
+    ),
+    (["noise of * at rest", "codes", GAP], [2.0, 1.0], noise),
+    (
+        ["slow noise of * at rest", "of white noise's", SLOW],
+        [1.0, 2.0],
         |w, a| w.slow[a],
-        SLOW,
     ),
-    ("* at rest, after against before", "codes", moved, DRIFT),
-    ("swing of * in the air", "codes", swing, SWING),
     (
-        "* with the angle",
-        "codes a degree",
+        ["* at rest, after against before", "codes", DRIFT],
+        [1.0, 20.0],
+        moved,
+    ),
+    (
+        ["swing of * in the air", "codes", SWING],
+        [3.0, 60.0],
+        swing,
+    ),
+    (
+        ["* with the angle", "codes a degree", FOLLOWS],
+        [1.0, 0.5],
         |w, a| w.follows[a],
-        FOLLOWS,
+    ),
+    (
+        ["setpoint against measured", "degrees rms", MOTOR],
+        [2.0, 0.5],
+        |w, _| w.error_deg,
     ),
 ];
-
-const LAST: OfAll = (
-    "setpoint against measured",
-    "degrees rms",
-    |w| w.error_deg,
-    MOTOR,
-);
 
 pub(crate) fn findings(of: &Watched, simulated: &Watched) -> Vec<Finding> {
-    let finding = |name: String, unit, of_one: &dyn Fn(&Watched) -> f64, sign: Sign| {
-        let ([times, more], sign) = sign;
-        let simulated = of_one(simulated);
-        Finding {
-            name,
-            unit,
-            found: of_one(of),
-            simulated,
-            most: times * simulated.abs() + more,
-            sign,
-        }
-    };
-    let whole = |(name, unit, of, sign): &OfAll| finding((*name).to_owned(), unit, of, *sign);
-    let mut findings: Vec<Finding> = FIRST.iter().map(whole).collect();
-    for (name, unit, of, sign) in &OF_AXES {
-        for (axis, letter) in ["x", "y"].into_iter().enumerate() {
-            let name = name.replace('*', letter);
-            findings.push(finding(name, unit, &|watched| of(watched, axis), *sign));
+    let mut findings = Vec::new();
+    for ([name, unit, sign], [times, more], of_one) in FIGURES {
+        let axes = name.contains('*').then_some(&["x", "y"][..]);
+        for (axis, letter) in axes.unwrap_or(&[""]).iter().enumerate() {
+            let [found, simulated] = [of, simulated].map(|watched| of_one(watched, axis));
+            findings.push(Finding {
+                name: name.replace('*', letter),
+                unit,
+                found,
+                simulated,
+                most: times * simulated.abs() + more,
+                sign,
+            });
         }
     }
-    findings.push(whole(&LAST));
     findings
 }
 
@@ -169,15 +133,13 @@ pub(crate) fn table(findings: &[Finding]) -> String {
     );
     for finding in findings {
         let sign = if finding.is_off() { finding.sign } else { "" };
+        let (name, unit) = (&finding.name, finding.unit);
+        let numbers = [finding.found, finding.simulated, finding.most].map(short);
         // Writing to a string does not fail.
         let _ = writeln!(
             table,
-            "| {} | {} | {} | {} | {} | {sign} |",
-            finding.name,
-            finding.unit,
-            short(finding.found),
-            short(finding.simulated),
-            short(finding.most)
+            "| {name} | {unit} | {} | {sign} |",
+            numbers.join(" | ")
         );
     }
     table
@@ -186,9 +148,8 @@ pub(crate) fn table(findings: &[Finding]) -> String {
 fn short(value: f64) -> String {
     let text = format!("{value:.2}");
     let text = text.trim_end_matches('0').trim_end_matches('.');
-    if text == "-0" {
-        "0".to_owned()
-    } else {
-        text.to_owned()
-    }
+    text.strip_prefix('-')
+        .filter(|left| *left == "0")
+        .unwrap_or(text)
+        .to_owned()
 }

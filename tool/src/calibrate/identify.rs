@@ -41,33 +41,26 @@ pub(crate) struct Motor {
 pub(crate) fn identify(samples: &[Sample], tick_s: f64) -> Option<Motor> {
     let length = (STRETCH_S / tick_s).round() as usize;
     let stretches = samples.windows(length + 1);
-    let rows: Vec<Row> = stretches
-        .filter_map(|samples| row(samples, tick_s))
-        .collect();
+    let rows = stretches.filter_map(|samples| row(samples, tick_s));
+    let rows: Vec<Row> = rows.collect();
     if rows.len() < LEAST_STRETCHES {
         return None;
     }
     // Normal equations AᵀA z = Aᵀy.
     let mut normal = [[0.0; 3]; 3];
     let mut right = [0.0; 3];
-    for row in &rows {
-        for (i, a) in row.factors.iter().enumerate() {
-            for (j, b) in row.factors.iter().enumerate() {
+    for (factors, value) in &rows {
+        for (i, a) in factors.iter().enumerate() {
+            for (j, b) in factors.iter().enumerate() {
                 normal[i][j] += a * b;
             }
-            right[i] += a * row.value;
+            right[i] += a * value;
         }
     }
     let [a, b, c] = solved(normal, right)?;
-    let square = |value: f64| value * value;
-    let left: f64 = rows
-        .iter()
-        .map(|row| {
-            let [fa, fb, fc] = row.factors;
-            square(row.value - a * fa - b * fb - c * fc)
-        })
-        .sum();
-    let all: f64 = rows.iter().map(|row| square(row.value)).sum();
+    let left = |([fa, fb, fc], value): &Row| value - a * fa - b * fb - c * fc;
+    let left: f64 = rows.iter().map(left).map(|left| left * left).sum();
+    let all: f64 = rows.iter().map(|(_, value)| value * value).sum();
     let motor = Motor {
         speed_deg_s: a / c,
         tau_s: 1.0 / c,
@@ -79,10 +72,7 @@ pub(crate) fn identify(samples: &[Sample], tick_s: f64) -> Option<Motor> {
 }
 
 /// One equation: factors of a, b and c, and what they add up to.
-struct Row {
-    factors: [f64; 3],
-    value: f64,
-}
+type Row = ([f64; 3], f64);
 
 /// That of a stretch in which nothing is missing and the whisker goes one way.
 fn row(samples: &[Sample], tick_s: f64) -> Option<Row> {
@@ -101,10 +91,7 @@ fn row(samples: &[Sample], tick_s: f64) -> Option<Row> {
         }
     }
     let middle = first.measured_deg;
-    let mut row = Row {
-        factors: [0.0; 3],
-        value: 0.0,
-    };
+    let (mut factors, mut value) = ([0.0; 3], 0.0);
     for (n, sample) in samples.iter().enumerate() {
         let angle = sample.measured_deg - middle;
         let phase = 2.0 * PI * n as f64 * tick_s / whole;
@@ -112,16 +99,16 @@ fn row(samples: &[Sample], tick_s: f64) -> Option<Row> {
         // at the ends.
         let rate = 2.0 * PI / whole;
         let (single, double) = (phase.sin_cos(), (2.0 * phase).sin_cos());
-        row.value += 0.5 * rate * rate * (single.1 - double.1) * angle * tick_s;
-        row.factors[2] += 0.25 * rate * (2.0 * single.0 - double.0) * angle * tick_s;
+        value += 0.5 * rate * rate * (single.1 - double.1) * angle * tick_s;
+        factors[2] += 0.25 * rate * (2.0 * single.0 - double.0) * angle * tick_s;
         // A tick's duty acts from its end to the next tick's.
         if n + 1 < samples.len() {
             let sum = |p: f64| (3.0 * p - 4.0 * p.sin() + 0.5 * (2.0 * p).sin()) / 8.0;
-            row.factors[0] += (sum(phase + rate * tick_s) - sum(phase)) / rate * sample.duty;
+            factors[0] += (sum(phase + rate * tick_s) - sum(phase)) / rate * sample.duty;
         }
     }
-    row.factors[1] = -direction * 0.375 * whole;
-    Some(row)
+    factors[1] = -direction * 0.375 * whole;
+    Some((factors, value))
 }
 
 fn solved(normal: [[f64; 3]; 3], right: [f64; 3]) -> Option<[f64; 3]> {

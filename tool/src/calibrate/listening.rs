@@ -2,7 +2,7 @@
 
 use firmware::Packet;
 use host_sim::Error;
-use wire::{Command, Flags, TickRecord, WhiskerId};
+use wire::{Command, Flags, WhiskerId};
 
 use crate::conversation::Conversation;
 use crate::faults::{fault, number};
@@ -90,16 +90,13 @@ impl<'m> Listening<'m> {
     }
 
     fn note_faults(&mut self, packets: &[Packet]) {
-        let faults = packets.iter().filter_map(|packet| match packet {
-            Packet::Event(event) => fault(event, self.tick_hz),
-            Packet::Record(_) | Packet::Answer(_) => None,
-        });
-        self.faults.extend(faults.map(|fault| fault.what));
-        let mut numbers = packets.iter().filter_map(|packet| match packet {
-            Packet::Event(event) => number(&event.event),
-            Packet::Record(_) | Packet::Answer(_) => None,
-        });
-        self.last_fault = numbers.next_back().or(self.last_fault);
+        for packet in packets {
+            if let Packet::Event(event) = packet {
+                let fault = fault(event, self.tick_hz);
+                self.faults.extend(fault.map(|fault| fault.what));
+                self.last_fault = number(&event.event).or(self.last_fault);
+            }
+        }
     }
 
     /// Listens for so many seconds of the module's time; `each` is given every sample, and ends
@@ -123,14 +120,6 @@ impl<'m> Listening<'m> {
         Ok(samples)
     }
 
-    fn sample(&self, record: &TickRecord) -> Sample {
-        let sample = Sample::new(record, self.ticks as f64 * self.tick_s());
-        Sample {
-            codes: sum(sample.codes, self.zero),
-            ..sample
-        }
-    }
-
     /// Listens, and knows no other zero than that from before.
     fn take(
         &mut self,
@@ -140,7 +129,7 @@ impl<'m> Listening<'m> {
         let most = (seconds / self.tick_s()).round() as u64;
         let mut samples = Vec::new();
         let from = self.ticks;
-        let mut heard_s = self.module.source().now_s();
+        let mut heard_s = self.module.now_s();
         loop {
             interrupt::check()?;
             let incoming = self.module.receive()?;
@@ -148,7 +137,7 @@ impl<'m> Listening<'m> {
             if incoming.has_restarted {
                 self.tally.restart();
             }
-            let now_s = self.module.source().now_s();
+            let now_s = self.module.now_s();
             for record in incoming.records() {
                 if side(record) != usize::from(self.whisker.side) {
                     continue;
@@ -156,24 +145,23 @@ impl<'m> Listening<'m> {
                 heard_s = now_s;
                 match self.tally.take(record) {
                     Before::Restart => {
-                        return Err(Error::Work(
-                            "the module has restarted; whisker log says why".to_owned(),
-                        ));
+                        let fault = "the module has restarted; whisker log says why";
+                        return Err(Error::Work(fault.to_owned()));
                     }
                     Before::Lost(ticks) => self.ticks += u64::from(ticks),
                     Before::Nothing => {}
                 }
                 self.ticks += 1;
-                let sample = self.sample(record);
+                let mut sample = Sample::new(record, self.ticks as f64 * self.tick_s());
+                sample.codes = sum(sample.codes, self.zero);
                 samples.push(sample);
                 if !each(&sample) || self.ticks - from >= most {
                     return Ok(samples);
                 }
             }
             if now_s - heard_s > PATIENCE_S {
-                return Err(Error::Work(
-                    "the module says nothing of this whisker; is it there?".to_owned(),
-                ));
+                let fault = "the module says nothing of this whisker; is it there?";
+                return Err(Error::Work(fault.to_owned()));
             }
         }
     }
@@ -196,9 +184,8 @@ impl<'m> Listening<'m> {
         self.watch(0.05, |_| true)?;
         let line = self.faults.last();
         let line = line.map_or("whisker log tells which", String::as_str);
-        Err(Error::Work(format!(
-            "a fault: {line}; the motors were stopped"
-        )))
+        let fault = format!("a fault: {line}; the motors were stopped");
+        Err(Error::Work(fault))
     }
 }
 

@@ -71,9 +71,8 @@ pub(crate) fn lead(whisker: &mut Listening<'_>, to_deg: f64) -> Result<Option<f6
 
 /// Leads it from where it is to another angle; where it stands, if it meets something.
 fn led(whisker: &mut Listening<'_>, [from, to]: [f64; 2]) -> Result<Option<f64>, Error> {
-    let pieces = ((to - from).abs() / (LED_DEG_S * LED_EACH_S))
-        .ceil()
-        .max(1.0);
+    let pieces = (to - from).abs() / (LED_DEG_S * LED_EACH_S);
+    let pieces = pieces.ceil().max(1.0);
     // Since when it is behind.
     let mut behind: Option<f64> = None;
     let mut piece = 0.0;
@@ -97,17 +96,12 @@ fn led(whisker: &mut Listening<'_>, [from, to]: [f64; 2]) -> Result<Option<f64>,
     }
 }
 
-pub(crate) struct Stepped {
-    pub(crate) samples: Vec<Sample>,
-    /// How far from its setpoint the whisker came to rest after each step, degrees.
-    pub(crate) left_deg: Vec<f64>,
-}
-
-pub(crate) fn steps(whisker: &mut Listening<'_>, [low, high]: [f64; 2]) -> Result<Stepped, Error> {
-    let mut stepped = Stepped {
-        samples: Vec::new(),
-        left_deg: Vec::new(),
-    };
+/// How far from its setpoint the whisker came to rest at most, degrees, besides.
+pub(crate) fn steps(
+    whisker: &mut Listening<'_>,
+    [low, high]: [f64; 2],
+) -> Result<(Vec<Sample>, f64), Error> {
+    let (mut stepped, mut most_deg) = (Vec::new(), 0.0_f64);
     for step in STEPS_DEG {
         whisker.hold(Some((REST_DEG + step).clamp(low, high)))?;
         let samples = whisker.follow(STEP_S, |_| true)?;
@@ -115,10 +109,9 @@ pub(crate) fn steps(whisker: &mut Listening<'_>, [low, high]: [f64; 2]) -> Resul
         let at_rest = samples.get(samples.len().saturating_sub(settled)..);
         let left = at_rest.unwrap_or_default().iter();
         let left = left.map(|sample| sample.setpoint_deg - sample.measured_deg);
-        stepped
-            .left_deg
-            .push(left.sum::<f64>() / settled.max(1) as f64);
-        stepped.samples.extend(samples);
+        let left_deg = left.sum::<f64>() / settled.max(1) as f64;
+        most_deg = most_deg.max(left_deg.abs());
+        stepped.extend(samples);
     }
-    Ok(stepped)
+    Ok((stepped, most_deg))
 }

@@ -57,30 +57,21 @@ pub(crate) fn drift(touches: &[Felt]) -> Option<(&'static str, [f64; 2])> {
     }
     let halves = [early, late].map(|half| half.iter().map(Felt::signs).collect::<Vec<_>>());
     (0..SIGNS.len()).find_map(|sign| {
-        let [early, late] = halves.each_ref().map(|half| moments(half, sign));
-        let (apart, error) = (
-            late.mean - early.mean,
-            (early.of_mean + late.of_mean).sqrt(),
-        );
-        let differs = apart.abs() > SMALL[sign] && apart.abs() > ERRORS * error;
-        differs.then_some((SIGNS[sign], [early.mean, late.mean]))
+        let [(early, early_of), (late, late_of)] =
+            halves.each_ref().map(|half| moments(half, sign));
+        let (apart, error) = ((late - early).abs(), (early_of + late_of).sqrt());
+        let differs = apart > SMALL[sign] && apart > ERRORS * error;
+        differs.then_some((SIGNS[sign], [early, late]))
     })
 }
 
-struct Moments {
-    mean: f64,
-    of_mean: f64,
-}
-
-fn moments(half: &[[f64; SIGNS.len()]], sign: usize) -> Moments {
+/// The mean of a sign, and the variance of that mean.
+fn moments(half: &[[f64; SIGNS.len()]], sign: usize) -> (f64, f64) {
     let n = half.len() as f64;
     let mean = half.iter().map(|signs| signs[sign]).sum::<f64>() / n;
     let square = |signs: &[f64; SIGNS.len()]| (signs[sign] - mean) * (signs[sign] - mean);
     let variance = half.iter().map(square).sum::<f64>() / (n - 1.0);
-    Moments {
-        mean,
-        of_mean: variance / n,
-    }
+    (mean, variance / n)
 }
 
 #[cfg(test)]

@@ -4,8 +4,7 @@ use host_sim::recording::GATE;
 use wire::{Flags, TickRecord};
 
 use super::alike::drift;
-use super::samples::Sampled;
-use super::touches::Touches;
+use super::touches::{Sampled, Touches};
 use crate::calibrate::is_at_end;
 use crate::tally::Before;
 
@@ -15,11 +14,10 @@ const SATURATED: u64 = 10;
 /// By what share the ticks may come too fast or too slow: a ceramic resonator's, and the PC's
 /// clock, together.
 const RATE: f64 = 0.01;
-
 const RATE_S: f64 = 2.0;
 
 /// What has been reported of a label, each kind once, and how often it happened.
-#[derive(Debug)]
+#[derive(Debug, Default)]
 pub(crate) struct Checks {
     label: String,
     tick_hz: f64,
@@ -38,13 +36,7 @@ impl Checks {
         Self {
             label: label.to_owned(),
             tick_hz: f64::from(tick_hz),
-            lost: 0,
-            restarts: 0,
-            faults: 0,
-            in_fault: false,
-            saturated: [0; 2],
-            since: None,
-            is_rate_reported: false,
+            ..Self::default()
         }
     }
 
@@ -157,7 +149,6 @@ impl Checks {
 
 #[cfg(test)]
 mod tests {
-
     use super::{Checks, Sampled};
 
     #[test]

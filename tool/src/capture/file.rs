@@ -26,7 +26,7 @@ pub(crate) const CALIBRATION: &str = "calibration.";
 /// When the first touch ended, by the PC's clock.
 pub(crate) const FIRST_TOUCH: &str = "first_touch";
 
-#[derive(Debug)]
+#[derive(Debug, Default)]
 pub(crate) struct Recording {
     path: PathBuf,
     pose: Option<String>,
@@ -34,6 +34,12 @@ pub(crate) struct Recording {
     stands: Option<Stands>,
     origin: Origin,
     streams: Vec<Stream>,
+}
+
+pub(crate) fn origin_of(path: &Path) -> Result<Origin, Error> {
+    let bytes = file::read(path, file::TABLE_BYTES);
+    let (origin, ..) = origin::split(&bytes.map_err(|error| Error::file(path, error))?);
+    Ok(origin)
 }
 
 impl Recording {
@@ -50,20 +56,17 @@ impl Recording {
                          with this one by --resume";
             return Err(Error::file(path, fault));
         }
-        let (mut origin, mut streams) = (Origin::default(), Vec::new());
-        if is_there {
-            streams = read_recording(path, CHANNELS)?;
-            let bytes =
-                file::read(path, file::TABLE_BYTES).map_err(|error| Error::file(path, error))?;
-            (origin, ..) = origin::split(&bytes);
-        }
-        Ok(Self {
+        let mut recording = Self {
             path: path.to_owned(),
             pose: pose.map(str::to_owned),
             stands,
-            origin,
-            streams,
-        })
+            ..Self::default()
+        };
+        if is_there {
+            recording.streams = read_recording(path, CHANNELS)?;
+            recording.origin = origin_of(path)?;
+        }
+        Ok(recording)
     }
 
     /// Says where it comes from, if that is not said; otherwise it must be the same module.
@@ -97,9 +100,8 @@ impl Recording {
     }
 
     fn of<'s>(&'s self, label: &'s str) -> impl Iterator<Item = &'s Stream> {
-        self.streams
-            .iter()
-            .filter(move |stream| stream.label == label)
+        let streams = self.streams.iter();
+        streams.filter(move |stream| stream.label == label)
     }
 
     pub(crate) fn touches(&self, label: &str) -> usize {
@@ -117,19 +119,18 @@ impl Recording {
     }
 
     pub(crate) fn next_trial(&self, label: &str) -> u64 {
-        let trials = self
-            .of(label)
-            .filter_map(|stream| stream.trial.parse().ok());
+        let trials = self.of(label);
+        let trials = trials.filter_map(|stream| stream.trial.parse().ok());
         trials.max().map_or(0, |last: u64| last.saturating_add(1))
     }
 
     pub(crate) fn add(&mut self, streams: Vec<Stream>) -> Result<(), Error> {
-        self.streams
-            .extend(streams.into_iter().map(|stream| Stream {
-                pose: self.pose.clone(),
-                stands: self.stands,
-                ..stream
-            }));
+        let held = streams.into_iter().map(|stream| Stream {
+            pose: self.pose.clone(),
+            stands: self.stands,
+            ..stream
+        });
+        self.streams.extend(held);
         let mut output = Output::create(&self.path)?;
         recording::write_from(&mut output, &self.origin, &self.streams)
             .map_err(|source| output.failed(source))?;

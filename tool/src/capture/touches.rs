@@ -1,14 +1,58 @@
-//! The touches of one label, and the trials that they make.
+//! From the records of one side to samples, as the module's own classifier gets them, and from
+//! those of a label to touches and the trials that they make.
 
 use host_sim::recording::{GATE, Stream};
+use tactile::TouchDetector;
+use wire::{Flags, TickRecord};
 
 use super::alike::Felt;
-use super::samples::Sampled;
+use crate::sample::Sample;
+use crate::tally::Before;
+
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Sampled {
+    pub(crate) codes: [u16; 2],
+    pub(crate) contact: f64,
+    /// The number of the touch, as soon as it is sure; 0 in the air.
+    pub(crate) touch: u16,
+}
+
+impl Sampled {
+    /// Whether nothing is touched, nor was within the memory of contact.
+    pub(crate) fn is_in_the_air(&self) -> bool {
+        self.touch == 0 && self.contact < GATE
+    }
+}
+
+/// A record as a sample; nothing while the whisker has a fault. Touches are numbered by the same rule
+/// from the same codes as the module does, of whose touches a record says only that there is one, and
+/// where nothing classifies not even that.
+pub(crate) fn sampled(
+    touches: &mut TouchDetector,
+    record: &TickRecord,
+    before: Before,
+) -> Option<Sampled> {
+    let is_valid = record.flags.contains(Flags::VALID);
+    if before != Before::Nothing || !is_valid {
+        touches.interrupt();
+    }
+    if !is_valid {
+        return None;
+    }
+    let Sample { codes, contact, .. } = Sample::new(record, 0.0);
+    let number = touches.step(codes).number;
+    let touch = if touches.is_sure() { number } else { 0 };
+    Some(Sampled {
+        codes,
+        contact,
+        touch,
+    })
+}
 
 /// Touches of a trial: at the usual 2 Hz of whisking 2.5 s.
 const OF_TRIAL: u32 = 5;
 
-#[derive(Debug)]
+#[derive(Debug, Default)]
 pub(crate) struct Touches {
     label: String,
     /// Trials that are full, and the one that goes on.
@@ -29,13 +73,8 @@ impl Touches {
     pub(crate) fn new(label: &str, trial: u64) -> Self {
         let mut touches = Self {
             label: label.to_owned(),
-            streams: Vec::new(),
             trial,
-            of_trial: 0,
-            present: None,
-            before: 0,
-            felt: Vec::new(),
-            without_contact: 0,
+            ..Self::default()
         };
         touches.begin();
         touches
@@ -96,13 +135,12 @@ impl Touches {
         let was_touched = self.present.take().is_some();
         if let Some(stream) = self.streams.last_mut() {
             let is_cut = !stream.samples.is_empty();
-            let kept = if was_touched {
-                self.before
-            } else {
-                stream.samples.len()
+            let kept = match was_touched {
+                // What is of the air alone is of no use.
+                _ if self.of_trial == 0 => 0,
+                true => self.before,
+                false => stream.samples.len(),
             };
-            // What is of the air alone is of no use.
-            let kept = if self.of_trial == 0 { 0 } else { kept };
             stream.samples.truncate(kept);
             stream.contact.get_or_insert_default().truncate(kept);
             stream.touch.get_or_insert_default().truncate(kept);
@@ -151,10 +189,8 @@ mod tests {
         let mut touches = Touches::new("felt", 3);
         let mut ended = Vec::new();
         for touch in 1..=OF_TRIAL as u16 + 1 {
-            for (n, (number, contact)) in [(0, 0.0), (touch, 0.0), (touch, 0.1), (0, 0.2)]
-                .into_iter()
-                .enumerate()
-            {
+            let samples = [(0, 0.0), (touch, 0.0), (touch, 0.1), (0, 0.2)];
+            for (n, (number, contact)) in samples.into_iter().enumerate() {
                 // The second touch has no contact.
                 let contact = if touch == 2 { 0.0 } else { contact };
                 if touches.take(&sample(number, contact)) {

@@ -155,8 +155,7 @@ pub(crate) fn board(arguments: &Arguments) -> Result<(), Error> {
             report::warn("the board was reset");
             flash.store(&session.flash()?)?;
         }
-        let said = session.serial_read();
-        let received = terminal.exchange(&said)?;
+        let received = terminal.exchange(&session.serial_read())?;
         if !received.is_empty() {
             session.serial_write(&received);
         }

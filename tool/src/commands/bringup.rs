@@ -4,9 +4,7 @@
 mod bench;
 mod module;
 mod moving;
-mod readings;
 mod report;
-mod search;
 mod sensor;
 
 use std::path::PathBuf;
@@ -73,8 +71,8 @@ type OfSide = fn(&mut Bench, u8) -> Done;
 const STEPS: [(Name, OfSide); 6] = [
     (Name::Frames, sensor::frames),
     (Name::Rest, sensor::rest),
-    (Name::Rate, readings::rate),
-    (Name::Noise, readings::noise),
+    (Name::Rate, sensor::rate),
+    (Name::Noise, sensor::noise),
     (Name::Encoder, moving::encoder),
     (Name::Motor, moving::motor),
 ];
@@ -100,7 +98,7 @@ fn steps(arguments: &Arguments, bench: &mut Bench, report: &mut Report) -> Resul
     let is_asked = |name| arguments.steps.is_empty() || arguments.steps.contains(&name);
     bench.stop()?;
     if let Some(scene) = &arguments.find_rest {
-        report.add(part_of(search::find(bench, scene))?.named("find-rest"));
+        report.add(part_of(sensor::find(bench, scene))?.named("find-rest"));
         return Ok(());
     }
     if is_asked(Name::Module) {

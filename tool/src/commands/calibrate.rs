@@ -3,25 +3,25 @@
 mod results;
 
 use std::fmt::Write as _;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use clap::Args;
 use firmware::allowed;
 use host_sim::output::Output;
 use host_sim::plot::Ink;
 use host_sim::{Error, report};
-use scene::{MotorSection, Override};
+use scene::MotorSection;
 
-use super::get::Which;
 use super::order::SideName;
+use super::tuning::Which;
 use crate::calibrate::{
-    ANGLE, HALF_RANGE, Listening, MIDDLE, Panel, Push, Zero, identify, is_at_end, lead, picture,
-    push, steps, suggest,
+    ANGLE, HALF_RANGE, Listening, MIDDLE, Panel, Push, Zero, at_rest, identify, is_at_end, lead,
+    picture, push, steps, suggest,
 };
 use crate::interrupt;
 use crate::resting::rest;
 use crate::sample::Sample;
-use crate::tuning::Tuner;
+use crate::tuning::{Tuner, named};
 use results::Results;
 
 /// Which whisker, and where the results go.
@@ -56,12 +56,8 @@ pub(crate) fn calibrate(arguments: &Arguments) -> Result<(), Error> {
     };
     arguments.which.source.sends_all()?;
     let file = |name: &str| Output::create(&arguments.out.join(name));
-    let outputs = [
-        file("calibration.toml")?,
-        file("steps.csv")?,
-        file("steps.svg")?,
-        file("steps.png")?,
-    ];
+    let (toml, csv) = (file("calibration.toml")?, file("steps.csv")?);
+    let (svg, png) = (file("steps.svg")?, file("steps.png")?);
     let side = arguments.side.number();
     let mut module = arguments.which.source.module()?;
     interrupt::heed()?;
@@ -78,7 +74,6 @@ pub(crate) fn calibrate(arguments: &Arguments) -> Result<(), Error> {
     stopped?;
     report::say("the motor is off; whisker arm drives it");
 
-    let [toml, csv, svg, png] = outputs;
     let origin = whisker.module().origin()?;
     let origin = origin.with("scene", &tuner.scene().name);
     toml.whole(results.toml(&origin).as_bytes())?;
@@ -92,18 +87,14 @@ pub(crate) fn calibrate(arguments: &Arguments) -> Result<(), Error> {
         arguments.out.display()
     ));
     if !arguments.which.source.is_simulated() {
-        report::say(next(&arguments.out));
+        // Somebody holds the samples: textures, in several poses.
+        report::say(format_args!(
+            "next: whisker capture --label NAME --pose NAME --calibration {}; in three to five poses, \
+             each time with the samples held some degrees otherwise, from the second on with --resume",
+            arguments.out.join("calibration.toml").display()
+        ));
     }
     Ok(())
-}
-
-/// What comes next where somebody holds the samples: textures, in several poses.
-fn next(out: &Path) -> String {
-    format!(
-        "next: whisker capture --label NAME --pose NAME --calibration {}; in three to five poses, each \
-         time with the samples held some degrees otherwise, from the second on with --resume",
-        out.join("calibration.toml").display()
-    )
 }
 
 fn all(
@@ -153,20 +144,13 @@ fn all(
 /// Takes another largest duty, and another by which it may change while nothing moves.
 fn limit(whisker: &mut Listening<'_>, tuner: &Tuner, duties: [f64; 2]) -> Result<(), Error> {
     let keys = ["motor.duty_limit", "motor.unmoved_duty"];
-    let set = keys.into_iter().zip(duties).map(|(key, duty)| {
-        let value = duty.to_string();
-        Override::new(format!("{key}={value}"), key, &value)
-    });
-    let set: Vec<Override> = set.collect();
-    tuner.set(whisker.module(), &set)?.done().map(drop)
+    let set = [0, 1].map(|n| named(keys[n], &duties[n].to_string()));
+    let done = tuner.set(whisker.module(), &set)?;
+    done.map(drop).map_err(Error::Work)
 }
 
-/// The sensor at rest in free air, its motor off.
 fn zero(whisker: &mut Listening<'_>, results: &mut Results) -> Result<(), Error> {
-    rest(whisker.module())?;
-    whisker.go_on()?;
-    whisker.watch(0.2, |_| true)?;
-    let samples = whisker.watch(REST_S, |_| true)?;
+    let samples = at_rest(whisker, REST_S)?;
     let zero = Zero::of(&samples).ok_or_else(|| {
         Error::Work("zero: no reading of the sensor counts; whisker log names the fault".to_owned())
     })?;
@@ -263,16 +247,14 @@ fn gains(
     results: &mut Results,
 ) -> Result<Vec<Sample>, Error> {
     // Away from stops.
-    let stepped = steps(whisker, [low + 3.0, high - 3.0])?;
-    let left = stepped.left_deg.iter().map(|left| left.abs());
-    let left = left.fold(0.0, f64::max);
+    let (samples, left) = steps(whisker, [low + 3.0, high - 3.0])?;
     results.left_deg = Some(left);
-    let Some(found) = identify(&stepped.samples, whisker.tick_s()) else {
+    let Some(found) = identify(&samples, whisker.tick_s()) else {
         report::warn(
             "steps: they do not show how the motor moves the whisker: too slow, too far from its \
              setpoint, or in its way; look at steps.svg",
         );
-        return Ok(stepped.samples);
+        return Ok(samples);
     };
     let now = found.under(motor.kp, motor.kd);
     report::say(format_args!(
@@ -296,7 +278,7 @@ fn gains(
     ));
     results.motor = Some(found);
     results.suggested = Some(better);
-    Ok(stepped.samples)
+    Ok(samples)
 }
 
 fn table(samples: &[Sample]) -> String {
@@ -314,14 +296,16 @@ fn table(samples: &[Sample]) -> String {
 }
 
 /// The pictures of the steps, below that of the angle.
-const ERROR: Panel<'_> = (
+const ERROR: Panel = (
     "error, degrees (cut at 3)",
     4.0,
-    &[("setpoint − measured", Ink::Found, |s| {
-        (s.setpoint_deg - s.measured_deg).clamp(-3.0, 3.0)
-    })],
+    &[("setpoint − measured", Ink::Found, error)],
 );
-const DUTY: Panel<'_> = ("duty", 0.2, &[("duty", Ink::Found, |s| s.duty)]);
+const DUTY: Panel = ("duty", 0.2, &[("duty", Ink::Found, |s| s.duty)]);
+
+fn error(of: &Sample) -> f64 {
+    (of.setpoint_deg - of.measured_deg).clamp(-3.0, 3.0)
+}
 
 #[cfg(test)]
 pub(super) mod tests;

@@ -9,12 +9,13 @@ use host_sim::progress::{Progress, Verbosity};
 use host_sim::{Error, report};
 use jiff::Timestamp;
 use scene::file;
-use toml_edit::DocumentMut;
+use tactile::TouchDetector;
+use toml_edit::{DocumentMut, Item};
 use wire::Command;
 
 use super::order::SideName;
 use crate::capture::{
-    CALIBRATION, Checks, Label, Recording, SIDE, Sampler, Stands, Touches, stands, token,
+    CALIBRATION, Checks, Label, Recording, SIDE, Stands, Touches, sampled, stands, token,
 };
 use crate::conversation::Conversation;
 use crate::source::{Source, SourceChoice, seconds};
@@ -63,10 +64,7 @@ pub(crate) struct Arguments {
 
 /// Captures what is missing; each label is in the file once it is complete.
 pub(crate) fn capture(arguments: &Arguments, verbosity: Verbosity) -> Result<(), Error> {
-    let Arguments {
-        labels, touches, ..
-    } = arguments;
-    let wanted = *touches as usize;
+    let (labels, wanted) = (&arguments.labels, arguments.touches as usize);
     let named_twice = |n: usize| labels[..n].iter().any(|label| label.name == labels[n].name);
     if let Some(n) = (0..labels.len()).find(|n| named_twice(*n)) {
         let fault = format!("--label: found {:?} twice, allowed: once", labels[n].name);
@@ -123,18 +121,14 @@ fn complete(
     let all = calibration.iter();
     recording.comes_from(all.fold(origin, |origin, (key, value)| origin.with(key, value)))?;
 
-    let already: usize = missing
-        .iter()
-        .map(|label| recording.touches(&label.name))
-        .sum();
-    let total = missing.len() * wanted - already;
+    let already = missing.iter().map(|label| recording.touches(&label.name));
+    let total = missing.len() * wanted - already.sum::<usize>();
     let mut capture = Capture {
+        arguments,
         module,
-        sampler: Sampler::new(about.tick_hz),
+        detector: TouchDetector::at(about.tick_hz),
         tally: Tally::default(),
-        side: usize::from(arguments.side.number()),
         tick_hz: about.tick_hz,
-        patience_s: arguments.patience,
         progress: Progress::new(verbosity, "touches", total as u64),
         done: 0,
         first: None,
@@ -156,31 +150,21 @@ fn complete(
             recording.begun_at(when);
         }
         recording.add(streams)?;
-        capture.progress.pause(|| {
-            report::say(format_args!(
-                "{}: {felt} touches, {samples} samples",
-                label.name
-            ));
-        });
+        let line = format!("{}: {felt} touches, {samples} samples", label.name);
+        capture.progress.pause(|| report::say(line));
     }
-    let Capture {
-        mut module,
-        tally,
-        first,
-        warnings,
-        ..
-    } = capture;
-    module.ask(Command::Stream(false))?;
-    let began_s = first.map(|(first_s, _)| first_s);
-    let lasted_s = began_s.map_or(0.0, |began_s| module.source().now_s() - began_s);
+    capture.module.ask(Command::Stream(false))?;
+    let began_s = capture.first.map(|(first_s, _)| first_s);
+    let lasted_s = began_s.map_or(0.0, |began_s| capture.module.now_s() - began_s);
+    let Tally { lost, records, .. } = capture.tally;
     let out = recording.path().display();
     report::say(format_args!(
         "{out}: {} samples, {} touches; records lost: {} of {}\n\
          from the first touch: {lasted_s:.0} s of the module's time\n{}",
         recording.samples(),
         recording.all_touches(),
-        tally.lost,
-        tally.records + tally.lost,
+        lost,
+        records + lost,
         next(
             recording.path(),
             about.tick_hz,
@@ -188,7 +172,7 @@ fn complete(
             arguments.source.is_simulated()
         )
     ));
-    Ok(warnings)
+    Ok(capture.warnings)
 }
 
 /// What comes next, by what is in the recording and what lies beside it: other labels where there
@@ -221,10 +205,8 @@ fn next(out: &Path, tick_hz: u32, [labels, poses]: [usize; 2], is_simulated: boo
 
 /// The first model that can judge it.
 fn model_beside(recording: &Path, tick_hz: u32) -> Option<PathBuf> {
-    let folder = match recording.parent() {
-        Some(folder) if folder != Path::new("") => folder,
-        _ => Path::new("."),
-    };
+    let folder = recording.parent().filter(|folder| *folder != Path::new(""));
+    let folder = folder.unwrap_or(Path::new("."));
     let files = std::fs::read_dir(folder).into_iter().flatten().flatten();
     let can_judge = |path: &PathBuf| {
         let is_model = path.extension().is_some_and(|end| end == "model");
@@ -242,24 +224,21 @@ fn calibration(path: &Path) -> Result<Origin, Error> {
     let text = file::read_text(path).map_err(|error| Error::file(path, error))?;
     let document: DocumentMut = text.parse().map_err(|error| wrong(format!("{error}")))?;
     if !document.contains_key("zero_codes") {
-        return Err(wrong(
-            "no zero_codes in it, allowed: what whisker calibrate writes".to_owned(),
-        ));
+        let fault = "no zero_codes in it, allowed: what whisker calibrate writes";
+        return Err(wrong(fault.to_owned()));
     }
-    Ok(document
-        .iter()
-        .fold(Origin::default(), |origin, (key, item)| {
-            origin.with(&format!("{CALIBRATION}{key}"), item.to_string().trim())
-        }))
+    let copied = |origin: Origin, (key, item): (&str, &Item)| {
+        origin.with(&format!("{CALIBRATION}{key}"), item.to_string().trim())
+    };
+    Ok(document.iter().fold(Origin::default(), copied))
 }
 
-struct Capture {
+struct Capture<'a> {
+    arguments: &'a Arguments,
     module: Conversation,
-    sampler: Sampler,
+    detector: TouchDetector,
     tally: Tally,
-    side: usize,
     tick_hz: u32,
-    patience_s: f64,
     progress: Progress,
     done: u64,
     /// When the first ended: by the module's clock, s, and by the PC's.
@@ -267,15 +246,11 @@ struct Capture {
     warnings: usize,
 }
 
-impl Capture {
-    fn label(
-        &mut self,
-        label: &Label,
-        mut touches: Touches,
-        most: usize,
-    ) -> Result<Touches, Error> {
+impl Capture<'_> {
+    fn label(&mut self, label: &Label, had: Touches, most: usize) -> Result<Touches, Error> {
+        let mut touches = had;
         let mut checks = Checks::new(&label.name, self.tick_hz);
-        let mut touched_s = self.module.source().now_s();
+        let mut touched_s = self.module.now_s();
         let is_by_hand = self.module.source().is_laid_by_hand();
         let has_clock = self.module.source().has_clock();
         let mut counts = false;
@@ -284,18 +259,18 @@ impl Capture {
             if incoming.has_restarted {
                 self.tally.restart();
             }
-            let now_s = self.module.source().now_s();
+            let now_s = self.module.now_s();
             let is_laid = self.module.source().is_laid()?;
             if is_by_hand && !is_laid {
                 // A person takes their time.
                 touched_s = now_s;
             }
             for record in incoming.records() {
-                if side(record) != self.side {
+                if side(record) != usize::from(self.arguments.side.number()) {
                     continue;
                 }
                 let before = self.tally.take(record);
-                let sampled = self.sampler.take(record, before);
+                let sampled = sampled(&mut self.detector, record, before);
                 self.tell(checks.record(record, before));
                 if has_clock {
                     self.tell(checks.time(record.sequence, now_s));
@@ -327,7 +302,7 @@ impl Capture {
                     self.progress.set(self.done);
                 }
             }
-            if now_s - touched_s > self.patience_s {
+            if now_s - touched_s > self.arguments.patience {
                 return Err(Error::Work(self.nothing(label, &touches)));
             }
         }
@@ -344,9 +319,8 @@ impl Capture {
         }
     }
 
-    /// What to do where nothing was touched for so long.
     fn nothing(&self, label: &Label, touches: &Touches) -> String {
-        let seconds = self.patience_s;
+        let seconds = self.arguments.patience;
         let name = &label.name;
         if self.tally.records == 0 {
             return format!("{name}: no record of that side; has the module a whisker there?");

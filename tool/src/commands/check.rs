@@ -9,8 +9,8 @@ use host_sim::output::Output;
 use host_sim::plot::Ink;
 use host_sim::{Error, report};
 
-use super::get::Which;
 use super::order::SideName;
+use super::tuning::Which;
 use crate::calibrate::{
     ANGLE, Finding, LEAST_S, Listening, Panel, Watched, findings, picture, table, watch,
 };
@@ -132,15 +132,15 @@ impl Seen {
 }
 
 /// Apart, as one would hide the other.
-const X: Panel<'_> = (
+const X: Panel = (
     "x, codes",
     100.0,
-    &[("x", Ink::Found, |s| f64::from(s.codes[0]))],
+    &[("x", Ink::Found, |s| s.codes[0].into())],
 );
-const Y: Panel<'_> = (
+const Y: Panel = (
     "y, codes",
     100.0,
-    &[("y", Ink::Found, |s| f64::from(s.codes[1]))],
+    &[("y", Ink::Found, |s| s.codes[1].into())],
 );
 
 #[cfg(test)]

@@ -5,16 +5,15 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 use host_sim::loaded::Loaded;
 use host_sim::recording::CHANNELS;
-use host_sim::{Error, files, misfit, origin, report};
+use host_sim::{Error, files, misfit, report};
 use jiff::Timestamp;
-use scene::file;
 use tactile::ModelBuf;
 
-use crate::capture::FIRST_TOUCH;
-use crate::configuration::{Program, Running, RunsBy};
+use crate::capture::{FIRST_TOUCH, origin_of};
+use crate::configuration::{Decides, Program, Running, RunsBy};
 use crate::conversation::Conversation;
-use crate::decides::Decides;
 use crate::deployment::{Deployment, model_of};
+use crate::loading;
 use crate::resting::{let_go, rest};
 use crate::source::{SourceChoice, seconds};
 
@@ -83,8 +82,10 @@ impl Arguments {
             (_, Some((_, model))) => Deployment::again(&Running::ask(module)?, model.clone()),
             (_, None) => Err(Error::Input("--scene or --model is missing".to_owned())),
         }?;
-        module.source().would_answer(what.config.links)?;
-        if let (Some(node), Some(loaded)) = (module.source().node(), &what.loaded)
+        if module.node().is_none() {
+            module.source().would_answer(what.config.links)?;
+        }
+        if let (Some(node), Some(loaded)) = (module.node(), &what.loaded)
             && loaded.scene.head.nodes.is_none_or(|nodes| nodes <= node)
         {
             let fault = format!(
@@ -129,7 +130,7 @@ pub(crate) fn deploy(arguments: &Arguments) -> Result<(), Error> {
     }
     let done = rest(&mut module)
         .and_then(|()| what.try_out(&mut module))
-        .and_then(|()| module.source().deploy(&what));
+        .and_then(|()| loading::deploy(&mut module, &what));
     if done.is_err() {
         // It may not answer any more.
         let _ = let_go(&mut module);
@@ -157,8 +158,7 @@ pub(crate) fn deploy(arguments: &Arguments) -> Result<(), Error> {
 }
 
 fn first_touch(data: &Path) -> Result<Option<(String, Timestamp)>, Error> {
-    let bytes = file::read(data, file::TABLE_BYTES).map_err(|error| Error::file(data, error))?;
-    let (origin, ..) = origin::split(&bytes);
+    let origin = origin_of(data)?;
     let when = origin.get(FIRST_TOUCH).and_then(|when| when.parse().ok());
     Ok(when.map(|when| (data.display().to_string(), when)))
 }

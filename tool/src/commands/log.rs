@@ -28,14 +28,14 @@ pub(crate) fn log(arguments: &Arguments) -> Result<(), Error> {
     let mut module = arguments.source.module()?;
     module.follow_log()?;
     let most = arguments.seconds.or(module.source().duration_s());
-    let begun = module.source().now_s();
+    let begun = module.now_s();
     // Of its answers; a module whose program takes no requests has a log all the same.
     let tick_hz = match arguments.script {
         Some(_) => module.about()?.tick_hz,
         None => 1,
     };
     let mut lines = 0_u64;
-    while most.is_none_or(|most| module.source().now_s() - begun < most) {
+    while most.is_none_or(|most| module.now_s() - begun < most) {
         if let Some(line) = script.play(&mut module)? {
             lines += 1;
             report::say(line);

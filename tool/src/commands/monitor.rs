@@ -2,9 +2,9 @@
 
 use std::io::{self, IsTerminal};
 use std::path::PathBuf;
-use std::sync::mpsc::{self, Receiver, Sender};
+use std::sync::mpsc::{self, Receiver};
 use std::sync::{Arc, Mutex};
-use std::thread::{self, JoinHandle};
+use std::thread;
 
 use clap::Args;
 use host_sim::origin::Origin;
@@ -13,8 +13,8 @@ use wire::Command;
 
 use crate::conversation::AboutModule;
 use crate::monitor::{
-    About, History, Known, Listener, Looking, Shared, Size, Watching, Wish, joined, open, size,
-    snapshot, svg, text,
+    About, History, Known, Listener, Looking, Shared, Shown, Size, Watching, Wish, drawn, joined,
+    lock, open, size, svg, text,
 };
 use crate::record_file::{self, RecordFile};
 use crate::script::Script;
@@ -68,10 +68,8 @@ pub(crate) fn monitor(arguments: &Arguments) -> Result<(), Error> {
     if let Some(path) = &arguments.snapshot {
         output::check(path)?;
         if path.extension().is_none_or(|extension| extension != "svg") {
-            return Err(Error::file(
-                path,
-                "--snapshot: allowed: a name that ends in .svg",
-            ));
+            let fault = "--snapshot: allowed: a name that ends in .svg";
+            return Err(Error::file(path, fault));
         }
     }
     let is_window = arguments.frames.is_none();
@@ -85,8 +83,17 @@ pub(crate) fn monitor(arguments: &Arguments) -> Result<(), Error> {
     }
     let (wish, wishes) = mpsc::channel();
     let (ready, readied) = mpsc::channel();
-    let listener = listen(arguments.clone(), wishes, ready)?;
-    let Ok(Ready { shared, about }) = readied.recv() else {
+    let own = arguments.clone();
+    let listening = thread::Builder::new().name("listening".to_owned());
+    // The module is opened where it is listened to: not every one can be handed on.
+    let listener = listening.spawn(move || {
+        let (watching, is_ready) = begin(&own, wishes)?;
+        // Whoever asked for it waits.
+        let _ = ready.send(is_ready);
+        watching.run()
+    });
+    let listener = listener.map_err(|error| Error::Work(format!("thread: {error}")))?;
+    let Ok((shared, about)) = readied.recv() else {
         // Why, it says itself.
         return joined(listener);
     };
@@ -94,7 +101,8 @@ pub(crate) fn monitor(arguments: &Arguments) -> Result<(), Error> {
         return open(&shared, about, listener, &wish);
     }
     joined(listener)?;
-    let picture = snapshot(&shared, &about, arguments.size)?;
+    let shown = Shown::first(&lock(&shared).history, &about.title);
+    let picture = drawn(&shown, arguments.size)?;
     if let Some(path) = &arguments.snapshot {
         return output::write_whole(path, svg(&picture).as_bytes());
     }
@@ -102,27 +110,7 @@ pub(crate) fn monitor(arguments: &Arguments) -> Result<(), Error> {
     Ok(())
 }
 
-struct Ready {
-    shared: Arc<Mutex<Shared>>,
-    about: About,
-}
-
-/// Begins to listen, where the module is opened: not every one can be handed on.
-fn listen(
-    arguments: Arguments,
-    wishes: Receiver<Wish>,
-    ready: Sender<Ready>,
-) -> Result<JoinHandle<Result<(), Error>>, Error> {
-    let work = move || {
-        let (watching, is_ready) = begin(&arguments, wishes)?;
-        // Whoever asked for it waits.
-        let _ = ready.send(is_ready);
-        watching.run()
-    };
-    let thread = thread::Builder::new().name("listening".to_owned());
-    let started = thread.spawn(work);
-    started.map_err(|error| Error::Work(format!("thread: {error}")))
-}
+type Ready = (Arc<Mutex<Shared>>, About);
 
 fn begin(arguments: &Arguments, wishes: Receiver<Wish>) -> Result<(Watching, Ready), Error> {
     let scene = arguments.source.scene();
@@ -134,7 +122,7 @@ fn begin(arguments: &Arguments, wishes: Receiver<Wish>) -> Result<(Watching, Rea
     let known = known.filter(|_| arguments.source.sends_all().is_ok());
     let script = Script::of(arguments.script.as_deref(), &arguments.source)?;
     let mut module = arguments.source.module()?;
-    let begun_s = module.source().now_s();
+    let begun_s = module.now_s();
     // From the first tick on: how the whisker swings in the air is learnt from.
     module.ask(Command::Stream(true))?;
     let AboutModule {
@@ -163,9 +151,7 @@ fn begin(arguments: &Arguments, wishes: Receiver<Wish>) -> Result<(Watching, Rea
         has_ended: false,
         saving: Vec::new(),
     }));
-    let pictures = arguments
-        .frames
-        .map(|frames| f64::from(frames) / PICTURES_HZ);
+    let frames = arguments.frames.map(f64::from);
     let watching = Watching {
         module,
         script,
@@ -180,12 +166,12 @@ fn begin(arguments: &Arguments, wishes: Receiver<Wish>) -> Result<(Watching, Rea
         begun_s,
         looking,
         looked_s: begun_s,
-        most_s: pictures.or(arguments.seconds),
+        most_s: frames.map_or(arguments.seconds, |frames| Some(frames / PICTURES_HZ)),
     };
     let about = About {
         title,
         origin,
         save: arguments.save.clone(),
     };
-    Ok((watching, Ready { shared, about }))
+    Ok((watching, (shared, about)))
 }

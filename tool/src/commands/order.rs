@@ -4,9 +4,9 @@ use clap::{Args, Subcommand, ValueEnum};
 use host_sim::{Error, report};
 use wire::{Command, WhiskerId};
 
-use crate::configuration::RunsBy;
-use crate::decides::Decides;
+use crate::configuration::{Decides, RunsBy};
 use crate::source::SourceChoice;
+use crate::tally::SIDES;
 
 #[derive(Debug, Subcommand)]
 pub(crate) enum Order {
@@ -56,10 +56,8 @@ impl SideName {
 
 impl ToSide {
     fn whisker(&self) -> WhiskerId {
-        WhiskerId {
-            side: self.side.number(),
-            number: 0,
-        }
+        let side = self.side.number();
+        WhiskerId { side, number: 0 }
     }
 }
 
@@ -92,11 +90,9 @@ fn status(source: &SourceChoice) -> Result<(), Error> {
     ));
     report::say(RunsBy::ask(&mut module)?);
     let origin = module.origin()?;
-    report::say(format_args!(
-        "firmware {}",
-        origin.get("firmware").unwrap_or("unknown")
-    ));
-    for (side, name) in (0..2).zip(["left", "right"]) {
+    let firmware = origin.get("firmware").unwrap_or("unknown");
+    report::say(format_args!("firmware {firmware}"));
+    for (side, name) in (0..).zip(SIDES) {
         if let Some([x, y]) = module.zero(WhiskerId { side, number: 0 })? {
             report::say(format_args!(
                 "zero {name}: x {x:+} and y {y:+} codes from mid-scale, found by itself"

@@ -105,9 +105,8 @@ pub(crate) fn records(arguments: &Arguments, verbosity: Verbosity) -> Result<(),
                 let now = ticks.take(record.sequence);
                 let since = now - *first.get_or_insert(now);
                 if let Some(beyond) = since.checked_sub(most.into()) {
-                    summary
-                        .tally
-                        .end(record.sequence.wrapping_sub(beyond as u32));
+                    let end = record.sequence.wrapping_sub(beyond as u32);
+                    summary.tally.end(end);
                     return Ok(());
                 }
                 summary.take(record);
@@ -126,16 +125,12 @@ pub(crate) fn records(arguments: &Arguments, verbosity: Verbosity) -> Result<(),
     listened.and(finished)?;
     module.ask(Command::Stream(false))?;
     let lost = module.ask(Command::Status)?.values[0];
-    say(format!(
-        "{}: {}",
-        out.display(),
-        summary.text(Some(about.tick_hz))
-    ));
+    let text = summary.text(Some(about.tick_hz));
+    say(format!("{}: {text}", out.display()));
     // It counts from its last start.
-    let lost_before = if summary.tally.restarts > 0 {
-        0
-    } else {
-        lost_before
+    let lost_before = match summary.tally.restarts {
+        0 => lost_before,
+        _ => 0,
     };
     let own = lost.wrapping_sub(lost_before).cast_unsigned();
     if summary.tally.lost > 0 || own > 0 {
@@ -171,15 +166,10 @@ impl Summary {
     }
 
     fn text(&self, tick_hz: Option<u32>) -> String {
-        let Tally {
-            records,
-            lost,
-            restarts,
-            ..
-        } = self.tally;
+        let (records, lost) = (self.tally.records, self.tally.lost);
+        let (restarts, decisions) = (self.tally.restarts, self.decisions);
         let rate = tick_hz.map_or(String::new(), |hz| format!(" at {hz} ticks a second"));
         let touches: u64 = self.touches.iter().sum();
-        let decisions = self.decisions;
         let mut lines = vec![format!(
             "{records} records{rate}, {lost} lost, {touches} touches, {decisions} records with \
              decisions"

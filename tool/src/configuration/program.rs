@@ -1,11 +1,14 @@
 //! Which program a configuration is made for.
 
 use config::NumberFormat;
-use firmware::BoardCode;
 use firmware::boards::{ALL, BoardFacts};
+use firmware::{BoardCode, VERSION};
 use host_sim::Error;
 use scene::Scene;
 use whisking::FormatCode;
+use wire::{Command, CommandStatus};
+
+use crate::conversation::Conversation;
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct Program {
@@ -14,6 +17,19 @@ pub(crate) struct Program {
 }
 
 impl Program {
+    pub(crate) fn ask(module: &mut Conversation) -> Result<Self, Error> {
+        let answer = module.answer(Command::Board)?;
+        let [program, version] = answer.values;
+        if answer.status != CommandStatus::Done || version as u16 != VERSION {
+            return Err(Error::Work(format!(
+                "the module's program does not take scenes of version {VERSION}: whisker flash \
+                 gives it one that does"
+            )));
+        }
+        let [board, format, ..] = program.to_le_bytes();
+        Self::of(board, format)
+    }
+
     pub(crate) fn of(board: u8, format: u8) -> Result<Self, Error> {
         let boards = ALL.iter().map(|facts| facts.code);
         let mut boards = boards.chain([BoardCode::Simulation]);

@@ -31,10 +31,14 @@ fn a_configuration_is_made_again_from_its_scene() {
                 continue;
             };
             let running = Running::of(image.bytes.to_vec()).unwrap();
-            let again = running
-                .remade(scene, "motor.kp=0.05", &running.classes)
-                .unwrap();
-            assert_eq!(again, running, "{} on {}", file.display(), board.name);
+            let again = running.remade(scene, "motor.kp=0.05", &running.classes);
+            assert_eq!(
+                again.unwrap(),
+                running,
+                "{} on {}",
+                file.display(),
+                board.name
+            );
             assert_eq!(running.program().board, board.code);
             count += 1;
         }

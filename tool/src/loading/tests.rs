@@ -4,7 +4,7 @@ use std::rc::Rc;
 use firmware::boards::NUCLEO_F446RE;
 use wire::{Command, CommandStatus, Load, LoadedWord};
 
-use super::{Deployment, load};
+use super::{Conversation, Deployment, load};
 use crate::deployment::tests::{loaded, model, on};
 use crate::source::Scripted;
 
@@ -23,7 +23,7 @@ fn every_word_is_written_once_and_what_makes_it_count_comes_last() {
     };
     let written = Rc::new(RefCell::new(Vec::new()));
     let (place, mut is_lost, mut has_begun) = (written.clone(), false, false);
-    let mut board = Scripted::new(move |command| {
+    let board = Scripted::new(move |command| {
         let mut written = place.borrow_mut();
         match command {
             Command::Load(load) => {
@@ -48,7 +48,7 @@ fn every_word_is_written_once_and_what_makes_it_count_comes_last() {
         }
         Some((CommandStatus::Done, [0; 2]))
     });
-    load(&mut board, &what).unwrap();
+    load(&mut Conversation::new(Box::new(board)), &what).unwrap();
     let written = written.borrow();
     let expected = (0..order.words()).map(|number| match order.word(number).unwrap() {
         LoadedWord::Model(n) => model[usize::from(n)],
@@ -62,35 +62,22 @@ fn every_word_is_written_once_and_what_makes_it_count_comes_last() {
 fn a_board_that_refuses_says_why() {
     let what = bench();
     let refused = |at: fn(Command) -> bool, status| {
-        let mut board = Scripted::new(move |command| {
-            let status = if at(command) {
-                status
-            } else {
-                CommandStatus::Done
-            };
-            Some((status, [0; 2]))
+        let board = Scripted::new(move |command| {
+            let refused = Some(status).filter(|_| at(command));
+            Some((refused.unwrap_or(CommandStatus::Done), [0; 2]))
         });
-        load(&mut board, &what).unwrap_err().to_string()
+        let mut module = Conversation::new(Box::new(board));
+        load(&mut module, &what).unwrap_err().to_string()
     };
     let is_load = |command| matches!(command, Command::Load(_));
-    assert_eq!(
-        refused(is_load, CommandStatus::NotHere),
-        "the module's image was built without deployment by command; cargo xtask firmware \
-         --any-scene builds one that has it"
-    );
-    for (at, status, fault) in [
-        (
-            is_load as fn(Command) -> bool,
-            CommandStatus::OutOfRange,
-            "its flash has no room for so much",
-        ),
-        (is_load, CommandStatus::Armed, "load: a motor is armed"),
-        (
-            |command| matches!(command, Command::Word(200, _)),
-            CommandStatus::NotWritten,
-            "its flash did not take what was written; try again",
-        ),
-    ] {
-        assert_eq!(refused(at, status), fault);
-    }
+    let is_word = |command| matches!(command, Command::Word(200, _));
+    let without = "the module's image was built without deployment by command; cargo xtask firmware \
+                   --any-scene builds one that has it";
+    assert_eq!(refused(is_load, CommandStatus::NotHere), without);
+    let room = "its flash has no room for so much";
+    assert_eq!(refused(is_load, CommandStatus::OutOfRange), room);
+    let armed = "load: a motor is armed";
+    assert_eq!(refused(is_load, CommandStatus::Armed), armed);
+    let fault = "its flash did not take what was written; try again";
+    assert_eq!(refused(is_word, CommandStatus::NotWritten), fault);
 }

@@ -3,18 +3,15 @@
 mod charts;
 mod hairs;
 mod panes;
-mod theme;
 
 use ratatui::Frame;
 use ratatui::layout::{Constraint, Layout, Rect};
-use ratatui::style::{Modifier, Style};
+use ratatui::style::{Color, Modifier, Style};
 use ratatui::text::Line;
 use ratatui::widgets::{Block, Clear, Paragraph};
 
 use super::shown::Shown;
 use super::view::KEYS;
-pub(crate) use theme::Theme;
-use theme::bold;
 
 /// A window this narrow, or low, has no room for the panes beside the charts, or for charts.
 const WIDE: u16 = 68;
@@ -40,17 +37,17 @@ fn places(area: Rect, whiskers: u16) -> [Rect; 5] {
     [top, states, charts, side, foot]
 }
 
-pub(crate) fn draw(frame: &mut Frame<'_>, shown: &Shown, theme: Theme) {
+pub(crate) fn draw(frame: &mut Frame<'_>, shown: &Shown) {
     let area = frame.area();
     let [top, states, charts, side, foot] = places(area, shown.whiskers.len() as u16);
     frame.render_widget(head(shown, top.width), top);
-    panes::states(frame, states, shown, theme);
+    panes::states(frame, states, shown);
     if shown.hairs.is_empty() {
-        charts::charts(frame, charts, shown, theme);
+        charts::charts(frame, charts, shown);
     } else {
-        hairs::hairs(frame, charts, &shown.hairs, theme);
+        hairs::hairs(frame, charts, &shown.hairs);
     }
-    panes::panes(frame, side, shown, theme);
+    panes::panes(frame, side, shown);
     let line = if shown.message.is_empty() {
         "x stop  a arm  p pause  Tab side  +- time  s save  q end  ^C stop, end  ? help"
     } else {
@@ -60,6 +57,16 @@ pub(crate) fn draw(frame: &mut Frame<'_>, shown: &Shown, theme: Theme) {
     if shown.has_help {
         help(frame, area);
     }
+    // As the environment asks for (<https://no-color.org>).
+    if std::env::var_os("NO_COLOR").is_some_and(|value| !value.is_empty()) {
+        for cell in &mut frame.buffer_mut().content {
+            cell.fg = Color::Reset;
+        }
+    }
+}
+
+fn bold() -> Style {
+    Style::new().add_modifier(Modifier::BOLD)
 }
 
 fn head(shown: &Shown, width: u16) -> Line<'static> {
@@ -75,11 +82,9 @@ fn head(shown: &Shown, width: u16) -> Line<'static> {
 }
 
 fn help(frame: &mut Frame<'_>, area: Rect) {
-    let width = KEYS
-        .iter()
-        .map(|(key, does)| key.len().max(19) + does.len() + 5)
-        .max();
-    let width = (width.unwrap_or(0) as u16).min(area.width);
+    let lines = KEYS.map(|(key, does)| Line::from(format!(" {key:19} {does}")));
+    let width = lines.iter().map(Line::width).max().unwrap_or(0) + 3;
+    let width = (width as u16).min(area.width);
     let height = (KEYS.len() as u16 + 2).min(area.height);
     let place = Rect {
         x: area.x + (area.width - width) / 2,
@@ -87,15 +92,9 @@ fn help(frame: &mut Frame<'_>, area: Rect) {
         width,
         height,
     };
-    let lines: Vec<Line<'_>> = KEYS
-        .iter()
-        .map(|(key, does)| Line::from(format!(" {key:19} {does}")))
-        .collect();
     frame.render_widget(Clear, place);
-    frame.render_widget(
-        Paragraph::new(lines).block(Block::bordered().title(" keys ")),
-        place,
-    );
+    let keys = Paragraph::new(lines.to_vec()).block(Block::bordered().title(" keys "));
+    frame.render_widget(keys, place);
 }
 
 #[cfg(test)]

@@ -16,11 +16,9 @@ pub(crate) const HELD_S: u32 = 300;
 
 /// How many lines of the log are held, and how many events.
 const LINES: usize = 4000;
-
-/// How often the classifier's posteriors are kept in a second.
+/// How often the classifier's posteriors are kept in a second, and the whiskers of a head looked at:
+/// as often as a picture is drawn.
 const BELIEFS_HZ: u32 = 20;
-
-/// How often the whiskers of a head are looked at in a second, as often as a picture is drawn.
 pub(crate) const LOOKS_HZ: u32 = 20;
 
 /// Something that was said, and the tick by then: counted on where the module starts again.
@@ -135,17 +133,11 @@ impl History {
         // A board of a head may have one of the right.
         let side = if self.whiskers == 1 { 0 } else { side(record) };
         let entries = &mut self.sides[side];
-        entries.push_back(Said {
-            ticks,
-            what: *record,
-        });
+        let what = *record;
+        entries.push_back(Said { ticks, what });
         let held = u64::from(HELD_S) * u64::from(self.tick_hz);
-        while entries
-            .front()
-            .is_some_and(|first| first.ticks + held < ticks)
-        {
-            entries.pop_front();
-        }
+        let is_old = |first: &mut Said<_>| first.ticks + held < ticks;
+        while entries.pop_front_if(is_old).is_some() {}
         self.listen(record, before, ticks);
     }
 
@@ -184,7 +176,7 @@ impl History {
         side: usize,
         from: u64,
         to: u64,
-    ) -> impl Iterator<Item = &Said<TickRecord>> + '_ {
+    ) -> vec_deque::Iter<'_, Said<TickRecord>> {
         let entries = &self.sides[side.min(1)];
         let first = entries.partition_point(|entry| entry.ticks < from);
         let last = entries.partition_point(|entry| entry.ticks <= to);

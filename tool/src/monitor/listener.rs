@@ -5,20 +5,71 @@
 //! a record has 13 bits: now and then a sample near the least contact would count on one side
 //! only, and the decisions would differ. Numbers are `f32`, as on a board with an FPU.
 
+use std::path::Path;
+
 use firmware::design_parameters::{Plausible, sensor_limits};
 use firmware::{Event, Perception, Place, Reading, Sensed, SensorLimits};
-use host_sim::Error;
-use host_sim::classifier::{Codes, posteriors};
+use host_sim::classifier::{Classifier, Codes, posteriors};
+use host_sim::loaded::Loaded;
+use host_sim::{Error, files};
 use mlx90333::Word;
+use scene::Rule;
 use tactile::Decision;
 use whisking::{Real, filter};
 use wire::{Flags, TickRecord};
 
-use super::known::Known;
 use crate::tally::{Before, SIDES, side};
 
 /// Ticks at a module's start by which a record is asked for, where one listens from the start.
 const UNSEEN: u32 = 100;
+
+/// How sure a classifier must be where no scene says it.
+const RULE: Rule = Rule::Sequential { threshold: 0.99 };
+
+/// A classifier, and what it takes for a sample.
+#[derive(Debug, Clone)]
+pub(crate) struct Known {
+    pub(crate) classifier: Classifier,
+    pub(crate) contact_min: Option<f64>,
+    /// For how long a sensor's words may repeat, s.
+    pub(crate) frozen_s: f64,
+}
+
+impl Known {
+    /// That of a scene, with another model or its own; none without either.
+    pub(crate) fn of(scene: Option<&Path>, model: Option<&Path>) -> Result<Option<Self>, Error> {
+        let loaded = scene.map(Loaded::new).transpose()?;
+        let said = loaded.as_ref().map(|of| &of.scene);
+        let said = said.filter(|scene| scene.classifier.is_some());
+        let classifier = match (model, &loaded) {
+            (Some(path), _) => {
+                let (_, model) = files::load_model(path)?;
+                let classifier = match said {
+                    Some(scene) => Classifier::of_scene(model, scene),
+                    None => Classifier::new(model, RULE),
+                };
+                Some(classifier.map_err(|fault| Error::file(path, fault))?)
+            }
+            (None, Some(loaded)) => loaded.classifier()?,
+            (None, None) => None,
+        };
+        let Some(classifier) = classifier else {
+            return Ok(None);
+        };
+        let gate = classifier.touch_rule().map(|touch| touch.gate);
+        let contact_min = match &loaded {
+            Some(loaded) => config::contact_min(&loaded.scene, gate)
+                .map_err(|fault| Error::Input(fault.to_string()))?,
+            None => gate.map(f64::from),
+        };
+        let frozen_s = loaded.map_or(f64::INFINITY, |loaded| loaded.scene.sensor.frozen_s);
+        Ok(Some(Self {
+            classifier,
+            contact_min,
+            frozen_s,
+        }))
+    }
+}
 
 #[derive(Debug, Clone, Copy, Default)]
 struct Track {
@@ -41,15 +92,13 @@ impl Track {
         let has = |flag| record.flags.contains(flag);
         let words = [record.x, record.y];
         if has(Flags::FRESH) {
-            let is_same = std::mem::replace(&mut self.words, words) == words;
-            self.repeats = if is_same {
-                self.repeats.saturating_add(1)
-            } else {
-                0
+            self.repeats = match std::mem::replace(&mut self.words, words) {
+                before if before == words => self.repeats.saturating_add(1),
+                _ => 0,
             };
         }
-        let has_rested =
-            std::mem::replace(&mut self.rests, has(Flags::RESTING) || has(Flags::HOMING));
+        let rests = has(Flags::RESTING) || has(Flags::HOMING);
+        let has_rested = std::mem::replace(&mut self.rests, rests);
         let [x, y] = words.map(Word::new);
         let reading = Reading {
             x,
@@ -91,13 +140,11 @@ impl Listener {
             frozen_s: known.frozen_s,
             jump_per_s: f64::INFINITY,
         };
+        let classes = known.classifier.classes().to_vec();
+        let codes = known.classifier.into_codes();
         Ok(Self {
-            classes: known.classifier.classes().to_vec(),
-            perception: Some(Perception::new(
-                known.classifier.into_codes(),
-                SIDES.len(),
-                tick_hz,
-            )),
+            classes,
+            perception: Some(Perception::new(codes, SIDES.len(), tick_hz)),
             least: known.contact_min.map(|least| least as f32),
             h50,
             limits: sensor_limits(tick_hz, plausible),
@@ -132,22 +179,16 @@ impl Listener {
         if !std::mem::replace(&mut self.has_begun, true) && record.sequence <= UNSEEN {
             self.catch_up(record.sequence);
         }
-        let other = self.pending[1 - side(record)];
-        if other.is_some_and(|other| other.sequence != record.sequence) {
+        let is_older = |other: &TickRecord| other.sequence != record.sequence;
+        if self.pending.iter().flatten().any(is_older) {
             // The first tick may come in part.
             self.pending = [None; 2];
         }
         self.pending[side(record)] = Some(*record);
-        match (self.whiskers, self.pending) {
-            (1, _) => {
-                self.pending = [None; 2];
-                self.step([record]);
-            }
-            (_, [Some(left), Some(right)]) => {
-                self.pending = [None; 2];
-                self.step([&left, &right]);
-            }
-            _ => {}
+        let records: Vec<TickRecord> = self.pending.iter().flatten().copied().collect();
+        if records.len() >= self.whiskers {
+            self.pending = [None; 2];
+            self.step(&records);
         }
         std::mem::take(&mut self.decided)
     }
@@ -160,17 +201,13 @@ impl Listener {
             flags: flags | Flags::VALID,
             ..TickRecord::default()
         };
-        let (left, right) = (rest(Flags::default()), rest(Flags::RIGHT));
+        let both = [Flags::default(), Flags::RIGHT].map(rest);
         for _ in 1..sequence {
-            if self.whiskers == 1 {
-                self.step([&left]);
-            } else {
-                self.step([&left, &right]);
-            }
+            self.step(&both[..self.whiskers]);
         }
     }
 
-    fn step<const S: usize>(&mut self, records: [&TickRecord; S]) {
+    fn step(&mut self, records: &[TickRecord]) {
         let Some(perception) = &mut self.perception else {
             return;
         };

@@ -1,6 +1,5 @@
 //! Looks at all whiskers of a head in turn, by way of the board that is talked with.
 
-use firmware::Packet;
 use host_sim::Error;
 use host_sim::array::{Array, Stand};
 use host_sim::decisions::UNKNOWN;
@@ -8,18 +7,14 @@ use host_sim::loaded::Loaded;
 use wire::{Answer, Command, CommandStatus, Looked, WhiskerId, degrees, unit};
 
 use crate::configuration::Running;
-use crate::conversation::Conversation;
+use crate::conversation::{Conversation, answer_of};
 use crate::source::{Incoming, SourceChoice};
 
 /// After how long without an answer the next one is looked at, s; a board says by itself that
 /// another one is silent.
 const PATIENCE_S: f64 = 1.0;
-
 /// After how long a board that was silent is asked again, s.
 const SILENCE_S: f64 = 2.0;
-
-/// What is shown of a whisker whose board is silent.
-const SILENT: &str = "silent";
 
 /// A whisker of a head, as somebody sees it who looks at that from above.
 #[derive(Debug, Clone, PartialEq)]
@@ -33,21 +28,14 @@ pub(crate) struct Hair {
     pub(crate) said: String,
 }
 
-#[derive(Debug, Clone, Copy)]
-struct Asked {
-    tag: u16,
-    at_s: f64,
-    hair: usize,
-}
-
-/// The whiskers, and the one that is asked for.
 #[derive(Debug)]
 pub(crate) struct Looking {
     array: Array,
     looked: Vec<Option<Looked>>,
     /// When it was silent last, s.
     silent_s: Vec<Option<f64>>,
-    asked: Option<Asked>,
+    /// The tag of the request, when it was sent, s, and of which whisker it is.
+    asked: Option<(u16, f64, usize)>,
     next: usize,
 }
 
@@ -86,9 +74,10 @@ impl Looking {
 
     /// Asks for the next whisker once the one before is known; does not wait.
     pub(crate) fn ask(&mut self, module: &mut Conversation) -> Result<(), Error> {
-        let now_s = module.source().now_s();
-        if let Some(asked) = self.asked
-            && now_s - asked.at_s < PATIENCE_S
+        let now_s = module.now_s();
+        if self
+            .asked
+            .is_some_and(|(_, at_s, _)| now_s - at_s < PATIENCE_S)
         {
             return Ok(());
         }
@@ -107,26 +96,17 @@ impl Looking {
         let board = stand.board.unwrap_or(0) as u8;
         let tag = module.send_to(Some(board), Command::Look(whisker))?;
         self.next = (hair + 1) % whiskers;
-        self.asked = Some(Asked {
-            tag,
-            at_s: now_s,
-            hair,
-        });
+        self.asked = Some((tag, now_s, hair));
         Ok(())
     }
 
     /// Takes the answer that it waits for from among what has come; `classes` are the module's.
     pub(crate) fn take(&mut self, incoming: &mut Incoming, classes: &[String], now_s: f64) {
-        let Some(asked) = self.asked else {
-            return;
-        };
-        let is_it =
-            |packet: &mut Packet| matches!(packet, Packet::Answer(of) if of.tag == asked.tag);
-        for packet in incoming.packets.extract_if(.., is_it) {
-            if let Packet::Answer(answer) = packet {
-                self.asked = None;
-                self.answered(asked.hair, &answer, classes, now_s);
-            }
+        if let Some((tag, _, hair)) = self.asked
+            && let Some(answer) = answer_of(incoming, tag)
+        {
+            self.asked = None;
+            self.answered(hair, &answer, classes, now_s);
         }
     }
 
@@ -156,7 +136,7 @@ impl Looking {
         let hair = |(n, stand): (usize, &Stand)| {
             let looked = self.looked[n].unwrap_or_default();
             let said = match self.silent_s[n] {
-                Some(_) => SILENT,
+                Some(_) => "silent",
                 None => self.array.said(n, now_s),
             };
             Hair {
@@ -207,10 +187,9 @@ mod tests {
         let count = Rc::new(Cell::new(0_u8));
         let decisions = count.clone();
         // The second board of the left does not answer.
+        let none = Some((CommandStatus::NoBoard, [0; 2]));
         let answering = move |command| match command {
-            Command::Look(WhiskerId { side: 0, number: 1 }) => {
-                Some((CommandStatus::NoBoard, [0; 2]))
-            }
+            Command::Look(WhiskerId { side: 0, number: 1 }) => none,
             Command::Look(WhiskerId { side, number }) => {
                 let looked = Looked {
                     measured: 819 * i16::from(2 * side + number),
@@ -230,10 +209,10 @@ mod tests {
             for _ in 0..5 {
                 looking.ask(&mut module).unwrap();
                 let mut incoming = module.receive().unwrap();
-                looking.take(&mut incoming, &classes, module.source().now_s());
+                looking.take(&mut incoming, &classes, module.now_s());
                 assert_eq!(incoming.packets, []);
             }
-            looking.hairs(module.source().now_s())
+            looking.hairs(module.now_s())
         };
         let said = |hairs: &[Hair]| -> Vec<String> {
             hairs.iter().map(|hair| hair.said.clone()).collect()

@@ -9,7 +9,6 @@ use host_sim::origin::Origin;
 use super::history::History;
 use crate::record_file::RecordFile;
 
-/// What is held, taken at once.
 pub(crate) struct Held {
     tick_hz: u32,
     records: usize,
@@ -29,10 +28,7 @@ impl Held {
         // The left side's first, as they came.
         packets.sort_by_key(|(ticks, _)| *ticks);
         // What was said before the first record that is held has no time in the file.
-        let first = packets
-            .iter()
-            .find(|(_, packet)| matches!(packet, Packet::Record(_)));
-        let first = first.map_or(0, |(ticks, _)| *ticks);
+        let first = history.oldest();
         packets.retain(|(ticks, _)| *ticks >= first);
         let lines = history.lines.iter().filter(|said| said.ticks >= first);
         Self {
@@ -87,12 +83,8 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("s.csv");
         let mut history = History::new((100, 1), 2, None);
-        let mut records = Vec::new();
-        for sequence in 1..=50 {
-            for flags in [Flags::VALID, Flags::RIGHT] {
-                records.push(record(sequence, flags));
-            }
-        }
+        let both = |sequence| [Flags::VALID, Flags::RIGHT].map(|flags| record(sequence, flags));
+        let records: Vec<_> = (1..=50).flat_map(both).collect();
         for record in &records {
             history.take(&Incoming::of([Packet::Record(*record)]));
         }

@@ -12,9 +12,7 @@ use crate::sample::Sample;
 use crate::tally::{self, SIDES};
 
 const PARTS: usize = 160;
-
 const MOST_LINES: usize = 60;
-
 const MOST_FAULTS: usize = 8;
 
 /// Signals of a whisker, in the order of [`signals`].
@@ -85,18 +83,16 @@ impl History {
         let lines = events().rev().filter_map(|event| self.line(event));
         let mut lines: Vec<_> = lines.take(MOST_LINES).collect();
         lines.reverse();
-        let faults = events()
-            .rev()
-            .filter_map(|event| fault(event, self.tick_hz));
+        let faults = events().rev();
+        let faults = faults.filter_map(|event| fault(event, self.tick_hz));
+        let whiskers = view.sides().iter();
         Shown {
             title: title.to_owned(),
             from_s: end as f64 / hz - view.span_s(),
             to_s: end as f64 / hz,
             behind_s: view.held.map(|_| (self.now() - end) as f64 / hz),
             has_help: view.has_help,
-            whiskers: view
-                .sides()
-                .iter()
+            whiskers: whiskers
                 .map(|side| self.whisker(*side, from, end))
                 .collect(),
             hairs: match view.shows {
@@ -156,37 +152,26 @@ impl History {
         }
         let record = entries.last().map(|entry| entry.what);
         let posteriors = by(&self.beliefs[side], end).map_or(&[][..], |belief| &belief.what);
+        let classes = self.classes().iter().cloned();
         Whisker {
             side: SIDES[record.as_ref().map_or(side, tally::side)],
             record,
             curves,
-            posteriors: self
-                .classes()
-                .iter()
-                .cloned()
-                .zip(posteriors.iter().copied())
-                .collect(),
+            posteriors: classes.zip(posteriors.iter().copied()).collect(),
         }
     }
 
     fn load(&self) -> Vec<String> {
-        let mut load = Vec::new();
-        match self.health {
-            Some(health) => {
-                let longest_us = f64::from(health.worst_tenths) / 10.0;
-                let share = longest_us * f64::from(self.tick_hz) / 1e4;
-                load.push(format!("longest tick {longest_us:.1} us ({share:.0} %)"));
-                load.push(format!(
-                    "ticks missed {}, events dropped {}",
-                    health.missed, health.dropped
-                ));
-            }
-            None => load.push("longest tick: unknown".to_owned()),
+        let mut load = vec!["longest tick: unknown".to_owned()];
+        if let Some(health) = self.health {
+            let longest_us = f64::from(health.worst_tenths) / 10.0;
+            let share = longest_us * f64::from(self.tick_hz) / 1e4;
+            let (missed, dropped) = (health.missed, health.dropped);
+            load[0] = format!("longest tick {longest_us:.1} us ({share:.0} %)");
+            load.push(format!("ticks missed {missed}, events dropped {dropped}"));
         }
-        load.push(format!(
-            "records {}, lost {}",
-            self.tally.records, self.tally.lost
-        ));
+        let (records, lost) = (self.tally.records, self.tally.lost);
+        load.push(format!("records {records}, lost {lost}"));
         if self.tally.restarts > 0 {
             load.push(format!("starts meanwhile {}", self.tally.restarts));
         }

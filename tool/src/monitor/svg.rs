@@ -1,12 +1,37 @@
-//! A window as text, and as a picture: from the buffer that a terminal would get.
+//! The window without a terminal, as text and as a picture: from the buffer that one would get.
 //!
 //! Dots of Braille characters, bars and frames are drawn, as fonts have them in any shape or
 //! not at all; the rest is text, a run of cells at its place and of its length.
 
+use std::convert::Infallible;
 use std::fmt::Write as _;
 
+use host_sim::Error;
+use ratatui::Terminal;
+use ratatui::backend::TestBackend;
 use ratatui::buffer::{Buffer, Cell};
 use ratatui::style::{Color, Modifier};
+
+use super::draw::draw;
+use super::shown::Shown;
+
+/// Columns and rows.
+pub(crate) type Size = (u16, u16);
+
+pub(crate) fn size(text: &str) -> Result<Size, String> {
+    let parts = text.split_once('x');
+    let parts = parts.and_then(|(columns, rows)| Some((columns.parse().ok()?, rows.parse().ok()?)));
+    let fits = |(columns, rows): &Size| (10..=400).contains(columns) && (3..=200).contains(rows);
+    let size = parts.filter(fits);
+    size.ok_or_else(|| "allowed: 10x3 to 400x200, as in 100x30".to_owned())
+}
+
+pub(crate) fn drawn(shown: &Shown, (columns, rows): Size) -> Result<Buffer, Error> {
+    let failed = |error: Infallible| Error::Work(error.to_string());
+    let mut terminal = Terminal::new(TestBackend::new(columns, rows)).map_err(failed)?;
+    terminal.draw(|frame| draw(frame, shown)).map_err(failed)?;
+    Ok(terminal.backend().buffer().clone())
+}
 
 /// Size of a cell, and of the letters, pixels.
 const WIDTH: f32 = 8.0;

@@ -9,7 +9,6 @@ pub(crate) enum Shows {
     Left,
     Right,
     Both,
-    /// All whiskers of a head, from above.
     Head,
 }
 
@@ -47,7 +46,6 @@ pub(crate) struct Extent {
     pub(crate) has_head: bool,
 }
 
-/// Whether it is a letter with Ctrl.
 const fn is_control(key: KeyEvent) -> bool {
     matches!(key.code, KeyCode::Char(_)) && key.modifiers.contains(KeyModifiers::CONTROL)
 }
@@ -63,7 +61,6 @@ pub(crate) const fn wish(key: KeyEvent) -> Option<Wish> {
     })
 }
 
-/// Whether the last minutes are to be saved.
 pub(crate) const fn saves(key: KeyEvent) -> bool {
     matches!(key.code, KeyCode::Char('s')) && !is_control(key)
 }
@@ -155,28 +152,26 @@ mod tests {
         view.press(KeyCode::Left.into(), EXTENT);
         assert_eq!(view.end(EXTENT), 101_000);
         view.press(KeyCode::Char('p').into(), EXTENT);
-        let later = Extent {
-            now: 150_000,
+        let extent = |oldest, now| Extent {
+            oldest,
+            now,
             ..EXTENT
         };
+        let later = extent(1000, 150_000);
         assert_eq!(view.end(later), 101_000);
-        view.press(KeyCode::Left.into(), later);
-        assert_eq!(view.end(later), 100_000);
-        view.press(KeyCode::PageUp.into(), later);
-        assert_eq!(view.end(later), 95_000);
-        view.press(KeyCode::Home.into(), later);
-        assert_eq!(view.end(later), 6000);
-        view.press(KeyCode::PageUp.into(), later);
-        assert_eq!(view.end(later), 6000);
-        view.press(KeyCode::End.into(), later);
-        assert_eq!(view.end(later), 150_000);
-        view.press(KeyCode::Home.into(), later);
+        for (key, end) in [
+            (KeyCode::Left, 100_000),
+            (KeyCode::PageUp, 95_000),
+            (KeyCode::Home, 6000),
+            (KeyCode::PageUp, 6000),
+            (KeyCode::End, 150_000),
+            (KeyCode::Home, 6000),
+        ] {
+            view.press(key.into(), later);
+            assert_eq!(view.end(later), end, "{key}");
+        }
         // What was looked at is no longer there.
-        let much_later = Extent {
-            oldest: 50_000,
-            now: 350_000,
-            ..EXTENT
-        };
+        let much_later = extent(50_000, 350_000);
         assert_eq!(view.end(much_later), 50_000);
         view.press(KeyCode::Char('p').into(), much_later);
         assert_eq!(view.end(much_later), 350_000);
@@ -184,10 +179,8 @@ mod tests {
 
     #[test]
     fn a_head_is_shown_first_and_after_its_whiskers() {
-        let head = Extent {
-            has_head: true,
-            ..EXTENT
-        };
+        let has_head = true;
+        let head = Extent { has_head, ..EXTENT };
         let mut view = View::new(head);
         let mut seen = Vec::new();
         for _ in 0..4 {
@@ -196,10 +189,8 @@ mod tests {
         }
         assert_eq!(seen, [Shows::Head, Shows::Left, Shows::Right, Shows::Both]);
         assert_eq!(view.shows, Shows::Head);
-        let one = Extent {
-            whiskers: 1,
-            ..EXTENT
-        };
+        let whiskers = 1;
+        let one = Extent { whiskers, ..EXTENT };
         let mut view = View::new(one);
         view.press(KeyCode::Tab.into(), one);
         assert_eq!(view.shows, Shows::Left);

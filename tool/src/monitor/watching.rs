@@ -18,9 +18,7 @@ use crate::source::Incoming;
 
 /// After how long without an answer the motors are asked to stop again, s.
 const AGAIN_S: f64 = 0.1;
-
 const PATIENCE_S: f64 = 2.0;
-
 /// For how long a stopped module is listened to, so that what is recorded shows that its motors
 /// are off, s.
 const AFTER_S: f64 = 0.05;
@@ -104,12 +102,12 @@ impl Watching {
     }
 
     fn watch(&mut self) -> Result<(), Error> {
-        let mut pace = Pace::new(self.speed, self.module.source().now_s());
+        let mut pace = Pace::new(self.speed, self.module.now_s());
         let mut stopping: Option<Stopping> = None;
         let mut ends_at_s: Option<f64> = None;
         let mut is_ending = false;
         loop {
-            let now_s = self.module.source().now_s();
+            let now_s = self.module.now_s();
             // Waits for what is wanted, not for time alone.
             let wish = match self.wishes.recv_timeout(pace.ahead(now_s)) {
                 Ok(wish) => Some(wish),
@@ -148,7 +146,7 @@ impl Watching {
                 let mut tags = answers.iter().map(|answer| answer.tag);
                 tags.any(|tag| stopping.tags.contains(&tag))
             };
-            let now_s = self.module.source().now_s();
+            let now_s = self.module.now_s();
             if stopping.take_if(is_done).is_some() && is_ending {
                 ends_at_s = Some(now_s + AFTER_S);
             }
@@ -170,7 +168,7 @@ impl Watching {
         };
         looking.ask(&mut self.module)?;
         let mut incoming = self.module.receive()?;
-        let now_s = self.module.source().now_s();
+        let now_s = self.module.now_s();
         let history = &mut lock(&self.shared).history;
         looking.take(&mut incoming, &history.module_classes, now_s);
         if now_s - self.looked_s >= 1.0 / f64::from(LOOKS_HZ) {

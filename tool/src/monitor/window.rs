@@ -15,7 +15,7 @@ use host_sim::origin::Origin;
 use host_sim::{Error, report};
 use ratatui::DefaultTerminal;
 
-use super::draw::{Theme, draw};
+use super::draw::draw;
 use super::save::Held;
 use super::view::{View, saves, wish};
 use super::watching::{Shared, Wish, joined, lock};
@@ -100,16 +100,10 @@ pub(crate) fn open(
     saved(shared);
     let ended_by = match signal.load(Ordering::Relaxed) {
         0 => Ok(()),
-        signal => Err(Error::Work(format!(
-            "ended by signal {signal}; the motors were stopped"
-        ))),
+        signal => Err(format!("ended by signal {signal}; the motors were stopped")),
     };
-    ended
-        .and(waits)
-        .and(ended_by)
-        .and(drawn)
-        .and(watched.map(drop))
-        .and(drawing.map(drop))
+    let ended = ended.and(waits).and(ended_by.map_err(Error::Work));
+    ended.and(drawn).and(watched.and(drawing).map(drop))
 }
 
 /// Reads the keyboard; stopping does not wait for a picture.
@@ -149,7 +143,6 @@ fn pictures(
     about: &About,
     looks: &Receiver<Event>,
 ) -> std::io::Result<()> {
-    let theme = Theme::of_environment();
     let mut view = View::new(lock(shared).history.extent());
     loop {
         let begun = Instant::now();
@@ -163,7 +156,7 @@ fn pictures(
             let shown = shared.history.shown(&view, &about.title, message);
             (shown, shared.has_ended)
         };
-        window.draw(|frame| draw(frame, &shown, theme))?;
+        window.draw(|frame| draw(frame, &shown))?;
         if has_ended {
             return Ok(());
         }

@@ -9,7 +9,6 @@ use host_sim::commands::choice::seed;
 use host_sim::loaded::Loaded;
 
 use super::Source;
-use super::elsewhere::Elsewhere;
 use super::emulated::Emulated;
 use super::flash::Flash;
 use super::laying::Laying;
@@ -98,7 +97,7 @@ impl SourceChoice {
     }
 
     pub(crate) fn module(&self) -> Result<Conversation, Error> {
-        self.open(0).map(Conversation::new)
+        Ok(Conversation::with(self.open(0)?, self.elsewhere()))
     }
 
     /// Fails where not every record comes.
@@ -118,16 +117,8 @@ impl SourceChoice {
         self.node.filter(|_| self.sim.is_none())
     }
 
-    /// Opens it, in a world whose seed is `later` ones after its own.
+    /// Opens what is connected, in a world whose seed is `later` ones after its own.
     pub(crate) fn open(&self, later: u64) -> Result<Box<dyn Source>, Error> {
-        let source = self.connected(later)?;
-        Ok(match self.elsewhere() {
-            Some(node) => Box::new(Elsewhere::new(source, node)),
-            None => source,
-        })
-    }
-
-    fn connected(&self, later: u64) -> Result<Box<dyn Source>, Error> {
         let laying = || Laying::by(self.lay_by.as_deref());
         if let Some(serial) = &self.probe {
             return probe::open(serial, self.board(), self.program.as_deref(), laying());
@@ -135,10 +126,7 @@ impl SourceChoice {
         if let Some(port) = &self.port {
             return Ok(Box::new(Port::open(port, self.baud, laying())?));
         }
-        let (Some(path), simulates) = (
-            self.sim.as_ref().or(self.emulated.as_ref()),
-            self.sim.is_some(),
-        ) else {
+        let Some(path) = self.scene() else {
             let fault =
                 "which module? allowed: --sim SCENE, --emulated SCENE, --probe, --port PATH";
             return Err(Error::Input(fault.to_owned()));
@@ -153,7 +141,7 @@ impl SourceChoice {
                          one, allowed: head.whiskers_per_side = 1, or a board a whisker";
             return Err(Error::file(path, fault));
         }
-        if simulates {
+        if self.sim.is_some() {
             let node = usize::from(self.node.unwrap_or(0));
             if node >= boards.max(1) {
                 let fault = format!("--node: found {node}, allowed: boards 0 to head.nodes - 1");
@@ -184,9 +172,7 @@ impl SourceChoice {
         let emulated = Emulated::open(loaded, &program, flash, self.scenario.as_deref())?;
         Ok(Box::new(emulated))
     }
-}
 
-impl SourceChoice {
     /// A module's scene in the world that is chosen, `later` seeds after its own.
     fn placed(&self, mut loaded: Loaded, later: u64) -> Result<Loaded, Error> {
         if let Some(world) = &self.world {

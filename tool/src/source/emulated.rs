@@ -13,10 +13,7 @@ use scene::Scene;
 use wire::TaggedCommand;
 
 use super::flash::Flash;
-use super::texture::texture;
-use super::{Incoming, Source, by_probe, no_board};
-use crate::deployment::Deployment;
-use crate::loading::load;
+use super::{Incoming, Source, by_probe, no_board, texture};
 
 pub(super) struct Emulated {
     loaded: Loaded,
@@ -125,22 +122,14 @@ impl Source for Emulated {
         by_probe(links)
     }
 
-    fn deploy(&mut self, what: &Deployment) -> Result<(), Error> {
-        self.bear_resets(true);
-        let loaded = load(self, what);
-        self.bear_resets(false);
+    fn loads(&mut self, loads: bool) -> Result<(), Error> {
+        // Those of a head always may be reset.
         if let Boards::One(board, flash) = &mut self.boards {
-            flash.store(&board.flash()?)?;
+            board.bear_resets(loads);
+            if !loads {
+                flash.store(&board.flash()?)?;
+            }
         }
-        loaded
-    }
-}
-
-impl Emulated {
-    /// Those of a head always may be reset.
-    fn bear_resets(&mut self, bears: bool) {
-        if let Boards::One(board, _) = &mut self.boards {
-            board.bear_resets(bears);
-        }
+        Ok(())
     }
 }

@@ -21,13 +21,17 @@ pub(crate) struct Flash {
 impl Flash {
     /// What the file has; nothing where there is none yet.
     pub(crate) fn open(path: Option<&Path>) -> Result<Self, Error> {
-        let contents = match path.map(|path| file::read(path, file::BINARY_BYTES)) {
-            Some(Ok(contents)) => contents,
-            Some(Err(error)) if error.kind() == ErrorKind::NotFound => Vec::new(),
-            Some(Err(error)) => return Err(Error::file(path.unwrap_or(Path::new("")), error)),
-            None => Vec::new(),
-        };
         let path = path.map(Path::to_owned);
+        let Some(file) = &path else {
+            return Ok(Self {
+                path,
+                contents: Vec::new(),
+            });
+        };
+        let contents = match file::read(file, file::BINARY_BYTES) {
+            Err(error) if error.kind() == ErrorKind::NotFound => Vec::new(),
+            read => read.map_err(|error| Error::file(file, error))?,
+        };
         Ok(Self { path, contents })
     }
 
@@ -70,10 +74,8 @@ impl Flash {
 
     /// Keeps a model, as a board would be written: the rest is erased.
     pub(super) fn program(&mut self, model: &[u8]) -> Result<(), Error> {
-        let mut contents = vec![ERASED; self.contents.len()];
-        for (byte, of_model) in contents.iter_mut().zip(model) {
-            *byte = *of_model;
-        }
+        let mut contents = model.to_vec();
+        contents.resize(self.contents.len(), ERASED);
         self.store(&contents)
     }
 }

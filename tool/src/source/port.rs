@@ -16,26 +16,18 @@ use super::{Incoming, Source, framed};
 
 const WAIT: Duration = Duration::from_millis(50);
 
-const NOTHING: [ErrorKind; 3] = [
-    ErrorKind::TimedOut,
-    ErrorKind::WouldBlock,
-    ErrorKind::Interrupted,
-];
-
 /// For how long nothing may come. A board says how it fares every second of its time, of which
 /// an emulated one may take some.
 const SILENCE: Duration = Duration::from_secs(20);
 
 /// When an unanswered [`HELLO`] is sent again.
 const ASK_AGAIN: Duration = Duration::from_secs(1);
-
+/// Its tag, by which conversations do not begin.
+const TAG: u16 = 0;
 const HELLO: TaggedCommand = TaggedCommand {
     tag: TAG,
     command: Command::Hello,
 };
-
-/// Its tag, by which conversations do not begin.
-const TAG: u16 = 0;
 
 /// Most that a line comes behind its time, s.
 const LATE_S: f64 = 1.0;
@@ -174,19 +166,19 @@ impl Source for Port {
                 return Err(Error::Work(format!("{}: is gone", self.name)));
             }
             Ok(count) => count,
-            // Another program may have been faster, or a signal.
-            Err(error) if NOTHING.contains(&error.kind()) => 0,
-            Err(error) => return Err(Error::Work(format!("{}: {error}", self.name))),
+            Err(error) => match error.kind() {
+                // Another program may have been faster, or a signal.
+                ErrorKind::TimedOut | ErrorKind::WouldBlock | ErrorKind::Interrupted => 0,
+                _ => return Err(Error::Work(format!("{}: {error}", self.name))),
+            },
         };
         let now = Instant::now();
         if count > 0 {
             self.last = now;
         } else if now - self.last > SILENCE {
-            return Err(Error::Work(format!(
-                "{}: nothing has come for {} s",
-                self.name,
-                SILENCE.as_secs()
-            )));
+            let (name, seconds) = (&self.name, SILENCE.as_secs());
+            let fault = format!("{name}: nothing has come for {seconds} s");
+            return Err(Error::Work(fault));
         }
         for received in self.receiver.take(bytes.get(..count).unwrap_or_default()) {
             if let Some(t_s) = self.time_s(&received) {

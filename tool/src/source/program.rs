@@ -1,4 +1,4 @@
-//! The program of a board: built, and with a scene that it brings with it.
+//! The boards, and the program of one: built, and with a scene that it brings with it.
 
 use std::fs::File;
 use std::io::Write;
@@ -8,7 +8,7 @@ use std::process::Command;
 use clap::ValueEnum;
 use config::Image;
 use emulator::session::Session;
-use firmware::boards::BoardFacts;
+use firmware::boards::{BoardFacts, NUCLEO_F103RB, NUCLEO_F446RE, NUCLEO_G071RB};
 use firmware::{Header, Part};
 use host_sim::loaded::Loaded;
 use host_sim::output::write_whole;
@@ -17,7 +17,6 @@ use scene::file;
 use tactile::ModelBuf;
 use tempfile::NamedTempFile;
 
-use super::board::Board;
 use crate::deployment::model_of;
 
 /// A board whose program can be built, emulated and flashed.
@@ -30,6 +29,49 @@ pub(crate) enum BoardName {
     NucleoF103rb,
     /// Cortex-M0+, likewise
     NucleoG071rb,
+}
+
+/// What building a board's program, and looking for the board, must know of it.
+pub(crate) struct Board {
+    pub(crate) name: &'static str,
+    pub(crate) program: &'static str,
+    pub(crate) target: &'static str,
+    pub(crate) facts: &'static BoardFacts,
+    pub(crate) chip: &'static str,
+    /// The identity of its chip (RM0390, RM0008 and RM0444, "Debug support", "MCU device ID
+    /// code": DEV_ID).
+    pub(crate) chip_id: u16,
+}
+
+impl BoardName {
+    pub(crate) const fn board(self) -> Board {
+        match self {
+            Self::NucleoF446re => Board {
+                name: "nucleo-f446re",
+                program: "nucleo_f446re",
+                target: "thumbv7em-none-eabihf",
+                facts: &NUCLEO_F446RE,
+                chip: "STM32F446RETx",
+                chip_id: 0x421,
+            },
+            Self::NucleoF103rb => Board {
+                name: "nucleo-f103rb",
+                program: "nucleo_f103rb",
+                target: "thumbv7m-none-eabi",
+                facts: &NUCLEO_F103RB,
+                chip: "STM32F103RBTx",
+                chip_id: 0x410,
+            },
+            Self::NucleoG071rb => Board {
+                name: "nucleo-g071rb",
+                program: "nucleo_g071rb",
+                target: "thumbv6m-none-eabi",
+                facts: &NUCLEO_G071RB,
+                chip: "STM32G071RBTx",
+                chip_id: 0x460,
+            },
+        }
+    }
 }
 
 /// Bytes of flash in which a program has room for all its parts, and so takes any scene. A smaller
@@ -59,7 +101,6 @@ pub(crate) fn workspace() -> Option<&'static Path> {
     }
 }
 
-/// What a program brings with it.
 struct Brought {
     image: Image,
     model: Option<ModelBuf>,
@@ -74,7 +115,6 @@ impl Brought {
         Ok(Self { image, model })
     }
 
-    /// The program's file with it.
     fn put_into(&self, program: &Path, board: &Board) -> Result<Vec<u8>, Error> {
         let bytes = file::read(program, file::BINARY_BYTES);
         let bytes = bytes.map_err(|error| Error::file(program, error))?;

@@ -15,9 +15,8 @@ use tactile::ModelBuf;
 use wire::TaggedCommand;
 
 use super::flash::Flash;
-use super::texture::texture;
-use super::{Incoming, Source, no_board};
-use crate::decides::Decides;
+use super::{Incoming, Source, no_board, texture};
+use crate::configuration::Decides;
 use crate::deployment::Deployment;
 
 /// The world of a module whose scene has none: an elastic whisker, which moves its sensor as it is
@@ -142,7 +141,7 @@ impl Source for Simulated {
         Origin::default().with("board", "simulated")
     }
 
-    fn deploy(&mut self, what: &Deployment) -> Result<(), Error> {
+    fn deploy(&mut self, what: &Deployment) -> Result<bool, Error> {
         let Some(loaded) = &what.loaded else {
             let fault = "a simulated module is made from its scene: --scene FILE says which";
             return Err(Error::Input(fault.to_owned()));
@@ -154,8 +153,8 @@ impl Source for Simulated {
         }
         let run = run(loaded, self.node)?;
         let model = what.model.as_ref();
-        self.flash
-            .program(model.map_or(&[], |model| model.as_bytes()))?;
+        let bytes = model.map_or(&[][..], |model| model.as_bytes());
+        self.flash.program(bytes)?;
         self.first = match model {
             _ if loaded.scene.classifier.is_none() => Vec::new(),
             Some(model) => of_model(&Ok(model.clone())),
@@ -163,6 +162,6 @@ impl Source for Simulated {
         };
         self.loaded = loaded.clone();
         self.run = run;
-        Ok(())
+        Ok(true)
     }
 }

@@ -179,37 +179,30 @@ pub(crate) fn is_of_classes(key: &str) -> bool {
 pub(crate) fn live_key(key: &str, scene: &Scene) -> Result<&'static LiveKey, String> {
     let needs = "it needs a restart: whisker deploy --scene FILE";
     let Some(live) = LIVE.iter().find(|live| live.key == key) else {
-        let section = key.split_once('.').map_or("", |(section, _)| section);
-        let why = match (section, key) {
-            _ if scene::key_facts(key).is_none() => {
-                return Err(format!(
-                    "{key}: no key of a scene that can be set; whisker get --list has all"
-                ));
-            }
-            ("plant", _) => {
-                return Err(format!(
-                    "{key}: it is of the simulated world, of which no module knows"
-                ));
-            }
-            (_, "whisking.gain") => {
+        if scene::key_facts(key).is_none() {
+            let why = "no key of a scene that can be set; whisker get --list has all";
+            return Err(format!("{key}: {why}"));
+        }
+        if key.starts_with("plant.") {
+            let why = "it is of the simulated world, of which no module knows";
+            return Err(format!("{key}: {why}"));
+        }
+        let why = match key {
+            "whisking.gain" => {
                 "only the start uses it; the command gain SIDE VALUE of a script changes it"
             }
-            (_, "motor.gear" | "motor.counts_per_rev") => {
-                "angles are counted by it since the start"
-            }
-            (_, "classifier.window") => "a window of its length is under way",
-            (_, "duration_s" | "seed" | "whisking.start" | "motor.arm" | "name") => {
+            "motor.gear" | "motor.counts_per_rev" => "angles are counted by it since the start",
+            "classifier.window" => "a window of its length is under way",
+            "duration_s" | "seed" | "whisking.start" | "motor.arm" | "name" => {
                 "only the start uses it"
             }
             _ => "the module is built from it at its start",
         };
         return Err(format!("{key}: {why}; {needs}"));
     };
-    let six_step = scene
-        .motor
-        .as_ref()
-        .is_some_and(|motor| motor.driver == Driver::SixStep);
-    if six_step && key == "motor.duty_limit" {
+    let mut motor = scene.motor.iter();
+    let is_six_step = motor.any(|motor| motor.driver == Driver::SixStep);
+    if is_six_step && key == "motor.duty_limit" {
         let why = "the six-step driver has its stall limit from the start";
         return Err(format!("{key}: {why}; {needs}"));
     }
@@ -232,10 +225,10 @@ mod tests {
         for text in [text, format!("{value:#}")] {
             let table: toml_edit::DocumentMut = format!("prior = {text}").parse().unwrap();
             let table = table["prior"].as_inline_table().unwrap();
-            let read: Vec<_> = table
-                .iter()
-                .map(|(name, number)| (name.to_owned(), number.as_float().unwrap()))
-                .collect();
+            let read = |(name, number): (&str, &toml_edit::Value)| {
+                (name.to_owned(), number.as_float().unwrap())
+            };
+            let read: Vec<_> = table.iter().map(read).collect();
             assert_eq!(Value::PerClass(read), value);
             let given: Override = format!("classifier.prior={text}").parse().unwrap();
             assert_eq!(given.value(), text);

@@ -30,11 +30,9 @@ impl Bench {
     pub(super) fn new(arguments: &Arguments) -> Result<Self, Error> {
         arguments.source.sends_all()?;
         let mut module = arguments.source.module()?;
-        let about = module.about()?;
-        let running = Running::ask(&mut module)?;
         Ok(Self {
-            about,
-            running,
+            about: module.about()?,
+            running: Running::ask(&mut module)?,
             module,
             frames: arguments.frames,
             seen: [None, None],
@@ -78,9 +76,8 @@ impl Bench {
             report::warn(what);
             return Ok(self.may_drive);
         }
-        report::warn(format_args!(
-            "{what}; type yes, or press Enter to leave it out"
-        ));
+        let choice = "type yes, or press Enter to leave it out";
+        report::warn(format_args!("{what}; {choice}"));
         Ok(self.answer()?.trim() == "yes")
     }
 

@@ -1,7 +1,7 @@
 //! The module itself: what it is, how it started, its clock and its supply.
 
 use firmware::Started;
-use firmware::faults::{TABLE, number};
+use firmware::faults::{self, TABLE};
 use host_sim::Error;
 use wire::{Command, CommandStatus};
 
@@ -27,7 +27,7 @@ pub(super) fn module(bench: &mut Bench) -> Result<Part, Error> {
     let [lost, missed] = module.ask(Command::Status)?.values.map(i32::cast_unsigned);
     part.saw(format!("{missed} ticks missed, {lost} records lost"));
     if missed > 0 {
-        part.find(of_fault(number::MISSED));
+        part.find(of_fault(faults::number::MISSED));
     }
     let answer = module.answer(Command::Started)?;
     match answer.status {
@@ -43,27 +43,20 @@ pub(super) fn module(bench: &mut Bench) -> Result<Part, Error> {
 }
 
 fn of_start(started: Started, part: &mut Part) {
-    let Started {
-        number: starts,
-        cause,
-        fault,
-        is_internal,
-        browns_out_late,
-    } = started;
+    let (number, cause, fault) = (started.number, started.cause.name(), started.fault);
     part.saw(format!(
-        "start {starts} since power-up, for {}; last fault: {fault}",
-        cause.name()
+        "start {number} since power-up, for {cause}; last fault: {fault}"
     ));
     if fault != 0 {
         part.find(of_fault(fault));
     }
-    if is_internal {
+    if started.is_internal {
         part.saw("clock: the chip's own oscillator");
-        part.find(of_fault(number::INTERNAL_CLOCK));
+        part.find(of_fault(faults::number::INTERNAL_CLOCK));
     } else {
         part.saw("clock: the one that the board is made for");
     }
-    if browns_out_late {
+    if started.browns_out_late {
         part.saw(BROWN_OUT);
     }
 }

@@ -9,7 +9,7 @@ use super::bench::Bench;
 use super::module::of_fault;
 use super::report::{Done, Part, not_done};
 use crate::calibrate::{Listening, Push, REST_DEG, push};
-use crate::exchange::Taken;
+use crate::configuration::Taken;
 use crate::interrupt;
 
 /// The duty by which the motor is tried, of all.
@@ -143,9 +143,8 @@ fn stands_still(whisker: &mut Listening<'_>) -> Result<(), Error> {
 }
 
 fn judged(turned: Turns, counts_up: Option<bool>) -> Part {
-    let mut part =
-        Part::new("asked for three degrees forward, at a fifth of the motor's duty at most");
-    part = part.with(&turned);
+    let did = "asked for three degrees forward, at a fifth of the motor's duty at most";
+    let mut part = Part::new(did).with(&turned);
     match turned {
         Turns::Forward(moved) => {
             part.saw(format!("the whisker went {moved:.1} degrees forward"));

@@ -26,7 +26,6 @@ pub(super) struct Part {
     seen: Value,
 }
 
-/// What has become of a step.
 pub(super) type Done = Result<Part, Ended>;
 
 /// Why a step has ended early.
@@ -64,20 +63,16 @@ impl Part {
         }
     }
 
-    pub(super) fn of(self, name: Name, side: u8) -> Self {
+    pub(super) fn of(mut self, name: Name, side: u8) -> Self {
         let name = name.to_possible_value();
-        Self {
-            step: name.map_or_else(String::new, |name| name.get_name().to_owned()),
-            side: SIDES.get(usize::from(side)).copied(),
-            ..self
-        }
+        self.step = name.map_or_else(String::new, |name| name.get_name().to_owned());
+        self.side = SIDES.get(usize::from(side)).copied();
+        self
     }
 
-    pub(super) fn named(self, name: &str) -> Self {
-        Self {
-            step: name.to_owned(),
-            ..self
-        }
+    pub(super) fn named(mut self, name: &str) -> Self {
+        name.clone_into(&mut self.step);
+        self
     }
 
     pub(super) fn saw(&mut self, line: impl Into<String>) {
@@ -93,11 +88,9 @@ impl Part {
         self.findings.push(what.into());
     }
 
-    pub(super) fn with(self, seen: &impl Serialize) -> Self {
-        Self {
-            seen: serde_json::to_value(seen).unwrap_or_default(),
-            ..self
-        }
+    pub(super) fn with(mut self, seen: &impl Serialize) -> Self {
+        self.seen = serde_json::to_value(seen).unwrap_or_default();
+        self
     }
 
     pub(super) fn is_well(&self) -> bool {
@@ -149,10 +142,8 @@ impl Report {
 
     pub(super) fn add(&mut self, part: Part) {
         part.print();
-        let title = part.title();
-        let found = part.findings.iter();
-        let found = found.map(|finding| format!("{title}: {finding}"));
-        self.findings.extend(found);
+        let found = |finding| format!("{}: {finding}", part.title());
+        self.findings.extend(part.findings.iter().map(found));
         self.steps.push(part);
     }
 

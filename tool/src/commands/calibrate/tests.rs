@@ -48,10 +48,8 @@ fn calibrated(more: &str, wire: Option<Wire>) -> Result<(Results, Vec<Sample>), 
 }
 
 fn near(found: f64, expected: f64, share: f64) {
-    assert!(
-        (found / expected - 1.0).abs() < share,
-        "{found}, expected {expected}"
-    );
+    let off = (found / expected - 1.0).abs();
+    assert!(off < share, "{found}, expected {expected}");
 }
 
 #[test]
@@ -80,26 +78,24 @@ fn a_stop_within_the_range_is_found_and_kept_away_from() {
     let motor = "[motor]\nrest = \"find\"\nstop_deg = 40.0\n";
     let (results, samples) = calibrated(motor, None).unwrap();
     let [low, high] = results.range_deg.unwrap();
-    assert!((low - 40.0).abs() < 1.0, "{low}");
-    assert_eq!(high, 160.0);
+    assert!((low - 40.0).abs() < 1.0 && high == 160.0, "{low} {high}");
     assert!(samples.iter().all(|sample| sample.setpoint_deg > 41.0));
 }
 
 #[test]
 fn a_motor_or_an_encoder_that_is_wired_wrongly_ends_it() {
-    let turned = &["direction: moved "][..];
-    let open = &["direction: stays where it is", "a fault: "];
-    for (wire, begins) in [
-        (Wire::EncoderChannels, turned),
-        (Wire::Windings, turned),
-        (Wire::Winding(0), open),
-        (Wire::Encoder, open),
-    ] {
-        let refusal = calibrated("", Some(wire)).unwrap_err().to_string();
-        let is_so = begins.iter().any(|begins| refusal.starts_with(begins));
+    let refusal = |wire| calibrated("", Some(wire)).unwrap_err().to_string();
+    for wire in [Wire::EncoderChannels, Wire::Windings] {
+        let refusal = refusal(wire);
+        assert!(refusal.starts_with("direction: moved "), "{refusal}");
+        let exchange = "exchange the encoder's channels";
+        assert!(refusal.contains(exchange), "{refusal}");
+    }
+    for wire in [Wire::Winding(0), Wire::Encoder] {
+        let refusal = refusal(wire);
+        let open = ["direction: stays where it is", "a fault: "];
+        let is_so = open.iter().any(|begins| refusal.starts_with(begins));
         assert!(is_so, "{wire:?}: {refusal}");
-        let exchange = refusal.contains("exchange the encoder's channels");
-        assert!(exchange || begins != turned, "{wire:?}: {refusal}");
     }
 }
 
@@ -121,11 +117,9 @@ fn the_zero_that_the_module_finds_is_the_sensors_all_the_same() {
     for found in ["while it is found", "afterwards"] {
         let samples = whisker.watch(2.5, |_| true).unwrap();
         for sample in &samples {
-            let [x, y] = sample.codes.map(i32::from);
-            assert!(
-                (x - 8312).abs() <= 1 && (y - 8122).abs() <= 1,
-                "{found}: {sample:?}"
-            );
+            let [x, y] = sample.codes;
+            let is_so = x.abs_diff(8312) <= 1 && y.abs_diff(8122) <= 1;
+            assert!(is_so, "{found}: {sample:?}");
         }
     }
     assert_eq!(whisker.module().zero(left).unwrap(), Some([120, -70]));

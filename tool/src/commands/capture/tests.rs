@@ -1,20 +1,11 @@
 //! Capturing from modules on bad lines, and by hand.
 
-use std::ffi::OsString;
-
-use clap::Parser;
 use host_sim::files::read_recording;
 use host_sim::recording::{CHANNELS, GATE, Stream};
 use wire::Flags;
 
 use super::*;
-use crate::source::{Alter, Altered, Around, GOOD, scene_file};
-
-#[derive(Parser)]
-struct Line {
-    #[command(flatten)]
-    arguments: Arguments,
-}
+use crate::source::{Alter, Altered, Around, GOOD, parsed, scene_file};
 
 /// Captures six touches of a carpet so; the count of warnings, and the touches in each trial.
 fn captured(more: &[&str], around: Around, alter: Alter) -> (usize, Vec<usize>) {
@@ -33,19 +24,9 @@ fn streams(more: &[&str], around: Around, alter: Alter) -> (usize, Vec<Stream>) 
     let folder = tempfile::tempdir().unwrap();
     let out = folder.path().join("c.csv");
     let scene = scene_file("textures.toml");
-    let words = ["--label", "carpet", "--touches", "6", "--sim"];
-    let words = more.iter().chain(&words).map(OsString::from);
-    let files = [
-        scene.into_os_string(),
-        "--out".into(),
-        out.clone().into_os_string(),
-    ];
-    let Line { arguments } = Line::parse_from(
-        [OsString::from("capture")]
-            .into_iter()
-            .chain(words)
-            .chain(files),
-    );
+    let [scene, file] = [&scene, &out].map(|path| path.to_str().unwrap());
+    let words = ["--label", "carpet", "--touches", "6", "--sim", scene];
+    let arguments: Arguments = parsed(&[more, &words, &["--out", file]].concat());
     let source = Altered {
         module: arguments.source.open(0).unwrap(),
         alter,
@@ -70,27 +51,23 @@ fn what_comes_with_the_last_touch_of_a_label_is_not_lost() {
 
 #[test]
 fn lost_records_and_a_fault_cost_their_touch_and_are_reported() {
-    let spoils: [Alter; 2] = [
-        |record, _| record.sequence != 4100,
-        |record, _| {
-            if (4100..4120).contains(&record.sequence) {
-                record.flags = record.flags.without(Flags::VALID);
-            }
-            true
-        },
-    ];
+    let invalid: Alter = |record, _| {
+        if (4100..4120).contains(&record.sequence) {
+            record.flags = record.flags.without(Flags::VALID);
+        }
+        true
+    };
     // In the third touch: where it is cut another trial begins.
-    for spoils in spoils {
+    let lost: Alter = |record, _| record.sequence != 4100;
+    for spoils in [lost, invalid] {
         assert_eq!(captured(&[], GOOD, spoils), (2, vec![2, 4]));
     }
 }
 
 #[test]
 fn another_rate_is_reported() {
-    let around = Around {
-        clock: 1.05,
-        ..GOOD
-    };
+    let clock = 1.05;
+    let around = Around { clock, ..GOOD };
     assert_eq!(captured(&[], around, |_, _| true).0, 1);
 }
 
@@ -103,13 +80,9 @@ fn a_person_takes_their_time_and_the_touch_that_they_interrupt_does_not_count() 
     };
     let (warnings, streams) = by_hand("1", 2.05);
     assert_eq!((warnings, streams.len()), (0, 2));
-    let [first, ..] = &streams[..] else { panic!() };
-    let (touch, contact) = (
-        first.touch.as_ref().unwrap(),
-        first.contact.as_ref().unwrap(),
-    );
-    assert_eq!(touch[0], 0);
-    assert!(contact[0] < GATE, "{}", contact[0]);
+    let first = &streams[0];
+    assert_eq!(first.touch.as_ref().unwrap()[0], 0);
+    assert!(first.contact.as_ref().unwrap()[0] < GATE);
     // Soon after that touch has ended, a fifth of a second after the sample was laid.
     let (_, from_the_start) = by_hand("3", 0.001);
     let at = |samples: &[[f64; 2]]| {
@@ -127,10 +100,7 @@ fn what_comes_next_depends_on_what_is_there() {
     let said = |there, is_simulated| super::next(&out, 2000, there, is_simulated);
     assert!(said([1, 1], false).starts_with("next: another sample"));
     let train = said([2, 3], false);
-    assert!(
-        train.contains("train --data") && !train.contains('\n'),
-        "{train}"
-    );
+    assert!(train.contains("train --data") && !train.contains('\n'));
     assert!(said([2, 1], false).contains("three to five are best, and there is 1"));
     // Nobody holds a simulated sample.
     assert!(!said([2, 1], true).contains("pose"));
@@ -138,10 +108,6 @@ fn what_comes_next_depends_on_what_is_there() {
     std::fs::write(&model, b"").unwrap();
     let evaluate = format!("evaluate --model {} --data", model.display());
     assert!(!said([2, 3], false).contains(&evaluate), "it is none");
-    let shipped = concat!(
-        env!("CARGO_MANIFEST_DIR"),
-        "/../scenes/models/textures.model"
-    );
-    std::fs::copy(shipped, &model).unwrap();
+    std::fs::copy(scene_file("models/textures.model"), &model).unwrap();
     assert!(said([2, 3], false).contains(&evaluate));
 }

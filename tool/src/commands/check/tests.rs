@@ -1,20 +1,20 @@
 //! Modules with one thing wrong, each of which is named.
 
 use std::f64::consts::TAU;
-use std::path::PathBuf;
 
 use wire::{Flags, TickRecord};
 
 use super::*;
 use crate::commands::calibrate::tests::SCENE;
-use crate::source::{Alter, Altered, GOOD, parsed};
+use crate::source::{Alter, Altered, GOOD, parsed, scene_file};
+
+const HOW: &[&str] = &["--seconds", "12", "--out", "unused"];
 
 fn signs(alter: Alter) -> Vec<&'static str> {
     let folder = tempfile::tempdir().unwrap();
-    let scene: PathBuf = folder.path().join("scene.toml");
+    let scene = folder.path().join("scene.toml");
     std::fs::write(&scene, SCENE).unwrap();
-    let words = ["--seconds", "12", "--out", "unused", "--sim"];
-    let arguments: Arguments = parsed(&[&words[..], &[scene.to_str().unwrap()]].concat());
+    let arguments: Arguments = parsed(&[HOW, &["--sim", scene.to_str().unwrap()]].concat());
     let simulation = || Box::new(Simulated::of(&scene).unwrap());
     let module = Box::new(Altered {
         module: simulation(),
@@ -69,54 +69,30 @@ fn following(record: &TickRecord) -> f64 {
 
 #[test]
 fn what_is_wrong_is_named() {
-    let cases: [(Alter, IsThere, &str); 8] = [
-        (|record, _| shift(record, 900.0), ALONE, "tilt"),
-        (
-            |record, _| shift(record, 40.0 * noise(record)),
-            FIRST,
-            "gap",
-        ),
-        (
-            |record, t_s| shift(record, 12.0 * (TAU * 6.0 * t_s).sin()),
-            AMONG,
-            "a field that changes",
-        ),
-        (|record, t_s| shift(record, 6.0 * t_s), AMONG, "drift"),
-        (
-            |record, _| shift(record, following(record)),
-            AMONG,
-            "a neighbour's field, or a magnet off the axis",
-        ),
-        (
-            |record, _| record.sequence % 50 > 0 || shift(record, 16_383.0),
-            AMONG,
-            "saturation",
-        ),
-        (
-            |record, _| record.sequence % 100 > 0 || invalidate(record),
-            ALONE,
-            "line errors",
-        ),
-        (
-            |record, _| record.sequence % 1_000 > 0,
-            ALONE,
-            "the PC or the line does not keep up",
-        ),
-    ];
-    for (alter, is_there, sign) in cases {
+    let is_named = |sign: &str, is_there: IsThere, alter: Alter| {
         let signs = signs(alter);
         assert!(is_there(&signs, sign), "{sign}: {signs:?}");
-    }
+    };
+    is_named("tilt", ALONE, |of, _| shift(of, 900.0));
+    is_named("gap", FIRST, |of, _| shift(of, 40.0 * noise(of)));
+    let waves: Alter = |of, t_s| shift(of, 12.0 * (TAU * 6.0 * t_s).sin());
+    is_named("a field that changes", AMONG, waves);
+    is_named("drift", AMONG, |of, t_s| shift(of, 6.0 * t_s));
+    let neighbour = "a neighbour's field, or a magnet off the axis";
+    is_named(neighbour, AMONG, |of, _| shift(of, following(of)));
+    let at_end: Alter = |of, _| of.sequence % 50 > 0 || shift(of, 16_383.0);
+    is_named("saturation", AMONG, at_end);
+    let invalid: Alter = |of, _| of.sequence % 100 > 0 || invalidate(of);
+    is_named("line errors", ALONE, invalid);
+    let lost = "the PC or the line does not keep up";
+    is_named(lost, ALONE, |of, _| of.sequence % 1_000 > 0);
 }
 
 /// Whatever shaft it has, and whether its scene has a world or not.
 #[test]
 fn a_whisker_in_the_air_needs_no_look() {
     let folder = tempfile::tempdir().unwrap();
-    let scene = |name: &str| {
-        let scenes = PathBuf::from(concat!(env!("CARGO_MANIFEST_DIR"), "/../scenes"));
-        scenes.join(name).with_extension("toml")
-    };
+    let scene = |name: &str| scene_file(name).with_extension("toml");
     for (module, world) in [
         ("bench", "textures"),
         ("bench", "whisker"),
@@ -124,27 +100,16 @@ fn a_whisker_in_the_air_needs_no_look() {
         ("whisker", "whisker"),
     ] {
         let of_world = std::fs::read_to_string(scene(world)).unwrap();
-        let lines = of_world.lines().map(|line| {
-            let is_obstacle = line.starts_with("obstacle_deg");
-            if is_obstacle {
-                "obstacle_deg = [200.0]"
-            } else {
-                line
-            }
+        let lines = of_world.lines().map(|line| match line {
+            line if line.starts_with("obstacle_deg") => "obstacle_deg = [200.0]",
+            line => line,
         });
         let air = folder.path().join("air.toml");
         std::fs::write(&air, lines.collect::<Vec<_>>().join("\n")).unwrap();
         let module = scene(module);
-        let of_module = ["--sim", module.to_str().unwrap()];
-        let of_world = ["--world", air.to_str().unwrap()];
-        let how = ["--seconds", "12", "--out", "unused"];
-        let arguments: Arguments = parsed(
-            &[of_module, of_world]
-                .concat()
-                .into_iter()
-                .chain(how)
-                .collect::<Vec<_>>(),
-        );
+        let [sim, world_file] = [&module, &air].map(|path| path.to_str().unwrap());
+        let where_it_is = ["--sim", sim, "--world", world_file];
+        let arguments: Arguments = parsed(&[HOW, &where_it_is].concat());
         let seen = Seen::of(arguments.which.source.open(0).unwrap(), &arguments).unwrap();
         let simulated = Box::new(Simulated::in_the_air(&module).unwrap());
         let simulated = Seen::of(simulated, &arguments).unwrap();

@@ -8,7 +8,6 @@ use ratatui::text::Span;
 use ratatui::widgets::{Axis, Block, Chart, Dataset, GraphType};
 
 use super::super::shown::{Shown, Whisker, signals};
-use super::theme::Theme;
 
 struct Kind {
     quantity: &'static str,
@@ -52,7 +51,7 @@ const KINDS: [Kind; 3] = [
     },
 ];
 
-pub(super) fn charts(frame: &mut Frame<'_>, area: Rect, shown: &Shown, theme: Theme) {
+pub(super) fn charts(frame: &mut Frame<'_>, area: Rect, shown: &Shown) {
     if area.width < 20 || area.height < 4 {
         return;
     }
@@ -63,7 +62,7 @@ pub(super) fn charts(frame: &mut Frame<'_>, area: Rect, shown: &Shown, theme: Th
     for (column, whisker) in columns.iter().zip(&shown.whiskers) {
         let rows = Layout::vertical(vec![Constraint::Fill(1); count]).split(*column);
         for (n, (kind, row)) in KINDS.iter().zip(rows.iter()).enumerate() {
-            chart(frame, *row, kind, whisker, shown, n + 1 == count, theme);
+            chart(frame, *row, kind, whisker, shown, n + 1 == count);
         }
     }
 }
@@ -75,7 +74,6 @@ fn chart(
     whisker: &Whisker,
     shown: &Shown,
     is_last: bool,
-    theme: Theme,
 ) {
     let now = whisker.record.as_ref().map(signals);
     let mut title = vec![Span::raw(format!(" {} ", whisker.side))];
@@ -83,46 +81,34 @@ fn chart(
         let value = now.map_or("-".to_owned(), |now| {
             format!("{:.*}", kind.decimals, now[*signal])
         });
-        let text = format!("{sign}{name} {value} ");
-        title.push(Span::styled(text, theme.style(colour)));
+        title.push(Span::styled(format!("{sign}{name} {value} "), colour));
     }
     title.push(Span::raw(format!("{} ", kind.quantity)));
 
     // One in some columns, so that a line behind them is seen.
-    let sparse: Vec<Vec<(f64, f64)>> = kind
-        .curves
-        .iter()
-        .enumerate()
-        .map(|(n, (signal, _))| {
-            let points = &whisker.curves[*signal];
-            if n == 0 {
-                return points.clone();
-            }
-            let step = (points.len() / usize::from(area.width / 3).max(1)).max(1);
-            points
-                .iter()
-                .copied()
-                .skip(n * step / 3)
-                .step_by(step)
-                .collect()
-        })
-        .collect();
+    let sparse = |(n, (signal, _)): (usize, &(usize, _))| -> Vec<(f64, f64)> {
+        let points = &whisker.curves[*signal];
+        let step = match n {
+            0 => 1,
+            _ => (points.len() / usize::from(area.width / 3).max(1)).max(1),
+        };
+        let some = points.iter().copied().skip(n * step / 3).step_by(step);
+        some.collect()
+    };
+    let sparse: Vec<_> = kind.curves.iter().enumerate().map(sparse).collect();
     let marked = sparse.iter().zip(MARKS);
     let datasets = marked.map(|(points, (_, colour, marker, graph))| {
         Dataset::default()
             .marker(marker)
             .graph_type(graph)
-            .style(theme.style(colour))
+            .style(colour)
             .data(points)
     });
     let range = range(kind, whisker);
     let labels = range.map(|end| format!("{end:6.0}"));
     let mut times = Axis::default().bounds([shown.from_s, shown.to_s]);
     if is_last {
-        times = times.labels([
-            format!("{:.1} s", shown.from_s),
-            format!("{:.1} s", shown.to_s),
-        ]);
+        times = times.labels([shown.from_s, shown.to_s].map(|end_s| format!("{end_s:.1} s")));
     }
     let chart = Chart::new(datasets.collect())
         .block(Block::bordered().title(title))

@@ -8,7 +8,7 @@ use ratatui::text::Line;
 use ratatui::widgets::Block;
 use ratatui::widgets::canvas::{Canvas, Circle, Context, Line as Stroke};
 
-use super::theme::{Theme, bold};
+use super::bold;
 use crate::monitor::looking::Hair;
 
 /// The angle that is drawn level, degrees.
@@ -23,7 +23,7 @@ const LEAST: f64 = 0.05;
 /// Points of a character of braille.
 const POINTS: [f64; 2] = [2.0, 4.0];
 
-pub(super) fn hairs(frame: &mut Frame<'_>, area: Rect, hairs: &[Hair], theme: Theme) {
+pub(super) fn hairs(frame: &mut Frame<'_>, area: Rect, hairs: &[Hair]) {
     let boards = hairs.iter().filter_map(|hair| hair.stand.board).max();
     let boards = boards.map_or(1, |last| last + 1);
     let count = hairs.len();
@@ -44,7 +44,7 @@ pub(super) fn hairs(frame: &mut Frame<'_>, area: Rect, hairs: &[Hair], theme: Th
         .y_bounds([-y, y])
         .paint(|context| {
             for hair in hairs {
-                shaft(context, hair, theme);
+                shaft(context, hair);
             }
             context.layer();
             for hair in hairs {
@@ -66,21 +66,20 @@ fn ends(hair: &Hair) -> [(f64, f64); 2] {
     [root, (root.0 + way * out, root.1 + up)]
 }
 
-fn shaft(context: &mut Context<'_>, hair: &Hair, theme: Theme) {
+fn shaft(context: &mut Context<'_>, hair: &Hair) {
     let [(x1, y1), (x2, y2)] = ends(hair);
-    let colour = |colour| theme.style(colour).fg.unwrap_or_default();
     let of_side = if hair.stand.side == 0 {
         Color::Cyan
     } else {
         Color::Yellow
     };
-    context.draw(&Stroke::new(x1, y1, x2, y2, colour(of_side)));
+    context.draw(&Stroke::new(x1, y1, x2, y2, of_side));
     if hair.contact >= LEAST {
         context.draw(&Circle {
             x: x2,
             y: y2,
             radius: 0.03 + 0.07 * hair.contact.min(1.0),
-            color: colour(Color::Red),
+            color: Color::Red,
         });
     }
 }

@@ -8,19 +8,15 @@ use ratatui::widgets::{Block, Paragraph, Wrap};
 use wire::Flags;
 
 use super::super::shown::{STATES, Shown, Whisker};
-use super::theme::{Theme, bold};
+use super::bold;
 
 /// The state of each whisker, a line each: states that hold are in capitals.
-pub(super) fn states(frame: &mut Frame<'_>, area: Rect, shown: &Shown, theme: Theme) {
-    let lines: Vec<Line<'_>> = shown
-        .whiskers
-        .iter()
-        .map(|whisker| state(whisker, theme))
-        .collect();
+pub(super) fn states(frame: &mut Frame<'_>, area: Rect, shown: &Shown) {
+    let lines: Vec<Line<'_>> = shown.whiskers.iter().map(state).collect();
     frame.render_widget(Paragraph::new(lines), area);
 }
 
-fn state(whisker: &Whisker, theme: Theme) -> Line<'static> {
+fn state(whisker: &Whisker) -> Line<'static> {
     let mut spans = vec![Span::raw(format!("{:5}", whisker.side))];
     let Some(record) = &whisker.record else {
         spans.push(Span::raw(" no record yet"));
@@ -35,8 +31,8 @@ fn state(whisker: &Whisker, theme: Theme) -> Line<'static> {
         };
         let is_bad = is_so == (flag != Flags::VALID) && matches!(name, "resting" | "valid");
         let style = match (is_so, is_bad) {
-            (_, true) => theme.style(Color::Red).add_modifier(Modifier::BOLD),
-            (true, _) => theme.style(Color::Green).add_modifier(Modifier::BOLD),
+            (_, true) => bold().fg(Color::Red),
+            (true, _) => bold().fg(Color::Green),
             (false, _) => Style::new().add_modifier(Modifier::DIM),
         };
         spans.push(Span::styled(text, style));
@@ -44,23 +40,18 @@ fn state(whisker: &Whisker, theme: Theme) -> Line<'static> {
     Line::from(spans)
 }
 
-pub(super) fn panes(frame: &mut Frame<'_>, area: Rect, shown: &Shown, theme: Theme) {
+pub(super) fn panes(frame: &mut Frame<'_>, area: Rect, shown: &Shown) {
     if area.width < 10 || area.height < 3 {
         return;
     }
-    let bars: usize = shown
-        .whiskers
-        .iter()
-        .map(|whisker| whisker.posteriors.len())
-        .sum();
+    let bars: usize = shown.whiskers.iter().map(|of| of.posteriors.len()).sum();
     let sure = (bars + shown.classifying.len() + 2) as u16;
     let load = shown.load.len() as u16 + 2;
     let [sure, rest] = Layout::vertical([Constraint::Max(sure), Constraint::Min(0)]).areas(area);
-    posteriors(frame, sure, shown, theme);
-    let faults = if shown.faults.is_empty() {
-        3
-    } else {
-        (rest.height / 2).max(3)
+    posteriors(frame, sure, shown);
+    let faults = match shown.faults.len() {
+        0 => 3,
+        _ => (rest.height / 2).max(3),
     };
     let [events, faults, load] = Layout::vertical([
         Constraint::Min(3),
@@ -69,7 +60,7 @@ pub(super) fn panes(frame: &mut Frame<'_>, area: Rect, shown: &Shown, theme: The
     ])
     .areas(rest);
     events_pane(frame, events, shown);
-    faults_pane(frame, faults, shown, theme);
+    faults_pane(frame, faults, shown);
     let lines: Vec<Line<'_>> = plain(&shown.load).collect();
     pane(frame, load, " ticks and records ", Paragraph::new(lines));
 }
@@ -82,14 +73,13 @@ fn pane(frame: &mut Frame<'_>, area: Rect, title: &str, text: Paragraph<'_>) {
     frame.render_widget(text.block(Block::bordered().title(title)), area);
 }
 
-fn posteriors(frame: &mut Frame<'_>, area: Rect, shown: &Shown, theme: Theme) {
+fn posteriors(frame: &mut Frame<'_>, area: Rect, shown: &Shown) {
     let width = usize::from(area.width.saturating_sub(2));
-    let longest = shown
+    let all = shown
         .whiskers
         .iter()
-        .flat_map(|whisker| &whisker.posteriors)
-        .map(|(name, _)| name.chars().count())
-        .max();
+        .flat_map(|whisker| &whisker.posteriors);
+    let longest = all.map(|(name, _)| name.chars().count()).max();
     let name_width = longest.unwrap_or(0).min(width / 3);
     let room = width.saturating_sub(name_width + 9);
     let mut lines = Vec::new();
@@ -105,7 +95,7 @@ fn posteriors(frame: &mut Frame<'_>, area: Rect, shown: &Shown, theme: Theme) {
             let percent = 100.0 * posterior;
             lines.push(Line::from(vec![
                 Span::raw(format!("{mark}{name:name_width$} ")),
-                Span::styled(bar, theme.style(Color::Green)),
+                Span::styled(bar, Color::Green),
                 Span::raw(format!(" {percent:5.1}%")),
             ]));
         }
@@ -125,22 +115,26 @@ fn bar(share: f32, room: usize) -> String {
 fn events_pane(frame: &mut Frame<'_>, area: Rect, shown: &Shown) {
     let room = usize::from(area.height.saturating_sub(2));
     let old = shown.events.len().saturating_sub(room);
-    let mut lines: Vec<Line<'_>> = plain(&shown.events[old..]).collect();
-    for (line, text) in lines.iter_mut().zip(&shown.events[old..]) {
-        // Decisions have a percentage, touches none.
-        if text.contains('%') {
-            line.style = bold();
-        }
-    }
-    let text = Paragraph::new(lines);
-    pane(frame, area, " touches and decisions ", text);
+    // Decisions have a percentage, touches none.
+    let style = |text: &str| match text.find('%') {
+        Some(_) => bold(),
+        None => Style::new(),
+    };
+    let lines = shown.events[old..].iter();
+    let lines = lines.map(|text| Line::from(text.as_str()).style(style(text)));
+    let lines: Vec<Line<'_>> = lines.collect();
+    pane(
+        frame,
+        area,
+        " touches and decisions ",
+        Paragraph::new(lines),
+    );
 }
 
-fn faults_pane(frame: &mut Frame<'_>, area: Rect, shown: &Shown, theme: Theme) {
+fn faults_pane(frame: &mut Frame<'_>, area: Rect, shown: &Shown) {
     let mut lines = Vec::new();
     for fault in &shown.faults {
-        let style = theme.style(Color::Red).add_modifier(Modifier::BOLD);
-        lines.push(Line::from(fault.what.as_str()).style(style));
+        lines.push(Line::from(fault.what.as_str()).style(bold().fg(Color::Red)));
         lines.push(Line::from(format!("check: {}", fault.remedy)));
     }
     if lines.is_empty() {

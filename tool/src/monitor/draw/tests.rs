@@ -7,16 +7,12 @@ use tactile::Decision;
 use whisking::motor;
 use wire::{Flags, TickRecord};
 
-use super::Theme;
 use crate::monitor::history::History;
 use crate::monitor::looking::Hair;
 use crate::monitor::shown::Shown;
-use crate::monitor::snapshot::drawn;
-use crate::monitor::svg::{svg, text};
+use crate::monitor::svg::{drawn, svg, text};
 use crate::monitor::view::View;
 use crate::source::Incoming;
-
-const PLAIN: Theme = Theme { colours: false };
 
 fn history() -> History {
     let mut history = History::new((1000, 1), 2, None);
@@ -57,27 +53,12 @@ fn history() -> History {
 #[test]
 fn all_is_there_in_the_smallest_usual_window() {
     let shown = Shown::first(&history(), "bench, simulated");
-    let buffer = drawn(&shown, PLAIN, 80, 24).unwrap();
+    let buffer = drawn(&shown, (80, 24)).unwrap();
     let text = text(&buffer);
-    for word in [
-        "bench, simulated",
-        "6.00 s  live",
-        "[ARMED]",
-        "[TOUCHING]",
-        "  running ",
-        "measured",
-        "setpoint",
-        "contact",
-        "duty",
-        "no model: --model",
-        "touch 3",
-        "carpet 99.50 % 640",
-        "fault left 6 does not move",
-        "longest tick 43.5 us (4 %)",
-        "lost 0",
-        "x stop",
-        "q end",
-    ] {
+    let words = "bench, simulated|6.00 s  live|[ARMED]|[TOUCHING]|  running |measured|setpoint|contact|\
+                 duty|no model: --model|touch 3|carpet 99.50 % 640|fault left 6 does not move|\
+                 longest tick 43.5 us (4 %)|lost 0|x stop|q end";
+    for word in words.split('|') {
         assert!(text.contains(word), "{word}:\n{text}");
     }
     assert_eq!(text.lines().count(), 24);
@@ -93,32 +74,23 @@ fn any_window_can_be_drawn() {
         view.press(KeyCode::Char(press).into(), history.extent());
         view.press(KeyCode::Tab.into(), history.extent());
         let shown = history.shown(&view, "a title that is longer than some", String::new());
-        for (width, height) in [
-            (1, 1),
-            (2, 3),
-            (10, 4),
-            (40, 10),
-            (67, 13),
-            (68, 14),
-            (200, 60),
-        ] {
-            drawn(&shown, PLAIN, width, height).unwrap();
+        for size in [(1, 1), (2, 3), (10, 4), (40, 10), (67, 13), (68, 14)] {
+            drawn(&shown, size).unwrap();
         }
+        drawn(&shown, (200, 60)).unwrap();
     }
 }
 
 #[test]
 fn a_picture_has_every_word_and_dot_of_the_window() {
     let shown = Shown::first(&history(), "t < & \"");
-    let buffer = drawn(&shown, Theme { colours: true }, 100, 30).unwrap();
+    let buffer = drawn(&shown, (100, 30)).unwrap();
     let picture = svg(&buffer);
     for word in ["t &lt; &amp;", "[ARMED]", "carpet 99.50 % 640"] {
         assert!(picture.contains(word), "{word}: {picture}");
     }
-    let dots: u32 = buffer
-        .content
-        .iter()
-        .filter_map(|cell| cell.symbol().chars().next())
+    let dots: u32 = text(&buffer)
+        .chars()
         .filter(|c| ('\u{2800}'..='\u{28FF}').contains(c))
         .map(|c| (c as u32 - 0x2800).count_ones())
         .sum();
@@ -128,7 +100,7 @@ fn a_picture_has_every_word_and_dot_of_the_window() {
 
 #[test]
 fn a_head_is_seen_from_above_with_who_feels_and_who_decides_what() {
-    let hair = |side, column, contact, said: &str| Hair {
+    let hair = |(side, column, contact, said): (usize, usize, f64, &str)| Hair {
         stand: Stand {
             side,
             column,
@@ -141,16 +113,13 @@ fn a_head_is_seen_from_above_with_who_feels_and_who_decides_what() {
         said: said.to_owned(),
     };
     let mut history = history();
-    let hairs = vec![
-        hair(0, 0, 0.0, ""),
-        hair(0, 1, 0.0, "loam"),
-        hair(1, 0, 0.0, ""),
-        hair(1, 1, 0.9, ""),
-    ];
+    let left = [(0, 0, 0.0, ""), (0, 1, 0.0, "loam")].map(hair);
+    let right = [(1, 0, 0.0, ""), (1, 1, 0.9, "")].map(hair);
+    let hairs = [left, right].concat();
     history.see(hairs.clone());
     let drawn_now = |history: &History| {
         let shown = Shown::first(history, "t");
-        text(&drawn(&shown, PLAIN, 120, 40).unwrap())
+        text(&drawn(&shown, (120, 40)).unwrap())
     };
     // Without what stands beside it.
     let head = |all: &str| -> String {

@@ -7,8 +7,7 @@ use host_sim::decisions;
 use tactile::Decision;
 use wire::{Command, TickRecord};
 
-use super::Listener;
-use crate::monitor::known::Known;
+use super::{Known, Listener};
 use crate::source::{chosen, scene_file};
 use crate::tally::Tally;
 
@@ -39,23 +38,16 @@ fn listened(
     let mut listener = Listener::new(known, tick_hz as u32, whiskers as usize).unwrap();
     let mut tally = Tally::default();
     let (mut own, mut sent) = (Vec::new(), Vec::new());
-    while module.source().now_s() < seconds {
+    while module.now_s() < seconds {
         let incoming = module.receive().unwrap();
         for packet in &incoming.packets {
-            let record = match packet {
-                Packet::Record(record) => record,
-                Packet::Event(EventRecord {
-                    sequence,
-                    event: Event::Decision(place, decision),
-                }) => {
-                    sent.push(row(*sequence, place.side.into(), *decision, &classes));
-                    continue;
-                }
-                _ => continue,
-            };
-            if drops(record) {
-                continue;
+            if let Packet::Event(EventRecord { sequence, event }) = packet
+                && let Event::Decision(place, decision) = event
+            {
+                sent.push(row(*sequence, place.side.into(), *decision, &classes));
             }
+        }
+        for record in incoming.records().filter(|record| !drops(record)) {
             let before = tally.take(record);
             for (side, decision) in listener.take(record, before) {
                 own.push(row(record.sequence, side, decision, &classes));
@@ -95,9 +87,8 @@ fn decisions_are_those_of_the_simulated_module() {
 
 #[test]
 fn decisions_are_those_of_the_emulated_board() {
-    let [own, sent] = listened("--emulated", &scene_file("textures.toml"), "2", 6.0, |_| {
-        false
-    });
+    let textures = scene_file("textures.toml");
+    let [own, sent] = listened("--emulated", &textures, "2", 6.0, |_| false);
     println!("{} decisions", own.len());
     assert!(own.len() >= 20, "{}", own.len());
     assert_same(&own, &sent);

@@ -6,8 +6,7 @@ use wire::{Flags, TickRecord};
 
 use super::Fault;
 use crate::monitor::history::History;
-use crate::monitor::known::Known;
-use crate::monitor::listener::Listener;
+use crate::monitor::listener::{Known, Listener};
 use crate::monitor::shown::Shown;
 use crate::source::{Incoming, record, scene_file};
 
@@ -36,13 +35,10 @@ fn a_peak_of_one_tick_is_in_the_picture_where_it_was() {
     let shown = Shown::first(&history, "t");
     assert_eq!((shown.from_s, shown.to_s), (-1.0, 4.0));
     let measured = &shown.whiskers[0].curves[1];
-    let peaks: Vec<f64> = measured
-        .iter()
-        .filter(|(_, deg)| *deg == 150.0)
-        .map(|(t_s, _)| *t_s)
-        .collect();
+    let mut peaks = measured.clone();
+    peaks.retain(|(_, deg)| *deg == 150.0);
     assert_eq!(peaks.len(), 1);
-    assert!((peaks[0] - 2.5).abs() < 0.03, "{peaks:?}");
+    assert!((peaks[0].0 - 2.5).abs() < 0.03, "{peaks:?}");
     assert!(measured.iter().all(|(_, deg)| [50.0, 150.0].contains(deg)));
     assert!(measured.len() < 400);
 }
@@ -61,11 +57,9 @@ fn faults_come_with_cause_and_remedy() {
 
 #[test]
 fn it_is_said_that_the_classifier_has_started_again() {
-    let known = Known::of(Some(&scene_file("textures.toml")), None)
-        .unwrap()
-        .unwrap();
-    let listener = Listener::new(known, 2000, 1).unwrap();
-    let mut history = History::new((2000, 1), 1, Some(listener));
+    let known = Known::of(Some(&scene_file("textures.toml")), None);
+    let listener = Listener::new(known.unwrap().unwrap(), 2000, 1);
+    let mut history = History::new((2000, 1), 1, Some(listener.unwrap()));
     let mut take = |sequence| {
         let record = record(sequence, Flags::VALID);
         history.take(&Incoming::of([Packet::Record(record)]));
@@ -75,11 +69,7 @@ fn it_is_said_that_the_classifier_has_started_again() {
     let said = [1, 2, 3001, 3002, 1].map(&mut take);
     assert!(said[1].starts_with("computed on the PC from records"));
     assert!(!said[1].contains("again from"));
-    for said in &said[2..4] {
-        assert!(
-            said.contains("again from 1.5 s: records were lost"),
-            "{said}"
-        );
-    }
+    let lost = "again from 1.5 s: records were lost";
+    assert!(said[2..4].iter().all(|said| said.contains(lost)));
     assert!(said[4].contains("the module started again"), "{}", said[4]);
 }
