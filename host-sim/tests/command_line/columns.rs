@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use crate::common::{Place, SEQUENTIAL, TEXTURED, cells, column, model, numbers};
+use crate::common::{Place, SEQUENTIAL, TEXTURED, column, line, model, numbers};
 
 fn elastic() -> String {
     TEXTURED.replace(
@@ -26,8 +26,7 @@ fn a_recording_has_the_number_of_the_pose_where_poses_differ() {
     let differ = "label,trial,x,y,contact,touch,pose,tilt_deg,depth_deg";
     assert_eq!(header("differ.csv"), differ);
 
-    let text = place.text("differ.csv");
-    let rows = cells(&text);
+    let rows = place.table("differ.csv");
     // The scene's own: only readings differ.
     let stands: BTreeSet<_> = rows[1..].iter().map(|row| (row[7], row[8])).collect();
     assert!(stands.len() == 1 && rows[1][7] == "20", "{stands:?}");
@@ -71,17 +70,16 @@ fn every_column_that_is_written_is_on_the_page() {
         "press.csv",
         "shape.csv",
     ] {
-        let text = place.text(file);
-        for title in text.lines().next().unwrap().split(',') {
+        let rows = place.table(file);
+        for title in &rows[0] {
             let places = ["left_2", "left_3", "right_2", "right_3"].into_iter();
-            let further = places.fold(title.to_owned(), |of, place| of.replacen(place, "*", 1));
+            let further = places.fold(title.to_string(), |of, place| of.replacen(place, "*", 1));
             let is_on_page = |title: &str| page.contains(&format!("| `{title}` |"));
             let is_documented = is_on_page(title) || is_on_page(&further);
-            assert!(is_documented || title == "rcp.gain", "{file}: {title}");
+            assert!(is_documented || *title == "rcp.gain", "{file}: {title}");
         }
-        let widths = cells(&text).into_iter().map(|row| row.len());
-        let widths: BTreeSet<_> = widths.collect();
-        assert_eq!(widths.len(), 1, "{file}: {widths:?}");
+        let is_as_wide = |row: &Vec<&str>| row.len() == rows[0].len();
+        assert!(rows.iter().all(is_as_wide), "{file}");
     }
 }
 
@@ -89,8 +87,7 @@ fn every_column_that_is_written_is_on_the_page() {
 fn speed_and_duty_are_those_of_the_motion() {
     let place = Place::with(&[("s.toml", TEXTURED)]);
     place.done("run s.toml --out .");
-    let text = place.text("trace.csv");
-    let rows = cells(&text);
+    let rows = place.table("trace.csv");
     let angle = numbers(&rows, "angle_left_deg");
     let speed = numbers(&rows, "speed_left_deg_s");
     let duty = numbers(&rows, "duty_left");
@@ -123,20 +120,14 @@ fn a_fault_stands_in_the_trace_by_its_number() {
     let place = Place::with(&[("s.toml", TEXTURED)]);
     for (whiskers, place_of) in [(1, "left"), (2, "left_2")] {
         let keys = format!("--set head.whiskers_per_side={whiskers} --set motor.duty_limit=0.01");
-        let ran = place.run(&format!("run s.toml {keys} --set duration_s=3 --out ."));
-        assert_eq!(ran.status, Some(0), "{ran:?}");
-        let text = place.text("trace.csv");
-        let rows = cells(&text);
+        let said = place.warned(&format!("run s.toml {keys} --set duration_s=3 --out ."));
+        let rows = place.table("trace.csv");
         let faults = column(&rows, &format!("fault_{place_of}"));
         let first = faults.iter().position(|fault| *fault != "0");
         let first = first.expect("a fault");
         let (t_s, fault) = (numbers(&rows, "t_s")[first], faults[first]);
         let expected = format!("{t_s:.4} s: left whisker {whiskers}: fault left {fault} ");
-        let mut said = ran.stderr.lines();
-        assert!(
-            said.any(|said| said.starts_with(&expected)),
-            "{expected}: {ran:?}"
-        );
+        line(&said, &expected);
         // Its motor is off meanwhile.
         let duty = column(&rows, &format!("duty_{place_of}"))[first + 1];
         assert_eq!(duty.parse::<f64>().unwrap(), 0.0);

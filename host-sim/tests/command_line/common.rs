@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
-use std::process::{Command, Output, Stdio};
+use std::process::{Command, Stdio};
 
 use host_sim::classifier::Classifier;
 use host_sim::decisions::Decided;
@@ -80,17 +80,6 @@ pub(crate) struct Ran {
     pub(crate) stderr: String,
 }
 
-impl Ran {
-    fn new(output: Output) -> Self {
-        let text = |bytes| String::from_utf8(bytes).unwrap();
-        Self {
-            status: output.status.code(),
-            stdout: text(output.stdout),
-            stderr: text(output.stderr),
-        }
-    }
-}
-
 impl Place {
     pub(crate) fn new() -> Self {
         Self(tempfile::tempdir().unwrap())
@@ -136,6 +125,11 @@ impl Place {
         String::from_utf8(self.bytes(name)).unwrap()
     }
 
+    /// A table of comma-separated values, none of which is in quotes.
+    pub(crate) fn table(&self, name: &str) -> Vec<Vec<&'static str>> {
+        cells(self.text(name).leak())
+    }
+
     pub(crate) fn command(&self, line: &str) -> Command {
         let mut command = Command::new(env!("CARGO_BIN_EXE_host-sim"));
         command
@@ -146,7 +140,13 @@ impl Place {
     }
 
     pub(crate) fn run(&self, line: &str) -> Ran {
-        Ran::new(self.command(line).output().unwrap())
+        let output = self.command(line).output().unwrap();
+        let text = |bytes| String::from_utf8(bytes).unwrap();
+        Ran {
+            status: output.status.code(),
+            stdout: text(output.stdout),
+            stderr: text(output.stderr),
+        }
     }
 
     /// Runs the program here, which must succeed and have nothing to complain of.
@@ -154,6 +154,14 @@ impl Place {
         let ran = self.run(line);
         assert_eq!((ran.status, ran.stderr.as_str()), (Some(0), ""), "{line}");
         ran
+    }
+
+    /// Runs the program here, which must succeed; what it says on standard error.
+    #[track_caller]
+    pub(crate) fn warned(&self, line: &str) -> String {
+        let ran = self.run(line);
+        assert_eq!(ran.status, Some(0), "{line}: {ran:?}");
+        ran.stderr
     }
 
     /// The whole content of the folder; `None` for a folder.
@@ -191,6 +199,23 @@ impl Place {
         };
         for out in outs {
             self.refuses(&format!("{line} --out {out}"), naming);
+        }
+    }
+
+    /// Refuses each line of a table: a command, and behind bars what the message names. One that
+    /// writes and says nowhere what refuses to write.
+    pub(crate) fn refuses_each(&self, table: &str) {
+        for row in table.trim().lines() {
+            let mut cells = row.split('|').map(str::trim);
+            let command = cells.next().unwrap();
+            let naming: Vec<&str> = cells.collect();
+            let writes = ["run", "train", "classify", "sweep"];
+            let writes = writes.iter().any(|name| command.starts_with(name));
+            if writes && !command.contains("--out") {
+                self.refuses_to_write(command, &naming);
+            } else {
+                self.refuses(command, &naming);
+            }
         }
     }
 }
@@ -233,7 +258,6 @@ pub(crate) fn its_model() -> ModelBuf {
     ModelBuf::from_bytes(&model(2, 20, true)).unwrap()
 }
 
-/// Whether a text has all of these.
 #[track_caller]
 pub(crate) fn says(text: &str, parts: &[&str]) {
     for part in parts {
@@ -241,14 +265,12 @@ pub(crate) fn says(text: &str, parts: &[&str]) {
     }
 }
 
-/// The line that begins so.
 #[track_caller]
 pub(crate) fn line<'t>(text: &'t str, name: &str) -> &'t str {
     let found = text.lines().find(|line| line.starts_with(name));
     found.unwrap_or_else(|| panic!("no {name:?} in {text}"))
 }
 
-/// A column of a table by its name.
 pub(crate) fn column<'t>(rows: &[Vec<&'t str>], name: &str) -> Vec<&'t str> {
     let at = rows[0].iter().position(|title| *title == name);
     let at = at.unwrap_or_else(|| panic!("no {name}"));
@@ -274,9 +296,7 @@ pub(crate) fn decisions(text: &str) -> Vec<Decided> {
     let (more, allowed) = (more.unwrap(), ["", ",t_s", ",t_s,side,whisker"]);
     assert!(allowed.contains(&more), "{header}");
     let decided = |row: Vec<&str>| Decided {
-        t_s: Some(row[6])
-            .filter(|_| !more.is_empty())
-            .map(|t_s| t_s.parse().unwrap()),
+        t_s: (!more.is_empty()).then(|| row[6].parse().unwrap()),
         place: None,
         label: row[0].into(),
         trial: row[1].into(),

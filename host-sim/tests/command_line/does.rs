@@ -27,8 +27,7 @@ fn run_writes_a_row_a_tick() {
                 in deep/er: trace.csv, trace.svg, trace.png\n\
                 to look at next: deep/er/trace.png; what each column is: host-sim columns\n";
     assert_eq!(ran.stdout, expected);
-    let text = place.text("deep/er/trace.csv");
-    let rows = cells(&text);
+    let rows = place.table("deep/er/trace.csv");
     assert_eq!(
         rows[0][..9].join(","),
         "t_s,theta_left_deg,theta_right_deg,z_left,z_right,g_left,g_right,\
@@ -65,8 +64,7 @@ fn run_writes_decisions_where_the_scene_classifies() {
     }
     let expected = format!("\n{} decisions, hit rate ", decided.len());
     says(&ran.stdout, &[&expected]);
-    let trace = place.text("out/trace.csv");
-    let trace = cells(&trace);
+    let trace = place.table("out/trace.csv");
     assert_eq!(trace.len(), 1 + 6000);
     // The trace has each decision in its tick.
     let fallen = trace[1..].iter().filter(|row| !row[16].is_empty());
@@ -127,10 +125,7 @@ fn recordings_may_come_in_any_dress() {
     let with = |from: &str, to: &str| RECORDING.replace(from, to).into_bytes();
     let mut reordered = Vec::new();
     for row in cells(RECORDING) {
-        let [label, trial, x, y] = row[..] else {
-            panic!("{row:?}")
-        };
-        reordered.push(format!("note,{y},{trial},{x},{label}"));
+        reordered.push(["note", row[3], row[1], row[2], row[0]].join(","));
     }
     let dresses: [(&str, Vec<u8>); 7] = [
         ("byte order mark", format!("\u{feff}{RECORDING}").into()),

@@ -8,15 +8,10 @@ const OTHER: &str = "note,label,trial,x,y\n\n\"a\nb\",low,a,100,8000\n,low,0,120
 
 const CLASSIFY: &str = "classify --model m --rule window --window 2 --out d.csv --data";
 
-fn place() -> Place {
-    let place = Place::with(&[("r.csv", RECORDING), ("other.csv", OTHER)]);
-    place.done("train --tables single --data r.csv --out m --block 2");
-    place
-}
-
 #[test]
 fn what_does_not_fit_is_reported_with_file_and_line() {
-    let place = place();
+    let place = Place::with(&[("r.csv", RECORDING), ("other.csv", OTHER)]);
+    place.done("train --tables single --data r.csv --out m --block 2");
     let evaluate = "evaluate --model m --data other.csv";
     for line in [format!("{CLASSIFY} other.csv"), evaluate.to_owned()] {
         let printed = place.done(&line).stdout;
@@ -31,11 +26,7 @@ fn what_does_not_fit_is_reported_with_file_and_line() {
     // In the units of the samples.
     let printed = place.done(&format!("{CLASSIFY} other.csv")).stdout;
     says(&printed, &["trained on 100 to 9100."]);
-}
-
-#[test]
-fn of_what_fits_nothing_is_said() {
-    let place = place();
+    // Of what fits nothing is said.
     let printed = place.done(&format!("{CLASSIFY} r.csv")).stdout;
     assert!(!printed.contains("r.csv"), "{printed}");
 }

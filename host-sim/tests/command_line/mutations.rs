@@ -8,7 +8,6 @@ use scene::Scene;
 
 use crate::common::{Place, RECORDING, SEQUENTIAL, TEXTURED, decisions, model};
 
-/// Bytes in place of others.
 #[derive(Debug, Clone)]
 struct Cut {
     /// Where, as a share of the file.

@@ -26,58 +26,38 @@ fn usual() -> String {
     format!("label,trial,x,y\n{}", trials.collect::<String>())
 }
 
+/// A recording that is refused, without its last end of a line, and the message.
+const REFUSED: &str = r#"
+label,trial,x\na,1,2 | line 1: no column "y"; a recording has label,trial,x,y
+label;trial;x;y\na;1;2;3 | line 1: semicolons stand between the columns; allowed: commas, and points in numbers
+HEADER\na,1,"0,5",3 | line 2: x is "0,5", not a finite number; a point is needed, no comma
+HEADER\na,1,nan,3 | line 2: x is "nan", not a finite number
+HEADER\na,1,2 | line 2: 3 cells; the header has 4
+HEADER\n,1,2,3 | line 2: the label is empty
+HEADER\nnan,1,2,3 | line 2: the label is missing: "nan"
+HEADER\n"a\nb",1,2,3 | line 2: label "a\nb" has the character '\n', which is not to be seen
+HEADER,touch\na,1,2,3,yes | line 2: touch is "yes", not a whole number from 0 to 65535
+# tick_hz = fast\nHEADER\na,1,2,3 | tick_hz is "fast", not a whole number above 0
+HEADER | no samples"#;
+
 #[test]
 fn what_the_page_says_is_refused_is_refused_so() {
-    let header = "label,trial,x,y\n";
-    let with = |rows: &str| format!("{header}{rows}").into_bytes();
-    let touch = b"label,trial,x,y,touch\na,1,2,3,yes\n".to_vec();
-    for (recording, message) in [
-        (
-            b"label,trial,x\na,1,2\n".to_vec(),
-            "line 1: no column \"y\"; a recording has label,trial,x,y",
-        ),
-        (
-            b"label;trial;x;y\na;1;2;3\n".to_vec(),
-            "line 1: semicolons stand between the columns; allowed: commas, and points in numbers",
-        ),
-        (
-            b"\xff\xfel\0a\0".to_vec(),
-            "line 1: the text is in UTF-16; save it as CSV in UTF-8",
-        ),
-        (
-            b"label,trial,x,y\na,1,2,3\nh\xf6lz,1,2,3\n".to_vec(),
-            "line 3: not UTF-8 (Latin-1?); save it as CSV in UTF-8",
-        ),
-        (
-            with("a,1,\"0,5\",3\n"),
-            "line 2: x is \"0,5\", not a finite number; a point is needed, no comma",
-        ),
-        (
-            with("a,1,nan,3\n"),
-            "line 2: x is \"nan\", not a finite number",
-        ),
-        (with("a,1,2\n"), "line 2: 3 cells; the header has 4"),
-        (with(",1,2,3\n"), "line 2: the label is empty"),
-        (with("nan,1,2,3\n"), "line 2: the label is missing: \"nan\""),
-        (
-            with("\"a\nb\",1,2,3\n"),
-            "line 2: label \"a\\nb\" has the character '\\n', which is not to be seen",
-        ),
-        (
-            touch,
-            "line 2: touch is \"yes\", not a whole number from 0 to 65535",
-        ),
-        (
-            b"# tick_hz = fast\nlabel,trial,x,y\na,1,2,3\n".to_vec(),
-            "tick_hz is \"fast\", not a whole number above 0",
-        ),
-        (header.as_bytes().to_vec(), "no samples"),
-    ] {
-        let place = Place::new();
+    let place = Place::new();
+    let refused = |recording: &[u8], message: &str| {
         place.write("r.csv", recording);
         place.refuses_to_write(TRAIN, &["r.csv: ", message]);
         assert!(PAGE.contains(&format!("`{message}`")), "{message}");
+    };
+    for row in REFUSED.trim().lines() {
+        let (recording, message) = row.split_once(" | ").unwrap();
+        let recording = recording.replace("HEADER", "label,trial,x,y") + "\n";
+        refused(recording.replace("\\n", "\n").as_bytes(), message);
     }
+    let wide = "line 1: the text is in UTF-16; save it as CSV in UTF-8";
+    refused(b"\xff\xfel\0a\0", wide);
+    let latin = b"label,trial,x,y\na,1,2,3\nh\xf6lz,1,2,3\n";
+    let not_utf_8 = "line 3: not UTF-8 (Latin-1?); save it as CSV in UTF-8";
+    refused(latin, not_utf_8);
 }
 
 #[test]
@@ -156,10 +136,8 @@ fn what_is_odd_is_warned_of_with_its_line() {
         "3",
         "What is held out is then not new, and figures are too good; trials must not overlap",
     );
-    says(
-        &printed,
-        &["75 % of trial \"0\" of \"low\" is, sample for sample, in trial \"9\""],
-    );
+    let most = "75 % of trial \"0\" of \"low\" is, sample for sample, in trial \"9\"";
+    says(&printed, &[most]);
     place.write("r.csv", &table);
     place.write("copy.csv", &table);
     let printed = place.done("train --data r.csv --data copy.csv --out m");
@@ -214,10 +192,8 @@ fn a_hit_rate_says_which_classes_it_leaves_out() {
     place.done(TRAINED);
     // Too short for a decision.
     let short = rows("high", 0, 9_000, 0..5);
-    place.write(
-        "short.csv",
-        format!("label,trial,x,y\n{}{short}", rows("low", 0, 1_000, 0..400)),
-    );
+    let long = rows("low", 0, 1_000, 0..400);
+    place.write("short.csv", format!("label,trial,x,y\n{long}{short}"));
     let printed = place.done("evaluate --model m --data short.csv").stdout;
     let over = "(mean over classes without high: no decision names a class there)";
     says(&printed, &[over]);

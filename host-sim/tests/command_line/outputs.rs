@@ -45,7 +45,6 @@ fn no_command_writes_over_what_it_reads() {
     let place = Place::usual();
     place.write("m.svg", place.bytes("m"));
     for line in [
-        "train --tables single --data r.csv --out r.csv",
         "train --tables single --data r.csv --out ./r.csv",
         "train --data r.csv --out same.svg --plot same.svg",
         "classify --model m --data r.csv --rule window --window 20 --out r.csv",
@@ -62,12 +61,9 @@ fn no_command_writes_over_what_it_reads() {
 #[test]
 fn a_reader_that_stops_is_no_fault() {
     let place = Place::usual();
-    let mut child = place
-        .command("record s.toml --set duration_s=5 --out -")
-        .stdout(Stdio::piped())
-        .stderr(Stdio::piped())
-        .spawn()
-        .unwrap();
+    let mut command = place.command("record s.toml --set duration_s=5 --out -");
+    let command = command.stdout(Stdio::piped()).stderr(Stdio::piped());
+    let mut child = command.spawn().unwrap();
     drop(child.stdout.take());
     let ended = child.wait_with_output().unwrap();
     assert!(ended.status.success(), "{ended:?}");
@@ -90,11 +86,8 @@ fn pipes_links_folders_and_devices_are_refused_and_stay_what_they_are() {
         // What draws looks at the ending first.
         let fits = |command: &&str| !name.starts_with('/') || !command.ends_with("--plot");
         for command in COMMANDS.into_iter().filter(fits) {
-            refused(
-                &place,
-                &format!("{command} {name}"),
-                &format!("{name}: {what}"),
-            );
+            let naming = format!("{name}: {what}");
+            refused(&place, &format!("{command} {name}"), &naming);
         }
     }
     let run = "run s.toml --out /dev/null";

@@ -42,11 +42,8 @@ fn trials_of_two_poses_are_two() {
     };
     let table = format!("label,trial,x,y,pose\n{}{}", rows(1), rows(2));
     let streams = host_sim::recording::read(table.as_bytes(), ["x", "y"]).unwrap();
-    let poses: Vec<_> = streams
-        .iter()
-        .map(|stream| stream.pose.as_deref())
-        .collect();
-    assert_eq!(poses, [Some("p1"), Some("p2")]);
+    let poses = streams.iter().map(|stream| stream.pose.as_deref());
+    assert!(poses.eq([Some("p1"), Some("p2")]));
     assert!(streams.iter().all(|stream| stream.samples.len() == 50));
     // A row that does not say its pose is of that of the row before.
     let silent = table.replace(",p1\nlow,1,6,2,p1", ",p1\nlow,1,6,2,");
@@ -123,18 +120,14 @@ fn one_pose_is_said_to_be_one() {
     let said = trained(&place, &["long.csv"], "");
     line(&said, "trained in 1 pose: honest in it, silent elsewhere");
     let said = evaluated(&place, "the.model");
-    line(
-        &said,
-        "honest in the poses of its training, silent elsewhere",
-    );
+    let silent = "honest in the poses of its training, silent elsewhere";
+    line(&said, silent);
     // What the second opinion costs: beside it stands what is without.
     trained(&place, &["long.csv"], "--expect same");
     let same = evaluated(&place, "the.model");
     let (_, found) = line(&same, "found").split_at(5);
-    says(
-        &said,
-        &[&format!("without: right {}, stated", found.trim())],
-    );
+    let without = format!("without: right {}, stated", found.trim());
+    says(&said, &[&without]);
     assert!(!same.contains("second opinion"), "{same}");
 }
 
@@ -166,10 +159,8 @@ fn weights_of_early_stages_change_no_decision() {
     let whole = decided("naming.model");
     let count = |of: &str| whole.lines().filter(|line| line.contains(of)).count();
     // Five touches of each of four textures, named but for some.
-    assert!(
-        count("between") < 10 && count("smooth,0,smooth") > 2,
-        "{whole}"
-    );
+    let are_named = count("between") < 10 && count("smooth,0,smooth") > 2;
+    assert!(are_named, "{whole}");
     assert_eq!(decided("naming-late.model"), whole);
 }
 

@@ -9,6 +9,7 @@ fn numbers(text: &str) -> Vec<Vec<f64>> {
 }
 
 const MIDDLE: &str = "press --shaft biotact-middle";
+const LEAST_FOLLICLE: &str = "0.000000001 to 1000000";
 
 #[test]
 fn a_row_a_push_in_their_order() {
@@ -36,11 +37,8 @@ fn a_file_has_the_same_table_and_another_the_shapes() {
     assert_eq!(ran.stdout, "deep/p.csv: 2 pushes; columns: docs/files.md\n");
     assert_eq!(place.text("deep/p.csv"), piped);
     let rows = numbers(&piped);
-    assert!(rows.iter().all(|row| row[2] > 0.0));
-    assert!(
-        rows.iter()
-            .all(|row| (row[4] / row[3] / 0.2 - 1.0).abs() < 1e-8)
-    );
+    let is_rubbed = |row: &Vec<f64>| row[2] > 0.0 && (row[4] / row[3] / 0.2 - 1.0).abs() < 1e-8;
+    assert!(rows.iter().all(is_rubbed));
     let text = place.text("s.csv");
     assert!(text.starts_with("push_deg,s_m,x_m,y_m,z_m\n"), "{text}");
     let points = numbers(&text);
@@ -67,53 +65,28 @@ fn what_is_wrong_is_refused_with_its_range() {
         ("--hub-m", "-1 0 0.03", "0.00001 to 0.02"),
         ("--taper", "0.9 101 nan", "1 to 100"),
         ("--youngs-pa", "1 -1 1e13", "100000 to 1000000000000"),
-        (
-            "--follicle-nm-rad",
-            "0 -1 1e7 nan",
-            "0.000000001 to 1000000",
-        ),
+        ("--follicle-nm-rad", "0 -1 1e7 nan", LEAST_FOLLICLE),
     ] {
         for value in values.split(' ') {
             place.refuses(&instead(option, value), &[option, "allowed: ", range]);
         }
     }
-    for (options, naming) in [
-        (
-            "--slant-deg -10 --push-deg 5",
-            &["--slant-deg: found -10", "0 to 80"][..],
-        ),
-        ("--slant-deg 95 --push-deg 5", &["--slant-deg", "0 to 80"]),
-        ("--tilt-deg 90 --push-deg 5", &["--tilt-deg", "-80 to 80"]),
-        ("--friction -0.1 --push-deg 5", &["--friction", "0 to 8"]),
-        ("--push-deg -5", &["--push-deg", "0 to 90"]),
-        ("--push-deg 5,nan", &["--push-deg", "0 to 90"]),
-        ("--push-deg 5,,6", &["--push-deg"]),
-        ("", &["--push-deg"]),
-        (
-            "--slant-deg 60 --push-deg 5,60",
-            &["--push-deg: found 60", "0 to 50.31"],
-        ),
-        (
-            "--slant-deg 0 --push-deg 5",
-            &["--push-deg: found 5", "0 to 0;"],
-        ),
-        ("--taper 3 --push-deg 5", &["--taper", "not both"]),
-        (
-            "--push-deg 5 --out s.csv --shape s.csv",
-            &["--shape", "another"],
-        ),
-        ("--push-deg 5 --shape -", &["--shape", "another"]),
-    ] {
-        place.refuses(&format!("{MIDDLE} {options}"), naming);
-    }
-    place.refuses(
-        "press --shaft own --push-deg 5",
-        &["--shaft", "biotact-rear"],
-    );
-    place.refuses("press --push-deg 5", &["--shaft: found none"]);
-    place.refuses(
-        "press --length-m 0.1 --push-deg 5",
-        &["--hub-m: found none"],
-    );
+    let table = "MIDDLE --slant-deg -10 --push-deg 5 | --slant-deg: found -10 | 0 to 80
+        MIDDLE --slant-deg 95 --push-deg 5 | --slant-deg | 0 to 80
+        MIDDLE --tilt-deg 90 --push-deg 5 | --tilt-deg | -80 to 80
+        MIDDLE --friction -0.1 --push-deg 5 | --friction | 0 to 8
+        MIDDLE --push-deg -5 | --push-deg | 0 to 90
+        MIDDLE --push-deg 5,nan | --push-deg | 0 to 90
+        MIDDLE --push-deg 5,,6 | --push-deg
+        MIDDLE | --push-deg
+        MIDDLE --slant-deg 60 --push-deg 5,60 | --push-deg: found 60 | 0 to 50.31
+        MIDDLE --slant-deg 0 --push-deg 5 | --push-deg: found 5 | 0 to 0;
+        MIDDLE --taper 3 --push-deg 5 | --taper | not both
+        MIDDLE --push-deg 5 --out s.csv --shape s.csv | --shape | another
+        MIDDLE --push-deg 5 --shape - | --shape | another
+        press --shaft own --push-deg 5 | --shaft | biotact-rear
+        press --push-deg 5 | --shaft: found none
+        press --length-m 0.1 --push-deg 5 | --hub-m: found none";
+    place.refuses_each(&table.replace("MIDDLE", MIDDLE));
     place.refuses_to_write(&format!("{MIDDLE} --push-deg 99"), &["--push-deg"]);
 }

@@ -8,37 +8,27 @@ const SINGLE: &str = "train --tables single --data r.csv";
 const CLASSIFY: &str = "classify --model m --data r.csv";
 const EVALUATE: &str = "evaluate --model m --data r.csv";
 
-/// Without output there is nothing to overwrite.
-fn refuses(place: &Place, line: &str, naming: &[&str]) {
-    if line.starts_with("train") || line.starts_with("classify") {
-        place.refuses_to_write(line, naming);
-    } else {
-        place.refuses(line, naming);
-    }
+/// With t.toml too, which presents textures.
+fn place() -> Place {
+    let place = Place::usual();
+    place.write("t.toml", TEXTURED);
+    place
 }
 
 #[test]
 fn values_out_of_range() {
-    let place = Place::usual();
-    place.write("t.toml", TEXTURED);
+    let place = place();
     let score = "score t.toml --seeds 5..9";
     let sequential = &format!("{CLASSIFY} --rule sequential");
     let window = &format!("{CLASSIFY} --rule window");
+    let (trains, decides) = (&[TRAIN, SINGLE][..], &[sequential, EVALUATE][..]);
     for (commands, option, values) in [
-        (&[TRAIN, SINGLE][..], "--bins", "0 4097 100000 -3 many"),
-        (&[TRAIN, SINGLE], "--smooth", "-1 NaN inf 4097 wide"),
-        (
-            &[TRAIN, SINGLE],
-            "--block",
-            "0 10001 70000 4294967296 -2 2.5",
-        ),
+        (trains, "--bins", "0 4097 100000 -3 many"),
+        (trains, "--smooth", "-1 NaN inf 4097 wide"),
+        (trains, "--block", "0 10001 70000 4294967296 -2 2.5"),
         (&[TRAIN, score], "--gate", "-0.1 1.1 NaN pi"),
         (&[TRAIN, score], "--gap", "0 -1 10.1 NaN inf"),
-        (
-            &[sequential, EVALUATE],
-            "--threshold",
-            "0 1 1.5 -1 NaN inf p",
-        ),
+        (decides, "--threshold", "0 1 1.5 -1 NaN inf p"),
         (&[sequential], "--threshold", "0.9999999999999"),
         (&[window], "--window", "0 30 19 21 -20 1e3 4294967296"),
         (&[EVALUATE], "--error-rate", "0 1.5 -1 NaN"),
@@ -47,8 +37,7 @@ fn values_out_of_range() {
     ] {
         for value in values.split(' ') {
             for command in commands {
-                let line = format!("{command} {option} {value}");
-                refuses(&place, &line, &[option, value]);
+                place.refuses_each(&format!("{command} {option} {value} | {option} | {value}"));
             }
         }
     }
@@ -56,61 +45,35 @@ fn values_out_of_range() {
 
 #[test]
 fn what_no_one_can_do() {
-    let place = Place::usual();
-    place.write("t.toml", TEXTURED);
-    for (line, naming) in [
-        (format!("{SINGLE} --gap 0.1"), &["--gap", "joint"][..]),
-        (format!("{SINGLE} --plot p.svg"), &["--plot", "evaluate"]),
-        (format!("{TRAIN} --plot p.png"), &["--plot", ".svg"]),
-        (format!("{TRAIN} --rate 0"), &["--rate", "above 0"]),
-        (
-            format!("{TRAIN} --unknown mud"),
-            &["--unknown", "high, low"],
-        ),
-        (format!("{TRAIN} --bins 1"), &["--bins", "2 to 128"]),
-        (format!("{TRAIN} --tables some"), &["joint", "single"]),
-        (format!("{TRAIN} --bins="), &["--bins"]),
-        (format!("{CLASSIFY} --rule no"), &["sequential", "window"]),
-        (format!("{CLASSIFY} --rule sequential"), &["--threshold"]),
-        (format!("{CLASSIFY} --rule window"), &["--window"]),
-        (
-            format!("{CLASSIFY} --rule window --threshold 0.9"),
-            &["--window"],
-        ),
-        (
-            format!("{CLASSIFY} --rule window --window 30"),
-            &["30", "block of 20"],
-        ),
-        ("evaluate --model none --data r.csv".into(), &["none: "]),
-        ("evaluate --model m --data none".into(), &["none: "]),
-        ("evaluate --model r.csv --data r.csv".into(), &["r.csv: "]),
-    ] {
-        refuses(&place, &line, naming);
-    }
-    for (line, naming) in [
-        ("s.toml --seeds 5..9", &["s.toml: ", "no textures"][..]),
-        ("t.toml", &["--seeds"]),
-        ("t.toml --seeds 5", &["--seeds", "A..B"]),
-        ("t.toml --seeds a..9", &["--seeds", "A..B"]),
-        ("t.toml --seeds 9..9", &["--seeds", "A below B"]),
-        (
-            "t.toml --seeds 1..9",
-            &["--train-seed", "found 2", "1 to 8"],
-        ),
-        ("t.toml --seeds 5..9 --train-seed 8", &["--train-seed"]),
-        ("t.toml --seeds 5..9 --threshold 1", &["--threshold"]),
-        (
-            "t.toml --seeds 5..9 --unknown mud",
-            &["--unknown", "smooth, carpet"],
-        ),
-        (
-            "t.toml --seeds 5..9 --unknown carpet",
-            &["training: ", "one class"],
-        ),
-        ("none.toml --seeds 5..9", &["none.toml: "]),
-    ] {
-        refuses(&place, &format!("score {line}"), naming);
-    }
+    place().refuses_each(
+        "train --tables single --data r.csv --gap 0.1 | --gap | joint
+         train --tables single --data r.csv --plot p.svg | --plot | evaluate
+         train --data r.csv --plot p.png | --plot | .svg
+         train --data r.csv --rate 0 | --rate | above 0
+         train --data r.csv --unknown mud | --unknown | high, low
+         train --data r.csv --bins 1 | --bins | 2 to 128
+         train --data r.csv --tables some | joint | single
+         train --data r.csv --bins= | --bins
+         classify --model m --data r.csv --rule no | sequential | window
+         classify --model m --data r.csv --rule sequential | --threshold
+         classify --model m --data r.csv --rule window | --window
+         classify --model m --data r.csv --rule window --threshold 0.9 | --window
+         classify --model m --data r.csv --rule window --window 30 | 30 | block of 20
+         evaluate --model none --data r.csv | none:
+         evaluate --model m --data none | none:
+         evaluate --model r.csv --data r.csv | r.csv:
+         score s.toml --seeds 5..9 | s.toml: | no textures
+         score t.toml | --seeds
+         score t.toml --seeds 5 | --seeds | A..B
+         score t.toml --seeds a..9 | --seeds | A..B
+         score t.toml --seeds 9..9 | --seeds | A below B
+         score t.toml --seeds 1..9 | --train-seed | found 2 | 1 to 8
+         score t.toml --seeds 5..9 --train-seed 8 | --train-seed
+         score t.toml --seeds 5..9 --threshold 1 | --threshold
+         score t.toml --seeds 5..9 --unknown mud | --unknown | smooth, carpet
+         score t.toml --seeds 5..9 --unknown carpet | training: | one class
+         score none.toml --seeds 5..9 | none.toml:",
+    );
 }
 
 /// What is in the way of the output is named.

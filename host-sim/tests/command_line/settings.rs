@@ -35,8 +35,7 @@ fn a_sweep_has_a_row_a_run_and_each_is_that_of_run() {
     assert_eq!(ran.status, Some(0), "{ran:?}");
     says(&ran.stderr, &["4 settings, 8 runs, 4 s of simulated time"]);
     says(&ran.stdout, &["sweep.csv: 8 runs of 4 settings"]);
-    let text = place.text("sweep.csv");
-    let rows = cells(&text);
+    let rows = place.table("sweep.csv");
     assert_eq!(
         rows[0].join(","),
         "plant.obstacle_deg,classifier.threshold,seed,right,wrong,refused,error_rate,\
@@ -63,25 +62,24 @@ fn a_sweep_has_a_row_a_run_and_each_is_that_of_run() {
                 let found: f64 = row[7].parse().unwrap();
                 assert!((found - mean).abs() < 1e-6, "{found} {mean}");
                 assert_eq!(row[9], "0");
-                let tracking = tracking_rms_deg(&place.text("one/trace.csv"));
+                let tracking = tracking_rms_deg(&place.table("one/trace.csv"));
                 let found: f64 = row[10].parse().unwrap();
                 assert!((found - tracking).abs() < 2e-6, "{found} {tracking}");
             }
         }
     }
-    assert!(rows[1..].iter().any(|row| row[3] != rows[1][3]), "{text}");
+    assert!(rows[1..].iter().any(|row| row[3] != rows[1][3]), "{rows:?}");
 
     let piped = place.run(&format!("sweep s.toml {axes} --seeds 3..5 --quiet --out -"));
-    assert_eq!(piped.stdout, text);
+    assert_eq!(cells(&piped.stdout), rows);
     place.run("sweep s.toml --out own.csv");
-    let own = place.text("own.csv");
-    assert_eq!(cells(&own)[1][0], "1", "the scene's own seed");
+    let own = place.table("own.csv");
+    assert_eq!(own[1][0], "1", "the scene's own seed");
 }
 
 /// Of the left side, from the columns of a trace.
-fn tracking_rms_deg(trace: &str) -> f64 {
-    let rows = cells(trace);
-    let [theta, angle] = ["theta_left_deg", "angle_left_deg"].map(|name| numbers(&rows, name));
+fn tracking_rms_deg(rows: &[Vec<&str>]) -> f64 {
+    let [theta, angle] = ["theta_left_deg", "angle_left_deg"].map(|name| numbers(rows, name));
     let errors = theta.iter().zip(&angle).map(|(theta, angle)| angle - theta);
     let squares: f64 = errors.map(|error| error * error).sum();
     (squares / theta.len() as f64).sqrt()
@@ -90,31 +88,14 @@ fn tracking_rms_deg(trace: &str) -> f64 {
 #[test]
 fn sweeps_that_cannot_be() {
     let place = Place::with(&[("s.toml", IDEAL)]);
-    for (line, naming) in [
-        (
-            "--key rcp.gian=1,2",
-            &["--key rcp.gian=1: rcp.gian", "`gain`"][..],
-        ),
-        (
-            "--key rcp.gain=0.5,-1",
-            &["--key rcp.gain=-1: rcp.gain: found -1"],
-        ),
-        ("--key rcp.gain=1,,2", &["KEY=VALUE"]),
-        (
-            "--key rcp.gain=1 --key rcp.gain=2",
-            &["rcp.gain is given twice"],
-        ),
-        ("--key seed=1,2", &["seed has a column of its own"]),
-        (
-            "--key rcp.gain=0.5,0.6 --seeds 0..600000",
-            &["more than 1000000"],
-        ),
-        ("--seeds 5", &["--seeds", "A..B"]),
-    ] {
-        place.refuses_to_write(&format!("sweep s.toml {line}"), naming);
-    }
-    place.refuses_to_write(
-        "sweep none.toml --key rcp.gain=1",
-        &["none.toml: cannot be read"],
+    place.refuses_each(
+        "sweep s.toml --key rcp.gian=1,2 | --key rcp.gian=1: rcp.gian | `gain`
+         sweep s.toml --key rcp.gain=0.5,-1 | --key rcp.gain=-1: rcp.gain: found -1
+         sweep s.toml --key rcp.gain=1,,2 | KEY=VALUE
+         sweep s.toml --key rcp.gain=1 --key rcp.gain=2 | rcp.gain is given twice
+         sweep s.toml --key seed=1,2 | seed has a column of its own
+         sweep s.toml --key rcp.gain=0.5,0.6 --seeds 0..600000 | more than 1000000
+         sweep s.toml --seeds 5 | --seeds | A..B
+         sweep none.toml --key rcp.gain=1 | none.toml: cannot be read",
     );
 }
