@@ -34,12 +34,8 @@ impl Array {
     /// Of a scene in which nothing has been said.
     pub fn new(scene: &Scene) -> Self {
         let head = &scene.head;
-        let boards = head.nodes.map(usize::from);
-        Self::of(
-            [head.sides.count(), head.whiskers_per_side],
-            head.rows,
-            boards,
-        )
+        let whiskers = [head.sides.count(), head.whiskers_per_side];
+        Self::of(whiskers, head.rows, head.nodes.map(usize::from))
     }
 
     /// Of so many sides of so many whiskers in rows, on so many boards, on which nothing has been

@@ -19,7 +19,6 @@ pub trait Cells {
     }
 }
 
-/// A line of a table of comma-separated values.
 #[derive(Debug, Default)]
 pub(crate) struct Line(Vec<u8>);
 

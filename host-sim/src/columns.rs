@@ -28,12 +28,8 @@ pub(crate) fn table(columns: &[Column]) -> String {
     use std::fmt::Write as _;
 
     let mut table = "| column | unit | meaning |\n|---|---|---|\n".to_owned();
-    for Column {
-        name,
-        unit,
-        meaning,
-    } in columns
-    {
+    for column in columns {
+        let (name, unit, meaning) = (column.name, column.unit, column.meaning);
         // Writing to a string does not fail.
         let _ = writeln!(table, "| `{name}` | {unit} | {meaning} |");
     }

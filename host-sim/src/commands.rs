@@ -3,23 +3,23 @@
 mod ahead;
 pub mod choice;
 pub mod classify;
-pub mod columns;
-pub mod evaluate;
+mod columns;
+mod evaluate;
 pub mod main_job;
-pub mod press;
+mod press;
+pub mod program;
 pub mod record;
 pub mod run;
-pub mod score;
-pub mod sweep;
+mod score;
+mod sweep;
 pub mod train;
 
 use std::path::{Path, PathBuf};
 
+use scene::Scene;
+
 /// The names of two columns, A,B, as an option has them.
-///
-/// # Errors
-/// What is allowed instead.
-pub fn channels(text: &str) -> Result<[String; 2], String> {
+fn channels(text: &str) -> Result<[String; 2], String> {
     match text.split_once(',') {
         Some((a, b)) if !a.is_empty() && !b.is_empty() && !b.contains(',') => {
             Ok([a.to_owned(), b.to_owned()])
@@ -29,28 +29,26 @@ pub fn channels(text: &str) -> Result<[String; 2], String> {
 }
 
 /// Samples a second, as an option has them.
-///
-/// # Errors
-/// What is allowed instead.
-pub fn rate(text: &str) -> Result<u32, String> {
+fn rate(text: &str) -> Result<u32, String> {
     let rate = text.parse().ok().filter(|rate| *rate > 0);
     rate.ok_or_else(|| "allowed: a whole number above 0".to_owned())
 }
 
 /// The path of a picture, as an option has it.
-///
-/// # Errors
-/// What is allowed instead.
-pub fn picture(text: &str) -> Result<PathBuf, String> {
+fn picture(text: &str) -> Result<PathBuf, String> {
     ending(text, &["svg"])
 }
 
 /// The same of one that may be of pixels.
-///
-/// # Errors
-/// What is allowed instead.
-pub fn any_picture(text: &str) -> Result<PathBuf, String> {
+fn any_picture(text: &str) -> Result<PathBuf, String> {
     ending(text, &["svg", "png"])
+}
+
+/// The same scene with another seed.
+fn with_seed(scene: &Scene, seed: u64) -> Scene {
+    let mut scene = scene.clone();
+    scene.seed = seed;
+    scene
 }
 
 fn ending(text: &str, endings: &[&str]) -> Result<PathBuf, String> {

@@ -190,7 +190,6 @@ impl Decided {
 pub struct Columns {
     /// How many before those that all have.
     first: usize,
-    /// Whether poses are estimated.
     has_pose: bool,
 }
 
@@ -427,8 +426,8 @@ mod tests {
     use tactile::Estimate;
 
     use super::{
-        Columns, Decided, Decision, OF_SCENE, OF_SEVERAL, Place, Pose, Reason, Score, UNKNOWN,
-        Verdict, words, write,
+        Columns, Decided, Decision, OF_SEVERAL, Place, Pose, Reason, Score, UNKNOWN, Verdict,
+        words, write,
     };
 
     fn decided(label: &str, decision: &str, samples: u32) -> Decided {
@@ -490,46 +489,34 @@ mod tests {
             let decisions = [UNKNOWN, UNKNOWN, "ice"].map(|said| decided(label, said, 20));
             let score = Score::new(&["ice".to_owned()], &decisions);
             let strange = score.strange().map(|(_, right, all)| (right, all));
-            (
-                strange.collect::<Vec<_>>(),
-                score.hit_rate(),
-                score.refused(),
-            )
+            let strange: Vec<_> = strange.collect();
+            (strange, score.hit_rate(), score.refused())
         };
         assert_eq!(of(UNKNOWN), (vec![(2, 3)], Some(2.0 / 3.0), 0));
         assert_eq!(of(UNKNOWN), of("mud"));
     }
 
+    fn written(decisions: &[Decided], columns: Columns) -> String {
+        let mut table = Vec::new();
+        write(&mut table, decisions, columns).unwrap();
+        String::from_utf8(table).unwrap()
+    }
+
     #[test]
     fn names_with_commas_survive_the_file_and_a_scene_tells_the_time() {
         let decisions = [decided("sand, wet", "ice", 20)];
-        let of = |first| Columns {
-            first,
-            has_pose: false,
-        };
-        let written = |columns| {
-            let mut table = Vec::new();
-            write(&mut table, &decisions, columns).unwrap();
-            String::from_utf8(table).unwrap()
-        };
         assert_eq!(
-            written(Columns::of_recording(false)),
-            "label,trial,decision,samples,posterior,touch,reason,among\n\
-             \"sand, wet\",1,ice,20,0.995000000,3,,\n"
-        );
-        assert_eq!(
-            written(Columns::of_recording(true)),
+            written(&decisions, Columns::of_recording(true)),
             "label,trial,decision,samples,posterior,touch,reason,among,tilt_deg,tilt_error_deg,\
              depth_deg,depth_error_deg\n\
              \"sand, wet\",1,ice,20,0.995000000,3,,,-1.50,0.20,22.04,0.07\n"
         );
+        let of_several = Columns {
+            first: OF_SEVERAL,
+            has_pose: false,
+        };
         assert_eq!(
-            written(of(OF_SCENE)),
-            "label,trial,decision,samples,posterior,touch,t_s,reason,among\n\
-             \"sand, wet\",1,ice,20,0.995000000,3,0.250000000,,\n"
-        );
-        assert_eq!(
-            written(of(OF_SEVERAL)),
+            written(&decisions, of_several),
             "label,trial,decision,samples,posterior,touch,t_s,side,whisker,reason,among\n\
              \"sand, wet\",1,ice,20,0.995000000,3,0.250000000,right,1,,\n"
         );
@@ -547,16 +534,12 @@ mod tests {
             said.push(decided.words());
             rows.push(decided);
         }
-        let expected = [
-            "loam",
-            "unknown",
-            "outside the poses of training",
-            "between loam and sand, wet",
-        ];
-        assert_eq!(said, expected);
-        let mut table = Vec::new();
-        write(&mut table, &rows, Columns::of_recording(false)).unwrap();
-        let table = String::from_utf8(table).unwrap();
+        let outside = "outside the poses of training";
+        assert_eq!(
+            said,
+            ["loam", "unknown", outside, "between loam and sand, wet"]
+        );
+        let table = written(&rows, Columns::of_recording(false));
         let mut cells = table.lines().skip(1).map(|row| {
             let [decision, why] = [2, 6].map(|n| row.splitn(n + 1, ',').last().unwrap());
             let decision = decision.split(',').next().unwrap();

@@ -22,14 +22,13 @@ pub struct Doubt {
 /// What is odd about recordings, each with its name, whose channels are called so.
 pub fn doubts(recordings: &[(String, Vec<Stream>)], channels: [&str; 2]) -> Vec<Doubt> {
     let mut found = outliers::doubts(recordings, channels);
-    let each = recordings.iter().enumerate();
-    found.extend(each.filter_map(|(recording, (_, streams))| {
-        in_pieces(streams).map(|(sample, said)| Doubt {
+    for (recording, (_, streams)) in recordings.iter().enumerate() {
+        found.extend(in_pieces(streams).map(|(sample, said)| Doubt {
             recording,
             sample,
             said,
-        })
-    }));
+        }));
+    }
     found.extend(equal::doubts(recordings));
     found
 }

@@ -195,19 +195,10 @@ pub fn presentations(
     streams.iter().map(presentation).collect()
 }
 
-/// What lies outside of a model's range.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Outside {
-    /// Its share of the samples that count.
-    pub share: f64,
-    /// The first such sample, counted from 0 over all streams, its channel, and the model's
-    /// channel, which may be of its whisker.
-    pub first: Option<(usize, [usize; 2])>,
-}
-
-/// Of the samples that count those that lie outside of the model's range in one of the
-/// channels.
-pub fn outside(model: &ModelBuf, streams: &[Stream]) -> Outside {
+/// Of the samples that count the share that lies outside of the model's range in one of the
+/// channels. And the first of them, counted from 0 over all streams, its channel, and the model's
+/// channel, which may be of its whisker.
+pub fn outside(model: &ModelBuf, streams: &[Stream]) -> (f64, Option<(usize, [usize; 2])>) {
     let gate = model.touch_rule().map_or(GATE, |touch| touch.gate.into());
     // Two channels of all whiskers, or two of each.
     let has_own = model.channels() > 2;
@@ -228,10 +219,7 @@ pub fn outside(model: &ModelBuf, streams: &[Stream]) -> Outside {
         count += u64::from(channel.is_some());
         all += 1;
     }
-    Outside {
-        share: count as f64 / all.max(1) as f64,
-        first,
-    }
+    (count as f64 / all.max(1) as f64, first)
 }
 
 /// Thresholds among which one is suggested, rising.
@@ -241,7 +229,7 @@ pub const THRESHOLDS: [f64; 19] = [
 ];
 
 /// What a threshold gives.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug)]
 pub struct Candidate {
     /// The threshold.
     pub threshold: f64,
@@ -296,7 +284,7 @@ pub fn scan(
 }
 
 /// A threshold that is wanted.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy)]
 pub enum Suggestion<'s> {
     /// Its figures are as wanted, and so are the ends of their 95 % intervals.
     Backed(&'s Candidate),

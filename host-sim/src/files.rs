@@ -23,17 +23,14 @@ pub fn read_recording(path: &Path, channels: [&str; 2]) -> Result<Vec<Stream>, E
 }
 
 /// The same with what stands above its table.
-///
-/// # Errors
-/// As [`read_recording`].
-pub fn whole_recording(path: &Path, channels: [&str; 2]) -> Result<Recording, Error> {
+pub(crate) fn whole_recording(path: &Path, channels: [&str; 2]) -> Result<Recording, Error> {
     let bytes = file::read_piped(path, file::TABLE_BYTES);
     let bytes = bytes.map_err(|error| Error::file(path, error))?;
     recording::read_whole(bytes.as_slice(), channels).map_err(|fault| Error::file(path, fault))
 }
 
 /// What stands above the table in a file of the samples a second.
-pub fn rate_of(path: &Path, recording: &Recording) -> Said {
+pub(crate) fn rate_of(path: &Path, recording: &Recording) -> Said {
     let who = format!("{}: {TICK_HZ}", path.display());
     (who, recording.tick_hz)
 }
@@ -54,10 +51,7 @@ pub fn write_recording(output: Output, streams: &[Stream], tick_hz: u32) -> Resu
 }
 
 /// Writes `decisions.csv`, and finishes.
-///
-/// # Errors
-/// As [`Output::finish`].
-pub fn write_decisions(
+pub(crate) fn write_decisions(
     output: Output,
     decisions: &[Decided],
     columns: Columns,
@@ -67,7 +61,6 @@ pub fn write_decisions(
     })
 }
 
-/// Fills a file and finishes it.
 pub(crate) fn write(
     mut output: Output,
     fill: impl FnOnce(&mut Output) -> io::Result<()>,

@@ -6,10 +6,8 @@ use std::path::{Path, PathBuf};
 use scene::file;
 use tactile::ModelBuf;
 
-use crate::classifier;
-use crate::doubts;
-use crate::evaluation;
 use crate::recording::{self, Stream};
+use crate::{classifier, doubts, evaluation};
 
 /// Share of samples that may lie outside of a model's range; of the training itself it is
 /// below 1 %.
@@ -25,8 +23,8 @@ pub fn misfits(
     streams: &[Stream],
 ) -> Vec<String> {
     let mut found = Vec::new();
-    let outside = evaluation::outside(model, streams);
-    if let Some((sample, [channel, of_model])) = outside.first.filter(|_| outside.share > OUTSIDE) {
+    let (outside, first) = evaluation::outside(model, streams);
+    if let Some((sample, [channel, of_model])) = first.filter(|_| outside > OUTSIDE) {
         let mut samples = streams.iter().flat_map(|stream| &stream.samples);
         let value = samples.nth(sample).and_then(|values| values.get(channel));
         let (low, high) = model.quantiser(of_model).map_or((0.0, 0.0), |quantiser| {
@@ -40,7 +38,7 @@ pub fn misfits(
              motion?",
             channels.get(channel).unwrap_or(&""),
             value.unwrap_or(&f64::NAN),
-            100.0 * outside.share
+            100.0 * outside
         );
         found.push((sample, "warning", said));
     }
@@ -61,7 +59,7 @@ pub fn misfits(
 }
 
 /// What is odd about recordings, a line each; `paths` have them.
-pub fn oddities(
+pub(crate) fn oddities(
     paths: &[PathBuf],
     channels: [&str; 2],
     recordings: &[(String, Vec<Stream>)],

@@ -38,9 +38,8 @@ impl Output {
     /// Opens a file for `path`, and creates its folder if necessary.
     ///
     /// # Errors
-    /// [`Error::Input`] if `path` cannot name a file: see [`check`]; or if one of its parents
-    /// is a file. [`Error::Write`] if the folder or the file cannot be created for another
-    /// reason.
+    /// [`Error::Input`] if `path` cannot name a file: see [`check`]; or if one of its parents is a
+    /// file. [`Error::Write`] if the folder or the file cannot be created for another reason.
     pub fn create(path: &Path) -> Result<Self, Error> {
         use io::ErrorKind::{AlreadyExists, InvalidFilename, NotADirectory};
         let wrong = |source: io::Error| match source.kind() {
@@ -178,10 +177,7 @@ pub fn check_or_stdout(path: &Path) -> Result<(), Error> {
 }
 
 /// Whether `path` is none of `others`, which the same command reads or writes.
-///
-/// # Errors
-/// [`Error::Input`] where it is one.
-pub fn check_apart<'p>(
+pub(crate) fn check_apart<'p>(
     path: &Path,
     others: impl IntoIterator<Item = &'p Path>,
 ) -> Result<(), Error> {

@@ -25,7 +25,7 @@ use crate::run::Run;
 use crate::trace::Row;
 
 /// How much of a run a picture shows, s.
-pub const PLOTTED_S: f64 = 10.0;
+const PLOTTED_S: f64 = 10.0;
 
 /// What a picture needs of a run, tick by tick.
 #[derive(Debug, Default)]
@@ -77,28 +77,22 @@ pub fn title(what: &str, duration_s: f64) -> String {
     }
 }
 
-/// A class that was presented for a while, s.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Presented {
-    /// When it began and ended.
-    pub span_s: (f64, f64),
-    /// Its name.
-    pub label: String,
+/// A class that was presented, and when that began and ended, s.
+#[derive(Debug)]
+struct Presented {
+    span_s: (f64, f64),
+    label: String,
 }
 
 /// What the picture shows.
 #[derive(Debug)]
 pub struct Picture<'a> {
-    /// Its title.
-    pub title: &'a str,
-    /// The ticks it shows.
-    pub rows: &'a [Row],
+    title: &'a str,
+    rows: &'a [Row],
     /// Names of the classes, from below.
-    pub classes: &'a [String],
-    /// The classes that were presented.
-    pub presented: &'a [Presented],
-    /// The decisions.
-    pub decided: &'a [Decided],
+    classes: &'a [String],
+    presented: &'a [Presented],
+    decided: &'a [Decided],
 }
 
 type Fault = Box<dyn std::error::Error>;
@@ -119,7 +113,6 @@ fn svg_of(
     Ok(svg)
 }
 
-/// The same as a PNG file.
 fn png_of(
     size: (u32, u32),
     draw: impl FnOnce(&DrawingArea<&mut Pixels, Shift>) -> Result<(), Fault>,

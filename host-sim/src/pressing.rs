@@ -193,15 +193,10 @@ impl Pressing {
     /// A row's numbers, in the order of [`COLUMNS`].
     pub fn cells(push_deg: f64, pressed: &Pressed) -> [f64; 7] {
         let [moment_x, moment_y] = pressed.moment_n_m;
-        let Pressed {
-            normal_n,
-            friction_n,
-            contact_m,
-            place_m,
-            ..
-        } = *pressed;
+        let [normal, friction] = [pressed.normal_n, pressed.friction_n];
+        let [contact, place] = [pressed.contact_m, pressed.place_m];
         [
-            push_deg, moment_x, moment_y, normal_n, friction_n, contact_m, place_m,
+            push_deg, moment_x, moment_y, normal, friction, contact, place,
         ]
     }
 
@@ -215,11 +210,12 @@ impl Pressing {
         write(table, &COLUMNS, rows)
     }
 
-    /// Writes the shapes.
-    ///
-    /// # Errors
-    /// Any error of the writer.
-    pub fn write_shapes(&self, table: impl io::Write, pressed: &[Pressed]) -> io::Result<()> {
+    #[cfg(feature = "cli")]
+    pub(crate) fn write_shapes(
+        &self,
+        table: impl io::Write,
+        pressed: &[Pressed],
+    ) -> io::Result<()> {
         let each = self.push_deg.iter().zip(pressed);
         let points = each.flat_map(|(push, pressed)| {
             let points = pressed.points_m.iter();

@@ -90,9 +90,8 @@ impl Drop for Progress {
     }
 }
 
-/// Progress of runs on all cores.
 #[derive(Debug)]
-pub struct SharedProgress {
+pub(crate) struct SharedProgress {
     bar: Mutex<Progress>,
     done: AtomicU64,
 }
@@ -101,8 +100,7 @@ impl SharedProgress {
     /// Steps that a run counts before it reports them.
     const REPORTED: u64 = 1024;
 
-    /// Work of `total` steps in all runs together.
-    pub fn new(verbosity: Verbosity, message: &'static str, total: u64) -> Self {
+    pub(crate) fn new(verbosity: Verbosity, message: &'static str, total: u64) -> Self {
         Self {
             bar: Mutex::new(Progress::new(verbosity, message, total)),
             done: AtomicU64::new(0),
@@ -110,7 +108,7 @@ impl SharedProgress {
     }
 
     /// Of one run what is to be called after each step.
-    pub fn counter(&self) -> impl FnMut() + '_ {
+    pub(crate) fn counter(&self) -> impl FnMut() + '_ {
         let mut steps = 0;
         move || {
             steps += 1;

@@ -83,11 +83,10 @@ mod tests {
         ];
         // Whatever comes in one go.
         let mut receiver = Receiver::default();
-        let received: Vec<_> = bytes
-            .concat()
-            .chunks(3)
-            .flat_map(|chunk| receiver.take(chunk))
-            .collect();
+        let mut received = Vec::new();
+        for chunk in bytes.concat().chunks(3) {
+            received.extend(receiver.take(chunk));
+        }
         let expected = [
             Received::Line("0.003 touch right 3".into()),
             Received::Packet(record),
@@ -96,9 +95,7 @@ mod tests {
             Received::Line("ok \u{fffd}[2Jstop".into()),
         ];
         assert_eq!(received, expected);
-        assert_eq!(
-            Receiver::default().packets(&bytes.concat()),
-            [record, touch]
-        );
+        let packets = Receiver::default().packets(&bytes.concat());
+        assert_eq!(packets, [record, touch]);
     }
 }

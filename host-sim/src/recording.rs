@@ -1,9 +1,8 @@
 //! A recording: `label,trial,x,y,contact,touch,pose` rows; rows of one label, trial and pose that
-//! follow each other are one stream in time order. A sample counts while contact is at
-//! least the model's gate; without the column each does. The number of the touch, 0 in
-//! the air, is what the module itself said: a whisker that bends by its own inertia has
-//! contact in the air. `pose` is there only of scenes whose poses differ. Lines that begin
-//! with `# ` may stand above the table.
+//! follow each other are one stream in time order. A sample counts while contact is at least the
+//! model's gate; without the column each does. The number of the touch, 0 in the air, is what the
+//! module itself said: a whisker that bends by its own inertia has contact in the air. `pose` is
+//! there only of scenes whose poses differ. Lines that begin with `# ` may stand above the table.
 
 pub mod touches;
 
@@ -126,9 +125,8 @@ impl Stream {
     }
 }
 
-/// Collects the samples that the classifier of a run gets, in the air too, tick by
-/// tick, one stream for each presentation and whisker that is heard. The run needs no
-/// classifier for it.
+/// Collects the samples that the classifier of a run gets, in the air too, tick by tick, one stream
+/// for each presentation and whisker that is heard. The run needs no classifier for it.
 #[derive(Debug, Default)]
 pub struct Recorder {
     /// Of each whisker.
@@ -329,20 +327,9 @@ pub fn write_from(mut table: impl Write, origin: &Origin, streams: &[Stream]) ->
 pub(crate) fn lines(table: &[u8]) -> Vec<u64> {
     let (_, above, table) = origin::split(table);
     let mut reader = csv::Reader::from_reader(table);
-    let (mut line, mut last) = (1 + above, 0);
     let records = reader.byte_records().map_while(Result::ok);
-    let of = |record: csv::ByteRecord| {
-        let begin = record.position().map_or(0, csv::Position::byte) as usize;
-        // Blank lines before a row belong to it.
-        let blank = table.iter().skip(begin);
-        let blank = blank.take_while(|byte| matches!(byte, b'\r' | b'\n'));
-        let begin = begin + blank.count();
-        let passed = table.get(last..begin).unwrap_or_default();
-        line += passed.split(|byte| *byte == b'\n').skip(1).count() as u64;
-        last = begin;
-        line
-    };
-    records.map(of).collect()
+    let line = |record: csv::ByteRecord| line_of(table, above, record.position());
+    records.map(line).collect()
 }
 
 /// The line of a row of `table`, which `above` lines stand above. What is between two rows, as the
@@ -538,17 +525,12 @@ mod tests {
     fn rows_that_follow_each_other_are_a_stream() {
         let text = "y,extra,label,x,trial\n1,a,ice,2,1\n3,b,ice,4,1\n5,c,ice,6,2\n7,d,ice,8,1\n";
         let streams = parse(text.as_bytes()).unwrap();
-        let shapes: Vec<_> = streams
-            .iter()
-            .map(|s| (s.trial.as_str(), s.samples.clone()))
-            .collect();
+        let trials = streams.iter().map(|stream| stream.trial.as_str());
+        assert!(trials.eq(["1", "2", "1"]));
+        assert_eq!(streams[0].samples, [[2.0, 1.0], [4.0, 3.0]]);
         assert_eq!(
-            shapes,
-            [
-                ("1", vec![[2.0, 1.0], [4.0, 3.0]]),
-                ("2", vec![[6.0, 5.0]]),
-                ("1", vec![[8.0, 7.0]]),
-            ]
+            [&streams[1].samples[0], &streams[2].samples[0]],
+            [&[6.0, 5.0], &[8.0, 7.0]]
         );
     }
 
@@ -557,34 +539,22 @@ mod tests {
     fn faults_name_their_line() {
         let many: Vec<_> = (0..2000).map(|n| format!("l{n},1,2,3\n")).collect();
         let many = format!("label,trial,x,y\n{}", many.concat());
-        for (table, says) in [
-            ("label,trial,x,x,y\na,1,2,2,2\n", "line 1: two columns"),
-            (
-                "label,trial,x,y\na,1,2,3\na,1,1e999,3\n",
-                "line 3: x is \"1e999\"",
-            ),
-            (
-                "label,trial,x,y,contact\na,1,2,3,1e39\n",
-                "line 2: contact is \"1e39\", beyond single precision",
-            ),
-            (
-                "# a\nlabel,trial,x,y\na,1,2,3\n<NA>,1,2,3\n",
-                "line 4: the label is missing: \"<NA>\"",
-            ),
-            (
-                "# a remark\nlabel,trial,x,y\na,1,2,3\n\na,1\n",
-                "line 5: 2 cells",
-            ),
-            (&many, "line 1002: label \"l1000\" is one of more than 1000"),
-            (
-                "label,trial,x,y,pose\na,1,2,3,\u{202e}b\n",
-                r#"line 2: pose "\u{202e}b" has the character '\u{202e}'"#,
-            ),
-        ] {
+        let fails = |table: &str, says: &str| {
+            let table = table.replace("HEADER", "label,trial,x,y");
             for end in ["\n", "\r\n"] {
                 let fault = parse(table.replace('\n', end).as_bytes()).unwrap_err();
                 assert!(fault.starts_with(says), "{fault}");
             }
-        }
+        };
+        fails("label,trial,x,x,y\na,1,2,2,2\n", "line 1: two columns");
+        fails("HEADER\na,1,2,3\na,1,1e999,3\n", "line 3: x is \"1e999\"");
+        let beyond = "line 2: contact is \"1e39\", beyond single precision";
+        fails("HEADER,contact\na,1,2,3,1e39\n", beyond);
+        let missing = "line 4: the label is missing: \"<NA>\"";
+        fails("# a\nHEADER\na,1,2,3\n<NA>,1,2,3\n", missing);
+        fails("# a\nHEADER\na,1,2,3\n\na,1\n", "line 5: 2 cells");
+        fails(&many, "line 1002: label \"l1000\" is one of more than 1000");
+        let hidden = r#"line 2: pose "\u{202e}b" has the character '\u{202e}'"#;
+        fails("HEADER,pose\na,1,2,3,\u{202e}b\n", hidden);
     }
 }

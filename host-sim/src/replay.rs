@@ -22,8 +22,7 @@ pub struct Replay {
     touch: u16,
 }
 
-/// Samples without contact that end a touch where the model does not say: 100 ms at
-/// 2 kHz.
+/// Samples without contact that end a touch where the model does not say: 100 ms at 2 kHz.
 const GAP: u32 = 200;
 
 impl Replay {
@@ -131,18 +130,11 @@ mod tests {
         let mut replay = Replay::new(model, Rule::Sequential { threshold: 0.99 }).unwrap();
         for stream in &streams {
             let decided = replay.stream(stream).unwrap();
-            assert!(!decided.is_empty());
-            assert!(
-                decided.iter().all(Decided::is_right),
-                "{} {}",
-                stream.label,
-                stream.trial
-            );
+            let are_right = decided.iter().all(Decided::is_right);
+            assert!(are_right && !decided.is_empty(), "{decided:?}");
         }
         let third = replay.stream(&stream("a", 3, 0.0)).unwrap_err();
-        assert_eq!(
-            third.to_string(),
-            "trial 1 whisker 3: whisker 3; the model has tables of 2"
-        );
+        let expected = "trial 1 whisker 3: whisker 3; the model has tables of 2";
+        assert_eq!(third.to_string(), expected);
     }
 }

@@ -6,7 +6,7 @@ mod runs;
 mod training;
 mod warnings;
 
-use std::fmt::{self, Display};
+use std::fmt::Display;
 use std::io::{self, Write};
 use std::process::ExitCode;
 
@@ -19,10 +19,11 @@ use crate::Error;
 use crate::decisions::{self, Decided, Score, UNKNOWN};
 use crate::output::remove_on_interrupt;
 use evaluation::over;
-pub use evaluation::{Doubts, Figures, Thresholds};
-pub use poses::{of_model, second_opinion};
-pub use runs::{OverRuns, seed_range};
-pub use training::TrainingReport;
+pub(crate) use evaluation::{doubts, figures, thresholds};
+pub use poses::of_model;
+pub(crate) use poses::second_opinion;
+pub(crate) use runs::{over_runs, seed_range};
+pub(crate) use training::training;
 
 /// A line on standard output. A closed pipe does not stop the work: what
 /// counts is in the files. What is not to be seen, as of a file's name, is shown escaped, so that
@@ -115,121 +116,99 @@ fn said_by(
 }
 
 /// Reports faults and recoveries on standard error; for decisions see [`decision`].
-pub fn limits_and_faults(t_s: f64, event: &Event) {
-    if let Event::Node(_, NodeEvent::Left | NodeEvent::Lost(_) | NodeEvent::Twin) = event
-        && let Some((_, said)) = said(event, &[])
-    {
-        warn(format_args!("{t_s:.4} s: {said}"));
-    }
-    let (Event::SensorLost(place, _)
-    | Event::Frame(place, _)
-    | Event::ZeroMoved(place, _)
-    | Event::SensorBack(place)
-    | Event::MotorFault(place, _)
-    | Event::MotorGivenUp(place)
-    | Event::MotorRetry(place)) = event
-    else {
-        return;
+pub(crate) fn limits_and_faults(t_s: f64, event: &Event) {
+    let whose = match event {
+        Event::Node(_, NodeEvent::Left | NodeEvent::Lost(_) | NodeEvent::Twin) => String::new(),
+        Event::SensorLost(place, _)
+        | Event::Frame(place, _)
+        | Event::ZeroMoved(place, _)
+        | Event::SensorBack(place)
+        | Event::MotorFault(place, _)
+        | Event::MotorGivenUp(place)
+        | Event::MotorRetry(place) => format!("{place}: "),
+        _ => return,
     };
     if let Some((_, said)) = said(event, &[]) {
-        warn(format_args!("{t_s:.4} s: {place}: {said}"));
+        warn(format_args!("{t_s:.4} s: {whose}{said}"));
     }
 }
 
 /// Reports a decision of a model of these classes on standard output.
 pub fn decision(decided: &Decided, classes: &[String]) {
-    let Decided {
-        t_s,
-        label,
-        samples,
-        posterior,
-        ..
-    } = decided;
-    let (t_s, verdict) = (t_s.unwrap_or_default(), decided.verdict(classes));
+    let (t_s, verdict) = (decided.t_s.unwrap_or_default(), decided.verdict(classes));
     // Of what is none of the classes the posterior says only which came nearest.
     let sure = match decided.reason {
         Some(_) => String::new(),
-        None => format!("{:.2} %", 100.0 * posterior),
+        None => format!("{:.2} %", 100.0 * decided.posterior),
     };
-    let said = decided.words();
+    let (said, label, samples) = (decided.words(), &decided.label, decided.samples);
     let stands = decided
         .pose
-        .map_or_else(String::new, |pose| format!("  {}", decisions::stands(pose)));
+        .map(|pose| format!("  {}", decisions::stands(pose)));
+    let stands = stands.unwrap_or_default();
     say(format_args!(
         "{t_s:8.3} s  {said:<8} {sure:>8}  {samples:5} samples  {verdict} ({label}){stands}"
     ));
 }
 
-/// A score for people: confusion matrix, hit rate, decision time in samples and, at so
-/// many ticks a second, in milliseconds.
-#[derive(Debug)]
-pub struct Summary<'a>(pub &'a Score, pub Option<u32>);
-
-impl fmt::Display for Summary<'_> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self(score, tick_hz) = self;
-        let (Some(hits), Some(samples), Some(stated)) =
-            (score.hit_rate(), score.mean_samples(), score.stated())
-        else {
-            return match score.refused() {
-                0 => write!(f, "no decision"),
-                refused => write!(f, "{score}no decision but {refused} \"{UNKNOWN}\""),
-            };
+/// A score for people: confusion matrix, hit rate, decision time in samples and, at so many ticks a
+/// second, in milliseconds.
+pub(crate) fn summary(score: &Score, tick_hz: Option<u32>) -> String {
+    let refused = score.refused();
+    let (Some(hits), Some(samples), Some(stated)) =
+        (score.hit_rate(), score.mean_samples(), score.stated())
+    else {
+        return match refused {
+            0 => "no decision".to_owned(),
+            refused => format!("{score}no decision but {refused} \"{UNKNOWN}\""),
         };
-        let [hits, stated] = [hits, stated].map(|share| 100.0 * share);
-        let decisions = score.decisions();
-        // They count as classes do.
-        let strange = match score.strange().filter(|(.., all)| *all > 0).count() {
-            0 => "",
-            _ => " and what is none",
-        };
-        write!(
-            f,
-            "{score}{decisions} decisions, hit rate {hits:.1} % (mean over {}{strange}), mean ",
-            over(&score.left_out())
-        )?;
-        match tick_hz {
-            Some(tick_hz) => {
-                let ms = samples * 1000.0 / f64::from(*tick_hz);
-                write!(
-                    f,
-                    "decision time {samples:.0} samples ({ms:.0} ms of contact)\n\
-                     the classifier itself stated {stated:.1} % in the mean"
-                )?;
-            }
-            None => write!(f, "{samples:.0} samples")?,
-        }
-        for (name, right, all) in score.strange() {
-            write!(
-                f,
-                "\n{name} is none of the model's classes: \"{UNKNOWN}\" is right, and was \
-                 decided {right} times of {all}"
-            )?;
-        }
-        match score.refused() {
-            0 => Ok(()),
-            refused => write!(
-                f,
-                "\n{refused} more said \"{UNKNOWN}\" of what the model knows: refused, neither \
-                 right nor wrong"
-            ),
-        }?;
-        let reasons = score.reasons().apart();
-        let each: Vec<String> = reasons
-            .map(|(reason, count)| format!("{count} {reason}"))
-            .collect();
-        if each.is_empty() {
-            return Ok(());
-        }
-        write!(f, "\nfor no class: {}", each.join(", "))
+    };
+    let [hits, stated] = [hits, stated].map(|share| 100.0 * share);
+    // They count as classes do.
+    let strange = match score.strange().filter(|(.., all)| *all > 0).count() {
+        0 => "",
+        _ => " and what is none",
+    };
+    let mut said = vec![format!(
+        "{score}{} decisions, hit rate {hits:.1} % (mean over {}{strange}), mean ",
+        score.decisions(),
+        over(&score.left_out())
+    )];
+    said.push(match tick_hz {
+        Some(tick_hz) => format!(
+            "decision time {samples:.0} samples ({:.0} ms of contact)\n\
+             the classifier itself stated {stated:.1} % in the mean",
+            samples * 1000.0 / f64::from(tick_hz)
+        ),
+        None => format!("{samples:.0} samples"),
+    });
+    for (name, right, all) in score.strange() {
+        said.push(format!(
+            "\n{name} is none of the model's classes: \"{UNKNOWN}\" is right, and was decided \
+             {right} times of {all}"
+        ));
     }
+    if refused > 0 {
+        said.push(format!(
+            "\n{refused} more said \"{UNKNOWN}\" of what the model knows: refused, neither right \
+             nor wrong"
+        ));
+    }
+    let reasons = score.reasons().apart();
+    let each: Vec<String> = reasons
+        .map(|(reason, count)| format!("{count} {reason}"))
+        .collect();
+    if !each.is_empty() {
+        said.push(format!("\nfor no class: {}", each.join(", ")));
+    }
+    said.concat()
 }
 
 #[cfg(test)]
 mod tests {
     use tactile::Decision;
 
-    use super::{Figures, OverRuns, Summary};
+    use super::{figures, over_runs, summary};
     use crate::decisions::{Decided, Score};
     use crate::evaluation::{Evaluation, Shown};
 
@@ -246,16 +225,11 @@ mod tests {
                 decided: decided.collect(),
             }];
             let evaluation = Evaluation::new(&classes, &shown);
-            let runs = OverRuns {
-                runs: &[],
-                together: &evaluation,
-                tick_hz: 2000.0,
-            };
             let score = Score::new(&classes, &shown[0].decided);
             [
-                Figures(&evaluation, 2000.0).to_string(),
-                runs.to_string(),
-                Summary(&score, None).to_string(),
+                figures(&evaluation, 2000.0),
+                over_runs(&[], &evaluation, 2000.0),
+                summary(&score, None),
             ]
         };
         // Five for a class, two unknown, one outside the poses, two between two classes.

@@ -5,12 +5,11 @@ use firmware::{Place, Sample, SampleClassifier};
 use scene::{Deciding, Scene};
 use tactile::score::Statistics;
 
-use crate::Error;
-use crate::bench;
 use crate::classifier::Classifier;
 use crate::decisions::{Decided, UNKNOWN};
 use crate::evaluation::{Evaluation, Shown};
 use crate::run::Run;
+use crate::{Error, bench};
 
 /// A scored run.
 #[derive(Debug, Clone, PartialEq)]

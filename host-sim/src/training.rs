@@ -18,8 +18,7 @@ pub struct How {
     /// Bins over each channel's range [default: 24; of single tables 100]
     #[cfg_attr(feature = "cli", arg(long))]
     pub bins: Option<usize>,
-    /// Standard deviation of the smoothing, in bins; 0: none [default: 0.7; of single
-    /// tables 5]
+    /// Standard deviation of the smoothing, in bins; 0: none [default: 0.7; of single tables 5]
     #[cfg_attr(feature = "cli", arg(long))]
     pub smooth: Option<f64>,
     /// Samples of a block, after each of which a decision may fall [default: 40; of single

@@ -30,9 +30,7 @@ impl From<PathBuf> for SceneChoice {
 /// # Errors
 /// What is allowed instead.
 pub fn seed(text: &str) -> Result<u64, String> {
-    let seed = text
-        .parse()
-        .ok()
-        .filter(|seed| i64::try_from(*seed).is_ok());
+    let seed: Option<u64> = text.parse().ok();
+    let seed = seed.filter(|seed| i64::try_from(*seed).is_ok());
     seed.ok_or_else(|| format!("allowed: a whole number from 0 to {}", i64::MAX))
 }

@@ -4,17 +4,14 @@ use std::path::Path;
 
 use scene::Rule;
 
-use crate::Error;
 use crate::classifier::Fault;
 use crate::decisions::{Columns, Decided, Score};
-use crate::files;
 use crate::misfit::{misfits, oddities};
 use crate::output::{Output, check_apart, check_or_stdout};
 use crate::progress::{Progress, Verbosity};
-use crate::rate;
 use crate::recording::Stream;
 use crate::replay::Replay;
-use crate::report::Summary;
+use crate::{Error, files, rate, report};
 
 /// Streams the columns `channels` of the recording `data` through the classifier of `model` and writes
 /// its decisions to `out`, `-` being standard output. Returns their score.
@@ -63,7 +60,7 @@ pub fn classify(
     let columns = Columns::of_recording(has_pose);
     files::write_decisions(Output::create_or_stdout(out)?, &decided, columns)?;
     let score = Score::new(replay.classes(), &decided);
-    let mut lines = vec![Summary(&score, None).to_string()];
+    let mut lines = vec![report::summary(&score, None)];
     lines.extend(undecided(replay.classes(), &streams, &decided));
     lines.extend(misfits);
     lines.extend(assumed);

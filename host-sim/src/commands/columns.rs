@@ -8,7 +8,7 @@ use crate::trace::{FIRST, OF_ELASTIC, OF_RIGHT, OF_WHISKER, SECOND};
 use crate::{decisions, pressing, recording};
 
 /// The columns of every file, in Markdown: from the lists that the headers are written from.
-pub fn page() -> String {
+pub(super) fn page() -> String {
     let trace = [&FIRST[..], &OF_RIGHT, &SECOND].concat();
     let of_sweep: [Column; 1] = columns! {
         "seed", "", "seed of the run; before it a column for each `--key`, under the key's name";

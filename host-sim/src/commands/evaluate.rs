@@ -6,20 +6,16 @@ use clap::Args;
 use tactile::ModelBuf;
 
 use super::{channels, picture, rate as rate_option};
-use crate::Error;
 use crate::classifier::{self, Fault};
 use crate::evaluation::{self, Evaluation, Suggestion, THRESHOLDS};
-use crate::files;
 use crate::misfit::{misfits, oddities};
 use crate::output::{self, write_whole};
-use crate::plot;
 use crate::progress::{Progress, Verbosity};
 use crate::rate::{self, Said};
-use crate::report::{self, Doubts, Figures, Thresholds};
+use crate::{Error, files, plot, report};
 
-/// What to evaluate.
 #[derive(Debug, Args)]
-pub struct Arguments {
+pub(super) struct Arguments {
     /// The model
     #[arg(long)]
     model: PathBuf,
@@ -50,30 +46,20 @@ pub struct Arguments {
 }
 
 /// The figures of a model on a recording, and the thresholds that were asked for.
-///
-/// # Errors
-/// [`Error::Input`] for a model, recording or option that is wrong.
-pub fn evaluate(arguments: &Arguments, verbosity: Verbosity) -> Result<String, Error> {
-    let Arguments {
-        data,
-        channels,
-        threshold,
-        error_rate,
-        time,
-        rate,
-        plot,
-        ..
-    } = arguments;
-    wanted("--error-rate", *error_rate, 1.0)?;
-    wanted("--time", *time, 1e6)?;
+pub(super) fn evaluate(asked: &Arguments, verbosity: Verbosity) -> Result<String, Error> {
+    let Arguments { data, plot, .. } = asked;
+    let threshold = asked.threshold;
+    wanted("--error-rate", asked.error_rate, 1.0)?;
+    wanted("--time", asked.time, 1e6)?;
     if let Some(plot) = plot.as_deref() {
         output::check(plot)?;
-        output::check_apart(plot, [arguments.model.as_path(), data])?;
+        output::check_apart(plot, [asked.model.as_path(), data])?;
     }
-    let (path, model) = files::load_model(&arguments.model)?;
-    let channels = channels.each_ref().map(String::as_str);
+    let (path, model) = files::load_model(&asked.model)?;
+    let channels = asked.channels.each_ref().map(String::as_str);
     let recording = files::whole_recording(data, channels)?;
-    let (tick_hz, otherwise) = rate_hz(*rate, &path, &model, files::rate_of(data, &recording))?;
+    let (tick_hz, otherwise) =
+        rate_hz(asked.rate, &path, &model, files::rate_of(data, &recording))?;
     let named = [(data.display().to_string(), recording.streams)];
     let odd = oddities(std::slice::from_ref(data), channels, &named);
     let [(_, streams)] = named;
@@ -81,7 +67,7 @@ pub fn evaluate(arguments: &Arguments, verbosity: Verbosity) -> Result<String, E
         Fault::Model(fault) => Error::file(&path, fault),
         Fault::Rule(fault) => Error::Input(format!("--threshold {threshold}: {fault}")),
     };
-    let presented = evaluation::presentations(&model, *threshold, &streams).map_err(wrong)?;
+    let presented = evaluation::presentations(&model, threshold, &streams).map_err(wrong)?;
     let classes = classifier::names(&model);
     let evaluation = Evaluation::new(&classes, &presented);
     if let Some(plot) = plot {
@@ -90,33 +76,29 @@ pub fn evaluate(arguments: &Arguments, verbosity: Verbosity) -> Result<String, E
         let svg = plot::calibration(&data.display().to_string(), &points)?;
         write_whole(plot, svg.as_bytes())?;
     }
-    let doubts = Doubts {
-        classes: &classes,
-        evaluation: &evaluation,
-        misfits: [misfits(data, channels, &model, &streams), odd].concat(),
-    };
-    let figures = Figures(&evaluation, tick_hz);
+    let misfits = [misfits(data, channels, &model, &streams), odd].concat();
+    let figures = report::figures(&evaluation, tick_hz);
     let mut sections = vec![format!(
         "{figures}\n{}",
         report::of_model(&model, &evaluation)
     )];
     if let Some(same) = model.without_opinion() {
-        let presented = evaluation::presentations(&same, *threshold, &streams).map_err(wrong)?;
+        let presented = evaluation::presentations(&same, threshold, &streams).map_err(wrong)?;
         let same = Evaluation::new(&classes, &presented);
         sections.push(format!("\n{}", report::second_opinion(&evaluation, &same)));
     }
-    sections.push(format!("\n{doubts}"));
+    sections.push("\n".to_owned() + &report::doubts(&classes, &evaluation, &misfits));
     sections.extend(otherwise.map(|note| format!("\nnote: {note}")));
-    if error_rate.is_none() && time.is_none() {
+    if asked.error_rate.is_none() && asked.time.is_none() {
         return Ok(sections.concat());
     }
 
     let mut progress = Progress::new(verbosity, "thresholds", THRESHOLDS.len() as u64);
     let scan = evaluation::scan(&model, &streams, |done| progress.set(done)).map_err(wrong)?;
     drop(progress);
-    sections.push(format!("\n\n{}\n", Thresholds(&scan, tick_hz)));
-    if let Some(rate) = error_rate {
-        let found = evaluation::for_error(&scan, *rate);
+    sections.push(format!("\n\n{}\n", report::thresholds(&scan, tick_hz)));
+    if let Some(rate) = asked.error_rate {
+        let found = evaluation::for_error(&scan, rate);
         // As the option has it: 0.07 times 100 is not 7.
         let percent = (1e12 * rate).round() / 1e10;
         let wanted = format!("at most {percent} % of decisions wrong");
@@ -126,7 +108,7 @@ pub fn evaluate(arguments: &Arguments, verbosity: Verbosity) -> Result<String, E
             sections.push(strange.to_owned());
         }
     }
-    if let Some(seconds) = time {
+    if let Some(seconds) = asked.time {
         let found = evaluation::for_samples(&scan, seconds * tick_hz);
         let wanted = format!("decisions within {seconds} s in the mean");
         sections.push(suggestion(found, &wanted));

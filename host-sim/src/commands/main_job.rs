@@ -7,14 +7,13 @@ use tactile::ModelBuf;
 
 use super::run::{self, Played};
 use crate::classifier::Classifier;
-use crate::files;
 use crate::output::Output;
 use crate::plot::{self, Film};
 use crate::progress::Verbosity;
 use crate::recording::Stream;
 use crate::run::Run;
 use crate::training::{How, Tables};
-use crate::{Error, report};
+use crate::{Error, files, report};
 
 /// The scene, so that the program runs wherever it stands.
 const SCENE: &str = include_str!("../../../scenes/bench-textures.toml");

@@ -4,14 +4,12 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use crate::Error;
-use crate::files;
 use crate::output::{Output, check_or_stdout, is_stdout};
 use crate::pressing::Pressing;
+use crate::{Error, files};
 
-/// What to press, and where to write.
 #[derive(Debug, Args)]
-pub struct Arguments {
+pub(super) struct Arguments {
     #[command(flatten)]
     pressing: Pressing,
     /// Where to write the table, a row a push; - is standard output
@@ -22,19 +20,12 @@ pub struct Arguments {
     shape: Option<PathBuf>,
 }
 
-/// Presses a whisker and writes its tables. Returns what was done; nothing where the table is
-/// on standard output.
-///
-/// # Errors
-/// [`Error::Input`] for an option that is wrong or a push that does not hold, [`Error::Write`].
-pub fn press(arguments: &Arguments) -> Result<Option<String>, Error> {
-    let Arguments {
-        pressing,
-        out,
-        shape,
-    } = arguments;
+/// Presses a whisker and writes its tables. Returns what was done; nothing where the table is on
+/// standard output.
+pub(super) fn press(asked: &Arguments) -> Result<Option<String>, Error> {
+    let (pressing, out) = (&asked.pressing, &asked.out);
     check_or_stdout(out)?;
-    if let Some(shape) = shape {
+    if let Some(shape) = &asked.shape {
         if shape == out || is_stdout(shape) {
             let fault = format!("--shape: found {}, allowed: another file", shape.display());
             return Err(Error::Input(fault));
@@ -45,7 +36,7 @@ pub fn press(arguments: &Arguments) -> Result<Option<String>, Error> {
         let option = refused.key.replace('_', "-");
         Error::Input(format!("--{option}: {}", refused.fault))
     })?;
-    if let Some(shape) = shape {
+    if let Some(shape) = &asked.shape {
         let output = Output::create_or_stdout(shape)?;
         files::write(output, |file| pressing.write_shapes(file, &pressed))?;
     }

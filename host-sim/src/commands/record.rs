@@ -6,13 +6,11 @@ use scene::Scene;
 
 use super::ahead;
 use super::choice::SceneChoice;
-use crate::Error;
-use crate::bench;
-use crate::files;
 use crate::output::{Output, check_apart, check_or_stdout};
 use crate::progress::{Progress, Verbosity};
 use crate::recording::{Recorder, Stream};
 use crate::run::Run;
+use crate::{Error, bench, files};
 
 /// About how many bytes a row of a recording has, as of the scenes of the project.
 const ROW_BYTES: u64 = 28;

@@ -10,14 +10,13 @@ use super::choice::{SceneChoice, seed};
 use super::{ahead, any_picture, ends_in};
 use crate::bench::Bench;
 use crate::decisions::{Columns, Decided, Score};
-use crate::files;
 use crate::loaded::Loaded;
 use crate::output::{self, Output, is_stdout};
 use crate::plot::{self, Film};
 use crate::progress::{Progress, Verbosity};
 use crate::run::Run;
 use crate::trace::{TraceShape, TraceWriter};
-use crate::{Error, report};
+use crate::{Error, files, report};
 
 /// What to run, and where to write.
 #[derive(Debug, Args)]
@@ -131,11 +130,8 @@ pub fn run(arguments: &Arguments, verbosity: Verbosity) -> Result<String, Error>
     if !played.classes.is_empty() {
         summary.push_str(", decisions.csv");
     }
-    if scene
-        .motor
-        .as_ref()
-        .is_some_and(|motor| !motor.arms_at_start())
-    {
+    let motor = scene.motor.as_ref();
+    if motor.is_some_and(|motor| !motor.arms_at_start()) {
         summary.push_str(
             "\nits motors were not armed: the scene waits for a command; \
              --set motor.arm=at-start has them armed",
@@ -165,10 +161,7 @@ impl Loaded {
     }
 
     /// The same with keys in place of the file's.
-    ///
-    /// # Errors
-    /// As [`Loaded::new`].
-    pub fn with(SceneChoice { file, set }: &SceneChoice) -> Result<Self, Error> {
+    pub(crate) fn with(SceneChoice { file, set }: &SceneChoice) -> Result<Self, Error> {
         let loaded = Self::checked(file, set)?;
         if let Some(caution) = loaded.caution() {
             report::warn(caution);
@@ -227,7 +220,7 @@ impl Played {
     pub fn summary(&self) -> Option<String> {
         self.classifies.then(|| {
             let score = Score::new(&self.classes, &self.decided);
-            report::Summary(&score, Some(self.tick_hz)).to_string()
+            report::summary(&score, Some(self.tick_hz))
         })
     }
 }

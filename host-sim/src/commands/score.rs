@@ -7,6 +7,7 @@ use rayon::prelude::*;
 use scene::{Rule, Scene};
 use tactile::ModelBuf;
 
+use super::with_seed;
 use crate::classifier::{Classifier, Fault};
 use crate::commands::ahead;
 use crate::commands::choice::SceneChoice;
@@ -14,14 +15,13 @@ use crate::commands::record;
 use crate::commands::train::of_option;
 use crate::evaluation::{Evaluation, Shown};
 use crate::progress::{SharedProgress, Verbosity};
-use crate::report::{OverRuns, seed_range};
+use crate::report::{over_runs, seed_range};
 use crate::scoring::{self, Scored};
 use crate::training::{How, TrainedModel};
 use crate::{Error, report};
 
-/// What to score, and by which seeds.
 #[derive(Debug, Args)]
-pub struct Arguments {
+pub(super) struct Arguments {
     #[command(flatten)]
     scene: SceneChoice,
     /// The seeds to score: from A to below B
@@ -41,11 +41,7 @@ pub struct Arguments {
 }
 
 /// Trains on one run of a scene and scores others.
-///
-/// # Errors
-/// [`Error::Input`] for a scene or option that is wrong, [`Error::Work`] if the runs
-/// do not fit the module.
-pub fn score(arguments: &Arguments, verbosity: Verbosity) -> Result<String, Error> {
+pub(super) fn score(arguments: &Arguments, verbosity: Verbosity) -> Result<String, Error> {
     let Arguments { scene, seeds, .. } = arguments;
     let SceneChoice { file: path, set } = scene;
     let (mut scene, _) = Scene::load_with(path, set)?;
@@ -94,16 +90,13 @@ pub fn score(arguments: &Arguments, verbosity: Verbosity) -> Result<String, Erro
     let runs = runs(&scene, seeds, &classifier, verbosity)?;
     let presentations = runs.iter().flat_map(|run| &run.presentations).cloned();
     let presentations: Vec<Shown> = presentations.collect();
-    let over_runs = OverRuns {
-        runs: &runs,
-        together: &Evaluation::new(classifier.classes(), &presentations),
-        tick_hz: f64::from(scene.tick_hz),
-    };
+    let together = Evaluation::new(classifier.classes(), &presentations);
     Ok(format!(
-        "{}: trained on seed {train_seed}, {} runs with seeds {}\n\n{over_runs}",
+        "{}: trained on seed {train_seed}, {} runs with seeds {}\n\n{}",
         scene.name,
         runs.len(),
-        seed_range(seeds)
+        seed_range(seeds),
+        over_runs(&runs, &together, f64::from(scene.tick_hz))
     ))
 }
 
@@ -114,11 +107,7 @@ fn train(
     arguments: &Arguments,
     verbosity: Verbosity,
 ) -> Result<TrainedModel, Error> {
-    let scene = Scene {
-        seed,
-        ..scene.clone()
-    };
-    let mut streams = record::streams(&scene, verbosity)?;
+    let mut streams = record::streams(&with_seed(scene, seed), verbosity)?;
     streams.retain(|stream| Some(&stream.label) != arguments.unknown.as_ref());
     let recordings = [(scene.name.clone(), streams)];
     let trained = how.train(&recordings, scene.tick_hz);
@@ -136,10 +125,7 @@ fn runs(
     let progress = SharedProgress::new(verbosity, "scoring", all);
     let seeds: Vec<u64> = seeds.clone().collect();
     let scored = |seed: &u64| {
-        let scene = Scene {
-            seed: *seed,
-            ..scene.clone()
-        };
+        let scene = with_seed(scene, *seed);
         scoring::run(&scene, classifier.clone(), progress.counter())
     };
     seeds.par_iter().map(scored).collect()

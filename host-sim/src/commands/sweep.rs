@@ -12,6 +12,7 @@ use scene::Scene;
 
 use super::choice::SceneChoice;
 use super::score::seeds;
+use super::with_seed;
 use crate::classifier::Classifier;
 use crate::loaded::Loaded;
 use crate::output::{Output, check_apart, check_or_stdout};
@@ -21,9 +22,8 @@ use crate::{Error, report};
 use grid::{Axis, combinations};
 use measured::Measured;
 
-/// What to vary, and by which seeds.
 #[derive(Debug, Args)]
-pub struct Arguments {
+pub(super) struct Arguments {
     #[command(flatten)]
     scene: SceneChoice,
     /// A key and its values, such as plant.stiffness=0.1,0.2; of several keys every
@@ -35,7 +35,7 @@ pub struct Arguments {
     seeds: Option<Range<u64>>,
     /// Where to write the table, a row a run; - is standard output
     #[arg(long, value_name = "FILE.csv")]
-    pub out: PathBuf,
+    pub(super) out: PathBuf,
 }
 
 const MOST_RUNS: usize = 1_000_000;
@@ -47,12 +47,9 @@ struct Setting {
     classifier: Option<Classifier>,
 }
 
-/// Runs every combination with every seed, on all cores, and writes a row for each. Returns
-/// what was done.
-///
-/// # Errors
-/// [`Error::Input`] for a scene, a key or a value that is wrong, [`Error::Write`].
-pub fn sweep(arguments: &Arguments, verbosity: Verbosity) -> Result<String, Error> {
+/// Runs every combination with every seed, on all cores, and writes a row for each. Returns what
+/// was done.
+pub(super) fn sweep(arguments: &Arguments, verbosity: Verbosity) -> Result<String, Error> {
     let Arguments { key, out, .. } = arguments;
     check_or_stdout(out)?;
     check_apart(out, [arguments.scene.file.as_path()])?;
@@ -77,10 +74,7 @@ pub fn sweep(arguments: &Arguments, verbosity: Verbosity) -> Result<String, Erro
     let output = Output::create_or_stdout(out)?;
     let progress = SharedProgress::new(verbosity, "sweeping", ticks);
     let measured = |(setting, seed): &(&Setting, u64)| {
-        let scene = Scene {
-            seed: *seed,
-            ..setting.scene.clone()
-        };
+        let scene = with_seed(&setting.scene, *seed);
         let run = Run::new(&scene, setting.classifier.clone())?;
         Ok(Measured::of(run, &scene, progress.counter()))
     };

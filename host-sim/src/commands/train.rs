@@ -8,17 +8,13 @@ use tactile::train::TrainError;
 use tactile::{MAX_STREAMS, ModelError};
 
 use super::{channels, picture, rate as rate_option};
-use crate::Error;
 use crate::decisions::UNKNOWN;
-use crate::doubts;
-use crate::files;
 use crate::misfit::oddities;
 use crate::output::{self, Output, write_whole};
-use crate::plot;
 use crate::rate::{self, Said};
 use crate::recording::Stream;
-use crate::report::TrainingReport;
 use crate::training::{How, Tables};
+use crate::{Error, doubts, files, plot, report};
 
 /// What to train from, and how.
 #[derive(Debug, Args)]
@@ -52,63 +48,57 @@ pub struct Arguments {
     pub how: How,
 }
 
-/// Trains a model from recordings and writes it. Returns what it was made of, and what
-/// it is worth.
+/// Trains a model from recordings and writes it. Returns what it was made of, and what it is worth.
 ///
 /// # Errors
 /// [`Error::Input`] for a recording or an option that is wrong, [`Error::Write`].
-pub fn train(arguments: &Arguments) -> Result<String, Error> {
-    let Arguments {
-        data,
-        channels,
-        out,
-        rate,
-        unknown,
-        scene,
-        plot,
-        how,
-    } = arguments;
-    let scene = scene.as_deref().map(|path| Scene::load_with(path, &[]));
+pub fn train(asked: &Arguments) -> Result<String, Error> {
+    let scene = asked
+        .scene
+        .as_deref()
+        .map(|path| Scene::load_with(path, &[]));
     let scene = scene.transpose()?.map(|(scene, _)| scene);
-    let mut said = vec![("--rate".to_owned(), *rate)];
+    let mut said = vec![("--rate".to_owned(), asked.rate)];
     let of_scene = scene.as_ref().map(|scene| scene.tick_hz);
     said.push(("the scene".to_owned(), of_scene));
     rate::agreed(said.clone()).map_err(Error::Input)?;
     let ahead = said.len();
-    let how = &scene.map_or(*how, |scene| how.like(&scene));
+    let how = &scene.map_or(asked.how, |scene| asked.how.like(&scene));
     how.check().map_err(|fault| of_option(&fault))?;
-    if plot.is_some() && how.tables == Tables::Single {
+    if asked.plot.is_some() && how.tables == Tables::Single {
         let fault = "--plot: single tables have no report; see host-sim evaluate --plot";
         return Err(Error::Input(fault.to_owned()));
     }
+    let (data, out, plot) = (&asked.data, &asked.out, asked.plot.as_deref());
     output::check(out)?;
-    let inputs = || data.iter().chain(&arguments.scene).map(PathBuf::as_path);
+    let inputs = || data.iter().chain(&asked.scene).map(PathBuf::as_path);
     output::check_apart(out, inputs())?;
-    if let Some(plot) = plot.as_deref() {
+    if let Some(plot) = plot {
         output::check(plot)?;
         output::check_apart(plot, inputs().chain([out.as_path()]))?;
     }
-    let mut recordings = read(data, channels, &mut said)?;
+    let mut recordings = read(data, &asked.channels, &mut said)?;
     let [ahead, of_data] = [&said[..ahead], &said[ahead..]];
     if ahead.iter().all(|(_, hz)| hz.is_none()) {
         rate::complete(of_data).map_err(Error::Input)?;
     }
     let rate = rate::agreed(said).map_err(Error::Input)?;
     let rate = rate.unwrap_or(rate::USUAL_HZ);
-    if let Some(label) = unknown {
+    if let Some(label) = &asked.unknown {
         leave_out(&mut recordings, label)?;
     }
     reserved(data, &recordings)?;
     if how.each_whisker {
         whiskers(data, &recordings)?;
     }
+    let channels = &asked.channels;
     let names = channels.each_ref().map(String::as_str);
     let odd = oddities(data, names, &recordings);
     let trained = how.train(&recordings, rate).map_err(|error| {
         with_doubts(&refusal(data, channels, &error), &error, &recordings, &odd)
     })?;
     // Opened first: nothing is written where one of them cannot be.
-    let picture = plot.as_deref().map(Output::create).transpose()?;
+    let picture = plot.map(Output::create).transpose()?;
     write_whole(out, trained.model.as_bytes())?;
     let streams = || recordings.iter().flat_map(|(_, streams)| streams);
     let counts = streams().flat_map(|stream| stream.counts(how.least()));
@@ -128,7 +118,7 @@ pub fn train(arguments: &Arguments) -> Result<String, Error> {
         let points: Vec<_> = points.map(|at| (at.stated, at.found)).collect();
         picture.whole(plot::calibration("trials that were held out", &points)?.as_bytes())?;
     }
-    Ok(format!("{summary}\n\n{}{odd}", TrainingReport(joint)))
+    Ok(format!("{summary}\n\n{}{odd}", report::training(joint)))
 }
 
 fn with_doubts(

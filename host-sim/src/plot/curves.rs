@@ -77,13 +77,10 @@ pub(super) fn entries(curves: &[Curve]) -> Vec<(Sign, &'static str)> {
 }
 
 /// A panel in two: for what it shows, and for its legend, which is drawn.
-pub(super) fn with_legend<DB: DrawingBackend>(
+pub(super) fn with_legend<DB: DrawingBackend<ErrorType: 'static>>(
     area: &DrawingArea<DB, Shift>,
     entries: &[(Sign, &str)],
-) -> Result<DrawingArea<DB, Shift>, Fault>
-where
-    DB::ErrorType: 'static,
-{
+) -> Result<DrawingArea<DB, Shift>, Fault> {
     let width = area.dim_in_pixel().0.saturating_sub(LEGEND) as i32;
     let (panel, legend) = area.split_horizontally(width);
     for (y, (sign, name)) in (16..).step_by(18).zip(entries) {
@@ -136,16 +133,13 @@ pub(super) fn range(curves: &[Curve], least: f64) -> (f64, f64) {
     (middle - 0.56 * span, middle + 0.56 * span)
 }
 
-pub(super) fn curves<DB: DrawingBackend>(
+pub(super) fn curves<DB: DrawingBackend<ErrorType: 'static>>(
     area: &DrawingArea<DB, Shift>,
     axes: Axes<'_>,
     (from, to): (f64, f64),
     (low, high): (f64, f64),
     curves: Vec<Curve>,
-) -> Result<(), Fault>
-where
-    DB::ErrorType: 'static,
-{
+) -> Result<(), Fault> {
     let mut chart = ChartBuilder::on(area)
         .margin(6)
         .x_label_area_size(if axes.x.is_some() { 40 } else { 24 })

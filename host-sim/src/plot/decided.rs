@@ -16,18 +16,14 @@ pub(super) fn names_width(classes: &[String]) -> u32 {
     (longest.unwrap_or(0) * LETTER + 24).clamp(64, 300) as u32
 }
 
-/// A row for each class, and one of what was unknown: grey where it was presented, a mark
-/// for each decision whose colour and shape both say its worth, a ring around one of the right
-/// side.
-pub(super) fn decisions<DB: DrawingBackend>(
+/// A row for each class, and one of what was unknown: grey where it was presented, a mark for each
+/// decision whose colour and shape both say its worth, a ring around one of the right side.
+pub(super) fn decisions<DB: DrawingBackend<ErrorType: 'static>>(
     area: &DrawingArea<DB, Shift>,
     picture: &Picture<'_>,
     (from, to): (f64, f64),
     room: (u32, u32),
-) -> Result<(), Fault>
-where
-    DB::ErrorType: 'static,
-{
+) -> Result<(), Fault> {
     let classes = picture.classes.iter().map(String::as_str);
     let rows: Vec<&str> = classes.chain([UNKNOWN]).collect();
     let count = rows.len();

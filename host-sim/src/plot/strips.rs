@@ -66,10 +66,10 @@ impl Strips {
         (WIDTH, 40 + HEIGHT * self.strips.len() as u32)
     }
 
-    fn drawn<DB: DrawingBackend>(&self, root: &DrawingArea<DB, Shift>) -> Result<(), Fault>
-    where
-        DB::ErrorType: 'static,
-    {
+    fn drawn<DB: DrawingBackend<ErrorType: 'static>>(
+        &self,
+        root: &DrawingArea<DB, Shift>,
+    ) -> Result<(), Fault> {
         root.fill(&WHITE)?;
         let root = root.titled(&self.title, ("sans-serif", 20))?;
         let areas = root.split_evenly((self.strips.len(), 1));
@@ -80,10 +80,10 @@ impl Strips {
         let to = times().fold(f64::NEG_INFINITY, f64::max);
         let span = if from < to { (from, to) } else { (0.0, 1.0) };
         for (n, (area, strip)) in areas.iter().zip(&self.strips).enumerate() {
-            let shown = strip
-                .curves
-                .iter()
-                .map(|(name, ink, points)| (*name, Stroke::Whole(ink.colour()), thinned(points)));
+            let shown = strip.curves.iter().map(|(name, ink, points)| {
+                let stroke = Stroke::Whole(ink.colour());
+                (*name, stroke, thinned(points))
+            });
             let shown: Vec<Curve> = shown.collect();
             let area = with_legend(area, &entries(&shown))?;
             let is_last = n + 1 == self.strips.len();

@@ -30,10 +30,10 @@ impl Picture<'_> {
         png_of(SIZE, |root| self.drawn(root))
     }
 
-    fn drawn<DB: DrawingBackend>(&self, root: &DrawingArea<DB, Shift>) -> Result<(), Fault>
-    where
-        DB::ErrorType: 'static,
-    {
+    fn drawn<DB: DrawingBackend<ErrorType: 'static>>(
+        &self,
+        root: &DrawingArea<DB, Shift>,
+    ) -> Result<(), Fault> {
         root.fill(&WHITE)?;
         let root = root.titled(self.title, ("sans-serif", 20))?;
         let classifies = !self.classes.is_empty();

@@ -1,7 +1,5 @@
 //! What decisions are worth, for people.
 
-use std::fmt;
-
 use tactile::score::{Calibration, Interval};
 use tactile::train::joint::Warning;
 
@@ -36,59 +34,49 @@ pub(super) fn refused(of: &Evaluation) -> String {
 }
 
 /// The figures of an evaluation; times by samples a second.
-#[derive(Debug)]
-pub struct Figures<'a>(pub &'a Evaluation, pub f64);
-
-impl fmt::Display for Figures<'_> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self(evaluation, tick_hz) = self;
-        let Evaluation {
-            score,
-            hits,
-            parts,
-            classes,
-            samples,
-            samples_error,
-            calibration,
-            strange,
-            undecided,
-            ..
-        } = evaluation;
-        writeln!(f, "{score}")?;
-        let width = classes.iter().map(|class| class.name.chars().count()).max();
-        for class in classes {
-            write!(f, "{:>1$}: ", class.name, width.unwrap_or(0))?;
-            writeln!(f, "{}", of_class(class, *tick_hz))?;
-        }
-        writeln!(f)?;
-        match hits {
-            Some(hits) => {
-                let hits = 100.0 * hits;
-                let ms = samples * 1000.0 / tick_hz;
-                let over = over(&evaluation.left_out());
-                writeln!(f, "hit rate           {hits:.1} % (mean over {over})")?;
-                if let Some([before, after]) = parts {
-                    writeln!(f, "- before the @     {}", percent(*before))?;
-                    writeln!(f, "- after it         {}", percent(*after))?;
-                }
-                write!(f, "decision time      {samples:.0} samples ({ms:.0} ms)")?;
-                match samples_error * 1000.0 / tick_hz {
-                    error if error.is_nan() => writeln!(f)?,
-                    error => writeln!(f, ", standard error {error:.1} ms")?,
-                }
-                write!(f, "{}", stated(calibration))?;
-            }
-            None => writeln!(f, "no decision for a class")?,
-        }
-        write!(f, "{}", refused(evaluation))?;
-        if strange.count > 0 {
-            writeln!(f, "refused, new       {}", percent(*strange))?;
-        }
-        write!(f, "without a decision {}", percent(*undecided))
+pub(crate) fn figures(of: &Evaluation, tick_hz: f64) -> String {
+    let mut said = vec![format!("{}\n", of.score)];
+    let widths = of.classes.iter().map(|class| class.name.chars().count());
+    let width = widths.max().unwrap_or(0);
+    for class in &of.classes {
+        said.push(format!(
+            "{:>width$}: {}\n",
+            class.name,
+            of_class(class, tick_hz)
+        ));
     }
+    said.push("\n".to_owned());
+    match of.hits {
+        Some(hits) => {
+            let (hits, ms) = (100.0 * hits, of.samples * 1000.0 / tick_hz);
+            let over = over(&of.left_out());
+            said.push(format!(
+                "hit rate           {hits:.1} % (mean over {over})\n"
+            ));
+            if let Some([before, after]) = of.parts {
+                said.push(format!("- before the @     {}\n", percent(before)));
+                said.push(format!("- after it         {}\n", percent(after)));
+            }
+            said.push(format!(
+                "decision time      {:.0} samples ({ms:.0} ms)",
+                of.samples
+            ));
+            match of.samples_error * 1000.0 / tick_hz {
+                error if error.is_nan() => said.push("\n".to_owned()),
+                error => said.push(format!(", standard error {error:.1} ms\n")),
+            }
+            said.push(stated(&of.calibration));
+        }
+        None => said.push("no decision for a class\n".to_owned()),
+    }
+    said.push(refused(of));
+    if of.strange.count > 0 {
+        said.push(format!("refused, new       {}\n", percent(of.strange)));
+    }
+    said.push(format!("without a decision {}", percent(of.undecided)));
+    said.concat()
 }
 
-/// The row of a class.
 fn of_class(class: &ClassFigures, tick_hz: f64) -> String {
     let decided = class.samples.map_or_else(String::new, |samples| {
         let ms = 1000.0 / tick_hz;
@@ -101,17 +89,6 @@ fn of_class(class: &ClassFigures, tick_hz: f64) -> String {
     format!("{decided}refused {refused}; without a decision {undecided}")
 }
 
-/// What a user has to know before trusting the figures of a recording.
-#[derive(Debug)]
-pub struct Doubts<'a> {
-    /// The classes of the model.
-    pub classes: &'a [String],
-    /// The figures.
-    pub evaluation: &'a Evaluation,
-    /// Where the recording does not fit the model, a line each.
-    pub misfits: Vec<String>,
-}
-
 /// Presentations of a class below which a warning is due.
 const FEW: usize = 3;
 /// Decisions on a class that name one, below which nothing is said of what it is taken for.
@@ -120,51 +97,40 @@ const FEW_NAMED: u64 = 2;
 /// distinguished.
 const MISTAKEN: f64 = 0.25;
 
-impl fmt::Display for Doubts<'_> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self {
-            classes,
-            evaluation:
-                Evaluation {
-                    score,
-                    classes: known,
-                    ..
-                },
-            misfits,
-        } = self;
-        if known.is_empty() {
-            write!(
-                f,
-                "\nwarning: none of the labels is a class of the model, which knows {}",
-                classes.join(", ")
-            )?;
-        }
-        for name in classes.iter().filter(|_| !known.is_empty()) {
-            let class = known.iter().find(|class| class.name == *name);
-            match class.map_or(0, |class| class.presented) {
-                0 => write!(f, "\nwarning: {name}: nothing of it is in the recording")?,
-                trials if trials < FEW => {
-                    let name = name.clone();
-                    let few = Warning::FewTrials { name, trials };
-                    write!(f, "\nwarning: {}", in_words(&few))?;
-                }
-                _ => {}
-            }
-        }
-        for (a, b) in pairs(classes.len()) {
-            let mistaken = f64::midpoint(score.mistaken(a, b), score.mistaken(b, a));
-            let are_judged = [a, b].iter().all(|class| score.named(*class) >= FEW_NAMED);
-            if mistaken > MISTAKEN && are_judged {
-                let names = [a, b].map(|class| classes[class].clone());
-                let alike = Warning::Alike { names, mistaken };
-                write!(f, "\nwarning: {}", in_words(&alike))?;
-            }
-        }
-        for misfit in misfits {
-            write!(f, "\n{misfit}")?;
-        }
-        write!(f, "\nwarning: {}", in_words(&Warning::OneRecording))
+/// What a user has to know before trusting the figures of a recording for a model of these classes,
+/// which does not fit it in these lines.
+pub(crate) fn doubts(classes: &[String], of: &Evaluation, misfits: &[String]) -> String {
+    let mut said = Vec::new();
+    let mut warn = |warning: String| said.push(format!("\nwarning: {warning}"));
+    let (score, known) = (&of.score, &of.classes);
+    if known.is_empty() {
+        let names = classes.join(", ");
+        warn(format!(
+            "none of the labels is a class of the model, which knows {names}"
+        ));
     }
+    for name in classes.iter().filter(|_| !known.is_empty()) {
+        let class = known.iter().find(|class| class.name == *name);
+        match class.map_or(0, |class| class.presented) {
+            0 => warn(format!("{name}: nothing of it is in the recording")),
+            trials if trials < FEW => {
+                let name = name.clone();
+                warn(in_words(&Warning::FewTrials { name, trials }));
+            }
+            _ => {}
+        }
+    }
+    for (a, b) in pairs(classes.len()) {
+        let mistaken = f64::midpoint(score.mistaken(a, b), score.mistaken(b, a));
+        let are_judged = [a, b].iter().all(|class| score.named(*class) >= FEW_NAMED);
+        if mistaken > MISTAKEN && are_judged {
+            let names = [a, b].map(|class| classes[class].clone());
+            warn(in_words(&Warning::Alike { names, mistaken }));
+        }
+    }
+    said.extend(misfits.iter().map(|misfit| format!("\n{misfit}")));
+    said.push(format!("\nwarning: {}", in_words(&Warning::OneRecording)));
+    said.concat()
 }
 
 fn pairs(count: usize) -> impl Iterator<Item = (usize, usize)> {
@@ -188,45 +154,24 @@ pub(super) fn stated(calibration: &Calibration) -> String {
 }
 
 /// What each threshold gives; times by samples a second.
-#[derive(Debug)]
-pub struct Thresholds<'a>(pub &'a [Candidate], pub f64);
-
-impl fmt::Display for Thresholds<'_> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self(scan, tick_hz) = self;
-        write!(
-            f,
-            "threshold   wrong (95 %)             time  refused  without a decision"
-        )?;
-        for at in *scan {
-            let evaluation = &at.evaluation;
-            let found = evaluation.calibration.found;
-            let [low, high] = at.wrong_interval();
-            let [wrong, low, high, refused, undecided] = [
-                at.wrong(),
-                low,
-                high,
-                evaluation.refused.share,
-                evaluation.undecided.share,
-            ]
-            // Of none there is no share.
-            .map(|share| if share.is_nan() { 0.0 } else { 100.0 * share });
-            if found.count == 0 {
-                write!(
-                    f,
-                    "\n{:<9} no decision for a class {refused:23.1} %  {undecided:5.1} %",
-                    at.threshold
-                )?;
-                continue;
-            }
+pub(crate) fn thresholds(scan: &[Candidate], tick_hz: f64) -> String {
+    let header = "threshold   wrong (95 %)             time  refused  without a decision";
+    let mut said = vec![header.to_owned()];
+    for at in scan {
+        let of = &at.evaluation;
+        let [low, high] = at.wrong_interval();
+        let shares = [at.wrong(), low, high, of.refused.share, of.undecided.share];
+        // Of none there is no share.
+        let [wrong, low, high, refused, undecided] =
+            shares.map(|share| if share.is_nan() { 0.0 } else { 100.0 * share });
+        let shown = if of.calibration.found.count == 0 {
+            format!("no decision for a class {refused:23.1} %  {undecided:5.1} %")
+        } else {
             let interval = format!("({low:.2} to {high:.2})");
-            let ms = evaluation.samples * 1000.0 / tick_hz;
-            write!(
-                f,
-                "\n{:<9} {wrong:6.2} % {interval:<15} {ms:6.0} ms  {refused:5.1} %  {undecided:5.1} %",
-                at.threshold
-            )?;
-        }
-        Ok(())
+            let ms = of.samples * 1000.0 / tick_hz;
+            format!("{wrong:6.2} % {interval:<15} {ms:6.0} ms  {refused:5.1} %  {undecided:5.1} %")
+        };
+        said.push(format!("\n{:<9} {shown}", at.threshold));
     }
+    said.concat()
 }

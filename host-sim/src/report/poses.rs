@@ -66,7 +66,7 @@ fn names_between(poses: &str) -> String {
 }
 
 /// What a second opinion costs and gains on a recording: figures with it, and without.
-pub fn second_opinion(with: &Evaluation, without: &Evaluation) -> String {
+pub(crate) fn second_opinion(with: &Evaluation, without: &Evaluation) -> String {
     let of = |evaluation: &Evaluation| {
         let [found, undecided] = [evaluation.calibration.found, evaluation.undecided].map(percent);
         let stated = match evaluation.calibration.stated {

@@ -3,13 +3,12 @@
 use firmware::Event;
 use scene::Scene;
 
-use crate::Error;
 use crate::bench::HostModule;
 use crate::columns::{self, Column, columns};
 use crate::decisions::{Decided, Score, Verdict};
-use crate::files;
 use crate::output::Output;
 use crate::run::Run;
+use crate::{Error, files};
 
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Measured {
@@ -55,15 +54,13 @@ impl Measured {
             decided.iter().filter(is_it).count() as u64
         };
         let samples = Score::new(classes, &decided).mean_samples();
+        let whisks = scene.whisking.is_some();
         Self {
             verdicts: [Verdict::Right, Verdict::Wrong, Verdict::Refused].map(counted),
             decision_s: samples.map(|samples| samples / f64::from(scene.tick_hz)),
             touches,
             faults,
-            tracking_deg: scene
-                .whisking
-                .is_some()
-                .then(|| (squares / count.max(1) as f64).sqrt()),
+            tracking_deg: whisks.then(|| (squares / count.max(1) as f64).sqrt()),
         }
     }
 
