@@ -1,17 +1,14 @@
-//! A module of any scene behind one interface: the firmware's [`Module`] on mock hardware.
+//! A module of any scene behind one interface: the firmware's [`firmware::Module`] on mock hardware.
 
+mod board;
 pub mod can;
 mod head;
 mod line;
-mod mock;
 mod sensor;
 
 use config::{Mismatch, NumberFormat, RunsOn, Target};
-use firmware::{
-    Command, Config, Event, ModelState, Module, NoActiveWhisker, NotDone, Packet, Perception,
-    Refusal, Whisker, WhiskerParts,
-};
-use scene::{Scene, SensorSection};
+use firmware::{Command, Config, Event, NotDone, Packet};
+use scene::Scene;
 use tactile::ClassList;
 use whisking::{Fix, Number};
 use wire::TaggedCommand;
@@ -20,18 +17,13 @@ use crate::Error;
 use crate::bus::Slave;
 use crate::bus::tmag5170::TmagSlave;
 use crate::classifier::{Classifier, Tap};
-use crate::drive;
 use crate::motor::Pins;
+pub use board::NoClock;
 pub use can::Load;
 use head::Head;
 pub use head::{Bus, Happened};
-use line::Line;
-use mock::Mock;
-pub use mock::NoClock;
-use sensor::AnySensor;
 
-/// What a module shows of itself after a tick. Values of a side that does
-/// not exist are NaN.
+/// What a module shows of itself after a tick. Values of a side that does not exist are NaN.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Snapshot {
     /// θ' of every whisker, left side first, degrees.
@@ -98,7 +90,7 @@ pub trait HostModule: Bench + Send {
     /// Carries out `command` for whisker `n`, counted from 0, left side first.
     ///
     /// # Errors
-    /// As [`Module::command`].
+    /// As [`firmware::Module::command`].
     fn command(&mut self, n: usize, command: Command<f64>) -> Result<(), NotDone>;
 
     /// Arms the motors or keeps them off, from the next tick on.
@@ -124,95 +116,6 @@ pub trait HostModule: Bench + Send {
     fn bus(&mut self) -> Option<&mut Bus>;
 }
 
-/// A board of a head, or the one that has all its whiskers.
-struct Hosted<R: Number> {
-    module: Module<R, Mock>,
-    config: Config<R>,
-    built_with: Config<R>,
-    sensor: SensorSection,
-    /// Which board of its head it is; 0 of the only one.
-    number: u8,
-    line: Line,
-}
-
-impl<R: Number> Hosted<R> {
-    fn sensor_mut(&mut self, n: usize) -> Option<&mut AnySensor> {
-        let whisker = self.module.whiskers_mut().get_mut(n)?;
-        Some(whisker.sensor_mut().source_mut())
-    }
-
-    fn look_at_setpoints(&self, theta_deg: &mut [f64]) {
-        let Some(motion) = self.module.motion() else {
-            return;
-        };
-        let servos = self.module.whiskers().iter().map(Whisker::servo);
-        let setpoints = motion.state().theta().zip(servos);
-        let pd = self.config.motion.as_ref().map(|motion| &motion.servo.pd);
-        for (place, (theta, servo)) in theta_deg.iter_mut().zip(setpoints) {
-            let commanded = pd.and_then(|pd| Some(pd.clamp(servo?.setpoint()?)));
-            *place = whisking::degrees(commanded.unwrap_or(theta).to_f64());
-        }
-    }
-
-    fn tick(&mut self, events: &mut Vec<Event>) {
-        if let Some(perception) = self.module.perception_mut() {
-            perception.classifier_mut().samples.fill(None);
-        }
-        self.module.tick(&self.config, &mut |event| {
-            self.line.note(&event);
-            events.push(event);
-        });
-        self.line.tick_ends(&self.module, &self.config);
-    }
-
-    fn command(&mut self, n: usize, command: Command<f64>) -> Result<(), NotDone> {
-        let place = self.module.whiskers().get(n).map(Whisker::place);
-        let command = match command {
-            Command::Gain(gain) => Command::Gain(R::from_f64(gain)),
-            Command::Setpoint(theta) => Command::Setpoint(theta.map(R::from_f64)),
-            Command::Clear => Command::Clear,
-            Command::Home => Command::Home,
-        };
-        self.module.command(place.ok_or(NoActiveWhisker)?, command)
-    }
-
-    fn request(&mut self, request: TaggedCommand) {
-        let (line, module) = (&mut self.line, &mut self.module);
-        line.carry_out(module, &mut self.config, request);
-    }
-}
-
-/// A module at rest, its motors on `pins`, its sensors' noise from the seed beside those.
-fn module<R: Number>(
-    config: &Config<R>,
-    number: u8,
-    sensor: &SensorSection,
-    (seed, pins): (u64, Vec<Pins>),
-    classifier: Option<Tap>,
-) -> Result<Module<R, Mock>, Error> {
-    let own = config.head.of_node(number);
-    let misfit = |what: &str| Error::Work(format!("the module's {what} do not fit the scene"));
-    let sensors = own
-        .clone()
-        .map(|n| AnySensor::new(sensor, seed.wrapping_add(n as u64)));
-    let sensors: Option<Vec<AnySensor>> = sensors.collect();
-    let mut sensors = sensors.ok_or_else(|| misfit("sensors"))?.into_iter();
-    let motion = config.motion.as_ref();
-    if motion.is_some() && pins.len() != own.len() {
-        return Err(misfit("motors"));
-    }
-    let stall = motion.map(|motion| motion.servo.guards.stall);
-    let mut pins = pins.into_iter();
-    let parts = std::iter::from_fn(|| {
-        let source = sensors.next()?;
-        let motor = stall.and_then(|stall| Some(drive::on(pins.next()?, stall)));
-        Some(WhiskerParts { source, motor })
-    });
-    let mut module = Module::of_node(config, number, parts, classifier, (NoClock, 0));
-    module.arm(motion.is_some_and(|motion| motion.arms_at_start));
-    Ok(module)
-}
-
 /// How many whiskers of a scene are heard by its classifier.
 pub fn heard(scene: &Scene) -> usize {
     let all = scene.whiskers();
@@ -231,22 +134,11 @@ pub fn build(
     pins: &[Pins],
     classifier: Option<Classifier>,
 ) -> Result<Box<dyn HostModule>, Error> {
-    match config::in_simulation(scene) {
-        NumberFormat::Double => head::<f64>(scene, pins, classifier),
-        NumberFormat::Fixed => head::<Fix>(scene, pins, classifier),
-        NumberFormat::Single => head::<f32>(scene, pins, classifier),
-    }
-}
-
-fn head<R: Number>(
-    scene: &Scene,
-    pins: &[Pins],
-    classifier: Option<Classifier>,
-) -> Result<Box<dyn HostModule>, Error>
-where
-    Hosted<R>: Send + 'static,
-{
-    Ok(Box::new(Head::<R>::new(scene, pins, classifier)?))
+    Ok(match config::in_simulation(scene) {
+        NumberFormat::Double => Box::new(Head::<f64>::new(scene, pins, classifier)?),
+        NumberFormat::Fixed => Box::new(Head::<Fix>::new(scene, pins, classifier)?),
+        NumberFormat::Single => Box::new(Head::<f32>::new(scene, pins, classifier)?),
+    })
 }
 
 fn broken(mismatch: Mismatch) -> Error {
@@ -279,61 +171,4 @@ pub fn config_of<R: Number>(
         overrides,
     };
     config::build(scene, target).map_err(broken)
-}
-
-impl<R: Number> Hosted<R> {
-    fn new(
-        scene: &Scene,
-        number: u8,
-        pins: Vec<Pins>,
-        classifier: Option<Classifier>,
-    ) -> Result<Self, Error> {
-        let heard = heard_by_board(scene, number);
-        let tap = Tap::new(classifier, heard);
-        let gate = tap.touch_rule().map(|touch| touch.gate);
-        let model = match (tap.model(), &scene.classifier) {
-            // The whiskers that decide are another board's.
-            _ if heard == 0 => ModelState::NotHere,
-            (Some(model), _) => model,
-            (None, Some(_)) => ModelState::Refused(Refusal::Absent),
-            (None, None) => ModelState::NotHere,
-        };
-        let classes = tap.classes().to_vec();
-        let known = (gate, tap.settings());
-        let config = config_of::<R>(scene, known, tap.is_recording(), "")?;
-        let checked = config.check();
-        checked.map_err(|fault| Error::Work(fault.to_string()))?;
-        let parts = (scene.seed, pins);
-        Ok(Self {
-            module: module(&config, number, &scene.sensor, parts, Some(tap))?,
-            line: Line::new(&config, model, classes),
-            built_with: config.clone(),
-            config,
-            sensor: scene.sensor,
-            number,
-        })
-    }
-
-    /// See [`HostModule::restart`].
-    fn restart(&mut self, seed: u64, pins: Vec<Pins>) -> Result<(), Error> {
-        self.config.clone_from(&self.built_with);
-        if let Some(motion) = &mut self.config.motion {
-            motion.seed = seed;
-        }
-        let perception = self.module.take_perception();
-        let mut perception = perception.map(Perception::restarted);
-        if let (Some(perception), Some(classifier)) = (&mut perception, &self.config.classifier) {
-            perception.retune(classifier.rule.as_ref(), &self.config.classes);
-        }
-        self.module = module(&self.config, self.number, &self.sensor, (seed, pins), None)?;
-        self.module.set_perception(perception);
-        self.line.restart();
-        Ok(())
-    }
-}
-
-fn heard_by_board(scene: &Scene, number: u8) -> usize {
-    let each = scene.whiskers() / usize::from(scene.head.nodes.unwrap_or(1)).max(1);
-    let from_it_on = heard(scene).saturating_sub(usize::from(number) * each);
-    from_it_on.min(each)
 }

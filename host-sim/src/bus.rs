@@ -6,12 +6,10 @@
 //!   device; the simulation reaches it through the module between ticks;
 //! - *latch*: at the falling edge of /SS the slave takes the deflections of
 //!   that moment; a frame never mixes two of them;
-//! - *wired-AND*: MOSI and MISO are one open-drain line. Whoever sends a zero
-//!   pulls it low, so the master reads `sent & answered` and a master that
-//!   sends zeros reads zeros;
-//! - *noise*: what a sensor has below its resolution of 14 bits: the lowest bit
-//!   of its words changes from frame to frame, so that two frames are never
-//!   the same though their codes are;
+//! - *wired-AND*: MOSI and MISO are one open-drain line. Whoever sends a zero pulls it low, so the
+//!   master reads `sent & answered` and a master that sends zeros reads zeros;
+//! - *noise*: what a sensor has below its resolution of 14 bits: the lowest bit of its words
+//!   changes from frame to frame, so that two frames are never the same though their codes are;
 //! - *error word*: what the sensor reports about itself, in a valid frame;
 //! - *wire fault*: what happens to the frame on its way ([`WireFault`]).
 //!
@@ -26,9 +24,8 @@ use embedded_hal::spi::{ErrorType, Operation, SpiDevice};
 use mlx90333::{Decoder, FRAME_LEN, Faults, Mode, Word, encode};
 use rand_core::{Rng, SeedableRng};
 use rand_xoshiro::Xoshiro256PlusPlus;
-use wire::{Injected, RELEASED};
-
-pub use wire::{SimSpiError, Traffic};
+pub use wire::SimSpiError;
+use wire::{Injected, RELEASED, Traffic};
 
 /// What happens to frames on the wire.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -53,8 +50,7 @@ pub enum WireFault {
     ByteDoubled(u8),
     /// The line is held low after the first byte, which leaves a good sum.
     LowAfterStart,
-    /// The sensor's converter stands still: frame after frame is that of the
-    /// start of the fault.
+    /// The sensor's converter stands still: frame after frame is that of the start of the fault.
     Frozen,
     /// No magnet is near: the sensor converts no deflection, and its noise.
     NoField,
@@ -126,14 +122,6 @@ impl Slave {
         self.words = [word(x), word(y), z];
     }
 
-    /// The same without noise.
-    pub const fn without_noise(self) -> Self {
-        Self {
-            is_noisy: false,
-            ..self
-        }
-    }
-
     /// Has its frames be read by another `decoder` from now on.
     pub const fn program(&mut self, decoder: Decoder) {
         self.decoder = decoder;
@@ -167,9 +155,8 @@ impl Slave {
         });
     }
 
-    /// Latches a frame, for a master that clocks it byte by byte itself. On
-    /// those wires there is no controller to fail: [`WireFault::Bus`] reads as
-    /// [`WireFault::Silent`].
+    /// Latches a frame, for a master that clocks it byte by byte itself. On those wires there is no
+    /// controller to fail: [`WireFault::Bus`] reads as [`WireFault::Silent`].
     pub fn select(&mut self) -> Exchange {
         let (frame, fault) = self.latch();
         let frame = match fault {
@@ -187,11 +174,6 @@ impl Slave {
             Some(WireFault::Bus) => [RELEASED; FRAME_LEN],
             fault => self.frame(fault),
         });
-    }
-
-    /// What has gone over the bus so far.
-    pub const fn traffic(&self) -> Traffic {
-        self.traffic
     }
 
     /// The falling edge of /SS: the frame to answer with, and what happens to it.
@@ -217,15 +199,16 @@ impl Slave {
 
     fn frame(&self, fault: Option<WireFault>) -> [u8; FRAME_LEN] {
         let [x, y, z] = self.sent;
-        let x = match fault {
-            Some(WireFault::Shift(by)) => Word::new(x.raw().wrapping_add(by)),
-            _ => x,
+        let by = match fault {
+            Some(WireFault::Shift(by)) => by,
+            _ => 0,
         };
         let last = match self.decoder.mode {
             Mode::AlphaBeta => self.error_word.bits(),
             Mode::Xyz => z.raw(),
         };
-        let mut frame = encode::words([x.raw(), y.raw(), last], self.decoder);
+        let words = [x.raw().wrapping_add(by), y.raw(), last];
+        let mut frame = encode::words(words, self.decoder);
         match fault {
             Some(WireFault::LowAfterStart) => {
                 let [_, rest @ ..] = &mut frame;

@@ -129,8 +129,7 @@ impl Classifier {
         self.codes.state()
     }
 
-    /// Posterior of each class after the last full block: of the first whisker, or of all
-    /// together.
+    /// Posterior of each class after the last full block: of the first whisker, or of all together.
     pub fn posteriors(&self) -> Posteriors {
         posteriors(&self.codes, 0)
     }
@@ -148,7 +147,7 @@ pub fn posteriors(codes: &Codes, whisker: usize) -> Posteriors {
 pub struct Tap {
     /// The samples of the last tick, of each whisker that is heard, if there was one.
     pub(crate) samples: Vec<Option<Sample>>,
-    classifier: Option<Classifier>,
+    pub(crate) classifier: Option<Classifier>,
 }
 
 impl Tap {
@@ -160,38 +159,11 @@ impl Tap {
     }
 
     fn codes(&self) -> Option<&Codes> {
-        self.classifier
-            .as_ref()
-            .map(|classifier| &*classifier.codes)
+        Some(&*self.classifier.as_ref()?.codes)
     }
 
     fn codes_mut(&mut self) -> Option<&mut Codes> {
-        let classifier = self.classifier.as_mut();
-        classifier.map(|classifier| &mut *classifier.codes)
-    }
-
-    pub(crate) fn touch_rule(&self) -> Option<TouchRule> {
-        self.classifier.as_ref()?.touch_rule()
-    }
-
-    pub(crate) fn model(&self) -> Option<ModelState> {
-        self.classifier.as_ref().map(Classifier::model)
-    }
-
-    pub(crate) fn classes(&self) -> &[String] {
-        self.classifier.as_ref().map_or(&[], Classifier::classes)
-    }
-
-    pub(crate) fn settings(&self) -> Option<&ClassList> {
-        self.classifier.as_ref().map(Classifier::settings)
-    }
-
-    pub(crate) const fn is_recording(&self) -> bool {
-        self.classifier.is_none()
-    }
-
-    pub(crate) fn posteriors(&self) -> Option<Posteriors> {
-        self.classifier.as_ref().map(Classifier::posteriors)
+        Some(&mut *self.classifier.as_mut()?.codes)
     }
 }
 

@@ -1,5 +1,4 @@
-//! The module's side of a motor: the firmware's driver and angle input on
-//! simulated pins.
+//! The module's side of a motor: the firmware's driver and angle input on simulated pins.
 
 use firmware::AngleInput;
 use whisking::motor::{Duty, Fault, HBridge, MotorDriver, SixStep, SixStepConfig, StallConfig};

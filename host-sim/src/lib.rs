@@ -1,11 +1,10 @@
 //! The whisker module on a PC: the firmware library runs unchanged on mock
 //! sensors and motors, with whiskers and surfaces behind them.
 //!
-//! The core is a library for any program: scene text in, then tick by tick rows
-//! of the trace, events, decisions and samples out, without files, threads,
-//! clocks or a terminal. It builds for `wasm32-unknown-unknown`. The feature
-//! `cli` (on unless switched off) adds what the program `host-sim` needs
-//! besides: files, progress, plots and the commands themselves.
+//! The core is a library for any program: scene text in, then tick by tick rows of the trace,
+//! events, decisions and samples out, without files, threads, clocks or a terminal. It builds for
+//! `wasm32-unknown-unknown`. The feature `cli` (on unless switched off) adds what the program
+//! `host-sim` needs besides: files, progress, plots and the commands themselves.
 //!
 //! ```
 //! use host_sim::recording::Recorder;

@@ -6,9 +6,8 @@ use config::Mismatch;
 use scene::{Override, Places, Rule, Scene, Texture};
 use tactile::ModelBuf;
 
-use crate::Error;
 use crate::classifier::{Classifier, Fault};
-use crate::world;
+use crate::{Error, world};
 
 /// A scene that has been checked, and the model that it names.
 #[derive(Debug, Clone)]

@@ -13,14 +13,12 @@
 //!
 //! # Model
 //!
-//! J dω/dt = k (u U − k ω)/R − b ω − τ_c sgn ω + τ_load/G, with the PWM averaged
-//! over its period and the winding's inductance left out: its L/R, some tens of
-//! microseconds, is short against a tick. An H-bridge at PWM zero brakes
-//! (the winding is shorted), a phase that is not enabled carries no current
-//! (free-wheeling diodes are left out). The gear is stiff: its losses are in
-//! τ_c and b.
-//! It may have play: then encoder and friction are on the motor's side, and the whisker is free
-//! between its ends ([`play`]).
+//! J dω/dt = k (u U − k ω)/R − b ω − τ_c sgn ω + τ_load/G, with the PWM averaged over its period
+//! and the winding's inductance left out: its L/R, some tens of microseconds, is short against a
+//! tick. An H-bridge at PWM zero brakes (the winding is shorted), a phase that is not enabled
+//! carries no current (free-wheeling diodes are left out). The gear is stiff: its losses are in τ_c
+//! and b. It may have play: then encoder and friction are on the motor's side, and the whisker is
+//! free between its ends ([`play`]).
 //!
 //! At an end stop the rotor comes to rest within the step (no rebound).
 //!
@@ -38,6 +36,8 @@ mod stage;
 
 use std::sync::Arc;
 
+use physics::BadSetting;
+
 pub use flaws::EncoderFlaws;
 use flaws::Jitter;
 pub use ideal::IdealMotor;
@@ -45,7 +45,8 @@ use pins::{End, Wires};
 pub use pins::{SimEncoder, SimHall, SimPin, SimPwm, Wire};
 use play::{Coupled, Play};
 use rotor::Rotor;
-pub use settings::{BadMotorSetting, MotorSettings, PWM_COUNTS};
+pub use settings::MotorSettings;
+pub(crate) use settings::PWM_COUNTS;
 use stage::Stage;
 
 /// What connects a brushed motor with its driver and its angle input.
@@ -87,7 +88,6 @@ pub enum Pins {
 #[derive(Debug)]
 pub struct SimMotor {
     settings: MotorSettings,
-    derived: Derived,
     stage: Stage,
     rotor: Rotor,
     wires: Arc<Wires>,
@@ -102,34 +102,14 @@ pub struct SimMotor {
     play: Play,
 }
 
-/// What follows from the settings alone.
-#[derive(Debug)]
-struct Derived {
-    inertia_kg_m2: f64,
-    /// The rotor's deceleration by Coulomb friction, rad/s².
-    friction: f64,
-    /// The rotor's angles at the end stops, rad.
-    stops: [f64; 2],
-}
-
-impl Derived {
-    fn of(settings: &MotorSettings) -> Self {
-        let inertia_kg_m2 = settings.inertia_kg_m2();
-        Self {
-            inertia_kg_m2,
-            friction: settings.coulomb_nm / inertia_kg_m2,
-            stops: settings.stops_deg.map(|stop| settings.rotor_angle(stop)),
-        }
-    }
-}
-
 impl SimMotor {
     /// A brushed motor at rest with its pins.
     ///
     /// # Errors
     /// The first setting out of its range.
-    pub fn brushed(settings: MotorSettings) -> Result<(Self, Brushed), BadMotorSetting> {
-        let motor = Self::new(settings, Stage::Brushed)?;
+    pub fn brushed(settings: MotorSettings) -> Result<(Self, Brushed), BadSetting> {
+        settings.check()?;
+        let motor = Self::at_rest(settings, Stage::Brushed);
         let pins = motor.brushed_pins();
         Ok((motor, pins))
     }
@@ -139,22 +119,17 @@ impl SimMotor {
     ///
     /// # Errors
     /// The first setting out of its range.
-    pub fn brushless(settings: MotorSettings) -> Result<(Self, Brushless), BadMotorSetting> {
-        let motor = Self::new(settings, Stage::Brushless)?;
+    pub fn brushless(settings: MotorSettings) -> Result<(Self, Brushless), BadSetting> {
+        settings.check()?;
+        let motor = Self::at_rest(settings, Stage::Brushless);
         let pins = motor.brushless_pins();
         Ok((motor, pins))
-    }
-
-    fn new(settings: MotorSettings, stage: Stage) -> Result<Self, BadMotorSetting> {
-        settings.check()?;
-        Ok(Self::at_rest(settings, stage))
     }
 
     fn at_rest(settings: MotorSettings, stage: Stage) -> Self {
         let counts_per_rad = f64::from(settings.counts_per_rev) / core::f64::consts::TAU;
         Self {
             settings,
-            derived: Derived::of(&settings),
             stage,
             rotor: Rotor::default(),
             wires: Arc::new(Wires::new(counts_per_rad, settings.pwm_counts)),
@@ -202,7 +177,8 @@ impl SimMotor {
     }
 
     fn end(&self, i: usize) -> End {
-        End::new(&self.wires, i)
+        let wires = Arc::clone(&self.wires);
+        End { wires, i }
     }
 
     fn encoder(&self) -> SimEncoder {
@@ -221,7 +197,8 @@ impl SimMotor {
             return;
         }
         let s = &self.supplied();
-        let both = self.derived.inertia_kg_m2;
+        let both = s.inertia_kg_m2();
+        let stops = self.stops();
         let steps = self.stage.substeps(s, self.rotor.speed, dt_s);
         let step_s = dt_s / f64::from(steps);
         for _ in 0..steps {
@@ -229,7 +206,7 @@ impl SimMotor {
             let law = |load_nm: f64, inertia: f64| rotor::Law {
                 push: (winding.drive_nm + load_nm) / inertia,
                 rate: (winding.damping_nm_s + s.viscous_nm_s) / inertia,
-                friction: self.friction * self.derived.friction * both / inertia,
+                friction: self.friction * (s.coulomb_nm / both) * both / inertia,
             };
             let before = self.rotor;
             self.rotor.advance(&law(self.load_nm, both), step_s);
@@ -247,9 +224,15 @@ impl SimMotor {
                     self.play.coast(coupled, before, &mut self.rotor, step_s);
                 }
             }
-            self.rotor.stop_at(self.derived.stops);
+            self.rotor.stop_at(stops);
         }
         self.wires.set_angle(self.rotor.angle, self.flaws);
+    }
+
+    /// The rotor's angles at the end stops, rad.
+    fn stops(&self) -> [f64; 2] {
+        let stops_deg = self.settings.stops_deg;
+        stops_deg.map(|stop| self.settings.rotor_angle(stop))
     }
 
     const fn supplied(&self) -> MotorSettings {
@@ -265,7 +248,7 @@ impl SimMotor {
         if angle_deg.is_finite() {
             self.rotor.angle = self.settings.rotor_angle(angle_deg);
             self.rotor.speed = 0.0;
-            self.rotor.stop_at(self.derived.stops);
+            self.rotor.stop_at(self.stops());
             self.wires.set_angle(self.rotor.angle, self.flaws);
         }
     }
@@ -296,8 +279,7 @@ impl SimMotor {
         }
     }
 
-    /// So many times its Coulomb friction from now on; what is negative or not finite does
-    /// nothing.
+    /// So many times its Coulomb friction from now on; what is negative or not finite does nothing.
     pub fn set_friction(&mut self, factor: f64) {
         if factor >= 0.0 && factor.is_finite() {
             self.friction = factor;
@@ -331,14 +313,6 @@ impl SimMotor {
     /// Speed of the whisker, degrees a second.
     pub fn speed_deg_s(&self) -> f64 {
         (self.rotor.speed / self.settings.gear).to_degrees()
-    }
-
-    /// Current into each winding terminal, A: terminals 0 and 1 of a brushed
-    /// motor, 0 to 2 of a brushless one, averaged over the PWM period. Their
-    /// sum is 0.
-    pub fn currents_a(&self) -> [f64; 3] {
-        self.stage
-            .currents(&self.supplied(), &self.wires, &self.rotor)
     }
 
     /// By how much the whisker is displaced from where the encoder says it is, degrees.

@@ -17,8 +17,7 @@ mod textured;
 mod whisker;
 
 pub use ideal::Ideal;
-pub use surface::SurfaceSettings;
-pub use textured::{Textured, TexturedSettings, WhiskerSettings};
+pub use textured::Textured;
 pub(crate) use whisker::HOLD;
 pub use whisker::{Elastic, ElasticSettings};
 
@@ -40,15 +39,6 @@ pub struct Head {
 }
 
 impl Head {
-    /// Whiskers that touch nothing.
-    pub fn free(sides: usize, whiskers_per_side: usize) -> Self {
-        Self {
-            whiskers_per_side,
-            obstacle_deg: vec![f64::INFINITY; sides],
-            stiffness: 0.0,
-        }
-    }
-
     fn check(&self) -> Result<(), BadSetting> {
         BadSetting::check("stiffness", self.stiffness, 0.0, 100.0)?;
         if self.obstacle_deg.iter().any(|limit| limit.is_nan()) {
@@ -72,8 +62,7 @@ const fn apart(seed: u64, n: u64) -> u64 {
     seed.wrapping_add(n.wrapping_mul(0xD134_2543_DE82_EF95))
 }
 
-/// How a surface stands while it is presented, and how sensors then read: off what the scene
-/// says.
+/// How a surface stands while it is presented, and how sensors then read: off what the scene says.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SurfacePose {
     /// Tilt of plates more than the scene's, degrees.

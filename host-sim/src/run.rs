@@ -23,9 +23,8 @@ use flaws::Flaws;
 use poses::Poses;
 use presented::Presented;
 
-/// A running scene, with everything that it needs: module, classifier, motors
-/// and plant. `B` is the module: the firmware's on this machine, unless said
-/// otherwise.
+/// A running scene, with everything that it needs: module, classifier, motors and plant. `B` is the
+/// module: the firmware's on this machine, unless said otherwise.
 pub struct Run<B: ?Sized = dyn HostModule> {
     tick_hz: f64,
     dt_s: f64,
@@ -76,10 +75,9 @@ impl Run {
         Ok(Self::of(scene, bench, classes, world))
     }
 
-    /// Starts again with the same or another seed: from here on the run equals a
-    /// new one of the scene with that seed. Nothing is parsed, checked or solved
-    /// again. What was done to sensors and motors, and every gain and setpoint
-    /// that was set, is undone.
+    /// Starts again with the same or another seed: from here on the run equals a new one of the
+    /// scene with that seed. Nothing is parsed, checked or solved again. What was done to sensors
+    /// and motors, and every gain and setpoint that was set, is undone.
     ///
     /// # Errors
     /// None that a run which could be made once has; see [`Run::new`].
@@ -98,8 +96,7 @@ impl Run {
     /// from the next tick on; limited to 0 to 2.
     ///
     /// # Errors
-    /// [`Error::Input`] if there is no such active whisker, or for a gain that is
-    /// not finite.
+    /// [`Error::Input`] if there is no such active whisker, or for a gain that is not finite.
     pub fn set_gain(&mut self, n: usize, gain: f64) -> Result<(), Error> {
         self.command(n, Command::Gain(finite("gain", gain)?))
     }
@@ -109,8 +106,7 @@ impl Run {
     /// and `motor.max_deg`; `None`: the pattern generator's again.
     ///
     /// # Errors
-    /// [`Error::Input`] if there is no such active whisker, or for a setpoint that
-    /// is not finite.
+    /// [`Error::Input`] if there is no such active whisker, or for a setpoint that is not finite.
     pub fn set_setpoint_deg(&mut self, n: usize, setpoint_deg: Option<f64>) -> Result<(), Error> {
         let degrees = setpoint_deg.map(|degrees| finite("setpoint", degrees));
         let theta = degrees.transpose()?.map(whisking::protraction);
@@ -155,11 +151,11 @@ impl Run {
         self.bench.bus()
     }
 
-    /// The posterior of each class after the classifier's last full block, of the first
-    /// whisker or of all together; equal before it and after a decision. None without a
-    /// classifier.
+    /// The posterior of each class after the classifier's last full block, of the first whisker or
+    /// of all together; equal before it and after a decision. None without a classifier.
     pub fn posteriors(&mut self) -> Option<Posteriors> {
-        self.bench.tap()?.posteriors()
+        let classifier = self.bench.tap()?.classifier.as_ref();
+        classifier.map(Classifier::posteriors)
     }
 }
 
@@ -218,7 +214,6 @@ impl<B: Bench + ?Sized> Run<B> {
             touch: [0; 2],
         };
         self.row = Row {
-            t_s: 0.0,
             theta_deg: rest,
             z: pair(0.0),
             g: pair(0.0),
@@ -226,7 +221,7 @@ impl<B: Bench + ?Sized> Run<B> {
             angle_deg: rest,
             x: pair(0.0),
             y: pair(0.0),
-            touch: [0; 2],
+            ..Row::default()
         };
         self.events.clear();
         self.deflections.fill([0.0; 2]);
@@ -270,13 +265,13 @@ impl<B: Bench + ?Sized> Run<B> {
 
     /// Whether any whisker touches a texture: the truth, which no module knows.
     pub fn touches(&self) -> bool {
-        self.world.touches()
+        self.world.plant.touches()
     }
 
     /// How whisker `n` is bent, counted from 0, left side first: for a picture of it. None
     /// where shafts have no shape.
     pub fn bent(&self, n: usize) -> Option<Bent> {
-        self.world.bent(n)
+        self.world.plant.bent(n)
     }
 
     /// The names of the classes that its decisions are among.
@@ -321,7 +316,7 @@ impl<B: Bench + ?Sized> Run<B> {
         self.events.clear();
         self.exchange();
         for (n, last) in self.deflections.iter_mut().enumerate() {
-            *last = self.world.deflection(n);
+            *last = self.world.plant.deflection(n);
         }
         self.sensed.clone_from(&self.deflections);
         if self.flaws.are_there() {
@@ -344,19 +339,19 @@ impl<B: Bench + ?Sized> Run<B> {
         self.done += 1;
     }
 
-    /// Puts the next surface in place, in a pose of its own, if it is time and nothing is
-    /// touched.
+    /// Puts the next surface in place, in a pose of its own, if it is time and nothing is touched.
     fn exchange(&mut self) {
         let next = self.poses.next();
-        let touches = self.world.touches() || next.is_some_and(|pose| !self.world.has_room(pose));
+        let touches =
+            self.world.plant.touches() || next.is_some_and(|pose| !self.world.plant.has_room(pose));
         let Some(texture) = self.presented.change(self.done, touches) else {
             return;
         };
         if let Some(pose) = self.poses.take() {
-            self.world.stand(pose);
+            self.world.plant.stand(pose);
             self.flaws.scale(pose.gain);
         }
-        self.world.present(texture);
+        self.world.plant.present(texture);
     }
 
     /// Time that has passed, s.
@@ -377,7 +372,7 @@ impl<B: Bench + ?Sized> Run<B> {
         for side in 0..self.sides {
             let first = side * self.whiskers;
             self.row.theta_deg[side] = self.snapshot.theta_deg[first];
-            self.row.angle_deg[side] = self.world.angles_deg()[first];
+            self.row.angle_deg[side] = self.world.angles_deg[first];
             [self.row.x[side], self.row.y[side]] = codes(self.sensed[first]);
         }
     }
@@ -406,10 +401,10 @@ impl<B: Bench + ?Sized> Run<B> {
             let side = n / self.whiskers.max(1);
             let of_side = || self.snapshot.contact.get(side).copied();
             let fault = if *sensor == 0 { *motor } else { *sensor };
-            let touch = self.world.contact_at(n);
+            let touch = self.world.plant.contact_at(n);
             WhiskerRow {
                 theta_deg: self.snapshot.theta_deg.get(n).copied().unwrap_or(f64::NAN),
-                angle_deg: self.world.angles_deg().get(n).copied().unwrap_or(f64::NAN),
+                angle_deg: self.world.angles_deg.get(n).copied().unwrap_or(f64::NAN),
                 speed_deg_s: self.world.speed_deg_s(n),
                 duty: self.world.duty(n).unwrap_or(f64::NAN),
                 codes: codes(*sensed),

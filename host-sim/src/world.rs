@@ -1,22 +1,19 @@
 //! Motors and plant: what is on the far side of the module's wires.
 
-use scene::{Driver, PlantKind, Presentation, Rest, Scene, ShaftName, Texture};
+use scene::{Driver, PlantKind, Presentation, Rest, Scene, ShaftName};
 
 use crate::Error;
 use crate::motor::{IdealMotor, MotorSettings, Pins, SimMotor};
-use crate::plant::{
-    self, Elastic, ElasticSettings, HOLD, Ideal, Plant, SurfacePose, Textured, TexturedSettings,
-};
-use physics::{
-    At, BadSetting, Bent, Biotact, Facing, Follicle, Outline, Shaft, Surface, TOUCHING_TAPER,
-};
+use crate::plant::{self, Elastic, ElasticSettings, HOLD, Ideal, Plant, Textured};
+use physics::{BadSetting, Biotact, Facing, Follicle, Outline, Shaft, Surface, TOUCHING_TAPER};
 
 /// The motors of all whiskers and the surface they meet.
 #[derive(Debug)]
 pub struct World {
-    plant: Box<dyn Plant>,
+    pub(crate) plant: Box<dyn Plant>,
     motors: Motors,
-    angles_deg: Vec<f64>,
+    /// Of the whiskers, left side first.
+    pub(crate) angles_deg: Vec<f64>,
     /// Of ideal motors, by their last step, degrees a second.
     speeds_deg_s: Vec<f64>,
 }
@@ -37,21 +34,20 @@ impl World {
     /// [`Error::Work`] if the simulation refuses a setting.
     pub fn wired(scene: &Scene, pwm_counts: u16) -> Result<(Self, Vec<Pins>), Error> {
         let broken = |error: BadSetting| Error::Work(error.to_string());
-        let sides = scene.head.sides.count();
-        let mut head = plant::Head::free(sides, scene.head.whiskers_per_side);
-        if let Some(obstacle) = &scene.plant.obstacle {
-            head.obstacle_deg.clone_from(&obstacle.obstacle_deg);
-            head.stiffness = obstacle.stiffness;
-        }
+        let obstacle = scene.plant.obstacle.as_ref();
+        let nothing = vec![f64::INFINITY; scene.head.sides.count()];
+        let head = plant::Head {
+            whiskers_per_side: scene.head.whiskers_per_side,
+            obstacle_deg: obstacle.map_or(nothing, |obstacle| obstacle.obstacle_deg.clone()),
+            stiffness: obstacle.map_or(0.0, |obstacle| obstacle.stiffness),
+        };
         let plant: Box<dyn Plant> = match scene.plant.kind {
             PlantKind::Ideal => Box::new(Ideal::new(head).map_err(broken)?),
             PlantKind::Textured => {
                 let textured = scene.plant.textured.as_ref();
-                let settings = TexturedSettings {
-                    friction: textured.and_then(|textured| textured.friction),
-                    ..TexturedSettings::default()
-                };
-                Box::new(Textured::new(head, settings, scene.seed).map_err(broken)?)
+                let friction = textured.and_then(|textured| textured.friction);
+                let plant = Textured::new(head, friction, Textured::NOISE_CODES, scene.seed);
+                Box::new(plant.map_err(broken)?)
             }
             PlantKind::Whisker => {
                 let mut settings = ElasticSettings::of(shaft(scene.plant.shaft));
@@ -114,46 +110,6 @@ impl World {
             }
             Motors::Real(motors) => motors.iter_mut().map(SimMotor::restart).collect(),
         }
-    }
-
-    /// Puts another texture in place.
-    pub fn present(&mut self, texture: Texture) {
-        self.plant.present(texture);
-    }
-
-    /// Whether no whisker is where surfaces would stand in this pose.
-    pub fn has_room(&self, pose: SurfacePose) -> bool {
-        self.plant.has_room(pose)
-    }
-
-    /// Stands surfaces in another pose.
-    pub fn stand(&mut self, pose: SurfacePose) {
-        self.plant.stand(pose);
-    }
-
-    /// Whether any whisker touches a texture.
-    pub fn touches(&self) -> bool {
-        self.plant.touches()
-    }
-
-    /// Deflection at the sensor of whisker `n` now: x and y, each within ±1.
-    pub fn deflection(&self, n: usize) -> [f64; 2] {
-        self.plant.deflection(n)
-    }
-
-    /// How whisker `n` is bent; none where shafts have no shape.
-    pub fn bent(&self, n: usize) -> Option<Bent> {
-        self.plant.bent(n)
-    }
-
-    /// Where the shaft of whisker `n` touches, while it does; none where shafts have no shape.
-    pub fn contact_at(&self, n: usize) -> Option<At> {
-        self.plant.contact_at(n)
-    }
-
-    /// The whiskers' angles, left side first, degrees.
-    pub fn angles_deg(&self) -> &[f64] {
-        &self.angles_deg
     }
 
     /// The speed of whisker `n` now, degrees a second; 0 of one that is not there.
@@ -329,14 +285,16 @@ fn real_motors(scene: &Scene, pwm_counts: u16) -> Result<(Motors, Vec<Pins>), Er
         counts_per_rev: motor.counts_per_rev,
         stops_deg: stops_deg(motor),
         pwm_counts,
-        ..MotorSettings::default()
+        ..MotorSettings::DEFAULT
     };
     let motor = |_| match motor.driver {
         Driver::HBridge => SimMotor::brushed(settings).map(|(motor, _)| motor),
         Driver::SixStep => SimMotor::brushless(settings).map(|(motor, _)| motor),
     };
     let motors: Result<Vec<SimMotor>, _> = (0..scene.whiskers()).map(motor).collect();
-    let motors = motors.map_err(|error| Error::Work(format!("motor: {error}")))?;
+    let bad =
+        |BadSetting(name)| Error::Work(format!("motor: motor setting {name} is out of range"));
+    let motors = motors.map_err(bad)?;
     let pins = motors.iter().map(SimMotor::pins).collect();
     Ok((Motors::Real(motors), pins))
 }

@@ -3,7 +3,6 @@
 use std::fmt;
 
 use can::Frame;
-use physics::Noise;
 
 /// Frames that a node has to send at most; more are dropped, the last first.
 const MOST_QUEUED: usize = 32;
@@ -37,17 +36,9 @@ pub struct Load {
 
 impl fmt::Display for Load {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self {
-            frames,
-            worst_s,
-            dropped,
-            ..
-        } = self;
-        let worst_ms = worst_s * 1e3;
-        write!(
-            f,
-            "{frames} frames, each in {worst_ms:.2} ms at most, {dropped} dropped"
-        )
+        let (frames, worst_ms) = (self.frames, self.worst_s * 1e3);
+        write!(f, "{frames} frames, each in {worst_ms:.2} ms at most, ")?;
+        write!(f, "{} dropped", self.dropped)
     }
 }
 
@@ -58,9 +49,6 @@ pub struct Can {
     /// Of each node, with the time of its queueing, µs.
     queues: Vec<Vec<(f64, Frame)>>,
     free_us: f64,
-    /// Share of frames that an error destroys, which are sent again.
-    corrupted: f64,
-    random: Noise,
     load: Load,
 }
 
@@ -71,8 +59,6 @@ impl Can {
             bit_us: 1e3 / f64::from(kbit_s),
             queues: vec![Vec::new(); nodes],
             free_us: 0.0,
-            corrupted: 0.0,
-            random: Noise::new(0),
             load: Load::default(),
         }
     }
@@ -80,12 +66,6 @@ impl Can {
     /// What it has carried.
     pub const fn load(&self) -> Load {
         self.load
-    }
-
-    /// From now on an error destroys this share of frames.
-    pub fn corrupt(&mut self, share: f64, seed: u64) {
-        self.corrupted = share;
-        self.random = Noise::new(seed);
     }
 
     /// Gives a node a frame to send, at `now_us`.
@@ -146,21 +126,6 @@ impl Can {
         found.map(|(from, place, _)| (begin_us, from, place))
     }
 
-    /// The next frame that comes through by `until_us`.
-    pub fn next(&mut self, until_us: f64) -> Option<Sent> {
-        let share = self.corrupted;
-        let mut random = std::mem::replace(&mut self.random, Noise::new(0));
-        let mut is_destroyed = |_| share > 0.0 && random.uniform() < share;
-        let through = loop {
-            match self.pass(until_us, &mut is_destroyed) {
-                Some((_, true)) => {}
-                through => break through,
-            }
-        };
-        self.random = random;
-        through.map(|(sent, _)| sent)
-    }
-
     /// The next frame that ends by `until_us`, and whether an error has destroyed it, as
     /// `is_destroyed` says of one from a node: then it is sent again.
     pub fn pass(
@@ -197,6 +162,7 @@ impl Can {
 mod tests {
     use super::Can;
     use can::Frame;
+    use physics::Noise;
 
     #[test]
     fn the_lowest_identifier_goes_first_once_the_bus_is_free() {
@@ -205,27 +171,24 @@ mod tests {
         can.queue(0, a, 0.0);
         can.queue(1, b, 10.0);
         can.queue(2, c, 20.0);
-        let sent: Vec<_> = std::iter::from_fn(|| can.next(1e6)).collect();
-        assert_eq!(
-            sent.iter().map(|sent| sent.from).collect::<Vec<_>>(),
-            [0, 2, 1]
-        );
+        let all = std::iter::from_fn(|| can.pass(1e6, |_| false));
+        let sent: Vec<_> = all.map(|(sent, _)| (sent.from, sent.at_us)).collect();
+        assert_eq!([0, 1, 2].map(|n: usize| sent[n].0), [0, 2, 1]);
         let bits: u32 = [a, c, b].iter().map(Frame::bits).sum();
-        assert!((sent[2].at_us - f64::from(2 * bits)).abs() < 1e-9);
+        assert!((sent[2].1 - f64::from(2 * bits)).abs() < 1e-9);
         assert_eq!(can.load().frames, 3);
         assert!((can.load().busy_s - f64::from(2 * bits) * 1e-6).abs() < 1e-12);
-        assert_eq!(can.next(1e6), None);
     }
 
     #[test]
     fn what_is_destroyed_is_sent_again() {
         let mut can = Can::new(1, 1000);
-        can.corrupt(0.5, 3);
         for n in 0..20 {
             can.queue(0, Frame::new(n, &[]), 0.0);
         }
-        let sent = std::iter::from_fn(|| can.next(1e6)).count();
-        assert_eq!(sent, 20);
+        let mut random = Noise::new(3);
+        let all = std::iter::from_fn(|| can.pass(1e6, |_| random.uniform() < 0.5));
+        assert_eq!(all.filter(|(_, is_destroyed)| !is_destroyed).count(), 20);
         let least: u32 = (0..20).map(|n| Frame::new(n, &[]).bits()).sum();
         assert!(can.load().busy_s > 1.2e-6 * f64::from(least));
     }

@@ -2,17 +2,14 @@
 
 mod bus;
 
-use std::ops::Range;
-
 pub use bus::{Bus, Happened};
-use firmware::{
-    Command, Event, Motion, NoActiveWhisker, Node, NotDone, Packet, ServoState, Whisker,
-};
+use firmware::{Command, Event, Motion, NoActiveWhisker, NotDone, Packet, ServoState, Whisker};
 use scene::{Deciding, Scene};
 use whisking::Number;
 use wire::TaggedCommand;
 
-use super::{Bench, HostModule, Hosted, Mock, Snapshot};
+use super::board::{Board, Mock};
+use super::{Bench, HostModule, Snapshot};
 use crate::Error;
 use crate::bus::Slave;
 use crate::bus::tmag5170::TmagSlave;
@@ -22,16 +19,6 @@ use crate::motor::Pins;
 /// Share of a tick after which a board has computed what it says: the rest of the papers' 500 µs
 /// is left for the bus.
 const READY_SHARE: f64 = 0.6;
-
-struct Board<R: Number> {
-    hosted: Hosted<R>,
-    /// None of the only one.
-    node: Option<Node>,
-    own: Range<usize>,
-    pins: Vec<Pins>,
-    /// Ticks since its start: its own clock.
-    ticks: u64,
-}
 
 pub(super) struct Head<R: Number> {
     boards: Vec<Board<R>>,
@@ -61,15 +48,10 @@ fn suits_a_head(classifier: &Classifier) -> Result<(), Error> {
     Ok(())
 }
 
-fn pins_of(own: &Range<usize>, pins: &[Pins]) -> Vec<Pins> {
-    // None, where whiskers are passive.
-    pins.get(own.clone()).unwrap_or_default().to_vec()
-}
-
 /// As newly made, for boards that are nodes.
 fn bus_of<R: Number>(boards: &[Board<R>]) -> Option<Bus> {
     let first = boards.first().filter(|first| first.node.is_some())?;
-    let kbit_s = first.hosted.config.head.bus.map_or(0, |bus| bus.kbit_s);
+    let kbit_s = first.config.head.bus.map_or(0, |bus| bus.kbit_s);
     Some(Bus::new(boards.len(), kbit_s))
 }
 
@@ -77,33 +59,16 @@ impl<R: Number> Head<R> {
     pub(super) fn new(
         scene: &Scene,
         pins: &[Pins],
-        mut classifier: Option<Classifier>,
+        classifier: Option<Classifier>,
     ) -> Result<Self, Error> {
         let nodes = scene.head.nodes;
         if let (Some(classifier), Some(_)) = (&classifier, nodes) {
             suits_a_head(classifier)?;
         }
-        let mut boards = Vec::new();
         let count = nodes.unwrap_or(1);
-        let each = scene.whiskers() / usize::from(count);
-        for number in 0..count {
-            let own = usize::from(number) * each..(usize::from(number) + 1) * each;
-            let own_pins = pins_of(&own, pins);
-            let is_last = number + 1 == count;
-            let its = if is_last {
-                classifier.take()
-            } else {
-                classifier.clone()
-            };
-            let hosted = Hosted::new(scene, number, own_pins.clone(), its)?;
-            boards.push(Board {
-                node: nodes.map(|_| Node::new(&hosted.config.head, number)),
-                hosted,
-                own,
-                pins: own_pins,
-                ticks: 0,
-            });
-        }
+        let boards = (0..count).zip(std::iter::repeat_n(classifier, count.into()));
+        let boards = boards.map(|(number, its)| Board::new(scene, number, pins, its));
+        let boards: Vec<_> = boards.collect::<Result<_, Error>>()?;
         Ok(Self {
             bus: bus_of(&boards),
             boards,
@@ -114,15 +79,16 @@ impl<R: Number> Head<R> {
         })
     }
 
-    fn board_of(&mut self, n: usize) -> Option<(&mut Hosted<R>, usize)> {
+    fn board_of(&mut self, n: usize) -> Option<(&mut Board<R>, usize)> {
         let mut boards = self.boards.iter_mut();
         let board = boards.find(|board| n < board.own.end)?;
-        Some((&mut board.hosted, n - board.own.start))
+        let first = board.own.start;
+        Some((board, n - first))
     }
 
     fn whisker(&self, n: usize) -> Option<&Whisker<R, Mock>> {
         let board = self.boards.iter().find(|board| n < board.own.end)?;
-        let whiskers = board.hosted.module.whiskers();
+        let whiskers = board.module.whiskers();
         whiskers.get(n - board.own.start)
     }
 
@@ -133,13 +99,11 @@ impl<R: Number> Head<R> {
         for (n, board) in self.boards.iter_mut().enumerate() {
             let asked = std::mem::take(&mut bus.asked[n]);
             if asked.reset {
-                let motion = board.hosted.config.motion.as_ref();
+                let motion = board.config.motion.as_ref();
                 let seed = motion.map_or(0, |motion| motion.seed);
                 // As it could be made once, it can be again.
-                let _ = board.hosted.restart(seed, board.pins.clone());
-                board.hosted.module.arm(false);
-                board.node = Some(Node::new(&board.hosted.config.head, n as u8));
-                board.ticks = 0;
+                let _ = board.restart(seed);
+                board.module.arm(false);
                 bus.can.clear(n);
             }
             let Some(node) = &mut board.node else {
@@ -197,67 +161,56 @@ impl<R: Number> Bench for Head<R> {
     fn tick(&mut self, events: &mut Vec<Event>) {
         self.do_asked();
         for (n, board) in self.boards.iter_mut().enumerate() {
-            let Board {
-                hosted,
-                node,
-                ticks,
-                ..
-            } = board;
-            let (Some(node), Some(bus)) = (node, &mut self.bus) else {
-                hosted.tick(events);
+            let (Some(node), Some(bus)) = (&mut board.node, &mut self.bus) else {
+                board.tick(events);
                 continue;
             };
             let tick_us = 1e6 / self.tick_hz;
             let t_s = self.done as f64 / self.tick_hz;
             let ready_us = (self.done as f64 + READY_SHARE) * tick_us;
-            let now_us = *ticks as f64 * tick_us;
-            let Hosted {
-                module,
-                config,
-                line,
-                ..
-            } = &mut *hosted;
-            node.before(now_us as u64, (module, config), &mut |event| {
-                line.note(&event);
+            let now_us = board.ticks as f64 * tick_us;
+            let parts = (&mut board.module, &board.config);
+            node.before(now_us as u64, parts, &mut |event| {
+                board.line.note(&event);
                 if let Event::Node(node, what) = event {
                     bus.happened.push(Happened { t_s, node, what });
                 }
                 events.push(event);
             });
             let first = events.len();
-            hosted.tick(events);
+            board.tick(events);
             let decided = events.iter().skip(first).find_map(|event| match event {
                 Event::Decision(_, decision) => Some(*decision),
                 _ => None,
             });
-            node.after((&hosted.module, &hosted.config), decided, &mut |frame| {
-                bus.can.queue(n, frame, ready_us);
-            });
-            *ticks += 1;
-            bus.joined[n] = node.is_joined();
-            bus.armed[n] = hosted.module.is_armed();
+            if let Some(node) = &mut board.node {
+                node.after((&board.module, &board.config), decided, &mut |frame| {
+                    bus.can.queue(n, frame, ready_us);
+                });
+                bus.joined[n] = node.is_joined();
+            }
+            board.ticks += 1;
+            bus.armed[n] = board.module.is_armed();
         }
         self.carry();
         self.done += 1;
     }
 
     fn look(&mut self, snapshot: &mut Snapshot) {
-        snapshot
-            .contact
-            .iter_mut()
-            .filter(|pi| !pi.is_nan())
-            .for_each(|pi| *pi = 0.0);
+        for pi in snapshot.contact.iter_mut().filter(|pi| !pi.is_nan()) {
+            *pi = 0.0;
+        }
         for (side, z) in snapshot.z.iter_mut().enumerate() {
             let first = side * self.each;
             let board = self.boards.iter().find(|board| first < board.own.end);
-            let Some(Board { hosted, own, .. }) = board else {
+            let Some(board) = board else {
                 continue;
             };
-            let local = first - own.start;
-            if let Some(perception) = hosted.module.perception() {
+            let local = first - board.own.start;
+            if let Some(perception) = board.module.perception() {
                 snapshot.touch[side] = perception.touching(local).number;
             }
-            let state = hosted.module.motion().map(Motion::state);
+            let state = board.module.motion().map(Motion::state);
             if let Some(of_side) = state.and_then(|state| state.sides.get(side)) {
                 *z = of_side.z.value.to_f64();
             }
@@ -265,33 +218,30 @@ impl<R: Number> Bench for Head<R> {
                 snapshot.g[side] = whisker.gain();
             }
         }
-        for Board { hosted, own, .. } in &self.boards {
-            if let Some(places) = snapshot.theta_deg.get_mut(own.clone()) {
-                hosted.look_at_setpoints(places);
+        for board in &self.boards {
+            if let Some(places) = snapshot.theta_deg.get_mut(board.own.clone()) {
+                board.look_at_setpoints(places);
             }
-            for (most, pi) in snapshot.contact.iter_mut().zip(hosted.module.contact()) {
-                *most = if most.is_nan() {
-                    *most
-                } else {
-                    most.max(pi.to_f64())
-                };
+            let sides = snapshot.contact.iter_mut().zip(board.module.contact());
+            for (most, pi) in sides.filter(|(most, _)| !most.is_nan()) {
+                *most = most.max(pi.to_f64());
             }
         }
     }
 
     fn slave_mut(&mut self, n: usize) -> Option<&mut Slave> {
-        let (hosted, n) = self.board_of(n)?;
-        hosted.sensor_mut(n)?.slave_mut()
+        let (board, n) = self.board_of(n)?;
+        board.sensor_mut(n)?.slave_mut()
     }
 
     fn tmag_mut(&mut self, n: usize) -> Option<&mut TmagSlave> {
-        let (hosted, n) = self.board_of(n)?;
-        hosted.sensor_mut(n)?.tmag_mut()
+        let (board, n) = self.board_of(n)?;
+        board.sensor_mut(n)?.tmag_mut()
     }
 
     fn bend(&mut self, n: usize, deflection: [f64; 2]) {
         let found = self.board_of(n);
-        if let Some(sensor) = found.and_then(|(hosted, n)| hosted.sensor_mut(n)) {
+        if let Some(sensor) = found.and_then(|(board, n)| board.sensor_mut(n)) {
             sensor.bend(deflection);
         }
     }
@@ -308,41 +258,38 @@ impl<R: Number> Bench for Head<R> {
 
 impl<R: Number> HostModule for Head<R>
 where
-    Hosted<R>: Send,
+    Board<R>: Send,
 {
     fn restart(&mut self, seed: u64, pins: Vec<Pins>) -> Result<(), Error> {
         self.done = 0;
-        for (number, board) in (0..).zip(&mut self.boards) {
-            board.pins = pins_of(&board.own, &pins);
-            board.hosted.restart(seed, board.pins.clone())?;
-            let node = board.node.is_some();
-            board.node = node.then(|| Node::new(&board.hosted.config.head, number));
-            board.ticks = 0;
+        for board in &mut self.boards {
+            board.rewire(&pins);
+            board.restart(seed)?;
         }
         self.bus = bus_of(&self.boards);
         Ok(())
     }
 
     fn command(&mut self, n: usize, command: Command<f64>) -> Result<(), NotDone> {
-        let (hosted, n) = self.board_of(n).ok_or(NoActiveWhisker)?;
-        hosted.command(n, command)
+        let (board, n) = self.board_of(n).ok_or(NoActiveWhisker)?;
+        board.command(n, command)
     }
 
     fn arm(&mut self, is_armed: bool) {
         match &mut self.bus {
             Some(bus) => bus.arm(0, is_armed),
-            None => (self.boards.iter_mut()).for_each(|board| board.hosted.module.arm(is_armed)),
+            None => (self.boards.iter_mut()).for_each(|board| board.module.arm(is_armed)),
         }
     }
 
     fn tap(&mut self) -> Option<&mut Tap> {
-        let perception = self.boards.first_mut()?.hosted.module.perception_mut()?;
+        let perception = self.boards.first_mut()?.module.perception_mut()?;
         Some(perception.classifier_mut())
     }
 
     fn request(&mut self, request: TaggedCommand) {
         if let Some(board) = self.boards.get_mut(self.talking) {
-            board.hosted.request(request);
+            board.request(request);
         }
     }
 
@@ -352,14 +299,14 @@ where
 
     fn request_of(&mut self, board: usize, request: TaggedCommand) -> bool {
         let found = self.boards.get_mut(board);
-        found.map(|board| board.hosted.request(request)).is_some()
+        found.map(|board| board.request(request)).is_some()
     }
 
     fn take_packets(&mut self) -> Vec<Packet> {
         let talking = self.talking;
         let boards = self.boards.iter_mut().enumerate();
         let packets = boards.flat_map(|(n, board)| {
-            let mut packets = board.hosted.line.take();
+            let mut packets = board.line.take();
             packets.retain(|packet| n == talking || matches!(packet, Packet::Answer(_)));
             packets
         });

@@ -7,7 +7,7 @@ use firmware::{
 use whisking::Real;
 use wire::{Command, CommandStatus, TaggedCommand};
 
-use super::mock::Mock;
+use super::board::Mock;
 
 /// A module's end of the link.
 pub(super) struct Line {

@@ -11,7 +11,10 @@ use super::{Slave, WireFault};
 const REST: [u8; 8] = [0xFF, 0x00, 0x80, 0x00, 0x80, 0x00, 0x00, 0x00];
 
 fn still() -> Slave {
-    Slave::default().without_noise()
+    Slave {
+        is_noisy: false,
+        ..Slave::default()
+    }
 }
 
 fn read(slave: &mut Slave) -> [u8; 8] {
@@ -40,7 +43,8 @@ fn deflections_become_these_bytes() {
 
 #[test]
 fn mode_and_sum_rule_are_the_sensor_s() {
-    let mut slave = Slave::of(Decoder::with(Mode::Xyz, SumRule::ComplementB1B6)).without_noise();
+    let mut slave = still();
+    slave.program(Decoder::with(Mode::Xyz, SumRule::ComplementB1B6));
     slave.set([0.25, 0.0]);
     let frame = [0xFF, 0x00, 0xA0, 0x00, 0x80, 0x00, 0x80, !0xA0];
     assert_eq!(read(&mut slave), frame);

@@ -188,11 +188,6 @@ impl TmagSlave {
         }
     }
 
-    /// What has gone over the bus so far.
-    pub const fn traffic(&self) -> Traffic {
-        self.traffic
-    }
-
     fn at(&mut self, register: Register) -> &mut u16 {
         &mut self.registers[usize::from(register.address())]
     }

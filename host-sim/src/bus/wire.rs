@@ -5,20 +5,18 @@ use embedded_hal::spi::{ErrorKind, Operation};
 /// What a line reads when nothing pulls it low.
 pub(super) const RELEASED: u8 = 0xFF;
 
-/// What the master sends where embedded-hal leaves it open (reads, and a
-/// transfer whose answer is longer than what it sends). Zero is the value that
-/// a driver for these sensors must not rely on.
+/// What the master sends where embedded-hal leaves it open (reads, and a transfer whose answer is
+/// longer than what it sends). Zero is the value that a driver for these sensors must not rely on.
 const FILLER: u8 = 0x00;
 
 /// What has gone over a bus since its slave was made.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub struct Traffic {
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Traffic {
     /// Times that /SS went low, failed transactions included.
-    pub transactions: u64,
-    /// Bytes clocked.
-    pub bytes: u64,
-    /// Sum of the delays asked for inside transactions, nanoseconds.
-    pub delay_ns: u64,
+    pub(super) transactions: u64,
+    pub(super) bytes: u64,
+    /// Sum of the delays asked for inside transactions.
+    pub(super) delay_ns: u64,
 }
 
 /// The bus controller failed.
@@ -38,9 +36,8 @@ pub(super) fn clock(
     traffic: &mut Traffic,
     mut byte: impl FnMut(u8) -> u8,
 ) {
-    let (mut bytes, mut delay_ns) = (0_u64, 0_u64);
     let mut byte = |sent| {
-        bytes += 1;
+        traffic.bytes = traffic.bytes.saturating_add(1);
         byte(sent)
     };
     for operation in operations {
@@ -53,11 +50,11 @@ pub(super) fn clock(
                     *slot = byte(*slot);
                 }
             }
-            Operation::DelayNs(ns) => delay_ns = delay_ns.saturating_add(u64::from(*ns)),
+            Operation::DelayNs(ns) => {
+                traffic.delay_ns = traffic.delay_ns.saturating_add(u64::from(*ns));
+            }
         }
     }
-    traffic.bytes = traffic.bytes.saturating_add(bytes);
-    traffic.delay_ns = traffic.delay_ns.saturating_add(delay_ns);
 }
 
 fn transfer(read: &mut [u8], write: &[u8], byte: &mut impl FnMut(u8) -> u8) {

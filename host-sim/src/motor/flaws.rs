@@ -70,27 +70,19 @@ mod tests {
     #[test]
     fn counts_are_lost_one_way_scaled_and_turned() {
         // 11 turns of 512 counts a whisker turn.
-        assert_eq!(counts(EncoderFlaws::NONE), [782, 0]);
-        let slip = EncoderFlaws {
-            slip: 0.5,
-            ..EncoderFlaws::NONE
-        };
-        assert_eq!(counts(slip), [391, -391]);
-        let turned = EncoderFlaws {
-            scale: -2.0,
-            ..EncoderFlaws::NONE
-        };
-        assert_eq!(counts(turned), [-1564, 0]);
+        let none = EncoderFlaws::NONE;
+        assert_eq!(counts(none), [782, 0]);
+        assert_eq!(counts(EncoderFlaws { slip: 0.5, ..none }), [391, -391]);
+        let scale = -2.0;
+        assert_eq!(counts(EncoderFlaws { scale, ..none }), [-1564, 0]);
     }
 
     #[test]
     fn a_stuck_encoder_jitters_about_its_count() {
         let (mut motor, mut pins) = SimMotor::brushed(MotorSettings::DEFAULT).unwrap();
         motor.cut(Wire::Encoder);
-        motor.set_encoder(EncoderFlaws {
-            jitter: 3,
-            ..EncoderFlaws::NONE
-        });
+        let none = EncoderFlaws::NONE;
+        motor.set_encoder(EncoderFlaws { jitter: 3, ..none });
         motor.set_load_nm(1e-3);
         let mut seen = std::collections::BTreeSet::new();
         for _ in 0..200 {

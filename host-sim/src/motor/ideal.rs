@@ -7,8 +7,7 @@ use whisking::motor::{Duty, Fault, MotorDriver};
 
 use super::pins::Level;
 
-/// A motor that is always at its setpoint: the simulation puts it there. Clones are
-/// the same motor.
+/// A motor that is always at its setpoint: the simulation puts it there. Clones are the same motor.
 #[derive(Debug, Clone)]
 pub struct IdealMotor {
     angle_deg: Arc<Level>,

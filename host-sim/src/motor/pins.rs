@@ -18,8 +18,7 @@ use super::EncoderFlaws;
 /// A wire that can be cut.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Wire {
-    /// Winding terminal 0 or 1 of a brushed motor, 0 to 2 of a brushless one;
-    /// others are not there.
+    /// Winding terminal 0 or 1 of a brushed motor, 0 to 2 of a brushless one; others are not there.
     Winding(usize),
     /// Both winding terminals of a brushed motor, exchanged: it turns the wrong way round.
     Windings,
@@ -30,6 +29,19 @@ pub enum Wire {
     Encoder,
     /// The encoder's two channels, exchanged: it counts the wrong way round.
     EncoderChannels,
+}
+
+impl Wire {
+    const fn place(self) -> usize {
+        match self {
+            Self::Winding(i @ 0..3) => i,
+            Self::Winding(_) => usize::MAX,
+            Self::Windings => 3,
+            Self::Halls => 4,
+            Self::Encoder => 5,
+            Self::EncoderChannels => 6,
+        }
+    }
 }
 
 /// A number that both ends of a wire can reach.
@@ -50,11 +62,8 @@ impl Level {
 pub(super) struct Wires {
     duty: [AtomicU16; 3],
     high: [AtomicBool; 3],
-    cut: [AtomicBool; 3],
-    windings_turned: AtomicBool,
-    halls_cut: AtomicBool,
-    encoder_cut: AtomicBool,
-    encoder_turned: AtomicBool,
+    /// Which wires are cut, or exchanged, by [`Wire::place`].
+    cut: [AtomicBool; 7],
     /// Rotor angle, rad.
     angle: Level,
     /// Angle that the encoder has not seen, rad.
@@ -62,7 +71,6 @@ pub(super) struct Wires {
     /// Counts that are read beside those of the angle.
     jitter: AtomicI32,
     counts_per_rad: f64,
-    /// Duty that is fully on.
     pwm_counts: u16,
 }
 
@@ -72,10 +80,6 @@ impl Wires {
             duty: Default::default(),
             high: Default::default(),
             cut: Default::default(),
-            windings_turned: AtomicBool::new(false),
-            halls_cut: AtomicBool::new(false),
-            encoder_cut: AtomicBool::new(false),
-            encoder_turned: AtomicBool::new(false),
             angle: Level::default(),
             missed: Level::default(),
             jitter: AtomicI32::new(0),
@@ -87,7 +91,7 @@ impl Wires {
     /// The rotor has turned to `angle`, of which an encoder with these flaws sees a part.
     pub(super) fn set_angle(&self, angle: f64, flaws: EncoderFlaws) {
         let turned = angle - self.angle.get();
-        let seen = if self.encoder_cut.load(Relaxed) {
+        let seen = if self.is_cut(Wire::Encoder) {
             0.0
         } else {
             flaws.seen(turned)
@@ -101,16 +105,8 @@ impl Wires {
     }
 
     pub(super) fn set_cut(&self, wire: Wire, cut: bool) {
-        match wire {
-            Wire::Winding(i) => {
-                if let Some(place) = self.cut.get(i) {
-                    place.store(cut, Relaxed);
-                }
-            }
-            Wire::Windings => self.windings_turned.store(cut, Relaxed),
-            Wire::Halls => self.halls_cut.store(cut, Relaxed),
-            Wire::Encoder => self.encoder_cut.store(cut, Relaxed),
-            Wire::EncoderChannels => self.encoder_turned.store(cut, Relaxed),
+        if let Some(place) = self.cut.get(wire.place()) {
+            place.store(cut, Relaxed);
         }
     }
 
@@ -130,26 +126,20 @@ impl Wires {
 
     /// Whether the driver of a brushed motor pulls terminal 0 up.
     pub(super) fn is_forward(&self) -> bool {
-        self.is_high(0) != self.windings_turned.load(Relaxed)
+        self.is_high(0) != self.is_cut(Wire::Windings)
     }
 
-    pub(super) fn is_cut(&self, i: usize) -> bool {
-        self.cut.get(i).is_some_and(|cut| cut.load(Relaxed))
+    pub(super) fn is_cut(&self, wire: Wire) -> bool {
+        let cut = self.cut.get(wire.place());
+        cut.is_some_and(|cut| cut.load(Relaxed))
     }
 }
 
 /// The module's end of one of several like wires.
 #[derive(Debug, Clone)]
 pub(super) struct End {
-    wires: Arc<Wires>,
-    i: usize,
-}
-
-impl End {
-    pub(super) fn new(wires: &Arc<Wires>, i: usize) -> Self {
-        let wires = Arc::clone(wires);
-        Self { wires, i }
-    }
+    pub(super) wires: Arc<Wires>,
+    pub(super) i: usize,
 }
 
 /// A PWM output of the module.
@@ -165,8 +155,7 @@ pub struct SimPin(pub(super) End);
 #[derive(Debug, Clone)]
 pub struct SimHall(pub(super) End);
 
-/// The encoder's counter: 0 at rest, up with protraction, to the nearest count;
-/// wraps around.
+/// The encoder's counter: 0 at rest, up with protraction, to the nearest count; wraps around.
 #[derive(Debug, Clone)]
 pub struct SimEncoder(pub(super) Arc<Wires>);
 
@@ -219,7 +208,7 @@ impl InputPin for SimHall {
     fn is_high(&mut self) -> Result<bool, Infallible> {
         let End { wires, i } = &self.0;
         let axis = TAU / 3.0 * *i as f64;
-        Ok(wires.halls_cut.load(Relaxed) || libm::cos(wires.angle.get() - axis) > 0.0)
+        Ok(wires.is_cut(Wire::Halls) || libm::cos(wires.angle.get() - axis) > 0.0)
     }
 
     fn is_low(&mut self) -> Result<bool, Infallible> {
@@ -230,7 +219,7 @@ impl InputPin for SimHall {
 impl AngleInput for SimEncoder {
     fn counts(&mut self) -> i32 {
         let seen = self.0.angle.get() - self.0.missed.get();
-        let turned = self.0.encoder_turned.load(Relaxed);
+        let turned = self.0.is_cut(Wire::EncoderChannels);
         let seen = if turned { -seen } else { seen };
         // Through i64, so that the count wraps as a counter does.
         let counts = seen * self.0.counts_per_rad + 0.5;

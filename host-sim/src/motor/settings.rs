@@ -1,19 +1,13 @@
 //! What a motor is, in physical units.
 
-use core::ops::RangeInclusive;
-
-/// A motor setting that is out of its range, by the name of its field.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
-#[error("motor setting {0} is out of range")]
-pub struct BadMotorSetting(pub &'static str);
+use physics::BadSetting;
 
 /// Motor, gear, whisker inertia and encoder.
 ///
-/// The defaults describe a class, that of flat 13 mm brushless micro motors
-/// such as the Faulhaber 1307 of BIOTACT (section II-C); they are rounded
-/// choices, not data-sheet figures. They give a stall torque of 0.6 mN·m, a
-/// no-load speed of 22,000 turns a minute at the rotor and 11,900 °/s at the
-/// whisker, and a mechanical time constant of 48 ms.
+/// The defaults describe a class, that of flat 13 mm brushless micro motors such as the Faulhaber
+/// 1307 of BIOTACT (section II-C); they are rounded choices, not data-sheet figures. They give a
+/// stall torque of 0.6 mN·m, a no-load speed of 22,000 turns a minute at the rotor and 11,900 °/s
+/// at the whisker, and a mechanical time constant of 48 ms.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct MotorSettings {
     /// Supply voltage U, 0 to 100 V.
@@ -35,8 +29,7 @@ pub struct MotorSettings {
     pub gear: f64,
     /// Encoder counts a motor turn, 4 to 65,536.
     pub counts_per_rev: u32,
-    /// Whisker angle θ′ at which the motor starts and the encoder reads 0,
-    /// ±360 degrees.
+    /// Whisker angle θ′ at which the motor starts and the encoder reads 0, ±360 degrees.
     pub rest_deg: f64,
     /// Whisker angles θ′ of the end stops, degrees; infinite where there are none. Rest lies
     /// between them.
@@ -46,7 +39,7 @@ pub struct MotorSettings {
 }
 
 /// Steps of the duty where no board says how many: a timer of 160 MHz at 20 kHz.
-pub const PWM_COUNTS: u16 = 8000;
+pub(crate) const PWM_COUNTS: u16 = 8000;
 
 impl MotorSettings {
     /// The class described above.
@@ -69,7 +62,7 @@ impl MotorSettings {
     };
 
     /// Inertia seen by the rotor: J = J_rotor + J_whisker/G².
-    pub fn inertia_kg_m2(&self) -> f64 {
+    pub(super) fn inertia_kg_m2(&self) -> f64 {
         self.rotor_kg_m2 + self.whisker_kg_m2 / (self.gear * self.gear)
     }
 
@@ -83,32 +76,20 @@ impl MotorSettings {
         360.0 / (self.gear * self.counts_per_rev as f64)
     }
 
-    pub(super) fn check(&self) -> Result<(), BadMotorSetting> {
-        let within = |name, value: f64, range: RangeInclusive<f64>| {
-            range
-                .contains(&value)
-                .then_some(())
-                .ok_or(BadMotorSetting(name))
-        };
-        within("supply_v", self.supply_v, 0.0..=100.0)?;
-        within("resistance_ohm", self.resistance_ohm, 1e-3..=1e6)?;
-        within("torque_nm_per_a", self.torque_nm_per_a, 1e-6..=10.0)?;
-        within("rotor_kg_m2", self.rotor_kg_m2, 1e-12..=1.0)?;
-        within("whisker_kg_m2", self.whisker_kg_m2, 0.0..=1.0)?;
-        within("viscous_nm_s", self.viscous_nm_s, 0.0..=1.0)?;
-        within("coulomb_nm", self.coulomb_nm, 0.0..=10.0)?;
-        within("gear", self.gear, 1.0..=1000.0)?;
-        let counts = f64::from(self.counts_per_rev);
-        within("counts_per_rev", counts, 4.0..=65_536.0)?;
-        within("rest_deg", self.rest_deg, -360.0..=360.0)?;
+    pub(super) fn check(&self) -> Result<(), BadSetting> {
+        let check = BadSetting::check;
+        check("supply_v", self.supply_v, 0.0, 100.0)?;
+        check("resistance_ohm", self.resistance_ohm, 1e-3, 1e6)?;
+        check("torque_nm_per_a", self.torque_nm_per_a, 1e-6, 10.0)?;
+        check("rotor_kg_m2", self.rotor_kg_m2, 1e-12, 1.0)?;
+        check("whisker_kg_m2", self.whisker_kg_m2, 0.0, 1.0)?;
+        check("viscous_nm_s", self.viscous_nm_s, 0.0, 1.0)?;
+        check("coulomb_nm", self.coulomb_nm, 0.0, 10.0)?;
+        check("gear", self.gear, 1.0, 1000.0)?;
+        check("counts_per_rev", self.counts_per_rev.into(), 4.0, 65_536.0)?;
+        check("rest_deg", self.rest_deg, -360.0, 360.0)?;
         let [lowest, highest] = self.stops_deg;
-        within("stops_deg", self.rest_deg, lowest..=highest)?;
-        within("pwm_counts", self.pwm_counts.into(), 1.0..=65_535.0)
-    }
-}
-
-impl Default for MotorSettings {
-    fn default() -> Self {
-        Self::DEFAULT
+        check("stops_deg", self.rest_deg, lowest, highest)?;
+        check("pwm_counts", self.pwm_counts.into(), 1.0, 65_535.0).map(drop)
     }
 }

@@ -27,8 +27,6 @@
 //! any tick. Not modelled: stick and slip, higher modes, the mode's shift while
 //! the tip is held, torque back on the motor.
 
-mod settings;
-
 use core::f64::consts::PI;
 use core::iter::repeat;
 
@@ -37,7 +35,25 @@ use scene::Texture;
 use super::surface::{Path, Profile, SurfaceSettings};
 use super::{BadSetting, Head, Plant, apart};
 use physics::{Noise, Propagator, Resonator};
-pub use settings::{TexturedSettings, WhiskerSettings};
+
+/// The middle whisker of BIOTACT (section II-C): length L, m, and undamped frequency of the first
+/// bending mode, Hz. Its damping ratio, and all that follows, are choices.
+const LENGTH_M: f64 = 0.112;
+const RESONANCE_HZ: f64 = 50.0;
+const DAMPING: f64 = 0.1;
+
+/// Excursion of the tip across the direction of whisking, as a share of that along it.
+const LATERAL: f64 = 0.5;
+
+/// Bend B at which the shaft gives no more: room is left below the end of the sensor's range.
+const BEND_LIMIT: f64 = 0.8;
+
+/// Share of the bend that friction adds in protraction and takes in retraction, a unit of μ; and
+/// that it turns to y, as the whisker lies at a slant to the surface.
+const DRAG: [f64; 2] = [0.4, 0.4];
+
+/// Sliding speed at which friction is half of its full value, degrees a second.
+const CREEP_DEG_S: f64 = 10.0;
 
 /// Largest angle (degrees, either sign) and speed (degrees a second) that are
 /// believed; they keep the arithmetic finite.
@@ -49,9 +65,6 @@ const CODES: f64 = 8191.0;
 
 #[derive(Debug, Clone)]
 struct Whisker {
-    shaft: WhiskerSettings,
-    /// Way of the tip.
-    metres_per_degree: f64,
     /// θ′_lim.
     limit_deg: f64,
     angle_deg: Option<f64>,
@@ -67,30 +80,60 @@ struct Whisker {
     noise: Noise,
 }
 
+/// What whiskers meet, and what they are like.
+#[derive(Debug, Clone)]
+struct World {
+    surface: SurfaceSettings,
+    stiffness: f64,
+    /// Friction coefficient μ of every texture in place of its own.
+    friction: Option<f64>,
+    /// Share of its own inertia that bends a free whisker; a rigid rod on a hinge spring has 1.
+    inertia: f64,
+    /// Spread of the friction over the landings, the standard deviation of its logarithm.
+    patch: f64,
+    /// Of the sensor, root mean square, a deflection.
+    noise: f64,
+}
+
 /// Textured surfaces before simulated whiskers.
 #[derive(Debug, Clone)]
 pub struct Textured {
     head: Head,
-    settings: TexturedSettings,
-    surface: SurfaceSettings,
+    world: World,
     whiskers: Vec<Whisker>,
 }
 
 impl Textured {
-    /// Whiskers before a smooth surface. The same seed gives the same noise and
-    /// the same grains; each whisker has its own.
+    /// Noise of a sensor, root mean square, codes of 14 bits.
+    pub const NOISE_CODES: f64 = 4.0;
+
+    /// Whiskers before a smooth surface. `friction` is the coefficient μ of every texture in
+    /// place of its own, 0 to 10; `noise_codes` the sensor noise, 0 to 1000. The same seed gives
+    /// the same noise and the same grains; each whisker has its own.
     ///
     /// # Errors
     /// The first setting out of its range.
-    pub fn new(head: Head, settings: TexturedSettings, seed: u64) -> Result<Self, BadSetting> {
+    pub fn new(
+        head: Head,
+        friction: Option<f64>,
+        noise_codes: f64,
+        seed: u64,
+    ) -> Result<Self, BadSetting> {
         head.check()?;
-        settings.check()?;
-        let whiskers = whiskers(&head, &settings, seed);
-        Ok(Self {
-            head,
-            settings,
+        BadSetting::check("friction", friction.unwrap_or(0.0), 0.0, 10.0)?;
+        BadSetting::check("noise_codes", noise_codes, 0.0, 1000.0)?;
+        let world = World {
             surface: SurfaceSettings::of(Texture::Smooth),
-            whiskers,
+            stiffness: head.stiffness,
+            friction,
+            inertia: 1.0,
+            patch: 0.2,
+            noise: noise_codes / CODES,
+        };
+        Ok(Self {
+            whiskers: whiskers(&head, seed),
+            head,
+            world,
         })
     }
 
@@ -103,46 +146,16 @@ impl Textured {
         }
         free
     }
-
-    /// Puts any surface before all whiskers; those in contact land again. Its
-    /// values are limited to 0 to 1 m of height, 1e-9 to 1e3 m of grain, 1000 of
-    /// grip and softness and 10 of friction; one that is not a number counts as
-    /// the lowest.
-    pub fn present_surface(&mut self, surface: SurfaceSettings) {
-        // The larger of a number and NaN is the number.
-        let limit = |value: f64, lo: f64, hi: f64| value.max(lo).min(hi);
-        self.surface = SurfaceSettings {
-            height_m: limit(surface.height_m, 0.0, 1.0),
-            grain_m: limit(surface.grain_m, 1e-9, 1e3),
-            grip: limit(surface.grip, 0.0, 1e3),
-            softness: limit(surface.softness, 0.0, 1e3),
-            friction: limit(surface.friction, 0.0, 10.0),
-        };
-        for whisker in &mut self.whiskers {
-            whisker.touching = false;
-        }
-    }
 }
 
-fn whiskers(head: &Head, settings: &TexturedSettings, seed: u64) -> Vec<Whisker> {
-    let whisker = |(n, limit_deg)| Whisker::new(settings.whisker, limit_deg, apart(seed, n));
+fn whiskers(head: &Head, seed: u64) -> Vec<Whisker> {
+    let whisker = |(n, limit_deg)| Whisker::new(limit_deg, apart(seed, n));
     (0..).zip(head.limits()).map(whisker).collect()
 }
 
-struct World<'a> {
-    surface: &'a SurfaceSettings,
-    stiffness: f64,
-    settings: &'a TexturedSettings,
-    /// Of the sensor, a deflection.
-    noise: f64,
-    dt_s: f64,
-}
-
 impl Whisker {
-    fn new(shaft: WhiskerSettings, limit_deg: f64, seed: u64) -> Self {
+    fn new(limit_deg: f64, seed: u64) -> Self {
         Self {
-            shaft,
-            metres_per_degree: shaft.length_m * PI / 180.0,
             limit_deg,
             angle_deg: None,
             speed_deg_s: 0.0,
@@ -150,20 +163,16 @@ impl Whisker {
             patch: 1.0,
             profile: [Profile::default(); 2],
             modes: [Resonator::default(); 2],
-            over: (0.0, Propagator::new(shaft.resonance_hz, shaft.damping, 0.0)),
+            over: (0.0, Propagator::new(RESONANCE_HZ, DAMPING, 0.0)),
             reading: [0.0; 2],
             noise: Noise::new(seed),
         }
     }
 
     /// Targets of x and y for a base that moves between two angles.
-    fn targets(&mut self, world: &World<'_>, before: f64, after: f64) -> [f64; 2] {
+    fn targets(&mut self, world: &World, before: f64, after: f64, dt_s: f64) -> [f64; 2] {
         let World {
-            surface,
-            stiffness,
-            settings,
-            dt_s,
-            ..
+            surface, stiffness, ..
         } = *world;
         let from = (before - self.limit_deg).max(0.0);
         let to = (after - self.limit_deg).max(0.0);
@@ -172,12 +181,12 @@ impl Whisker {
         if !self.touching {
             return [0.0; 2];
         }
-        let metres_per_degree = self.metres_per_degree;
+        let metres_per_degree = LENGTH_M * PI / 180.0;
         let grains = (to - from).abs() * metres_per_degree / surface.grain_m;
         let path = Path::new(grains);
         let noise = &mut self.noise;
         if !landed {
-            self.patch = libm::exp(settings.patch * noise.next());
+            self.patch = libm::exp(world.patch * noise.next());
         }
         let [along, across] = self.profile.each_mut().map(|profile| {
             if !landed {
@@ -188,31 +197,29 @@ impl Whisker {
         let excursion = surface.grip * surface.height_m / metres_per_degree;
         let overlap = f64::midpoint(from, to) / (1.0 + surface.softness);
         let strain = stiffness * (overlap + excursion * along).max(0.0);
-        let bend = settings.bend_limit * libm::tanh(strain / settings.bend_limit);
+        let bend = BEND_LIMIT * libm::tanh(strain / BEND_LIMIT);
         let speed = (to - from) / dt_s;
-        let friction = self.patch * surface.friction * speed / (speed.abs() + settings.creep_deg_s);
-        let grain_y = stiffness * excursion * settings.lateral * across;
+        let friction = self.patch * surface.friction * speed / (speed.abs() + CREEP_DEG_S);
+        let grain_y = stiffness * excursion * LATERAL * across;
+        let [drag, drag_y] = DRAG;
         [
-            bend * (1.0 + settings.drag * friction),
-            grain_y + bend * settings.drag_y * friction,
+            bend * (1.0 + drag * friction),
+            grain_y + bend * drag_y * friction,
         ]
     }
 
-    fn advance(&mut self, world: &World<'_>, angle: f64) {
+    fn advance(&mut self, world: &World, angle: f64, dt_s: f64) {
         let believed = Some(angle).filter(|angle| angle.abs() <= ANGLE_LIMIT);
         let Some(after) = believed.or(self.angle_deg) else {
             return;
         };
         let before = self.angle_deg.replace(after).unwrap_or(after);
-        let (dt_s, settings) = (world.dt_s, world.settings);
         if self.over.0 != dt_s {
-            let shaft = &self.shaft;
-            let over = Propagator::new(shaft.resonance_hz, shaft.damping, dt_s);
-            self.over = (dt_s, over);
+            self.over = (dt_s, Propagator::new(RESONANCE_HZ, DAMPING, dt_s));
         }
-        let targets = self.targets(world, before, after);
+        let targets = self.targets(world, before, after, dt_s);
         let speed = ((after - before) / dt_s).clamp(-SPEED_LIMIT, SPEED_LIMIT);
-        let kick = settings.inertia * world.stiffness * (speed - self.speed_deg_s);
+        let kick = world.inertia * world.stiffness * (speed - self.speed_deg_s);
         self.speed_deg_s = speed;
         let [x, _] = &mut self.modes;
         x.v -= kick;
@@ -228,8 +235,12 @@ impl Whisker {
 impl Plant for Textured {
     fn present(&mut self, texture: Texture) {
         let mut surface = SurfaceSettings::of(texture);
-        surface.friction = self.settings.friction.unwrap_or(surface.friction);
-        self.present_surface(surface);
+        surface.friction = self.world.friction.unwrap_or(surface.friction);
+        self.world.surface = surface;
+        // Those in contact land again.
+        for whisker in &mut self.whiskers {
+            whisker.touching = false;
+        }
     }
 
     fn touches(&self) -> bool {
@@ -245,22 +256,15 @@ impl Plant for Textured {
         if !(dt_s > 0.0 && dt_s.is_finite()) {
             return;
         }
-        let world = World {
-            surface: &self.surface,
-            stiffness: self.head.stiffness,
-            settings: &self.settings,
-            noise: self.settings.noise_codes / CODES,
-            dt_s,
-        };
         let angles = angles_deg.iter().copied().chain(repeat(f64::NAN));
         for (whisker, angle) in self.whiskers.iter_mut().zip(angles) {
-            whisker.advance(&world, angle);
+            whisker.advance(&self.world, angle, dt_s);
         }
     }
 
     fn restart(&mut self, seed: u64) {
-        self.surface = SurfaceSettings::of(Texture::Smooth);
-        self.whiskers = whiskers(&self.head, &self.settings, seed);
+        self.world.surface = SurfaceSettings::of(Texture::Smooth);
+        self.whiskers = whiskers(&self.head, seed);
     }
 }
 

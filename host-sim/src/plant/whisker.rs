@@ -7,13 +7,11 @@
 //!   θ′_lim; it may end, or be a bar;
 //! - *piece*: of a surface; every presentation shows another.
 //!
-//! The physics is [`TouchingWhisker`]; here are its scale and its surfaces. The
-//! sensor's full scale is such that a hard plate that holds the tip makes the
-//! contact signal grow by σ_x a degree of overlap at first touch, as BIOTACT eq. 11 has
-//! it: a tip that is held while the base turns by δ is bent by L δ, which turns
-//! the base against its follicle by r/c L δ, with the static rotation r (rad/N)
-//! and deflection c (m/N) for a force on the tip. Not modelled: torque back on
-//! the motor.
+//! The physics is [`TouchingWhisker`]; here are its scale and its surfaces. The sensor's full scale
+//! is such that a hard plate that holds the tip makes the contact signal grow by σ_x a degree of
+//! overlap at first touch, as BIOTACT eq. 11 has it: a tip that is held while the base turns by δ
+//! is bent by L δ, which turns the base against its follicle by r/c L δ, with the static rotation r
+//! (rad/N) and deflection c (m/N) for a force on the tip. Not modelled: torque back on the motor.
 
 use core::iter::repeat;
 
@@ -199,10 +197,7 @@ impl Elastic {
 
     /// The least and the most `stiffness` that these settings go with, by the full scale of the
     /// sensor that it asks for.
-    ///
-    /// # Errors
-    /// The first setting of the shaft out of its range.
-    pub fn stiffness(settings: &ElasticSettings) -> Result<[f64; 2], BadSetting> {
+    pub(crate) fn stiffness(settings: &ElasticSettings) -> Result<[f64; 2], BadSetting> {
         let modes = settings.shaft.modes(8)?;
         let a_degree = a_degree(&settings.shaft, &modes, settings.facing.elevation_deg);
         let [least, most] = FULL_SCALE_RAD;
@@ -220,9 +215,8 @@ impl Elastic {
         free
     }
 
-    /// Puts a new piece of any surface before all whiskers, whatever its seed.
-    /// Values out of their ranges count as the nearest that is within.
-    pub fn present_surface(&mut self, surface: Surface) {
+    /// Puts a new piece of a surface before all whiskers.
+    fn present_surface(&mut self, surface: Surface) {
         self.pieces = self.pieces.wrapping_add(1);
         self.surface = surface;
     }

@@ -9,7 +9,6 @@ const CODE: f64 = 1.0 / 8191.0;
 /// All sensors of a head; none of it is known to a module.
 #[derive(Debug, Clone)]
 pub(super) struct Flaws {
-    /// Whiskers of a side.
     whiskers: usize,
     /// Sine and cosine of the angle by which sensors are turned about their shafts.
     turn: [f64; 2],

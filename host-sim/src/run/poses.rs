@@ -77,14 +77,10 @@ impl Poses {
     /// How what stands before each whisker does: its tilt, and how far the whisk goes beyond where
     /// the shaft meets it, degrees.
     pub(super) fn stands(&self) -> Vec<[f64; 2]> {
-        let SurfacePose {
-            tilt_deg,
-            obstacle_deg,
-            ..
-        } = self.present;
+        let [more, less] = [self.present.tilt_deg, self.present.obstacle_deg];
         let own = self.own.iter();
-        own.map(|[tilt, depth]| [tilt + tilt_deg, depth - obstacle_deg].map(rounded))
-            .collect()
+        let stands = own.map(|[tilt, depth]| [tilt + more, depth - less].map(rounded));
+        stands.collect()
     }
 
     /// Which one was taken last, from 0; none where there is none.

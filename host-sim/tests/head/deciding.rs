@@ -12,7 +12,6 @@ use tactile::ModelBuf;
 
 use super::{ROOT, scene};
 
-/// One texture alone.
 const ALIKE: &str = "plant.textures=[\"p600\"]";
 
 /// A dozen whiskers are a side.
@@ -116,23 +115,15 @@ fn boards_decide_together() {
 #[test]
 fn boards_together_name_no_texture_that_was_not_trained() {
     let said = together("unknown", 8, true, (0.0, 21));
-    assert!(said.untrained > 200, "{}", said.untrained);
-    assert!(
-        said.named_untrained * 50 < said.untrained,
-        "{} of {}",
-        said.named_untrained,
-        said.untrained
-    );
+    let (named, all) = (said.named_untrained, said.untrained);
+    assert!(all > 200 && named * 50 < all, "{named} of {all}");
 }
 
 /// So do two dozen boards, a whisker each.
 #[test]
 fn a_head_of_two_dozen_boards_names_textures() {
-    let of_it = (
-        "textures.toml",
-        shipped("textures"),
-        &["duration_s=10.0"][..],
-    );
+    let set = &["duration_s=10.0"][..];
+    let of_it = ("textures.toml", shipped("textures"), set);
     let said = said(of_it, (24, true), (0.0, 31));
     assert!(said.named > 100, "{}", said.named);
     assert!(said.named * 10 > said.decisions * 9, "{}", said.decisions);
@@ -194,10 +185,7 @@ fn table_of_deciding_together() {
                 mean(&known, &|said| share(said.named, said.decisions)),
                 mean(&known, &|said| share(said.right, said.named)),
                 mean(&known, &|said| said.samples / said.decisions as f64),
-                mean(&unknown, &|said| share(
-                    said.named_untrained,
-                    said.untrained
-                )),
+                mean(&unknown, &|of| share(of.named_untrained, of.untrained)),
                 mean(&alike, &|said| said.named as f64 / 40.0),
             );
         }

@@ -14,12 +14,8 @@ use super::scene;
 fn a_look_says_what_a_whisker_has_decided_last() {
     for (whiskers, deciding) in [("first", 1), ("each", 2), ("together", 1)] {
         let whiskers = format!("classifier.whiskers={whiskers:?}");
-        let keys = [
-            "head.nodes=2",
-            "head.whiskers_per_side=2",
-            "duration_s=10.0",
-            &whiskers,
-        ];
+        let head = ["head.nodes=2", "head.whiskers_per_side=2"];
+        let keys = [&head[..], &["duration_s=10.0", &whiskers]].concat();
         let scene = scene("textures.toml", &keys);
         let model = shipped("textures");
         let names: Vec<String> = model.names().map(str::to_owned).collect();

@@ -14,9 +14,8 @@ const ROOT: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../scenes");
 fn scene(name: &str, overrides: &[&str]) -> Scene {
     let overrides = overrides.iter().map(|one| one.parse().unwrap());
     let overrides: Vec<Override> = overrides.collect();
-    Scene::load_with(Path::new(ROOT).join(name), &overrides)
-        .unwrap()
-        .0
+    let loaded = Scene::load_with(Path::new(ROOT).join(name), &overrides);
+    loaded.unwrap().0
 }
 
 const TWO: &str = "head.nodes=2";
@@ -183,10 +182,8 @@ fn a_stop_reaches_boards_that_were_cut_off() {
                 _ => {}
             }
             if tick == back {
-                assert_eq!(
-                    [0, 2].map(|node| bus.is_armed(node)),
-                    [stopped_by == 2, stopped_by == 0]
-                );
+                let armed = [0, 2].map(|node| bus.is_armed(node));
+                assert_eq!(armed, [stopped_by == 2, stopped_by == 0]);
             }
             if tick > back + 60 {
                 assert!(!(0..3).any(|node| bus.is_armed(node)), "{tick}");

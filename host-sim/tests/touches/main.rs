@@ -6,7 +6,7 @@
 //! ringing of the last contact is in both.
 
 use host_sim::classifier::Classifier;
-use host_sim::plant::{Elastic, ElasticSettings, Head, Plant, Textured, TexturedSettings};
+use host_sim::plant::{Elastic, ElasticSettings, Head, Plant, Textured};
 use host_sim::recording::{GATE, Recorder, Stream};
 use host_sim::run::Run;
 use physics::{Biotact, Shaft};
@@ -48,12 +48,8 @@ struct Found {
 }
 
 impl Found {
-    /// By the middle shaft where it is elastic.
-    fn contacts(&mut self, scene: &Scene) {
-        self.contacts_of(scene, Biotact::Middle);
-    }
-
-    fn contacts_of(&mut self, scene: &Scene, shaft: Biotact) {
+    /// By this shaft where it is elastic.
+    fn contacts(&mut self, scene: &Scene, shaft: Biotact) {
         let obstacle = scene.plant.obstacle.as_ref().unwrap();
         let head = Head {
             whiskers_per_side: 1,
@@ -62,11 +58,7 @@ impl Found {
         };
         let noise_codes = 0.0;
         if scene.plant.kind == PlantKind::Textured {
-            let settings = TexturedSettings {
-                noise_codes,
-                ..TexturedSettings::default()
-            };
-            let plant = Textured::new(head, settings, scene.seed).unwrap();
+            let plant = Textured::new(head, None, noise_codes, scene.seed).unwrap();
             self.run(scene, plant, Textured::in_the_air);
         } else {
             let settings = ElasticSettings {
@@ -132,7 +124,6 @@ impl Found {
         soon as f64 / (self.delays.len() as u64 + self.missed) as f64
     }
 
-    /// Mean delay, ms.
     fn mean(&self) -> f64 {
         self.delays.iter().sum::<u64>() as f64 / self.delays.len() as f64 * 1000.0 / TICK_HZ
     }
@@ -150,12 +141,11 @@ fn touches_are_reported_within_2_ms() {
     for ((name, text), mean, share) in [(PLANTS[0], 2.0, 0.9), (PLANTS[1], 0.8, 0.99)] {
         for hz in [2.0, 8.0] {
             let mut found = Found::default();
-            found.contacts(&scene(text, hz, 100.0, 40.0, 3201));
+            let scene = scene(text, hz, 100.0, 40.0, 3201);
+            found.contacts(&scene, Biotact::Middle);
             let contacts = found.delays.len() as f64 + found.missed as f64;
-            assert!(
-                contacts > 37.0 * hz && found.mean() <= mean && found.soon() >= share,
-                "{name} {hz} {found:?}"
-            );
+            let is_soon = found.mean() <= mean && found.soon() >= share;
+            assert!(contacts > 37.0 * hz && is_soon, "{name} {hz} {found:?}");
             assert!(found.false_ones <= 2, "{name} {hz} {found:?}");
         }
     }
@@ -179,7 +169,7 @@ fn a_shaft_does_not_suppress_its_own_protraction() {
     let mut found = Found::default();
     let mut scene = scene(WHISKER, 8.0, 100.0, 40.0, 3204);
     scene.sensor.self_motion_s = Some(2.0);
-    found.contacts(&scene);
+    found.contacts(&scene, Biotact::Middle);
     assert!(found.soon() > 0.99 && found.mean() < 0.8, "{found:?}");
     assert!(found.false_ones <= 2, "{found:?}");
 }
@@ -200,7 +190,7 @@ fn onsets_of_each_shaft_without_self_motion_and_with_it() {
                 let mut scene = scene(&text, hz, 100.0, 20.0, 3205);
                 scene.sensor.self_motion_s = tau_s;
                 let mut found = Found::default();
-                found.contacts_of(&scene, shaft);
+                found.contacts(&scene, shaft);
                 let minutes = found.ticks as f64 / TICK_HZ / 60.0;
                 let contacts = found.delays.len() as u64 + found.missed;
                 (contacts, found.soon(), found.false_ones as f64 / minutes)
@@ -241,10 +231,8 @@ fn nothing_is_decided_in_the_air() {
         samples: stream.samples,
     };
     let trials: Vec<_> = recorder.into_streams().into_iter().map(trial).collect();
-    let model = train(&trials, &Options::default())
-        .unwrap()
-        .model()
-        .unwrap();
+    let trained = train(&trials, &Options::default()).unwrap();
+    let model = trained.model().unwrap();
     let rule = Rule::Sequential { threshold: 0.99 };
     for (limit_deg, hz) in [(300.0, 2.0), (300.0, 8.0), (100.0, 2.0)] {
         let mut scene = scene(WHISKER, hz, limit_deg, 20.0, 3302);

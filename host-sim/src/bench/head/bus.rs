@@ -46,6 +46,9 @@ pub struct Bus {
     /// Share of those that come to it twice: of an error that it alone did not see, in the last bit.
     repeated: f64,
     random: Noise,
+    /// Share of all that an error destroys, which are sent again.
+    corrupted: f64,
+    errors: Noise,
     /// How long a frame is on its way after the bus has carried it, µs, and those that are: an age
     /// that no wire has, but a bridge between two might.
     delay_us: f64,
@@ -66,6 +69,8 @@ impl Bus {
             missed: 0.0,
             repeated: 0.0,
             random: Noise::new(0),
+            corrupted: 0.0,
+            errors: Noise::new(0),
             delay_us: 0.0,
             on_their_way: VecDeque::new(),
             floods: None,
@@ -118,7 +123,8 @@ impl Bus {
     pub fn disturb(&mut self, missed: f64, corrupted: f64, seed: u64) {
         self.missed = missed;
         self.random = Noise::new(seed);
-        self.can.corrupt(corrupted, seed.wrapping_add(1));
+        self.corrupted = corrupted;
+        self.errors = Noise::new(seed.wrapping_add(1));
     }
 
     /// From now on a node hears this share of the frames twice.
@@ -150,8 +156,10 @@ impl Bus {
     /// The next frame of a node on the bus that is carried by `until_us`.
     pub(super) fn carry(&mut self, until_us: f64) -> Option<Sent> {
         loop {
-            let sent = self.can.next(until_us)?;
-            if self.is_cut(sent.from) {
+            let share = self.corrupted;
+            let is_destroyed = |_| share > 0.0 && self.errors.uniform() < share;
+            let (sent, is_destroyed) = self.can.pass(until_us, is_destroyed)?;
+            if is_destroyed || self.is_cut(sent.from) {
                 continue;
             }
             self.on_their_way.push_back(Sent {

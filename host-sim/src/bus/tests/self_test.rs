@@ -42,25 +42,23 @@ impl SpiDevice for Shaken {
     }
 }
 
-fn test(slave: &mut Slave) -> (SelfTest, u64) {
+/// What it finds, the faults of it, and for how long the core has waited, ns.
+fn test(slave: &mut Slave) -> (SelfTest, Vec<(u8, u8)>, u64) {
     let mut waited = Waited::default();
     let mut sensor = Mlx90333::new(slave.clone(), Decoder::new());
     let found = SelfTest::of(&mut sensor, &mut waited, PACING);
     *slave = sensor.release();
-    (found, waited.0)
-}
-
-fn faults(found: &SelfTest) -> Vec<(u8, u8)> {
-    found.faults().collect()
+    let faults = found.faults().collect();
+    (found, faults, waited.0)
 }
 
 #[test]
 fn a_sensor_at_rest_gives_sixteen_frames_without_noise() {
     let mut slave = Slave::default();
-    let (found, waited_ns) = test(&mut slave);
+    let (found, faults, waited_ns) = test(&mut slave);
     assert_eq!(found.good(), READINGS);
-    assert_eq!((faults(&found), found.noise_tenths()), (vec![], [0, 0]));
-    let traffic = slave.traffic();
+    assert_eq!((faults, found.noise_tenths()), (vec![], [0, 0]));
+    let traffic = slave.traffic;
     assert_eq!((traffic.transactions, traffic.bytes), (16, 16 * 8));
     assert_eq!(traffic.delay_ns, 16 * 7 * u64::from(PACING.gap_ns));
     assert_eq!(waited_ns, 16 * 60_000);
@@ -80,14 +78,11 @@ fn noise_is_that_of_each_channel() {
 fn faults_are_counted_by_their_numbers_and_each_is_rested_after() {
     let mut slave = Slave::default();
     slave.inject(WireFault::BadSum, 3);
-    let (found, waited_ns) = test(&mut slave);
-    assert_eq!(found.good(), 13);
-    assert_eq!(faults(&found), [(number::BAD_SUM, 3)]);
-    assert_eq!(
-        waited_ns,
-        13 * 60_000 + 3 * u64::from(SS_HIGH_US) * 1_000,
-        "for as long as a sensor needs to find the next frame's start"
-    );
+    let (found, faults, waited_ns) = test(&mut slave);
+    assert_eq!((found.good(), faults), (13, vec![(number::BAD_SUM, 3)]));
+    // For as long as a sensor needs to find the next frame's start.
+    let rested_ns = 3 * u64::from(SS_HIGH_US) * 1_000;
+    assert_eq!(waited_ns, 13 * 60_000 + rested_ns);
     for (fault, expected) in [
         (WireFault::Silent, number::NO_SENSOR),
         (WireFault::LineLow, number::LINE_LOW),
@@ -97,12 +92,12 @@ fn faults_are_counted_by_their_numbers_and_each_is_rested_after() {
     ] {
         let mut slave = Slave::default();
         slave.set_fault(Some(fault));
-        let (found, _) = test(&mut slave);
+        let (found, faults, _) = test(&mut slave);
         assert_eq!((found.good(), found.noise_tenths()), (0, [0, 0]));
-        assert_eq!(faults(&found), [(expected, READINGS)]);
+        assert_eq!(faults, [(expected, READINGS)]);
     }
     let mut slave = Slave::default();
     slave.set_error_word(Faults::FIELD_TOO_LOW);
-    let (found, _) = test(&mut slave);
-    assert_eq!(faults(&found), [(number::SENSOR_REPORT, READINGS)]);
+    let (_, faults, _) = test(&mut slave);
+    assert_eq!(faults, [(number::SENSOR_REPORT, READINGS)]);
 }

@@ -129,7 +129,7 @@ impl ErrorType for Late {
 
 impl SpiDevice for Late {
     fn transaction(&mut self, operations: &mut [Operation<'_, u8>]) -> Result<(), SimSpiError> {
-        if self.slave.traffic().transactions == self.at {
+        if self.slave.traffic.transactions == self.at {
             self.slave.inject(self.fault, 1);
         }
         self.slave.transaction(operations)

@@ -121,6 +121,14 @@ fn a_soft_plate_shares_the_overlap_with_the_shaft() {
     assert!((soft / hard / expected - 1.0).abs() < 0.03, "{soft} {hard}");
 }
 
+fn pose(tilt_deg: f64, obstacle_deg: f64) -> SurfacePose {
+    SurfacePose {
+        tilt_deg,
+        obstacle_deg,
+        ..SurfacePose::OF_SCENE
+    }
+}
+
 /// Whisks of 2 Hz, 2 s of them, standing in another pose from `at` on.
 fn whisked(head: Head, settings: &ElasticSettings, at: usize, pose: SurfacePose) -> Vec<[f64; 2]> {
     let mut plant = Elastic::new(head, *settings, 3).unwrap();
@@ -139,11 +147,7 @@ fn whisked(head: Head, settings: &ElasticSettings, at: usize, pose: SurfacePose)
 #[test]
 fn a_plate_in_another_pose_is_as_one_of_a_scene_that_has_it() {
     let settings = ElasticSettings::of(Shaft::biotact(Biotact::Middle));
-    let pose = SurfacePose {
-        tilt_deg: -7.5,
-        obstacle_deg: 2.25,
-        gain: 1.0,
-    };
+    let pose = pose(-7.5, 2.25);
     let moved = whisked(head(1), &settings, 0, pose);
     let mut other = settings;
     other.facing.tilt_deg = 12.5;
@@ -158,11 +162,7 @@ fn a_plate_in_another_pose_is_as_one_of_a_scene_that_has_it() {
 #[test]
 fn a_plate_that_is_turned_in_the_air_does_not_move_the_shaft() {
     let settings = quiet(Shaft::biotact(Biotact::Middle));
-    let pose = SurfacePose {
-        tilt_deg: 40.0,
-        obstacle_deg: -5.0,
-        gain: 1.0,
-    };
+    let pose = pose(40.0, -5.0);
     // The second whisk begins at 1000 and is near at 1300.
     let [still, turned] = [usize::MAX, 1000].map(|at| whisked(head(1), &settings, at, pose));
     let code = 1.0 / 8191.0;
@@ -186,11 +186,6 @@ fn there_is_room_for_a_plate_that_is_5_mm_beyond_the_tip() {
         plant.advance(&[angle], TICK_S);
         plant
     };
-    let at = |obstacle_deg: f64, tilt_deg: f64| SurfacePose {
-        tilt_deg,
-        obstacle_deg,
-        gain: 1.0,
-    };
     // Over a plate that is less than 20° further the height is L times these cosines and the
     // sine of the angle, more or less what the slant makes of it.
     for tilt_deg in [-20.0_f64, 0.0, 40.0] {
@@ -206,8 +201,8 @@ fn there_is_room_for_a_plate_that_is_5_mm_beyond_the_tip() {
             ahead += 0.01;
         }
         let plant = plant(90.0);
-        assert!(plant.has_room(at(ahead - 9.99, tilt_deg)), "{ahead}");
-        assert!(!plant.has_room(at(ahead - 10.02, tilt_deg)), "{ahead}");
+        assert!(plant.has_room(pose(tilt_deg, ahead - 9.99)), "{ahead}");
+        assert!(!plant.has_room(pose(tilt_deg, ahead - 10.02)), "{ahead}");
     }
     assert!(!plant(100.0).has_room(SurfacePose::OF_SCENE));
     assert!(plant(100.0).in_the_air().has_room(SurfacePose::OF_SCENE));
@@ -216,10 +211,7 @@ fn there_is_room_for_a_plate_that_is_5_mm_beyond_the_tip() {
 #[test]
 fn a_restart_brings_the_scene_s_pose_back_and_the_air_has_none() {
     let settings = ElasticSettings::of(Shaft::biotact(Biotact::Middle));
-    let pose = SurfacePose {
-        obstacle_deg: -40.0,
-        ..SurfacePose::OF_SCENE
-    };
+    let pose = pose(0.0, -40.0);
     let mut plant = Elastic::new(head(1), settings, 3).unwrap();
     let mut free = plant.in_the_air();
     for plant in [&mut plant, &mut free] {

@@ -78,11 +78,8 @@ fn they_depend_on_the_seed_alone_and_no_spread_on_another() {
     assert_eq!(poses.number(), None);
     assert_eq!(drawn(&mut poses, 50), first, "the scene's own seed");
     poses.restart(3);
-    assert!(
-        drawn(&mut poses, 50)
-            .iter()
-            .all(|pose| !first.contains(pose))
-    );
+    let others = drawn(&mut poses, 50);
+    assert!(others.iter().all(|pose| !first.contains(pose)));
     let tilted = drawn(&mut Poses::new(&scene("tilt_spread_deg = 3")), 50);
     for (pose, [tilt, ..]) in tilted.into_iter().zip(first) {
         assert_eq!(pose, [tilt, 0.0, 0.0]);
@@ -92,10 +89,8 @@ fn they_depend_on_the_seed_alone_and_no_spread_on_another() {
 #[test]
 fn without_a_spread_there_are_none() {
     let mut poses = Poses::new(&scene("tilt_spread_deg = 0"));
-    assert_eq!(
-        (poses.next(), poses.take(), poses.number()),
-        (None, None, None)
-    );
+    assert!(poses.next().is_none() && poses.take().is_none());
+    assert_eq!(poses.number(), None);
 }
 
 /// Runs a scene; the number of each pose that was new, and whether anything was touched in the
