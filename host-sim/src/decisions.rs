@@ -196,22 +196,19 @@ pub struct Columns {
 impl Columns {
     /// Of a recording, and a model that estimates poses or not.
     pub const fn of_recording(has_pose: bool) -> Self {
-        Self {
-            first: OF_RECORDING,
-            has_pose,
-        }
+        let first = OF_RECORDING;
+        Self { first, has_pose }
     }
 
     /// Of a scene: also the time of the tick, as in the trace, and of several whiskers that are
     /// heard the whisker, by its side and its number from 1.
     pub fn of_scene(scene: &Scene) -> Self {
-        Self {
-            first: match bench::heard(scene) {
-                1 => OF_SCENE,
-                _ => OF_SEVERAL,
-            },
-            has_pose: scene.classifier.as_ref().is_some_and(|of| of.pose),
-        }
+        let first = match bench::heard(scene) {
+            1 => OF_SCENE,
+            _ => OF_SEVERAL,
+        };
+        let has_pose = scene.classifier.as_ref().is_some_and(|of| of.pose);
+        Self { first, has_pose }
     }
 
     /// Which of [`COLUMNS`].
@@ -412,12 +409,10 @@ impl Score {
 /// The confusion matrix.
 impl fmt::Display for Score {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self {
-            names, confusion, ..
-        } = self;
         let said = self.confusion.trials() > self.confusion.named();
         let missed = said.then_some(UNKNOWN);
-        write!(f, "{}", confusion.table(names, self.classes, missed))
+        let table = self.confusion.table(&self.names, self.classes, missed);
+        write!(f, "{table}")
     }
 }
 
@@ -511,10 +506,8 @@ mod tests {
              depth_deg,depth_error_deg\n\
              \"sand, wet\",1,ice,20,0.995000000,3,,,-1.50,0.20,22.04,0.07\n"
         );
-        let of_several = Columns {
-            first: OF_SEVERAL,
-            has_pose: false,
-        };
+        let (first, has_pose) = (OF_SEVERAL, false);
+        let of_several = Columns { first, has_pose };
         assert_eq!(
             written(&decisions, of_several),
             "label,trial,decision,samples,posterior,touch,t_s,side,whisker,reason,among\n\

@@ -40,10 +40,8 @@ pub fn on(pins: Pins, stall: StallConfig) -> (AnyMotor, AnyAngle) {
             (AnyMotor(Box::new(driver)), AnyAngle(Box::new(pins.encoder)))
         }
         Pins::Brushless(pins) => {
-            let config = SixStepConfig {
-                stall,
-                ..SixStepConfig::DEFAULT
-            };
+            let usual = SixStepConfig::DEFAULT;
+            let config = SixStepConfig { stall, ..usual };
             let driver = SixStep::new(pins.pwms, pins.enables, pins.halls, config);
             let driver = driver.with_buffered_pwm();
             (AnyMotor(Box::new(driver)), AnyAngle(Box::new(pins.encoder)))

@@ -37,10 +37,8 @@ impl Error {
 
     /// A file could not be written.
     pub fn write(path: &Path, source: std::io::Error) -> Self {
-        Self::Write {
-            path: path.to_owned(),
-            source,
-        }
+        let path = path.to_owned();
+        Self::Write { path, source }
     }
 
     /// 1 if the work failed, 2 if what was given is wrong.

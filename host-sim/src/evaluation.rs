@@ -187,10 +187,8 @@ pub fn presentations(
 ) -> Result<Vec<Shown>, Fault> {
     let mut replay = Replay::new(model.clone(), Rule::Sequential { threshold })?;
     let presentation = |stream: &Stream| {
-        Ok(Shown {
-            label: stream.label.clone(),
-            decided: replay.stream(stream)?,
-        })
+        let (label, decided) = (stream.label.clone(), replay.stream(stream)?);
+        Ok(Shown { label, decided })
     };
     streams.iter().map(presentation).collect()
 }

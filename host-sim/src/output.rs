@@ -57,10 +57,9 @@ impl Output {
             fs::create_dir_all(folder).map_err(wrong)?;
         }
         let (file, partial) = Partial::create(path).map_err(wrong)?;
-        Ok(Self {
-            target: path.to_owned(),
-            sink: Sink::File(BufWriter::new(file), partial),
-        })
+        let sink = Sink::File(BufWriter::new(file), partial);
+        let target = path.to_owned();
+        Ok(Self { target, sink })
     }
 
     /// The same, but that `-` is standard output: for tables, which a pipe may take. It has
@@ -72,10 +71,9 @@ impl Output {
         if !is_stdout(path) {
             return Self::create(path);
         }
-        Ok(Self {
-            target: PathBuf::from("standard output"),
-            sink: Sink::Stdout(BufWriter::new(io::stdout())),
-        })
+        let target = PathBuf::from("standard output");
+        let sink = Sink::Stdout(BufWriter::new(io::stdout()));
+        Ok(Self { target, sink })
     }
 
     /// Renames the complete file to its path.

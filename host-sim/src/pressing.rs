@@ -64,10 +64,8 @@ pub struct Refused {
 
 impl Refused {
     fn new(key: &'static str, found: impl std::fmt::Display, allowed: &str) -> Self {
-        Self {
-            key,
-            fault: format!("found {found}, allowed: {allowed}"),
-        }
+        let fault = format!("found {found}, allowed: {allowed}");
+        Self { key, fault }
     }
 }
 

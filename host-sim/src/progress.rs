@@ -101,10 +101,9 @@ impl SharedProgress {
     const REPORTED: u64 = 1024;
 
     pub(crate) fn new(verbosity: Verbosity, message: &'static str, total: u64) -> Self {
-        Self {
-            bar: Mutex::new(Progress::new(verbosity, message, total)),
-            done: AtomicU64::new(0),
-        }
+        let bar = Mutex::new(Progress::new(verbosity, message, total));
+        let done = AtomicU64::new(0);
+        Self { bar, done }
     }
 
     /// Of one run what is to be called after each step.

@@ -61,17 +61,11 @@ mod tests {
 
     #[test]
     fn packets_and_lines_come_in_any_order_and_what_is_damaged_is_left_out() {
-        let record = Packet::Record(TickRecord {
-            sequence: 7,
-            ..TickRecord::default()
-        });
-        let touch = Packet::Event(EventRecord {
-            sequence: 7,
-            event: Event::Touch {
-                place: Place::new(1, 0),
-                number: 3,
-            },
-        });
+        let (sequence, none) = (7, TickRecord::default());
+        let record = Packet::Record(TickRecord { sequence, ..none });
+        let (place, number) = (Place::new(1, 0), 3);
+        let event = Event::Touch { place, number };
+        let touch = Packet::Event(EventRecord { sequence, event });
         let mut damaged = wire::frame(&record);
         damaged[5] ^= 4;
         let bytes = [

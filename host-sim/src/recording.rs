@@ -157,11 +157,8 @@ impl Recorder {
                 0 => trial.to_string(),
                 _ => format!("{trial}{WHISKER}{}", n + 1),
             };
-            let tokens = Tokens {
-                label,
-                trial: &trial,
-                pose: pose.as_deref(),
-            };
+            let (trial, pose) = (trial.as_str(), pose.as_deref());
+            let tokens = Tokens { label, trial, pose };
             append(streams, tokens, cells);
             if let Some(stream) = streams.last_mut() {
                 stream.stands = stands.get(n).copied();
@@ -437,11 +434,8 @@ fn parse(file: &[u8], channels: [&str; 2]) -> Result<Recording, String> {
             touch: touch.map(whole).transpose()?,
         };
         let (label, trial) = (cell(label), cell(trial));
-        let tokens = Tokens {
-            label,
-            trial,
-            pose: pose.map(cell),
-        };
+        let pose = pose.map(cell);
+        let tokens = Tokens { label, trial, pose };
         let checked = tokens.check();
         checked.map_err(|fault| format!("line {line}: {fault}"))?;
         let before = streams.len();
@@ -466,10 +460,8 @@ fn parse(file: &[u8], channels: [&str; 2]) -> Result<Recording, String> {
         return Err("no samples".to_owned());
     }
     touches::tell_apart(&mut streams);
-    Ok(Recording {
-        tick_hz: origin.tick_hz()?,
-        streams,
-    })
+    let tick_hz = origin.tick_hz()?;
+    Ok(Recording { tick_hz, streams })
 }
 
 #[cfg(test)]

@@ -220,10 +220,8 @@ mod tests {
                 let decision = Decision::from_memory(34, 1 << 27, bits << 16).unwrap();
                 Decided::new(decision, &classes, "loam", "1")
             });
-            let shown = [Shown {
-                label: "loam".to_owned(),
-                decided: decided.collect(),
-            }];
+            let (label, decided) = ("loam".to_owned(), decided.collect());
+            let shown = [Shown { label, decided }];
             let evaluation = Evaluation::new(&classes, &shown);
             let score = Score::new(&classes, &shown[0].decided);
             [

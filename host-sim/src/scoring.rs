@@ -49,10 +49,8 @@ impl Scoring {
     }
 
     fn present(&mut self, label: &str) {
-        self.presentations.push(Shown {
-            label: label.to_owned(),
-            decided: Vec::new(),
-        });
+        let (label, decided) = (label.to_owned(), Vec::new());
+        self.presentations.push(Shown { label, decided });
     }
 
     fn tick(&mut self, samples: &[Option<Sample>], decided: impl Iterator<Item = Decided>) {

@@ -142,12 +142,9 @@ impl<W: Write> TraceWriter<W> {
     /// # Errors
     /// Any error of the writer.
     pub fn new(mut table: W, shape: TraceShape) -> io::Result<Self> {
-        writeln!(table, "{}", shape.header())?;
-        Ok(Self {
-            table,
-            shape,
-            line: Line::default(),
-        })
+        writeln!(table, "{}", shape.names().join(","))?;
+        let line = Line::default();
+        Ok(Self { table, shape, line })
     }
 
     /// One line; the cells of what is none are empty.

@@ -93,10 +93,8 @@ pub struct TrainedModel {
 impl How {
     /// With the defaults of these tables.
     pub fn of(tables: Tables) -> Self {
-        Self {
-            tables,
-            ..Self::default()
-        }
+        let usual = Self::default();
+        Self { tables, ..usual }
     }
 
     /// The same for recordings of `scene`: it says how was whisked, and from what contact on
@@ -177,10 +175,9 @@ impl How {
                     ..default
                 };
                 let joint = joint(recordings, &options)?;
-                Ok(TrainedModel {
-                    model: joint.model()?.at_rate(tick_hz)?,
-                    joint: Some(joint),
-                })
+                let model = joint.model()?.at_rate(tick_hz)?;
+                let joint = Some(joint);
+                Ok(TrainedModel { model, joint })
             }
             Tables::Single => {
                 let default = Options::default();
@@ -194,10 +191,8 @@ impl How {
                 let whiskers = whiskers.filter(|_| self.each_whisker).unwrap_or(1);
                 let trainer = Trainer::new(2 * whiskers, options)?;
                 let model = single(trainer, streams(), self.least(), whiskers > 1)?;
-                Ok(TrainedModel {
-                    model: model.at_rate(tick_hz)?,
-                    joint: None,
-                })
+                let (model, joint) = (model.at_rate(tick_hz)?, None);
+                Ok(TrainedModel { model, joint })
             }
         }
     }

@@ -47,10 +47,9 @@ impl Line {
     pub(super) fn note(&mut self, event: &Event) {
         self.link.note(event);
         if self.link.streams() {
-            self.sent.push(Packet::Event(EventRecord {
-                sequence: self.ticks.wrapping_add(1),
-                event: *event,
-            }));
+            let (sequence, event) = (self.ticks.wrapping_add(1), *event);
+            self.sent
+                .push(Packet::Event(EventRecord { sequence, event }));
         }
     }
 

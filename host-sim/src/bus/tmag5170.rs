@@ -107,10 +107,8 @@ impl TmagSlave {
     /// The same with the noise that each conversion has: without any, readings of a field that
     /// stays are the same to the bit.
     pub fn with_noise(self, seed: u64) -> Self {
-        Self {
-            noise: Some(Noise::new(seed)),
-            ..self
-        }
+        let noise = Some(Noise::new(seed));
+        Self { noise, ..self }
     }
 
     /// A supply that breaks down and comes back: settings and results are gone.

@@ -18,10 +18,8 @@ pub struct SceneChoice {
 
 impl From<PathBuf> for SceneChoice {
     fn from(file: PathBuf) -> Self {
-        Self {
-            file,
-            set: Vec::new(),
-        }
+        let set = Vec::new();
+        Self { file, set }
     }
 }
 

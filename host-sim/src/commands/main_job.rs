@@ -6,6 +6,7 @@ use scene::Scene;
 use tactile::ModelBuf;
 
 use super::run::{self, Played};
+use super::with_seed;
 use crate::classifier::Classifier;
 use crate::output::Output;
 use crate::plot::{self, Film};
@@ -74,11 +75,8 @@ pub fn main_job(verbosity: Verbosity) -> Result<(), Error> {
 /// # Errors
 /// [`Error::Work`] if the module cannot be put together.
 pub fn record(scene: &Scene, verbosity: Verbosity) -> Result<Vec<Stream>, Error> {
-    let scene = Scene {
-        seed: scene.seed.wrapping_add(1),
-        duration_s: TRAINING_S,
-        ..scene.clone()
-    };
+    let mut scene = with_seed(scene, scene.seed.wrapping_add(1));
+    scene.duration_s = TRAINING_S;
     super::record::streams(&scene, verbosity)
 }
 

@@ -24,10 +24,8 @@ pub(super) struct Coupled {
 impl Play {
     /// A gear with so much in all, rad, its whisker in the middle.
     pub(super) fn new(play: f64) -> Self {
-        Self {
-            half: play / 2.0,
-            ..Self::default()
-        }
+        let (half, none) = (play / 2.0, Self::default());
+        Self { half, ..none }
     }
 
     pub(super) const fn is_none(&self) -> bool {

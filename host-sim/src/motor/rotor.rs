@@ -127,11 +127,8 @@ mod tests {
             // Braked at 40 for 0.5 s over 5 rad, then −20 for 1 s: −10 rad, −20 rad/s.
             (-30.0, 10.0, 20.0, 1.5, [-5.0, -20.0]),
         ] {
-            let rate = 0.0;
-            let mut rotor = Rotor {
-                speed,
-                ..Rotor::default()
-            };
+            let (rate, still) = (0.0, Rotor::default());
+            let mut rotor = Rotor { speed, ..still };
             rotor.advance(
                 &Law {
                     push,

@@ -171,9 +171,7 @@ impl Whisker {
 
     /// Targets of x and y for a base that moves between two angles.
     fn targets(&mut self, world: &World, before: f64, after: f64, dt_s: f64) -> [f64; 2] {
-        let World {
-            surface, stiffness, ..
-        } = *world;
+        let (surface, stiffness) = (world.surface, world.stiffness);
         let from = (before - self.limit_deg).max(0.0);
         let to = (after - self.limit_deg).max(0.0);
         let landed = self.touching;

@@ -28,12 +28,9 @@ pub(super) struct Pixels {
 
 impl Pixels {
     pub(super) fn new(size: (u32, u32)) -> Result<Self, Error> {
-        let font = FontRef::try_from_slice(FONT);
-        Ok(Self {
-            size,
-            bytes: vec![255; 3 * size.0 as usize * size.1 as usize],
-            font: font.map_err(failed)?,
-        })
+        let font = FontRef::try_from_slice(FONT).map_err(failed)?;
+        let bytes = vec![255; 3 * size.0 as usize * size.1 as usize];
+        Ok(Self { size, bytes, font })
     }
 
     pub(super) fn png(&self) -> Result<Vec<u8>, Error> {
@@ -139,11 +136,8 @@ impl DrawingBackend for &mut Pixels {
             for (dx, dy, share) in covered {
                 let place = (corner.x as i32 + dx as i32, corner.y as i32 + dy as i32);
                 let (x, y) = turned.transform(place.0, place.1);
-                let covering = BackendColor {
-                    alpha: color.alpha * f64::from(share),
-                    rgb: color.rgb,
-                };
-                self.draw_pixel((at_x + x, at_y + y), covering)?;
+                let (alpha, rgb) = (color.alpha * f64::from(share), color.rgb);
+                self.draw_pixel((at_x + x, at_y + y), BackendColor { alpha, rgb })?;
             }
         }
         Ok(())

@@ -53,11 +53,8 @@ fn draw(area: &DrawingArea<SVGBackend<'_>, Shift>, panel: &Panel) -> Result<(), 
         ("right", SIDES[1], envelope(rows, |row| row.angle_deg[1])),
     ];
     let area = area.titled(&panel.title, ("sans-serif", 18))?;
-    let axes = Axes {
-        x: Some("time, s"),
-        y: "angle θ′, degrees",
-        room: (64, 6),
-    };
+    let (x, y, room) = (Some("time, s"), "angle θ′, degrees", (64, 6));
+    let axes = Axes { x, y, room };
     let area = with_legend(&area, &entries(&shown))?;
     curves(&area, axes, span, (40.0, 150.0), shown)
 }

@@ -87,11 +87,8 @@ impl Strips {
             let shown: Vec<Curve> = shown.collect();
             let area = with_legend(area, &entries(&shown))?;
             let is_last = n + 1 == self.strips.len();
-            let axes = Axes {
-                x: is_last.then_some("time, s"),
-                y: strip.y,
-                room: (64, 16),
-            };
+            let (x, y, room) = (is_last.then_some("time, s"), strip.y, (64, 16));
+            let axes = Axes { x, y, room };
             curves(&area, axes, span, range(&shown, strip.least), shown)?;
         }
         Ok(root.present()?)

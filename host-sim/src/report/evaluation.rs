@@ -97,8 +97,8 @@ const FEW_NAMED: u64 = 2;
 /// distinguished.
 const MISTAKEN: f64 = 0.25;
 
-/// What a user has to know before trusting the figures of a recording for a model of these classes,
-/// which does not fit it in these lines.
+/// What a user has to know before trusting the figures of a recording and a model of these classes;
+/// `misfits` say where the one does not fit the other.
 pub(crate) fn doubts(classes: &[String], of: &Evaluation, misfits: &[String]) -> String {
     let mut said = Vec::new();
     let mut warn = |warning: String| said.push(format!("\nwarning: {warning}"));

@@ -123,10 +123,6 @@ impl TraceShape {
         CELL * self.names().len() as u64
     }
 
-    pub(super) fn header(self) -> String {
-        self.names().join(",")
-    }
-
     /// The names of the columns, in order.
     pub fn names(self) -> Vec<String> {
         let right: &[Column] = if self.hears_right { &OF_RIGHT } else { &[] };

@@ -61,10 +61,8 @@ impl Found {
             let plant = Textured::new(head, None, noise_codes, scene.seed).unwrap();
             self.run(scene, plant, Textured::in_the_air);
         } else {
-            let settings = ElasticSettings {
-                noise_codes,
-                ..ElasticSettings::of(Shaft::biotact(shaft))
-            };
+            let of = ElasticSettings::of(Shaft::biotact(shaft));
+            let settings = ElasticSettings { noise_codes, ..of };
             let plant = Elastic::new(head, settings, scene.seed).unwrap();
             self.run(scene, plant, Elastic::in_the_air);
         }

@@ -162,10 +162,8 @@ impl Bus {
             if is_destroyed || self.is_cut(sent.from) {
                 continue;
             }
-            self.on_their_way.push_back(Sent {
-                at_us: sent.at_us + self.delay_us,
-                ..sent
-            });
+            let at_us = sent.at_us + self.delay_us;
+            self.on_their_way.push_back(Sent { at_us, ..sent });
             return Some(sent);
         }
     }

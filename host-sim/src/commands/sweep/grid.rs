@@ -20,10 +20,8 @@ impl FromStr for Axis {
         if key.trim().is_empty() || values.iter().any(String::is_empty) {
             return Err(allowed());
         }
-        Ok(Self {
-            key: key.trim().to_owned(),
-            values,
-        })
+        let key = key.trim().to_owned();
+        Ok(Self { key, values })
     }
 }
 

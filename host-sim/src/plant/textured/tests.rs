@@ -122,13 +122,10 @@ fn the_sensor_s_noise_is_as_set() {
 }
 
 /// Variance of y in a steady slide of `speed` degrees a second, to and fro.
-fn vibration(surface: SurfaceSettings, speed: f64, tick_s: f64, seconds: f64) -> f64 {
-    // Friction turns some of the bend to y.
-    let friction = 0.0;
-    let mut plant = quiet(SurfaceSettings {
-        friction,
-        ..surface
-    });
+fn vibration(mut surface: SurfaceSettings, speed: f64, tick_s: f64, seconds: f64) -> f64 {
+    // Which turns some of the bend to y.
+    surface.friction = 0.0;
+    let mut plant = quiet(surface);
     let (mut angle, mut forth) = (120.0, true);
     let ticks = (seconds / tick_s) as u32;
     let mut variance = 0.0;

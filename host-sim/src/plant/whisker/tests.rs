@@ -11,10 +11,8 @@ use crate::plant::{BadSetting, Head, Plant, SurfacePose};
 use physics::{Biotact, Facing, Grit, Material, Outline, Shaft, Surface};
 
 fn quiet(shaft: Shaft) -> ElasticSettings {
-    ElasticSettings {
-        noise_codes: 0.0,
-        ..ElasticSettings::of(shaft)
-    }
+    let (noise_codes, of) = (0.0, ElasticSettings::of(shaft));
+    ElasticSettings { noise_codes, ..of }
 }
 
 fn frictionless() -> Surface {
@@ -27,10 +25,8 @@ fn frictionless() -> Surface {
 
 /// What a whisker at rest at this overlap says, in the mean over its ringing.
 fn settled(shaft: Shaft, surface: Surface, overlap: f64) -> [f64; 2] {
-    let steep = Head {
-        stiffness: 1.0,
-        ..head(1)
-    };
+    let (stiffness, one) = (1.0, head(1));
+    let steep = Head { stiffness, ..one };
     let mut plant = Elastic::new(steep, quiet(shaft), 7).unwrap();
     plant.present_surface(surface);
     let ticks = 8000;
