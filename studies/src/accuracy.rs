@@ -2,8 +2,7 @@
 //!
 //! # Glossary
 //!
-//! - **work-precision diagram**: error against run time; the lower left corner
-//!   is best.
+//! - **work-precision diagram**: error against run time; the lower left corner is best.
 //! - **largest error**: of θ' in degrees, over ten whisks from the first tick
 //!   and both sides, against the continuous equations.
 //! - **instructions**: of a tick on a microcontroller, counted in
@@ -15,16 +14,16 @@
 //! pictures. All of it is the same, byte for byte, in every run.
 
 mod contact;
-pub(crate) mod counts;
 mod integrators;
 mod reference;
-mod schemes;
+pub(crate) mod schemes;
 
 use anyhow::Result;
 use std::path::Path;
 
 use crate::page::{Files, Page};
-use counts::Counts;
+use reference::{Case, Truth};
+use schemes::{Counts, Format, Scheme, TARGETS, cell};
 
 /// Measures everything. `docs` is the folder whose table of instructions is read.
 pub(crate) fn report(docs: &Path) -> Result<Files> {

@@ -134,13 +134,6 @@ impl Series {
     pub(crate) fn curve(name: &str, points: Vec<(f64, f64)>) -> Self {
         Self::new(name, 0, Mark::Nothing, points)
     }
-
-    pub(crate) fn unjoined(self) -> Self {
-        Self {
-            joined: false,
-            ..self
-        }
-    }
 }
 
 #[derive(Debug, Clone)]
@@ -149,6 +142,17 @@ pub(crate) struct Panel {
     pub(crate) x: Axis,
     pub(crate) y: Axis,
     pub(crate) series: Vec<Series>,
+}
+
+impl Panel {
+    pub(crate) fn new(title: &str, x: Axis, y: Axis, series: Vec<Series>) -> Self {
+        Self {
+            title: title.to_owned(),
+            x,
+            y,
+            series,
+        }
+    }
 }
 
 pub(crate) fn percent(name: &'static str) -> Axis {
@@ -164,12 +168,7 @@ pub(crate) fn panel(title: &str, x: Axis, y: Axis, curves: &[Series], mark: Mark
         mark,
         ..curve.clone()
     });
-    Panel {
-        title: title.to_owned(),
-        x,
-        y,
-        series: series.collect(),
-    }
+    Panel::new(title, x, y, series.collect())
 }
 
 pub(crate) fn over_windows(title: &str, curves: &[Series]) -> Panel {

@@ -10,10 +10,9 @@
 //!   or as a placebo.
 //! - **placebo**: the same with one texture under all labels.
 //!
-//! A run records the data sets that the chosen experiments need, a job at a
-//! time on all cores, and then evaluates them. Recordings depend on the seed,
-//! the data set and the job alone, so neither the number of cores nor what else is
-//! recorded changes a byte.
+//! A run records the data sets that the chosen experiments need, a job at a time on all cores, and
+//! then evaluates them. Recordings depend on the seed, the data set and the job alone, so neither
+//! the number of cores nor what else is recorded changes a byte.
 
 mod asked;
 mod biotact;
@@ -22,22 +21,25 @@ mod data;
 mod floors;
 mod lep10;
 mod lep12;
-mod matrix;
 mod pose;
 mod product;
 mod psik;
 mod ranges;
-mod record;
-mod recording;
-mod request;
+pub(crate) mod recording;
+pub(crate) mod request;
 mod runs;
-mod scores;
-mod spectrogram;
+mod shades;
 mod verdicts;
-mod whole;
 
 pub(crate) use asked::Asked;
+use asked::Part;
+use floors::{Floors, Stream, Tally, hit_curves, train};
+pub(crate) use recording::{Dataset, Recording};
+use recording::{Job, Recordings, of_set};
+use request::{Arm, Name};
+pub(crate) use request::{Extent, Request};
 pub(crate) use runs::run;
+use verdicts::{Bodies, Both, Judged, Verdict, all_judged, digits, margins};
 
 #[cfg(test)]
 mod tests;

@@ -53,8 +53,7 @@ enum Command {
     /// Measures the accuracy of every integrator and number format and writes
     /// DIR/accuracy.md with its pictures
     Report(Made),
-    /// Measures what decisions are worth and writes DIR/decisions.md with its table and
-    /// pictures
+    /// Measures what decisions are worth and writes DIR/decisions.md with its table and pictures
     Decisions {
         #[command(flatten)]
         made: Made,
@@ -84,27 +83,6 @@ struct Made {
     check: bool,
 }
 
-/// Runs experiments. Writes the page, its pictures and, where asked for, their data. Returns what
-/// was done.
-fn experiments(asked: &Asked, verbosity: Verbosity) -> Result<String> {
-    let write = |folder: &Path, files: &Files| {
-        let mut all = files.iter();
-        all.try_for_each(|(name, text)| Ok(write_whole(&folder.join(name), text.as_bytes())?))
-    };
-    let mut keep = |data: &Files| match &asked.data {
-        Some(folder) => write(folder, data),
-        None => Ok(()),
-    };
-    let mut page = String::new();
-    experiment::run(asked, verbosity, &mut keep, &mut |files| {
-        page = files
-            .last()
-            .map_or_else(String::new, |(name, _)| name.clone());
-        write(&asked.out, files)
-    })?;
-    Ok(asked.out.join(page).display().to_string())
-}
-
 /// With `--check` says whether the files there are the same. Returns what was done.
 fn keep(made: &Made, files: Result<Files>, what: &str, command: &str) -> Result<String> {
     let files = files.with_context(|| what.to_owned())?;
@@ -115,13 +93,11 @@ fn keep(made: &Made, files: Result<Files>, what: &str, command: &str) -> Result<
         }
         return Ok(format!("{folder}: {} files of {what}", files.len()));
     }
-    let mut stale = Vec::new();
-    for (name, text) in &files {
-        let path = made.out.join(name);
-        if std::fs::read(&path).map_or(true, |found| found != text.as_bytes()) {
-            stale.push(path.display().to_string());
-        }
-    }
+    let is_stale =
+        |path: &Path, text: &str| !std::fs::read(path).is_ok_and(|found| found == text.as_bytes());
+    let files = files.iter().map(|(name, text)| (made.out.join(name), text));
+    let stale = files.filter(|(path, text)| is_stale(path, text));
+    let stale: Vec<String> = stale.map(|(path, _)| path.display().to_string()).collect();
     if !stale.is_empty() {
         bail!("out of date: {}: run studies {command}", stale.join(", "));
     }
@@ -131,7 +107,7 @@ fn keep(made: &Made, files: Result<Files>, what: &str, command: &str) -> Result<
 fn work(arguments: Arguments) -> Result<()> {
     let verbosity = Verbosity::of(arguments.quiet);
     say(match arguments.command {
-        Command::Experiment(asked) => experiments(&asked, verbosity)?,
+        Command::Experiment(asked) => experiment::run(&asked, verbosity)?.display().to_string(),
         Command::Report(made) => {
             let files = accuracy::report(&made.out);
             keep(&made, files, "the accuracy report", "report")?

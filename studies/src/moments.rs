@@ -9,16 +9,15 @@ pub(crate) fn range(values: impl Iterator<Item = f64>) -> (f64, f64) {
 
 /// How sure an interval about a mean is: two-sided quantiles of Student's t of one, two, …
 /// degrees of freedom; more have the last.
-pub(crate) struct Sureness([f64; 9]);
+pub(crate) type Sureness = [f64; 9];
 
-pub(crate) const SURE: Sureness = Sureness([
+/// 95 and 99 %.
+pub(crate) const SURE: Sureness = [
     12.706, 4.303, 3.182, 2.776, 2.571, 2.447, 2.365, 2.306, 2.262,
-]);
-
-/// 99 %.
-pub(crate) const VERY_SURE: Sureness = Sureness([
+];
+pub(crate) const VERY_SURE: Sureness = [
     63.657, 9.925, 5.841, 4.604, 4.032, 3.707, 3.499, 3.355, 3.250,
-]);
+];
 
 /// What several seeds gave: their mean, and its standard error.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -29,11 +28,9 @@ pub(crate) struct Summary {
     pub(crate) count: usize,
 }
 
-impl Sureness {
-    /// The quantile for the mean of so many.
-    pub(crate) fn quantile(&self, count: usize) -> f64 {
-        self.0[count.saturating_sub(2).min(self.0.len() - 1)]
-    }
+/// The quantile for the mean of so many.
+pub(crate) fn quantile(sureness: &Sureness, count: usize) -> f64 {
+    sureness[count.saturating_sub(2).min(sureness.len() - 1)]
 }
 
 impl Summary {
@@ -51,28 +48,25 @@ impl Summary {
 
     /// Half of the interval about the mean in which the truth is.
     pub(crate) fn half_interval(&self, sureness: &Sureness) -> f64 {
-        sureness.quantile(self.count) * self.error
+        quantile(sureness, self.count) * self.error
+    }
+
+    /// Whether the mean is beyond its noise (95 %), and which way: 1, −1, or 0.
+    pub(crate) fn side(&self) -> i8 {
+        let half = self.half_interval(&SURE);
+        i8::from(self.mean > half) - i8::from(self.mean < -half)
     }
 
     /// The mean and its error, with so many digits behind the point.
     pub(crate) fn text(&self, digits: usize, is_signed: bool) -> String {
         // No minus before a zero.
         let unit = 0.1_f64.powi(digits as i32);
-        let mean = if self.mean.abs() < 0.5 * unit {
-            0.0
-        } else {
-            self.mean
-        };
-        let mean = if is_signed {
-            format!("{mean:+.digits$}")
-        } else {
-            format!("{mean:.digits$}")
-        };
-        if self.count > 1 {
-            format!("{mean} ± {:.digits$}", self.error)
-        } else {
-            mean
-        }
+        let is_zero = self.mean.abs() < 0.5 * unit;
+        let mean = if is_zero { 0.0 } else { self.mean };
+        let sign = if is_signed && mean >= 0.0 { "+" } else { "" };
+        let error = format!(" ± {:.digits$}", self.error);
+        let error = if self.count > 1 { &*error } else { "" };
+        format!("{sign}{mean:.digits$}{error}")
     }
 }
 

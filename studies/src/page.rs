@@ -1,5 +1,4 @@
-//! A page in the making: text, tables, the pictures beside it, and what an
-//! experiment claims.
+//! A page in the making: text, tables, the pictures beside it, and what an experiment claims.
 
 mod figure;
 
@@ -59,7 +58,7 @@ impl Claim {
 }
 
 pub(crate) struct Score {
-    pub(crate) classifier: &'static str,
+    pub(crate) classifier: String,
     pub(crate) task: String,
     /// Hit rate, percent.
     pub(crate) recognition: Recognition,
@@ -67,41 +66,34 @@ pub(crate) struct Score {
     pub(crate) decided: Option<f64>,
 }
 
-pub(crate) struct Shown {
-    /// Of the picture, without its ending.
-    pub(crate) name: String,
-    pub(crate) panels: Vec<Panel>,
-}
-
 /// Begins a paragraph that stands on one page alone of those that are put beside each other.
 const ALONE: char = '\u{1}';
 
 /// The texts of some pages and of `others`, which lack what stands [alone](Page::is_alone) on
 /// those, as one: figures of both beside each other. None where words differ.
-pub(crate) fn beside_others(pages: &[&str], others: &[&str]) -> Option<String> {
-    let paragraphs = |text: &&'_ str| text.split("\n\n").map(str::to_owned).collect();
-    let all: Vec<Vec<String>> = pages.iter().chain(others).map(paragraphs).collect();
-    let (pages, others) = all.split_at(pages.len());
-    let mut paragraphs = Vec::new();
+pub(crate) fn beside_others<'t>(pages: &[&'t str], others: &[&'t str]) -> Option<String> {
+    let paragraphs = |text: &&'t str| text.split("\n\n").collect();
+    let [pages, others]: [Vec<Vec<&str>>; 2] =
+        [pages, others].map(|texts| texts.iter().map(paragraphs).collect());
+    let of = |all: &[Vec<&'t str>], n: usize| -> Option<Vec<&'t str>> {
+        all.iter().map(|one| one.get(n).copied()).collect()
+    };
+    let mut joint = Vec::new();
     let mut shared = 0;
     for n in 0..pages.first()?.len() {
-        let of = |all: &[Vec<String>], n: usize| -> Option<Vec<String>> {
-            all.iter().map(|one| one.get(n).cloned()).collect()
-        };
-        let ours = of(pages, n)?;
-        let ours: Vec<&str> = ours.iter().map(String::as_str).collect();
-        let text = if ours.first()?.starts_with(ALONE) {
-            joined(&ours)?.replace(ALONE, "")
-        } else {
-            let theirs = of(others, shared)?;
-            let theirs: Vec<&str> = theirs.iter().map(String::as_str).collect();
-            shared += 1;
-            let groups = [&ours[..], &theirs[..]];
-            joined_beside(&groups[..if theirs.is_empty() { 1 } else { 2 }])?
-        };
-        paragraphs.push(text);
+        let ours = of(&pages, n)?;
+        if ours.first()?.starts_with(ALONE) {
+            joint.push(joined(&ours)?.replace(ALONE, ""));
+            continue;
+        }
+        let theirs = of(&others, shared)?;
+        shared += 1;
+        let groups = [&ours[..], &theirs[..]];
+        joint.push(joined_beside(
+            &groups[..if theirs.is_empty() { 1 } else { 2 }],
+        )?);
     }
-    Some(paragraphs.join("\n\n"))
+    Some(joint.join("\n\n"))
 }
 
 #[derive(Default)]
@@ -116,7 +108,8 @@ pub(crate) struct Page {
     pub(crate) files: Files,
     pub(crate) claims: Vec<Claim>,
     pub(crate) scores: Vec<Score>,
-    pub(crate) shown: Vec<Shown>,
+    /// Panels by their picture, without its ending.
+    pub(crate) shown: Vec<(String, Vec<Panel>)>,
 }
 
 impl Page {
@@ -198,10 +191,8 @@ impl Page {
 
     pub(crate) fn panels(&mut self, name: &str, what: &str, panels: &[Panel]) -> Result<()> {
         self.picture(name, what, draw(panels)?);
-        self.shown.push(Shown {
-            name: name.trim_end_matches(".svg").to_owned(),
-            panels: panels.to_vec(),
-        });
+        let name = name.trim_end_matches(".svg").to_owned();
+        self.shown.push((name, panels.to_vec()));
         Ok(())
     }
 
@@ -229,13 +220,13 @@ impl Page {
     /// textures alone cannot be told.
     pub(crate) fn score(
         &mut self,
-        classifier: &'static str,
+        classifier: impl Display,
         task: impl Display,
         rate: f64,
         chance: (f64, Option<f64>),
     ) -> &mut Score {
         self.scores.push(Score {
-            classifier,
+            classifier: classifier.to_string(),
             task: task.to_string(),
             recognition: Recognition::of(rate, chance),
             decided: None,

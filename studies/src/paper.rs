@@ -14,8 +14,7 @@ use std::collections::BTreeMap;
 
 use serde::de::DeserializeOwned;
 
-/// The tables that a paper's file has under `key`. The files are built in, and a
-/// test reads every table of them.
+/// What a file that is built in has under `key`.
 pub(crate) fn printed<T: DeserializeOwned>(file: &str, key: &str) -> T {
     let all: Result<BTreeMap<String, toml::Value>, _> = toml::from_str(file);
     let mut all = all.expect("a paper's file is TOML");
@@ -23,5 +22,53 @@ pub(crate) fn printed<T: DeserializeOwned>(file: &str, key: &str) -> T {
     T::deserialize(table).expect("a paper's table has its shape")
 }
 
+/// What the printed tables must agree with among themselves.
 #[cfg(test)]
-mod tests;
+mod tests {
+    use super::{lep10, lep12, psik};
+
+    /// Printed percentages are rounded to the half or the whole.
+    const ROUNDING: f64 = 1.01;
+
+    #[test]
+    fn the_true_classes_of_lep10_sum_to_a_hundred_and_diagonals_to_the_means() {
+        for table in lep10::TABLES.iter() {
+            for class in 0..4 {
+                let sum: f64 = table.percent.iter().map(|row| row[class]).sum();
+                assert!(
+                    (sum - 100.0).abs() < ROUNDING,
+                    "{} {class}: {sum}",
+                    table.number
+                );
+            }
+            let mean = (0..4).map(|k| table.percent[k][k]).sum::<f64>() / 4.0;
+            assert!((mean - table.mean).abs() < 0.6, "{}: {mean}", table.number);
+        }
+    }
+
+    #[test]
+    fn the_means_of_lep12_are_those_of_their_floors_but_for_one_misprint() {
+        let mut off = Vec::new();
+        for table in lep12::TABLES.iter() {
+            for (motion, (row, mean)) in table.percent.iter().zip(table.mean).enumerate() {
+                if (row.iter().sum::<f64>() / 4.0 - mean).abs() > 0.76 {
+                    off.push((table.number, motion));
+                }
+            }
+        }
+        assert_eq!(off, [(3, 2)]);
+    }
+
+    #[test]
+    fn confusions_of_psik_sum_to_a_hundred_and_the_arcs_to_the_vibrissae() {
+        for row in psik::TABLE_2.iter() {
+            assert_eq!(row.iter().sum::<f64>(), 100.0);
+        }
+        for row in psik::TABLE_3.iter() {
+            assert_eq!(row.iter().sum::<f64>(), 100.0);
+        }
+        let count: usize = psik::ARCS.iter().map(|arc| arc.0).sum();
+        assert_eq!(count, psik::VIBRISSAE);
+        assert!(psik::ARCS.is_sorted_by(|a, b| a.1 > b.1));
+    }
+}

@@ -12,18 +12,15 @@
 //! Trainings have seeds from 7001 on and 7501 on, tests from 7101 on: nothing else has them, and
 //! nothing is chosen by what comes of them.
 
-mod asked;
 mod bound;
 mod condition;
 mod five;
 mod one;
 mod output;
 mod placebo;
-mod scenes;
 pub(crate) mod standing;
 mod tally;
 mod trained;
-mod unknown;
 
 use anyhow::Result;
 use host_sim::training::Expected;
@@ -32,11 +29,12 @@ use tactile::ModelBuf;
 use crate::cores::Cores;
 use crate::page::{Files, Page};
 use bound::Case;
-use condition::Change;
-use five::Five;
+use condition::{Change, SPREAD, SURFACES, Setting, TEXTURES, WHISKER};
+use five::{Five, TILTS};
 use one::One;
-use output::Output;
-use trained::Trained;
+use output::{COLUMNS, Output, cells, found};
+use tally::{Asked, REASONS, Tally, mean_within, missed, said};
+use trained::{Relabel, THRESHOLD, TICK_HZ, Trained, as_felt, judge, model};
 
 /// How much is measured.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -55,23 +53,13 @@ pub(crate) struct Extent {
 
 impl Extent {
     pub(crate) const fn new(is_quick: bool, cores: Cores) -> Self {
-        if is_quick {
-            return Self {
-                is_quick,
-                cores,
-                trainings: [2, 1],
-                test_s: [20.0, 20.0],
-                conditions: 3,
-                surfaces: 1,
-            };
-        }
         Self {
             is_quick,
             cores,
-            trainings: [5, 3],
-            test_s: [240.0, 340.0],
-            conditions: usize::MAX,
-            surfaces: usize::MAX,
+            trainings: if is_quick { [2, 1] } else { [5, 3] },
+            test_s: if is_quick { [20.0; 2] } else { [240.0, 340.0] },
+            conditions: if is_quick { 3 } else { usize::MAX },
+            surfaces: if is_quick { 1 } else { usize::MAX },
         }
     }
 }
@@ -82,7 +70,7 @@ pub(crate) fn page(extent: &Extent) -> Result<Files> {
     one.section(&mut output, extent)?;
     let five = Five::new(extent)?;
     five.section(&mut output, extent)?;
-    let (spread, spread_models) = scenes::section(&mut output, extent)?;
+    let (spread, spread_models) = five::scenes(&mut output, extent)?;
     let all = [
         ("one pose", Expected::Bench, &one.trained),
         ("one pose, `same`", Expected::Same, &one.trained),
@@ -90,7 +78,7 @@ pub(crate) fn page(extent: &Extent) -> Result<Files> {
         ("`bench-textures`", Expected::Bench, &spread),
     ];
     placebo::section(&mut output, &all[..3], extent)?;
-    unknown::section(&mut output, &all, extent)?;
+    placebo::unknown(&mut output, &all, extent)?;
     one.thresholds(&mut output, &five)?;
     let cases = cases((&one, &five), (&spread, &spread_models));
     let cases = cases.get(..extent.conditions).unwrap_or(&cases);
@@ -115,36 +103,36 @@ fn cases<'c>(
     spread: (&'c Trained<'static>, &'c [ModelBuf]),
 ) -> [Case<'c>; 9] {
     use Change::{CrossTalk, Friction, Obstacle, Turned};
-    let case = |name, (trained, models), change, asked| Case {
-        name,
-        trained,
-        models,
-        change,
-        asked,
-    };
     let one = (&one.trained, &one.bench[..]);
     let five = (&five.trained, &five.models[..]);
-    [
-        case("one pose, as trained", one, None, 80.0),
-        case("one pose, friction × 0.7", one, Some(Friction(0.7)), 5.0),
-        case("one pose, friction × 1.3", one, Some(Friction(1.3)), 5.0),
-        case("five poses, tilt 20°", five, None, 90.0),
-        case("five poses, turned +5°", five, Some(Turned(5.0)), 70.0),
-        case(
+    let all = [
+        ("one pose, as trained", one, None, 80.0),
+        ("one pose, friction × 0.7", one, Some(Friction(0.7)), 5.0),
+        ("one pose, friction × 1.3", one, Some(Friction(1.3)), 5.0),
+        ("five poses, tilt 20°", five, None, 90.0),
+        ("five poses, turned +5°", five, Some(Turned(5.0)), 70.0),
+        (
             "five poses, cross-talk +3 %",
             five,
             Some(CrossTalk(0.03)),
             70.0,
         ),
-        case("five poses, obstacle 96°", five, Some(Obstacle(96.0)), 5.0),
-        case(
+        ("five poses, obstacle 96°", five, Some(Obstacle(96.0)), 5.0),
+        (
             "five poses, obstacle 104°",
             five,
             Some(Obstacle(104.0)),
             5.0,
         ),
-        case("`bench-textures`", spread, None, 85.0),
-    ]
+        ("`bench-textures`", spread, None, 85.0),
+    ];
+    all.map(|(name, (trained, models), change, asked)| Case {
+        name,
+        trained,
+        models,
+        change,
+        asked,
+    })
 }
 
 fn introduction(page: &mut Page, extent: &Extent) {

@@ -1,36 +1,39 @@
 //! The rigs of the five papers: where whiskers are fixed, how they are moved,
-//! and what is before them. A rig is a file of its own, `studies/rigs/*.toml`, whose
-//! keys are documented there; what runs on it is in [`crate::experiment`].
+//! what is before them, and what they record. A rig is a file of its own, `studies/rigs/*.toml`,
+//! whose keys are documented there; what is made of recordings is in [`crate::experiment`].
 
 mod chance;
-mod corridor;
-mod floor;
+pub(crate) mod corridor;
+pub(crate) mod floor;
 mod frame;
-mod head;
+pub(crate) mod head;
 mod maze;
 mod module;
-mod pad;
+pub(crate) mod pad;
 mod read;
-mod setting;
-mod surfaces;
-mod table;
+pub(crate) mod table;
+pub(crate) mod whiskers;
 
 use std::path::Path;
 
 use host_sim::Error;
 use toml::{Table as Document, Value};
 
+use chance::Wander;
 pub(crate) use chance::{Chance, seed_of};
-pub(crate) use corridor::{Corridor, Robot};
-pub(crate) use floor::{Floor, RobotMotion};
-pub(crate) use frame::panned;
-pub(crate) use head::{CHANNELS, Visit, WhiskingHead};
+pub(crate) use corridor::{Corridor, FELT, Felt, INPUTS, Pads, Robot, relief};
+pub(crate) use floor::{Floor, RobotMotion, trials};
+pub(crate) use frame::plane;
+use frame::{direction, panned, turn};
+pub(crate) use head::{CHANNELS, WhiskingHead};
 pub(crate) use maze::{Made, Maze, Wall};
-pub(crate) use pad::{Layout, Pad, Vibrissa};
-use read::{Fault, Keys, line_of, overlay};
-pub(crate) use setting::Setting;
-pub(crate) use surfaces::Surfaces;
-pub(crate) use table::{Carriage, Table, facing};
+use module::{EACH, HeadModule, PositionControl, SIDES};
+pub(crate) use pad::Pad;
+use pad::{Layout, Vibrissa};
+pub(crate) use read::Setting;
+use read::{Fault, Keys, OutOfRange, keys, line_of, overlay};
+pub(crate) use table::{Contact, Table, contacts};
+pub(crate) use whiskers::Surfaces;
 
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Rigs {
@@ -64,7 +67,7 @@ fn names() -> String {
 impl Rigs {
     /// The rigs that are built in, with what files in `folder` say, and `settings` after them.
     pub(crate) fn load(folder: Option<&Path>, settings: &[Setting]) -> Result<Self, Error> {
-        let mut all = Document::from_iter([("surfaces".to_owned(), surfaces::defaults().into())]);
+        let mut all = Document::from_iter([("surfaces".to_owned(), whiskers::defaults().into())]);
         for (name, text) in FILES {
             let file: Document = text
                 .parse()

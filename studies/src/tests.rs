@@ -67,28 +67,13 @@ fn terrain() -> [&'static str; 2] {
 }
 
 #[test]
-fn the_page_of_decisions_says_what_it_measured() {
-    says_what_it_measured(
-        "decisions",
-        &terrain(),
-        &[
-            "decisions.csv",
-            "decisions.md",
-            "decisions/calibration.svg",
-            "decisions/run-time.svg",
-        ],
-    );
-}
-
-#[test]
-fn the_page_of_estimated_poses_says_what_it_measured() {
+fn pages_say_what_they_measured() {
+    let pictures = ["decisions/calibration.svg", "decisions/run-time.svg"];
+    let names = [["decisions.csv", "decisions.md"], pictures].concat();
+    says_what_it_measured("decisions", &terrain(), &names);
     let names = ["standing.csv", "standing.md", "standing/errors.svg"];
     says_what_it_measured("standing", &[], &names);
     is_the_same_on_one_core("standing", &[]);
-}
-
-#[test]
-fn the_page_of_poses_says_what_it_measured() {
     says_what_it_measured("poses", &[], &["poses.csv", "poses.md"]);
 }
 
@@ -96,11 +81,9 @@ fn the_page_of_poses_says_what_it_measured() {
 fn the_accuracy_report_is_made_of_what_boards_cost() {
     let (names, texts) = made(3, "report", &[]);
     assert!(names.contains(&"accuracy.md".to_owned()), "{names:?}");
-    assert!(
-        texts
-            .iter()
-            .all(|text| text.len() > 100 && !text.contains("NaN"))
-    );
+    // Every goal of the integrators is met.
+    let is_good = |text: &String| !text.contains("NaN") && !text.contains("**missed**");
+    assert!(texts.iter().all(|text| text.len() > 100 && is_good(text)));
 }
 
 /// The nightly run has it: minutes.

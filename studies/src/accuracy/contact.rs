@@ -19,9 +19,9 @@ use crate::chart::{Axis, Mark, Panel, Series, draw};
 use crate::page::{Page, row, short};
 
 const TICKS_HZ: [u32; 5] = [500, 1_000, 2_000, 4_000, 8_000];
-/// Steps of the reference a second, and how much finer it cuts them.
+/// Steps of the reference a second, and how much finer it cuts them; and at half the rate: what the
+/// reference itself is worth.
 const REFERENCE: (u32, u32) = (128_000, 2);
-/// The same run at half the rate: what the reference itself is worth.
 const HALF: (u32, u32) = (64_000, 2);
 
 /// Length of a run, s, and rate at which rotations are compared, Hz.
@@ -37,28 +37,24 @@ type Named = (&'static str, Surface);
 
 fn surfaces() -> [Named; 8] {
     let of = Surface::of;
+    let slippery = Surface {
+        friction: 0.0,
+        hold: 0.0,
+        ..of(Material::Flat)
+    };
+    let hard = Surface {
+        stiffness_n_m: 1e9,
+        ..of(Material::Flat)
+    };
     [
         ("flat", of(Material::Flat)),
-        (
-            "flat, no friction",
-            Surface {
-                friction: 0.0,
-                hold: 0.0,
-                ..of(Material::Flat)
-            },
-        ),
+        ("flat, no friction", slippery),
         ("vinyl", of(Material::Vinyl)),
         ("tarmac", of(Material::Tarmac)),
         ("rough carpet", of(Material::RoughCarpet)),
         ("P80", of(Material::Sandpaper(Grit::P80))),
         ("P600", of(Material::Sandpaper(Grit::P600))),
-        (
-            "flat, 1e9 N/m",
-            Surface {
-                stiffness_n_m: 1e9,
-                ..of(Material::Flat)
-            },
-        ),
+        ("flat, 1e9 N/m", hard),
     ]
 }
 
@@ -104,8 +100,7 @@ fn whisk(
 
 #[derive(Debug, Clone, Copy)]
 struct Measured {
-    /// Root mean square and largest error of the rotation, in spreads of the
-    /// reference's.
+    /// Root mean square and largest error of the rotation, in spreads of the reference's.
     rms: f64,
     largest: f64,
     /// Spread over the reference's: of the rotation, and of its change within
@@ -142,10 +137,8 @@ impl Measured {
 fn spread(list: &[[f64; 2]]) -> f64 {
     let count = list.len() as f64;
     let mean = [0, 1].map(|i| list.iter().map(|at| at[i]).sum::<f64>() / count);
-    let squares = list
-        .iter()
-        .map(|at| (at[0] - mean[0]).powi(2) + (at[1] - mean[1]).powi(2));
-    (squares.sum::<f64>() / count).sqrt()
+    let square = |at: &[f64; 2]| (at[0] - mean[0]).powi(2) + (at[1] - mean[1]).powi(2);
+    (list.iter().map(square).sum::<f64>() / count).sqrt()
 }
 
 fn changes(list: &[[f64; 2]]) -> Vec<[f64; 2]> {
@@ -167,14 +160,13 @@ pub(super) fn measure() -> Result<Vec<Against>> {
     let subject = (shaft, modes);
     let against = |(name, surface): Named| {
         let truth = whisk(&subject, surface, REFERENCE)?;
-        let of = |hz, finer| -> Result<Measured> {
-            let run = whisk(&subject, surface, (hz, finer))?;
-            Ok(Measured::new(&run, &truth))
+        let of = |steps| -> Result<Measured> {
+            Ok(Measured::new(&whisk(&subject, surface, steps)?, &truth))
         };
-        let half = of(HALF.0, HALF.1)?;
+        let half = of(HALF)?;
         let mut ticks = [half; TICKS_HZ.len()];
         for (cell, hz) in ticks.iter_mut().zip(TICKS_HZ) {
-            *cell = of(hz, 0)?;
+            *cell = of((hz, 0))?;
         }
         Ok(Against { name, ticks, half })
     };
@@ -205,9 +197,8 @@ pub(super) fn section(page: &mut Page, measured: &[Against]) -> Result<()> {
     table("Largest error:", |m| m.largest);
     table("Spread of the rotation over the reference's:", |m| m.spread);
     table("Spread of its change within 2 ms, likewise:", |m| m.change);
-    table("Parts of a tick before the plate, in the mean:", |m| {
-        m.parts
-    });
+    let parts = "Parts of a tick before the plate, in the mean:";
+    table(parts, |m| m.parts);
     page.say(
         "The error falls with the tick wherever the tip slides, first with what a tick knows of \
          the base's way, then with the length of a part. Where a tip jams before a steep grain and jumps (P80), or \
@@ -233,12 +224,9 @@ fn curves(measured: &[Against], point: impl Fn(&Measured, u32) -> (f64, f64)) ->
 
 fn panel(title: &str, names: [&'static str; 2], series: Vec<Series>) -> Panel {
     let points = || series.iter().flat_map(|series| series.points.iter());
-    Panel {
-        title: title.to_owned(),
-        x: Axis::decades(names[0], points().map(|point| point.0)),
-        y: Axis::decades(names[1], points().map(|point| point.1)),
-        series,
-    }
+    let x = Axis::decades(names[0], points().map(|point| point.0));
+    let y = Axis::decades(names[1], points().map(|point| point.1));
+    Panel::new(title, x, y, series)
 }
 
 fn picture(measured: &[Against]) -> Result<String> {
@@ -247,17 +235,11 @@ fn picture(measured: &[Against]) -> Result<String> {
         (steps * f64::from(hz), m.rms)
     });
     let change = curves(measured, |m, hz| (f64::from(hz), (m.change - 1.0).abs()));
+    let of_error = ["parts and free ticks a second", "rms error, spreads"];
+    let of_change = ["tick rate, Hz", "|ratio - 1|"];
     draw(&[
-        panel(
-            "error of the rotation",
-            ["parts and free ticks a second", "rms error, spreads"],
-            error,
-        ),
-        panel(
-            "error of the change's spread",
-            ["tick rate, Hz", "|ratio - 1|"],
-            change,
-        ),
+        panel("error of the rotation", of_error, error),
+        panel("error of the change's spread", of_change, change),
     ])
 }
 
@@ -280,8 +262,8 @@ mod tests {
             // A coarse tick is cut in parts that are as long as a fine one's.
             let worst = against
                 .ticks
-                .iter()
                 .map(|tick| tick.rms)
+                .into_iter()
                 .fold(0.0, f64::max);
             assert!(worst < 0.01 && fine.rms < coarse.rms, "{against:?}");
             assert!(against.half.rms < 0.1 * fine.rms, "{against:?}");

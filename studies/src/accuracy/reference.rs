@@ -7,8 +7,7 @@
 
 use std::f64::consts::TAU;
 
-/// Points of the solution a whisk: a multiple of the ticks of every row of the
-/// report.
+/// Points of the solution a whisk: a multiple of the ticks of every row of the report.
 pub(super) const GRID: usize = 40_000;
 pub(super) const WHISKS: usize = 10;
 /// 1.45 (BIOTACT eq. 8).

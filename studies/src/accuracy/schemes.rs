@@ -1,6 +1,11 @@
-//! What is measured: the product's integrators in every number format.
+//! What is measured: the product's integrators in every number format; and the instructions of a
+//! call, as `cargo xtask count` counted them in an emulator.
+
+use std::path::Path;
 
 use anyhow::{Result, ensure};
+use host_sim::Error;
+use serde::Deserialize;
 use whisking::{Fix, Integrator, Number, Settings};
 
 use super::reference::{Case, GRID, Truth, WHISKS};
@@ -33,9 +38,8 @@ pub(super) struct Scheme {
 impl Scheme {
     pub(super) fn all() -> impl Iterator<Item = Self> {
         let formats = |integrator| Format::ALL.map(|format| Self { integrator, format });
-        [Integrator::Euler, Integrator::Exact]
-            .into_iter()
-            .flat_map(formats)
+        let integrators = [Integrator::Euler, Integrator::Exact];
+        integrators.into_iter().flat_map(formats)
     }
 
     pub(super) fn name(self) -> String {
@@ -94,4 +98,52 @@ fn error<R: Number>(settings: &Settings, case: &Case, truth: &Truth) -> Result<f
         }
     }
     Ok(worst)
+}
+
+/// Names of targets, and what the table of instructions calls them.
+pub(crate) const TARGETS: [(&str, &str); 2] =
+    [("Cortex-M4F", "cortex-m4f"), ("Cortex-M0+", "cortex-m0")];
+
+#[derive(Debug, Deserialize)]
+struct Row {
+    kernel: String,
+    format: String,
+    target: String,
+    mean: f64,
+    worst: f64,
+}
+
+/// A row of `instructions.csv` a kernel, format and target.
+pub(crate) struct Counts(Vec<Row>);
+
+impl Counts {
+    pub(crate) fn read(path: &Path) -> Result<Self> {
+        let text = std::fs::read(path).map_err(|error| Error::file(path, error))?;
+        let rows = csv::Reader::from_reader(&text[..]).into_deserialize();
+        Ok(Self(rows.collect::<Result<_, _>>()?))
+    }
+
+    pub(crate) fn mean_and_worst(&self, wanted: [&str; 3]) -> Option<(f64, f64)> {
+        let is_wanted = |row: &&Row| [&*row.kernel, &*row.format, &*row.target] == wanted;
+        let row = self.0.iter().find(is_wanted);
+        row.map(|row| (row.mean, row.worst))
+    }
+
+    /// Mean instructions of a tick of the pattern generator, two sides with a whisker each, gates
+    /// included.
+    pub(super) fn tick(&self, scheme: Scheme, target: &str) -> Option<f64> {
+        let kernel = match scheme.integrator {
+            Integrator::Exact => "whisking 2 sides 1 whisker",
+            Integrator::Euler => "whisking 2 sides 1 whisker (euler)",
+        };
+        let format = match scheme.format {
+            Format::Fixed => "fix",
+            format => format.name(),
+        };
+        Some(self.mean_and_worst([kernel, format, target])?.0)
+    }
+}
+
+pub(crate) fn cell(count: Option<f64>) -> String {
+    count.map_or_else(|| "not counted".to_owned(), |count| format!("{count:.0}"))
 }

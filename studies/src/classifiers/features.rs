@@ -12,7 +12,7 @@
 //! deflection first reaches `onset` (from the start if it never does), so that it is at least one
 //! sample. X is the discrete Fourier transform of M over the block, from 6 Hz to 1 kHz.
 
-use super::spectrum::{Bins, Measure, Spectrum};
+use super::spectrum::{Bins, MAGNITUDE, Spectrum};
 use anyhow::{Result, ensure};
 
 /// Places among the five.
@@ -52,9 +52,8 @@ impl Extractor {
         // From the sample before contact.
         let time_s = (peak + 1).saturating_sub(contact).max(1) as f64 / self.rate_hz;
 
-        let magnitudes = self
-            .spectrum
-            .of(deflection.iter().copied(), Measure::Magnitude)?;
+        let block = deflection.iter().copied();
+        let magnitudes = self.spectrum.of(block, MAGNITUDE)?;
         let f4 = magnitudes.iter().copied().fold(0.0, f64::max);
         let centroid = magnitudes.iter().position(|&x| x == f4).unwrap_or(0);
         let f3 = self.spectrum.bins.frequency(centroid, self.rate_hz);

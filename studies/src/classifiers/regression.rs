@@ -16,8 +16,8 @@ const SAME: f64 = 1e-12;
 const MAX_STEPS: usize = 10_000;
 
 pub(crate) struct Regression {
-    centre: Vec<f64>,
-    scale: Vec<f64>,
+    /// Centre and scale of each feature.
+    scales: Vec<(f64, f64)>,
     /// Powers of each feature, and the coefficient.
     terms: Vec<(Vec<u8>, f64)>,
 }
@@ -43,10 +43,8 @@ fn powers(features: usize, degree: u8) -> Vec<Vec<u8>> {
 }
 
 fn product(powers: &[u8], scaled: &[f64]) -> f64 {
-    let factors = scaled.iter().zip(powers);
-    factors
-        .map(|(u, &power)| u.powi(i32::from(power)))
-        .product()
+    let factor = |(u, power): (&f64, &u8)| u.powi(i32::from(*power));
+    scaled.iter().zip(powers).map(factor).product()
 }
 
 impl Regression {
@@ -56,21 +54,18 @@ impl Regression {
         let features = first.len();
         let powers = powers(features, degree);
         let n = examples.len() as f64;
-        let mut centre = vec![0.0; features];
-        let mut scale = vec![0.0; features];
-        for (feature, (centre, scale)) in centre.iter_mut().zip(&mut scale).enumerate() {
+        let scale = |feature: usize| {
             let column = || examples.iter().filter_map(|(row, _)| row.get(feature));
-            *centre = column().map(|x| x / n).sum();
-            let square: f64 = column().map(|x| (x - *centre) * (x - *centre) / n).sum();
+            let centre: f64 = column().map(|x| x / n).sum();
+            let square: f64 = column().map(|x| (x - centre) * (x - centre) / n).sum();
             let sd = square.sqrt();
             let most = column().fold(0.0_f64, |most, x| most.max(x.abs()));
             // A feature that is the same in all examples, but for the rounding
             // of its mean, says nothing.
-            *scale = if sd > SAME * most { sd.recip() } else { 0.0 };
-        }
+            (centre, if sd > SAME * most { sd.recip() } else { 0.0 })
+        };
         let mut fitted = Self {
-            centre,
-            scale,
+            scales: (0..features).map(scale).collect(),
             terms: Vec::new(),
         };
         let mut design = DMatrix::zeros(examples.len(), powers.len());
@@ -85,9 +80,8 @@ impl Regression {
         let svd = SVD::try_new(design, true, true, f64::EPSILON, MAX_STEPS);
         let svd = svd.context(singular)?;
         let most = svd.singular_values.iter().copied().fold(0.0, f64::max);
-        let coefficients = svd
-            .solve(&targets, RANK * most)
-            .map_err(anyhow::Error::msg)?;
+        let solved = svd.solve(&targets, RANK * most);
+        let coefficients = solved.map_err(anyhow::Error::msg)?;
         ensure!(coefficients.iter().all(|x| x.is_finite()), singular);
         fitted.terms = powers
             .into_iter()
@@ -97,9 +91,9 @@ impl Regression {
     }
 
     fn scaled(&self, features: &[f64]) -> Vec<f64> {
-        let parts = features.iter().zip(&self.centre).zip(&self.scale);
+        let parts = features.iter().zip(&self.scales);
         parts
-            .map(|((x, centre), scale)| (x - centre) * scale)
+            .map(|(x, (centre, scale))| (x - centre) * scale)
             .collect()
     }
 

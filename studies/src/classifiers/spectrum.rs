@@ -21,13 +21,11 @@ pub(crate) struct Bins {
     pub(crate) count: usize,
 }
 
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Measure {
-    /// |X(k)| (POSE).
-    Magnitude,
-    /// |X(k)|² (LEP12 section 5).
-    Power,
-}
+/// What of X(k) is measured: |X(k)| (POSE), or |X(k)|² (LEP12 section 5).
+pub(crate) type Measure = fn(&Complex<f64>) -> f64;
+
+pub(crate) const MAGNITUDE: Measure = |x| x.norm();
+pub(crate) const POWER: Measure = |x| x.norm_sqr();
 
 impl Bins {
     pub(crate) const fn all(points: usize) -> Self {
@@ -80,26 +78,7 @@ impl Spectrum {
         block: impl Iterator<Item = f64>,
         measure: Measure,
     ) -> Result<Vec<f64>> {
-        let measured = |x: &Complex<f64>| match measure {
-            Measure::Magnitude => x.norm(),
-            Measure::Power => x.norm_sqr(),
-        };
-        Ok(self.complex(block)?.iter().map(measured).collect())
-    }
-
-    /// The spectra of all channels of a block one after another.
-    pub(crate) fn of_channels(
-        &self,
-        block: &[f64],
-        channels: usize,
-        measure: Measure,
-    ) -> Result<Vec<f64>> {
-        let mut all = Vec::with_capacity(channels * self.bins.count);
-        for channel in 0..channels {
-            let samples = block.iter().skip(channel).step_by(channels).copied();
-            all.extend(self.of(samples, measure)?);
-        }
-        Ok(all)
+        Ok(self.complex(block)?.iter().map(measure).collect())
     }
 
     /// X(k) itself.
@@ -117,7 +96,7 @@ impl Spectrum {
 
 #[cfg(test)]
 mod tests {
-    use super::{Bins, Measure, Spectrum};
+    use super::{Bins, MAGNITUDE, POWER, Spectrum};
 
     #[test]
     fn numpy_gives_the_same() {
@@ -125,17 +104,13 @@ mod tests {
         let known = include_str!("../../reference/spectrum.csv").lines();
         let known: Vec<f64> = known.map(|line| line.parse().unwrap()).collect();
         let spectrum = Spectrum::new(Bins::all(12));
-        let twice = x.map(|x| [x, 2.0 * x]).concat();
-        let of = |measure| spectrum.of_channels(&twice, 2, measure).unwrap();
-        let (magnitudes, powers) = (of(Measure::Magnitude), of(Measure::Power));
-        assert_eq!(magnitudes.len(), 2 * known.len());
-        for (n, known) in known.iter().enumerate() {
-            for (bin, factor) in [(n, 1.0), (n + 7, 2.0)] {
-                let (found, known) = (magnitudes[bin], factor * known);
-                assert!((found - known).abs() < 1e-13, "{found} {known}");
-                assert!((powers[bin] - known * known).abs() < 1e-11);
-            }
+        let of = |measure| spectrum.of(x.into_iter(), measure).unwrap();
+        let (magnitudes, powers) = (of(MAGNITUDE), of(POWER));
+        assert_eq!(magnitudes.len(), known.len());
+        for ((found, power), known) in magnitudes.iter().zip(powers).zip(known) {
+            assert!((found - known).abs() < 1e-13, "{found} {known}");
+            assert!((power - known * known).abs() < 1e-11);
         }
-        assert!(spectrum.of([0.0; 13].into_iter(), Measure::Power).is_err());
+        assert!(spectrum.of([0.0; 13].into_iter(), POWER).is_err());
     }
 }

@@ -6,62 +6,6 @@
 use anyhow::{Result, ensure};
 use tactile::Quantiser;
 
-#[derive(Debug, Default)]
-pub(crate) struct TemplateTrainer {
-    /// Sum and number of each class.
-    sums: Vec<(Vec<f64>, u32)>,
-    /// The largest value, whatever its sign.
-    largest: f64,
-}
-
-impl TemplateTrainer {
-    /// Adds a vector of a class; all have one length.
-    pub(crate) fn add(&mut self, class: usize, vector: &[f64]) -> Result<()> {
-        if class >= self.sums.len() {
-            self.sums.resize(class + 1, (Vec::new(), 0));
-        }
-        let (sum, number) = &mut self.sums[class];
-        if sum.is_empty() {
-            sum.resize(vector.len(), 0.0);
-        }
-        let (found, needed) = (vector.len(), sum.len());
-        ensure!(
-            found == needed,
-            "{found} values, where {needed} were before"
-        );
-        *number += 1;
-        sum.iter_mut().zip(vector).for_each(|(sum, x)| *sum += x);
-        self.largest = vector.iter().map(|x| x.abs()).fold(self.largest, f64::max);
-        Ok(())
-    }
-
-    pub(crate) fn train(&self) -> Templates {
-        let mean =
-            |(sum, number): &(Vec<f64>, u32)| sum.iter().map(|x| x / f64::from(*number)).collect();
-        Templates {
-            means: self.sums.iter().map(mean).collect(),
-            quantiser: None,
-        }
-    }
-
-    /// Of sensor codes: templates and signals in integers of 16 bits as a board would hold them.
-    pub(crate) fn train_in_codes(&self) -> Templates {
-        let scales = 0..=8;
-        let fits = |e: &i32| self.largest * f64::from(1 << e) <= 16384.0;
-        let quantiser = Quantiser {
-            origin: 0.0,
-            exponent: scales.take_while(fits).last().unwrap_or(0),
-            low: i32::from(i16::MIN),
-            high: i32::from(i16::MAX),
-        };
-        let Templates { means, .. } = self.train();
-        Templates {
-            means: means.iter().map(|mean| coded(&quantiser, mean)).collect(),
-            quantiser: Some(quantiser),
-        }
-    }
-}
-
 /// The codes of some values, saturated to 16 bits: their squares add up without rounding.
 fn coded(quantiser: &Quantiser, values: &[f64]) -> Vec<f64> {
     let code = |x: &f64| quantiser.code_from_f64(*x);
@@ -78,6 +22,48 @@ pub(crate) struct Templates {
 }
 
 impl Templates {
+    /// The means of vectors by their classes; all have one length. Those of sensor codes can be in
+    /// integers of 16 bits, as a board would hold them and signals.
+    pub(crate) fn of<'v>(
+        vectors: impl IntoIterator<Item = (usize, &'v [f64])>,
+        in_codes: bool,
+    ) -> Result<Self> {
+        let mut sums: Vec<(Vec<f64>, f64)> = Vec::new();
+        let mut largest = 0.0_f64;
+        for (class, vector) in vectors {
+            if class >= sums.len() {
+                sums.resize(class + 1, (vec![0.0; vector.len()], 0.0));
+            }
+            let (sum, number) = &mut sums[class];
+            let (found, needed) = (vector.len(), sum.len());
+            ensure!(
+                found == needed,
+                "{found} values, where {needed} were before"
+            );
+            *number += 1.0;
+            sum.iter_mut().zip(vector).for_each(|(sum, x)| *sum += x);
+            largest = vector.iter().map(|x| x.abs()).fold(largest, f64::max);
+        }
+        let fits = |e: &i32| largest * f64::from(1 << e) <= 16384.0;
+        let quantiser = in_codes.then(|| Quantiser {
+            origin: 0.0,
+            exponent: (0..=8).take_while(fits).last().unwrap_or(0),
+            low: i32::from(i16::MIN),
+            high: i32::from(i16::MAX),
+        });
+        let mean = |(sum, number): &(Vec<f64>, f64)| {
+            let mean: Vec<f64> = sum.iter().map(|x| x / number).collect();
+            match &quantiser {
+                Some(quantiser) => coded(quantiser, &mean),
+                None => mean,
+            }
+        };
+        Ok(Self {
+            means: sums.iter().map(mean).collect(),
+            quantiser,
+        })
+    }
+
     /// The class whose template is nearest, the first of equals.
     pub(crate) fn classify(&self, vector: &[f64]) -> usize {
         match &self.quantiser {
@@ -99,24 +85,23 @@ impl Templates {
 
 #[cfg(test)]
 mod tests {
-    use super::TemplateTrainer;
+    use super::Templates;
 
     #[test]
     fn a_case_worked_by_hand() {
-        let mut trainer = TemplateTrainer::default();
-        for (class, signal) in [
-            (0, [0.0, 2.0, 4.0]),
-            (0, [2.0, 2.0, 0.0]),
-            (1, [5.0, 5.0, 5.0]),
-        ] {
-            trainer.add(class, &signal).unwrap();
-        }
-        assert!(trainer.add(0, &[1.0, 1.0]).is_err(), "too short");
+        let known = [
+            (0, &[0.0, 2.0, 4.0][..]),
+            (0, &[2.0, 2.0, 0.0]),
+            (1, &[5.0, 5.0, 5.0]),
+        ];
         // Means are 1, 2, 2 and 5, 5, 5: (3 − 1)² + (3 − 2)² + (4 − 2)² = 9 = 4 + 4 + 1.
-        for templates in [trainer.train(), trainer.train_in_codes()] {
+        for in_codes in [false, true] {
+            let templates = Templates::of(known, in_codes).unwrap();
             let named = |signal: [f64; 3]| templates.classify(&signal);
             assert_eq!(named([3.0, 3.0, 4.0]), 0, "the first of equals");
             assert_eq!(named([3.0, 3.0, 5.0]), 1);
         }
+        let short = known.into_iter().chain([(0, &[1.0, 1.0][..])]);
+        assert!(Templates::of(short, false).is_err());
     }
 }

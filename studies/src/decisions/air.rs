@@ -6,8 +6,7 @@ use host_sim::classifier::Classifier;
 use host_sim::run::Run;
 use scene::{Rule, Scene};
 
-use super::Extent;
-use super::ground::Ground;
+use super::{Extent, Ground};
 use crate::page::{Page, verdict};
 
 const FREQUENCIES_HZ: [f64; 2] = [2.0, 8.0];

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use host_sim::evaluation::{Evaluation, Shown};
 use host_sim::scoring::Scored;
-use tactile::score::{Calibration, Interval, Statistics};
+use tactile::score::{Interval, Statistics};
 
 use crate::page::{Page, verdict};
 
@@ -19,11 +19,8 @@ pub(super) struct Figures {
     /// Mean over the runs of the time of a decision: of contact, and by the clock, ms.
     pub(super) contact_ms: f64,
     pub(super) wall_ms: f64,
-    pub(super) calibration: Calibration,
-    pub(super) undecided: Interval,
-    pub(super) refused: Interval,
-    /// Refused of surfaces that the model does not know.
-    pub(super) strange: Interval,
+    pub(super) all: Evaluation,
+    /// What surfaces that the model does not know were decided to be.
     pub(super) taken_for: BTreeMap<String, usize>,
 }
 
@@ -44,10 +41,7 @@ impl Figures {
             hits,
             contact_ms,
             wall_ms,
-            calibration: all.calibration,
-            undecided: all.undecided,
-            refused: all.refused,
-            strange: all.strange,
+            all,
             taken_for,
         }
     }
@@ -56,23 +50,23 @@ impl Figures {
     pub(super) fn keep(&self, page: &mut Page, of: [&str; 3], seed: u64) {
         let cell = |x: f64| cell(x, 3);
         let percent = |x: f64| cell(100.0 * x);
-        let found = self.calibration.found;
+        let found = self.all.calibration.found;
         let figures = [
             seed.to_string(),
             self.hits.len().to_string(),
             cell(self.hit_rate()),
             percent(mean_of(self.hits.iter().copied()).1),
             cell(self.worst()),
-            percent(self.calibration.stated),
+            percent(self.all.calibration.stated),
             percent(found.share),
             percent(found.low),
             percent(found.high),
             found.count.to_string(),
             cell(self.contact_ms),
             cell(self.wall_ms),
-            percent(self.undecided.share),
-            percent(self.refused.share),
-            percent(self.strange.share),
+            percent(self.all.undecided.share),
+            percent(self.all.refused.share),
+            percent(self.all.strange.share),
         ];
         page.keep(&of, &figures);
     }
@@ -89,8 +83,18 @@ impl Figures {
 
     /// Points by which stated and found lie apart; positive where too much is stated.
     pub(super) fn overstated(&self) -> f64 {
-        100.0 * (self.calibration.stated - self.calibration.found.share)
+        100.0 * (self.all.calibration.stated - self.all.calibration.found.share)
     }
+}
+
+/// Decisions on textures that the model does not know that said "unknown", percent.
+pub(super) fn strange(figures: &Figures) -> f64 {
+    100.0 * figures.all.strange.share
+}
+
+/// Those on known ones.
+pub(super) fn known_refused(figures: &Figures) -> f64 {
+    100.0 * figures.all.refused.share
 }
 
 /// Mean of some figures and its standard error; not numbers of none.

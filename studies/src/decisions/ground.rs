@@ -11,9 +11,7 @@ use scene::{Rule, Scene};
 use tactile::ModelBuf;
 use tactile::train::joint::JointModel;
 
-use super::Extent;
-use super::figures::Figures;
-use super::goals::{Trained, measure};
+use super::{Extent, Figures, Trained, measure};
 
 /// Longest run that is trained on, s.
 pub(super) const LONGEST_S: f64 = 80.0;

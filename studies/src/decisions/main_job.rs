@@ -5,9 +5,7 @@ use host_sim::commands::main_job;
 use host_sim::progress::Verbosity;
 use host_sim::training::{How, Tables};
 
-use super::Extent;
-use super::figures::{mean_of, percent, plus_minus};
-use super::ground::{record_all, score_on};
+use super::{Extent, mean_of, percent, plus_minus, record_all, score_on};
 use crate::page::{Page, verdict};
 
 /// The main job's scene with the model that it trains: what `docs/textures.md` quotes.
@@ -28,8 +26,11 @@ pub(super) fn section(page: &mut Page, extent: &Extent) -> Result<()> {
     figures.keep(page, of, scene.seed + 1);
     page.heading(2, "The main job");
     let (mean, error) = mean_of(figures.hits.iter().copied());
-    let [stated, found] = [figures.calibration.stated, figures.calibration.found.share];
-    let decided = 100.0 * (1.0 - figures.undecided.share);
+    let [stated, found] = [
+        figures.all.calibration.stated,
+        figures.all.calibration.found.share,
+    ];
+    let decided = 100.0 * (1.0 - figures.all.undecided.share);
     page.say(format_args!(
         "`cargo run -p host-sim` shows one run of `scenes/bench-textures.toml`, in which each \
          presentation has a pose of its own; it trains on {poses} poses. Over {} runs with seeds \
@@ -43,7 +44,7 @@ pub(super) fn section(page: &mut Page, extent: &Extent) -> Result<()> {
         plus_minus((100.0 * mean, 100.0 * error), 2),
         figures.worst(),
         100.0 * stated,
-        percent(figures.calibration.found),
+        percent(figures.all.calibration.found),
         verdict(found >= 0.985),
         verdict((stated - found).abs() <= 0.01),
         figures.contact_ms,

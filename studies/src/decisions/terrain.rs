@@ -11,12 +11,13 @@ use host_sim::training::{How, Tables};
 use tactile::ModelBuf;
 use tactile::score::Interval;
 
-use super::Extent;
-use super::figures::{Goal, percent};
+use super::figures::Goal::{self, AtLeast, AtMost};
+use super::{Extent, percent};
 use crate::page::Page;
 
 const WINDOW: usize = 2000;
 const RATE_HZ: u32 = 100;
+
 /// What the windows of some drives were decided to be.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 struct Windows {
@@ -89,53 +90,33 @@ pub(super) fn section(page: &mut Page, folder: &Path, extent: &Extent) -> Result
     ));
     let mut rows = Vec::new();
     let mut line = |setting: &str, figure: &str, drives: &[Windows], share: Share, goal: Goal| {
-        let of = by_drive(drives, share.0, share.1);
-        let whole: usize = drives.iter().map(|drive| share.1(*drive)).sum();
+        let of = by_drive(drives, share);
+        let windows: usize = drives.iter().map(|drive| share.1(*drive)).sum();
         rows.push(vec![
             format!("{setting}: {figure}"),
             goal.text(),
             percent(of),
-            whole.to_string(),
+            windows.to_string(),
             goal.verdict(100.0 * of.share).to_owned(),
         ]);
     };
-    let all: fn(Windows) -> usize = |windows| windows.all;
+    let wrong: Share = (|windows| windows.wrong, |windows| windows.all);
+    let decided: Share = (Windows::decided, |windows| windows.all);
     let right: Share = (|windows| windows.right, Windows::decided);
-    let (none, other) = (Goal::AtLeast(f64::NEG_INFINITY), "other drives");
-    line(
-        other,
-        "windows wrong",
-        &others,
-        (|w| w.wrong, all),
-        Goal::AtMost(2.0),
-    );
-    line(
-        other,
-        "windows decided",
-        &others,
-        (Windows::decided, all),
-        none,
-    );
+    let (other, none) = ("other drives", AtLeast(f64::NEG_INFINITY));
+    line(other, "windows wrong", &others, wrong, AtMost(2.0));
+    line(other, "windows decided", &others, decided, none);
     line(other, "right of those", &others, right, none);
-    let names = [
-        "known drives, one recording",
-        "known drives, two recordings",
-    ];
-    for (name, drives) in names.into_iter().zip(&known) {
-        let decided = (Windows::decided as fn(Windows) -> usize, all);
-        line(
-            name,
-            "windows decided",
-            drives,
-            decided,
-            Goal::AtLeast(65.0),
-        );
-        line(name, "right of those", drives, right, Goal::AtLeast(92.0));
+    for (name, drives) in ["one recording", "two recordings"].iter().zip(&known) {
+        let name = format!("known drives, {name}");
+        line(&name, "windows decided", drives, decided, AtLeast(65.0));
+        line(&name, "right of those", drives, right, AtLeast(92.0));
     }
     page.table("figure | goal | found | windows |", rows);
     Ok(())
 }
 
+/// Some of the windows, and of which.
 type Share = (fn(Windows) -> usize, fn(Windows) -> usize);
 
 /// The first or the second half of a stream.
@@ -151,10 +132,9 @@ fn cut(stream: &Stream, half: usize) -> Stream {
 /// The halves of each drive, one behind the other.
 fn drives(first: &[Stream], second: &[Stream]) -> Vec<Stream> {
     let whole = |half: &Stream| {
+        let is_rest = |of: &&Stream| (&of.label, &of.trial) == (&half.label, &half.trial);
+        let rest = second.iter().find(is_rest);
         let mut drive = half.clone();
-        let rest = second
-            .iter()
-            .find(|other| (&other.label, &other.trial) == (&half.label, &half.trial));
         drive
             .samples
             .extend(rest.into_iter().flat_map(|rest| &rest.samples));
@@ -173,24 +153,18 @@ fn windows(drive: &Stream) -> Vec<Stream> {
 }
 
 fn trained(recordings: &[(String, Vec<Stream>)]) -> Result<ModelBuf> {
-    let trained = How::of(Tables::Joint).train(recordings, RATE_HZ);
-    Ok(trained?.model)
+    Ok(How::of(Tables::Joint).train(recordings, RATE_HZ)?.model)
 }
 
 fn decided(model: &ModelBuf, windows: &[Stream]) -> Result<Windows> {
-    let shown = presentations(model, 0.99, windows)?;
-    Ok(Windows::of(&shown))
+    Ok(Windows::of(&presentations(model, 0.99, windows)?))
 }
 
 /// A share of windows, its interval as of one observation a drive that has any.
-fn by_drive(
-    drives: &[Windows],
-    part: impl Fn(Windows) -> usize,
-    whole: impl Fn(Windows) -> usize,
-) -> Interval {
-    let sum = |of: &dyn Fn(Windows) -> usize| drives.iter().map(|d| of(*d)).sum::<usize>();
+fn by_drive(drives: &[Windows], (part, whole): Share) -> Interval {
+    let sum = |of: fn(Windows) -> usize| drives.iter().map(|drive| of(*drive)).sum::<usize>();
     let observed = drives.iter().filter(|drive| whole(**drive) > 0).count();
-    Interval::of_share(sum(&part) as f64 / sum(&whole) as f64, observed)
+    Interval::of_share(sum(part) as f64 / sum(whole) as f64, observed)
 }
 
 #[cfg(test)]
@@ -205,7 +179,7 @@ mod tests {
             all: 10,
         };
         let drives = [drive(9, 1), drive(0, 0), drive(5, 5)];
-        let right = by_drive(&drives, |w| w.right, Windows::decided);
+        let right = by_drive(&drives, (|w| w.right, Windows::decided));
         assert_eq!((right.share, right.count), (0.7, 2));
         assert!(right.low < 0.3 && right.high > 0.9);
     }

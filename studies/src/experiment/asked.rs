@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 use std::str::FromStr;
 
-use super::request::{Arm, Depth, Extent, Name, Request};
+use super::request::{Arm, Extent, Name, Request};
 use crate::rigs::{Rigs, Setting};
 
 /// What was asked for.
@@ -41,13 +41,13 @@ pub(crate) struct Asked {
     pub(super) set: Vec<Setting>,
     /// Where to write the page and its pictures
     #[arg(long, value_name = "DIR", default_value = "out/experiments")]
-    pub(crate) out: PathBuf,
+    pub(super) out: PathBuf,
     /// The name of the page there
     #[arg(long, value_name = "FILE", default_value = "experiments.md")]
     pub(super) page: String,
     /// Where to write the data of every figure, as CSV
     #[arg(long, value_name = "DIR")]
-    pub(crate) data: Option<PathBuf>,
+    pub(super) data: Option<PathBuf>,
     /// Keep every recording there, too, as in the papers
     #[arg(long, requires = "data")]
     pub(super) recordings: bool,
@@ -80,13 +80,13 @@ impl FromStr for Short {
     fn from_str(text: &str) -> Result<Self, Self::Err> {
         let wrong = || "allowed: NAME=SEEDS, of two seeds or more".to_owned();
         let (name, seeds) = text.split_once('=').ok_or_else(wrong)?;
-        let seeds = seeds.parse().map_err(|_| wrong())?;
-        if !(2..=1000).contains(&seeds) {
-            return Err(wrong());
-        }
+        let seeds = seeds
+            .parse()
+            .ok()
+            .filter(|seeds| (2..=1000).contains(seeds));
         Ok(Self {
+            seeds: seeds.ok_or_else(wrong)?,
             names: named(name)?,
-            seeds,
             text: text.to_owned(),
         })
     }
@@ -115,20 +115,15 @@ impl Asked {
         let mut parts: Vec<Part> = Vec::new();
         for name in self.names() {
             let short = self.short.iter().find(|short| short.names.contains(&name));
+            let is_short = self.quick || short.is_some();
             let seeds = short.map_or(self.seeds, |short| short.seeds);
             let part = Part {
                 names: vec![name],
-                extent: if self.quick || short.is_some() {
-                    Extent::Quick
-                } else {
-                    Extent::Full
-                },
+                extent: [Extent::FULL, Extent::QUICK][usize::from(is_short)],
                 seeds: self.seed..self.seed.saturating_add(seeds),
             };
             match parts.last_mut() {
-                Some(last) if last.names[0].datasets() == name.datasets() && last.alike(&part) => {
-                    last.names.push(name);
-                }
+                Some(last) if last.is_recorded_with(&part) => last.names.push(name),
                 _ => parts.push(part),
             }
         }
@@ -149,11 +144,7 @@ impl Asked {
             seed,
             rigs: self.rigs_with(arm.protocol.keys())?,
             arm,
-            depth: if arm == Arm::MAIN {
-                Depth::Whole
-            } else {
-                Depth::Textures
-            },
+            is_whole: arm == Arm::MAIN,
         })
     }
 
@@ -161,19 +152,19 @@ impl Asked {
         &self,
         part: &Part,
         seed: u64,
-        keys: &[&'static str],
+        keys: &[String],
     ) -> anyhow::Result<Request> {
         Ok(Request {
-            extent: Extent::Quick,
+            extent: Extent::QUICK,
             rigs: self.rigs_with(keys)?,
-            depth: Depth::Textures,
+            is_whole: false,
             ..self.request(part, seed, Arm::MAIN)?
         })
     }
 
     /// The rigs with some keys, and with those that were asked for after them.
-    fn rigs_with(&self, keys: &[&'static str]) -> anyhow::Result<Rigs> {
-        let keys = keys.iter().map(|text| text.parse());
+    fn rigs_with(&self, keys: &[impl AsRef<str>]) -> anyhow::Result<Rigs> {
+        let keys = keys.iter().map(|text| text.as_ref().parse());
         let keys: Result<Vec<Setting>, String> = keys.collect();
         let mut settings = keys.map_err(anyhow::Error::msg)?;
         settings.extend(self.set.iter().cloned());
@@ -182,7 +173,8 @@ impl Asked {
 }
 
 impl Part {
-    fn alike(&self, other: &Self) -> bool {
-        (self.extent, &self.seeds) == (other.extent, &other.seeds)
+    fn is_recorded_with(&self, other: &Self) -> bool {
+        let of = |part: &Self| (part.names[0].datasets(), part.extent, part.seeds.clone());
+        of(self) == of(other)
     }
 }

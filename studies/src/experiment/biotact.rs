@@ -2,19 +2,14 @@
 //! unmodulated and with two strengths of RCP; naive Bayes and the template by
 //! sum of squares after one to eight training whisks.
 
-mod array;
-mod histories;
 mod movement;
-mod own;
 mod patterns;
 mod whisks;
 
 use anyhow::Result;
 use rayon::prelude::*;
 
-use super::ranges;
-use super::recording::{Dataset, Recordings};
-use super::request::{Depth, Request};
+use super::{Dataset, Recordings, Request, ranges};
 use crate::chart::{Mark, Series, linear, panel, percent};
 use crate::page::{Page, figure, row};
 use crate::paper::biotact::{
@@ -38,7 +33,7 @@ struct Hits(Vec<HitCurve>);
 
 impl Hits {
     fn measure(request: &Request, visits: &Visits, most: usize) -> Result<Self> {
-        let whisks = request.extent.whisks();
+        let whisks = request.extent.whisks;
         let mut cases = Vec::new();
         for method in Method::ALL {
             for task in Task::ALL {
@@ -47,21 +42,17 @@ impl Hits {
                 }
             }
         }
-        let rates: Result<Vec<f64>> = cases
-            .into_par_iter()
-            .map(|(method, task, strategy, count)| {
-                let mut sum = 0.0;
-                for draw in 0..DRAWS {
-                    // The same whisks for every method, task and strategy.
-                    let mut chance = Chance::new(seed_of(request.seed, &[10, draw as u64]));
-                    let order = chance.order(whisks);
-                    let split = order.split_at(count);
-                    sum += visits.hit_rate(method, task, strategy, split)?;
-                }
-                Ok(100.0 * sum / DRAWS as f64)
-            })
-            .collect();
-        let rates = rates?;
+        let rate = |(method, task, strategy, count)| -> Result<f64> {
+            let mut sum = 0.0;
+            for draw in 0..DRAWS {
+                // The same whisks for every method, task and strategy.
+                let mut chance = Chance::new(seed_of(request.seed, &[10, draw as u64]));
+                let order = chance.order(whisks);
+                sum += visits.hit_rate(method, task, strategy, order.split_at(count))?;
+            }
+            Ok(100.0 * sum / DRAWS as f64)
+        };
+        let rates: Vec<f64> = cases.into_par_iter().map(rate).collect::<Result<_>>()?;
         let curves = rates.chunks_exact(most).map(<[f64]>::to_vec);
         Ok(Self(curves.collect()))
     }
@@ -80,7 +71,7 @@ impl Hits {
 
 pub(super) fn evaluate(page: &mut Page, request: &Request, recordings: &Recordings) -> Result<()> {
     let visits = Visits::new(request, recordings);
-    let most = MOST_TRAINING.min(request.extent.whisks().saturating_sub(2));
+    let most = MOST_TRAINING.min(request.extent.whisks.saturating_sub(2));
     let hits = Hits::measure(request, &visits, most)?;
     page.heading(2, "BIOTACT: active whisking");
     page.say(format_args!(
@@ -92,71 +83,64 @@ pub(super) fn evaluate(page: &mut Page, request: &Request, recordings: &Recordin
          forward Euler: free whisking peaks at 121.9 degrees in place of 122.9. The paper's curves are drawn without numbers; its text says: {}.",
         TEXTURES.len(),
         DISTANCES_MM.len(),
-        request.extent.whisks(),
+        request.extent.whisks,
         request.rigs.head.motor.dead_band_deg(),
         SAID.join("; ")
     ));
-    if request.depth == Depth::Whole {
+    if request.is_whole {
         page.is_alone = true;
-        patterns::section(page)?;
-        array::section(page, request)?;
+        patterns::gains(page)?;
+        patterns::obstacles(page)?;
+        patterns::whole_head(page, request)?;
         page.is_alone = false;
     }
     for (method, figure) in Method::ALL.into_iter().zip(["10", "11"]) {
-        let mut panels = Vec::new();
-        for task in Task::ALL {
-            let curves: Vec<Series> = STRATEGIES
-                .iter()
-                .enumerate()
-                .map(|(strategy, (name, _))| {
-                    let points = hits.curve(method, task, strategy).iter().enumerate();
-                    let points = points.map(|(n, hit)| ((n + 1) as f64, *hit));
-                    Series::curve(name, points.collect())
-                })
-                .collect();
-            let x = linear("training whisks", 0.0, most as f64 + 1.0);
-            panels.push(panel(task.text(), x, percent("%"), &curves, Mark::Dot));
-        }
-        page.say(format_args!(
-            "**Fig. {figure}**: {}, hit rate in %.",
-            method.text()
-        ));
-        let name = format!("biotact-fig{figure}.svg");
-        let what = format!("Hit rate of {}", method.text());
-        page.panels(&name, &what, &panels)?;
-        table(page, &hits, method, most);
-        for task in Task::ALL {
-            let name = method.score_name();
-            let what = format!("{}, RCP7, {most} whisks", task.text());
-            let hit = hits.at(method, task, 1, most);
-            page.score(name, what, hit, task.chance());
-        }
+        figure_10(page, &hits, (method, figure), most)?;
     }
     claims(page, &hits, most);
-    own::of_one_whisker(page, &visits, request.rigs.head.tick_hz, most)?;
+    whisks::of_one_whisker(page, &visits, request.rigs.head.tick_hz, most)?;
     let of = (request, recordings);
     ranges::say(page, of, (Dataset::Head, CHANNELS), 8191.0);
-    if request.depth == Depth::Whole {
+    if request.is_whole {
         page.is_alone = true;
         movement::section(page, request, recordings);
-        histories::section(page, request, recordings)?;
+        movement::histories(page, request, recordings)?;
         page.is_alone = false;
     }
     Ok(())
 }
 
-fn table(page: &mut Page, hits: &Hits, method: Method, most: usize) {
-    let counts: Vec<String> = (1..=most).map(|n| n.to_string()).collect();
-    let mut rows = Vec::new();
+/// Fig. 10 or 11, by method.
+fn figure_10(
+    page: &mut Page,
+    hits: &Hits,
+    (method, number): (Method, &str),
+    most: usize,
+) -> Result<()> {
+    let (mut panels, mut rows) = (Vec::new(), Vec::new());
     for task in Task::ALL {
+        let mut curves = Vec::new();
         for (strategy, (name, _)) in STRATEGIES.iter().enumerate() {
-            let cells = hits.curve(method, task, strategy).iter();
-            let cells = cells.map(|hit| format!("**{}**", figure(*hit, 0)));
+            let curve = hits.curve(method, task, strategy);
+            let points = curve.iter().enumerate();
+            let points = points.map(|(n, hit)| ((n + 1) as f64, *hit));
+            curves.push(Series::curve(name, points.collect()));
+            let cells = curve.iter().map(|hit| format!("**{}**", figure(*hit, 0)));
             rows.push(row(format!("{} | {name}", task.text()), cells));
         }
+        let x = linear("training whisks", 0.0, most as f64 + 1.0);
+        panels.push(panel(task.text(), x, percent("%"), &curves, Mark::Dot));
+        let what = format!("{}, RCP7, {most} whisks", task.text());
+        let hit = hits.at(method, task, 1, most);
+        page.score(method.score_name(), what, hit, task.chance());
     }
-    let header = format!("task | whisking | {}", counts.join(" | "));
-    page.table(&header, rows);
+    let what = method.text();
+    page.say(format_args!("**Fig. {number}**: {what}, hit rate in %."));
+    let name = format!("biotact-fig{number}.svg");
+    page.panels(&name, &format!("Hit rate of {what}"), &panels)?;
+    let counts: Vec<String> = (1..=most).map(|n| n.to_string()).collect();
+    page.table(&format!("task | whisking | {}", counts.join(" | ")), rows);
+    Ok(())
 }
 
 fn claims(page: &mut Page, hits: &Hits, most: usize) {

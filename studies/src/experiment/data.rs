@@ -5,14 +5,9 @@ use std::fmt::Display;
 
 use host_sim::origin::Origin;
 
-use super::asked::{Asked, Part};
-use super::record::corridor::FELT;
-use super::record::pads::INPUTS;
-use super::recording::{Dataset, Job, Recording, Recordings};
-use super::request::Arm;
-use super::verdicts::Bodies;
+use super::{Arm, Asked, Bodies, Dataset, Job, Part, Recording, Recordings};
 use crate::page::Files;
-use crate::rigs::CHANNELS;
+use crate::rigs::{CHANNELS, FELT, INPUTS};
 
 fn origin(asked: &Asked, seeds: impl Display) -> Origin {
     let said = Origin::default()
@@ -48,30 +43,25 @@ pub(super) fn figures(asked: &Asked, part: &Part, bodies: &Bodies) -> Result<Fil
     let header = ["seed", "protocol", "panel", "curve", "x", "y"].map(str::to_owned);
     let mut files = Files::new();
     let shown = bodies.of(Arm::MAIN).first();
-    for first in shown.map_or(&[][..], |page| &page.shown) {
+    for (name, _) in shown.map_or(&[][..], |page| &page.shown) {
         let mut rows = Vec::new();
         for arm in [Arm::MAIN, Arm::AGAIN] {
             for (seed, page) in seeds.clone().zip(bodies.of(arm)) {
-                let shown = page.shown.iter().find(|shown| shown.name == first.name);
-                for panel in shown.map_or(&[][..], |shown| &shown.panels) {
+                let shown = page.shown.iter().find(|(other, _)| other == name);
+                for panel in shown.map_or(&[][..], |(_, panels)| panels) {
                     for series in &panel.series {
-                        let of = |(x, y): &(f64, f64)| {
-                            [
-                                seed.to_string(),
-                                arm.protocol.text().to_owned(),
-                                panel.title.clone(),
-                                series.name.clone(),
-                                x.to_string(),
-                                y.to_string(),
-                            ]
-                        };
-                        rows.extend(series.points.iter().map(|point| of(point).to_vec()));
+                        let protocol = arm.protocol.text().to_owned();
+                        let (title, name) = (panel.title.clone(), series.name.clone());
+                        let of = [seed.to_string(), protocol, title, name];
+                        let point = |(x, y): &(f64, f64)| [x.to_string(), y.to_string()];
+                        let points = series.points.iter().map(point);
+                        rows.extend(points.map(|point| [&of[..], &point].concat()));
                     }
                 }
             }
         }
         let text = table(&origin, &header, rows.into_iter())?;
-        files.push((format!("figures/{}.csv", first.name), text));
+        files.push((format!("figures/{name}.csv"), text));
     }
     Ok(files)
 }

@@ -7,15 +7,13 @@ use tactile::score::Confusion;
 use tactile::train::{Options, Trainer};
 use tactile::{ModelBuf, WindowRule};
 
-use super::record::floor::trials;
-use super::recording::{Dataset, Recording, Recordings, of_set};
-use super::request::{Extent, Request};
+use super::{Dataset, Extent, Recording, Recordings, Request, of_set};
 use crate::chart::Series;
-use crate::classifiers::recogniser::{Bayes, Outcome, Recogniser, outcomes};
+use crate::classifiers::recogniser::{Bayes, Recogniser};
 use crate::moments::range;
 use crate::page::percent_of;
 use crate::paper::lep10::FLOORS;
-use crate::rigs::RobotMotion;
+use crate::rigs::{RobotMotion, trials};
 
 /// Sensor codes of 10 mV: 14 bits over 5 V.
 const CODES_A_BIN: f64 = 16_384.0 * 0.010 / 5.0;
@@ -48,22 +46,13 @@ pub(super) struct Floors<'a> {
 }
 
 impl<'a> Floors<'a> {
-    /// As LEP12 has them, with as many trials of natural motion as of each
-    /// rotation.
-    pub(super) fn new(request: &Request, recordings: &'a Recordings) -> Self {
+    /// With so many trials of natural motion.
+    pub(super) fn new(request: &Request, recordings: &'a Recordings, natural: usize) -> Self {
         Self {
             recordings: of_set(recordings, Dataset::Floor),
             extent: request.extent,
-            natural: request.extent.trials(),
+            natural,
             rate_hz: request.rigs.floor.tick_hz,
-        }
-    }
-
-    /// As LEP10 has them, with all trials of natural motion.
-    pub(super) fn with_all(request: &Request, recordings: &'a Recordings) -> Self {
-        Self {
-            natural: request.extent.natural_trials(),
-            ..Self::new(request, recordings)
         }
     }
 
@@ -72,9 +61,8 @@ impl<'a> Floors<'a> {
         let mut halves = [Vec::new(), Vec::new()];
         let trials = trials(self.extent).into_iter().zip(&self.recordings);
         for ((floor, motion, trial), recording) in trials {
-            if !motions.contains(&motion)
-                || motion == RobotMotion::Autonomous && trial >= self.natural
-            {
+            let is_left_out = motion == RobotMotion::Autonomous && trial >= self.natural;
+            if is_left_out || !motions.contains(&motion) {
                 continue;
             }
             let (middle, end) = (recording.len() / 2, recording.len());
@@ -134,17 +122,12 @@ impl Tally {
         channels: &[usize],
         new: impl Fn() -> Result<R> + Sync,
     ) -> Result<Self> {
-        let found: Result<Vec<(usize, Vec<Outcome>)>> = streams
-            .par_iter()
-            .map(|stream| {
-                let mut recogniser = new()?;
-                let samples = stream.picked(channels);
-                let found = outcomes(&mut recogniser, &samples, channels.len());
-                Ok((stream.floor, found))
-            })
-            .collect();
+        let found = streams.par_iter().map(|stream| {
+            let samples = stream.picked(channels);
+            Ok((stream.floor, new()?.outcomes(&samples, channels.len())))
+        });
         let mut tally = Self::empty();
-        for (floor, outcomes) in found? {
+        for (floor, outcomes) in found.collect::<Result<Vec<_>>>()? {
             for outcome in outcomes {
                 tally.add(floor, outcome.class, u64::from(outcome.samples))?;
             }

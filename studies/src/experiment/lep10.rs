@@ -1,10 +1,7 @@
 //! LEP10: naive Bayes over fixed windows, on x, y and both; artificial motion
 //! (turning on the spot) against natural motion (autonomous).
 
-use super::floors::{Floors, Stream, Tally, hit_curves, train};
-use super::ranges;
-use super::recording::{Dataset, Recordings};
-use super::request::Request;
+use super::{Dataset, Floors, Recordings, Request, Stream, Tally, hit_curves, ranges, train};
 use crate::chart::{Series, over_windows};
 use crate::page::{Page, confusion, figure, row};
 use crate::paper::lep10::{FIG4_KNEE_S, FIG4_LONG, FLOORS, TABLES, WINDOW_S};
@@ -24,7 +21,7 @@ const CHANCE: f64 = 100.0 / FLOORS.len() as f64;
 const VINYL: usize = 3;
 
 pub(super) fn evaluate(page: &mut Page, request: &Request, recordings: &Recordings) -> Result<()> {
-    let floors = Floors::with_all(request, recordings);
+    let floors = Floors::new(request, recordings, 2 * request.extent.trials);
     page.heading(2, "LEP10: naive Bayes over fixed windows");
     page.say(
         "A passive whisker dragged over four floors by a small robot (`studies/rigs/floor.toml`). \
@@ -38,10 +35,8 @@ pub(super) fn evaluate(page: &mut Page, request: &Request, recordings: &Recordin
     let [natural, natural_validation] = floors.halves(&NATURAL);
     let mut hits = [[0.0; 4]; 5];
     let mut means = [0.0; 5];
-    let mut models = Vec::new();
-    for (_, picked) in CHANNELS {
-        models.push(train(&training, picked, 1)?);
-    }
+    let models = CHANNELS.map(|(_, picked)| train(&training, picked, 1));
+    let models: Vec<ModelBuf> = models.into_iter().collect::<Result<_>>()?;
     let both: &[usize] = &[0, 1];
     let of_natural = train(&natural, both, 1)?;
     for (n, table) in TABLES.iter().enumerate() {
@@ -66,14 +61,8 @@ pub(super) fn evaluate(page: &mut Page, request: &Request, recordings: &Recordin
     }
 
     let knee = figure_4(&floors, &models, &validation, page)?;
-    for (name, mean) in [
-        "naive Bayes, window of 0.5 s, x",
-        "naive Bayes, window of 0.5 s, y",
-        "naive Bayes, window of 0.5 s, x and y",
-    ]
-    .into_iter()
-    .zip(means)
-    {
+    for ((name, _), mean) in CHANNELS.into_iter().zip(means) {
+        let name = format!("naive Bayes, window of 0.5 s, {name}");
         page.score(name, "four floors", mean, (CHANCE, Some(CHANCE)));
     }
     claims(page, &means, &hits, knee);
@@ -110,16 +99,9 @@ fn figure_4(
     };
     let knee = [at(0.0), at(FIG4_KNEE_S), at(f64::INFINITY)];
     let header = "mean hit rate, % | 0.5 ms | 10 ms | 100 ms | 0.5 s | 1 s";
-    let rows: Vec<Vec<String>> = means
-        .iter()
-        .map(|curve| {
-            let cells = [0, 4, 7, 9, 10].map(|n| {
-                let hit = curve.points.get(n).map_or(0.0, |point| point.1);
-                format!("**{}**", figure(hit, 0))
-            });
-            row(&*curve.name, cells)
-        })
-        .collect();
+    let hit = |curve: &Series, n: usize| format!("**{}**", figure(curve.points[n].1, 0));
+    let line = |curve: &Series| row(&*curve.name, [0, 4, 7, 9, 10].map(|n| hit(curve, n)));
+    let rows: Vec<Vec<String>> = means.iter().map(line).collect();
     let mean = over_windows("mean hit rate, %", &means);
     page.say(format_args!(
         "**Fig. 4**: hit rate against the window. In the paper x alone and y alone reach about \

@@ -6,15 +6,13 @@ mod groups;
 mod pairs;
 mod spectral;
 
-use super::floors::{Floors, Stream};
-use super::product;
-use super::recording::Recordings;
-use super::request::Request;
-use crate::page::{Page, beside, figure};
+use super::{Floors, Recordings, Request, Stream, product};
+use crate::page::{Page, beside, figure, row};
 use crate::paper::lep10::FLOORS;
 use crate::paper::lep12::{KNEE_S, MOTIONS, SEQUENTIAL_GAIN, TABLES, TIME_S};
 use anyhow::{Context, Result};
-use groups::{Curves, Group, interpolate};
+use groups::{BLOCK, Curves, Group, Point, interpolate};
+use spectral::power;
 
 /// The group of both rotations.
 const ROTATING: usize = 2;
@@ -22,7 +20,8 @@ const ROTATING: usize = 2;
 const CHANCE: f64 = 100.0 / FLOORS.len() as f64;
 
 pub(super) fn evaluate(page: &mut Page, request: &Request, recordings: &Recordings) -> Result<()> {
-    let floors = Floors::new(request, recordings);
+    // As many trials of natural motion as of each rotation.
+    let floors = Floors::new(request, recordings, request.extent.trials);
     let rate_hz = floors.rate_hz;
     let groups = Group::all(&floors)?;
     page.heading(2, "LEP12: sequential Bayes");
@@ -54,15 +53,13 @@ pub(super) fn evaluate(page: &mut Page, request: &Request, recordings: &Recordin
     claims(page, &rows, &curves);
     pairs::section(page, &groups[ROTATING], rate_hz)?;
     product(page, &groups, rate_hz)?;
-    for (name, rows) in [
+    let names = [
         "maximum likelihood, window of 200 ms",
         "sequential Bayes, 200 ms on average",
         "template of the power spectrum, 400 ms",
         "network on the power spectrum, 400 ms",
-    ]
-    .into_iter()
-    .zip(&rows)
-    {
+    ];
+    for (name, rows) in names.into_iter().zip(&rows) {
         let mean = rows[ROTATING][4];
         page.score(name, "four floors, rotating", mean, (CHANCE, Some(CHANCE)));
     }
@@ -97,22 +94,20 @@ fn tables(page: &mut Page, rows: &[Vec<[f64; 5]>; 4], times: &[(f64, f64)]) {
     for (table, ours) in TABLES.iter().zip(rows) {
         page.say(format_args!("**Table {}**: {}.", table.number, table.what));
         let line = |(motion, ours): (usize, &[f64; 5])| {
-            let mut cells = vec![MOTIONS[motion].to_owned()];
-            cells.extend((0..4).map(|k| beside(table.percent[motion][k], ours[k])));
-            cells.push(beside(table.mean[motion], ours[4]));
-            cells
+            let mean = beside(table.mean[motion], ours[4]);
+            let floors = (0..4).map(|k| beside(table.percent[motion][k], ours[k]));
+            row(MOTIONS[motion], floors.chain([mean]))
         };
-        let lines: Vec<_> = ours.iter().enumerate().map(line).collect();
-        page.table(&header, lines);
+        page.table(&header, ours.iter().enumerate().map(line));
         if table.number == 2 {
-            let said: Vec<String> = MOTIONS
+            let said = MOTIONS
                 .iter()
                 .zip(times)
                 .map(|(motion, (threshold, time))| {
                     let time = figure(1000.0 * time, 0);
                     format!("{motion} {time} ms at {}", figure(*threshold, 4))
-                })
-                .collect();
+                });
+            let said: Vec<String> = said.collect();
             page.say(format_args!(
                 "Mean decision times nearest to 200 ms, and their thresholds: {}.",
                 said.join("; ")

@@ -1,22 +1,16 @@
 //! POSE: angle, speed and texture of one brief contact, by the template, the
 //! spectral template and features.
 
-mod notch;
 mod rules;
-mod scores;
 mod sets;
 
-use super::product;
-use super::ranges;
-use super::record::table::Contact;
-use super::recording::{Dataset, Recordings};
-use super::request::Request;
+use super::{Dataset, Recordings, Request, product, ranges};
 use crate::page::{Page, figure};
 use crate::paper::pose::{ANGLES_DEG, ROWS, SPEEDS_MM_S, TEXTURE_ALONE, TEXTURES};
+use crate::rigs::table::Contact;
 use anyhow::Result;
-use rules::{Nearest, features};
-use scores::Scores;
-use sets::Sets;
+use rules::{Nearest, Scores, features};
+use sets::{Sets, Signal, notched, resonance_hz};
 
 pub(super) fn evaluate(page: &mut Page, request: &Request, recordings: &Recordings) -> Result<()> {
     let sets = Sets::new(request, recordings)?;
@@ -31,12 +25,12 @@ pub(super) fn evaluate(page: &mut Page, request: &Request, recordings: &Recordin
          features of texture are taken behind a notch at the whisker's resonance, {:.1} Hz.",
         sets.training.len(),
         sets.testing.len(),
-        notch::resonance_hz()?
+        resonance_hz()?
     ));
     let rows = [&by_template, &by_spectrum, &by_features.together];
-    scores::kappas(page, &rows);
-    scores::matrices(page, &rows)?;
-    scores::features(page, &by_features.textures);
+    rules::kappas(page, &rows);
+    rules::matrices(page, &rows)?;
+    rules::table_of_features(page, &by_features.textures);
     let alone = [
         Nearest::Signal.textures(&sets)?,
         Nearest::Spectrum.textures(&sets)?,
@@ -52,14 +46,12 @@ pub(super) fn evaluate(page: &mut Page, request: &Request, recordings: &Recordin
     claims(page, &rows);
     product(page, &sets)?;
     ranges::say(page, (request, recordings), (Dataset::Table, 2), 8191.0);
-    for (name, scores) in [
+    let names = [
         "template by sum of squares, 352 poses",
         "spectral template |DFT|, 352 poses",
         "features f1–f5, quadratic",
-    ]
-    .into_iter()
-    .zip(rows)
-    {
+    ];
+    for (name, scores) in names.into_iter().zip(rows) {
         let counts = [ANGLES_DEG.len(), SPEEDS_MM_S.2, TEXTURES.len()];
         let properties = ["angle", "speed", "texture"].into_iter().zip(counts);
         for ((property, classes), hit) in properties.zip(scores.hit()) {
@@ -75,7 +67,7 @@ fn product(page: &mut Page, sets: &Sets) -> Result<()> {
     let streams = |set: usize| -> Result<Vec<_>> {
         let all = sets.pairs[set].iter().enumerate();
         let one = |(n, (contact, pairs)): (usize, &(Contact, Vec<[f64; 2]>))| {
-            let name = TEXTURES[contact.texture];
+            let name = TEXTURES[contact[2]];
             product::stream(name, n, pairs.clone(), Some(sets.rate_hz))
         };
         all.map(one).collect()

@@ -3,22 +3,21 @@
 
 mod corridor;
 mod maze;
-mod own;
-mod sweeps;
+
+use std::ops::Range;
 
 use anyhow::{Context, Result};
 use rayon::prelude::*;
 use tactile::score::Confusion;
 
-use super::ranges;
-use super::record::pad::PAPERS;
-use super::recording::{Dataset, Recordings, of_set};
-use super::request::Request;
+use super::{Dataset, Recording, Recordings, Request, of_set, product, ranges};
 use crate::chart::{Mark, Series, linear, panel, percent};
+use crate::classifiers::network::{self, Network, Options, Row};
 use crate::page::{Page, confusion, figure, row};
-use crate::paper::psik::{ARCS, FIG6_THREE_ARCS, TABLE_2, VIBRISSAE};
+use crate::paper::psik::{ARCS, CORRIDORS, FIG6_THREE_ARCS, RATE_HZ, TABLE_2, VIBRISSAE};
+use crate::rigs::corridor::{COLUMNS, FELT, place as in_corridor};
+use crate::rigs::pad::{PAPERS, place as on_paper};
 use crate::rigs::seed_of;
-use sweeps::{NAMES, Sweeps, hit, hit_of_p40, mean_hit};
 
 const CHANCE: f64 = 100.0 / PAPERS as f64;
 /// What counts as the paper's 90 to 95 %.
@@ -26,16 +25,14 @@ const ENOUGH: f64 = FIG6_THREE_ARCS.0;
 
 /// Where each arc's vibrissae begin, and where the last ends.
 fn borders() -> Vec<usize> {
-    let mut borders = vec![0];
-    for (count, _) in ARCS {
-        borders.push(borders.last().copied().unwrap_or(0) + count);
-    }
-    borders
+    let all = (0..=ARCS.len()).map(|arcs| &ARCS[..arcs]);
+    all.map(|arcs| arcs.iter().map(|(count, _)| count).sum())
+        .collect()
 }
 
 pub(super) fn evaluate(page: &mut Page, request: &Request, recordings: &Recordings) -> Result<()> {
-    let sweeps = Sweeps::new(request, &of_set(recordings, Dataset::Pad));
-    let (training, testing) = request.extent.sweeps();
+    let rows = sweeps(request, &of_set(recordings, Dataset::Pad));
+    let (training, testing) = request.extent.sweeps;
     page.heading(2, "PSIK: many vibrissae");
     page.say(format_args!(
         "A pad of {VIBRISSAE} vibrissae in eight arcs swept over eight sandpapers \
@@ -52,11 +49,11 @@ pub(super) fn evaluate(page: &mut Page, request: &Request, recordings: &Recordin
     let seed = |n: usize| seed_of(request.seed, &[33, n as u64]);
     let more = (1..=ARCS.len())
         .into_par_iter()
-        .map(|arcs| sweeps.score(0, borders[arcs], seed(arcs)))
+        .map(|arcs| score(&rows, 0..borders[arcs], seed(arcs)))
         .collect::<Result<Vec<Confusion>>>()?;
     let single = (0..5)
         .into_par_iter()
-        .map(|arc| sweeps.score(borders[arc], borders[arc + 1], seed(100 + arc)))
+        .map(|arc| score(&rows, borders[arc]..borders[arc + 1], seed(100 + arc)))
         .collect::<Result<Vec<Confusion>>>()?;
     let all = more.last().context("no arcs")?;
 
@@ -78,7 +75,7 @@ pub(super) fn evaluate(page: &mut Page, request: &Request, recordings: &Recordin
     let name = "IMP and network 33–33–8";
     page.score(name, "eight sandpapers", hit(all), (CHANCE, Some(CHANCE)));
     corridor::section(page, request, recordings)?;
-    own::of_one_vibrissa(page, request, recordings)
+    of_one_vibrissa(page, request, recordings)
 }
 
 fn figures(
@@ -90,11 +87,8 @@ fn figures(
     let points = more.iter().zip(borders.iter().skip(1));
     let points = points.map(|(score, count)| (*count as f64, hit(score)));
     let curve = Series::curve("mean performance", points.collect());
-    let x = linear(
-        "vibrissae, from the longest arc on",
-        0.0,
-        VIBRISSAE as f64 + 1.0,
-    );
+    let most = VIBRISSAE as f64 + 1.0;
+    let x = linear("vibrissae, from the longest arc on", 0.0, most);
     let panels = [panel("Fig. 6", x, percent("%"), &[curve], Mark::Dot)];
     page.say(format_args!(
         "**Fig. 6**: with more and more arcs, the longest first. In the paper {:.0} to {:.0} % \
@@ -104,29 +98,27 @@ fn figures(
     let what = "Performance over the number of vibrissae";
     page.panels("psik-fig6.svg", what, &panels)?;
     let header: Vec<String> = (1..=ARCS.len()).map(|n| n.to_string()).collect();
-    let cells = more
-        .iter()
-        .map(|score| format!("**{}**", figure(hit(score), 1)));
-    let line = row("hit rate, %", cells);
+    let cells = more.iter().map(|score| figure(hit(score), 1));
+    let line = row("hit rate, %", cells.map(|cell| format!("**{cell}**")));
     page.table(&format!("arcs | {}", header.join(" | ")), [line]);
 
     page.say(
         "**Fig. 7**: each of the five longer arcs alone, percent of each paper. Here as there \
          arcs differ in which papers they tell.",
     );
-    let rows: Vec<Vec<String>> = single
+    let rows = single
         .iter()
+        .zip(ARCS)
         .enumerate()
-        .map(|(arc, score)| {
-            let mut cells = vec![format!("{} ({:.0} mm)", arc + 1, ARCS[arc].1)];
-            cells.extend((0..PAPERS).map(|class| {
-                let rate = score.hit_rate_of(class).unwrap_or(0.0);
-                format!("**{}**", figure(100.0 * rate, 0))
-            }));
-            cells.push(format!("**{}**", figure(hit(score), 1)));
-            cells
-        })
-        .collect();
+        .map(|(arc, (score, (_, mm)))| {
+            let rates = (0..PAPERS).map(|class| score.hit_rate_of(class).unwrap_or(0.0));
+            let mean = figure(hit(score), 1);
+            let cells = rates.map(|rate| figure(100.0 * rate, 0)).chain([mean]);
+            row(
+                format!("{} ({mm:.0} mm)", arc + 1),
+                cells.map(|cell| format!("**{cell}**")),
+            )
+        });
     let header = format!("arc | {} | mean", NAMES.join(" | "));
     page.table(&header, rows);
     Ok(())
@@ -161,4 +153,129 @@ fn claims(page: &mut Page, more: &[Confusion]) {
         (least - ENOUGH, "points"),
     )
     .rests_on(three, CHANCE);
+}
+
+fn pairs(samples: &[f32]) -> impl Iterator<Item = [f64; 2]> + '_ {
+    samples
+        .as_chunks()
+        .0
+        .iter()
+        .map(|pair: &[f32; 2]| pair.map(f64::from))
+}
+
+/// The product's own rule on papers and corridors, by one vibrissa: the middle one of the longest
+/// arc, of the left pad in corridors.
+fn of_one_vibrissa(page: &mut Page, request: &Request, recordings: &Recordings) -> Result<()> {
+    let (mut taught, mut asked) = (Vec::new(), Vec::new());
+    for (job, sweep) in of_set(recordings, Dataset::Vibrissa).iter().enumerate() {
+        let (paper, number) = on_paper(request.extent, job);
+        let samples = pairs(&sweep.values).collect();
+        // At both ends of a sweep it is in the air.
+        let stream = product::stream(NAMES[paper], job, samples, Some(RATE_HZ))?;
+        let is_taught = number < request.extent.sweeps.0;
+        if is_taught { &mut taught } else { &mut asked }.push(stream);
+    }
+    let name = "eight sandpapers by one vibrissa".to_owned();
+    let papers = (name, taught, asked);
+
+    let (training, tested, _) = request.extent.runs;
+    let (mut taught, mut asked) = (Vec::new(), Vec::new());
+    for (job, run) in of_set(recordings, Dataset::Corridor).iter().enumerate() {
+        let (case, number) = in_corridor(request.extent, job);
+        let windows = run.part(0, run.len()).chunks_exact(COLUMNS);
+        let samples = windows.flat_map(|window| pairs(&window[FELT..])).collect();
+        let stream = product::stream(CORRIDORS[case], job, samples, None)?;
+        if number < training - tested.min(training) {
+            taught.push(stream);
+        } else if number >= training {
+            asked.push(stream);
+        }
+    }
+    let name = "two corridors, both ways, by one vibrissa".to_owned();
+    product::section(page, RATE_HZ, vec![papers, (name, taught, asked)])
+}
+
+/// Names of the sandpapers, from coarse to fine.
+const NAMES: [&str; PAPERS] = ["P40", "P50", "P60", "P80", "P100", "P120", "P150", "P180"];
+
+/// Penalties λ on weights that are tried; the paper names none. Trained to the
+/// end with hardly any, 1400 weights fit the scatter of a few hundred sweeps.
+const PENALTIES: [f64; 3] = [1e-5, 1e-4, 1e-3];
+
+/// One sweep of so many is held out to choose the penalty.
+const HELD_OUT: usize = 5;
+
+/// The penalty is the best on sweeps held out of the training ones, the smallest of equals.
+fn train_choosing(rows: &[Row], seed: u64) -> Result<Network> {
+    let mut best = (0, Options::imp(seed).decay);
+    let places = || rows.iter().enumerate();
+    let kept = places().filter(|(n, _)| n % HELD_OUT != 0);
+    let kept: Vec<Row> = kept.map(|(_, row)| row.clone()).collect();
+    for penalty in PENALTIES {
+        let network = train(&kept, seed, penalty)?;
+        let mut hits = 0;
+        for (_, (class, row)) in places().filter(|(n, _)| n % HELD_OUT == 0) {
+            hits += usize::from(network.classify(row)? == *class);
+        }
+        if hits > best.0 {
+            best = (hits, penalty);
+        }
+    }
+    train(rows, seed, best.1)
+}
+
+fn train(rows: &[Row], seed: u64, penalty: f64) -> Result<Network> {
+    let inputs = rows.first().map_or(0, |(_, row)| row.len());
+    let options = Options {
+        decay: penalty,
+        hidden: inputs,
+        ..Options::imp(seed)
+    };
+    network::train(rows, &options)
+}
+
+/// Rows to train on, and to test with.
+fn sweeps(request: &Request, all: &[&Recording]) -> [Vec<Row>; 2] {
+    let mut sweeps = [Vec::new(), Vec::new()];
+    for (job, recording) in all.iter().enumerate() {
+        let (paper, sweep) = on_paper(request.extent, job);
+        let is_tested = sweep >= request.extent.sweeps.0;
+        sweeps[usize::from(is_tested)].push((paper, recording.segment(0, 1)));
+    }
+    sweeps
+}
+
+/// Trains and tests with some of the vibrissae.
+fn score(sweeps: &[Vec<Row>; 2], some: Range<usize>, seed: u64) -> Result<Confusion> {
+    let [training, testing] = sweeps.each_ref().map(|rows| -> Vec<Row> {
+        let some = |(class, row): &Row| (*class, row[some.clone()].to_vec());
+        rows.iter().map(some).collect()
+    });
+    let network = train_choosing(&training, seed)?;
+    let mut score = Confusion::new(PAPERS);
+    for (class, row) in testing {
+        score.add(class, Some(network.classify(&row)?))?;
+    }
+    Ok(score)
+}
+
+/// Hit rate of the paper's own grades, P50 to P180, percent, among all eight: P40 is ours.
+fn hit(score: &Confusion) -> f64 {
+    let own = (1..PAPERS).map(|class| score.hit_rate_of(class).unwrap_or(0.0));
+    100.0 * own.sum::<f64>() / (PAPERS - 1) as f64
+}
+
+fn hit_of_p40(score: &Confusion) -> f64 {
+    100.0 * score.hit_rate_of(0).unwrap_or(0.0)
+}
+
+/// The class with the most votes, the first of equals.
+fn most(votes: &[u32; 4]) -> usize {
+    let places = 1..votes.len();
+    places.fold(0, |best, k| if votes[k] > votes[best] { k } else { best })
+}
+
+fn mean_hit<const N: usize>(table: &[[f64; N]; N]) -> f64 {
+    let hits = table.iter().enumerate().map(|(n, row)| row[n]);
+    hits.sum::<f64>() / N as f64
 }

@@ -1,7 +1,6 @@
 //! How far a rig's signals fill the range of their sensors.
 
-use super::recording::{Dataset, Recordings, of_set};
-use super::request::{Depth, Request};
+use super::{Dataset, Recordings, Request, of_set};
 use crate::page::{Page, figure};
 
 /// Says of a data set whose first `channels` columns are x, y, x, y, … in codes up to `most`.
@@ -11,7 +10,7 @@ pub(super) fn say(
     (dataset, channels): (Dataset, usize),
     most: f32,
 ) {
-    if request.depth < Depth::Whole {
+    if !request.is_whole {
         return;
     }
     let of_axis = |axis: usize| {

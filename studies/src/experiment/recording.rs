@@ -1,7 +1,14 @@
-//! The data sets, which are simulated once and used by one experiment or more; what a rig
-//! recorded, and which recordings there are.
+//! The data sets, which are simulated once and used by one experiment or more; the jobs of a
+//! request, and what each of them records. The file of a rig says which job is which condition.
 
 use std::collections::BTreeMap;
+
+use anyhow::{Context, Result};
+use host_sim::progress::Verbosity;
+
+use super::{Extent, Request};
+use crate::cores::Cores;
+use crate::rigs::{corridor, floor, head, pad, seed_of, table};
 
 /// A set of recordings on one rig. Their order is in the seeds.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -77,4 +84,47 @@ pub(crate) type Recordings = BTreeMap<Job, Recording>;
 pub(crate) fn of_set(all: &Recordings, dataset: Dataset) -> Vec<&Recording> {
     let jobs = all.iter().filter(|(job, _)| job.dataset == dataset);
     jobs.map(|(_, recording)| recording).collect()
+}
+
+/// What records a job from its seed.
+pub(super) type Record = fn(&Request, usize, u64) -> Result<Recording>;
+
+/// How many jobs a data set has, and what records one.
+fn rig(dataset: Dataset, extent: Extent) -> (usize, Record) {
+    match dataset {
+        Dataset::Floor => (floor::trials(extent).len(), floor::record),
+        Dataset::Head => (head::jobs(), head::record),
+        Dataset::Table => (table::jobs(extent), table::record),
+        Dataset::Pad => (pad::jobs(extent), pad::record),
+        Dataset::Vibrissa => (pad::jobs(extent), pad::record_one),
+        Dataset::Corridor => (corridor::jobs(extent), corridor::record),
+    }
+}
+
+pub(crate) fn jobs(request: &Request) -> Vec<Job> {
+    let names = request.names.iter();
+    let mut datasets: Vec<Dataset> = names.flat_map(|name| name.datasets()).copied().collect();
+    datasets.sort_unstable();
+    datasets.dedup();
+    let of = |dataset| {
+        let (count, _) = rig(dataset, request.extent);
+        (0..count).map(move |number| Job { dataset, number })
+    };
+    datasets.into_iter().flat_map(of).collect()
+}
+
+/// Makes one recording. It depends on the seed, the rig and the job alone.
+fn one(request: &Request, job: Job) -> Result<Recording> {
+    let Job { dataset, number } = job;
+    let drawn = dataset.drawn_as() as u64;
+    let seed = seed_of(request.seed, &[drawn, number as u64]);
+    let (_, record) = rig(dataset, request.extent);
+    record(request, number, seed).context(dataset.text())
+}
+
+/// The result depends on neither the order of jobs nor the number of cores.
+pub(crate) fn record(request: &Request, jobs: &[Job]) -> Result<Recordings> {
+    Cores(Verbosity::Quiet)
+        .each("recording", jobs, |job| Ok((*job, one(request, *job)?)))
+        .map(|made| made.into_iter().collect())
 }

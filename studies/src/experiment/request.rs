@@ -44,58 +44,41 @@ impl Name {
     }
 }
 
-/// How much of each experiment: fewer trials, whisks, contacts, sweeps and runs;
-/// the physics is the same.
+/// How much of each experiment; the physics is the same.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Extent {
-    /// As much as the papers, but for PSIK: of that, as much over five seeds or so.
-    Full,
-    /// The least with which an experiment can still fail.
-    Quick,
+pub(crate) struct Extent {
+    /// Floor robot: trials of each rotation (LEP10 and LEP12: 4); of natural motion there are twice
+    /// as many (LEP10 section III-D).
+    pub(crate) trials: usize,
+    /// Whisking head: whisks of each condition (BIOTACT: 12).
+    pub(crate) whisks: usize,
+    /// XY table: every how-manieth angle and speed is used (POSE: all).
+    pub(crate) stride: usize,
+    /// Fixed head: sweeps of each sandpaper to train on and to test with (PSIK: 300 and 100; five
+    /// seeds have 200 and 50 together).
+    pub(crate) sweeps: (usize, usize),
+    /// Corridor: runs of each to train on (of these, to test with), and to decide in (PSIK: 10, 3,
+    /// 20; five seeds have 20 to decide in together).
+    pub(crate) runs: (usize, usize, usize),
 }
 
 impl Extent {
-    const fn pick(self, full: usize, quick: usize) -> usize {
-        match self {
-            Self::Full => full,
-            Self::Quick => quick,
-        }
-    }
-
-    /// Floor robot: trials of each rotation (LEP10 and LEP12: 4); of natural
-    /// motion there are twice as many (LEP10 section III-D).
-    pub(crate) const fn trials(self) -> usize {
-        self.pick(4, 2)
-    }
-
-    /// Whisking head: whisks of each condition (BIOTACT: 12).
-    pub(crate) const fn whisks(self) -> usize {
-        self.pick(12, 4)
-    }
-
-    pub(crate) const fn natural_trials(self) -> usize {
-        2 * self.trials()
-    }
-
-    /// XY table: every how-manieth angle and speed is used (POSE: all).
-    pub(crate) const fn stride(self) -> usize {
-        self.pick(1, 3)
-    }
-
-    /// Fixed head: sweeps of each sandpaper to train on and to test with (PSIK: 300 and
-    /// 100; five seeds have 200 and 50 together).
-    pub(crate) const fn sweeps(self) -> (usize, usize) {
-        match self {
-            Self::Full => (40, 10),
-            Self::Quick => (6, 2),
-        }
-    }
-
-    /// Corridor: runs of each to train on (of these, to test with), and to
-    /// decide in (PSIK: 10, 3, 20; five seeds have 20 to decide in together).
-    pub(crate) const fn runs(self) -> (usize, usize, usize) {
-        (self.pick(10, 2), self.pick(3, 1), self.pick(4, 1))
-    }
+    /// As much as the papers, but for PSIK: of that, as much over five seeds or so.
+    pub(crate) const FULL: Self = Self {
+        trials: 4,
+        whisks: 12,
+        stride: 1,
+        sweeps: (40, 10),
+        runs: (10, 3, 4),
+    };
+    /// The least with which an experiment can still fail.
+    pub(crate) const QUICK: Self = Self {
+        trials: 2,
+        whisks: 4,
+        stride: 3,
+        sweeps: (6, 2),
+        runs: (2, 1, 1),
+    };
 }
 
 /// What two recordings of one class share.
@@ -160,26 +143,11 @@ pub(crate) struct Arm {
 }
 
 impl Arm {
-    pub(crate) const MAIN: Self = Self {
-        protocol: Protocol::AsInPaper,
-        placebo: None,
-    };
-    pub(crate) const AGAIN: Self = Self {
-        protocol: Protocol::DrawnAgain,
-        placebo: None,
-    };
-    pub(crate) const LABELS: Self = Self {
-        placebo: Some(Placebo::Labels),
-        ..Self::MAIN
-    };
-    pub(crate) const SPOTS: Self = Self {
-        placebo: Some(Placebo::Spots),
-        ..Self::MAIN
-    };
-    pub(crate) const AGAIN_LABELS: Self = Self {
-        placebo: Some(Placebo::Labels),
-        ..Self::AGAIN
-    };
+    pub(crate) const MAIN: Self = Self::of(Protocol::AsInPaper, None);
+    pub(crate) const AGAIN: Self = Self::of(Protocol::DrawnAgain, None);
+    pub(crate) const LABELS: Self = Self::of(Protocol::AsInPaper, Some(Placebo::Labels));
+    pub(crate) const SPOTS: Self = Self::of(Protocol::AsInPaper, Some(Placebo::Spots));
+    pub(crate) const AGAIN_LABELS: Self = Self::of(Protocol::DrawnAgain, Some(Placebo::Labels));
 
     /// All that a page has; a quick one has the first three.
     pub(crate) const ALL: &[Self] = &[
@@ -190,6 +158,10 @@ impl Arm {
         Self::AGAIN_LABELS,
     ];
     pub(crate) const QUICK: &[Self] = Self::ALL.split_at(3).0;
+
+    const fn of(protocol: Protocol, placebo: Option<Placebo>) -> Self {
+        Self { protocol, placebo }
+    }
 }
 
 #[derive(Debug, Clone, PartialEq)]
@@ -200,36 +172,23 @@ pub(crate) struct Request {
     pub(crate) seed: u64,
     pub(crate) rigs: Rigs,
     pub(crate) arm: Arm,
-    pub(crate) depth: Depth,
-}
-
-/// What of an experiment is done, each with what is before it.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub(crate) enum Depth {
-    /// All in which textures are told apart, but for PSIK's maze.
-    Textures,
-    /// What has no textures in it, too.
-    Whole,
+    /// Whether what has no textures in it and PSIK's maze are done, too.
+    pub(crate) is_whole: bool,
 }
 
 impl Request {
     /// What is felt for a texture of some: itself, or that of all in a placebo.
     pub(crate) fn surface(&self, all: &[Material], texture: usize, of_placebo: usize) -> Surface {
-        let felt = if self.arm.placebo.is_some() {
-            of_placebo
-        } else {
-            texture
-        };
+        let felt = self.arm.placebo.map_or(texture, |_| of_placebo);
         self.rigs.surfaces.of(all[felt])
     }
 
     /// The distance, angle or speed that is felt for `place`: itself, or that of all where labels
     /// alone differ.
     pub(crate) fn place(&self, place: usize, of_placebo: usize) -> usize {
-        if self.arm.placebo == Some(Placebo::Labels) {
-            of_placebo
-        } else {
-            place
+        match self.arm.placebo {
+            Some(Placebo::Labels) => of_placebo,
+            _ => place,
         }
     }
 
@@ -247,10 +206,8 @@ impl Request {
             return seed_of(recording, &[KEPT]);
         }
         let label = self.place(label, 0) as u64;
-        seed_of(
-            self.seed,
-            &[dataset.drawn_as() as u64, KEPT, label, trial as u64],
-        )
+        let parts = [dataset.drawn_as() as u64, KEPT, label, trial as u64];
+        seed_of(self.seed, &parts)
     }
 
     /// The spot of a surface that is met, m along and across it, within a metre either way.
@@ -264,11 +221,11 @@ impl Request {
     pub(crate) fn quick(names: &[Name], seed: u64) -> Self {
         Self {
             names: names.to_vec(),
-            extent: Extent::Quick,
+            extent: Extent::QUICK,
             seed,
             rigs: Rigs::with(&[]),
             arm: Arm::MAIN,
-            depth: Depth::Whole,
+            is_whole: true,
         }
     }
 }

@@ -1,13 +1,12 @@
 //! Recordings depend on the seed, the data set and the job alone, and pages on
 //! the recordings alone: neither on the number of cores.
 
-use super::record::whiskers::TABLE;
-use super::record::{Record, jobs, record};
-use super::record::{corridor, floor, head, pad, table};
-use super::recording::Dataset;
+use super::recording::{Dataset, Record, jobs, record};
 use super::request::{Arm, Name, Request};
-use super::whole::evaluate;
+use super::runs::evaluate;
 use crate::rigs::RobotMotion;
+use crate::rigs::whiskers::TABLE;
+use crate::rigs::{corridor, floor, head, pad, table};
 
 fn on_cores<T: Send>(cores: usize, work: impl FnOnce() -> T + Send) -> T {
     let pool = rayon::ThreadPoolBuilder::new().num_threads(cores).build();

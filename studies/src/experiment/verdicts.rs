@@ -1,10 +1,13 @@
-//! What becomes of claims over several seeds, by both protocols and beside placebos.
+//! What becomes of claims, and of every classifier's hit rate, over several seeds, by both protocols
+//! and beside placebos.
 
-use super::request::{Arm, Protocol};
-use crate::moments::{SURE, Summary, VERY_SURE};
-use crate::page::{Claim, Page, Recognition, joined};
-use anyhow::{Context, Result, bail};
 use std::collections::BTreeMap;
+
+use anyhow::{Context, Result, bail};
+
+use super::Arm;
+use crate::moments::{SURE, Summary, VERY_SURE};
+use crate::page::{Claim, Page, Recognition, Score, joined};
 
 /// Pages of the seeds, by arms.
 #[derive(Default)]
@@ -107,13 +110,10 @@ impl Judged {
         if labels.is_some_and(|labels| !labels.is_at_chance()) {
             return Verdict::DoesNotCount;
         }
-        let half = self.margin.half_interval(&SURE);
-        if self.margin.mean > half {
-            Verdict::Met
-        } else if self.margin.mean < -half {
-            Verdict::NotMet
-        } else {
-            Verdict::WithinNoise
+        match self.margin.side() {
+            1 => Verdict::Met,
+            -1 => Verdict::NotMet,
+            _ => Verdict::WithinNoise,
         }
     }
 
@@ -151,13 +151,6 @@ pub(super) struct Both {
 }
 
 impl Both {
-    pub(super) fn by(&self, protocol: Protocol) -> Option<&Judged> {
-        match protocol {
-            Protocol::AsInPaper => Some(&self.kept),
-            Protocol::DrawnAgain => self.again.as_ref(),
-        }
-    }
-
     /// Whether spots of one texture are told apart as well as textures are.
     pub(super) fn may_be_the_spot(&self) -> bool {
         let both = self.spots.as_ref().zip(self.kept.rate.as_ref());
@@ -206,13 +199,76 @@ pub(super) fn all_judged(bodies: &Bodies) -> Result<Vec<Both>> {
             paper: claim.paper.clone(),
             kept: judged(main, bodies.of(Arm::LABELS), claim)?,
             again: is_there.then(judged_again).transpose()?,
-            spots: Recognised::of(spots.filter_map(|claim| claim.recognition), |found| {
-                found.of_textures
-            }),
+            spots: Recognised::of(spots.filter_map(|of| of.recognition), |of| of.of_textures),
         })
     };
     let claims = main.first().map_or(&[][..], |page| &page.claims);
     claims.iter().map(one).collect()
+}
+
+fn hits(pages: &[Page], n: usize) -> String {
+    let scores = || pages.iter().filter_map(|page| page.scores.get(n));
+    let hits = scores().map(|score| score.recognition.rate);
+    let hits: Vec<f64> = hits.filter(|hit| hit.is_finite()).collect();
+    let decided: Vec<f64> = scores().filter_map(|score| score.decided).collect();
+    let share = match decided.len() {
+        0 => String::new(),
+        _ => format!(" of {} decided", Summary::of(&decided).text(0, false)),
+    };
+    if hits.is_empty() {
+        return "nothing decided".to_owned();
+    }
+    format!("{}{share}", Summary::of(&hits).text(1, false))
+}
+
+pub(super) fn scores(bodies: &Bodies) -> Vec<Vec<String>> {
+    let of = |arm| bodies.of(arm);
+    let scores = of(Arm::MAIN).first().map_or(&[][..], |page| &page.scores);
+    let row = |(n, score): (usize, &Score)| {
+        let recognised = |arm| {
+            let scores = of(arm).iter().filter_map(|page| page.scores.get(n));
+            Recognised::of(scores.map(|score| score.recognition), |found| {
+                found.of_textures
+            })
+        };
+        let spots = hits(of(Arm::SPOTS), n);
+        let both = recognised(Arm::SPOTS).zip(recognised(Arm::MAIN));
+        let spots = match score.recognition.of_textures {
+            None => "–".to_owned(),
+            Some(_) if both.is_some_and(|(spots, all)| spots.is_as_good_as(&all)) => {
+                format!("**{spots}**")
+            }
+            Some(_) => spots,
+        };
+        vec![
+            // |DFT| must not end the cell.
+            score.classifier.replace('|', "\\|"),
+            score.task.clone(),
+            format!("**{}**", hits(of(Arm::MAIN), n)),
+            format!("**{}**", hits(of(Arm::AGAIN), n)),
+            hits(of(Arm::LABELS), n),
+            spots,
+            hits(of(Arm::AGAIN_LABELS), n),
+            format!("{:.1}", score.recognition.chance),
+        ]
+    };
+    scores.iter().enumerate().map(row).collect()
+}
+
+pub(super) fn table_of_scores(page: &mut Page, rows: Vec<Vec<String>>) {
+    if rows.is_empty() {
+        return;
+    }
+    page.heading(2, "Every classifier");
+    page.say(
+        "Hit rates in percent. Placebos are recognised by the same classifier; of spots, bold is \
+         what is told apart as well as textures are. What classifiers cost on a board: \
+         [record 44](../decisions.md#44-what-each-classifier-of-the-experiments-takes).",
+    );
+    page.table(
+        "classifier | on | as in the paper | drawn again | labels | spots | labels, drawn again | chance",
+        rows,
+    );
 }
 
 #[cfg(test)]

@@ -29,26 +29,22 @@ impl fmt::Display for Figure {
     }
 }
 
-/// Parts of a text: what stands before each figure, with the figure's sign, digits and value.
-type Parts<'t> = Vec<(&'t str, bool, usize, f64)>;
+/// What stands between the figures of a text, and these: whether with a sign, digits and value.
+type Parts<'t> = (Vec<&'t str>, Vec<(bool, usize, f64)>);
 
-/// Takes a text apart: its figures, and what stands behind the last.
-fn parts(text: &str) -> Option<(Parts<'_>, &str)> {
-    let (mut rest, mut parts) = (text, Vec::new());
+fn parts(text: &str) -> Option<Parts<'_>> {
+    let (mut words, mut figures, mut rest) = (Vec::new(), Vec::new(), text);
     while let Some((before, behind)) = rest.split_once(BEGIN) {
         let (mark, after) = behind.split_once(END)?;
         let mut fields = mark.split(BETWEEN);
         let is_signed = !fields.next()?.is_empty();
         let digits = fields.next()?.parse().ok()?;
-        let value = fields.next()?.parse().ok()?;
-        parts.push((before, is_signed, digits, value));
+        figures.push((is_signed, digits, fields.next()?.parse().ok()?));
+        words.push(before);
         rest = after;
     }
-    Some((parts, rest))
-}
-
-fn all_parts<'t>(texts: &[&'t str]) -> Option<Vec<(Parts<'t>, &'t str)>> {
-    texts.iter().map(|text| parts(text)).collect()
+    words.push(rest);
+    Some((words, figures))
 }
 
 /// One text of several that differ in their figures alone: means, with their standard errors
@@ -59,40 +55,29 @@ pub(crate) fn joined(texts: &[&str]) -> Option<String> {
 
 /// The same of groups of texts: the means of each group, divided by `/`, or one where all are
 /// the same.
-pub(crate) fn joined_beside(groups: &[&[&str]]) -> Option<String> {
-    let all: Option<Vec<_>> = groups.iter().map(|texts| all_parts(texts)).collect();
-    let all = all?;
-    let (first, end) = all.first()?.first()?;
-    let is_same = |(parts, last): &(Parts<'_>, &str)| parts.len() == first.len() && last == end;
-    if !all.iter().flatten().all(is_same) {
+pub(crate) fn joined_beside<'t>(groups: &[&[&'t str]]) -> Option<String> {
+    let of_group = |texts: &&[&'t str]| texts.iter().map(|text| parts(text)).collect();
+    let all: Vec<Vec<Parts<'_>>> = groups.iter().map(of_group).collect::<Option<_>>()?;
+    let (words, figures) = all.first()?.first()?;
+    if all.iter().flatten().any(|(other, _)| other != words) {
         return None;
     }
-    let mut text = String::new();
-    for (n, (before, is_signed, digits, _)) in first.iter().enumerate() {
-        text.push_str(before);
-        let mut means: Vec<String> = Vec::with_capacity(all.len());
-        for group in &all {
-            let mut values = Vec::with_capacity(group.len());
-            for (parts, _) in group {
-                let (other, _, _, value) = parts.get(n)?;
-                if other != before {
-                    return None;
-                }
-                values.push(*value);
-            }
+    let mut text = words[0].to_owned();
+    for (n, (is_signed, digits, _)) in figures.iter().enumerate() {
+        let mean = |group: &Vec<Parts<'_>>| {
             // What is missing in a text has no part in the mean.
-            values.retain(|value| value.is_finite());
-            let mean = Summary::of(&values).text(*digits, *is_signed);
-            means.push(if values.is_empty() {
-                "–".to_owned()
-            } else {
-                mean
-            });
-        }
+            let values = group.iter().map(|(_, figures)| figures[n].2);
+            let values: Vec<f64> = values.filter(|value| value.is_finite()).collect();
+            match values.len() {
+                0 => "–".to_owned(),
+                _ => Summary::of(&values).text(*digits, *is_signed),
+            }
+        };
+        let mut means: Vec<String> = all.iter().map(mean).collect();
         means.dedup();
         text.push_str(&means.join(" / "));
+        text.push_str(words[n + 1]);
     }
-    text.push_str(end);
     Some(text)
 }
 

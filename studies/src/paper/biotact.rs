@@ -15,43 +15,16 @@ pub(crate) const DISTANCES_MM: [f64; 3] = [5.0, 10.0, 15.0];
 pub(crate) const STRATEGIES: [(&str, f64); 3] =
     [("unmodulated", 0.0), ("RCP7", 0.7), ("RCP9", 0.9)];
 
-/// What Figs. 6 to 9 set: forward Euler, 2 kHz, 2 Hz, no noise.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Figure {
-    pub(crate) gain: f64,
-    /// RCP: σ_z, and τ_z as a share of the whisk period.
-    pub(crate) rcp: Option<(f64, f64)>,
-    /// CIA: σ_g, and τ_g as a share of the whisk period.
-    pub(crate) cia: Option<(f64, f64)>,
-    /// Whether there are obstacles at [`OBSTACLES_DEG`].
-    pub(crate) obstacles: bool,
-}
+/// A gate's σ, and its τ as a share of the whisk period. Figs. 6 to 9 have forward Euler, 2 kHz, 2 Hz
+/// and no noise.
+pub(crate) type Gate = (f64, f64);
 
-/// Free whisking; the paper's gains are [`FIG6_GAINS`].
-pub(crate) const FIG6: Figure = Figure {
-    gain: 2.0,
-    rcp: None,
-    cia: None,
-    obstacles: false,
-};
-pub(crate) const FIG7: Figure = Figure {
-    gain: 1.0,
-    rcp: Some((0.7, 0.25)),
-    cia: None,
-    obstacles: true,
-};
-/// Strong and fast RCP.
-pub(crate) const FIG8: Figure = Figure {
-    rcp: Some(STRONG),
-    ..FIG7
-};
-pub(crate) const FIG9: Figure = Figure {
-    cia: Some((0.5, 0.25)),
-    ..FIG7
-};
+/// RCP of Figs. 7 and 9, strong and fast RCP (Fig. 8), and CIA of Fig. 9; the gain is 1.
+pub(crate) const GENTLE: Gate = (0.7, 0.25);
+pub(crate) const STRONG: Gate = (2.0, 0.1);
+pub(crate) const FIG9_CIA: Gate = (0.5, 0.25);
+/// Free whisking.
 pub(crate) const FIG6_GAINS: [f64; 4] = [0.5, 1.0, 1.5, 2.0];
-/// σ_z and τ_z, as a share of the whisk period, of strong and fast RCP (Fig. 8).
-pub(crate) const STRONG: (f64, f64) = (2.0, 0.1);
 /// Obstacles of Figs. 7 to 9 beside the head, left and right, θ' in degrees.
 pub(crate) const OBSTACLES_DEG: [f64; 2] = [100.0, 125.0];
 /// σ_x of the obstacles: deflection a degree of overlap (eq. 11).

@@ -29,8 +29,7 @@ pub(crate) struct Table {
 pub(crate) static TABLES: LazyLock<[Table; 4]> =
     LazyLock::new(|| printed(include_str!("lep12.toml"), "tables"));
 
-/// Section 4.3: by how much sequential exceeds the window at equal mean time,
-/// percentage points.
+/// Section 4.3: by how much sequential exceeds the window at equal mean time, percentage points.
 pub(crate) const SEQUENTIAL_GAIN: (f64, f64) = (6.0, 16.0);
 /// Section 4.2 and discussion: most of the gain comes up to this time, s.
 pub(crate) const KNEE_S: f64 = 0.1;

@@ -20,8 +20,7 @@ pub(crate) struct Figure {
     pub(crate) kappa: f64,
     /// Mean error, in the property's unit (degrees, mm/s, classes).
     pub(crate) mean: f64,
-    /// Its spread; the text calls it the standard error, Table I's caption the
-    /// standard deviation.
+    /// Its spread; the text calls it the standard error, Table I's caption the standard deviation.
     pub(crate) spread: f64,
 }
 

@@ -11,11 +11,7 @@ use smartcore::ensemble::random_forest_regressor::{
 use smartcore::linalg::basic::matrix::DenseMatrix;
 use tactile::ModelBuf;
 
-use super::Extent;
-use super::condition::{Change, SURFACES};
-use super::output::Output;
-use super::tally::Tally;
-use super::trained::{THRESHOLD, Trained, judge};
+use super::{Change, Extent, Output, SURFACES, THRESHOLD, Tally, Trained, judge};
 use crate::decisions::figures::{number, percent};
 use crate::page::row;
 
@@ -72,12 +68,11 @@ pub(super) fn section(output: &mut Output, cases: &[Case<'_>], extent: &Extent) 
     let mut rows = Vec::new();
     for (n, case) in cases.iter().enumerate() {
         let trainings: Vec<usize> = (0..case.models.len()).collect();
-        let found = extent
-            .cores
-            .each("how far others get", &trainings, |&training| {
-                let seed = FRESH + (n * trainings.len() + training) as u64;
-                case.of_training(training, seed)
-            })?;
+        let cores = extent.cores;
+        let found = cores.each("how far others get", &trainings, |&training| {
+            let seed = FRESH + (n * trainings.len() + training) as u64;
+            case.of_training(training, seed)
+        })?;
         let product = Tally::sum(found.iter().map(|(tally, _)| tally));
         let decided = product.decided_share();
         let mut cells = vec![percent(product.right_share()), percent(decided)];
@@ -110,10 +105,8 @@ impl Case<'_> {
         let recordings = &self.trained.recordings[training];
         let streams = recordings.iter().flat_map(|(_, streams)| streams);
         let streams: Vec<&Stream> = streams.collect();
-        let known: Vec<Touch> = GAINS
-            .iter()
-            .flat_map(|gain| touches(streams.iter().copied(), *gain))
-            .collect();
+        let known = GAINS.map(|gain| touches(streams.iter().copied(), gain));
+        let known: Vec<Touch> = known.into_iter().flatten().collect();
         let felt = touches(&tested, 1.0);
         let linear = Discriminant::new(&known)?;
         let by_line: Vec<Vec<f64>> = felt.iter().map(|of| linear.posteriors(of)).collect();
@@ -140,9 +133,8 @@ fn answers(felt: &[Touch], posteriors: &[Vec<f64>]) -> Vec<Answer> {
 fn surest(answers: &[Answer]) -> Vec<Answer> {
     let of_each = answers.chunk_by(|a, b| a.presentation == b.presentation);
     let surer = |a: Answer, b: Answer| if a.sure < b.sure { b } else { a };
-    of_each
-        .filter_map(|of| of.iter().copied().reduce(surer))
-        .collect()
+    let surest = of_each.filter_map(|of| of.iter().copied().reduce(surer));
+    surest.collect()
 }
 
 /// Percent right.
@@ -157,11 +149,9 @@ fn touches<'s>(streams: impl IntoIterator<Item = &'s Stream>, gain: f64) -> Vec<
     for (presentation, stream) in streams.into_iter().enumerate() {
         let class = SURFACES.iter().position(|(name, _)| *name == stream.label);
         let numbers = stream.touch.as_deref().unwrap_or_default();
-        let samples: Vec<[f64; 2]> = stream
-            .samples
-            .iter()
-            .map(|[x, y]| [x - 8192.0, gain * (y - 8192.0)])
-            .collect();
+        let samples = stream.samples.iter();
+        let samples = samples.map(|[x, y]| [x - 8192.0, gain * (y - 8192.0)]);
+        let samples: Vec<[f64; 2]> = samples.collect();
         let mut start = 0;
         for touch in numbers.chunk_by(|a, b| a == b) {
             let end = start + touch.len();
@@ -261,9 +251,7 @@ fn forest(known: &[Touch], felt: &[Touch]) -> Result<Vec<Vec<f64>>> {
         DenseMatrix::from_2d_vec(&rows).map_err(|error| anyhow!("{error}"))
     };
     let [known_rows, felt_rows] = [matrix(known)?, matrix(felt)?];
-    let tried = known
-        .first()
-        .map_or(1, |touch| touch.features.len().isqrt());
+    let tried = known.first().map_or(1, |of| of.features.len().isqrt());
     let parameters = RandomForestRegressorParameters::default()
         .with_n_trees(TREES.into())
         .with_min_samples_leaf(LEAVES)

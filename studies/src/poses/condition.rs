@@ -80,24 +80,15 @@ impl Change {
     }
 }
 
-#[derive(Debug, Clone, Copy)]
-pub(super) struct File {
-    pub(super) name: &'static str,
-    text: &'static str,
-}
+/// A scene's name and text.
+type File = (&'static str, &'static str);
 
-pub(super) const WHISKER: File = File {
-    name: "whisker",
-    text: include_str!("../../../scenes/whisker.toml"),
-};
-pub(super) const TEXTURES: File = File {
-    name: "textures",
-    text: include_str!("../../../scenes/textures.toml"),
-};
-pub(super) const SPREAD: File = File {
-    name: "bench-textures",
-    text: include_str!("../../../scenes/bench-textures.toml"),
-};
+pub(super) const WHISKER: File = ("whisker", include_str!("../../../scenes/whisker.toml"));
+pub(super) const TEXTURES: File = ("textures", include_str!("../../../scenes/textures.toml"));
+pub(super) const SPREAD: File = (
+    "bench-textures",
+    include_str!("../../../scenes/bench-textures.toml"),
+);
 
 /// The four textures of the scenes, and what the friction of each is, as `whisker` has them.
 pub(super) const SURFACES: [(&str, Material); 4] = [
@@ -131,18 +122,15 @@ impl<'s> Setting<'s> {
     fn scene(&self, seed: u64, friction: Option<f64>) -> Result<Scene> {
         let mut sets = vec![("seed", seed.to_string())];
         sets.extend(self.changes.iter().filter_map(|change| change.key()));
-        sets.extend(
-            self.seconds
-                .map(|seconds| ("duration_s", format!("{seconds:?}"))),
-        );
+        sets.extend(self.seconds.map(|s| ("duration_s", format!("{s:?}"))));
         sets.extend(friction.map(|friction| ("plant.friction", friction.to_string())));
         sets.extend(
             self.textures
-                .map(|textures| ("plant.textures", format!("{textures:?}"))),
+                .map(|all| ("plant.textures", format!("{all:?}"))),
         );
         let set = |(key, value): &(&str, String)| Override::new((*key).to_owned(), key, value);
         let sets: Vec<_> = sets.iter().map(set).collect();
-        let read = Scene::from_str_with(self.file.name, self.file.text, &sets);
+        let read = Scene::from_str_with(self.file.0, self.file.1, &sets);
         read.map(|(scene, _)| scene).map_err(Error::new)
     }
 
@@ -188,10 +176,8 @@ mod tests {
 
     #[test]
     fn what_is_recorded_is_changed_about_the_middle() {
-        assert_eq!(
-            Change::ScaleX(0.85).sensed([8292.0, 8000.0]),
-            [8277.0, 8000.0]
-        );
+        let scaled = Change::ScaleX(0.85).sensed([8292.0, 8000.0]);
+        assert_eq!(scaled, [8277.0, 8000.0]);
         let mixed = Change::CrossTalk(-0.03).sensed([8192.0, 9192.0]);
         assert_eq!(mixed, [8162.0, 9192.0]);
         assert_eq!(Change::ScaleX(2.0).sensed([16000.0, 1.0]), [16383.0, 1.0]);

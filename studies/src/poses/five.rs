@@ -1,15 +1,14 @@
-//! Trained in five poses: between them, and outside.
+//! Trained in five poses: between them, and outside. And the scene `textures`, and the one whose
+//! presentations differ in pose.
 
 use anyhow::Result;
 use host_sim::training::Expected;
 use tactile::ModelBuf;
 
-use super::Extent;
-use super::asked::{Asked, said};
-use super::condition::{Change, Setting, WHISKER};
-use super::output::{COLUMNS, Output, found};
-use super::tally::Tally;
-use super::trained::{THRESHOLD, Trained, as_felt};
+use super::{
+    Asked, COLUMNS, Change, Extent, Output, SPREAD, Setting, TEXTURES, THRESHOLD, Tally, Trained,
+    WHISKER, as_felt, found, said,
+};
 
 const SEED: u64 = 7011;
 const FRESH: u64 = 7301;
@@ -22,14 +21,8 @@ pub(super) const TILTS: [[Change; 1]; 5] = [
     [Change::Tilt(26.0)],
 ];
 
-const MIDDLE: Asked = Asked::Known {
-    decided: 90.0,
-    ms: Some(200.0),
-};
-const BETWEEN: Asked = Asked::Known {
-    decided: 70.0,
-    ms: None,
-};
+const MIDDLE: Asked = Asked::known(90.0, Some(200.0));
+const BETWEEN: Asked = Asked::known(70.0, None);
 const OUTSIDE: Asked = Asked::Honest { short: 2.0 };
 
 /// Between the poses of training, in the middle one with another sensor, and outside.
@@ -116,4 +109,45 @@ impl Five {
             .table(&format!("condition | {COLUMNS} | goal | "), rows);
         Ok(())
     }
+}
+
+/// Seconds of the training of what is spread.
+const SPREAD_S: f64 = 240.0;
+
+/// Measures both; the trainings of what is spread, and their models.
+pub(super) fn scenes(
+    output: &mut Output,
+    extent: &Extent,
+) -> Result<(Trained<'static>, Vec<ModelBuf>)> {
+    output.page.heading(2, "Scenes");
+    let [_, trainings] = extent.trainings;
+    output.page.say(format_args!(
+        "`textures`, trained on one recording as it is, and `bench-textures`, whose presentations \
+         have poses of their own (tilt ±3°, obstacle ±2°, scale ±5 %), trained on {SPREAD_S} s \
+         with their column `pose`; {trainings} trainings each."
+    ));
+    let setting = |file, seconds| Setting {
+        seconds,
+        ..Setting::of(file, &[])
+    };
+    let scenes = [
+        (setting(TEXTURES, None), [7041, 7401], (97.0, Some(120.0))),
+        (setting(SPREAD, Some(SPREAD_S)), [7051, 7411], (85.0, None)),
+    ];
+    let mut rows = Vec::new();
+    let mut last = None;
+    for (setting, [seed, fresh], (decided, ms)) in scenes {
+        let asked = Asked::known(decided, ms);
+        let trained = Trained::record((extent, 1), (&[setting], seed..), (setting, fresh))?;
+        let models = trained.models(Expected::Bench, &as_felt)?;
+        let tallies = trained.fresh(&models, THRESHOLD)?;
+        let (name, _) = setting.file;
+        rows.push(output.row(["scenes", name, "bench"], &trained, &tallies, asked));
+        output.asked(&format!("scene `{name}`"), asked, &Tally::sum(&tallies));
+        last = Some((trained, models));
+    }
+    output
+        .page
+        .table(&format!("scene | {COLUMNS} | goal | "), rows);
+    last.ok_or_else(|| anyhow::anyhow!("no scene"))
 }

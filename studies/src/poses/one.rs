@@ -5,13 +5,10 @@ use anyhow::Result;
 use host_sim::training::Expected;
 use tactile::ModelBuf;
 
-use super::Extent;
-use super::asked::{Asked, mean_within, said};
-use super::condition::{Change, Setting, WHISKER};
-use super::five::Five;
-use super::output::{COLUMNS, Output, cells, found};
-use super::tally::Tally;
-use super::trained::{THRESHOLD, Trained, as_felt};
+use super::{
+    Asked, COLUMNS, Change, Extent, Five, Output, Setting, THRESHOLD, Tally, Trained, WHISKER,
+    as_felt, cells, found, mean_within, missed, said,
+};
 use crate::decisions::figures::{mean_of, number, percent};
 use crate::page::row;
 
@@ -20,10 +17,7 @@ const FRESH: u64 = 7101;
 /// Below those of the other section.
 const CHANGED: u64 = 7111;
 
-const TRAINED: Asked = Asked::Known {
-    decided: 80.0,
-    ms: Some(200.0),
-};
+const TRAINED: Asked = Asked::known(80.0, Some(200.0));
 /// In the worst cell and, to be aimed at, in each; in the mean of all.
 const WORST: Asked = Asked::Honest { short: 4.0 };
 const AIM: Asked = Asked::Honest { short: 1.0 };
@@ -140,7 +134,6 @@ impl One {
         let mean = |kind| mean_within((0..trainings).map(|training| of_cells(kind, training)));
         let shown = |[low, mean, high]: [f64; 3]| format!("{mean:.1} ({low:.1} to {high:.1})");
         let [bench, same, other] = [0, 1, 2].map(mean);
-        let is_missed = bench[0] > MEAN_SHORT;
         output.goal(
             &format!("one pose: {what}, mean of cells"),
             &format!("right ≥ stated − {MEAN_SHORT}"),
@@ -150,19 +143,17 @@ impl One {
                 shown(same),
                 shown(other)
             ),
-            said(if is_missed { &["right"] } else { &[] }),
+            said(&missed([("right", bench[0] > MEAN_SHORT)])),
         );
         let sums: Vec<Tally> = all.iter().map(|cell| Tally::sum(&cell[0])).collect();
-        let missed = |asked: Asked| {
-            let missed = names.iter().zip(&sums);
-            let missed = missed.filter(|(_, tally)| !asked.missed(tally).is_empty());
-            missed.map(|(name, _)| name.as_str()).collect::<Vec<_>>()
+        let missing = |asked: Asked| {
+            let missing = names.iter().zip(&sums);
+            let missing = missing.filter(|(_, tally)| !asked.missed(tally).is_empty());
+            missing.map(|(name, _)| name.as_str()).collect::<Vec<_>>()
         };
-        let [worst, aim] = [WORST, AIM].map(missed);
-        let loud = names
-            .iter()
-            .zip(&sums)
-            .filter(|(_, tally)| tally.decided > 0);
+        let [worst, aim] = [WORST, AIM].map(missing);
+        let named = names.iter().zip(&sums);
+        let loud = named.filter(|(_, tally)| tally.decided > 0);
         let least = loud.max_by(|a, b| a.1.short().total_cmp(&b.1.short()));
         let least = least.map_or_else(String::new, |(name, tally)| {
             format!("{name}: {}; ", found(tally))

@@ -1,8 +1,6 @@
 //! Rows of the page, its table of goals, and `poses.csv`.
 
-use super::asked::Asked;
-use super::tally::{REASONS, Tally};
-use super::trained::{TICK_HZ, Trained};
+use super::{Asked, REASONS, TICK_HZ, Tally, Trained};
 use crate::decisions::figures::{cell, number, percent};
 use crate::page::{Page, row};
 

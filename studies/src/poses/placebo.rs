@@ -1,19 +1,16 @@
-//! Labels that mean nothing: nothing is to be decided.
+//! Labels that mean nothing, of which nothing is to be decided, and a texture that the model does not
+//! know.
 
 use anyhow::Result;
 use host_sim::recording::Stream;
 use host_sim::training::Expected;
 use tactile::ModelBuf;
 
-use super::Extent;
-use super::asked::{at_most, said};
-use super::condition::{Change, SURFACES, Setting, WHISKER};
-use super::five::TILTS;
-use super::output::{COLUMNS, Output, cells};
-use super::tally::Tally;
-use super::trained::{Relabel, THRESHOLD, Trained, judge, model};
-use crate::decisions::figures::percent;
-use crate::decisions::placebo::permuted;
+use super::{
+    COLUMNS, Change, Extent, Output, Relabel, SURFACES, Setting, THRESHOLD, TILTS, Tally, Trained,
+    WHISKER, cells, judge, missed, model, said,
+};
+use crate::decisions::{percent, permuted};
 use crate::page::row;
 use crate::rigs::Chance;
 
@@ -33,12 +30,6 @@ fn turn(streams: &mut [Stream]) {
     let names = SURFACES.map(|(name, _)| name);
     for stream in streams {
         stream.label = permuted(&names, &stream.label, stream.trial.parse().unwrap_or(0));
-    }
-}
-
-fn name_twice(streams: &mut [Stream]) {
-    for (n, stream) in streams.iter_mut().enumerate() {
-        stream.label.push_str(["-a", "-b"][n % 2]);
     }
 }
 
@@ -106,8 +97,7 @@ fn line(
     output.keep(["placebo", name, model], trained, tallies);
     let tally = Tally::sum(tallies);
     let decided = tally.decided_share();
-    let is_met = at_most(decided, GOAL);
-    let verdict = said(if is_met { &[] } else { &["decided"] });
+    let verdict = said(&missed([("decided", 100.0 * decided.low > GOAL)]));
     if !is_compared {
         output.goal(
             &format!("placebo: {name}"),
@@ -137,9 +127,87 @@ fn twins(
                 ..Setting::of(WHISKER, changes)
             };
             let mut streams = setting.record(seed)?;
-            name_twice(&mut streams);
+            for (n, stream) in streams.iter_mut().enumerate() {
+                stream.label.push_str(["-a", "-b"][n % 2]);
+            }
             Ok((seed.to_string(), streams))
         });
         model(&recordings.collect::<Result<_>>()?, Expected::Bench)
     })
+}
+
+/// The least of decisions on what is unknown that are to name none, and the most on what is
+/// known, percent.
+const REFUSED: f64 = 65.0;
+const FALSE: f64 = 6.0;
+
+pub(super) fn unknown(
+    output: &mut Output,
+    all: &[(&str, Expected, &Trained<'_>)],
+    extent: &Extent,
+) -> Result<()> {
+    output.page.heading(2, "Unknown textures");
+    output.page.say(
+        "Each texture in turn is left out of the training and presented all the same. Refused: \
+         of decisions, those that named none, whatever the reason; of presentations, those in \
+         which none was named. Known: the other three.",
+    );
+    let mut rows = Vec::new();
+    for (poses, expect, trained) in all {
+        let mut sums = [Tally::default(); 2];
+        for (left_out, _) in SURFACES.iter().take(extent.surfaces) {
+            let without = |streams: &mut Vec<Stream>, _: u64| {
+                streams.retain(|stream| stream.label != *left_out);
+            };
+            let models = trained.models(*expect, &without)?;
+            let is_unknown = |stream: &Stream| stream.label == *left_out;
+            let unknown = trained.fresh_of(&models, is_unknown)?;
+            let known = trained.fresh_of(&models, |stream| !is_unknown(stream))?;
+            let setting = format!("without {left_out}; {poses}");
+            output.keep(["unknown", &setting, "unknown"], trained, &unknown);
+            output.keep(["unknown", &setting, "known"], trained, &known);
+            let both = [Tally::sum(&unknown), Tally::sum(&known)];
+            sums = [0, 1].map(|n| Tally::sum([&sums[n], &both[n]]));
+            rows.push(row(format!("{poses}: {left_out}"), refused(&both)));
+        }
+        rows.push(row(format!("{poses}: all"), refused(&sums)));
+        if *expect == Expected::Same {
+            continue;
+        }
+        let [unknown, known] = sums.map(|tally| tally.refused_share());
+        let is_missed = [
+            ("refused", 100.0 * unknown.high < REFUSED),
+            ("false", 100.0 * known.low > FALSE),
+        ];
+        let [of_unknown, of_known] = sums.map(|tally| tally.undecided_share());
+        output.goal(
+            &format!("unknown texture: {poses}"),
+            &format!("refused ≥ {REFUSED} of decisions, of known ≤ {FALSE}"),
+            format!(
+                "refused {}, of known {}; of presentations {} and {}",
+                percent(unknown),
+                percent(known),
+                percent(of_unknown),
+                percent(of_known)
+            ),
+            said(&missed(is_missed)),
+        );
+    }
+    output.page.table(
+        "trained: left out | refused, of decisions | of presentations | presentations | known: \
+         refused, of decisions | of presentations | presentations",
+        rows,
+    );
+    Ok(())
+}
+
+fn refused(both: &[Tally; 2]) -> Vec<String> {
+    let cells = both.iter().flat_map(|tally| {
+        [
+            percent(tally.refused_share()),
+            percent(tally.undecided_share()),
+            tally.presentations.to_string(),
+        ]
+    });
+    cells.collect()
 }

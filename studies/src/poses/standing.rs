@@ -6,15 +6,14 @@
 //! chosen by what comes of them.
 
 use anyhow::{Context, Result};
+use host_sim::recording::Stream;
 use host_sim::replay::Replay;
 use host_sim::training::{How, Tables, TrainedModel};
 use scene::Rule;
 use tactile::Pose;
 use tactile::score::Statistics;
 
-use super::Extent;
-use super::condition::{Change, SPREAD, SURFACES, Setting};
-use super::trained::{THRESHOLD, TICK_HZ};
+use super::{Change, Extent, SPREAD, SURFACES, Setting, THRESHOLD, TICK_HZ};
 use crate::chart::{Mark, Panel, Series, linear};
 use crate::decisions::figures::{cell as csv_cell, mean_of, number, plus_minus};
 use crate::page::{Files, Page, row};
@@ -55,15 +54,10 @@ fn conditions() -> Vec<Option<Change>> {
     [None].into_iter().chain(changes.map(Some)).collect()
 }
 
-fn record(
-    change: Option<Change>,
-    seconds: f64,
-    seed: u64,
-) -> Result<Vec<host_sim::recording::Stream>> {
-    let changes: Vec<Change> = change.into_iter().collect();
+fn record(change: Option<Change>, seconds: f64, seed: u64) -> Result<Vec<Stream>> {
     let setting = Setting {
         seconds: Some(seconds),
-        ..Setting::of(SPREAD, &changes)
+        ..Setting::of(SPREAD, change.as_slice())
     };
     setting.record(seed)
 }
@@ -139,44 +133,28 @@ fn by_contact(page: &mut Page, models: &[TrainedModel]) -> Result<()> {
         errors.iter().map(at)
     };
     let mut panels = Vec::new();
+    let mut header = vec!["contact, ms".to_owned()];
     let mut rows: Vec<Vec<String>> = (1..=stages)
         .map(|stage| vec![number(BLOCK_MS * stage as f64, 0)])
         .collect();
     for (target, (name, guess)) in TARGETS.iter().enumerate() {
-        for (stage, row) in rows.iter_mut().enumerate() {
-            row.extend(
-                (0..names.len()).map(|class| plus_minus(mean_of(of(class, stage, target)), 2)),
-            );
-        }
-        let curve = |class: usize| -> Vec<(f64, f64)> {
-            let at = |stage: usize| {
-                let (mean, _) = mean_of(of(class, stage, target));
-                (BLOCK_MS * (stage + 1) as f64, mean)
-            };
-            (0..stages).map(at).collect()
-        };
         let marks = [Mark::Dot, Mark::Ring, Mark::Cross, Mark::Nothing];
-        let curves: Vec<Series> = names
-            .iter()
-            .enumerate()
-            .map(|(n, class)| Series::new(class, n, marks[n % marks.len()], curve(n)))
-            .collect();
+        let mut series = Vec::new();
+        for (n, class) in names.iter().enumerate() {
+            header.push(format!("{name}: {class}"));
+            let mut points = Vec::new();
+            for (stage, row) in rows.iter_mut().enumerate() {
+                let mean = mean_of(of(n, stage, target));
+                row.push(plus_minus(mean, 2));
+                points.push((BLOCK_MS * (stage + 1) as f64, mean.0));
+            }
+            series.push(Series::new(class, n, marks[n % marks.len()], points));
+        }
         let title = format!("error of {name}, degrees");
         let x = linear("contact, ms", 0.0, BLOCK_MS * stages as f64);
-        panels.push(Panel {
-            title,
-            x,
-            y: linear("degrees", 0.0, *guess * 1.1),
-            series: curves,
-        });
+        let y = linear("degrees", 0.0, *guess * 1.1);
+        panels.push(Panel::new(&title, x, y, series));
     }
-    let columns = TARGETS
-        .iter()
-        .flat_map(|(target, _)| names.iter().map(move |name| format!("{target}: {name}")));
-    let header: Vec<String> = ["contact, ms".to_owned()]
-        .into_iter()
-        .chain(columns)
-        .collect();
     page.table(&header.join(" | "), rows);
     page.panels(
         "errors.svg",
@@ -200,15 +178,13 @@ fn cell(trained: &TrainedModel, change: Option<Change>, test_s: f64, seed: u64) 
         let truth = stream.stands.context("a presentation without its pose")?;
         cell.decided += usize::from(decided.iter().any(|d| d.pose.is_some()));
         for decided in decided {
-            let class = SURFACES
-                .iter()
-                .position(|(name, _)| *name == decided.decision);
+            let is_named = |(name, _): &(&str, _)| *name == decided.decision;
+            let class = SURFACES.iter().position(is_named);
             let (Some(class), Some(Pose { tilt, depth })) = (class, decided.pose) else {
                 continue;
             };
-            for ((of, estimate), truth) in
-                cell.errors[class].iter_mut().zip([tilt, depth]).zip(truth)
-            {
+            let estimates = cell.errors[class].iter_mut().zip([tilt, depth]);
+            for ((of, estimate), truth) in estimates.zip(truth) {
                 of.push([estimate.value() - truth, estimate.error()]);
             }
         }
@@ -235,18 +211,15 @@ fn at_decisions(page: &mut Page, conditions: &[Option<Change>], cells: &[Cell], 
         let mut rows = Vec::new();
         for (change, cells) in conditions.iter().zip(cells.chunks(seeds.len())) {
             let name = change.map_or_else(|| "as trained".to_owned(), |change| change.to_string());
-            let mut row_cells = vec![number(
-                100.0 * cells.iter().map(|cell| cell.decided).sum::<usize>() as f64
-                    / cells.iter().map(|cell| cell.shown).sum::<usize>() as f64,
-                0,
-            )];
+            let sum = |of: fn(&Cell) -> usize| cells.iter().map(of).sum::<usize>() as f64;
+            let decided = 100.0 * sum(|cell| cell.decided) / sum(|cell| cell.shown);
+            let mut row_cells = vec![number(decided, 0)];
             for (class, (texture, _)) in SURFACES.iter().enumerate() {
                 let of = |n: usize| {
-                    cells
-                        .iter()
-                        .map(move |cell| root(&cell.errors[class][target])[n])
+                    let errors = cells.iter().map(|cell| &cell.errors[class][target]);
+                    mean_of(errors.map(|errors| root(errors)[n]))
                 };
-                let [found, (stated, _)] = [0, 1].map(|n| mean_of(of(n)));
+                let [found, (stated, _)] = [0, 1].map(of);
                 row_cells.push(format!("{} ({})", plus_minus(found, 2), number(stated, 2)));
                 if target > 0 {
                     continue;
@@ -259,15 +232,10 @@ fn at_decisions(page: &mut Page, conditions: &[Option<Change>], cells: &[Cell], 
                     page.keep(&[&name.replace(',', ";"), texture], &figures);
                 }
             }
-            let all = || {
-                cells
-                    .iter()
-                    .flat_map(|cell| cell.errors.iter().flat_map(|of| &of[target]))
-            };
-            let within = all()
-                .filter(|[error, stated]| error.abs() <= 2.0 * stated)
-                .count();
-            row_cells.push(number(100.0 * within as f64 / all().count() as f64, 0));
+            let errors = cells.iter().flat_map(|cell| &cell.errors);
+            let all: Vec<&[f64; 2]> = errors.flat_map(|of| &of[target]).collect();
+            let within = all.iter().filter(|of| of[0].abs() <= 2.0 * of[1]).count();
+            row_cells.push(number(100.0 * within as f64 / all.len() as f64, 0));
             rows.push(row(name, row_cells));
         }
         let textures = SURFACES.map(|(name, _)| name).join(" | ");

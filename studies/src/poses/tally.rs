@@ -1,9 +1,15 @@
-//! What came of some presentations, added up.
+//! What came of some presentations, added up, and what is asked of it: a goal is missed where the
+//! interval of the figure excludes it.
 
 use host_sim::decisions::{Decided, UNKNOWN};
 use host_sim::evaluation::Shown;
 use tactile::Reason;
 use tactile::score::Interval;
+
+use super::TICK_HZ;
+use crate::decisions::figures::mean_of;
+use crate::moments::{SURE, quantile};
+use crate::page::verdict;
 
 /// The reasons in the order in which they are counted.
 pub(super) const REASONS: [&str; 3] = ["unknown", "pose", "between"];
@@ -107,12 +113,87 @@ impl Tally {
     }
 }
 
+/// The most presentations with a name where nothing is asked of the names, percent.
+const SILENT: f64 = 5.0;
+/// The least of names that is to be right, percent, and how far stated may lie from it, points.
+const RIGHT: f64 = 98.5;
+const APART: f64 = 1.0;
+
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Asked {
+    /// Right and stated rightly, and so much decided, percent, within so many ms of contact.
+    Known { decided: f64, ms: Option<f64> },
+    /// Right is no more points below stated than this, or next to nothing is decided.
+    Honest { short: f64 },
+}
+
+impl Asked {
+    pub(super) const fn known(decided: f64, ms: Option<f64>) -> Self {
+        Self::Known { decided, ms }
+    }
+
+    pub(super) fn text(self) -> String {
+        match self {
+            Self::Known { decided, ms } => {
+                let ms = ms.map_or_else(String::new, |ms| format!(", within {ms} ms"));
+                format!("right ≥ {RIGHT}, gap ≤ {APART}, decided ≥ {decided}{ms}")
+            }
+            Self::Honest { short } => format!("right ≥ stated − {short}, or decided ≤ {SILENT}"),
+        }
+    }
+
+    pub(super) fn missed(self, tally: &Tally) -> Vec<&'static str> {
+        let [least, most] = tally.short_within();
+        let [right, decided] = [tally.right_share(), tally.decided_share()];
+        match self {
+            Self::Known { decided: goal, ms } => missed([
+                ("right", 100.0 * right.high < RIGHT),
+                ("gap", least > APART || most < -APART),
+                ("decided", 100.0 * decided.high < goal),
+                ("time", ms.is_some_and(|ms| tally.contact_ms(TICK_HZ) > ms)),
+            ]),
+            Self::Honest { short } => {
+                let is_loud = 100.0 * decided.low > SILENT;
+                missed([("right", is_loud && least > short)])
+            }
+        }
+    }
+
+    pub(super) fn verdict(self, tally: &Tally) -> String {
+        said(&self.missed(tally))
+    }
+}
+
+/// The names of what is missed.
+pub(super) fn missed(all: impl IntoIterator<Item = (&'static str, bool)>) -> Vec<&'static str> {
+    let missed = all.into_iter().filter(|(_, is_missed)| *is_missed);
+    missed.map(|(name, _)| name).collect()
+}
+
+pub(super) fn said(missed: &[&str]) -> String {
+    let met = verdict(missed.is_empty());
+    if missed.is_empty() {
+        met.to_owned()
+    } else {
+        format!("{met}: {}", missed.join(", "))
+    }
+}
+
+/// A mean with its 95 % interval by Student: low, mean, high; all the mean if there is one value.
+pub(super) fn mean_within(values: impl Iterator<Item = f64> + Clone) -> [f64; 3] {
+    let count = values.clone().filter(|x| !x.is_nan()).count();
+    let (mean, error) = mean_of(values);
+    let half = quantile(&SURE, count) * error;
+    [mean - half, mean, mean + half]
+}
+
 #[cfg(test)]
 mod tests {
-    use super::Tally;
     use host_sim::decisions::Decided;
     use host_sim::evaluation::Shown;
     use tactile::Decision;
+
+    use super::Tally;
 
     /// A presentation of ice to a model of ice and snow, whose decisions have these bits of why
     /// none is named, and are for the first class.

@@ -6,9 +6,7 @@ use host_sim::recording::Stream;
 use host_sim::training::{Expected, How, Tables};
 use tactile::ModelBuf;
 
-use super::Extent;
-use super::condition::{Change, Setting};
-use super::tally::Tally;
+use super::{Change, Extent, Setting, Tally};
 use crate::cores::Cores;
 
 /// At which a class is named, unless said otherwise.
@@ -87,22 +85,22 @@ impl<'s> Trained<'s> {
     }
 
     pub(super) fn fresh(&self, models: &[ModelBuf], threshold: f64) -> Result<Vec<Tally>> {
-        self.fresh_of(models, threshold, |_| true)
+        let all = models.iter().zip(&self.fresh);
+        all.map(|(model, streams)| judge(model, threshold, streams))
+            .collect()
     }
 
-    /// The same of some of them.
+    /// The same of some of them, at the usual threshold.
     pub(super) fn fresh_of(
         &self,
         models: &[ModelBuf],
-        threshold: f64,
         keep: impl Fn(&Stream) -> bool,
     ) -> Result<Vec<Tally>> {
-        let mut tallies = Vec::new();
-        for (model, streams) in models.iter().zip(&self.fresh) {
+        let some = |(model, streams): (&ModelBuf, &Vec<Stream>)| {
             let streams: Vec<Stream> = streams.iter().filter(|s| keep(s)).cloned().collect();
-            tallies.push(judge(model, threshold, &streams)?);
-        }
-        Ok(tallies)
+            judge(model, THRESHOLD, &streams)
+        };
+        models.iter().zip(&self.fresh).map(some).collect()
     }
 
     /// What each kind of models, one of each training, makes of presentations with each
@@ -117,16 +115,13 @@ impl<'s> Trained<'s> {
         let jobs: Vec<(usize, usize)> = (0..conditions.len())
             .flat_map(|condition| (0..trainings).map(move |training| (condition, training)))
             .collect();
-        let found = self
-            .cores
-            .each("conditions", &jobs, |&(condition, training)| {
-                let seed = first_test + (condition * trainings + training) as u64;
-                let streams = self.presentations(&conditions[condition..=condition], seed)?;
-                let of_kind = kinds
-                    .iter()
-                    .map(|models| judge(&models[training], THRESHOLD, &streams));
-                of_kind.collect::<Result<Vec<Tally>>>()
-            })?;
+        let cores = self.cores;
+        let found = cores.each("conditions", &jobs, |&(condition, training)| {
+            let seed = first_test + (condition * trainings + training) as u64;
+            let streams = self.presentations(&conditions[condition..=condition], seed)?;
+            let judged = |models: &&[ModelBuf]| judge(&models[training], THRESHOLD, &streams);
+            kinds.iter().map(judged).collect::<Result<Vec<Tally>>>()
+        })?;
         let by_kind = |cells: &[Vec<Tally>]| {
             let of = |kind: usize| cells.iter().map(|cell| cell[kind]).collect();
             (0..kinds.len()).map(of).collect()

@@ -7,9 +7,8 @@ use rand_xoshiro::Xoshiro256PlusPlus;
 #[derive(Debug, Clone)]
 pub(crate) struct Chance(Xoshiro256PlusPlus);
 
-/// The seed of a part: `parts` name it within what `seed` belongs to. Two
-/// different lists of parts give unrelated seeds (splitmix64's finaliser after
-/// each part).
+/// The seed of a part: `parts` name it within what `seed` belongs to. Two different lists of parts
+/// give unrelated seeds (splitmix64's finaliser after each part).
 pub(crate) fn seed_of(seed: u64, parts: &[u64]) -> u64 {
     parts
         .iter()
@@ -72,8 +71,7 @@ pub(crate) struct Wander {
 }
 
 impl Wander {
-    /// Of standard deviation `sd` and time constant `tau_s` of each lag,
-    /// stepped by `dt_s`.
+    /// Of standard deviation `sd` and time constant `tau_s` of each lag, stepped by `dt_s`.
     ///
     /// Two equal discrete lags a of unit white noise leave the variance
     /// (1 − a)⁴ (1 + a²)/(1 − a²)³.

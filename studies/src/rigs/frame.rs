@@ -1,6 +1,21 @@
 //! Directions in a horizontal frame: x forward, y left, z up.
 
-use physics::Pose;
+use physics::{Outline, Plate, Pose, Surface};
+
+/// A flat ground without an end, through a place.
+pub(crate) fn plane(
+    point_m: [f64; 3],
+    (normal, along): ([f64; 3], [f64; 3]),
+    surface: Surface,
+) -> Plate {
+    Plate {
+        point_m,
+        normal,
+        along,
+        outline: Outline::PLANE,
+        surface,
+    }
+}
 
 /// A direction in a horizontal frame (x forward, y left, z up): `azimuth_deg`
 /// anticlockwise from forward as seen from above, `elevation_deg` upwards.

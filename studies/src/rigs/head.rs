@@ -7,17 +7,51 @@
 //! left, z up; the front of the head at x = 0, the surface at x = distance. A
 //! whisker at θ' = 90 degrees points sideways, beyond that forward.
 
+//!
+//! Recorded are visits, strategies × textures × distances, and early ones, where the surface is
+//! nearer and RCP can also be strong and fast: they are looked at but not classified.
+
 use anyhow::Result;
 use whisking::{GateSettings, Integrator, Settings};
 
-use super::chance::{Chance, seed_of};
-use super::module::{EACH, HeadModule, PositionControl, SIDES};
-use super::read::keys;
+use super::{Chance, EACH, HeadModule, PositionControl, SIDES, keys, plane, seed_of, whiskers};
+use crate::experiment::{Dataset, Recording, Request};
+use crate::paper::biotact::{
+    DISTANCES_MM, OBSTACLES_DEG, STRATEGIES, STRONG, TAU_Z_PERIODS, TEXTURES, WHISKERS,
+};
 use physics::vector::add;
-use physics::{Outline, Plate, Pose, SensorSettings, Shaft, Surface, TouchingWhisker};
+use physics::{Plate, Pose, SensorSettings, Shaft, Surface, TouchingWhisker};
 
 /// Channels: x and y of every whisker, left side first.
 pub(crate) const CHANNELS: usize = 2 * SIDES * EACH;
+
+/// Sensor channels, then θ' of the front whiskers in degrees and whether a
+/// side touches (1) or not (0).
+pub(crate) const COLUMNS: usize = CHANNELS + 4;
+
+/// Where the front whisker meets the smooth surface in the early visits,
+/// degrees: the obstacle of BIOTACT Fig. 8.
+pub(crate) const EARLY_DEG: f64 = OBSTACLES_DEG[0];
+
+/// The texture and distance of all in a placebo: P600 at 10 mm.
+const PLACEBO: (usize, usize) = (1, 1);
+
+const CLASSIFIED: usize = STRATEGIES.len() * TEXTURES.len() * DISTANCES_MM.len();
+
+/// How many visits there are: those of the strategies, then the early ones, one
+/// a strategy and one with strong and fast RCP.
+pub(crate) fn jobs() -> usize {
+    CLASSIFIED + STRATEGIES.len() + 1
+}
+
+/// The job of an early visit; `strategy` is one more than the last for strong and fast RCP.
+pub(crate) fn early(strategy: usize) -> usize {
+    CLASSIFIED + strategy
+}
+
+pub(crate) fn number(strategy: usize, texture: usize, distance: usize) -> usize {
+    (strategy * TEXTURES.len() + texture) * DISTANCES_MM.len() + distance
+}
 
 keys! {
     WhiskingHead, rig:
@@ -39,27 +73,17 @@ keys! {
 }
 
 /// What the head is put before, and how it whisks there.
-pub(crate) struct Visit<'a> {
+struct Visit<'a> {
     /// From the front of the head to the surface, m.
-    pub(crate) distance_m: f64,
-    pub(crate) surface: &'a Surface,
+    distance_m: f64,
+    surface: &'a Surface,
     /// The spot of it that is met, m along and up it.
-    pub(crate) spot_m: [f64; 2],
+    spot_m: [f64; 2],
     /// RCP, if whisking is modulated.
-    pub(crate) rcp: Option<GateSettings>,
-    pub(crate) whisks: usize,
+    rcp: Option<GateSettings>,
+    whisks: usize,
     /// Of this visit's chance.
-    pub(crate) seed: u64,
-}
-
-#[derive(Debug, Clone, Default, PartialEq)]
-pub(crate) struct Felt {
-    /// Sensor codes, [`CHANNELS`] a tick.
-    pub(crate) codes: Vec<i16>,
-    /// θ' of the front whisker of each side, degrees, each tick.
-    pub(crate) angle_deg: Vec<[f64; SIDES]>,
-    /// Whether any whisker of a side touched, each tick.
-    pub(crate) touching: Vec<[bool; SIDES]>,
+    seed: u64,
 }
 
 impl WhiskingHead {
@@ -69,7 +93,7 @@ impl WhiskingHead {
 
     /// Where a whisker is at an angle θ'. Its sensor's x is along protraction, and `roll_deg` from
     /// there about the shaft.
-    pub(crate) fn pose(&self, side: usize, whisker: usize, theta_deg: f64) -> Pose {
+    fn pose(&self, side: usize, whisker: usize, theta_deg: f64) -> Pose {
         let left = if side == 0 { 1.0 } else { -1.0 };
         let (sine, cosine) = libm::sincos(theta_deg.to_radians());
         let (back, aside) = (self.base_back_m[whisker], self.base_side_m[whisker]);
@@ -99,21 +123,17 @@ impl WhiskingHead {
         let along = [0.0, 1.0, 0.0];
         let up = [sine, 0.0, cosine];
         let aside = add([distance_m, 0.0, 0.0], spot[0], along);
-        Plate {
-            point_m: add(aside, spot[1], up),
-            normal: [-cosine, 0.0, sine],
-            along,
-            outline: Outline::PLANE,
-            surface: *visit.surface,
-        }
+        let axes = ([-cosine, 0.0, sine], along);
+        plane(add(aside, spot[1], up), axes, *visit.surface)
     }
 
-    pub(crate) fn visit(
+    /// What is felt from tick to tick: samples of [`COLUMNS`] numbers.
+    fn visit(
         &self,
         shafts: &[Shaft; EACH],
         sensor: &SensorSettings,
         visit: &Visit<'_>,
-    ) -> Result<Felt> {
+    ) -> Result<Vec<f32>> {
         let settings = Settings {
             tick_hz: self.tick_hz,
             frequency_hz: self.whisk_hz,
@@ -140,7 +160,7 @@ impl WhiskingHead {
         let dt_s = 1.0 / self.tick_hz;
 
         let lead = self.lead_whisks * self.whisk_ticks();
-        let mut felt = Felt::default();
+        let mut felt = Vec::with_capacity(visit.whisks * self.whisk_ticks() * COLUMNS);
         for tick in 0..lead + visit.whisks * self.whisk_ticks() {
             for (n, whisker) in whiskers.iter().enumerate() {
                 module.feel(n, whisker.codes());
@@ -168,22 +188,56 @@ impl WhiskingHead {
                 whisker.step(&pose, Some(&plate), dt_s);
                 touching[side] |= whisker.contact();
                 if tick >= lead {
-                    felt.codes.extend(whisker.codes());
+                    felt.extend(whisker.codes().map(f32::from));
                 }
             }
             if tick >= lead {
-                felt.angle_deg.push(front);
-                felt.touching.push(touching);
+                felt.extend(front.map(|angle| angle as f32));
+                felt.extend(touching.map(|touches| f32::from(u8::from(touches))));
             }
         }
         Ok(felt)
     }
 }
 
+pub(crate) fn record(request: &Request, job: usize, seed: u64) -> Result<Recording> {
+    let rig = &request.rigs.head;
+    let (strategy, texture, distance_m) = if let Some(strategy) = job.checked_sub(CLASSIFIED) {
+        let front = WHISKERS[0].0 / 1000.0;
+        let reach = -front * libm::cos(EARLY_DEG.to_radians());
+        (strategy, TEXTURES.len() - 1, reach - rig.base_back_m[0])
+    } else {
+        let (group, distance) = (job / DISTANCES_MM.len(), job % DISTANCES_MM.len());
+        let (strategy, texture) = (group / TEXTURES.len(), group % TEXTURES.len());
+        let distance_m = DISTANCES_MM[request.place(distance, PLACEBO.1)] / 1000.0;
+        (strategy, texture, distance_m)
+    };
+    let (gain, periods) = match STRATEGIES.get(strategy) {
+        Some((_, gain)) => (*gain, TAU_Z_PERIODS),
+        None => STRONG,
+    };
+    let surface = request.surface(&whiskers::ABRASIVES, texture, PLACEBO.0);
+    let visit = Visit {
+        distance_m,
+        // The arm goes along its axis: one spot of a texture for all distances and strategies.
+        spot_m: request.spot_m(Dataset::Head, texture, seed),
+        surface: &surface,
+        rcp: (gain > 0.0).then_some(GateSettings {
+            gain,
+            tau_s: periods / rig.whisk_hz,
+        }),
+        whisks: request.extent.whisks,
+        seed,
+    };
+    let sensor = whiskers::sensor([rig.full_scale_rad; 2]);
+    let felt = rig.visit(&whiskers::head(rig.follicle), &sensor, &visit)?;
+    Ok(Recording::new(COLUMNS, felt))
+}
+
 #[cfg(test)]
 mod tests {
-    use super::{CHANNELS, Visit, WhiskingHead};
-    use crate::paper::biotact::{DISTANCES_MM, WHISKERS};
+    use super::{COLUMNS, DISTANCES_MM, Visit, WHISKERS, WhiskingHead};
+    use crate::moments::range;
     use crate::rigs::{Chance, Rigs};
     use physics::vector::{add, cross, dot};
     use physics::{Biotact, Material, SensorSettings, Shaft, Surface};
@@ -246,7 +300,7 @@ mod tests {
     }
 
     /// Largest |x| of the left front whisker in each of four whisks before the smooth surface.
-    fn peaks(placement_sd_m: f64, spot_spread_m: f64) -> Vec<i16> {
+    fn peaks(placement_sd_m: f64, spot_spread_m: f64) -> Vec<f32> {
         let mut rig = rig();
         (rig.placement_sd_m, rig.spot_spread_m) = (placement_sd_m, spot_spread_m);
         rig.noise = 0.0;
@@ -261,37 +315,30 @@ mod tests {
         let felt = rig
             .visit(&Biotact::ALL.map(Shaft::biotact), &sensor, &visit)
             .unwrap();
-        let whisks = felt.codes.chunks(CHANNELS * rig.whisk_ticks());
-        let peak = |whisk: &[i16]| {
-            whisk
-                .iter()
-                .step_by(CHANNELS)
-                .map(|x| x.abs())
-                .max()
-                .unwrap()
+        let whisks = felt.chunks(COLUMNS * rig.whisk_ticks());
+        let x = |whisk: &[f32]| -> f32 {
+            let x = whisk.iter().step_by(COLUMNS);
+            x.map(|x| x.abs()).fold(0.0, f32::max)
         };
-        whisks.map(peak).collect()
+        whisks.map(x).collect()
     }
 
     #[test]
     fn the_surface_is_placed_again_for_each_whisk() {
-        let apart = |peaks: &[i16]| {
-            let sorted = peaks
-                .iter()
-                .copied()
-                .collect::<std::collections::BTreeSet<_>>();
-            sorted.last().unwrap() - sorted.first().unwrap()
+        let apart = |peaks: &[f32]| {
+            let (low, high) = range(peaks.iter().map(|peak| f64::from(*peak)));
+            high - low
         };
         let still = peaks(0.0, 0.0);
         assert_eq!(still.len(), 4);
-        assert!(apart(&still) < 20, "{still:?}");
+        assert!(apart(&still) < 20.0, "{still:?}");
         // A flat surface is alike at every spot; by a millimetre of distance it is not.
         let elsewhere = peaks(0.0, 0.005);
-        assert!(apart(&elsewhere) < 20, "{elsewhere:?}");
+        assert!(apart(&elsewhere) < 20.0, "{elsewhere:?}");
         let moved = peaks(0.001, 0.0);
         let pairs = moved
             .windows(2)
-            .filter(|pair| (pair[0] - pair[1]).abs() > 100);
+            .filter(|pair| (pair[0] - pair[1]).abs() > 100.0);
         assert!(pairs.count() >= 2, "{moved:?}");
     }
 

@@ -3,8 +3,7 @@
 //! Frame: x along the maze, y to the left of that, the middle of the maze at the origin. A wall
 //! goes from one point to another, with free space to its left.
 
-use super::corridor::Corridor;
-use super::read::keys;
+use super::{Corridor, keys};
 
 /// A place seen from above, m.
 pub(super) type Place = [f64; 2];
@@ -67,8 +66,7 @@ impl Wall {
         (product(off, self.along), product(off, self.normal()))
     }
 
-    /// Which share of the straight way between two places lies before the wall, if it goes
-    /// through.
+    /// Which share of the straight way between two places lies before the wall, if it goes through.
     pub(crate) fn crossing(&self, from_m: Place, to_m: Place) -> Option<f64> {
         let ((a, above), (b, below)) = (self.coordinates(from_m), self.coordinates(to_m));
         if above <= 0.0 || below >= 0.0 {
@@ -93,17 +91,16 @@ impl Wall {
     }
 }
 
-struct Line {
-    at_m: Place,
-    walls: Vec<Wall>,
-}
+/// Walls one after another, and where the last ends.
+struct Line(Vec<Wall>, Place);
 
 impl Line {
     fn to(&mut self, to_m: Place, made: Made) {
-        if to_m != self.at_m {
-            self.walls.push(Wall::between(self.at_m, to_m, made));
+        let Self(walls, at_m) = self;
+        if to_m != *at_m {
+            walls.push(Wall::between(*at_m, to_m, made));
         }
-        self.at_m = to_m;
+        *at_m = to_m;
     }
 
     /// A quarter of a circle about a centre, from an angle in quarters of a turn on, `turn`
@@ -112,11 +109,8 @@ impl Line {
         for part in 1..=ARC {
             let quarters = from + turn * part as f64 / ARC as f64;
             let (sine, cosine) = libm::sincos(core::f64::consts::FRAC_PI_2 * quarters);
-            let to_m = [
-                centre_m[0] + radius_m * cosine,
-                centre_m[1] + radius_m * sine,
-            ];
-            self.to(to_m, Made::Plain);
+            let [x, y] = centre_m;
+            self.to([x + radius_m * cosine, y + radius_m * sine], Made::Plain);
         }
     }
 }
@@ -127,10 +121,7 @@ impl Maze {
     pub(crate) fn walls(&self, corridor: &Corridor) -> Vec<Wall> {
         let (a, b, r) = (self.length_m / 2.0, self.width_m / 2.0, self.corner_m);
         let half = corridor.length_m / 2.0;
-        let mut outside = Line {
-            at_m: [r - a, -b],
-            walls: Vec::new(),
-        };
+        let mut outside = Line(Vec::new(), [r - a, -b]);
         outside.to([-half, -b], Made::Plain);
         outside.to([half, -b], Made::Relief(2));
         outside.to([a - r, -b], Made::Plain);
@@ -146,10 +137,7 @@ impl Maze {
 
         let h = b - corridor.width_m;
         let m = self.mouth_m.min(h);
-        let mut island = Line {
-            at_m: [-half, h],
-            walls: outside.walls,
-        };
+        let mut island = Line(outside.0, [-half, h]);
         island.to([half, h], Made::Relief(1));
         island.round([half, h - m], m, 1.0, -1.0);
         island.to([half + m, m - h], Made::Plain);
@@ -158,7 +146,7 @@ impl Maze {
         island.round([-half, m - h], m, -1.0, -1.0);
         island.to([-half - m, h - m], Made::Plain);
         island.round([-half, h - m], m, -2.0, -1.0);
-        island.walls
+        island.0
     }
 }
 
@@ -194,10 +182,8 @@ mod tests {
         let island = 2.0 * (corridor.length_m + height - 2.0 * m) + 4.0 * arc * m;
         assert!((length - outside - island).abs() < 1e-9, "{length}");
         for relief in 0..4 {
-            let of = walls
-                .iter()
-                .filter(|wall| wall.made == Made::Relief(relief));
-            assert!(of.clone().count() == 1 && of.map(|w| w.length_m).sum::<f64>() == 1.0);
+            let of = walls.iter().filter(|of| of.made == Made::Relief(relief));
+            assert_eq!(of.map(|of| of.length_m).collect::<Vec<_>>(), [1.0]);
         }
     }
 
@@ -208,10 +194,8 @@ mod tests {
         // From the middle of the top corridor outwards and inwards.
         let middle = [0.1, b - corridor.width_m / 2.0];
         let meets = |to: [f64; 2]| -> Vec<(Made, f64)> {
-            let found = walls
-                .iter()
-                .filter_map(|w| Some((w.made, w.crossing(middle, to)?)));
-            found.collect()
+            let met = |wall: &Wall| Some((wall.made, wall.crossing(middle, to)?));
+            walls.iter().filter_map(met).collect()
         };
         let out = meets([0.1, b + 0.175]);
         assert!(out.len() == 1 && out[0].0 == Made::Relief(0) && (out[0].1 - 0.5).abs() < 1e-12);
@@ -219,28 +203,17 @@ mod tests {
         assert!(inwards.len() == 1 && inwards[0].0 == Made::Relief(1));
         assert!(meets([0.4, b - 0.175]).is_empty());
         // Not from behind.
-        assert!(
-            walls
-                .iter()
-                .all(|w| w.crossing([0.0, b + 0.1], [0.0, b - 0.1]).is_none())
-        );
+        let behind = |wall: &Wall| wall.crossing([0.0, b + 0.1], [0.0, b - 0.1]);
+        assert!(walls.iter().find_map(behind).is_none());
     }
 
     #[test]
     fn what_comes_too_near_is_kept_off() {
         let (maze, _, walls) = walls();
         let b = maze.width_m / 2.0;
-        let place = walls
-            .iter()
-            .fold([0.0, b - 0.1], |at, wall| wall.kept_off(at, 0.125));
-        assert!(
-            (place[1] - (b - 0.125)).abs() < 1e-12 && place[0] == 0.0,
-            "{place:?}"
-        );
-        let free = [1.2, 0.0];
-        assert_eq!(
-            walls.iter().fold(free, |at, wall| wall.kept_off(at, 0.125)),
-            free
-        );
+        let kept = |at| walls.iter().fold(at, |at, wall| wall.kept_off(at, 0.125));
+        let [x, y] = kept([0.0, b - 0.1]);
+        assert!((y - (b - 0.125)).abs() < 1e-12 && x == 0.0, "{x} {y}");
+        assert_eq!(kept([1.2, 0.0]), [1.2, 0.0]);
     }
 }

@@ -1,6 +1,5 @@
-//! The head's module: the firmware's own tick on six sensors and motors. All
-//! that it knows of its whiskers comes by sensor frames and encoders. A whisker
-//! that is bent pulls back on its motor.
+//! The head's module: the firmware's own tick on six sensors and motors. All that it knows of its
+//! whiskers comes by sensor frames and encoders. A whisker that is bent pulls back on its motor.
 
 use anyhow::Result;
 use firmware::design_parameters::{Plausible, retry, sensor_limits};
@@ -232,9 +231,8 @@ mod tests {
         cia: None,
     };
 
-    /// At rest the duty k_p e balances load and friction: the drive is
-    /// k U/R · k_p e at the rotor, so that a load of τ leaves an error between
-    /// (τ/G ± τ_c)/(k_p k U/R).
+    /// At rest the duty k_p e balances load and friction: the drive is k U/R · k_p e at the rotor,
+    /// so that a load of τ leaves an error between (τ/G ± τ_c)/(k_p k U/R).
     #[test]
     fn a_load_leaves_the_error_that_the_gain_allows() {
         let mut module = HeadModule::new(&WHISKING, &CONTROL, 1.0, 1).unwrap();

@@ -4,8 +4,7 @@
 //! # Glossary
 //!
 //! - **arc**: vibrissae of one length, from back (longest) to front.
-//! - **row**: from top (0) to bottom (4); short arcs have the lower rows only
-//!   (PSIK Table 1).
+//! - **row**: from top (0) to bottom (4); short arcs have the lower rows only (PSIK Table 1).
 //! - **pan**: the angle of the neck, anticlockwise from where the middle of the
 //!   pad faces the sheet.
 //! - **lean**: how far a vibrissa points back from the radius through its tip,
@@ -15,12 +14,13 @@
 //! lie at one distance from the origin, as fits "an appropriate angle to
 //! provide contact with a maximum number of whiskers" (section 3.2.1).
 
-use super::chance::Chance;
-use super::read::keys;
-use crate::paper::psik::{ARCS, RATE_HZ};
-use crate::rigs::frame::direction;
-use physics::Pose;
+use super::{Chance, direction, keys, panned, plane, seed_of, whiskers};
+use crate::classifiers::imp::Imp;
+use crate::experiment::{Dataset, Extent, Recording, Request};
+use crate::paper::psik::{ARCS, RATE_HZ, VIBRISSAE};
+use anyhow::Result;
 use physics::vector::{add, cross};
+use physics::{Plate, Pose, sensor_code};
 
 const ROWS: usize = 5;
 
@@ -90,19 +90,19 @@ keys! {
 impl Pad {
     /// The normal of the sheet, whose top leans away from the head by `pitch_deg`, and the place of
     /// its texture's origin, which is so far from the middle along it and upwards on it.
-    pub(crate) fn sheet(&self, distance_m: f64, [along, up]: [f64; 2]) -> ([f64; 3], [f64; 3]) {
+    fn sheet(&self, distance_m: f64, [along, up]: [f64; 2]) -> ([f64; 3], [f64; 3]) {
         let (sine, cosine) = libm::sincos(self.pitch_deg.to_radians());
         let origin = [distance_m + up * sine, along, up * cosine];
         ([-cosine, 0.0, sine], origin)
     }
 
-    pub(crate) fn ticks(&self) -> usize {
+    fn ticks(&self) -> usize {
         (self.sweep_s * RATE_HZ).round() as usize
     }
 
     /// Of one sweep how far the sheet is, m, and where along it and upwards the head is set up: the
     /// origin of the sheet's texture, m.
-    pub(crate) fn sweep(&self, chance: &mut Chance) -> (f64, [f64; 2]) {
+    fn sweep(&self, chance: &mut Chance) -> (f64, [f64; 2]) {
         let (spread, aside) = (self.distance_spread_m, self.position_spread_m);
         let distance_m = self.distance_m + chance.between(-spread, spread);
         (distance_m, [0, 1].map(|_| chance.between(-aside, aside)))
@@ -110,17 +110,103 @@ impl Pad {
 
     /// The pan at a tick, radians: from −`sweep_deg` to `sweep_deg`, with the
     /// speed of half a cosine.
-    pub(crate) fn pan(&self, tick: usize) -> f64 {
+    fn pan(&self, tick: usize) -> f64 {
         let share = tick as f64 / self.ticks().max(1) as f64;
         -self.sweep_deg.to_radians() * libm::cos(core::f64::consts::PI * share)
     }
 }
 
+pub(crate) const PAPERS: usize = 8;
+/// The sandpaper of all in a placebo: P80.
+const PLACEBO: usize = 3;
+/// Window of the IMP's mean, samples (86 ms; chosen).
+const WINDOW: u32 = 100;
+
+fn sweeps(extent: Extent) -> usize {
+    let (training, testing) = extent.sweeps;
+    training + testing
+}
+
+pub(crate) fn jobs(extent: Extent) -> usize {
+    PAPERS * sweeps(extent)
+}
+
+/// The sandpaper of a job, and which of its sweeps.
+pub(crate) fn place(extent: Extent, job: usize) -> (usize, usize) {
+    (job / sweeps(extent), job % sweeps(extent))
+}
+
+/// A reading in so many bits, with its sign, 2 to 14.
+pub(crate) fn codes(reading: [f64; 2], bits: usize) -> [i16; 2] {
+    let most = f64::from((1_u32 << bits.clamp(2, 14).saturating_sub(1)) - 1);
+    reading.map(|x| sensor_code(most * x, most))
+}
+
+/// The vibrissa whose samples are kept: the middle one of the longest arc.
+pub(crate) const ONE: usize = ARCS[0].0 / 2;
+
+/// A reading of so many bits in codes of 14, as the product's classifier takes them.
+pub(crate) fn widened(code: [i16; 2], bits: usize) -> [f32; 2] {
+    let unit = f32::from(1_u16 << 14_usize.saturating_sub(bits).min(12));
+    code.map(|x| unit * f32::from(x))
+}
+
+fn sheet(request: &Request, job: usize, seed: u64) -> Plate {
+    let rig = &request.rigs.pad;
+    let (paper, _) = place(request.extent, job);
+    let mut chance = Chance::new(seed_of(seed, &[0]));
+    let (distance_m, origin_m) = rig.sweep(&mut chance);
+    let spot = request.spot_m(Dataset::Pad, paper, seed);
+    let [along, up] = [0, 1].map(|k| spot[k] + origin_m[k]);
+    let (normal, point_m) = rig.sheet(distance_m, [along, up]);
+    let surface = request.surface(&whiskers::SANDPAPERS, paper, PLACEBO);
+    plane(point_m, (normal, [0.0, 1.0, 0.0]), surface)
+}
+
+/// Records what one vibrissa feels in a sweep: x and y.
+pub(crate) fn record_one(request: &Request, job: usize, seed: u64) -> Result<Recording> {
+    let rig = &request.rigs.pad;
+    let plate = sheet(request, job, seed);
+    let mut whiskers = whiskers::pad(&rig.layout, (rig.full_scale_rad, rig.follicle), seed)?;
+    let (vibrissa, whisker) = &mut whiskers[ONE];
+    let felt = |tick| {
+        let pose = panned(&vibrissa.pose, rig.pan(tick));
+        whisker.step(&pose, Some(&plate), 1.0 / RATE_HZ);
+        widened(codes(whisker.reading(), rig.bits), rig.bits)
+    };
+    Ok(Recording::new(2, (0..rig.ticks()).flat_map(felt).collect()))
+}
+
+/// Records a sweep: one sample of 33 numbers.
+pub(crate) fn record(request: &Request, job: usize, seed: u64) -> Result<Recording> {
+    let rig = &request.rigs.pad;
+    let plate = sheet(request, job, seed);
+    let mut whiskers = whiskers::pad(&rig.layout, (rig.full_scale_rad, rig.follicle), seed)?;
+    let (mut imp, mut sums) = (Imp::new(WINDOW), [0_u32; VIBRISSAE]);
+    let mut add = |window: [u32; VIBRISSAE]| {
+        for (sum, imp) in sums.iter_mut().zip(window) {
+            *sum = sum.saturating_add(imp);
+        }
+    };
+    for tick in 0..rig.ticks() {
+        let mut all = [[0; 2]; VIBRISSAE];
+        for ((vibrissa, whisker), code) in whiskers.iter_mut().zip(&mut all) {
+            let pose = panned(&vibrissa.pose, rig.pan(tick));
+            whisker.step(&pose, Some(&plate), 1.0 / RATE_HZ);
+            *code = codes(whisker.reading(), rig.bits);
+        }
+        imp.push(&all).map(&mut add);
+    }
+    imp.finish().map(&mut add);
+    // In codes a sample.
+    let values = sums.iter().map(|x| *x as f32 / 65_536.0);
+    Ok(Recording::new(VIBRISSAE, values.collect()))
+}
+
 #[cfg(test)]
 mod tests {
-    use super::Pad;
-    use crate::paper::psik::VIBRISSAE;
-    use crate::rigs::{Rigs, panned};
+    use super::{Pad, VIBRISSAE, panned};
+    use crate::rigs::Rigs;
     use physics::vector::{add, cross, dot};
 
     fn rig() -> Pad {

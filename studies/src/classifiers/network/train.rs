@@ -11,11 +11,22 @@
 //! caller, who has the seed. The same rows, options and seed give the same network, to the last
 //! bit, on every machine.
 
-use super::gradient::Samples;
-use super::session::session;
-use super::{Network, Shape, scaled};
-use crate::rigs::Chance;
+use std::cell::RefCell;
+
 use anyhow::{Result, bail, ensure};
+use argmin::core::{
+    CostFunction, Executor, Gradient, IterState, KV, Problem, Solver, State, TerminationReason,
+    TerminationStatus,
+};
+use argmin::solver::linesearch::MoreThuenteLineSearch;
+use argmin::solver::quasinewton::LBFGS;
+use tactile::score::Confusion;
+
+use super::{Network, Samples, Shape, cost, cost_and_gradient, scaled};
+use crate::rigs::Chance;
+
+/// Differences of weights and slopes that L-BFGS remembers.
+const MEMORY: usize = 10;
 
 /// Starts until one is reliable.
 const ATTEMPTS: usize = 10;
@@ -93,9 +104,9 @@ pub(crate) fn train(rows: &[Row], options: &Options) -> Result<Network> {
     let scales: Vec<(f64, f64)> = scales.collect::<Result<_, _>>()?;
     let mut chance = Chance::new(options.seed);
     for _ in 0..ATTEMPTS {
-        let [training, held_out] = split(rows, shape, options.held_out, &scales, &mut chance);
+        let parts = split(rows, shape, options.held_out, &scales, &mut chance);
         let start = start(shape, &mut chance);
-        let found = session(shape, options, start, &training, &held_out);
+        let found = session((shape, start), options, &parts);
         let is_small = |weights: &Vec<f64>| weights.iter().all(|w| w.abs() <= MAX_WEIGHT);
         let Some(weights) = found.filter(is_small) else {
             continue;
@@ -110,6 +121,126 @@ pub(crate) fn train(rows: &[Row], options: &Options) -> Result<Network> {
         }
     }
     bail!("no start of a network named every class well enough")
+}
+
+/// The best weights on the way from a start; none if no finite error was met.
+fn session(
+    (shape, start): (Shape, Vec<f64>),
+    options: &Options,
+    [training, held_out]: &[Samples; 2],
+) -> Option<Vec<f64>> {
+    let best = RefCell::new((f64::INFINITY, None, 0));
+    let solver = Stopping {
+        inner: LBFGS::new(MoreThuenteLineSearch::new(), MEMORY),
+        shape,
+        held_out,
+        patience: options.patience,
+        best: &best,
+    };
+    let batch = Batch {
+        shape,
+        samples: training,
+        decay: options.decay,
+        last: RefCell::default(),
+    };
+    // An error is a line search that finds nothing lower any more: the best weights so far are the
+    // result all the same.
+    let _ = Executor::new(batch, solver)
+        .configure(|state| state.param(start).max_iters(options.iterations))
+        .ctrlc(false)
+        .run();
+    best.into_inner().1
+}
+
+struct Batch<'s> {
+    shape: Shape,
+    samples: &'s Samples,
+    decay: f64,
+    /// The last weights, their cost and their gradient: the solver asks for both one after the
+    /// other, and one pass through the samples gives them.
+    last: RefCell<(Vec<f64>, f64, Vec<f64>)>,
+}
+
+impl Batch<'_> {
+    fn at(&self, weights: &[f64]) -> std::cell::Ref<'_, (Vec<f64>, f64, Vec<f64>)> {
+        if self.last.borrow().0 != weights {
+            let mut gradient = vec![0.0; weights.len()];
+            let (shape, samples, decay) = (self.shape, self.samples, self.decay);
+            let cost = cost_and_gradient(shape, weights, samples, decay, Some(&mut gradient));
+            self.last.replace((weights.to_vec(), cost, gradient));
+        }
+        self.last.borrow()
+    }
+}
+
+impl CostFunction for Batch<'_> {
+    type Param = Vec<f64>;
+    type Output = f64;
+
+    fn cost(&self, weights: &Vec<f64>) -> Result<f64> {
+        Ok(self.at(weights).1)
+    }
+}
+
+impl Gradient for Batch<'_> {
+    type Param = Vec<f64>;
+    type Gradient = Vec<f64>;
+
+    fn gradient(&self, weights: &Vec<f64>) -> Result<Vec<f64>> {
+        Ok(self.at(weights).2.clone())
+    }
+}
+
+/// The lowest error so far, its weights, and iterations since.
+type Best = (f64, Option<Vec<f64>>, u32);
+
+type Search = MoreThuenteLineSearch<Vec<f64>, Vec<f64>, f64>;
+type Weights = IterState<Vec<f64>, Vec<f64>, (), (), (), f64>;
+type Stepped = Result<(Weights, Option<KV>)>;
+
+/// L-BFGS that keeps the best weights, and ends when the samples held out are named no better any
+/// more.
+struct Stopping<'s> {
+    inner: LBFGS<Search, Vec<f64>, Vec<f64>, f64>,
+    shape: Shape,
+    held_out: &'s Samples,
+    patience: u32,
+    /// Outside, as a solver that fails takes everything with it.
+    best: &'s RefCell<Best>,
+}
+
+impl<'s> Solver<Batch<'s>, Weights> for Stopping<'_> {
+    fn name(&self) -> &'static str {
+        "L-BFGS with early stopping"
+    }
+
+    fn init(&mut self, problem: &mut Problem<Batch<'s>>, state: Weights) -> Stepped {
+        self.inner.init(problem, state)
+    }
+
+    fn next_iter(&mut self, problem: &mut Problem<Batch<'s>>, state: Weights) -> Stepped {
+        self.inner.next_iter(problem, state)
+    }
+
+    fn terminate(&mut self, state: &Weights) -> TerminationStatus {
+        let Some(weights) = state.get_param() else {
+            return TerminationStatus::NotTerminated;
+        };
+        let stops = !self.held_out.classes.is_empty();
+        let held_out = || cost(self.shape, weights, self.held_out, 0.0);
+        let error = if stops { held_out() } else { state.get_cost() };
+        let mut best = self.best.borrow_mut();
+        if error < best.0 {
+            *best = (error, Some(weights.clone()), 0);
+        } else {
+            best.2 = best.2.saturating_add(1);
+        }
+        if stops && best.2 >= self.patience {
+            let why = TerminationReason::SolverExit("held-out error rises".into());
+            return TerminationStatus::Terminated(why);
+        }
+        Solver::<Batch<'s>, Weights>::terminate(&mut self.inner, state)
+    }
 }
 
 /// Mean and one over the standard deviation of an input.
@@ -168,15 +299,11 @@ fn start(shape: Shape, chance: &mut Chance) -> Vec<f64> {
 
 /// The hit rate of the class that is named worst.
 fn least_hit_rate(rows: &[Row], network: &Network) -> Result<f64> {
-    let mut counts = vec![(0_u32, 0_u32); network.shape.outputs];
+    let mut score = Confusion::new(network.shape.outputs);
     for (class, row) in rows {
-        let (hits, trials) = &mut counts[*class];
-        *trials += 1;
-        *hits += u32::from(network.classify(row)? == *class);
+        score.add(*class, Some(network.classify(row)?))?;
     }
-    let rates = counts
-        .iter()
-        .map(|&(hits, trials)| f64::from(hits) / f64::from(trials.max(1)));
+    let rates = (0..score.classes()).filter_map(|class| score.hit_rate_of(class));
     Ok(rates.fold(f64::INFINITY, f64::min))
 }
 
@@ -211,11 +338,8 @@ mod tests {
             (0..count).map(&mut row).collect()
         };
         let (training, testing) = (rows(4000), rows(20_000));
-        let stopped = Options {
-            held_out: 0.15,
-            patience: 6,
-            ..options(4)
-        };
+        let mut stopped = options(4);
+        (stopped.held_out, stopped.patience) = (0.15, 6);
         let network = train(&training, &stopped).unwrap();
         let rate = hits(&network, &testing);
         // Standard error 0.26 %; training on 4000 rows costs some tenths.
@@ -231,18 +355,13 @@ mod tests {
         let mut row = |n: usize| (n % 2, (0..30).map(|_| chance.normal()).collect());
         let rows: Vec<Row> = (0..120).map(&mut row).collect();
         let free = train(&rows, &options(10)).unwrap();
-        let stopped = Options {
-            held_out: 0.3,
-            patience: 3,
-            ..options(10)
-        };
+        let mut stopped = options(10);
+        (stopped.held_out, stopped.patience) = (0.3, 3);
         let stopped = train(&rows, &stopped).unwrap();
         // Some rows stay wrong where the outputs are flat.
         assert!(hits(&free, &rows) > 0.94 && hits(&stopped, &rows) < 0.9);
-        let held = Options {
-            decay: 1e-3,
-            ..options(10)
-        };
+        let mut held = options(10);
+        held.decay = 1e-3;
         let size = |network: &Network| network.weights.iter().map(|w| w * w).sum::<f64>();
         assert!(size(&train(&rows, &held).unwrap()) < 0.25 * size(&free));
     }
@@ -258,10 +377,9 @@ mod tests {
         assert!(train(&[(0, vec![1.0]), (1, vec![])], &options(3)).is_err());
         // Both rows alike: no start can hit both classes.
         let alike = [(0, vec![1.0]), (1, vec![1.0])];
-        let all = Options {
-            reliable: 0.25,
-            ..options(3)
-        };
-        assert!(train(&alike, &all).is_err() && train(&alike, &options(3)).is_ok());
+        let mut all = options(3);
+        assert!(train(&alike, &all).is_ok());
+        all.reliable = 0.25;
+        assert!(train(&alike, &all).is_err());
     }
 }

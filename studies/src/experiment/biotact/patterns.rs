@@ -1,30 +1,35 @@
-//! BIOTACT Figs. 6 to 9: the pattern generator before simulated obstacles
-//! (eq. 11), without a body: gains, RCP, strong and fast RCP, CIA.
+//! BIOTACT Figs. 6 to 9: the pattern generator before simulated obstacles (eq. 11), without a body:
+//! gains, RCP, strong and fast RCP, CIA. And the whole head (section III-D): twelve whiskers a side,
+//! with motors, elastic shafts and sensors, before obstacles, moved by the module.
 
-use crate::chart::{Mark, Series, linear, panel};
-use crate::moments::range;
-use crate::page::Page;
-use crate::paper::biotact::{
-    FIG6, FIG6_GAINS, FIG7, FIG8, FIG9, Figure, OBSTACLES_DEG, OVERLAP_GAIN,
-};
 use anyhow::Result;
+use host_sim::run::Run;
+use rayon::prelude::*;
+use scene::Scene;
 use whisking::{GateSettings, Integrator, Settings, State, degrees, filter};
 
-pub(super) const TICK_HZ: f64 = 2_000.0;
-pub(super) const FREQUENCY_HZ: f64 = 2.0;
+use crate::chart::{Mark, Series, linear, panel};
+use crate::experiment::Request;
+use crate::moments::range;
+use crate::page::{Page, figure, row};
+use crate::paper::biotact::{
+    FIG6_GAINS, FIG9_CIA, GENTLE, Gate, OBSTACLES_DEG, OVERLAP_GAIN, STRONG,
+};
+
+const TICK_HZ: f64 = 2_000.0;
+const FREQUENCY_HZ: f64 = 2.0;
 /// Ten seconds.
 const RUN_TICKS: usize = 20_000;
-pub(super) const WHISK: usize = (TICK_HZ / FREQUENCY_HZ) as usize;
+const WHISK: usize = (TICK_HZ / FREQUENCY_HZ) as usize;
 /// Whisks that are measured and shown: the last of a run.
 const WHISKS: usize = 3;
-pub(super) const LEFT: usize = 0;
-pub(super) const RIGHT: usize = 1;
+const LEFT: usize = 0;
+const RIGHT: usize = 1;
 
 /// A tick: θ' of both sides, degrees.
-pub(super) type Row = [f64; 2];
+type Row = [f64; 2];
 
-/// A gate of the paper, whose time constant is a share of the whisk period.
-fn gate((gain, whisks): (f64, f64)) -> GateSettings {
+fn gate((gain, whisks): Gate) -> GateSettings {
     GateSettings {
         gain,
         tau_s: whisks / FREQUENCY_HZ,
@@ -32,26 +37,26 @@ fn gate((gain, whisks): (f64, f64)) -> GateSettings {
 }
 
 /// A run with the product's own equations in f64, as the paper has them: forward Euler, no noise,
-/// both sides started at ψ = (1, 0).
-fn run(figure: &Figure) -> Result<Vec<Row>> {
+/// both sides started at ψ = (1, 0); with RCP before obstacles at [`OBSTACLES_DEG`]. Its last whisks.
+fn run(gain: f64, rcp: Option<Gate>, cia: Option<Gate>) -> Result<Vec<Row>> {
     let settings = Settings {
         tick_hz: TICK_HZ,
         frequency_hz: FREQUENCY_HZ,
         integrator: Integrator::Euler,
         coupling: true,
         noise: 0.0,
-        rcp: figure.rcp.map(gate),
-        cia: figure.cia.map(gate),
+        rcp: rcp.map(gate),
+        cia: cia.map(gate),
     };
     let config = settings.build::<f64>()?;
-    let start = settings.start(&[[1.0, 0.0]; 2], &[&[figure.gain][..]; 2]);
+    let start = settings.start(&[[1.0, 0.0]; 2], &[&[gain][..]; 2]);
     let mut state = State::new(&start?, 1);
     let h50 = filter::Config::<f64>::new(filter::CORNER_HZ, TICK_HZ)?;
     let mut filters = [filter::State::default(); 2];
     let mut angles = [50.0; 2];
     let tick = |_| {
         let mut contact = [0.0; 2];
-        if figure.obstacles {
+        if rcp.is_some() {
             let sides = contact.iter_mut().zip(&mut filters);
             for ((contact, filter), (angle, at)) in sides.zip(angles.iter().zip(OBSTACLES_DEG)) {
                 let x = (OVERLAP_GAIN * (angle - at).max(0.0)).min(1.0);
@@ -64,22 +69,17 @@ fn run(figure: &Figure) -> Result<Vec<Row>> {
         }
         angles
     };
-    Ok((0..RUN_TICKS).map(tick).collect())
-}
-
-fn tail(figure: &Figure) -> Result<Vec<Row>> {
-    let rows = run(figure)?;
-    let from = rows.len().saturating_sub(WHISKS * WHISK);
-    Ok(rows.into_iter().skip(from).collect())
+    let rows: Vec<Row> = (0..RUN_TICKS).map(tick).collect();
+    Ok(rows[RUN_TICKS - WHISKS * WHISK..].to_vec())
 }
 
 /// Least and largest θ' of a side, degrees.
-pub(super) fn angles(rows: &[Row], side: usize) -> (f64, f64) {
+fn angles(rows: &[Row], side: usize) -> (f64, f64) {
     range(rows.iter().map(|row| row[side]))
 }
 
 /// Contacts of a side a whisk, of so many: how often it comes past its obstacle.
-pub(super) fn contacts(rows: &[Row], side: usize, whisks: usize) -> f64 {
+fn contacts(rows: &[Row], side: usize, whisks: usize) -> f64 {
     let beyond = |row: &Row| row[side] > OBSTACLES_DEG[side];
     let pairs = rows.iter().zip(rows.iter().skip(1));
     let count = pairs.filter(|(a, b)| !beyond(a) && beyond(b)).count();
@@ -93,15 +93,10 @@ fn curve(name: &str, rows: &[Row], side: usize) -> Series {
     Series::curve(name, points.collect())
 }
 
-pub(super) fn section(page: &mut Page) -> Result<()> {
-    gains(page)?;
-    obstacles(page)
-}
-
-fn gains(page: &mut Page) -> Result<()> {
+pub(super) fn gains(page: &mut Page) -> Result<()> {
     let (mut curves, mut said, mut highest) = (Vec::new(), Vec::new(), Vec::new());
     for gain in FIG6_GAINS {
-        let rows = tail(&Figure { gain, ..FIG6 })?;
+        let rows = run(gain, None, None)?;
         let (low, high) = angles(&rows, LEFT);
         said.push(format!("{low:.1} to {high:.1} at g = {gain}"));
         highest.push(high);
@@ -112,8 +107,7 @@ fn gains(page: &mut Page) -> Result<()> {
         said.join(", ")
     ));
     let end = (WHISKS * WHISK) as f64 / TICK_HZ;
-    let x = linear("s", 0.0, end);
-    let y = linear("θ', degrees", 50.0, 160.0);
+    let (x, y) = (linear("s", 0.0, end), linear("θ', degrees", 50.0, 160.0));
     let panels = [panel("Fig. 6", x, y, &curves, Mark::Nothing)];
     let what = "Free whisking with four gains";
     page.panels("biotact-fig6.svg", what, &panels)?;
@@ -129,17 +123,18 @@ fn gains(page: &mut Page) -> Result<()> {
     Ok(())
 }
 
-fn obstacles(page: &mut Page) -> Result<()> {
-    let free = tail(&Figure { gain: 1.0, ..FIG6 })?;
+pub(super) fn obstacles(page: &mut Page) -> Result<()> {
+    let free = run(1.0, None, None)?;
     let end = (WHISKS * WHISK) as f64 / TICK_HZ;
     let mut panels = Vec::new();
     let mut runs = Vec::new();
-    for (title, figure) in [
-        ("Fig. 7: RCP, σ_z = 0.7, τ_z = T_W/4", FIG7),
-        ("Fig. 8: RCP, σ_z = 2, τ_z = T_W/10", FIG8),
-        ("Fig. 9: as Fig. 7, and CIA, σ_g = 0.5, τ_g = T_W/4", FIG9),
+    let fig_9 = "Fig. 9: as Fig. 7, and CIA, σ_g = 0.5, τ_g = T_W/4";
+    for (title, rcp, cia) in [
+        ("Fig. 7: RCP, σ_z = 0.7, τ_z = T_W/4", GENTLE, None),
+        ("Fig. 8: RCP, σ_z = 2, τ_z = T_W/10", STRONG, None),
+        (fig_9, GENTLE, Some(FIG9_CIA)),
     ] {
-        let rows = tail(&figure)?;
+        let rows = run(1.0, Some(rcp), cia)?;
         let level = |name: &str, side: usize| {
             let at = OBSTACLES_DEG[side];
             Series::curve(name, vec![(0.0, at), (end, at)])
@@ -168,10 +163,7 @@ fn obstacles(page: &mut Page) -> Result<()> {
         "BIOTACT Fig. 7: RCP holds the left back, by 5 degrees or more; the right does not reach its obstacle",
         "left suppressed, right below 125 degrees",
         format_args!("left up to {left:.1}, right up to {right:.1} degrees"),
-        (
-            (right - 5.0 - left).min(OBSTACLES_DEG[RIGHT] - right),
-            "degrees",
-        ),
+        ((right - 5.0 - left).min(OBSTACLES_DEG[RIGHT] - right), "degrees"),
     );
     let (strong, gentle) = (touches(1, LEFT), touches(0, LEFT));
     page.claim(
@@ -189,6 +181,122 @@ fn obstacles(page: &mut Page) -> Result<()> {
             highest(2, RIGHT),
         ),
         ((with - 0.5).min(0.5 - without), "contacts a whisk"),
+    );
+    Ok(())
+}
+
+/// Whisks that are left out, as the motors settle, and those that are measured.
+const LEAD: usize = 4;
+const HEAD_WHISKS: usize = 16;
+
+/// The head without obstacles, with the noise and the gains of the head's experiments.
+fn head(request: &Request) -> Result<Scene> {
+    let rig = &request.rigs.head;
+    let (kp, kd) = (rig.motor.kp, rig.motor.kd);
+    let text = format!(
+        "name = 'array'\ntick_hz = {TICK_HZ}\nduration_s = {}\nseed = {}\n\
+         [head]\nwhiskers_per_side = 12\n\
+         [whisking]\nfrequency_hz = {FREQUENCY_HZ:?}\nintegrator = 'exact'\ncoupling = true\n\
+         noise = {:?}\ngain = 1.0\nstart = [[1.0, 0.0], [1.0, 0.0]]\n\
+         [motor]\nkp = {kp:?}\nkd = {kd:?}\n\
+         [plant]\nkind = 'whisker'\ntextures = ['smooth']\npresent_s = 1000.0\n\
+         obstacle_deg = [{NOTHING:?}, {NOTHING:?}]\nstiffness = 0.1\n",
+        (LEAD + HEAD_WHISKS) as f64 / FREQUENCY_HZ,
+        // A seed of TOML has 63 bits.
+        request.seed & (u64::MAX >> 1),
+        rig.noise,
+    );
+    Ok(Scene::from_str("array.toml", &text)?)
+}
+
+/// Where no whisker comes, degrees.
+const NOTHING: f64 = 300.0;
+
+const LEFT_DEG: f64 = OBSTACLES_DEG[LEFT];
+
+/// What the head is put before, where that is on either side, degrees, and whether it has CIA
+/// beside RCP.
+type Case = (&'static str, [f64; 2], bool);
+
+const CASES: [Case; 5] = [
+    ("nothing", [NOTHING; 2], true),
+    ("a body on the left, RCP", [LEFT_DEG, NOTHING], false),
+    ("a body on the left, RCP and CIA", [LEFT_DEG, NOTHING], true),
+    ("bodies on both sides, RCP", OBSTACLES_DEG, false),
+    ("bodies on both sides, RCP and CIA", OBSTACLES_DEG, true),
+];
+
+/// Of each side the mean over the whisks of the largest angle of the front whisker, degrees, and
+/// the contacts a whisk.
+type Moved = [[f64; 2]; 2];
+
+fn run_head((_, obstacles_deg, has_cia): Case, scene: &Scene) -> Result<Moved> {
+    let mut scene = scene.clone();
+    scene.rcp = Some(gate(GENTLE));
+    scene.cia = has_cia.then(|| gate(FIG9_CIA));
+    if let Some(obstacle) = &mut scene.plant.obstacle {
+        obstacle.obstacle_deg = obstacles_deg.to_vec();
+    }
+    let mut run = Run::new(&scene, None)?;
+    for _ in 0..LEAD * WHISK {
+        run.tick();
+    }
+    let rows: Vec<Row> = (0..HEAD_WHISKS * WHISK)
+        .map(|_| run.tick().angle_deg)
+        .collect();
+    let peak_deg = |side| {
+        let peaks = rows.chunks(WHISK).map(|whisk| angles(whisk, side).1);
+        peaks.sum::<f64>() / HEAD_WHISKS as f64
+    };
+    let contacts = |side| contacts(&rows, side, HEAD_WHISKS);
+    Ok([[LEFT, RIGHT].map(peak_deg), [LEFT, RIGHT].map(contacts)])
+}
+
+pub(super) fn whole_head(page: &mut Page, request: &Request) -> Result<()> {
+    let scene = head(request)?;
+    let moved = CASES.into_par_iter().map(|case| run_head(case, &scene));
+    let moved = moved.collect::<Result<Vec<Moved>>>()?;
+    page.say(format_args!(
+        "**The whole head**: 24 whiskers, 12 a side, with the gains of Fig. 9, each with its motor \
+         and an elastic shaft of 112 mm, before plates that a straight whisker touches at {} degrees \
+         on the left and {} on the right. Mean of {HEAD_WHISKS} whisks.",
+        OBSTACLES_DEG[LEFT], OBSTACLES_DEG[RIGHT]
+    ));
+    let line = |((what, ..), [peak_deg, contacts]): (&Case, &Moved)| {
+        let cells = peak_deg.map(|deg| figure(deg, 1)).into_iter();
+        let cells = cells.chain(contacts.map(|count| figure(count, 2)));
+        row(*what, cells.map(|cell| format!("**{cell}**")))
+    };
+    let header = format!(
+        "before | left up to, degrees | right up to, degrees | left past {LEFT_DEG} degrees, times a \
+         whisk | right past {} degrees, times a whisk",
+        OBSTACLES_DEG[RIGHT]
+    );
+    page.table(&header, CASES.iter().zip(&moved).map(line));
+    let [free, [left, right]] = [0, 2].map(|n| moved[n][0]);
+    page.claim(
+        "BIOTACT section III-D, 24 whiskers with bodies: an obstacle on the left holds the left \
+         back and lets the right protract more",
+        "so",
+        format_args!(
+            "left up to {}, right up to {}; free {} and {} degrees",
+            figure(left, 1),
+            figure(right, 1),
+            figure(free[LEFT], 1),
+            figure(free[RIGHT], 1)
+        ),
+        ((free[LEFT] - left).min(right - free[RIGHT]), "degrees"),
+    );
+    let [missed, found] = [3, 4].map(|n| moved[n][1][RIGHT]);
+    page.claim(
+        "BIOTACT Fig. 9, 24 whiskers with bodies: with CIA the right finds its obstacle",
+        "1 contact a whisk, none without CIA",
+        format_args!(
+            "{} contacts a whisk, {} without CIA",
+            figure(found, 2),
+            figure(missed, 2)
+        ),
+        ((found - 0.5).min(0.5 - missed), "contacts a whisk"),
     );
     Ok(())
 }

@@ -1,16 +1,16 @@
 //! Whisks as the two classifiers of BIOTACT section IV are trained on and take them.
 
 use anyhow::Result;
+use host_sim::recording::Stream;
 use tactile::WindowRule;
 use tactile::train::{Options, Trainer};
 
-use crate::classifiers::recogniser::{Bayes, outcomes};
-use crate::classifiers::template::TemplateTrainer;
-use crate::experiment::record::head::{COLUMNS, number};
-use crate::experiment::recording::{Dataset, Recordings, of_set};
-use crate::experiment::request::Request;
+use crate::classifiers::{Bayes, Recogniser, Templates};
+use crate::experiment::{Dataset, Recordings, Request, of_set, product};
+use crate::page::Page;
 use crate::paper::biotact::{DISTANCES_MM, STRATEGIES, TEXTURES};
 use crate::rigs::CHANNELS;
+use crate::rigs::head::{COLUMNS, number};
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Method {
@@ -79,7 +79,7 @@ impl Task {
 }
 
 /// A whisk: its texture, distance and samples of all channels.
-pub(super) type Whisk = (usize, usize, Vec<f64>);
+type Whisk = (usize, usize, Vec<f64>);
 
 /// Numbers of the whisks to train on and to validate with.
 type Split<'a> = (&'a [usize], &'a [usize]);
@@ -95,7 +95,7 @@ impl Visits {
     pub(super) fn new(request: &Request, recordings: &Recordings) -> Self {
         let all = of_set(recordings, Dataset::Head);
         let ticks = request.rigs.head.whisk_ticks();
-        let mut whisks = vec![vec![Vec::new(); request.extent.whisks()]; STRATEGIES.len()];
+        let mut whisks = vec![vec![Vec::new(); request.extent.whisks]; STRATEGIES.len()];
         for (strategy, whisks) in whisks.iter_mut().enumerate() {
             for texture in 0..TEXTURES.len() {
                 for distance in 0..DISTANCES_MM.len() {
@@ -122,16 +122,11 @@ impl Visits {
         }
     }
 
-    pub(super) fn count(&self) -> usize {
-        self.whisks[0].len()
-    }
-
-    pub(super) fn some(&self, strategy: usize, numbers: &[usize]) -> impl Iterator<Item = &Whisk> {
+    fn some(&self, strategy: usize, numbers: &[usize]) -> impl Iterator<Item = &Whisk> {
         numbers.iter().flat_map(move |n| &self.whisks[strategy][*n])
     }
 
-    /// Share of validation whisks that a classifier, as the paper has it, names
-    /// rightly.
+    /// Share of validation whisks that a classifier, as the paper has it, names rightly.
     pub(super) fn hit_rate(
         &self,
         method: Method,
@@ -145,18 +140,17 @@ impl Visits {
         }
     }
 
-    fn template(&self, task: Task, strategy: usize, split: Split<'_>) -> Result<f64> {
-        let (training, validation) = split;
-        let mut trainer = TemplateTrainer::default();
-        for (texture, distance, samples) in self.some(strategy, training) {
-            let class = task.class(*texture, *distance);
-            trainer.add(class, samples)?;
-        }
-        let templates = trainer.train_in_codes();
+    fn template(
+        &self,
+        task: Task,
+        strategy: usize,
+        (training, validation): Split<'_>,
+    ) -> Result<f64> {
+        let known = self.some(strategy, training);
+        let known = known.map(|(texture, distance, x)| (task.class(*texture, *distance), &x[..]));
+        let templates = Templates::of(known, true)?;
         let validation = self.some(strategy, validation);
-        Ok(share(task, validation, |whisk| {
-            Some(templates.classify(whisk))
-        }))
+        Ok(share(task, validation, |x| Some(templates.classify(x))))
     }
 
     fn bayes(&self, task: Task, strategy: usize, (training, validation): Split<'_>) -> Result<f64> {
@@ -175,7 +169,7 @@ impl Visits {
         let mut bayes = Bayes::<WindowRule>::new(model, self.ticks as u32)?;
         let validation = self.some(strategy, validation);
         Ok(share(task, validation, |whisk| {
-            let found = outcomes(&mut bayes, whisk, CHANNELS);
+            let found = bayes.outcomes(whisk, CHANNELS);
             found.first().map(|outcome| outcome.class)
         }))
     }
@@ -193,4 +187,31 @@ fn share<'w>(
         count += 1;
     }
     f64::from(hits) / f64::from(count.max(1))
+}
+
+/// Says what the product's own rule makes of textures by the left front whisker alone, the first
+/// `most` whisks of each strategy to train on.
+pub(super) fn of_one_whisker(
+    page: &mut Page,
+    visits: &Visits,
+    rate_hz: f64,
+    most: usize,
+) -> Result<()> {
+    let order: Vec<usize> = (0..visits.whisks[0].len()).collect();
+    let (training, testing) = order.split_at(most.min(order.len()));
+    let streams = |strategy: usize, numbers: &[usize]| -> Result<Vec<Stream>> {
+        let one = |(n, (texture, _, samples)): (usize, &Whisk)| {
+            let pairs = samples.chunks_exact(CHANNELS).map(|all| [all[0], all[1]]);
+            product::stream(TEXTURES[*texture].0, n, pairs.collect(), Some(rate_hz))
+        };
+        let whisks = visits.some(strategy, numbers).enumerate();
+        whisks.map(one).collect()
+    };
+    let mut tasks = Vec::new();
+    for (strategy, (name, _)) in STRATEGIES.iter().enumerate() {
+        let name = format!("texture by one whisker, {name}");
+        let (training, testing) = (streams(strategy, training)?, streams(strategy, testing)?);
+        tasks.push((name, training, testing));
+    }
+    product::section(page, rate_hz, tasks)
 }

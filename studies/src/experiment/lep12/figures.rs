@@ -1,18 +1,15 @@
-//! Figs. 4 to 9 of LEP12; the spectra of Fig. 9 are in a file of their own.
-
-mod spectra;
+//! Figs. 4 to 9 of LEP12.
 
 use anyhow::Result;
 use tactile::{SequentialRule, Threshold};
 
-use super::ROTATING;
-use super::groups::{BLOCK, Curves, Group, Point};
+use super::{BLOCK, Curves, Group, Point, ROTATING, power};
 use crate::chart::{Axis, Mark, Panel, Series, linear, panel, percent, top};
-use crate::classifiers::recogniser::{Bayes, Recogniser, outcomes};
+use crate::classifiers::{Bayes, Bins, Recogniser, Spectrum};
 use crate::experiment::floors::{CHANNELS, hit_curves};
 use crate::page::{Page, figure};
 use crate::paper::lep10::FLOORS;
-use crate::paper::lep12::{FIG7, FIG8_THRESHOLDS};
+use crate::paper::lep12::{FIG7, FIG8_THRESHOLDS, FIG9_PEAK_HZ, SEGMENT_S};
 
 /// How much of a stretch Fig. 7 shows, s; what takes longer is shown as that.
 const SHOWN_S: f64 = 0.2;
@@ -29,7 +26,7 @@ pub(super) fn all(
     hit_rates(page, groups, curves)?;
     example(page, &groups[ROTATING], rate_hz)?;
     decision_times(page, &groups[ROTATING], rate_hz)?;
-    spectra::figure_9(page, &groups[0], rate_hz)
+    spectra(page, &groups[0], rate_hz)
 }
 
 /// Fig. 4: how often each voltage occurs, per floor, channel and motion.
@@ -48,17 +45,14 @@ fn distributions(page: &mut Page, groups: &[Group]) -> Result<()> {
                 let code = f64::from(q.low) + share * (f64::from(q.high) - f64::from(q.low));
                 (q.origin + code * unit) * VOLTS + 2.5
             };
-            let curves: Vec<Series> = FLOORS
-                .iter()
-                .enumerate()
-                .map(|(class, floor)| {
-                    let p = |bin| {
-                        let log2 = model.log2_likelihood(channel, bin, class).unwrap_or(-20.0);
-                        100.0 * libm::exp2(f64::from(log2))
-                    };
-                    Series::curve(floor, (0..bins).map(|bin| (volts(bin), p(bin))).collect())
-                })
-                .collect();
+            let curve = |(class, floor): (usize, &&str)| {
+                let p = |bin| {
+                    let log2 = model.log2_likelihood(channel, bin, class).unwrap_or(-20.0);
+                    100.0 * libm::exp2(f64::from(log2))
+                };
+                Series::curve(floor, (0..bins).map(|bin| (volts(bin), p(bin))).collect())
+            };
+            let curves: Vec<Series> = FLOORS.iter().enumerate().map(curve).collect();
             let x = linear("V", volts(0), volts(bins.saturating_sub(1)));
             let y = linear("% a bin", 0.0, top(&curves));
             let title = format!("{}: {axis}", group.name);
@@ -78,13 +72,8 @@ fn hit_rates(page: &mut Page, groups: &[Group], curves: &[Curves]) -> Result<()>
     for (group, both) in groups.iter().zip(curves) {
         let time = |points: &[Point]| Axis::decades("s", points.iter().map(|p| p.time_s));
         let window = lines(&both.window, &|p| p.time_s);
-        fixed.push(panel(
-            group.name,
-            time(&both.window),
-            percent("%"),
-            &window,
-            Mark::Dot,
-        ));
+        let x = time(&both.window);
+        fixed.push(panel(group.name, x, percent("%"), &window, Mark::Dot));
         let doubt = |p: &Point| 1.0 - p.parameter;
         let by_threshold = lines(&both.sequential, &doubt);
         let x = Axis::decades("1 − threshold", both.sequential.iter().map(doubt));
@@ -101,11 +90,8 @@ fn hit_rates(page: &mut Page, groups: &[Group], curves: &[Curves]) -> Result<()>
         "**Fig. 6**: sequential Bayes, hit rate against the threshold (left, as what is missing \
          to one) and against the mean decision time at that threshold (right).",
     );
-    page.panels(
-        "lep12-fig6.svg",
-        "Hit rate against threshold and time",
-        &sequential,
-    )
+    let what = "Hit rate against threshold and time";
+    page.panels("lep12-fig6.svg", what, &sequential)
 }
 
 /// Fig. 7: posteriors of one stretch of rough carpet.
@@ -116,20 +102,13 @@ fn example(page: &mut Page, group: &Group, rate_hz: f64) -> Result<()> {
         return Ok(());
     };
     let mut bayes = Bayes::<SequentialRule>::new(model, never)?;
-    let mut curves: Vec<Series> = FLOORS
-        .map(|floor| Series::curve(floor, Vec::new()))
-        .to_vec();
+    let mut curves = FLOORS.map(|floor| Series::curve(floor, Vec::new()));
     let mut passed = FIG7.map(|_| None);
-    let block = BLOCK as usize;
     let shown = (SHOWN_S * rate_hz).round() as usize;
-    for (n, sample) in stream
-        .samples
-        .chunks_exact(CHANNELS)
-        .take(shown)
-        .enumerate()
-    {
+    let samples = stream.samples.chunks_exact(CHANNELS).take(shown);
+    for (n, sample) in samples.enumerate() {
         bayes.push(sample);
-        if (n + 1) % block != 0 {
+        if (n + 1) % BLOCK as usize != 0 {
             continue;
         }
         let time_s = (n + 1) as f64 / rate_hz;
@@ -144,14 +123,11 @@ fn example(page: &mut Page, group: &Group, rate_hz: f64) -> Result<()> {
             curve.points.push((time_s, p));
         }
     }
-    let said: Vec<String> = FIG7
-        .iter()
-        .zip(passed)
-        .map(|((threshold, paper), ours)| {
-            let ours = figure(1000.0 * ours.unwrap_or(SHOWN_S), 0);
-            format!("{threshold}: {:.0} ms / **{ours} ms**", 1000.0 * paper)
-        })
-        .collect();
+    let said = FIG7.iter().zip(passed).map(|((threshold, paper), ours)| {
+        let ours = figure(1000.0 * ours.unwrap_or(SHOWN_S), 0);
+        format!("{threshold}: {:.0} ms / **{ours} ms**", 1000.0 * paper)
+    });
+    let said: Vec<String> = said.collect();
     page.say(format_args!(
         "**Fig. 7**: posteriors at the beginning of a stretch of rough carpet. Thresholds passed \
          at (paper / ours): {}.",
@@ -180,7 +156,7 @@ fn decision_times(page: &mut Page, group: &Group, rate_hz: f64) -> Result<()> {
             let streams = group.validation.iter();
             for stream in streams.filter(|stream| stream.floor == floor) {
                 let mut bayes = Bayes::<SequentialRule>::new(model, threshold)?;
-                for outcome in outcomes(&mut bayes, &stream.samples, CHANNELS) {
+                for outcome in bayes.outcomes(&stream.samples, CHANNELS) {
                     let time_s = f64::from(outcome.samples) / rate_hz;
                     let bar = ((time_s / BAR_S) as usize).min(BARS - 1);
                     counts[bar] += 1;
@@ -211,4 +187,59 @@ fn decision_times(page: &mut Page, group: &Group, rate_hz: f64) -> Result<()> {
     page.panels("lep12-fig8.svg", "Decision times", &panels)?;
     page.table(&format!("threshold | {}", FLOORS.join(" | ")), means);
     Ok(())
+}
+
+/// Fig. 9: mean power spectra of anticlockwise motion.
+fn spectra(page: &mut Page, group: &Group, rate_hz: f64) -> Result<()> {
+    let block = (SEGMENT_S * rate_hz).round() as usize;
+    let bins = Bins::between(block, rate_hz, 0.0, 120.0)?;
+    let spectrum = Spectrum::new(bins);
+    let mut panels = Vec::new();
+    let mut peaks = Vec::new();
+    for (channel, axis) in ["x", "y"].into_iter().enumerate() {
+        let mut curves = Vec::new();
+        for (floor, name) in FLOORS.iter().enumerate() {
+            let mut sum = vec![0.0; bins.count];
+            let mut count = 0.0;
+            for stream in group.training.iter().filter(|stream| stream.floor == floor) {
+                for segment in stream.samples.chunks_exact(block * CHANNELS) {
+                    let power = power(&spectrum, segment, channel)?;
+                    for (sum, power) in sum.iter_mut().zip(power) {
+                        *sum += power;
+                    }
+                    count += 1.0;
+                }
+            }
+            let mean = |power: f64| power / f64::max(count, 1.0);
+            let points = sum.into_iter().enumerate();
+            let points = points.map(|(bin, power)| (bins.frequency(bin, rate_hz), mean(power)));
+            let points: Vec<(f64, f64)> = points.collect();
+            let above = points.iter().filter(|(hz, _)| *hz >= 20.0);
+            let peak = above.max_by(|a, b| a.1.total_cmp(&b.1));
+            peaks.push(peak.map_or(0.0, |peak| peak.0));
+            curves.push(Series::curve(name, points));
+        }
+        let total: f64 = curves.iter().flat_map(|c| &c.points).map(|p| p.1).sum();
+        for point in curves.iter_mut().flat_map(|curve| &mut curve.points) {
+            point.1 *= 4.0 / total.max(f64::MIN_POSITIVE);
+        }
+        let x = linear("Hz", 0.0, 120.0);
+        let y = linear("power / mean total", 0.0, top(&curves));
+        panels.push(panel(axis, x, y, &curves, Mark::Nothing));
+    }
+    page.say(format_args!(
+        "**Fig. 9**: mean power spectra over 400 ms, anticlockwise motion. The paper's peak at \
+         {:.0} to {:.0} Hz; ours above 20 Hz, floor by floor: x {}, y {} Hz. That is no claim: \
+         the stiffness of the follicle was chosen for a resonance at 35 Hz.",
+        FIG9_PEAK_HZ.0,
+        FIG9_PEAK_HZ.1,
+        hertz(&peaks[..4]),
+        hertz(&peaks[4..]),
+    ));
+    page.panels("lep12-fig9.svg", "Power spectra", &panels)
+}
+
+fn hertz(peaks: &[f64]) -> String {
+    let text = peaks.iter().map(|hz| figure(*hz, 1).to_string());
+    text.collect::<Vec<_>>().join(", ")
 }

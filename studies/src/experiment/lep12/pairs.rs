@@ -3,11 +3,10 @@
 
 use anyhow::Result;
 use rayon::prelude::*;
-use tactile::{ModelBuf, SequentialRule, Threshold};
+use tactile::{SequentialRule, Threshold};
 
 use super::groups::{BLOCK, BOTH, Group};
-use crate::classifiers::recogniser::{Bayes, Outcome, Recogniser, outcomes};
-use crate::classifiers::sprt::Sprt;
+use crate::classifiers::recogniser::{Bayes, Outcome, Recogniser, Sprt};
 use crate::experiment::floors::{CHANNELS, Stream, train};
 use crate::page::{Page, figure, row};
 use crate::paper::lep10::FLOORS;
@@ -41,8 +40,7 @@ impl Decisions {
 /// What a rule makes of all streams of a floor, stream by stream.
 fn each(rule: &mut impl Recogniser, streams: &[Stream], floor: usize) -> Vec<Vec<Outcome>> {
     let of = streams.iter().filter(|stream| stream.floor == floor);
-    of.map(|stream| outcomes(rule, &stream.samples, CHANNELS))
-        .collect()
+    of.map(|of| rule.outcomes(&of.samples, CHANNELS)).collect()
 }
 
 fn decisions(found: &[Vec<Outcome>], class: usize) -> Decisions {
@@ -76,13 +74,9 @@ fn alike(ours: &[Vec<Outcome>], theirs: &[Vec<Outcome>]) -> (f64, f64) {
 
 impl Pair {
     fn of(group: &Group, floors: [usize; 2]) -> Result<Self> {
-        let some = |streams: &[Stream]| -> Vec<Stream> {
-            let among = streams
-                .iter()
-                .filter(|stream| floors.contains(&stream.floor));
-            among.cloned().collect()
-        };
-        let model: ModelBuf = train(&some(&group.training), &BOTH, BLOCK)?;
+        let is_one = |stream: &&Stream| floors.contains(&stream.floor);
+        let training: Vec<Stream> = group.training.iter().filter(is_one).cloned().collect();
+        let model = train(&training, &BOTH, BLOCK)?;
         let model = model.view();
         let threshold = Threshold::new(THETA)?;
         let mut eq8 = Bayes::<SequentialRule>::new(model, threshold)?;
@@ -99,11 +93,7 @@ impl Pair {
         let share = PRIOR_RATIO / (1.0 + PRIOR_RATIO);
         let (mut error, mut time) = ([0.0; 2], [0.0; 2]);
         for likely in [0, 1] {
-            let ratio = if likely == 0 {
-                PRIOR_RATIO
-            } else {
-                1.0 / PRIOR_RATIO
-            };
+            let ratio = [PRIOR_RATIO, 1.0 / PRIOR_RATIO][likely];
             let mut knowing = Sprt::new(model, THETA, ratio)?;
             for (class, floor) in floors.into_iter().enumerate() {
                 let weight = 0.5 * if class == likely { share } else { 1.0 - share };

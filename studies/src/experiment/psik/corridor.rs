@@ -4,16 +4,13 @@
 use anyhow::Result;
 use tactile::score::Confusion;
 
-use super::maze;
-use super::sweeps::{PENALTIES, mean_hit, most, train};
+use super::{PENALTIES, maze, mean_hit, most, train};
 use crate::classifiers::network::Row;
-use crate::experiment::record::corridor::{COLUMNS, place};
-use crate::experiment::record::pads::INPUTS;
-use crate::experiment::recording::{Dataset, Recording, Recordings, of_set};
-use crate::experiment::request::{Depth, Request};
+use crate::experiment::{Dataset, Recording, Recordings, Request, of_set};
 use crate::page::{Page, confusion, figure};
 use crate::paper::psik::{CORRIDORS, TABLE_3};
-use crate::rigs::seed_of;
+use crate::rigs::corridor::{COLUMNS, place};
+use crate::rigs::{INPUTS, seed_of};
 
 const CHANCE: f64 = 100.0 / CORRIDORS.len() as f64;
 /// What counts as telling them, percent (chosen).
@@ -27,7 +24,7 @@ fn steps(run: &Recording) -> Vec<Vec<f64>> {
 
 pub(super) fn section(page: &mut Page, request: &Request, recordings: &Recordings) -> Result<()> {
     let runs = of_set(recordings, Dataset::Corridor);
-    let (training, tested, deciding) = request.extent.runs();
+    let (training, tested, deciding) = request.extent.runs;
     let taught = training.saturating_sub(tested);
     let mut rows: Vec<Row> = Vec::new();
     for (job, run) in runs.iter().enumerate() {
@@ -98,7 +95,7 @@ pub(super) fn section(page: &mut Page, request: &Request, recordings: &Recording
         hit,
         (CHANCE, Some(CHANCE)),
     );
-    if request.depth == Depth::Whole {
+    if request.is_whole {
         page.is_alone = true;
         maze::section(page, request, &network)?;
         page.is_alone = false;

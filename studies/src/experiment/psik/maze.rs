@@ -2,20 +2,20 @@
 //! notices corridors by their aperture, tells them by their walls, and turns at their ends as
 //! they say.
 
+use core::f64::consts::{PI, TAU};
+
 use anyhow::Result;
-use physics::{Material, Outline, Plate, Pose};
+use physics::{Material, Plate, Pose};
 use rayon::prelude::*;
 
-use super::sweeps::most;
+use super::most;
 use crate::chart::{Mark, Series, linear, panel};
 use crate::classifiers::network::Network;
-use crate::experiment::record::corridor::relief;
-use crate::experiment::record::pads::{Felt, Pads};
-use crate::experiment::recording::Dataset;
-use crate::experiment::request::Request;
+use crate::experiment::{Dataset, Request};
+use crate::moments::range;
 use crate::page::{Page, figure, row};
 use crate::paper::psik::RATE_HZ;
-use crate::rigs::{Chance, Made, Maze, Robot, Wall, seed_of};
+use crate::rigs::{Chance, Felt, Made, Maze, Pads, Robot, Wall, plane, relief, seed_of};
 
 /// A case's chance of the right turn, percent: two of four say right.
 const CHANCE: f64 = 50.0;
@@ -100,13 +100,7 @@ fn plate(request: &Request, wall: &Wall) -> Plate {
             (at, [way, 0.0, 0.0], relief(request, number))
         }
     };
-    Plate {
-        point_m,
-        normal: [x, y, 0.0],
-        along,
-        outline: Outline::PLANE,
-        surface,
-    }
+    plane(point_m, ([x, y, 0.0], along), surface)
 }
 
 struct Behaviour<'r> {
@@ -125,11 +119,8 @@ impl Behaviour<'_> {
     fn tick(&mut self, felt: &Felt, turned_rad: f64, dt_s: f64) -> Result<Option<[usize; 2]>> {
         let is_narrow = felt.distance_mm.iter().sum::<f64>() < self.maze.aperture_mm;
         let is_inside = matches!(self.doing, Doing::Inside(_));
-        self.other_s = if is_narrow == is_inside {
-            0.0
-        } else {
-            self.other_s + dt_s
-        };
+        let is_other = is_narrow != is_inside;
+        self.other_s = if is_other { self.other_s + dt_s } else { 0.0 };
         let is_over = self.other_s >= self.maze.detect_s;
         match &mut self.doing {
             Doing::Following => {
@@ -178,17 +169,11 @@ fn tour(request: &Request, network: &Network, heads_right: bool) -> Result<Tour>
     let way = if heads_right { 1.0 } else { -1.0 };
     let top = (maze.width_m - rig.width_m) / 2.0;
     let off = rig.start_spread_deg.to_radians();
+    let aside = chance.between(-rig.start_spread_m, rig.start_spread_m);
+    let back = if heads_right { 0.0 } else { PI };
     let mut robot = Robot {
-        neck_m: [
-            -way * maze.start_m,
-            top + chance.between(-rig.start_spread_m, rig.start_spread_m),
-        ],
-        heading: chance.between(-off, off)
-            + if heads_right {
-                0.0
-            } else {
-                core::f64::consts::PI
-            },
+        neck_m: [-way * maze.start_m, top + aside],
+        heading: chance.between(-off, off) + back,
     };
     let mut pads = Pads::new(rig, [1, 2].map(|side| seed_of(seed, &[side])))?;
     let mut behaviour = Behaviour {
@@ -226,20 +211,17 @@ fn tour(request: &Request, network: &Network, heads_right: bool) -> Result<Tour>
         let bearing = |robot: &Robot| libm::atan2(robot.neck_m[1], robot.neck_m[0]);
         let turn = bearing(&robot) - bearing(&before);
         // Clockwise is a start to the right.
-        tour.laps -= way
-            * (turn - core::f64::consts::TAU * (turn / core::f64::consts::TAU).round())
-            / core::f64::consts::TAU;
+        tour.laps -= way * (turn - TAU * (turn / TAU).round()) / TAU;
         if tick % (RATE_HZ as usize / 2) == 0 {
-            tour.path.push((robot.neck_m[0], robot.neck_m[1]));
+            tour.path.push(robot.neck_m.into());
         }
     }
     Ok(tour)
 }
 
 pub(super) fn section(page: &mut Page, request: &Request, network: &Network) -> Result<()> {
-    let tours = [true, false]
-        .into_par_iter()
-        .map(|right| tour(request, network, right));
+    let starts = [true, false].into_par_iter();
+    let tours = starts.map(|right| tour(request, network, right));
     let tours = tours.collect::<Result<Vec<Tour>>>()?;
     let (maze, rig) = (&request.rigs.maze, &request.rigs.corridor);
     page.say(format_args!(
@@ -267,11 +249,8 @@ pub(super) fn section(page: &mut Page, request: &Request, network: &Network) -> 
         rows,
     );
     let (a, b) = (maze.length_m / 2.0, maze.width_m / 2.0);
-    let outline: Vec<(f64, f64)> = maze
-        .walls(rig)
-        .iter()
-        .map(|wall| (wall.from_m[0], wall.from_m[1]))
-        .collect();
+    let walls = maze.walls(rig).into_iter();
+    let outline: Vec<(f64, f64)> = walls.map(|wall| wall.from_m.into()).collect();
     let mut panels = Vec::new();
     for (name, tour) in names.iter().zip(&tours) {
         let curves = [
@@ -284,10 +263,7 @@ pub(super) fn section(page: &mut Page, request: &Request, network: &Network) -> 
     page.say("**Fig. 10**: the robot's way, twice a second; walls by where their parts begin.");
     page.panels("psik-fig10.svg", "The robot's way in the maze", &panels)?;
 
-    let least = tours
-        .iter()
-        .map(|tour| tour.laps)
-        .fold(f64::INFINITY, f64::min);
+    let (least, _) = range(tours.iter().map(|tour| tour.laps));
     page.claim(
         "PSIK: the robot circulates around the maze, from either start (a whole tour or more)",
         "several tours in a row",
@@ -329,9 +305,9 @@ mod tests {
     use physics::Plate;
     use physics::vector::cross;
 
-    use super::{before, plate};
-    use crate::experiment::record::corridor;
+    use super::{PI, before, plate};
     use crate::experiment::request::{Name, Request};
+    use crate::rigs::corridor;
     use crate::rigs::{Corridor, Made, Robot};
 
     /// Whichever way it goes through a corridor, it meets the pieces of its training, each from
@@ -345,21 +321,16 @@ mod tests {
         for (case, side) in (0..4).flat_map(|case| [(case, 0), (case, 1)]) {
             let made = Made::Relief(corridor::walls(case)[side]);
             let wall = walls.iter().find(|wall| wall.made == made).unwrap();
-            let (met, trained) = (
-                plate(&request, wall),
-                corridor::plate(&request, side, case, 9),
-            );
+            let met = plate(&request, wall);
+            let trained = corridor::plate(&request, side, case, 9);
             for gone_m in [0.0, 0.3, 1.0] {
                 let ahead = matches!(case, 0 | 3);
                 let x = if ahead { gone_m - half } else { half - gone_m };
                 let off = at(&met, x) - at(&trained, gone_m);
                 assert!(off.abs() < 1e-12, "{case} {side} {gone_m}: {off}");
             }
-            let up = |plate: &Plate| cross(plate.normal, plate.along)[2];
-            assert_eq!(
-                (up(&met), met.point_m[2]),
-                (up(&trained), trained.point_m[2])
-            );
+            let up = |of: &Plate| (cross(of.normal, of.along)[2], of.point_m[2]);
+            assert_eq!(up(&met), up(&trained));
             assert_eq!(met.surface, trained.surface);
         }
     }
@@ -373,17 +344,11 @@ mod tests {
         let walls = maze.walls(rig);
         let middle_m = (maze.width_m - rig.width_m) / 2.0;
         for (case, side) in (0..4).flat_map(|case| [(case, 0), (case, 1)]) {
-            let heading = if matches!(case, 0 | 3) {
-                0.0
-            } else {
-                180.0_f64
-            };
             let robot = Robot {
                 neck_m: [0.0, if case < 2 { middle_m } else { -middle_m }],
-                heading: heading.to_radians(),
+                heading: if matches!(case, 0 | 3) { 0.0 } else { PI },
             };
-            let number = corridor::walls(case)[side];
-            let made = Made::Relief(number);
+            let made = Made::Relief(corridor::walls(case)[side]);
             let wall = walls.iter().find(|wall| wall.made == made).unwrap();
             let mut are_short = 0;
             for vibrissa in rig.layout.vibrissae() {
@@ -392,12 +357,8 @@ mod tests {
                 let short_m = rig.width_m / 2.0 - (tip_m - robot.neck_m[1]).abs();
                 if short_m < 0.03 {
                     are_short += u32::from(short_m > 0.0);
-                    let met = before(&request, &walls, &pose);
-                    assert_eq!(
-                        met,
-                        Some(plate(&request, wall)),
-                        "{case} {side}: {vibrissa:?}"
-                    );
+                    let met = before(&request, &walls, &pose).unwrap();
+                    assert_eq!(met, plate(&request, wall), "{case} {side}: {vibrissa:?}");
                 }
             }
             assert!(are_short > 0);
