@@ -61,19 +61,20 @@ pub(crate) enum Taken {
     NotBuilt,
 }
 
-const ANY_SCENE: &str = "cargo xtask firmware --any-scene builds one that has it";
-
 /// What to do about an image that was built without this.
 pub(crate) const fn builds(part: Part) -> &'static str {
     match part {
         Part::Tmag5170 => "cargo xtask firmware --scene SCENE builds one that reads it",
-        _ => ANY_SCENE,
+        // A program for any scene has no room for it on each board.
+        Part::SelfMotion => "cargo xtask firmware --scene SCENE builds one that has it",
+        _ => "cargo xtask firmware --any-scene builds one that has it",
     }
 }
 
 pub(crate) fn not_built(part: Part) -> Error {
     Error::Work(format!(
-        "the module's image was built without {part}; {ANY_SCENE}"
+        "the module's image was built without {part}; {}",
+        builds(part)
     ))
 }
 

@@ -180,7 +180,8 @@ pub(crate) fn save(arguments: &SaveArguments) -> Result<(), Error> {
     }
     output::write_whole(path, edited.as_bytes())?;
     report::say(format_args!(
-        "{name}: saved; whisker deploy --scene {name} has the module start with it"
+        "{name}: saved; whisker deploy --scene {name} has the module start with it, with --model \
+         where it names none"
     ));
     Ok(())
 }
