@@ -190,7 +190,9 @@ impl Conversation {
         self.tag = self.tag.wrapping_add(1);
         let tag = self.tag;
         if let (None, Command::Stream(on)) = (node, command) {
-            self.came_s = on.then(|| self.now_s());
+            // Asked again, it has been silent for as long.
+            let now_s = self.now_s();
+            self.came_s = on.then(|| self.came_s.unwrap_or(now_s));
         }
         let request = TaggedCommand { tag, command };
         self.source.request(node.or(self.node), request)?;
