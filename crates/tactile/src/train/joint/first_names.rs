@@ -7,49 +7,33 @@
 
 use std::vec::Vec;
 
+use statrs::distribution::{DiscreteCDF, Poisson};
+
 use super::floors::Floor;
 use super::pieces::Piece;
 use super::run::{Decided, Rule, decisions};
 use super::tables::Evidence;
-use crate::score::Interval;
 
 /// By what all weights are multiplied, in twentieths; the largest that holds is taken.
 const TWENTIETHS: core::ops::RangeInclusive<u32> = 1..=20;
 /// Thresholds at which names are wrong often enough for a few trials to show it.
 const LOWER: [f64; 2] = [0.8, 0.9];
+/// So rarely are as many wrong of what is right as often as it states.
+const RARE: f64 = 0.05;
 
-/// First names of trials.
-struct Named {
-    count: usize,
-    right: usize,
-    /// The sum of what they state.
-    stated: f64,
+/// Whether first names of trials may be right as often as they state: of so many the number of wrong
+/// ones is Poisson's.
+fn keep(mut names: Vec<Decided>) -> bool {
+    names.dedup_by_key(|name| name.piece);
+    let wrong = names.iter().filter(|name| name.class != name.truth).count() as u64;
+    let expected: f64 = names.iter().map(|name| 1.0 - name.posterior).sum();
+    // None where nothing is expected to be wrong.
+    let as_many = Poisson::new(expected).map(|wrongs| wrongs.sf(wrong.saturating_sub(1)));
+    wrong == 0 || as_many.is_ok_and(|probability| probability >= RARE)
 }
 
-impl Named {
-    fn of(mut names: Vec<Decided>) -> Self {
-        names.dedup_by_key(|name| name.piece);
-        let right = names.iter().filter(|name| name.class == name.truth);
-        Self {
-            count: names.len(),
-            right: right.count(),
-            stated: names.iter().map(|name| name.posterior).sum(),
-        }
-    }
-
-    /// Whether as many are right as they state.
-    fn keeps(&self) -> bool {
-        self.right as f64 >= self.stated.round()
-    }
-
-    /// Whether what they state is not above the 95 % interval of those that are right.
-    fn may_keep(&self) -> bool {
-        self.stated <= Interval::of(self.right, self.count).high * self.count as f64
-    }
-}
-
-/// The weights of `rule`, lowered until first names keep what they state: at its threshold in whole
-/// names, at lower ones as far as so many can show.
+/// The weights of `rule`, lowered until first names keep what they state at its threshold and at
+/// lower ones.
 pub(super) fn lowered(
     rule: &Rule,
     pieces: &[Piece<'_>],
@@ -64,7 +48,7 @@ pub(super) fn lowered(
         let factor = f64::from(twentieths) / 20.0;
         lower.weights = rule.weights.iter().map(|weight| factor * weight).collect();
         let floors = floors(&lower);
-        let named = |threshold: f64| {
+        let is_kept = |threshold: f64| {
             let rule = Rule {
                 threshold,
                 ..lower.clone()
@@ -74,9 +58,9 @@ pub(super) fn lowered(
                 let floor = floors.as_ref().and_then(|floors| floors.get(decided.class));
                 floor.is_none_or(|floor| !floor.refuses(decided.entries))
             });
-            Named::of(names)
+            keep(names)
         };
-        if named(rule.threshold).keeps() && LOWER.iter().all(|of| named(*of).may_keep()) {
+        if is_kept(rule.threshold) && LOWER.into_iter().all(is_kept) {
             break;
         }
     }
