@@ -32,7 +32,7 @@ use self::matrix::quantile;
 use self::paths::{Paths, Sensor};
 use self::poses::Poses;
 use self::stands::Stands;
-use self::touches::{Sense, Touch};
+use self::touches::{Kind, Sense, Touch};
 use self::typical::Typical;
 use crate::opinion::Whisked;
 use crate::opinion::pose::TARGETS;
@@ -275,11 +275,30 @@ impl Felt {
             .collect();
         let sense = Sense::of(trials, scales, block);
         let numbers = (of_class.as_slice(), of_trial.as_slice());
-        let mut touches = sense.touches(trials, scales, numbers, ([1.0; CHANNELS], false));
+        let of = |gains, kind| sense.touches(trials, scales, numbers, (gains, kind));
+        let poses = |touches: &[Touch]| -> Vec<usize> {
+            let all = |recording: usize| {
+                let of = touches.iter().filter(|touch| touch.recording == recording);
+                let count = |class| of.clone().filter(|touch| touch.class == class).count();
+                (0..names.len()).all(|class| count(class) >= LEAST_TOUCHES[1])
+            };
+            (0..recordings)
+                .filter(|recording| all(*recording))
+                .collect()
+        };
+        // Until it is known whether the opinion names.
+        let mut kind = Kind {
+            lasts: false,
+            has_tables: false,
+        };
+        let mut touches = of([1.0; CHANNELS], kind);
         let long = touches.iter().filter(|touch| touch.goes_on).count();
         let begins_again = long * 3 > touches.len();
-        if begins_again {
-            touches = sense.touches(trials, scales, numbers, ([1.0; CHANNELS], true));
+        touches.retain(|touch| !touch.goes_on);
+        kind.lasts = begins_again;
+        kind.has_tables = begins_again || poses(&touches).len() < LEAST_POSES;
+        if kind.has_tables {
+            touches = of([1.0; CHANNELS], kind);
         }
         touches.retain(|touch| begins_again || !touch.goes_on);
         let mut with_copies = touches.clone();
@@ -287,27 +306,21 @@ impl Felt {
         let of_both = of_both.map(|gain| [*gain; CHANNELS]);
         let gains = expect.gains().iter().map(|gain| [1.0, *gain]);
         for (n, gains) in gains.chain(of_both).enumerate() {
-            let mut copies = sense.touches(trials, scales, numbers, (gains, begins_again));
+            let mut copies = of(gains, kind);
             copies.retain(|touch| begins_again || !touch.goes_on);
             for copy in &mut copies {
                 copy.recording += (n + 1) * recordings;
             }
             with_copies.append(&mut copies);
         }
-        let count = |class: usize, is: &dyn Fn(&Touch) -> bool| {
+        let count = |class: usize, stage: usize| {
             let of_class = touches.iter().filter(|touch| touch.class == class);
-            of_class.filter(|touch| is(touch)).count()
+            of_class.filter(|touch| touch.len() >= stage).count()
         };
         let classes = names.len();
-        let all = |least: usize, is: &dyn Fn(&Touch) -> bool| {
-            (0..classes).all(|class| count(class, is) >= least)
-        };
-        let poses = (0..recordings)
-            .filter(|recording| all(LEAST_TOUCHES[1], &|touch| touch.recording == *recording))
-            .collect();
-        let stages = (1..=STAGES)
-            .take_while(|stage| all(LEAST_OF_STAGE, &|touch| touch.len() >= *stage))
-            .count();
+        let reach = |stage: usize| (0..classes).all(|class| count(class, stage) >= LEAST_OF_STAGE);
+        let poses = poses(&touches);
+        let stages = (1..=STAGES).take_while(|stage| reach(*stage)).count();
         let [turn, scale] = material.expect.sensor();
         let sensor = Sensor {
             turn,

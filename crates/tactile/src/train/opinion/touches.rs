@@ -77,6 +77,15 @@ pub(super) struct Sense {
     pub(super) block: u32,
 }
 
+/// What touches are for.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Kind {
+    /// They are longer than nine blocks: blocks that are not whole do not count.
+    pub(super) lasts: bool,
+    /// The opinion stands beside tables, whose blocks it shares.
+    pub(super) has_tables: bool,
+}
+
 /// Codes of a sensor of 14 bits.
 const RAW: core::ops::RangeInclusive<i32> = 0..=16383;
 
@@ -132,14 +141,14 @@ impl Sense {
         core::array::from_fn(|n| self.narrow.of(scales[n].code_from_f64(sample[n])))
     }
 
-    /// The touches of trials whose deflections are `gains` times what they were, without blocks
-    /// that are not whole where touches `lasts`. `classes` and `recordings` have a number a trial.
+    /// The touches of trials whose deflections are `gains` times what they were. `classes` and
+    /// `recordings` have a number a trial.
     pub(super) fn touches(
         &self,
         trials: &[Trial],
         scales: &[Quantiser; CHANNELS],
         (classes, recordings): (&[usize], &[usize]),
-        (gains, lasts): ([f64; CHANNELS], bool),
+        (gains, kind): ([f64; CHANNELS], Kind),
     ) -> Vec<Touch> {
         let mut touches: Vec<Touch> = Vec::new();
         let mut last_recording = None;
@@ -168,7 +177,7 @@ impl Sense {
                 }
                 differences.push(codes, touch != 0);
                 // Blocks are those of the tables beside it.
-                if touch == 0 || (lasts && at < roughness::KEPT) {
+                if touch == 0 || (kind.has_tables && at < roughness::KEPT) {
                     continue;
                 }
                 open += 1;
@@ -178,7 +187,7 @@ impl Sense {
                 open = 0;
                 let is_whole = differences.is_whole();
                 let (features, path) = differences.end_of_block();
-                if lasts && !is_whole {
+                if kind.lasts && !is_whole {
                     continue;
                 }
                 if is_new || touches.last().is_none_or(|touch| touch.len() == BLOCKS) {
@@ -240,12 +249,16 @@ mod tests {
         };
         let scales = [Quantiser::of_codes(0, 16_384); CHANNELS];
         let felt = |trials: &[Trial], lasts| {
+            let kind = Kind {
+                lasts,
+                has_tables: lasts,
+            };
             let numbers = vec![0; trials.len()];
             let touches = sense.touches(
                 trials,
                 &scales,
                 (&numbers, &numbers),
-                ([1.0; CHANNELS], lasts),
+                ([1.0; CHANNELS], kind),
             );
             touches.last().unwrap().features.clone()
         };
