@@ -8,7 +8,8 @@
 //! with weights of their own for each class and k, as friction turns a deflection as a tilt does:
 //! of a surface whose friction is not known the tilt cannot be. The error beside an estimate is the
 //! root mean square over touches of poses that its weights have not seen. An estimate stays within
-//! the poses of training; by what it would lie beyond them its error is larger. Both hold for the sensor and the surfaces of training: another scale, a
+//! the poses of training; by what it would lie beyond them its error is larger. Both hold for the
+//! sensor and the surfaces of training: another scale, a
 //! turn about the shaft and another friction bend a whisker as another pose does, and the error
 //! knows of them only what differed between the recordings.
 
