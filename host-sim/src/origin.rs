@@ -88,7 +88,12 @@ pub fn split(file: &[u8]) -> (Origin, u64, &[u8]) {
         if !said.starts_with(' ') && !said.is_empty() {
             break;
         }
-        if let Some((key, value)) = said.split_once('=') {
+        // Others write a colon; of a remark it says nothing.
+        let of_rate = |(key, _): &(&str, &str)| key.trim() == TICK_HZ;
+        let said = said
+            .split_once('=')
+            .or(said.split_once(':').filter(of_rate));
+        if let Some((key, value)) = said {
             origin = origin.with(key.trim(), value.trim());
         }
         (lines, rest) = (lines + 1, below);
@@ -141,9 +146,12 @@ mod tests {
 
     #[test]
     fn remarks_and_a_file_of_nothing_else_are_taken() {
-        let (origin, lines, table) = split(b"# recorded on Monday\n# tick_hz=100\r\n#");
-        assert_eq!(origin.get("tick_hz"), Some("100"));
-        assert_eq!((lines, table), (3, &b""[..]));
+        for rate in ["tick_hz=100", "tick_hz: 100"] {
+            let file = format!("# recorded at 10:30\n# {rate}\r\n#");
+            let (origin, lines, table) = split(file.as_bytes());
+            assert_eq!(origin, Origin::default().with("tick_hz", 100));
+            assert_eq!((lines, table), (3, &b""[..]));
+        }
         for table in [&b"a\n"[..], b"#,label\n1,a\n", b""] {
             assert_eq!(split(table), (Origin::default(), 0, table));
         }

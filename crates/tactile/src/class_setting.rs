@@ -44,6 +44,15 @@ impl ClassSetting {
     }
 }
 
+#[cfg(feature = "std")]
+impl ClassSetting {
+    /// θ; one half where the rule's own threshold holds.
+    pub fn theta(&self) -> f64 {
+        let bits = f64::from(self.threshold) / f64::from(crate::format::ENTRIES_PER_BIT);
+        1.0 / (1.0 + (-bits).exp2())
+    }
+}
+
 /// Room for classes, where the program has the code for it.
 const ROOM: usize = if PRIORS { MAX_CLASSES } else { 0 };
 

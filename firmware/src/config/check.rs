@@ -63,7 +63,7 @@ macro_rules! config_fields {
             Rcp = 13: "rcp";
             Cia = 14: "cia";
             Noise = 15: "noise";
-            Start = 16: "start";
+            Start = 16: "whisking.start";
             Seed = 17: "seed";
             Driver = 18: "motor.driver";
             OnFault = 19: "motor.on_fault";

@@ -4,11 +4,12 @@ use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
 use clap::Args;
-use scene::{Override, Scene};
+use scene::{Override, Rule, Scene};
 
 use super::choice::{SceneChoice, seed};
 use super::{ahead, any_picture, ends_in};
 use crate::bench::Bench;
+use crate::classifier::Classifier;
 use crate::decisions::{Columns, Decided, Score};
 use crate::loaded::Loaded;
 use crate::output::{self, Output, is_stdout};
@@ -90,7 +91,11 @@ pub fn run(arguments: &Arguments, verbosity: Verbosity) -> Result<String, Error>
     }
     loaded.scene.seed = arguments.seed.unwrap_or(loaded.scene.seed);
     let scene = &loaded.scene;
-    let run = Run::new(scene, loaded.classifier()?)?;
+    let classifier = loaded.classifier()?;
+    let by_costs = classifier
+        .as_ref()
+        .and_then(|classifier| by_costs(scene, classifier));
+    let run = Run::new(scene, classifier)?;
     let beside = ["trace.svg", "trace.png"].map(|name| out.join(name));
     let pictures = beside.iter().filter(|_| !no_plot).map(PathBuf::as_path);
     let pictures: Vec<&Path> = pictures.chain(plot).collect();
@@ -130,6 +135,9 @@ pub fn run(arguments: &Arguments, verbosity: Verbosity) -> Result<String, Error>
     if !played.classes.is_empty() {
         summary.push_str(", decisions.csv");
     }
+    if !no_plot {
+        summary.push_str(", trace.svg, trace.png");
+    }
     let motor = scene.motor.as_ref();
     if motor.is_some_and(|motor| !motor.arms_at_start()) {
         summary.push_str(
@@ -137,8 +145,8 @@ pub fn run(arguments: &Arguments, verbosity: Verbosity) -> Result<String, Error>
              --set motor.arm=at-start has them armed",
         );
     }
-    if !no_plot {
-        summary.push_str(", trace.svg, trace.png");
+    if let Some(thresholds) = by_costs {
+        let _ = write!(summary, "\nthresholds by costs: {thresholds}");
     }
     if let Some(load) = carried {
         let busy = 100.0 * load.busy_s / scene.duration_s;
@@ -149,6 +157,16 @@ pub fn run(arguments: &Arguments, verbosity: Verbosity) -> Result<String, Error>
         summary.push_str("; what each column is: host-sim columns");
     }
     Ok(summary)
+}
+
+/// What costs come to: the threshold of each class.
+fn by_costs(scene: &Scene, classifier: &Classifier) -> Option<String> {
+    let rule = scene.classifier.as_ref()?.rule;
+    matches!(rule, Rule::Costs { .. }).then(|| {
+        let classes = classifier.classes().iter().zip(classifier.settings());
+        let each = classes.map(|(name, of)| format!("{name} {:.6}", of.theta()));
+        each.collect::<Vec<_>>().join(", ")
+    })
 }
 
 impl Loaded {

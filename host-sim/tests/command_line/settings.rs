@@ -28,6 +28,21 @@ fn a_run_is_as_if_the_file_said_so() {
 }
 
 #[test]
+fn a_run_says_what_costs_come_to() {
+    let place = Place::classifying();
+    let keys = "cost_error = 20\ncost_delay_per_s = 1";
+    place.write(
+        "costs.toml",
+        place.text("s.toml").replace("threshold = 0.9", keys),
+    );
+    let ran = place.done("run costs.toml --out o --no-plot");
+    says(
+        &ran.stdout,
+        &["thresholds by costs: smooth 0.99", ", carpet 0.99"],
+    );
+}
+
+#[test]
 fn a_sweep_has_a_row_a_run_and_each_is_that_of_run() {
     let place = Place::classifying();
     let axes = "--key plant.obstacle_deg=[75.0],[80.0] --key classifier.threshold=0.8,0.9";
