@@ -3,7 +3,7 @@
 
 use crate::emulate::{Emulated, variants};
 use crate::firmware::Board;
-use crate::run::{Fault, cargo, run, take_built_programs};
+use crate::run::{Fault, cargo, linted, run, take_built_programs};
 use crate::steps::{Step, Steps};
 use crate::{
     book, cost, dependencies, descriptions, docs, emulate, endurance, faults, page, python,
@@ -22,9 +22,10 @@ pub(crate) const ALL: [&str; 5] = [
     "whisker-python",
 ];
 
-/// Features of what is in no program for this PC. Debug probes and libFuzzer, which are linted
-/// and built at night, make a fifth more to compile.
-const LINTED: &str = "mlx90333/defmt,tmag5170/defmt";
+/// What [`ALL`] does not build, and features of what is in no program for this PC. Debug probes and
+/// libFuzzer, which are linted and built at night, make a fifth more to compile.
+const NOT_BUILT: [&str; 5] = ["-p", "count", "--all-targets", "--features", DRIVERS];
+const DRIVERS: &str = "mlx90333/defmt,tmag5170/defmt";
 
 /// Of the properties' cases.
 const SEED: &str = "1";
@@ -62,8 +63,8 @@ pub(crate) fn all(only: Vec<String>) -> Result<(), Fault> {
 
 fn in_order(steps: &Steps) -> Result<(), Fault> {
     steps.run("format", format)?;
-    steps.run("lints", lints)?;
-    steps.run("programs and tests, built", build)?;
+    steps.run("lints of what is not built here", lints)?;
+    steps.run("programs and tests, built with lints", build)?;
     steps.run("dependencies", dependencies::check)?;
     steps.beside(&[&ON_THE_BOARDS, &ON_THE_PC])?;
     // With the processors to itself.
@@ -90,8 +91,8 @@ fn format() -> Result<(), Fault> {
 }
 
 fn lints() -> Result<(), Fault> {
-    let all = ["clippy", "--workspace", "--all-targets"];
-    run(cargo(&all).args(["--features", LINTED]).args(DENY))?;
+    let drivers = ["clippy", "-p", "mlx90333", "-p", "tmag5170"];
+    run(cargo(&drivers).args(NOT_BUILT).args(DENY))?;
     let [board, ..] = Board::ALL;
     let board = board.build_arguments(board.every_part);
     run(cargo(&["clippy"]).args(board).args(DENY))
@@ -99,7 +100,8 @@ fn lints() -> Result<(), Fault> {
 
 /// With the tests' features, which programs alone have not.
 fn build() -> Result<(), Fault> {
-    run(cargo(&["build", "--locked", "--bins", "--tests"]).args(ALL))?;
+    let mut build = cargo(&["build", "--locked", "--all-targets"]);
+    run(linted(build.args(ALL)))?;
     take_built_programs()
 }
 
@@ -107,7 +109,7 @@ fn build() -> Result<(), Fault> {
 /// it changes; the nightly run tries others.
 fn tests() -> Result<(), Fault> {
     let mut test = cargo(&["test", "--locked"]);
-    run(test.args(ALL).env("PROPTEST_RNG_SEED", SEED))
+    run(linted(test.args(ALL)).env("PROPTEST_RNG_SEED", SEED))
 }
 
 /// Half of it runs beside the other half; the rest is for the night.

@@ -5,7 +5,7 @@ use std::process::Command;
 use std::sync::Mutex;
 use std::{env, fs};
 
-use crate::run::{Fault, cargo, listing, once, output, remove, run, target, top};
+use crate::run::{Fault, cargo, linted, listing, once, output, remove, run, target, top};
 use crate::traces;
 
 /// The oldest Python that the wheel is for.
@@ -71,12 +71,6 @@ fn newest() -> Result<PathBuf, Fault> {
     Ok(python)
 }
 
-fn wheel(python: &Path, how: &[&str]) -> Result<PathBuf, Fault> {
-    let wheels = place("wheels");
-    run(maturin(python, &top().join("python"), &wheels)?.args(how))?;
-    only(&wheels)
-}
-
 /// What builds the wheel of the package in a folder to another, which is emptied.
 fn maturin(python: &Path, package: &Path, wheels: &Path) -> Result<Command, Fault> {
     let tools = environment(python, "tools", &[MATURIN])?;
@@ -101,7 +95,10 @@ fn only(wheels: &Path) -> Result<PathBuf, Fault> {
 /// and in one of the oldest, where it runs a scene; the night runs the tests there too.
 pub(crate) fn test() -> Result<(), Fault> {
     let python = newest()?;
-    let wheel = wheel(&python, AS_TESTS)?;
+    let wheels = place("wheels");
+    let mut build = maturin(&python, &top().join("python"), &wheels)?;
+    run(linted(build.args(AS_TESTS)))?;
+    let wheel = only(&wheels)?;
     let packages = ["gymnasium", "mypy", "pandas", "pytest"];
     let inside = environment(&python, "newest", &packages)?;
     run(pip(&inside).arg(&wheel))?;
@@ -113,7 +110,7 @@ pub(crate) fn test() -> Result<(), Fault> {
         .args(["-m", "pytest", "--quiet"])
         .env("WHISKER_TRACES", traces::written()?);
     run(tests.current_dir(top().join("python")))?;
-    try_wheel(&place("wheels"))
+    try_wheel(&wheels)
 }
 
 /// What takes long: the source distribution, built outside the checkout; sweeps on Dask and Ray;
@@ -158,7 +155,9 @@ pub(crate) fn whole() -> Result<(), Fault> {
 }
 
 pub(crate) fn release() -> Result<PathBuf, Fault> {
-    wheel(&newest()?, RELEASE)
+    let wheels = place("wheels");
+    run(maturin(&newest()?, &top().join("python"), &wheels)?.args(RELEASE))?;
+    only(&wheels)
 }
 
 /// Installs the wheel of this folder into a clean environment of the oldest Python of this

@@ -88,6 +88,16 @@ pub(crate) fn cargo(arguments: &[&str]) -> Command {
     command
 }
 
+/// Lints the workspace's crates while it compiles them, with warnings as errors: clippy's compiler is
+/// rustc's, and checks apart would compile all dependencies once more. What is compiled is not
+/// taken for what rustc alone compiles.
+pub(crate) fn linted(command: &mut Command) -> &mut Command {
+    // As `cargo clippy -- -D warnings` says it.
+    let warnings = "-D__CLIPPY_HACKERY__warnings__CLIPPY_HACKERY__";
+    let compiler = ("RUSTC_WORKSPACE_WRAPPER", "clippy-driver");
+    command.envs([compiler, ("CLIPPY_ARGS", warnings)])
+}
+
 /// `cargo` with a command for a package outside the workspace, which is built in a folder of its
 /// own.
 pub(crate) fn cargo_apart(command: &str, package: &str, folder: &str) -> Command {

@@ -3,7 +3,7 @@
 
 use std::process::Command;
 
-use crate::run::{Fault, cargo, run, target};
+use crate::run::{Fault, cargo, linted, run, target};
 
 /// From the top.
 pub(crate) const MANIFEST: &str = "studies/Cargo.toml";
@@ -22,20 +22,15 @@ pub(crate) fn format() -> Result<(), Fault> {
     run(&mut cargo(&["fmt", "--manifest-path", MANIFEST, "--check"]))
 }
 
-pub(crate) fn lints() -> Result<(), Fault> {
-    let lints = ["--all-targets", "--", "-D", "warnings"];
-    run(in_workspace("clippy").args(lints))
-}
-
 /// Tests, which make pages in short; with a seed, properties are tried on the same cases in each
 /// run, and what takes minutes is left out.
 pub(crate) fn check(seed: Option<&str>) -> Result<(), Fault> {
     let all = ["--", "--include-ignored"];
     let mut tests = in_workspace("test");
-    run(match seed {
+    run(linted(match seed {
         Some(seed) => tests.env("PROPTEST_RNG_SEED", seed),
         None => tests.args(all),
-    })
+    }))
 }
 
 /// All experiments, which the tests make in short.
