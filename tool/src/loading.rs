@@ -39,6 +39,9 @@ fn refused(command: Command, status: CommandStatus) -> Error {
     let why = match (command, status) {
         (Command::Load(_), CommandStatus::NotHere) => return not_built(Part::Deploy),
         (Command::Load(_), CommandStatus::OutOfRange) => "its flash has no room for so much",
+        (Command::Word(..), CommandStatus::NotHere) => {
+            "the board waited two seconds for the rest, and runs by the scene before; deploy again"
+        }
         (_, CommandStatus::NotWritten) => "its flash did not take what was written; try again",
         _ => return Error::Work(format!("{}: {status}", command.name())),
     };

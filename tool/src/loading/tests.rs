@@ -80,4 +80,7 @@ fn a_board_that_refuses_says_why() {
     assert_eq!(refused(is_load, CommandStatus::Armed), armed);
     let fault = "its flash did not take what was written; try again";
     assert_eq!(refused(is_word, CommandStatus::NotWritten), fault);
+    let late =
+        "the board waited two seconds for the rest, and runs by the scene before; deploy again";
+    assert_eq!(refused(is_word, CommandStatus::NotHere), late);
 }
