@@ -9,7 +9,7 @@
 //! - **named**: a decision for a class; **decided**: a presentation with one.
 //! - **short**: by how many points right lies below stated.
 //!
-//! Trainings have seeds from 7001 on and 7501 on, tests from 7101 on: nothing else has them, and
+//! Trainings have seeds from 8001 on and 8501 on, tests from 8101 on: nothing else has them, and
 //! nothing is chosen by what comes of them.
 
 mod bound;
@@ -152,8 +152,8 @@ fn introduction(page: &mut Page, extent: &Extent) {
          Errors cluster by training, so that the truth is somewhat wider. A goal is missed where \
          the interval excludes it. *Silent* says why decisions named no class: what was felt is \
          unlike all classes, touched in a way that was not trained, or between two classes. Each \
-         training has its own presentations, with seeds from 7101 on; trainings have seeds from \
-         7001 on and 7501 on; nothing else has them, and nothing was chosen by them. The figures \
+         training has its own presentations, with seeds from 8101 on; trainings have seeds from \
+         8001 on and 8501 on; nothing else has them, and nothing was chosen by them. The figures \
          of each training are in [poses.csv](poses.csv).",
     );
     if extent.is_quick {

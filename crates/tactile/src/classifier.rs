@@ -367,7 +367,11 @@ impl<W: Words> StreamClassifier<W> {
         self.elsewhere.forget();
         let is_below = model.has_floors() && excess.iter().any(|tables| *tables < 0);
         let touch = by.map_or(0, |(_, touch)| touch);
-        Some(decision.in_touch(touch, reason(is_below, objection)))
+        let decision = decision.in_touch(touch, reason(is_below, objection));
+        match by.and_then(|(n, _)| self.streams.get_mut(n)) {
+            Some(stream) => stream.say(section, decision),
+            None => Some(decision),
+        }
     }
 }
 

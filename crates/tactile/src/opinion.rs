@@ -26,7 +26,8 @@
 //!
 //! Of what is named the [pose] may be estimated too.
 //!
-//! What is refused has a [`Reason`](crate::Reason): 1 the pose, 2 unknown, 3 between two classes.
+//! What is refused has a [`Reason`](crate::Reason): 1 the pose, 2 unknown, 3 between two classes. So
+//! many decisions in a row must name none until it is said: the next touch may yet name a class.
 
 pub(crate) mod differences;
 pub(crate) mod path;
@@ -396,6 +397,18 @@ pub(crate) struct Judge {
     spent: u32,
     /// Whether this touch has had its decision.
     is_done: bool,
+    /// Decisions in a row that named none, and were not said.
+    refused: u8,
+}
+
+/// The number of decisions in a row that name none of which the last is said, if it has this reason:
+/// what is known is mostly named by the next.
+const fn needed(reason: Reason) -> u8 {
+    match reason {
+        Reason::Pose => 1,
+        Reason::Unknown => 2,
+        Reason::Between(_) => 3,
+    }
 }
 
 impl Judge {
@@ -405,7 +418,19 @@ impl Judge {
             held: None,
             spent: 0,
             is_done: false,
+            refused: 0,
         }
+    }
+
+    /// The decision, if it is to be said.
+    pub(crate) fn say(&mut self, decision: Decision) -> Option<Decision> {
+        self.refused = self.refused.saturating_add(1);
+        let reason = decision.reason();
+        if reason.is_some_and(|reason| self.refused < needed(reason)) {
+            return None;
+        }
+        self.refused = 0;
+        Some(decision)
     }
 
     /// A touch begins; whether the one before was refused and that was not said.
@@ -452,7 +477,7 @@ impl Judge {
             let decision = decision.in_touch(touch, reason);
             if reason.is_none() {
                 self.finish();
-                return Some(decision);
+                return self.say(decision);
             }
             self.spent = decision.samples();
             self.held = Some(decision);
@@ -467,7 +492,7 @@ impl Judge {
         })?;
         self.finish();
         *evidence = rule.start();
-        Some(said)
+        self.say(said)
     }
 }
 

@@ -255,7 +255,20 @@ impl<E> StreamState<E> {
         let excess = self.excess(decision.leader());
         let is_below = model.has_floors() && excess.iter().any(|tables| *tables < 0);
         let objection = self.objection(section, model.classes(), decision.leader());
-        Some(decision.in_touch(self.touch, reason(is_below, objection)))
+        let decision = decision.in_touch(self.touch, reason(is_below, objection));
+        self.say(section, decision)
+    }
+
+    /// The decision, if it is to be said: without an opinion each is.
+    pub(crate) fn say(
+        &mut self,
+        section: Option<Section<'_>>,
+        decision: Decision,
+    ) -> Option<Decision> {
+        match (section, self.judges.as_mut_slice()) {
+            (Some(_), [judge, ..]) => judge.say(decision),
+            _ => Some(decision),
+        }
     }
 
     pub(crate) fn is_early(&self, section: Option<Section<'_>>) -> bool {

@@ -16,7 +16,7 @@ use crate::decisions::figures::{number, percent};
 use crate::page::row;
 
 /// Seeds of the presentations, some for each condition.
-const FRESH: u64 = 7801;
+const FRESH: u64 = 8801;
 /// Samples of a block, and the first and the last block, from 0 and excluded, of each part of a
 /// touch. A touch without the third part says too little.
 const BLOCK: usize = 40;

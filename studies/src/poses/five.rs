@@ -10,9 +10,9 @@ use super::{
     WHISKER, as_felt, found, said,
 };
 
-const SEED: u64 = 7011;
-const FRESH: u64 = 7301;
-const CHANGED: u64 = 7311;
+const SEED: u64 = 8011;
+const FRESH: u64 = 8301;
+const CHANGED: u64 = 8311;
 pub(super) const TILTS: [[Change; 1]; 5] = [
     [Change::Tilt(14.0)],
     [Change::Tilt(17.0)],
@@ -131,8 +131,8 @@ pub(super) fn scenes(
         ..Setting::of(file, &[])
     };
     let scenes = [
-        (setting(TEXTURES, None), [7041, 7401], (97.0, Some(120.0))),
-        (setting(SPREAD, Some(SPREAD_S)), [7051, 7411], (85.0, None)),
+        (setting(TEXTURES, None), [8041, 8401], (97.0, Some(120.0))),
+        (setting(SPREAD, Some(SPREAD_S)), [8051, 8411], (85.0, None)),
     ];
     let mut rows = Vec::new();
     let mut last = None;

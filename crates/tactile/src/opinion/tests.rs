@@ -1,5 +1,6 @@
 use super::section::MEANS;
 use super::*;
+use crate::decision::Posterior;
 
 /// A section of two classes that has means, of which nothing else is known.
 fn head() -> [u32; 1] {
@@ -47,4 +48,22 @@ fn near_parts_weigh_by_the_root_of_their_number() {
     assert_eq!(rival, None, "odds of 1 to 1 at most are counted");
     let rival = opinion.rival((1 << 25, Nearness::Unknown), 2, 0);
     assert_eq!(rival, Some(1));
+}
+
+#[test]
+fn what_names_none_is_said_as_the_first_second_or_third_in_a_row() {
+    use Reason::{Between, Pose, Unknown};
+    let said = |row: &[Option<Reason>]| {
+        let mut judge = Judge::new();
+        let decision = Decision::new(1, 9, Posterior::from_odds_against(0, 0));
+        let row = row.iter().map(|reason| decision.in_touch(1, *reason));
+        row.map(|decision| judge.say(decision).is_some())
+            .collect::<Vec<_>>()
+    };
+    let [pose, unknown, between] = [Pose, Unknown, Between(0)].map(Some);
+    assert_eq!(said(&[pose, None, pose, pose]), [true; 4]);
+    assert_eq!(said(&[unknown, unknown, unknown]), [false, true, false]);
+    assert_eq!(said(&[between, between, between]), [false, false, true]);
+    assert_eq!(said(&[between, None, unknown]), [false, true, false]);
+    assert_eq!(said(&[between, unknown, between]), [false, true, false]);
 }
