@@ -1,5 +1,7 @@
 //! What a core must not execute, seen to trap.
 
+mod arithmetic;
+
 use rsemu::cpu::arm::v7m::sys::{DEMCR_TRCENA, DWT_CTRL_CYCCNTENA};
 
 use super::{Core, EXCEPTION, IT_BLOCK, ROUND_CYCLES, ROUND_INSTRUCTIONS, v6m};

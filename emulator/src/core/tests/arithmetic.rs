@@ -4,55 +4,29 @@
 //! assembled elsewhere. Results that are not a number are compared as such:
 //! the sign of one that is passed on is not defined the same everywhere.
 
-use std::sync::Arc;
-
 use rand_core::{Rng, SeedableRng};
 use rand_xoshiro::Xoshiro256PlusPlus;
-use rsemu::core::space::{AddressSpace, RamStore, Region};
-use rsemu::cpu::arm::v7m::{ArmV7m, Config};
 
-const CODE: u32 = 0x100;
-const DATA: u32 = 0x800;
+use super::{CODE, core_in_memory};
+use crate::chip::CoreKind;
+use crate::memory::RAM;
+
 const CASES: usize = 20_000;
 
-struct Rig {
-    core: ArmV7m,
-    ram: Arc<RamStore>,
-}
-
-impl Rig {
-    /// A core before the first of these half-words.
-    fn new(code: &[u16]) -> Self {
-        let ram = Arc::new(RamStore::new(0x1000));
-        let put = |at: u32, bytes: &[u8]| ram.write_at(at.into(), bytes).unwrap();
-        put(0, &0x1000_u32.to_le_bytes());
-        put(4, &(CODE | 1).to_le_bytes());
-        for (at, half) in (CODE..).step_by(2).zip(code) {
-            put(at, &half.to_le_bytes());
+/// What stands in the fourth word of RAM after `steps` instructions of a code, by the three before.
+fn runs(code: &[u16], steps: usize) -> impl FnMut([u32; 3]) -> u32 {
+    let (mut core, memories) = core_in_memory(CoreKind::M4F, code);
+    core.with_sys(|sys| sys.cpacr = 0xF << 20);
+    core.set_reg(0, RAM);
+    move |operands| {
+        for (at, word) in (RAM..).step_by(4).zip(operands) {
+            memories.write(at, &word.to_le_bytes()).unwrap();
         }
-        let space = AddressSpace::new("test", 32);
-        let region = Region::ram("ram", Arc::clone(&ram));
-        space.topology().map(region, 0).unwrap();
-        let core = ArmV7m::new(Config::CORTEX_M4F);
-        core.attach_space(Arc::new(space));
-        core.step();
-        core.with_sys(|sys| sys.cpacr = 0xF << 20);
-        Self { core, ram }
-    }
-
-    /// Runs `steps` instructions on three operands in memory; the fourth word after.
-    fn run(&self, operands: [u32; 3], steps: usize) -> u32 {
-        for (at, word) in (DATA..).step_by(4).zip(operands) {
-            self.ram.write_at(at.into(), &word.to_le_bytes()).unwrap();
-        }
-        self.core.set_reg(0, DATA);
-        self.core.set_pc(CODE);
+        core.set_pc(CODE);
         for _ in 0..steps {
-            self.core.step();
+            core.step();
         }
-        let mut word = [0; 4];
-        self.ram.read_at((DATA + 12).into(), &mut word).unwrap();
-        u32::from_le_bytes(word)
+        memories.word(RAM + 12).unwrap()
     }
 }
 
@@ -98,9 +72,9 @@ fn single(name: &str, operation: [u16; 2], expected: impl Fn(f32, f32, f32) -> f
     let mut code = vec![0xED90, 0x0A00, 0xEDD0, 0x0A01, 0xED90, 0x1A02];
     code.extend(operation);
     code.extend([0xED80, 0x1A03]);
-    let rig = Rig::new(&code);
+    let mut run = runs(&code, 5);
     for operands in operands() {
-        let found = f32::from_bits(rig.run(operands, 5));
+        let found = f32::from_bits(run(operands));
         let [a, b, c] = operands.map(f32::from_bits);
         let expected = expected(a, b, c);
         let same = found.to_bits() == expected.to_bits() || (found.is_nan() && expected.is_nan());
@@ -113,9 +87,9 @@ fn integer(name: &str, operation: [u16; 2], expected: impl Fn(i32, i32, i32) -> 
     let mut code = vec![0x6801, 0x6842, 0x6883];
     code.extend(operation);
     code.push(0x60C3);
-    let rig = Rig::new(&code);
+    let mut run = runs(&code, 5);
     for operands in operands() {
-        let found = rig.run(operands, 5).cast_signed();
+        let found = run(operands).cast_signed();
         let [a, b, c] = operands.map(u32::cast_signed);
         assert_eq!(found, expected(a, b, c), "{name} {operands:x?}");
     }
