@@ -1,6 +1,8 @@
 //! An SPI as master of eight-bit frames (RM0390, chapter 26; RM0008, chapter 25; RM0444,
 //! chapter 35).
 
+use std::collections::VecDeque;
+
 use super::Ps;
 use super::fields::{Field, field, whole};
 
@@ -51,26 +53,6 @@ pub(super) enum Version {
     Queues,
 }
 
-#[derive(Debug, Clone, Copy, Default)]
-struct Queue {
-    bytes: [u8; 4],
-    len: usize,
-}
-
-impl Queue {
-    const fn push(&mut self, byte: u8) {
-        self.bytes[self.len % 4] = byte;
-        self.len += 1;
-    }
-
-    fn pop(&mut self) -> Option<u8> {
-        let first = self.bytes[0];
-        self.len = self.len.checked_sub(1)?;
-        self.bytes.rotate_left(1);
-        Some(first)
-    }
-}
-
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct Shift {
     pub(super) sent: u8,
@@ -84,8 +66,8 @@ pub(super) struct Spi {
     cr1: u32,
     cr2: u32,
     pub(super) shift: Option<Shift>,
-    waiting: Queue,
-    received: Queue,
+    waiting: VecDeque<u8>,
+    received: VecDeque<u8>,
     last: u8,
     overrun: bool,
     /// DR has been read since the overrun.
@@ -129,7 +111,7 @@ impl Spi {
 
     fn begin(&mut self, now: Ps, bus: Ps) {
         if self.shift.is_none()
-            && let Some(sent) = self.waiting.pop()
+            && let Some(sent) = self.waiting.pop_front()
         {
             let (began, ends) = (now, now + 8 * self.bit(bus));
             self.shift = Some(Shift { sent, began, ends });
@@ -138,18 +120,18 @@ impl Spi {
 
     pub(super) fn end(&mut self, answer: u8, now: Ps, bus: Ps) {
         self.shift = None;
-        if self.received.len == self.room() {
+        if self.received.len() == self.room() {
             self.overrun = true;
             self.overrun_seen = false;
         } else {
-            self.received.push(answer);
+            self.received.push_back(answer);
         }
         self.begin(now, bus);
     }
 
-    const fn is_received(&self) -> bool {
+    fn is_received(&self) -> bool {
         let pairs = matches!(self.version, Version::Queues) && !FRXTH.is_in(self.cr2);
-        self.received.len >= if pairs { 2 } else { 1 }
+        self.received.len() >= if pairs { 2 } else { 1 }
     }
 
     pub(super) const fn asks_dma(&self) -> bool {
@@ -157,7 +139,7 @@ impl Spi {
     }
 
     /// Whether a received byte asks the DMA to fetch it.
-    pub(super) const fn requests(&self) -> bool {
+    pub(super) fn requests(&self) -> bool {
         self.is_received() && self.asks_dma()
     }
 
@@ -178,7 +160,7 @@ impl Spi {
                     self.overrun_seen = false;
                 }
                 RXNE.when(self.is_received())
-                    | TXE.when(self.waiting.len <= self.room() / 2)
+                    | TXE.when(self.waiting.len() <= self.room() / 2)
                     | OVR.when(self.overrun)
                     | BSY.when(self.shift.is_some())
                     | self.levels()
@@ -186,7 +168,7 @@ impl Spi {
             DR => {
                 self.overrun_seen = self.overrun;
                 (0..self.moved(bytes)).fold(0, |word, n| {
-                    if let Some(byte) = self.received.pop() {
+                    if let Some(byte) = self.received.pop_front() {
                         self.last = byte;
                     }
                     word | u32::from(self.last) << (8 * n)
@@ -202,7 +184,7 @@ impl Spi {
             Version::One => 0,
             Version::Queues => {
                 let quarters = |len: usize| len.min(3) as u32;
-                quarters(self.received.len) << 9 | quarters(self.waiting.len) << 11
+                quarters(self.received.len()) << 9 | quarters(self.waiting.len()) << 11
             }
         }
     }
@@ -235,14 +217,14 @@ impl Spi {
             DR => {
                 let mut rest = value;
                 for _ in 0..self.moved(bytes) {
-                    if self.waiting.len == self.room() {
+                    if self.waiting.len() == self.room() {
                         // The one that waits is written over; a full queue takes no more.
                         match self.version {
-                            Version::One => self.waiting.len = 0,
+                            Version::One => self.waiting.clear(),
                             Version::Queues => return true,
                         }
                     }
-                    self.waiting.push(rest as u8);
+                    self.waiting.push_back(rest as u8);
                     rest >>= 8;
                 }
                 self.begin(now, bus);
