@@ -31,6 +31,12 @@ const SWITCHES: [(u32, u32); 3] = [
 const CSSF: u32 = 1 << 7;
 const CSSC: u32 = 1 << 23;
 
+/// In CSR, on every chip: what caused the reset.
+const PINRSTF: u32 = 1 << 26;
+const PORRSTF: u32 = 1 << 27;
+const SFTRSTF: u32 = 1 << 28;
+const IWDGRSTF: u32 = 1 << 29;
+
 /// A register with gates, and one with resets, of peripherals: named for the bus or, with
 /// several buses of one clock, for the register.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -120,8 +126,8 @@ pub(super) struct Layout {
     gates: &'static [(Bus, u32, u32)],
     /// The register of the causes of a reset, and the bit that clears them.
     csr: (u32, u32),
-    /// The causes' flags: power, watchdog, pin, software, brown-out.
-    causes: [u32; 5],
+    /// The flag of a brown-out, which the supply sets too as it comes, where there is one.
+    brown_out: Option<u32>,
     /// Where the clock security system tells of its interrupt, and is answered; nothing where
     /// it is not used.
     security: Option<u32>,
@@ -146,6 +152,19 @@ const SWITCH_NAMES: [[&str; 2]; 3] = [
 ];
 
 impl Layout {
+    /// The flags of a cause. Each reset pulls the pin low.
+    fn flags(&self, cause: ResetCause) -> u32 {
+        let brown_out = self.brown_out.unwrap_or(PORRSTF);
+        PINRSTF
+            | match cause {
+                ResetCause::Power => PORRSTF | brown_out,
+                ResetCause::Watchdog => IWDGRSTF,
+                ResetCause::Pin => 0,
+                ResetCause::Software => SFTRSTF,
+                ResetCause::BrownOut => brown_out,
+            }
+    }
+
     /// The registers of gates, or of resets, of a peripheral's bus.
     pub(super) fn gate(&self, bus: Bus) -> Option<u32> {
         let mut gates = self.gates.iter();
@@ -160,7 +179,6 @@ impl Layout {
     pub(super) fn fields(&self) -> Vec<Field> {
         let (cfgr, mask, above) = self.selection;
         let (csr, clear) = self.csr;
-        let pin = self.causes[2];
         let switches = self.switches.iter().zip(SWITCH_NAMES);
         let switches = switches.flat_map(|((on, ready), [switch, flag])| {
             [field("CR", CR, switch, *on), field("CR", CR, flag, *ready)]
@@ -170,9 +188,9 @@ impl Layout {
                 field("CFGR", cfgr, "SW", mask),
                 field("CFGR", cfgr, "SWS", mask << above),
                 field("CSR", csr, "RMVF", clear),
-                field("CSR", csr, "PINRSTF", pin),
-                field("CSR", csr, "IWDGRSTF", self.causes[1] & !pin),
-                field("CSR", csr, "SFTRSTF", self.causes[3] & !pin),
+                field("CSR", csr, "PINRSTF", PINRSTF),
+                field("CSR", csr, "IWDGRSTF", IWDGRSTF),
+                field("CSR", csr, "SFTRSTF", SFTRSTF),
             ])
             .collect()
     }
@@ -204,7 +222,7 @@ impl Rcc {
             kept: layout.kept.iter().map(|(_, value)| *value).collect(),
             resets: [0; BUSES],
             gates,
-            csr: layout.causes[ResetCause::Power as usize],
+            csr: layout.flags(ResetCause::Power),
             pulsed: [0; BUSES],
             stopped: false,
             has_failed: false,
@@ -230,7 +248,7 @@ impl Rcc {
 
     /// As after a reset; the flags that tell why outlive it.
     pub(super) fn reset(&mut self, cause: ResetCause) {
-        let flags = self.layout.causes[cause as usize];
+        let flags = self.layout.flags(cause);
         let is_first = cause == ResetCause::Power;
         *self = Self {
             csr: if is_first { flags } else { self.csr | flags },

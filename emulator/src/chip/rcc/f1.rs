@@ -10,13 +10,6 @@ const CFGR: u32 = 0x04;
 const PLLSRC: u32 = 1 << 16;
 const PLLXTPRE: u32 = 1 << 17;
 
-/// Flags of CSR: what caused the reset.
-const RMVF: u32 = 1 << 24;
-const PINRSTF: u32 = 1 << 26;
-const PORRSTF: u32 = 1 << 27;
-const SFTRSTF: u32 = 1 << 28;
-const IWDGRSTF: u32 = 1 << 29;
-
 pub(in crate::chip) static LAYOUT: Layout = Layout {
     kept: &[(CR, 0x83), (CFGR, 0)],
     switches: &SWITCHES,
@@ -27,14 +20,8 @@ pub(in crate::chip) static LAYOUT: Layout = Layout {
         (Bus::Apb2, 0x18, 0),
         (Bus::Apb1, 0x1C, 0),
     ],
-    csr: (0x24, RMVF),
-    causes: [
-        PINRSTF | PORRSTF,
-        PINRSTF | IWDGRSTF,
-        PINRSTF,
-        PINRSTF | SFTRSTF,
-        PINRSTF | PORRSTF,
-    ],
+    csr: (0x24, 1 << 24),
+    brown_out: None,
     security: Some(0x08),
     hsi_hz: HSI_HZ,
     hsi_divider: 0,

@@ -7,14 +7,6 @@ const HSI_HZ: u64 = 16_000_000;
 const PLLCFGR: u32 = 0x04;
 const CFGR: u32 = 0x08;
 
-/// Flags of CSR: what caused the reset.
-const RMVF: u32 = 1 << 24;
-const BORRSTF: u32 = 1 << 25;
-const PINRSTF: u32 = 1 << 26;
-const PORRSTF: u32 = 1 << 27;
-const SFTRSTF: u32 = 1 << 28;
-const IWDGRSTF: u32 = 1 << 29;
-
 pub(in crate::chip) static LAYOUT: Layout = Layout {
     kept: &[(CR, 0x83), (PLLCFGR, 0x2400_3010), (CFGR, 0)],
     switches: &SWITCHES,
@@ -25,14 +17,8 @@ pub(in crate::chip) static LAYOUT: Layout = Layout {
         (Bus::Apb1, 0x40, 0),
         (Bus::Apb2, 0x44, 0),
     ],
-    csr: (0x74, RMVF),
-    causes: [
-        BORRSTF | PINRSTF | PORRSTF,
-        PINRSTF | IWDGRSTF,
-        PINRSTF,
-        PINRSTF | SFTRSTF,
-        PINRSTF | BORRSTF,
-    ],
+    csr: (0x74, 1 << 24),
+    brown_out: Some(1 << 25),
     security: Some(0x0C),
     hsi_hz: HSI_HZ,
     hsi_divider: 0,

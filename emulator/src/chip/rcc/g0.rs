@@ -15,13 +15,6 @@ const HSIDIV: u32 = 7 << 11;
 /// In PLLCFGR: the output towards the core is on.
 const PLLREN: u32 = 1 << 28;
 
-/// Flags of CSR: what caused the reset.
-const RMVF: u32 = 1 << 23;
-const PINRSTF: u32 = 1 << 26;
-const PWRRSTF: u32 = 1 << 27;
-const SFTRSTF: u32 = 1 << 28;
-const IWDGRSTF: u32 = 1 << 29;
-
 pub(in crate::chip) static LAYOUT: Layout = Layout {
     kept: &[(CR, 0x500), (CFGR, 0), (PLLCFGR, 0x1000)],
     switches: &[(HSION, HSIRDY), (HSEON, HSEON << 1), (PLLON, PLLON << 1)],
@@ -38,14 +31,8 @@ pub(in crate::chip) static LAYOUT: Layout = Layout {
         (Bus::Apb1, 0x3C, 0),
         (Bus::Apb2, 0x40, 0),
     ],
-    csr: (0x60, RMVF),
-    causes: [
-        PINRSTF | PWRRSTF,
-        PINRSTF | IWDGRSTF,
-        PINRSTF,
-        PINRSTF | SFTRSTF,
-        PINRSTF | PWRRSTF,
-    ],
+    csr: (0x60, 1 << 23),
+    brown_out: None,
     security: None,
     hsi_hz: HSI_HZ,
     hsi_divider: HSIDIV,
