@@ -17,8 +17,7 @@ use embedded_hal::digital::{InputPin, OutputPin};
 use embedded_hal::pwm::SetDutyCycle;
 use firmware::{AngleInput, Event, Packet, Place};
 use host_sim::bench::{Bench, Snapshot};
-use host_sim::bus::Slave;
-use host_sim::bus::tmag5170::TmagSlave;
+use host_sim::bus::OnWire;
 use host_sim::motor::{Pins, SimPwm};
 use host_sim::received::{Received, Receiver};
 use mlx90333::Decoder;
@@ -143,7 +142,7 @@ impl Board {
     }
 
     pub(crate) fn program_sensor(&mut self, side: usize, decoder: Decoder, rest_us: u32) {
-        if let Some(slave) = self.slave_mut(side) {
+        if let Some(slave) = self.sensor_mut(side).and_then(OnWire::mlx) {
             slave.program(decoder);
         }
         self.machine.chip().lines[side].program(decoder, rest_us);
@@ -445,18 +444,8 @@ impl Bench for Board {
         self.attempt(|board| board.watch.look(&board.machine.memories, snapshot));
     }
 
-    fn slave_mut(&mut self, n: usize) -> Option<&mut Slave> {
-        self.sensors.get_mut(n)?.slave_mut()
-    }
-
-    fn tmag_mut(&mut self, n: usize) -> Option<&mut TmagSlave> {
-        self.sensors.get_mut(n)?.tmag_mut()
-    }
-
-    fn bend(&mut self, n: usize, deflection: [f64; 2]) {
-        if let Some(sensor) = self.sensors.get_mut(n) {
-            sensor.bend(deflection);
-        }
+    fn sensor_mut(&mut self, n: usize) -> Option<OnWire<'_>> {
+        Some(self.sensors.get_mut(n)?.on_wire())
     }
 
     fn tells_faults(&self) -> bool {

@@ -16,8 +16,7 @@ use firmware::{BusConfig, Event};
 use host_sim::Error;
 use host_sim::bench::can::Can;
 use host_sim::bench::{Bench, Load, Snapshot};
-use host_sim::bus::Slave;
-use host_sim::bus::tmag5170::TmagSlave;
+use host_sim::bus::OnWire;
 use host_sim::motor::Pins;
 use host_sim::run::Run;
 use host_sim::world::World;
@@ -235,12 +234,6 @@ impl Head {
         }
         Ok(())
     }
-
-    fn find(&mut self, n: usize) -> Option<(&mut Board, usize)> {
-        let mut all = self.nodes.iter_mut();
-        let node = all.find(|node| node.own.contains(&n))?;
-        Some((&mut node.board, n - node.own.start))
-    }
 }
 
 impl Bench for Head {
@@ -274,20 +267,10 @@ impl Bench for Head {
         }
     }
 
-    fn slave_mut(&mut self, n: usize) -> Option<&mut Slave> {
-        let (board, n) = self.find(n)?;
-        board.slave_mut(n)
-    }
-
-    fn tmag_mut(&mut self, n: usize) -> Option<&mut TmagSlave> {
-        let (board, n) = self.find(n)?;
-        board.tmag_mut(n)
-    }
-
-    fn bend(&mut self, n: usize, deflection: [f64; 2]) {
-        if let Some((board, n)) = self.find(n) {
-            board.bend(n, deflection);
-        }
+    fn sensor_mut(&mut self, n: usize) -> Option<OnWire<'_>> {
+        let mut all = self.nodes.iter_mut();
+        let node = all.find(|node| node.own.contains(&n))?;
+        node.board.sensor_mut(n - node.own.start)
     }
 
     fn tells_faults(&self) -> bool {

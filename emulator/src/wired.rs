@@ -1,7 +1,7 @@
 //! host-sim's sensors at the ends of the emulated wires.
 
-use host_sim::bus::tmag5170::{BelowMagnet, Frame, TmagSlave};
-use host_sim::bus::{Exchange, Slave, WireFault};
+use host_sim::bus::tmag5170::{BelowMagnet, Frame};
+use host_sim::bus::{Exchange, OnWire, Slave, WireFault};
 use mlx90333::FRAME_LEN;
 use scene::{Scene, SensorModel};
 
@@ -56,25 +56,10 @@ impl Wired {
         Some(Self { latched: 0, kind })
     }
 
-    pub(crate) fn slave_mut(&mut self) -> Option<&mut Slave> {
+    pub(crate) fn on_wire(&mut self) -> OnWire<'_> {
         match &mut self.kind {
-            Kind::Mlx90333(mlx) => Some(&mut mlx.slave),
-            Kind::Tmag5170(_) => None,
-        }
-    }
-
-    pub(crate) fn tmag_mut(&mut self) -> Option<&mut TmagSlave> {
-        match &mut self.kind {
-            Kind::Mlx90333(_) => None,
-            Kind::Tmag5170(tmag) => Some(&mut tmag.below.slave),
-        }
-    }
-
-    /// Deflections along x and y from now on, in units of the range.
-    pub(crate) fn bend(&mut self, deflection: [f64; 2]) {
-        match &mut self.kind {
-            Kind::Mlx90333(mlx) => mlx.slave.set(deflection),
-            Kind::Tmag5170(tmag) => tmag.below.bend(deflection),
+            Kind::Mlx90333(mlx) => OnWire::Mlx90333(&mut mlx.slave),
+            Kind::Tmag5170(tmag) => OnWire::Tmag5170(&mut tmag.below),
         }
     }
 

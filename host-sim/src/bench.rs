@@ -14,8 +14,7 @@ use whisking::{Fix, Number};
 use wire::TaggedCommand;
 
 use crate::Error;
-use crate::bus::Slave;
-use crate::bus::tmag5170::TmagSlave;
+use crate::bus::OnWire;
 use crate::classifier::{Classifier, Tap};
 use crate::motor::Pins;
 pub use board::NoClock;
@@ -47,20 +46,8 @@ pub trait Bench {
     /// Fills in `snapshot`; `theta_deg` has a place for every whisker.
     fn look(&mut self, snapshot: &mut Snapshot);
 
-    /// The sensor of whisker `n`, counted from 0, left side first, if it is an MLX90333.
-    fn slave_mut(&mut self, n: usize) -> Option<&mut Slave>;
-
-    /// The same, if it is a TMAG5170.
-    fn tmag_mut(&mut self, _n: usize) -> Option<&mut TmagSlave> {
-        None
-    }
-
-    /// Deflections along x and y of whisker `n` from now on, in units of its sensor's range.
-    fn bend(&mut self, n: usize, deflection: [f64; 2]) {
-        if let Some(slave) = self.slave_mut(n) {
-            slave.set(deflection);
-        }
-    }
+    /// The sensor of whisker `n`, counted from 0, left side first.
+    fn sensor_mut(&mut self, n: usize) -> Option<OnWire<'_>>;
 
     /// Contact π of whisker `n`, counted from 0, left side first; none: that of its side is
     /// all that is known.

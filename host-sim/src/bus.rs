@@ -20,6 +20,7 @@
 pub mod tmag5170;
 mod wire;
 
+use self::tmag5170::{BelowMagnet, TmagSlave};
 use embedded_hal::spi::{ErrorType, Operation, SpiDevice};
 use mlx90333::{Decoder, FRAME_LEN, Faults, Mode, Word, encode};
 use rand_core::{Rng, SeedableRng};
@@ -241,6 +242,40 @@ impl Slave {
 impl Default for Slave {
     fn default() -> Self {
         Self::of(Decoder::new())
+    }
+}
+
+/// The sensor of a whisker, of either kind.
+pub enum OnWire<'s> {
+    /// An MLX90333.
+    Mlx90333(&'s mut Slave),
+    /// A TMAG5170, below its magnet.
+    Tmag5170(&'s mut BelowMagnet),
+}
+
+impl<'s> OnWire<'s> {
+    /// It, if it is an MLX90333.
+    pub fn mlx(self) -> Option<&'s mut Slave> {
+        match self {
+            Self::Mlx90333(slave) => Some(slave),
+            Self::Tmag5170(_) => None,
+        }
+    }
+
+    /// It, if it is a TMAG5170.
+    pub fn tmag(self) -> Option<&'s mut TmagSlave> {
+        match self {
+            Self::Mlx90333(_) => None,
+            Self::Tmag5170(below) => Some(&mut below.slave),
+        }
+    }
+
+    /// Deflections along x and y from now on, in units of its range.
+    pub fn bend(self, deflection: [f64; 2]) {
+        match self {
+            Self::Mlx90333(slave) => slave.set(deflection),
+            Self::Tmag5170(below) => below.bend(deflection),
+        }
     }
 }
 

@@ -282,12 +282,12 @@ impl<B: Bench + ?Sized> Run<B> {
     /// The sensor of whisker `n`, counted from 0, left side first: to disturb it. None where it
     /// is no MLX90333.
     pub fn slave_mut(&mut self, n: usize) -> Option<&mut Slave> {
-        self.bench.slave_mut(n)
+        self.bench.sensor_mut(n)?.mlx()
     }
 
     /// The same, where it is a TMAG5170.
     pub fn tmag_mut(&mut self, n: usize) -> Option<&mut TmagSlave> {
-        self.bench.tmag_mut(n)
+        self.bench.sensor_mut(n)?.tmag()
     }
 
     /// The motor of whisker `n`, counted from 0, left side first: to disturb it. None where
@@ -326,7 +326,9 @@ impl<B: Bench + ?Sized> Run<B> {
             }
         }
         for (n, sensed) in self.sensed.iter().enumerate() {
-            self.bench.bend(n, *sensed);
+            if let Some(sensor) = self.bench.sensor_mut(n) {
+                sensor.bend(*sensed);
+            }
         }
 
         self.bench.tick(&mut self.events);

@@ -11,8 +11,7 @@ use wire::TaggedCommand;
 use super::board::{Board, Mock};
 use super::{Bench, HostModule, Snapshot};
 use crate::Error;
-use crate::bus::Slave;
-use crate::bus::tmag5170::TmagSlave;
+use crate::bus::OnWire;
 use crate::classifier::{Classifier, Tap};
 use crate::motor::Pins;
 
@@ -229,21 +228,9 @@ impl<R: Number> Bench for Head<R> {
         }
     }
 
-    fn slave_mut(&mut self, n: usize) -> Option<&mut Slave> {
+    fn sensor_mut(&mut self, n: usize) -> Option<OnWire<'_>> {
         let (board, n) = self.board_of(n)?;
-        board.sensor_mut(n)?.slave_mut()
-    }
-
-    fn tmag_mut(&mut self, n: usize) -> Option<&mut TmagSlave> {
-        let (board, n) = self.board_of(n)?;
-        board.sensor_mut(n)?.tmag_mut()
-    }
-
-    fn bend(&mut self, n: usize, deflection: [f64; 2]) {
-        let found = self.board_of(n);
-        if let Some(sensor) = found.and_then(|(board, n)| board.sensor_mut(n)) {
-            sensor.bend(deflection);
-        }
+        Some(board.sensor_mut(n)?.on_wire())
     }
 
     fn felt_by(&self, n: usize) -> Option<f64> {

@@ -4,8 +4,8 @@ use firmware::{FrameSource, Polled, SensorFault, TiltSource, WordSource};
 use mlx90333::{Decoder, FRAME_LEN, Mlx90333, Word};
 use scene::{SensorModel, SensorSection};
 
-use crate::bus::Slave;
-use crate::bus::tmag5170::{BelowMagnet, TmagSlave};
+use crate::bus::tmag5170::BelowMagnet;
+use crate::bus::{OnWire, Slave};
 
 pub(super) enum AnySensor {
     Mlx90333(Polled<Slave>),
@@ -27,25 +27,10 @@ impl AnySensor {
         })
     }
 
-    pub(super) fn slave_mut(&mut self) -> Option<&mut Slave> {
+    pub(super) fn on_wire(&mut self) -> OnWire<'_> {
         match self {
-            Self::Mlx90333(polled) => Some(polled.sensor_mut().spi_mut()),
-            Self::Tmag5170(_) => None,
-        }
-    }
-
-    pub(super) fn tmag_mut(&mut self) -> Option<&mut TmagSlave> {
-        match self {
-            Self::Mlx90333(_) => None,
-            Self::Tmag5170(source) => Some(&mut source.sensor_mut().spi_mut().slave),
-        }
-    }
-
-    /// Deflections along x and y from now on, in units of the range.
-    pub(super) fn bend(&mut self, deflection: [f64; 2]) {
-        match self {
-            Self::Mlx90333(polled) => polled.sensor_mut().spi_mut().set(deflection),
-            Self::Tmag5170(source) => source.sensor_mut().spi_mut().bend(deflection),
+            Self::Mlx90333(polled) => OnWire::Mlx90333(polled.sensor_mut().spi_mut()),
+            Self::Tmag5170(source) => OnWire::Tmag5170(source.sensor_mut().spi_mut()),
         }
     }
 }
