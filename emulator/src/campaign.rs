@@ -40,7 +40,7 @@ use table::{ShardTable, rows};
 
 /// Which runs are made, and where their rows are kept.
 #[derive(Debug, Args)]
-pub struct Choice {
+pub(crate) struct Choice {
     #[command(flatten)]
     several: Several,
     /// A run for every word of RAM of the only scene's program, of which it flips a bit
@@ -68,10 +68,7 @@ pub struct Choice {
 
 impl Choice {
     /// Makes the runs of a shard that its table does not have yet.
-    ///
-    /// # Errors
-    /// [`Error`] for a scene, a program or a table that is wrong.
-    pub fn run(&self) -> Result<(), Error> {
+    pub(crate) fn run(&self) -> Result<(), Error> {
         let Several { scenes, program } = &self.several;
         let plan = if self.words { Plan::Words } else { Plan::Drawn };
         let mut table = ShardTable::open(&self.out)?;
@@ -101,10 +98,7 @@ impl Choice {
 }
 
 /// Makes the page of these tables, if it is wanted; how many runs there are.
-///
-/// # Errors
-/// [`Error::Work`] names the harmful ones; [`Error::Input`] for a table that is none.
-pub fn reliability(tables: &[PathBuf], out: Option<&Path>) -> Result<String, Error> {
+pub(crate) fn reliability(tables: &[PathBuf], out: Option<&Path>) -> Result<String, Error> {
     let tables: Result<Vec<_>, Error> = tables.iter().map(|path| rows(path)).collect();
     let rows = merge(tables?)?;
     if let Some(out) = out {

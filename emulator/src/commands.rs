@@ -1,16 +1,16 @@
-//! The emulated board's command line; `cargo xtask emulate` builds the program
-//! and calls it.
+//! The program: its commands, and what it prints of them.
 
 use std::path::PathBuf;
 use std::process::ExitCode;
 
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use clap::{Parser, Subcommand};
-use emulator::scenario::{self, Flashed, Given, Scenario, Several};
-use emulator::{campaign, counts, emulate, endurance, picture, registers, trial};
 use host_sim::output::{self, write_whole};
 use host_sim::progress::Verbosity;
 use host_sim::{Error, report};
+
+use crate::scenario::{self, Flashed, Given, Scenario, Several};
+use crate::{campaign, counts, emulate, endurance, picture, registers, trial};
 
 /// Runs a board's program, as it is flashed, on an emulated chip.
 ///
@@ -138,6 +138,7 @@ fn work(arguments: Arguments) -> Result<(), Error> {
     Ok(())
 }
 
-fn main() -> ExitCode {
+/// Does what its arguments say, and says what came of it.
+pub fn main() -> ExitCode {
     report::program("emulator", || work(Arguments::parse()))
 }

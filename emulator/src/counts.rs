@@ -54,10 +54,7 @@ impl Kernel {
 }
 
 /// Runs `program` on the core of `board`; gives `kernel,format,mean,worst`, a line a kernel.
-///
-/// # Errors
-/// [`Error::Input`] for a board that there is not, [`Error::Work`] for a program that fails.
-pub fn count(program: &Path, board: &str) -> Result<String, Error> {
+pub(crate) fn count(program: &Path, board: &str) -> Result<String, Error> {
     let model = model(board)?;
     let program = Program::load(program)?;
     let announcement = program.symbol("count_calls")? & !THUMB;

@@ -67,11 +67,7 @@ fn without_class_settings(scene: &Scene) -> Scene {
 /// Runs the scene in `path` on the board that `program` was built for; writes
 /// `out/trace.csv` and its picture, `out/trace.svg`, `out/log.txt`, and `out/decisions.csv`
 /// where the scene classifies. Returns the score of the decisions, where there are any to score.
-///
-/// # Errors
-/// [`Error::Input`] for a scene or model that is wrong, [`Error::Work`] for
-/// what the board cannot go along with, otherwise what writing brings.
-pub fn emulate(
+pub(crate) fn emulate(
     path: &Path,
     program: &Path,
     out: &Path,

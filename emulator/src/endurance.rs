@@ -21,7 +21,7 @@ use crate::compare::{Circumstances, compare};
 
 /// A long run.
 #[derive(Debug, Args)]
-pub struct Choice {
+pub(crate) struct Choice {
     /// The scene file
     scene: PathBuf,
     /// The program that was built for it; none: on the PC
@@ -43,10 +43,7 @@ pub struct Choice {
 
 impl Choice {
     /// Makes the long run of a shard, and writes its row.
-    ///
-    /// # Errors
-    /// [`Error::Work`] says what has gone wrong in it, and when.
-    pub fn run(&self) -> Result<(), Error> {
+    pub(crate) fn run(&self) -> Result<(), Error> {
         output::check(&self.out)?;
         let row = match (&self.program, &self.subject) {
             (Some(program), Some(subject)) => on_board(&self.scene, program, subject, self.hours)?,
@@ -57,10 +54,7 @@ impl Choice {
 }
 
 /// The page of these shards.
-///
-/// # Errors
-/// [`Error::Input`] for a file that is no shard's, [`Error::Write`].
-pub fn write_page(shards: &[PathBuf], out: &Path) -> Result<(), Error> {
+pub(crate) fn write_page(shards: &[PathBuf], out: &Path) -> Result<(), Error> {
     let rows: Result<Vec<_>, _> = shards.iter().map(|shard| row(shard)).collect();
     write_whole(out, page::page(&rows?).as_bytes())
 }

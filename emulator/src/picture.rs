@@ -11,11 +11,7 @@ use crate::session::Session;
 
 /// Runs each scene on the board that the program beside it was built for, and draws them one
 /// below the other: an SVG document.
-///
-/// # Errors
-/// [`Error::Input`] for a scene that is wrong or has not an obstacle on each of two sides,
-/// [`Error::Work`] for what the board cannot go along with.
-pub fn picture(Several { scenes, program }: &Several) -> Result<String, Error> {
+pub(crate) fn picture(Several { scenes, program }: &Several) -> Result<String, Error> {
     if scenes.len() != program.len() {
         return Err(Error::Input("each scene needs its program".to_owned()));
     }

@@ -54,10 +54,7 @@ pub(crate) fn model(board: &str) -> Result<&'static Model, Error> {
 
 /// The facts of a board's chip, a line each: kind, peripheral, part, two numbers, and where
 /// it stands if no description has it.
-///
-/// # Errors
-/// [`Error::Input`] if there is no such board.
-pub fn table(board: &str) -> Result<String, Error> {
+pub(crate) fn table(board: &str) -> Result<String, Error> {
     let model = model(board)?;
     let mut text = String::new();
     for fact in facts(model) {
@@ -71,7 +68,7 @@ pub fn table(board: &str) -> Result<String, Error> {
 }
 
 /// The page.
-pub fn page() -> String {
+pub(crate) fn page() -> String {
     let mut text = format!(
         "<!-- written by cargo xtask descriptions -->\n{}",
         HEAD.trim_end()

@@ -24,31 +24,31 @@ use runner::Case;
 /// A scene and what is flashed for it; to a program that brings no scene with it this one is
 /// deployed.
 #[derive(Debug, Args)]
-pub struct Flashed {
+pub(crate) struct Flashed {
     /// The scene file
-    pub scene: PathBuf,
+    pub(crate) scene: PathBuf,
     /// The program: built for it, or for any scene
     #[arg(long, value_name = "ELF")]
-    pub program: PathBuf,
+    pub(crate) program: PathBuf,
 }
 
 /// Scenes, and the programs that were built for them.
 #[derive(Debug, Args)]
-pub struct Several {
+pub(crate) struct Several {
     /// The scene files
     #[arg(required = true)]
-    pub scenes: Vec<PathBuf>,
+    pub(crate) scenes: Vec<PathBuf>,
     /// The programs, in the same order; none: on the PC, where that can be done
     #[arg(long, value_name = "ELF")]
-    pub program: Vec<PathBuf>,
+    pub(crate) program: Vec<PathBuf>,
 }
 
 /// What a scenario is given.
 #[derive(Debug, Args)]
-pub struct Given {
+pub(crate) struct Given {
     /// What is flashed
     #[command(flatten)]
-    pub flashed: Flashed,
+    pub(crate) flashed: Flashed,
     /// The program of the same scene without telemetry, or without a serial port
     #[arg(long, value_name = "ELF")]
     without: Option<PathBuf>,
@@ -82,7 +82,7 @@ pub struct Given {
     csv: bool,
     /// No progress on standard error
     #[arg(skip = Verbosity::Normal)]
-    pub verbosity: Verbosity,
+    pub(crate) verbosity: Verbosity,
 }
 
 enum What {
@@ -93,16 +93,16 @@ enum What {
 }
 
 /// A scenario.
-pub struct Scenario {
+pub(crate) struct Scenario {
     /// Its name.
-    pub name: &'static str,
+    pub(crate) name: &'static str,
     /// What it does, and when it fails.
-    pub what: &'static str,
+    pub(crate) what: &'static str,
     how: What,
 }
 
 /// All of them.
-pub const ALL: [Scenario; 14] = [
+pub(crate) const ALL: [Scenario; 14] = [
     Scenario {
         name: "compare",
         what: "Runs the scene on PC and board and compares every tick",
@@ -222,10 +222,7 @@ fn named(path: Option<&PathBuf>) -> Result<&Path, Error> {
 
 impl Scenario {
     /// Puts a board through it; what was seen, a line each.
-    ///
-    /// # Errors
-    /// [`Error::Input`] for a scene that is wrong, [`Error::Work`] says what did not happen.
-    pub fn run(&self, given: &Given) -> Result<Vec<String>, Error> {
+    pub(crate) fn run(&self, given: &Given) -> Result<Vec<String>, Error> {
         let Flashed { scene, program } = &given.flashed;
         let cases = match self.how {
             What::Work(work) => return work(given, scene, program),

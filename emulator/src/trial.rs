@@ -29,7 +29,7 @@ use said::Lister;
 
 /// Which scene runs against what.
 #[derive(Debug, Args)]
-pub struct Choice {
+pub(crate) struct Choice {
     /// The scene file
     scene: PathBuf,
     /// The program: built for it, or for any scene; none: the files are read, and nothing runs
@@ -49,11 +49,7 @@ pub struct Choice {
 
 impl Choice {
     /// Runs it, and writes what became of it.
-    ///
-    /// # Errors
-    /// [`Error::Input`] for a file that is wrong, [`Error::Work`] for what has stopped the
-    /// emulated board.
-    pub fn run(&self) -> Result<(), Error> {
+    pub(crate) fn run(&self) -> Result<(), Error> {
         let scenario = Scenario::load(&self.scenario)?;
         output::check(&self.json)?;
         let Some(program) = &self.program else {
