@@ -22,12 +22,6 @@ const BTR: u32 = 0x1C;
 const TI0R: u32 = 0x180;
 const RI0R: u32 = 0x1B0;
 const FMR: u32 = 0x200;
-const FM1R: u32 = 0x204;
-const FS1R: u32 = 0x20C;
-const FFA1R: u32 = 0x214;
-const FA1R: u32 = 0x21C;
-const F0R1: u32 = 0x240;
-const F0R2: u32 = 0x244;
 
 const INRQ: Field = field("MCR", MCR, "INRQ", 1 << 0);
 const SLEEP: Field = field("MCR", MCR, "SLEEP", 1 << 1);
@@ -86,9 +80,7 @@ pub(super) fn fields() -> Vec<Field> {
         whole("RDL0R", RI0R + 8),
         whole("RDH0R", RI0R + 12),
     ];
-    let filters = ["FM1R", "FS1R", "FFA1R", "FA1R", "F0R1", "F0R2"];
-    let filters = filters.into_iter().zip(FILTERS);
-    let filters: Vec<Field> = filters.map(|(name, offset)| whole(name, offset)).collect();
+    let filters = FILTERS.map(|(name, offset, _)| whole(name, offset));
     [
         &[
             INRQ, SLEEP, INAK, SLAK, RQCP, TXOK, ABRQ, TME, FMP, FULL, FOVR, RFOM, TMEIE, FMPIE0,
@@ -170,7 +162,7 @@ pub(crate) struct BxCan {
     received: VecDeque<Frame>,
     pub(crate) overrun: bool,
     filter_mode: u32,
-    /// FM1R, FS1R, FFA1R, FA1R, F0R1, F0R2.
+    /// Those of [`FILTERS`].
     filter: [u32; 6],
     arriving: VecDeque<(Ps, Arrival)>,
     requests: Vec<(Ps, Request)>,
@@ -203,7 +195,20 @@ const fn transmit(offset: u32) -> Option<(usize, usize)> {
     }
 }
 
-const FILTERS: [u32; 6] = [FM1R, FS1R, FFA1R, FA1R, F0R1, F0R2];
+/// The registers of a filter, and the bits of each that may be set: it is one of 32 bits with a mask,
+/// to the first FIFO.
+const FILTERS: [(&str, u32, u32); 6] = [
+    ("FM1R", 0x204, 0),
+    ("FS1R", 0x20C, 1),
+    ("FFA1R", 0x214, 0),
+    ("FA1R", 0x21C, 1),
+    ("F0R1", 0x240, u32::MAX),
+    ("F0R2", 0x244, u32::MAX),
+];
+
+fn filter(offset: u32) -> Option<usize> {
+    FILTERS.iter().position(|(_, at, _)| *at == offset)
+}
 
 impl BxCan {
     pub(super) fn reset(&mut self) {
@@ -331,8 +336,10 @@ impl BxCan {
             ESR => self.errors.status(),
             BTR => self.btr,
             FMR => self.filter_mode,
-            _ if FILTERS.contains(&offset) => self.filter[place(offset)],
             _ => {
+                if let Some(n) = filter(offset) {
+                    return Some(self.filter[n]);
+                }
                 if let Some((n, word)) = transmit(offset) {
                     return Some(self.mailboxes[n].words[word]);
                 }
@@ -398,19 +405,11 @@ impl BxCan {
                 self.btr = value;
             }
             FMR => self.filter_mode = FMR_RESET & !FINIT.bits | value & FINIT.bits,
-            _ if FILTERS.contains(&offset) => {
-                // One filter of 32 bits with a mask, to the first FIFO.
-                let modelled = match offset {
-                    FM1R | FFA1R => 0,
-                    FS1R | FA1R => 1,
-                    _ => u32::MAX,
-                };
-                if value & !modelled != 0 {
-                    return false;
-                }
-                self.filter[place(offset)] = value;
-            }
             _ => {
+                if let Some(n) = filter(offset) {
+                    self.filter[n] = value;
+                    return value & !FILTERS[n].2 == 0;
+                }
                 let Some((n, word)) = transmit(offset) else {
                     return false;
                 };
@@ -431,9 +430,4 @@ impl BxCan {
         }
         true
     }
-}
-
-fn place(offset: u32) -> usize {
-    let found = FILTERS.iter().position(|of| *of == offset);
-    found.unwrap_or_default()
 }

@@ -3,14 +3,12 @@
 use std::collections::VecDeque;
 
 use super::model::Unit;
+use super::usart::BITS;
 use super::wiring::{PORTS_BUS, SERIAL, SERIAL_DMA};
 use super::{Chip, Fault, Ps};
 use crate::memory::Memories;
 
 const SECOND: Ps = 1_000_000_000_000;
-
-/// Start, eight bits and stop.
-const BITS: Ps = 10;
 
 /// By how many thousandths the chip's bits may differ from those of the other end: what the
 /// board's build allows, and what the picosecond clock rounds.

@@ -17,7 +17,7 @@ const TC: u32 = 1 << 6;
 const TXE: u32 = 1 << 7;
 
 /// Start, eight bits and stop.
-const BITS: Ps = 10;
+pub(super) const BITS: Ps = 10;
 
 #[derive(Debug)]
 pub(super) struct Layout {
