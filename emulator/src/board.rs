@@ -15,7 +15,7 @@ use std::ops::Range;
 
 use embedded_hal::digital::{InputPin, OutputPin};
 use embedded_hal::pwm::SetDutyCycle;
-use firmware::{AngleInput, Event, Packet, Place};
+use firmware::{AngleInput, Event, Place};
 use host_sim::bench::{Bench, Snapshot};
 use host_sim::bus::OnWire;
 use host_sim::motor::{Pins, SimPwm};
@@ -62,23 +62,6 @@ pub(crate) struct Board {
 /// Longer than the slowest tick with anything that may delay it: a fault handler waits for
 /// the probe before the watchdog resets the chip, and a start for a clock that never comes.
 const PATIENCE: Ps = 6_000_000_000_000;
-
-/// What `bytes` complete; all that a board sends can be read.
-fn read(receiver: &mut Receiver, bytes: &[u8]) -> Result<Vec<Received>, Fault> {
-    let received = receiver.take(bytes);
-    if received.contains(&Received::Garbled) {
-        return Err(Fault::Garbled);
-    }
-    Ok(received)
-}
-
-pub(crate) fn packets(received: &[Received]) -> Vec<Packet> {
-    let packets = received.iter().filter_map(|received| match received {
-        Received::Packet(packet) => Some(*packet),
-        Received::Line(_) | Received::Garbled => None,
-    });
-    packets.collect()
-}
 
 fn set_pwm(pwm: &mut SimPwm, (on, period): (u32, u32)) {
     let scaled = u64::from(on) * u64::from(pwm.max_duty_cycle()) / u64::from(period.max(1));
@@ -312,26 +295,26 @@ impl Board {
         ring.map_or(Ok(0), |ring| ring.room(memories))
     }
 
-    pub(crate) fn packets(&mut self) -> Result<Vec<Packet>, Fault> {
-        let bytes = self.ring_bytes()?;
-        Ok(packets(&read(&mut self.ring, &bytes)?))
-    }
-
-    /// The same, for who bears what a reset has left of a packet.
+    /// What it has sent to a probe; a reset may have left half of a packet.
     pub(crate) fn heard(&mut self) -> Result<Vec<Received>, Fault> {
-        let bytes = self.ring_bytes()?;
+        let Machine { rtt, memories, .. } = &self.machine;
+        let ring = rtt.packets(memories)?;
+        let bytes = ring.map_or(Ok(Vec::new()), |ring| ring.drain(memories))?;
         Ok(self.ring.take(&bytes))
     }
 
-    fn ring_bytes(&self) -> Result<Vec<u8>, Fault> {
-        let Machine { rtt, memories, .. } = &self.machine;
-        let ring = rtt.packets(memories)?;
-        ring.map_or(Ok(Vec::new()), |ring| ring.drain(memories))
-    }
-
-    pub(crate) fn received(&mut self) -> Result<Vec<Received>, Fault> {
-        let bytes = self.machine.chip().serial_read();
-        read(&mut self.line, &bytes)
+    /// The same, or what it has sent by its serial line; all of it can be read.
+    pub(crate) fn received(&mut self, is_by_serial: bool) -> Result<Vec<Received>, Fault> {
+        let received = if is_by_serial {
+            let bytes = self.machine.chip().serial_read();
+            self.line.take(&bytes)
+        } else {
+            self.heard()?
+        };
+        if received.contains(&Received::Garbled) {
+            return Err(Fault::Garbled);
+        }
+        Ok(received)
     }
 
     pub(crate) fn logged(&self) -> &[u8] {

@@ -12,7 +12,7 @@ use host_sim::run::Run;
 use scene::{Scene, Texture};
 use wire::{Answer, Command, CommandStatus, TaggedCommand};
 
-use crate::board::{self, Board};
+use crate::board::Board;
 use crate::chip::{Fault, Ps};
 use crate::emulate::start;
 use crate::machine::Machine;
@@ -277,16 +277,14 @@ impl Session {
     /// # Errors
     /// As [`Session::request`].
     pub fn packets(&mut self) -> Result<Vec<Packet>, Error> {
-        Ok(board::packets(&self.received()?))
+        let received = self.received()?.into_iter();
+        Ok(received.filter_map(Received::packet).collect())
     }
 
     /// The same, and lines where it goes by the serial line.
     pub(crate) fn received(&mut self) -> Result<Vec<Received>, Error> {
-        if self.is_by_serial {
-            return Ok(self.board_mut().received()?);
-        }
-        let packets = self.board_mut().packets()?.into_iter();
-        Ok(packets.map(Received::Packet).collect())
+        let is_by_serial = self.is_by_serial;
+        Ok(self.board_mut().received(is_by_serial)?)
     }
 
     /// Has the other end of the board's serial line, which has the scene's baud, send bytes

@@ -347,8 +347,7 @@ impl Flooded<'_> {
             By::Line => has(&self.received, b"ok stop\r\n"),
             By::SerialFrame => {
                 let mut receiver = host_sim::received::Receiver::default();
-                let packets = crate::board::packets(&receiver.take(&self.received));
-                answer_to(tag, &packets).is_some()
+                answer_to(tag, &receiver.packets(&self.received)).is_some()
             }
             By::Probe => answer_to(tag, &self.packets).is_some(),
             // It waits for no answer; the log has it.

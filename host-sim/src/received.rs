@@ -16,6 +16,16 @@ pub enum Received {
     Garbled,
 }
 
+impl Received {
+    /// It, if it is a packet.
+    pub fn packet(self) -> Option<Packet> {
+        match self {
+            Self::Packet(packet) => Some(packet),
+            Self::Line(_) | Self::Garbled => None,
+        }
+    }
+}
+
 /// Reads what a module sends, by a probe or a serial line.
 #[derive(Debug, Default)]
 pub struct Receiver {
@@ -44,11 +54,7 @@ impl Receiver {
     /// The packets that `bytes` complete.
     pub fn packets(&mut self, bytes: &[u8]) -> Vec<Packet> {
         let received = self.take(bytes).into_iter();
-        let packets = received.filter_map(|received| match received {
-            Received::Packet(packet) => Some(packet),
-            Received::Line(_) | Received::Garbled => None,
-        });
-        packets.collect()
+        received.filter_map(Received::packet).collect()
     }
 }
 

@@ -4,12 +4,13 @@ use std::path::Path;
 
 use firmware::Packet;
 use host_sim::Error;
+use host_sim::received::Received;
 use host_sim::run::Run;
 use scene::{Scene, Texture};
 use wire::{Command, TaggedCommand};
 
 use super::{Head, Node};
-use crate::board::{self, Board};
+use crate::board::Board;
 use crate::program::Program;
 use crate::session::PS;
 
@@ -79,7 +80,8 @@ impl HeadSession {
     /// As [`HeadSession::request`].
     pub fn packets(&mut self) -> Result<Vec<Packet>, Error> {
         // What a reset has left of one is none.
-        Ok(board::packets(&self.first()?.heard()?))
+        let heard = self.first()?.heard()?.into_iter();
+        Ok(heard.filter_map(Received::packet).collect())
     }
 
     /// The lines that the first board has logged since the last call.
