@@ -12,43 +12,24 @@ const STRETCH: usize = 16;
 const CHANGES: usize = STRETCH / 2;
 /// The share of a trial that must be found in another one.
 const SHARE: f64 = 0.1;
-/// What a rolling sum is multiplied with.
-const BASE: u64 = 0x9E37_79B9_7F4A_7C15;
 
 /// A stream: of which recording it is, and at which of its samples it begins, both from 0.
 type Placed<'s> = (usize, usize, &'s Stream);
 
-fn sum(sample: [f64; 2]) -> u64 {
-    let [x, y] = sample.map(f64::to_bits);
-    (x.wrapping_mul(BASE) ^ y.rotate_left(31)).wrapping_mul(BASE)
-}
+/// Both channels of a sample, bit by bit.
+type Bits = [u64; 2];
 
-/// The first sample and the sum of every stretch of a stream that counts and changes.
-fn stretches(stream: &Stream) -> Vec<(usize, u64)> {
-    let samples = &stream.samples;
-    let oldest = (1..STRETCH).fold(1_u64, |power, _| power.wrapping_mul(BASE));
+/// Every stretch of a stream that counts and changes, with the place of its first sample.
+fn stretches<'b>(stream: &Stream, bits: &'b [Bits]) -> Vec<(usize, &'b [Bits])> {
     let counts: Vec<bool> = stream.counts(GATE).collect();
-    let changes = |n: usize| n > 0 && samples.get(n) != samples.get(n - 1);
-    let (mut rolling, mut counted, mut changed) = (0_u64, 0, 0);
-    let mut found = Vec::new();
-    for (n, (sample, counts_now)) in samples.iter().zip(&counts).enumerate() {
-        if let Some(before) = n.checked_sub(STRETCH) {
-            rolling = rolling.wrapping_sub(sum(samples[before]).wrapping_mul(oldest));
-            counted -= usize::from(counts[before]);
-            changed -= usize::from(changes(before));
-        }
-        rolling = rolling.wrapping_mul(BASE).wrapping_add(sum(*sample));
-        counted += usize::from(*counts_now);
-        changed += usize::from(changes(n));
-        if counted == STRETCH && changed >= CHANGES {
-            found.push((n + 1 - STRETCH, rolling));
-        }
-    }
-    found
-}
-
-fn stretch(stream: &Stream, at: usize) -> &[[f64; 2]] {
-    stream.samples.get(at..at + STRETCH).unwrap_or_default()
+    let changes = |n: &usize| *n > 0 && stream.samples[*n] != stream.samples[n - 1];
+    let all = bits.windows(STRETCH).enumerate();
+    let kept = all.filter(|(at, _)| {
+        let within = *at..at + STRETCH;
+        let changed = within.clone().filter(changes).count();
+        changed >= CHANGES && counts[within].iter().all(|counts| *counts)
+    });
+    kept.collect()
 }
 
 /// Two streams, and by how many samples what they have in common is later in the second.
@@ -56,24 +37,24 @@ type Shifted = (usize, usize, isize);
 
 /// Streams of which a stretch of one is in the other: each two once.
 fn alike(streams: &[Placed<'_>]) -> Vec<Shifted> {
-    let all = streams.iter().map(|(.., stream)| stretches(stream));
-    let all: Vec<_> = all.collect();
-    let mut marks: HashMap<u64, (usize, usize)> = HashMap::new();
+    let bits = streams.iter().map(|(.., stream)| {
+        let samples = stream.samples.iter();
+        samples.map(|sample| sample.map(f64::to_bits)).collect()
+    });
+    let bits: Vec<Vec<Bits>> = bits.collect();
+    let all = streams.iter().zip(&bits);
+    let all: Vec<_> = all.map(|((.., of), bits)| stretches(of, bits)).collect();
+    let mut marks: HashMap<&[Bits], (usize, usize)> = HashMap::new();
     for (of, stretches) in all.iter().enumerate() {
-        let apart = stretches
-            .iter()
-            .filter(|(at, _)| at.is_multiple_of(STRETCH));
-        for (at, sum) in apart {
-            marks.entry(*sum).or_insert((of, *at));
+        let apart = stretches.iter();
+        for (at, stretch) in apart.filter(|(at, _)| at.is_multiple_of(STRETCH)) {
+            marks.entry(stretch).or_insert((of, *at));
         }
     }
     let mut pairs = BTreeMap::new();
     for (other, stretches) in all.iter().enumerate() {
-        for (place, sum) in stretches {
-            let Some((of, at)) = marks.get(sum).filter(|(of, _)| *of != other) else {
-                continue;
-            };
-            if stretch(streams[*of].2, *at) == stretch(streams[other].2, *place) {
+        for (place, stretch) in stretches {
+            if let Some((of, at)) = marks.get(stretch).filter(|(of, _)| *of != other) {
                 let later = place.cast_signed() - at.cast_signed();
                 pairs.entry((*of, other)).or_insert(later);
             }
