@@ -93,16 +93,18 @@ impl Place {
         place
     }
 
-    /// With s.toml, r.csv and a model m.
+    /// With s.toml, t.toml, which presents textures, r.csv and a model m.
     pub(crate) fn usual() -> Self {
-        let place = Self::with(&[("s.toml", IDEAL), ("r.csv", RECORDING)]);
+        let scenes = [("s.toml", IDEAL), ("t.toml", TEXTURED)];
+        let place = Self::with(&[&scenes[..], &[("r.csv", RECORDING)]].concat());
         place.write("m", model(2, 20, true));
         place
     }
 
-    /// With a scene s.toml that classifies by the.model.
+    /// With a scene s.toml that classifies by the.model, and ideal.toml.
     pub(crate) fn classifying() -> Self {
-        let place = Self::with(&[("s.toml", &format!("{TEXTURED}{SEQUENTIAL}"))]);
+        let classifies = format!("{TEXTURED}{SEQUENTIAL}");
+        let place = Self::with(&[("s.toml", &classifies), ("ideal.toml", IDEAL)]);
         place.write("the.model", model(2, 20, true));
         place
     }

@@ -1,6 +1,6 @@
 //! The picture that a run leaves.
 
-use crate::common::{IDEAL, Place, says};
+use crate::common::{Place, says};
 
 /// Width, height and bytes of a picture of pixels, three a pixel.
 fn pixels(file: Vec<u8>) -> (usize, usize, Vec<u8>) {
@@ -13,16 +13,9 @@ fn pixels(file: Vec<u8>) -> (usize, usize, Vec<u8>) {
     (info.width as usize, info.height as usize, bytes)
 }
 
-/// One whose curves go far, and one whose class names are long.
-fn place() -> Place {
-    let place = Place::classifying();
-    place.write("ideal.toml", IDEAL);
-    place
-}
-
 #[test]
 fn a_run_leaves_its_picture_with_axes_and_legend() {
-    let place = place();
+    let place = Place::classifying();
     place.done("run s.toml --out out");
     let svg = place.text("out/trace.svg");
     let panels = [
@@ -41,10 +34,11 @@ fn a_run_leaves_its_picture_with_axes_and_legend() {
     assert!(both.contains("angle, right") && !both.contains("presented"));
 }
 
-/// What reached beyond the edge would leave ink on it.
+/// What reached beyond the edge would leave ink on it: of one scene curves go far, of the other names
+/// of classes are long.
 #[test]
 fn no_ink_is_at_the_edge_and_there_is_ink_in_every_panel() {
-    let place = place();
+    let place = Place::classifying();
     for scene in ["s.toml", "ideal.toml"] {
         place.done(&format!("run {scene} --out out"));
         let (width, height, bytes) = pixels(place.bytes("out/trace.png"));
@@ -65,7 +59,7 @@ fn no_ink_is_at_the_edge_and_there_is_ink_in_every_panel() {
 
 #[test]
 fn a_picture_is_the_same_each_time_where_it_is_asked_for() {
-    let place = place();
+    let place = Place::classifying();
     place.done("run s.toml --out one --plot two/copy.png");
     place.done("run s.toml --out again --plot two/copy.svg");
     for file in ["trace.svg", "trace.png"] {

@@ -1,6 +1,6 @@
 //! Arguments that are wrong: status 2, a message, and nothing written.
 
-use crate::common::{Place, TEXTURED};
+use crate::common::Place;
 
 const TRAIN: &str = "train --data r.csv";
 /// Trains if it may write.
@@ -8,16 +8,9 @@ const SINGLE: &str = "train --tables single --data r.csv";
 const CLASSIFY: &str = "classify --model m --data r.csv";
 const EVALUATE: &str = "evaluate --model m --data r.csv";
 
-/// With t.toml too, which presents textures.
-fn place() -> Place {
-    let place = Place::usual();
-    place.write("t.toml", TEXTURED);
-    place
-}
-
 #[test]
 fn values_out_of_range() {
-    let place = place();
+    let place = Place::usual();
     let score = "score t.toml --seeds 5..9";
     let sequential = &format!("{CLASSIFY} --rule sequential");
     let window = &format!("{CLASSIFY} --rule window");
@@ -45,7 +38,7 @@ fn values_out_of_range() {
 
 #[test]
 fn what_no_one_can_do() {
-    place().refuses_each(
+    Place::usual().refuses_each(
         "train --tables single --data r.csv --gap 0.1 | --gap | joint
          train --tables single --data r.csv --plot p.svg | --plot | evaluate
          train --data r.csv --plot p.png | --plot | .svg
