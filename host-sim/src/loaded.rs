@@ -198,24 +198,3 @@ fn knows_a_texture(scene: &Scene, classes: &[String]) -> Result<(), String> {
         presented.join(", ")
     ))
 }
-
-#[cfg(test)]
-mod tests {
-    use super::{Loaded, Path, Scene};
-
-    const TEXT: &str = include_str!("../../scenes/textures.toml");
-    const MODEL: &[u8] = include_bytes!("../../scenes/models/textures.model");
-
-    #[test]
-    fn a_text_and_its_model_are_enough() {
-        let loaded = Loaded::from_text("mine.toml", TEXT, &[], |path| {
-            assert_eq!(path, Path::new("models/textures.model"));
-            Ok(MODEL.to_vec())
-        });
-        let loaded = loaded.unwrap();
-        assert_eq!(loaded.scene, Scene::from_str("mine.toml", TEXT).unwrap());
-        let presented = &loaded.scene.plant.textured.as_ref().unwrap().textures;
-        let presented: Vec<&str> = presented.iter().map(|texture| texture.name()).collect();
-        assert_eq!(loaded.classes().unwrap(), presented);
-    }
-}
