@@ -67,7 +67,6 @@ pub(crate) fn table(board: &str) -> Result<String, Error> {
     Ok(text)
 }
 
-/// The page.
 pub(crate) fn page() -> String {
     let mut text = format!(
         "<!-- written by cargo xtask descriptions -->\n{}",

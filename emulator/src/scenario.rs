@@ -92,16 +92,13 @@ enum What {
     Work(fn(&Given, &Path, &Path) -> Result<Vec<String>, Error>),
 }
 
-/// A scenario.
 pub(crate) struct Scenario {
-    /// Its name.
     pub(crate) name: &'static str,
     /// What it does, and when it fails.
     pub(crate) what: &'static str,
     how: What,
 }
 
-/// All of them.
 pub(crate) const ALL: [Scenario; 14] = [
     Scenario {
         name: "compare",

@@ -21,7 +21,6 @@ const TWO_IN: u64 = 2;
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Plan {
-    /// What a run's number draws.
     Drawn,
     /// A bit of the word of RAM that has the run's number; which bit, and when, is drawn.
     Words,

@@ -87,7 +87,6 @@ impl Whisker {
     }
 }
 
-/// Counts the ticks for which something `is_so`.
 const fn count(ticks: &mut u32, is_so: bool) {
     *ticks = if is_so { *ticks + 1 } else { 0 };
 }

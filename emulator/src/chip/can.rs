@@ -129,12 +129,13 @@ impl Mailbox {
 
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Arrival {
-    /// A frame of another chip.
     Heard(Frame),
-    /// A frame of this one has come through.
     Sent(Frame),
     /// One was destroyed, or `is_unheard`: no other has acknowledged it.
-    Failed { frame: Frame, is_unheard: bool },
+    Failed {
+        frame: Frame,
+        is_unheard: bool,
+    },
     /// One of another chip was destroyed.
     Missed,
     /// A frame of this one was not on the bus as it was to be withdrawn.

@@ -2,12 +2,11 @@
 
 /// Why an emulated run ended early.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
-pub enum Fault {
+pub(crate) enum Fault {
     /// The program touched a register that is not modelled: to carry on would
     /// be to guess.
     #[error("{} of {address:#010x} at pc {pc:#010x}: not modelled", if *.write { "write" } else { "read" })]
     Unmodelled { address: u32, write: bool, pc: u32 },
-    /// The clock tree is set up wrong.
     #[error("clock tree: {0}")]
     Clock(&'static str),
     /// A peripheral is used in a way that is not modelled, or that its manual forbids.
@@ -22,25 +21,22 @@ pub enum Fault {
         side: &'static str,
         what: &'static str,
     },
-    /// The core has locked up: a fault within a fault handler.
+    /// A fault within a fault handler.
     #[error("the core locked up at pc {pc:#010x}")]
     LockUp { pc: u32 },
-    /// Nothing will ever happen again.
     #[error("the core sleeps and nothing will wake it")]
     Asleep,
     /// The program has not come to its first tick; its log.
     #[error("it does not start:\n  {0}")]
     NoStart(String),
-    /// The chip was reset within a run that must not be interrupted.
+    /// Within a run that must not be interrupted.
     #[error("the chip was reset by {0:?}")]
     Reset(ResetCause),
-    /// Boards of a head do not tick alike.
     #[error("a board of the head ticked not once while another did")]
     Unequal,
     /// A scene's sensor has no magnet that can be simulated.
     #[error("no such magnet")]
     NoMagnet,
-    /// It has sent what is neither a packet nor a line.
     #[error("it has sent what cannot be read")]
     Garbled,
     /// The emulator's own memory map refused what it should not.
@@ -59,12 +55,11 @@ impl From<rtt::BadProgram> for Fault {
 
 /// What resets the chip.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum ResetCause {
+pub(crate) enum ResetCause {
     /// The supply came.
     Power,
     /// The independent watchdog.
     Watchdog,
-    /// The reset button.
     Pin,
     /// The core asked for it (SYSRESETREQ).
     Software,

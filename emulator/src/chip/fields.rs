@@ -17,7 +17,6 @@ impl Field {
         self.bits & value != 0
     }
 
-    /// Its bits, where something `is_so`.
     pub(super) const fn when(self, is_so: bool) -> u32 {
         if is_so { self.bits } else { 0 }
     }

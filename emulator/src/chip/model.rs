@@ -47,7 +47,6 @@ pub(crate) enum CoreKind {
 pub(crate) struct Model {
     pub(crate) program: &'static str,
     pub(crate) core: CoreKind,
-    /// Bits of a priority in the NVIC.
     pub(crate) priority_bits: u8,
     pub(crate) flash: u32,
     pub(crate) ram: u32,

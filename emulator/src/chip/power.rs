@@ -5,7 +5,6 @@
 use super::ResetCause;
 use super::fields::{Field, field};
 
-/// The supply of a board that is well, mV.
 pub(crate) const WELL_MV: u32 = 3_300;
 
 #[derive(Debug)]
