@@ -1,10 +1,8 @@
 //! Progress on standard error, for work that takes more than a second.
 
-use std::sync::Mutex;
-use std::sync::atomic::{AtomicU64, Ordering};
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
-use indicatif::{ProgressBar, ProgressStyle};
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
 /// Whether to show progress.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -25,98 +23,66 @@ impl Verbosity {
 /// A bar that appears once the work has taken a second.
 #[derive(Debug)]
 pub struct Progress {
-    bar: Option<ProgressBar>,
+    bar: ProgressBar,
     verbosity: Verbosity,
-    message: &'static str,
-    total: u64,
-    since: Instant,
 }
 
 impl Progress {
     /// Work that takes no longer than this shows no bar.
     const SILENT: Duration = Duration::from_secs(1);
+    /// Steps that a run counts before it reports them.
+    const REPORTED: u64 = 1024;
 
     /// Work of `total` steps.
     pub fn new(verbosity: Verbosity, message: &'static str, total: u64) -> Self {
-        Self {
-            bar: None,
-            verbosity,
-            message,
-            total,
-            since: Instant::now(),
+        let bar = ProgressBar::with_draw_target(Some(total), ProgressDrawTarget::hidden());
+        let mut bar = bar.with_message(message);
+        if let Ok(style) = ProgressStyle::with_template("{msg} [{bar:40}] {percent}% {eta} left") {
+            bar = bar.with_style(style.progress_chars("=> "));
         }
+        Self { bar, verbosity }
     }
 
     /// `done` steps are done. Call it a few hundred times in all, not every step.
     pub fn set(&mut self, done: u64) {
-        if self.verbosity == Verbosity::Quiet {
-            return;
-        }
-        if self.bar.is_none() && self.since.elapsed() >= Self::SILENT {
-            let bar = ProgressBar::new(self.total).with_message(self.message);
-            if let Ok(style) =
-                ProgressStyle::with_template("{msg} [{bar:40}] {percent}% {eta} left")
-            {
-                bar.set_style(style.progress_chars("=> "));
-            }
-            self.bar = Some(bar);
-        }
-        if let Some(bar) = &self.bar {
-            bar.set_position(done);
-        }
+        self.appear();
+        self.bar.set_position(done);
     }
 
     /// Tick `done` of a run is done: to be called at every one.
     pub fn tick(&mut self, done: u64) {
-        if done.is_multiple_of(1024) {
+        if done.is_multiple_of(Self::REPORTED) {
             self.set(done);
         }
     }
 
-    /// Runs `print` with the bar hidden.
-    pub fn pause(&self, print: impl FnOnce()) {
-        match &self.bar {
-            Some(bar) => bar.suspend(print),
-            None => print(),
-        }
-    }
-}
-
-impl Drop for Progress {
-    fn drop(&mut self) {
-        if let Some(bar) = self.bar.take() {
-            bar.finish_and_clear();
-        }
-    }
-}
-
-#[derive(Debug)]
-pub(crate) struct SharedProgress {
-    bar: Mutex<Progress>,
-    done: AtomicU64,
-}
-
-impl SharedProgress {
-    /// Steps that a run counts before it reports them.
-    const REPORTED: u64 = 1024;
-
-    pub(crate) fn new(verbosity: Verbosity, message: &'static str, total: u64) -> Self {
-        let bar = Mutex::new(Progress::new(verbosity, message, total));
-        let done = AtomicU64::new(0);
-        Self { bar, done }
-    }
-
-    /// Of one run what is to be called after each step.
+    /// Of one of several runs, on any thread, what is to be called after each step.
     pub(crate) fn counter(&self) -> impl FnMut() + '_ {
         let mut steps = 0;
         move || {
             steps += 1;
             if steps % Self::REPORTED == 0 {
-                let done = self.done.fetch_add(Self::REPORTED, Ordering::Relaxed) + Self::REPORTED;
-                if let Ok(mut bar) = self.bar.lock() {
-                    bar.set(done);
-                }
+                self.appear();
+                self.bar.inc(Self::REPORTED);
             }
         }
+    }
+
+    fn appear(&self) {
+        let is_long = self.bar.elapsed() >= Self::SILENT;
+        if is_long && self.verbosity == Verbosity::Normal && self.bar.is_hidden() {
+            self.bar.set_draw_target(ProgressDrawTarget::stderr());
+        }
+    }
+
+    /// Runs `print` with the bar hidden.
+    pub fn pause(&self, print: impl FnOnce()) {
+        self.bar.suspend(print);
+    }
+}
+
+impl Drop for Progress {
+    fn drop(&mut self) {
+        self.bar.finish_and_clear();
     }
 }

@@ -14,7 +14,7 @@ use crate::commands::choice::SceneChoice;
 use crate::commands::record;
 use crate::commands::train::of_option;
 use crate::evaluation::{Evaluation, Shown};
-use crate::progress::{SharedProgress, Verbosity};
+use crate::progress::{Progress, Verbosity};
 use crate::report::{over_runs, seed_range};
 use crate::scoring::{self, Scored};
 use crate::training::{How, TrainedModel};
@@ -122,7 +122,7 @@ fn runs(
     verbosity: Verbosity,
 ) -> Result<Vec<Scored>, Error> {
     let all = scene.ticks().saturating_mul(seeds.end - seeds.start);
-    let progress = SharedProgress::new(verbosity, "scoring", all);
+    let progress = Progress::new(verbosity, "scoring", all);
     let seeds: Vec<u64> = seeds.clone().collect();
     let scored = |seed: &u64| {
         let scene = with_seed(scene, *seed);

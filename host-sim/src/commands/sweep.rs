@@ -16,7 +16,7 @@ use super::with_seed;
 use crate::classifier::Classifier;
 use crate::loaded::Loaded;
 use crate::output::{Output, check_apart, check_or_stdout};
-use crate::progress::{SharedProgress, Verbosity};
+use crate::progress::{Progress, Verbosity};
 use crate::run::Run;
 use crate::{Error, report};
 use grid::{Axis, combinations};
@@ -72,7 +72,7 @@ pub(super) fn sweep(arguments: &Arguments, verbosity: Verbosity) -> Result<Strin
         ));
     }
     let output = Output::create_or_stdout(out)?;
-    let progress = SharedProgress::new(verbosity, "sweeping", ticks);
+    let progress = Progress::new(verbosity, "sweeping", ticks);
     let measured = |(setting, seed): &(&Setting, u64)| {
         let scene = with_seed(&setting.scene, *seed);
         let run = Run::new(&scene, setting.classifier.clone())?;
