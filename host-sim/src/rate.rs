@@ -12,17 +12,14 @@ pub type Said = (String, Option<u32>);
 /// # Errors
 /// The first two that contradict each other.
 pub fn agreed(said: impl IntoIterator<Item = Said>) -> Result<Option<u32>, String> {
-    let mut first: Option<(String, u32)> = None;
-    for (who, hz) in said {
-        match (&first, hz) {
-            (Some((other, before)), Some(hz)) if *before != hz => {
-                return Err(format!("{other}: found {before}, {who} has {hz}"));
-            }
-            (None, Some(hz)) => first = Some((who, hz)),
-            _ => {}
-        }
+    let mut said = said.into_iter().filter_map(|(who, hz)| Some((who, hz?)));
+    let Some((first, hz)) = said.next() else {
+        return Ok(None);
+    };
+    match said.find(|(_, other)| *other != hz) {
+        Some((who, other)) => Err(format!("{first}: found {hz}, {who} has {other}")),
+        None => Ok(Some(hz)),
     }
-    Ok(first.map(|(_, hz)| hz))
 }
 
 /// What a recording is taken for that does not say its samples a second, where its model was trained at

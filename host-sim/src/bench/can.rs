@@ -114,16 +114,13 @@ impl Can {
         let all = self.queues.iter().flatten();
         let first_us = all.map(|(at_us, _)| *at_us).min_by(f64::total_cmp)?;
         let begin_us = self.free_us.max(first_us);
-        let mut found: Option<(usize, usize, u16)> = None;
-        for (from, queue) in self.queues.iter().enumerate() {
-            for (place, (at_us, frame)) in queue.iter().enumerate() {
-                let wins = found.is_none_or(|(_, _, id)| frame.id() < id);
-                if *at_us <= begin_us && wins {
-                    found = Some((from, place, frame.id()));
-                }
-            }
-        }
-        found.map(|(from, place, _)| (begin_us, from, place))
+        let waiting = self.queues.iter().enumerate().flat_map(|(from, queue)| {
+            let waiting = queue.iter().enumerate();
+            let waiting = waiting.filter(move |(_, (at_us, _))| *at_us <= begin_us);
+            waiting.map(move |(place, (_, frame))| (from, place, frame.id()))
+        });
+        let (from, place, _) = waiting.min_by_key(|(.., id)| *id)?;
+        Some((begin_us, from, place))
     }
 
     /// The next frame that ends by `until_us`, and whether an error has destroyed it, as
