@@ -42,14 +42,14 @@ struct Servo {
 
 impl Servo {
     fn at(servo: Place<'_>) -> Self {
+        let kept = |names: &[&str], variant, member| {
+            let (tag, held) = within(servo, names, variant)?;
+            Some((tag, Variable::at(held.member(member).ok()?).ok()?))
+        };
         Self {
             homing: within(servo, &["state"], "Homing").map(|(tag, _)| tag),
-            behind: within(servo, &["state"], "Running").and_then(|(tag, held)| {
-                let behind = Variable::at(held.member("behind").ok()?).ok()?;
-                Some((tag, behind))
-            }),
-            commanded: within(servo, &["setpoint", "first"], "Some")
-                .and_then(|(tag, held)| Some((tag, Variable::at(held.member("__0").ok()?).ok()?))),
+            behind: kept(&["state"], "Running", "behind"),
+            commanded: kept(&["setpoint", "first"], "Some", "__0"),
         }
     }
 }
@@ -100,10 +100,7 @@ impl Servos {
 
     /// Whether motors are armed; none: it is not known.
     pub(crate) fn are_armed(&self, ram: &Memories) -> Result<Option<bool>, Fault> {
-        let read = |address| {
-            let tag = Tag { address, value: 1 };
-            tag.is_so(ram)
-        };
+        let read = |address| Tag { address, value: 1 }.is_so(ram);
         self.armed.map(read).transpose()
     }
 
