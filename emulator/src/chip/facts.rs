@@ -203,10 +203,10 @@ fn wired(model: &Model) -> Vec<Fact> {
             facts.push(fact(FactKind::Request, of, part, [request.channel, 0]));
         }
         let signals = ["SCK", "MISO", "MOSI"];
-        facts.extend(pins(spi, &signals, &side.spi, wiring.spi_function));
+        facts.extend(pins(spi, &signals, &side.pins.spi, wiring.spi_function));
         let encoder = timer(side.encoder_timer);
         let function = side.encoder_function;
-        facts.extend(pins(encoder, &["CH1", "CH2"], &side.encoder, function));
+        facts.extend(pins(encoder, &["CH1", "CH2"], &side.pins.encoder, function));
     }
     let (serial, usart) = (&wiring.serial, name(model, Unit::Usart));
     let dma = name(model, Unit::Dma(SERIAL_DMA));

@@ -23,7 +23,7 @@ impl Chip {
 
     pub(crate) fn set_encoder(&mut self, side: usize, position: i32) {
         let wires = &self.model.wiring.sides[side];
-        let connected = self.hears(&wires.encoder, wires.encoder_function);
+        let connected = self.hears(&wires.pins.encoder, wires.encoder_function);
         self.timers[wires.encoder_timer].set_position(position, connected);
     }
 
@@ -66,7 +66,7 @@ impl Chip {
     pub(crate) fn motor_directions(&self) -> [bool; 2] {
         [0, 1].map(|side| {
             let side = self.model.wiring.sides.get(side);
-            side.is_some_and(|side| self.is_high(side.direction))
+            side.is_some_and(|side| self.is_high(side.pins.direction))
         })
     }
 
@@ -81,7 +81,7 @@ impl Chip {
 
     /// Whether the pins and mode of a side's SPI are those that the sensor's wires need.
     pub(super) fn sensor_is_connected(&self, side: usize) -> bool {
-        let [sck, miso, mosi] = self.model.wiring.sides[side].spi;
+        let [sck, miso, mosi] = self.model.wiring.sides[side].pins.spi;
         let function = self.model.wiring.spi_function;
         let (mode, is_joined) = self.lines[side].wires();
         self.drives(&[sck, mosi], function)
@@ -92,7 +92,7 @@ impl Chip {
 
     pub(super) fn select_sensors(&mut self) {
         for (side, wires) in self.model.wiring.sides.iter().enumerate() {
-            let low = self.role(wires.select) == Role::Output(false);
+            let low = self.role(wires.pins.select) == Role::Output(false);
             self.lines[side].select(low, self.now);
         }
     }

@@ -35,10 +35,17 @@ impl Request {
 }
 
 #[derive(Debug)]
-pub(super) struct Side {
+pub(super) struct SidePins {
     /// SCK, MISO and MOSI of the sensor's SPI (SPI1 on the left, SPI2 on the right).
     pub(super) spi: [Pin; 3],
     pub(super) select: Pin,
+    pub(super) encoder: [Pin; 2],
+    pub(super) direction: Pin,
+}
+
+#[derive(Debug)]
+pub(super) struct Side {
+    pub(super) pins: SidePins,
     /// The timer that asks for the next byte of a frame, and by what.
     pub(super) byte_timer: usize,
     pub(super) byte_signal: ByteSignal,
@@ -50,10 +57,8 @@ pub(super) struct Side {
     pub(super) tx: Request,
     /// The interrupt of the rx stream in the NVIC.
     pub(super) end_of_frame: u16,
-    pub(super) encoder: [Pin; 2],
     pub(super) encoder_timer: usize,
     pub(super) encoder_function: u32,
-    pub(super) direction: Pin,
 }
 
 /// What of a timer asks for a byte.
@@ -125,9 +130,10 @@ pub(super) const NUMBER: [Pin; 5] = [
     Pin::new('C', 4),
 ];
 
-/// The left side's pins, which every board has: SCK, MISO and MOSI; /SS; the encoder; the
-/// direction.
-pub(super) const LEFT_SPI: [Pin; 3] = [Pin::new('A', 5), Pin::new('A', 6), Pin::new('A', 7)];
-pub(super) const LEFT_SELECT: Pin = Pin::new('B', 6);
-pub(super) const LEFT_ENCODER: [Pin; 2] = [Pin::new('A', 0), Pin::new('A', 1)];
-pub(super) const LEFT_DIRECTION: Pin = Pin::new('B', 5);
+/// Those of the left side, which every board has.
+pub(super) const LEFT_PINS: SidePins = SidePins {
+    spi: [Pin::new('A', 5), Pin::new('A', 6), Pin::new('A', 7)],
+    select: Pin::new('B', 6),
+    encoder: [Pin::new('A', 0), Pin::new('A', 1)],
+    direction: Pin::new('B', 5),
+};

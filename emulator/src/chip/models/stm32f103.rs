@@ -6,10 +6,7 @@ use crate::chip::gpio::Reset;
 use crate::chip::model::{CoreKind, Model, Unit};
 use crate::chip::rcc::{Bus, f1};
 use crate::chip::timer::Kind;
-use crate::chip::wiring::{
-    ByteSignal, LEFT_DIRECTION, LEFT_ENCODER, LEFT_SELECT, LEFT_SPI, Request, SerialPort, Side,
-    Wiring,
-};
+use crate::chip::wiring::{ByteSignal, LEFT_PINS, Request, SerialPort, Side, Wiring};
 use crate::chip::{dma, flash, lines, power, spi, usart};
 
 const TIM2: usize = 0;
@@ -86,16 +83,13 @@ pub(crate) static F103: Model = Model {
 };
 
 const LEFT: Side = Side {
-    spi: LEFT_SPI,
-    select: LEFT_SELECT,
+    pins: LEFT_PINS,
     byte_timer: TIM4,
     byte_signal: ByteSignal::Compare,
     dma: 0,
     rx: Request::new(1, WIRED),
     tx: Request::new(0, WIRED),
     end_of_frame: 12,
-    encoder: LEFT_ENCODER,
     encoder_timer: TIM2,
     encoder_function: 0,
-    direction: LEFT_DIRECTION,
 };

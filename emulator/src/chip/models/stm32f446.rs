@@ -7,8 +7,7 @@ use crate::chip::model::{CoreKind, Model, Unit};
 use crate::chip::rcc::{Bus, f4};
 use crate::chip::timer::Kind;
 use crate::chip::wiring::{
-    ByteSignal, LEFT_DIRECTION, LEFT_ENCODER, LEFT_SELECT, LEFT_SPI, Pin, Request, SerialPort,
-    Side, Wiring,
+    ByteSignal, LEFT_PINS, Pin, Request, SerialPort, Side, SidePins, Wiring,
 };
 use crate::chip::{dma, flash, lines, power, spi, usart};
 
@@ -102,31 +101,30 @@ pub(crate) static F446: Model = Model {
 };
 
 const LEFT: Side = Side {
-    spi: LEFT_SPI,
-    select: LEFT_SELECT,
+    pins: LEFT_PINS,
     byte_timer: TIM8,
     byte_signal: ByteSignal::Update,
     dma: 1,
     rx: Request::new(0, 3),
     tx: Request::new(1, 7),
     end_of_frame: 56,
-    encoder: LEFT_ENCODER,
     encoder_timer: TIM2,
     encoder_function: 1,
-    direction: LEFT_DIRECTION,
 };
 
 const RIGHT: Side = Side {
-    spi: [Pin::new('B', 13), Pin::new('B', 14), Pin::new('B', 15)],
-    select: Pin::new('B', 12),
+    pins: SidePins {
+        spi: [Pin::new('B', 13), Pin::new('B', 14), Pin::new('B', 15)],
+        select: Pin::new('B', 12),
+        encoder: [Pin::new('C', 6), Pin::new('C', 7)],
+        direction: Pin::new('C', 8),
+    },
     byte_timer: TIM6,
     byte_signal: ByteSignal::Update,
     dma: 0,
     rx: Request::new(3, 0),
     tx: Request::new(1, 7),
     end_of_frame: 14,
-    encoder: [Pin::new('C', 6), Pin::new('C', 7)],
     encoder_timer: TIM3,
     encoder_function: 2,
-    direction: Pin::new('C', 8),
 };

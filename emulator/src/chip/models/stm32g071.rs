@@ -6,10 +6,7 @@ use crate::chip::gpio::Reset;
 use crate::chip::model::{CoreKind, Model, Unit};
 use crate::chip::rcc::{Bus, g0};
 use crate::chip::timer::Kind;
-use crate::chip::wiring::{
-    ByteSignal, LEFT_DIRECTION, LEFT_ENCODER, LEFT_SELECT, LEFT_SPI, Request, SerialPort, Side,
-    Wiring,
-};
+use crate::chip::wiring::{ByteSignal, LEFT_PINS, Request, SerialPort, Side, Wiring};
 use crate::chip::{dma, flash, lines, power, spi, usart};
 
 const TIM2: usize = 0;
@@ -87,8 +84,7 @@ pub(crate) static G071: Model = Model {
 };
 
 const LEFT: Side = Side {
-    spi: LEFT_SPI,
-    select: LEFT_SELECT,
+    pins: LEFT_PINS,
     byte_timer: TIM6,
     byte_signal: ByteSignal::Update,
     dma: 0,
@@ -96,8 +92,6 @@ const LEFT: Side = Side {
     rx: Request::new(0, 16),
     tx: Request::new(1, 38),
     end_of_frame: 9,
-    encoder: LEFT_ENCODER,
     encoder_timer: TIM2,
     encoder_function: 2,
-    direction: LEFT_DIRECTION,
 };
