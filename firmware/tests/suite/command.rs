@@ -1,39 +1,13 @@
 //! Commands between ticks: the nominal gain and the setpoint of a whisker.
 
 use firmware::{
-    AngleInput, Command, Config, Driver, HeadConfig, Module, MotionConfig, NoActiveWhisker, Place,
-    Servo, ServoConfig, ServoState, Whisker, WhiskerParts, design_parameters,
+    Command, Config, Driver, HeadConfig, Module, MotionConfig, NoActiveWhisker, Place, Servo,
+    ServoConfig, ServoState, Whisker, WhiskerParts, design_parameters,
 };
-use whisking::motor::{Duty, Fault, GuardSettings, MotorDriver};
+use whisking::motor::GuardSettings;
 use whisking::{Fix, GateSettings, Integrator, Number, Settings, filter, pd};
 
-use crate::hardware::{Bent, NoClock, Toy, feeling, passive};
-
-#[derive(Default)]
-pub(crate) struct Kept {
-    duty: f64,
-}
-
-impl MotorDriver for Kept {
-    fn drive(&mut self, duty: Duty) -> Result<(), Fault> {
-        self.duty = f64::from(duty.q15()) / 32_767.0;
-        Ok(())
-    }
-
-    fn off(&mut self) {
-        self.duty = 0.0;
-    }
-
-    fn clear(&mut self) {}
-}
-
-pub(crate) struct Still;
-
-impl AngleInput for Still {
-    fn counts(&mut self) -> i32 {
-        0
-    }
-}
+use crate::hardware::{Bent, NoClock, Rig, Toy, feeling, passive};
 
 const SETTINGS: Settings = Settings {
     tick_hz: 2000.0,
@@ -49,7 +23,7 @@ const SETTINGS: Settings = Settings {
 };
 
 /// A degree of error is 0.01 of duty; setpoints reach from 30° to 140°.
-const PD: pd::Settings = pd::Settings {
+pub(crate) const PD: pd::Settings = pd::Settings {
     kp: 0.01,
     kd: 0.0,
     limit: 1.0,
@@ -89,7 +63,7 @@ pub(crate) fn module<R: Number>() -> (Whiskers<R>, Config<R>) {
     };
     let whisker = || WhiskerParts {
         source: Bent(0xC000),
-        motor: Some((Kept::default(), Still)),
+        motor: Some((Rig::default(), Rig::default())),
     };
     let mut module = Module::new(&config, [whisker(), whisker()], None, (NoClock, 0));
     module.arm(true);
@@ -98,7 +72,7 @@ pub(crate) fn module<R: Number>() -> (Whiskers<R>, Config<R>) {
 
 const SECOND: Place = Place::new(0, 1);
 
-pub(crate) fn servo<R: Number>(module: &Whiskers<R>) -> &Servo<R, Kept, Still> {
+pub(crate) fn servo<R: Number>(module: &Whiskers<R>) -> &Servo<R, Rig, Rig> {
     module.whiskers().get(1).and_then(Whisker::servo).unwrap()
 }
 
@@ -108,10 +82,7 @@ pub(crate) fn nominal<R: Number>(module: &Whiskers<R>, n: usize) -> R {
 
 pub(crate) fn tick<R: Number>(module: &mut Whiskers<R>, config: &Config<R>) -> [f64; 2] {
     module.tick(config, &mut |event| panic!("{event:?}"));
-    let [first, second] = module.whiskers_mut() else {
-        panic!("two whiskers");
-    };
-    [first, second].map(|whisker| whisker.servo_mut().unwrap().parts_mut().0.duty)
+    [0, 1].map(|n| module.whiskers()[n].servo().unwrap().motor().duty())
 }
 
 #[test]

@@ -5,14 +5,14 @@ use embedded_hal_mock::eh1::digital::{Mock as Pin, State, Transaction as Set};
 use embedded_hal_mock::eh1::pwm::{Mock as Pwm, Transaction as Pulse};
 use embedded_hal_mock::eh1::spi::{Mock as Spi, Transaction as Transfer};
 use firmware::{
-    AngleInput, Clock, Config, Driver, Event, Hardware, Module, MotionConfig, Place, Polled, Retry,
-    SensingConfig, SensorFault, SensorLimits, ServoConfig, WhiskerParts,
+    AngleInput, Clock, CodeClassifier, Config, Event, Hardware, Module, MotionConfig, Place,
+    Polled, Retry, SensorFault, ServoConfig, WhiskerParts,
 };
 use mlx90333::{Decoder, FrameError, Mlx90333};
-use whisking::motor::{GuardSettings, HBridge};
-use whisking::{GateSettings, Integrator, Settings, filter, pd};
+use whisking::motor::HBridge;
+use whisking::{GateSettings, Integrator, Settings, pd};
 
-use crate::hardware::{AT_ONCE, NoClassifier, feeling};
+use crate::command::{self, PD};
 
 /// A frame at rest: alpha and beta 0x8000, no error; 0x80 + 0x80 = 0x100.
 const REST: [u8; 8] = [0xFF, 0x00, 0x80, 0x00, 0x80, 0x00, 0x00, 0x00];
@@ -87,42 +87,29 @@ const SETTINGS: Settings = Settings {
 fn config() -> Config<f32> {
     let pd = pd::Settings {
         kp: 0.05,
-        kd: 0.0,
         limit: 0.5,
         slew_per_s: 400.0,
-        min_deg: 30.0,
         max_deg: 160.0,
-        degrees_per_count: 0.1,
+        ..PD
     };
-    Config {
-        sensor: SensingConfig {
-            limits: SensorLimits {
-                recover: 2,
-                ..AT_ONCE
-            },
-            ..feeling::<f32>(None).sensor
+    let retry = Retry {
+        rest: 10,
+        window: 0,
+    };
+    let (_, mut config) = command::module::<f32>();
+    config.head.whiskers_per_side = 1;
+    config.sensor.limits.recover = 2;
+    config.motion = config.motion.map(|motion| MotionConfig {
+        whisking: SETTINGS.build().unwrap(),
+        start: SETTINGS.start(&[[1.0, 0.0]], &[&[0.0]]).unwrap(),
+        servo: ServoConfig {
+            pd: pd.build(2000.0).unwrap(),
+            retry,
+            ..motion.servo
         },
-        contact: Some(filter::Config::new(50.0, 2000.0).unwrap()),
-        motion: Some(MotionConfig {
-            whisking: SETTINGS.build().unwrap(),
-            start: SETTINGS.start(&[[1.0, 0.0]], &[&[0.0]]).unwrap(),
-            seed: 1,
-            servo: ServoConfig {
-                pd: pd.build(2000.0).unwrap(),
-                retry: Retry {
-                    rest: 10,
-                    window: 0,
-                },
-                guards: GuardSettings::NONE.build(2000.0),
-                approach: 1.0,
-                homing: None,
-            },
-            driver: Driver::HBridge,
-            stops_all: false,
-            arms_at_start: true,
-        }),
-        ..Config::still()
-    }
+        ..motion
+    });
+    config
 }
 
 struct Wires;
@@ -131,7 +118,7 @@ impl Hardware for Wires {
     type Source = Polled<Spi<u8>>;
     type Motor = HBridge<Pwm, Pin>;
     type Angle = Encoder;
-    type Classifier = NoClassifier;
+    type Classifier = CodeClassifier;
     type Clock = Microseconds;
 }
 

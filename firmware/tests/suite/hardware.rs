@@ -1,14 +1,15 @@
-//! Hardware that is always the same.
+//! Hardware that is always the same, and a motor that can be turned.
+
+use std::cell::RefCell;
+use std::rc::Rc;
 
 use firmware::{
-    BusError, Clock, Config, FrameSource, Hardware, HeadConfig, Module, Sample, SampleClassifier,
-    SensingConfig, SensorKind, SensorLimits, WhiskerParts, WordSource,
+    AngleInput, BusError, Clock, CodeClassifier, Config, FrameSource, Hardware, HeadConfig, Module,
+    SensingConfig, SensorLimits, WhiskerParts, WordSource,
 };
 use mlx90333::{FRAME_LEN, Faults, SumRule, Word, encode};
-use tactile::{ClassSetting, Decision, RuleSettings};
+use whisking::motor::{Duty, Fault, MotorDriver};
 use whisking::{Real, filter};
-
-use crate::command::{Kept, Still};
 
 /// A bad frame is bridged, and a good one ends the fault.
 pub(crate) const AT_ONCE: SensorLimits = SensorLimits {
@@ -25,11 +26,8 @@ pub(crate) fn feeling<R: Real>(contact: Option<filter::Config<R>>) -> Config<R> 
             ..still.head.clone()
         },
         sensor: SensingConfig {
-            kind: SensorKind::FastMlx90333,
-            rest_us: 50,
-            decoder: mlx90333::Decoder::new(),
-            self_motion: None,
             limits: AT_ONCE,
+            ..still.sensor
         },
         contact,
         ..still
@@ -52,28 +50,48 @@ pub(crate) struct Toy<S>(S);
 
 impl<S: WordSource> Hardware for Toy<S> {
     type Source = S;
-    type Motor = Kept;
-    type Angle = Still;
-    type Classifier = NoClassifier;
+    type Motor = Rig;
+    type Angle = Rig;
+    type Classifier = CodeClassifier;
     type Clock = NoClock;
 }
 
-pub(crate) struct NoClassifier;
+#[derive(Debug, Default)]
+pub(crate) struct Turned {
+    pub(crate) duty: f64,
+    /// Where it is, counts.
+    pub(crate) counts: f64,
+    pub(crate) stuck_at: Option<i32>,
+}
 
-impl SampleClassifier for NoClassifier {
-    fn push(&mut self, _: usize, _: Sample) -> Option<Decision> {
-        None
+/// A motor and its encoder.
+#[derive(Clone, Default)]
+pub(crate) struct Rig(pub(crate) Rc<RefCell<Turned>>);
+
+impl Rig {
+    pub(crate) fn duty(&self) -> f64 {
+        self.0.borrow().duty
+    }
+}
+
+impl MotorDriver for Rig {
+    fn drive(&mut self, duty: Duty) -> Result<(), Fault> {
+        self.0.borrow_mut().duty = f64::from(duty.q15()) / 32_767.0;
+        Ok(())
     }
 
-    fn knows_touches(&self) -> bool {
-        false
+    fn off(&mut self) {
+        self.0.borrow_mut().duty = 0.0;
     }
 
-    fn interrupt(&mut self, _: usize) {}
+    fn clear(&mut self) {}
+}
 
-    fn reset(&mut self) {}
-
-    fn set_rule(&mut self, _: &RuleSettings, _: &[ClassSetting]) {}
+impl AngleInput for Rig {
+    fn counts(&mut self) -> i32 {
+        let rig = self.0.borrow();
+        rig.stuck_at.unwrap_or(rig.counts.round() as i32)
+    }
 }
 
 pub(crate) struct Bent(pub(crate) u16);

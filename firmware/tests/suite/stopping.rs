@@ -1,65 +1,20 @@
 //! Commands in any order, with a motor whose encoder may be stuck: what moves rest, what is driven
 //! after a stop, and how often a motor that fails is tried.
 
-use std::cell::RefCell;
-use std::rc::Rc;
-
 use firmware::{
-    AngleInput, Command, Config, Event, Hardware, Module, Place, Retry, ServoState, TooManyFaults,
-    WhiskerParts,
+    Command, Config, Event, Module, Place, Retry, ServoState, TooManyFaults, WhiskerParts,
 };
 use proptest::prelude::*;
-use whisking::motor::{Duty, Fault, GuardSettings, MotorDriver};
+use whisking::motor::GuardSettings;
 
-use crate::command;
-use crate::hardware::{Bent, NoClock, Toy};
-
-#[derive(Debug, Default)]
-struct Turned {
-    duty: f64,
-    /// Where it is, counts.
-    counts: f64,
-    stuck_at: Option<i32>,
-}
+use crate::command::{self, Whiskers};
+use crate::hardware::{Bent, NoClock, Rig};
 
 /// Counts in a tick at full duty.
 const SPEED: f64 = 20.0;
 
-#[derive(Clone)]
-struct Rig(Rc<RefCell<Turned>>);
-
-impl MotorDriver for Rig {
-    fn drive(&mut self, duty: Duty) -> Result<(), Fault> {
-        self.0.borrow_mut().duty = f64::from(duty.q15()) / 32_767.0;
-        Ok(())
-    }
-
-    fn off(&mut self) {
-        self.0.borrow_mut().duty = 0.0;
-    }
-
-    fn clear(&mut self) {}
-}
-
-impl AngleInput for Rig {
-    fn counts(&mut self) -> i32 {
-        let rig = self.0.borrow();
-        rig.stuck_at.unwrap_or(rig.counts.round() as i32)
-    }
-}
-
-struct Moved;
-
-impl Hardware for Moved {
-    type Source = Bent;
-    type Motor = Rig;
-    type Angle = Rig;
-    type Classifier = <Toy<Bent> as Hardware>::Classifier;
-    type Clock = NoClock;
-}
-
 struct Bench {
-    module: Module<f64, Moved>,
+    module: Whiskers<f64>,
     config: Config<f64>,
     rig: Rig,
     events: Vec<Event>,
@@ -85,7 +40,7 @@ impl Bench {
             ..GuardSettings::NONE
         };
         motion.servo.guards = guards.build(2000.0);
-        let rig = Rig(Rc::default());
+        let rig = Rig::default();
         let motor = Some((rig.clone(), rig.clone()));
         let source = Bent(0xC000);
         let parts = [WhiskerParts { source, motor }];
@@ -104,10 +59,6 @@ impl Bench {
             .tick(&self.config, &mut |event| self.events.push(event));
         let mut rig = self.rig.0.borrow_mut();
         rig.counts += SPEED * rig.duty;
-    }
-
-    fn duty(&self) -> f64 {
-        self.rig.0.borrow().duty
     }
 
     fn faults(&self) -> usize {
@@ -182,15 +133,15 @@ proptest! {
                 Do::Ticks(count) => {
                     for _ in 0..count {
                         bench.tick();
-                        prop_assert!(is_armed || bench.duty() == 0.0);
+                        prop_assert!(is_armed || bench.rig.duty() == 0.0);
                     }
                 }
                 Do::Turn(counts) if !is_armed => bench.rig.0.borrow_mut().counts += counts,
                 Do::Turn(_) => {}
             }
             bench.tick();
-            prop_assert!(is_armed || bench.duty() == 0.0);
-            let moved = bench.rig.0.borrow().duty * SPEED;
+            prop_assert!(is_armed || bench.rig.duty() == 0.0);
+            let moved = bench.rig.duty() * SPEED;
             prop_assert!((bench.off_rest() + moved).abs() < 2.0, "{}", bench.off_rest());
         }
     }
@@ -255,5 +206,5 @@ fn who_clears_a_motor_that_was_given_up_has_one_more_fault_in_a_while() {
     bench.module.command(LEFT, Command::Clear).unwrap();
     bench.tick();
     bench.tick();
-    assert!(bench.duty() != 0.0);
+    assert!(bench.rig.duty() != 0.0);
 }
