@@ -38,7 +38,6 @@ const RECORD: u8 = 0;
 const ANSWER: u8 = 1;
 const EVENT: u8 = 2;
 
-/// Bytes of a packet.
 pub(crate) const PACKET_BYTES: usize = 21;
 
 type Words = [u32; 5];
@@ -113,8 +112,7 @@ mod kind {
 }
 
 impl EventRecord {
-    /// As it is sent: the tick; what, side, whisker and a number of 8 bits; three values. What the
-    /// image was built without does not happen in it.
+    /// As it is sent: the tick; what, side, whisker and a number of 8 bits; three values.
     fn words(&self) -> Words {
         const NONE: [u32; 3] = [0; 3];
         let nowhere = Place::new(0, 0);
@@ -231,7 +229,6 @@ fn details(fault: SensorFault) -> [u32; 3] {
     [detail(fault).into(), 0, 0]
 }
 
-/// Of an MLX90333.
 fn detail(fault: SensorFault) -> u16 {
     match fault {
         SensorFault::Frame(FrameError::BadStart(found)) => found.into(),
@@ -275,7 +272,7 @@ fn sensor_fault(number: u8, details: [u32; 2]) -> Option<SensorFault> {
 mod tests {
     use mlx90333::{Faults, FrameError};
     use proptest::prelude::*;
-    use tactile::Decision;
+    use tactile::{Decision, Pose};
     use whisking::motor;
     use wire::{
         Answer, Command, CommandStatus, FRAME_BYTES, Piece, Splitter, TaggedCommand, TickRecord,
@@ -283,7 +280,7 @@ mod tests {
     };
 
     use super::{EventRecord, Packet};
-    use crate::{Event, Health, NodeEvent, Place, SensorFault};
+    use crate::{Event, Health, NodeEvent, Part, Place, SensorFault};
 
     fn received(packet: &Packet) -> Option<Packet> {
         let mut splitter = Splitter::<FRAME_BYTES>::new();
@@ -295,38 +292,26 @@ mod tests {
             })
     }
 
-    fn decision() -> impl Strategy<Value = Decision> {
-        (1_u32.., any::<u32>(), any::<u32>())
-            .prop_filter_map("samples", |(samples, packed, touch)| {
-                Decision::from_memory(samples, packed, touch)
-            })
-    }
-
-    fn sensor_fault() -> impl Strategy<Value = SensorFault> {
-        (0..11, any::<[u8; 2]>()).prop_map(|(which, [a, b])| {
-            let frame = SensorFault::Frame;
-            match which {
-                0 => SensorFault::NoFrame,
-                1 => SensorFault::Bus,
-                2 => SensorFault::Frozen,
-                3 => SensorFault::Jump,
-                4 => SensorFault::Often(a),
-                5 => frame(FrameError::NoSensor),
-                6 => frame(FrameError::LineLow),
-                7 => frame(FrameError::BadStart(a)),
-                8 => frame(FrameError::BadSum {
-                    expected: a,
-                    found: b,
-                }),
-                9 => frame(FrameError::Sensor(Faults::new(u16::from_le_bytes([a, b])))),
-                _ => frame(FrameError::StuckWords),
-            }
-        })
+    fn sensor_faults() -> Vec<SensorFault> {
+        use SensorFault::{Bus, Frozen, Jump, NoFrame, Often};
+        let [expected, found] = [0xFE, 12];
+        let frames = [
+            FrameError::NoSensor,
+            FrameError::LineLow,
+            FrameError::BadStart(found),
+            FrameError::BadSum { expected, found },
+            FrameError::Sensor(Faults::new(0x8EFE)),
+            FrameError::StuckWords,
+        ];
+        let mut faults = frames.map(SensorFault::Frame).to_vec();
+        faults.extend([NoFrame, Bus, Frozen, Jump, Often(18)]);
+        #[cfg(feature = "tmag5170")]
+        faults.extend(tilt_faults().into_iter().map(SensorFault::Tilt));
+        faults
     }
 
     #[cfg(feature = "tmag5170")]
-    #[test]
-    fn faults_of_a_tmag5170_come_as_they_were_sent() {
+    fn tilt_faults() -> Vec<crate::TiltFault> {
         use crate::TiltFault::{NoMagnet, NotWritten, Reply, Reported};
         use tmag5170::ReplyError::{self, LineLow, NoSensor, OtherType, Rejected, Restarted};
         use tmag5170::{Register, Status, StatusFaults};
@@ -334,93 +319,78 @@ mod tests {
         let [expected, found] = [3, 12];
         let bad_crc = ReplyError::BadCrc { expected, found };
         let sensor = ReplyError::Sensor(Status::new(0x308));
-        let replies = [
-            NoSensor,
-            LineLow,
-            Rejected,
-            bad_crc,
-            Restarted,
-            sensor,
-            OtherType(5),
-        ];
+        let of_lines = [NoSensor, LineLow, Rejected, bad_crc];
         let mut faults = vec![Reported(StatusFaults::NONE), NoMagnet];
-        faults.extend(replies.map(Reply));
+        faults.extend(of_lines.map(Reply));
+        faults.extend([Restarted, sensor, OtherType(5)].map(Reply));
         faults.extend(StatusFaults::KNOWN.map(|known| Reported(known.bit)));
         faults.extend(Register::ALL.map(NotWritten));
-        for fault in faults {
-            let event = Event::SensorLost(Place::new(1, 0), SensorFault::Tilt(fault));
-            let packet = Packet::Event(EventRecord { sequence: 7, event });
+        faults
+    }
+
+    /// One of each kind, with bytes that differ.
+    fn events() -> Vec<Event> {
+        let (place, number) = (Place::new(1, 3), 0xFEDC);
+        let mut events = vec![
+            Event::Touch { place, number },
+            Event::TouchEnd { place, number },
+            Event::Pose(place, Pose::from_words([0x8123_4567, 0x89AB_CDEF])),
+            Event::Frame(place, 0x8123_4567_89AB_CDEF_u64.to_be_bytes()),
+            Event::SensorBack(place),
+            Event::ZeroMoved(place, [i16::MIN, 0x0123]),
+            Event::MotorRetry(place),
+            Event::MotorGivenUp(place),
+            Event::Armed,
+            Event::Stopped,
+            Event::Health(Health {
+                worst_tenths: number,
+                missed: 0x8123_4567,
+                dropped: 0x89AB_CDEF,
+            }),
+            Event::Limit(0xFE),
+        ];
+        let decisions = [[1, 0, 0], [0x8123_4567, 0x89AB_CDEF, u32::MAX]];
+        let decisions = decisions.map(|[a, b, c]| Decision::from_memory(a, b, c).unwrap());
+        events.extend(decisions.map(|decision| Event::Decision(place, decision)));
+        let lost = |fault| Event::SensorLost(place, fault);
+        events.extend(sensor_faults().into_iter().map(lost));
+        let motors = (1..16).filter_map(motor::Fault::from_code);
+        let motors = motors.chain([motor::Fault::InvalidHall(5)]);
+        events.extend(motors.map(|fault| Event::MotorFault(place, fault)));
+        let [joined, left, twin] = [NodeEvent::Joined, NodeEvent::Left, NodeEvent::Twin];
+        let nodes = [
+            joined,
+            left,
+            twin,
+            NodeEvent::Heard(29),
+            NodeEvent::Lost(30),
+        ];
+        if Part::Bus.is_built() {
+            events.extend(nodes.map(|what| Event::Node(31, what)));
+        }
+        events
+    }
+
+    #[test]
+    fn packets_come_as_they_were_sent() {
+        let sequence = 0x8123_4567;
+        let events = events().into_iter();
+        let events = events.map(|event| Packet::Event(EventRecord { sequence, event }));
+        let answers = (0..=u8::MAX).map(|code| {
+            Packet::Answer(Answer {
+                sequence,
+                tag: 0xFEDC,
+                command: !code,
+                status: CommandStatus::from_code(code),
+                values: [i32::MIN, 0x0123_4567],
+            })
+        });
+        for packet in events.chain(answers) {
             assert_eq!(received(&packet), Some(packet));
         }
     }
 
-    fn motor_fault() -> impl Strategy<Value = motor::Fault> {
-        (1..=12_u8, any::<u8>()).prop_map(|(code, hall)| match motor::Fault::from_code(code) {
-            // 3 for code 0, 4 for any other.
-            Some(motor::Fault::InvalidHall(_)) => motor::Fault::InvalidHall(hall),
-            fault => fault.expect("a number in use"),
-        })
-    }
-
-    fn event() -> impl Strategy<Value = Event> {
-        let place = any::<(u8, u8)>().prop_map(|(side, whisker)| Place::new(side, whisker));
-        let health = any::<(u16, u32, u32)>();
-        let parts = (0..19, place, any::<(u16, [i16; 2], u8)>());
-        let faults = (decision(), sensor_fault(), motor_fault());
-        (parts, faults, health).prop_map(|((which, place, values), faults, health)| {
-            let (number, codes, limit) = values;
-            let (decision, sensor, motor) = faults;
-            let (worst_tenths, missed, dropped) = health;
-            match which {
-                0 => Event::Touch { place, number },
-                1 => Event::TouchEnd { place, number },
-                2 => Event::Decision(place, decision),
-                3 => Event::SensorLost(place, sensor),
-                4 => Event::SensorBack(place),
-                5 => Event::ZeroMoved(place, codes),
-                6 => Event::MotorFault(place, motor),
-                7 => Event::MotorRetry(place),
-                8 => Event::MotorGivenUp(place),
-                9 => Event::Armed,
-                12 => Event::Stopped,
-                13 => Event::Frame(place, u64::from(missed).to_be_bytes()),
-                14 => Event::Node(place.whisker, NodeEvent::Joined),
-                15 => Event::Node(place.whisker, NodeEvent::Left),
-                16 => Event::Node(place.whisker, NodeEvent::Heard(limit)),
-                17 => Event::Node(place.whisker, NodeEvent::Lost(limit)),
-                18 => Event::Node(place.whisker, NodeEvent::Twin),
-                10 => Event::Health(Health {
-                    worst_tenths,
-                    missed,
-                    dropped,
-                }),
-                _ => Event::Limit(limit),
-            }
-        })
-    }
-
     proptest! {
-        #[test]
-        fn events_come_as_they_were_sent(sequence: u32, event in event()) {
-            let packet = Packet::Event(EventRecord { sequence, event });
-            prop_assert_eq!(received(&packet), Some(packet));
-        }
-
-        #[test]
-        fn answers_come_as_they_were_sent(
-            (sequence, tag, command, status) in any::<(u32, u16, u8, u8)>(),
-            values: [i32; 2],
-        ) {
-            let packet = Packet::Answer(Answer {
-                sequence,
-                tag,
-                command,
-                status: CommandStatus::from_code(status),
-                values,
-            });
-            prop_assert_eq!(received(&packet), Some(packet));
-        }
-
         #[test]
         fn any_bytes_are_a_packet_or_none(kind: u8, bytes: [u8; 20]) {
             let content = wire::frame(&(kind, bytes));
@@ -434,8 +404,7 @@ mod tests {
         }
     }
 
-    /// The bytes are those of a Python program that follows docs/protocol.md, with zlib's sum and
-    /// a COBS of its own.
+    /// By a Python program that follows docs/protocol.md, with zlib's sum and a COBS of its own.
     #[test]
     fn frames_are_those_of_another_program() {
         let sequence = 0x0403_0201;
