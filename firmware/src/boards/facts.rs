@@ -1,6 +1,6 @@
 //! The boards.
 
-use super::{Clocks, FlashMap, Region};
+use super::{Clocks, FlashMap, Region, Slot};
 use crate::BoardCode;
 #[cfg(doc)]
 use crate::Part;
@@ -93,54 +93,41 @@ pub const NUCLEO_F446RE: BoardFacts = BoardFacts {
     max_sides: 2,
     in_head: InHead::Tuned,
     // Sectors 0 to 5, 6, 7 (RM0390, flash module organization).
-    flash: FlashMap::with_two_models(
-        Region::new(0x0800_0000, 256 * KIB),
-        [
-            Region::new(0x0804_0000, 128 * KIB),
-            Region::new(0x0806_0000, 128 * KIB),
+    flash: FlashMap {
+        program: Region::new(0x0800_0000, 256 * KIB),
+        slots: [
+            Slot::sector(Region::new(0x0804_0000, 128 * KIB)),
+            Slot::sector(Region::new(0x0806_0000, 128 * KIB)),
         ],
-    ),
+    },
 };
 
 /// Of both chips with 128 KiB: pages of 1 or 2 KiB.
-const SMALL_FLASH: FlashMap = FlashMap::with_one_model(
-    Region::new(0x0800_0000, 104 * KIB),
-    [
-        Region::new(0x0801_A000, 2 * KIB),
-        Region::new(0x0801_A800, 2 * KIB),
+const SMALL_FLASH: FlashMap = FlashMap {
+    program: Region::new(0x0800_0000, 104 * KIB),
+    slots: [
+        Slot::pages(Region::new(0x0801_A000, 2 * KIB), SMALL_MODEL),
+        Slot::pages(Region::new(0x0801_A800, 2 * KIB), SMALL_MODEL),
     ],
-    Region::new(0x0801_B000, 20 * KIB),
-);
+};
+const SMALL_MODEL: Region = Region::new(0x0801_B000, 20 * KIB);
 
 /// Two tables of 24 by 24 bins then take 13.5 KiB of the 20 KiB for a model.
 const SMALL_CLASSES: usize = 6;
 
-/// Timers on APB1 count at twice the clock of their bus, those on APB2 at the bus clock
-/// itself, which is not divided.
-const F103_CLOCKS: Clocks = Clocks {
-    core_hz: 72_000_000,
-    spi_hz: 72_000_000 / 256,
-    byte_timer_hz: 72_000_000,
-    tick_timer_hz: 72_000_000,
-    counter_hz: 72_000_000,
-    pwm_hz: 72_000_000,
-    serial_hz: 36_000_000,
-    watchdog_hz: [30_000, 40_000, 60_000],
+/// APB1 is half of the core's clock, and timers on it count at twice that; APB2 is not divided.
+const F103_CLOCKS: Clocks = f103(72_000_000);
+
+const fn f103(core_hz: u32) -> Clocks {
+    Clocks {
+        serial_hz: core_hz / 2,
+        ..Clocks::undivided(core_hz, [30_000, 40_000, 60_000])
+    }
+    .checked()
 }
-.checked();
 
 /// The most that its PLL makes of its own 8 MHz.
-const F103_INTERNAL: Clocks = Clocks {
-    core_hz: 64_000_000,
-    spi_hz: 64_000_000 / 256,
-    byte_timer_hz: 64_000_000,
-    tick_timer_hz: 64_000_000,
-    counter_hz: 64_000_000,
-    pwm_hz: 64_000_000,
-    serial_hz: 32_000_000,
-    watchdog_hz: [30_000, 40_000, 60_000],
-}
-.checked();
+const F103_INTERNAL: Clocks = f103(64_000_000);
 
 /// STM32F103RB, Cortex-M3 at 72 MHz.
 pub const NUCLEO_F103RB: BoardFacts = BoardFacts {
@@ -157,18 +144,7 @@ pub const NUCLEO_F103RB: BoardFacts = BoardFacts {
     flash: SMALL_FLASH,
 };
 
-/// No bus is divided.
-const G071_CLOCKS: Clocks = Clocks {
-    core_hz: 64_000_000,
-    spi_hz: 64_000_000 / 256,
-    byte_timer_hz: 64_000_000,
-    tick_timer_hz: 64_000_000,
-    counter_hz: 64_000_000,
-    pwm_hz: 64_000_000,
-    serial_hz: 64_000_000,
-    watchdog_hz: [29_500, 32_000, 34_000],
-}
-.checked();
+const G071_CLOCKS: Clocks = Clocks::undivided(64_000_000, [29_500, 32_000, 34_000]).checked();
 
 /// STM32G071RB, Cortex-M0+ at 64 MHz. No bus is divided.
 pub const NUCLEO_G071RB: BoardFacts = BoardFacts {

@@ -48,17 +48,10 @@ impl Needs {
     }
 
     /// Whiskers of one board, of which each hangs on a side of its own.
-    const fn sides_of_board(&self) -> u8 {
-        match self.bus {
-            Some(bus) => {
-                let all = self.sides.saturating_mul(self.whiskers_per_side);
-                match all.checked_div(bus.nodes) {
-                    Some(each) => each,
-                    None => 0,
-                }
-            }
-            None => self.sides,
-        }
+    fn sides_of_board(&self) -> u8 {
+        let all = self.sides.saturating_mul(self.whiskers_per_side);
+        let each = |bus: BusConfig| all.checked_div(bus.nodes).unwrap_or(0);
+        self.bus.map_or(self.sides, each)
     }
 }
 
@@ -75,11 +68,8 @@ pub enum Misfit {
     DecidesInHead,
     /// So many whiskers at most are on a board of a head.
     Share(u8),
-    /// The clock of the bus, Hz, is no multiple of its bits.
-    BusOfClock {
-        /// That clock.
-        can_hz: u32,
-    },
+    /// This clock of the bus, Hz, is no multiple of its bits.
+    BusOfClock(u32),
     /// One brushless motor takes every output of the PWM's timer.
     TwoBrushless,
     /// A sensor frame has to fit into a tick.
@@ -91,16 +81,10 @@ pub enum Misfit {
         /// For how long the sensor is deselected after it, µs.
         rest_us: u16,
     },
-    /// The clock of the serial port, Hz, is no multiple of its baud.
-    BaudOfClock {
-        /// That clock.
-        serial_hz: u32,
-    },
-    /// More bytes come in two ticks than there is room for.
-    BaudOfTicks {
-        /// The highest baud at this rate of ticks.
-        most: u32,
-    },
+    /// This clock of the serial port, Hz, is no multiple of its baud.
+    BaudOfClock(u32),
+    /// More bytes come in two ticks than there is room for, at more than this baud.
+    BaudOfTicks(u32),
 }
 
 impl Misfit {
@@ -110,17 +94,14 @@ impl Misfit {
             Self::Sides(_) => ConfigError::Room(Field::Sides),
             Self::Whiskers | Self::Share(_) => ConfigError::Room(Field::Whiskers),
             Self::NoBus | Self::DecidesInHead => ConfigError::Room(Field::Bus),
-            Self::BusOfClock { .. } => ConfigError::Range(Field::Bus),
+            Self::BusOfClock(_) => ConfigError::Range(Field::Bus),
             Self::TwoBrushless => ConfigError::Room(Field::Driver),
             Self::TickHz { .. } => ConfigError::Range(Field::TickHz),
-            Self::BaudOfClock { .. } | Self::BaudOfTicks { .. } => {
-                ConfigError::Range(Field::SerialBaud)
-            }
+            Self::BaudOfClock(_) | Self::BaudOfTicks(_) => ConfigError::Range(Field::SerialBaud),
         }
     }
 }
 
-/// What is allowed, and why.
 impl fmt::Display for Misfit {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match *self {
@@ -132,7 +113,7 @@ impl fmt::Display for Misfit {
             Self::DecidesInHead => {
                 f.write_str("no such key beside [classifier], because its RAM has no room for both")
             }
-            Self::BusOfClock { can_hz } => write!(
+            Self::BusOfClock(can_hz) => write!(
                 f,
                 "125 to 1000, of which {can_hz} Hz are a multiple by 8 to 18 and a whole number"
             ),
@@ -149,12 +130,12 @@ impl fmt::Display for Misfit {
                 "{TICK_MIN_HZ} to {most}, because a sensor frame takes {frame_us} us and its rest \
                  {rest_us} us"
             ),
-            Self::BaudOfClock { serial_hz } => write!(
+            Self::BaudOfClock(serial_hz) => write!(
                 f,
                 "up to {}, where {serial_hz} Hz are a multiple of it to within 1.5 %",
                 serial_hz / 16
             ),
-            Self::BaudOfTicks { most } => write!(
+            Self::BaudOfTicks(most) => write!(
                 f,
                 "up to {most}, which brings less than {RECEIVED_BYTES} bytes in two ticks"
             ),
@@ -176,7 +157,7 @@ impl BoardFacts {
     ///
     /// # Errors
     /// The first thing that it cannot.
-    pub const fn fits(&self, needs: &Needs) -> Result<(), Misfit> {
+    pub fn fits(&self, needs: &Needs) -> Result<(), Misfit> {
         let sides = needs.sides_of_board();
         if needs.bus.is_some() {
             if matches!(self.in_head, InHead::Never) {
@@ -211,17 +192,14 @@ impl BoardFacts {
         if let Some(bus) = needs.bus
             && clocks.can_timing(bus.kbit_s).is_none()
         {
-            let can_hz = clocks.serial_hz;
-            return Err(Misfit::BusOfClock { can_hz });
+            return Err(Misfit::BusOfClock(clocks.serial_hz));
         }
         if let Some(baud) = needs.serial_baud {
             if clocks.serial_divider(baud).is_none() {
-                let serial_hz = clocks.serial_hz;
-                return Err(Misfit::BaudOfClock { serial_hz });
+                return Err(Misfit::BaudOfClock(clocks.serial_hz));
             }
             if !serial_keeps_up(baud, needs.tick_hz) {
-                let most = serial_most(needs.tick_hz);
-                return Err(Misfit::BaudOfTicks { most });
+                return Err(Misfit::BaudOfTicks(serial_most(needs.tick_hz)));
             }
         }
         Ok(())
@@ -272,7 +250,7 @@ mod tests {
             (
                 NUCLEO_F446RE,
                 head(24, 999),
-                Some(Misfit::BusOfClock { can_hz }),
+                Some(Misfit::BusOfClock(can_hz)),
             ),
             (NUCLEO_G071RB, head(24, 1_000), Some(Misfit::NoBus)),
             (NUCLEO_F103RB, head(24, 1_000), None),

@@ -44,6 +44,24 @@ pub struct Slot {
 }
 
 impl Slot {
+    /// A sector with a model of its own.
+    pub(super) const fn sector(sector: Region) -> Self {
+        Self {
+            erased: sector,
+            head: Region::new(sector.start, MODEL_OFFSET),
+            model: Region::new(sector.start + MODEL_OFFSET, sector.bytes - MODEL_OFFSET),
+        }
+    }
+
+    /// Pages whose model lies apart.
+    pub(super) const fn pages(pages: Region, model: Region) -> Self {
+        Self {
+            erased: pages,
+            head: pages,
+            model,
+        }
+    }
+
     /// Where the configuration begins.
     pub const fn config(self) -> Region {
         let header = SLOT_HEADER_BYTES as u32;
@@ -73,37 +91,3 @@ pub struct FlashMap {
 
 /// From the start of a slot that has a model of its own to that.
 pub(super) const MODEL_OFFSET: u32 = 4096;
-
-impl FlashMap {
-    pub(super) const fn with_two_models(program: Region, sectors: [Region; 2]) -> Self {
-        let [a, b] = sectors;
-        Self {
-            program,
-            slots: [Self::sector(a), Self::sector(b)],
-        }
-    }
-
-    const fn sector(sector: Region) -> Slot {
-        Slot {
-            erased: sector,
-            head: Region::new(sector.start, MODEL_OFFSET),
-            model: Region::new(sector.start + MODEL_OFFSET, sector.bytes - MODEL_OFFSET),
-        }
-    }
-
-    pub(super) const fn with_one_model(program: Region, slots: [Region; 2], model: Region) -> Self {
-        let [a, b] = slots;
-        Self {
-            program,
-            slots: [Self::pages(a, model), Self::pages(b, model)],
-        }
-    }
-
-    const fn pages(slot: Region, model: Region) -> Slot {
-        Slot {
-            erased: slot,
-            head: slot,
-            model,
-        }
-    }
-}

@@ -44,9 +44,8 @@ pub struct CanTiming {
 /// 301), as there are 16 before it at most.
 const CAN_QUANTA: [u8; 2] = [8, 18];
 
-/// From the start of a byte to that of the next where the tick leaves no more
-/// room, ns: a gap of 18 µs or more, half as much again as the sensor asks for
-/// in its fast mode.
+/// From a byte to the next where the tick leaves no more room, ns: a gap of 18 µs or more, half as
+/// much again as the sensor asks for in its fast mode.
 pub const SLOT_FAST_NS: u32 = 50_000;
 /// Least time for which /SS is high between frames, µs, unless a scene asks for more. The sensor's
 /// own need is not known; this is what it needs between bytes.
@@ -60,9 +59,8 @@ pub const PWM_HZ: u32 = 20_000;
 
 const WATCHDOG_DIVIDER: u32 = 4;
 
-/// What the serial port's error is of a baud, at most: 3 in 200, which is 1.5 %. An asynchronous
-/// receiver bears 4 % over both ends (RM0390, chapter 25.4.5), and the G071's oscillator takes
-/// 1 % of it.
+/// Most error of a baud: 3 in 200, 1.5 %. A receiver bears 4 % over both ends (RM0390, chapter
+/// 25.4.5), of which the G071's oscillator takes 1 %.
 const BAUD_ERROR: [u32; 2] = [3, 200];
 
 /// Bytes that the serial port holds of what comes, until idle has read it.
@@ -94,6 +92,20 @@ impl Clocks {
         self.in_range();
         halved.in_range();
         self
+    }
+
+    /// All at the core's clock, but for the SPIs, whose largest divider is 256.
+    pub(super) const fn undivided(core_hz: u32, watchdog_hz: [u32; 3]) -> Self {
+        Self {
+            core_hz,
+            spi_hz: core_hz / 256,
+            byte_timer_hz: core_hz,
+            tick_timer_hz: core_hz,
+            counter_hz: core_hz,
+            pwm_hz: core_hz,
+            serial_hz: core_hz,
+            watchdog_hz,
+        }
     }
 
     /// What holds with the core's clock halved or not.
@@ -144,15 +156,13 @@ impl Clocks {
         }
     }
 
-    /// From the start of a byte to that of the next with the gap that is safe
-    /// in either of the sensor's modes, ns.
+    /// The same with the gap that is safe in either of the sensor's modes, ns.
     const fn slot_safe_ns(&self) -> u32 {
         self.byte_ns() + BYTE_GAP_SAFE_NS
     }
 
-    /// A frame from /SS low to /SS high, ns: one slot before the first byte,
-    /// eight bytes in their slots, of which the last needs no gap, and the longer of both waits
-    /// after it.
+    /// From /SS low to /SS high, ns: one slot before the first byte, eight bytes in their slots, of
+    /// which the last needs no gap, and the longer of both waits after it.
     const fn frame_ns(&self, slot_ns: u32) -> u32 {
         8 * slot_ns + self.byte_ns() + SS_LAG_SLOW_NS
     }
@@ -266,8 +276,7 @@ impl Clocks {
         }
     }
 
-    /// How the controller of a bus makes `kbit_s` thousand bits a second; `None`: it cannot make
-    /// them exactly.
+    /// How a bus makes `kbit_s` thousand bits a second; `None`: it cannot make them exactly.
     pub const fn can_timing(&self, kbit_s: u16) -> Option<CanTiming> {
         let bit_hz = kbit_s as u32 * 1_000;
         if bit_hz == 0 || !self.serial_hz.is_multiple_of(bit_hz) {
@@ -290,15 +299,13 @@ impl Clocks {
         None
     }
 
-    /// Counts of the watchdog until it bites: 20 ms nominally. A motor that is
-    /// left on for as long, or for the longest over the spread of the watchdog's
-    /// oscillator, does no harm: a stall is tolerated for 200 ms.
+    /// Counts of the watchdog until it bites: 20 ms nominally. A motor that is left on for the
+    /// longest over the spread of its oscillator does no harm: a stall is tolerated for 200 ms.
     pub const fn watchdog_counts(&self) -> u16 {
         (self.watchdog_hz[1] / WATCHDOG_DIVIDER / 50) as u16
     }
 
-    /// Rounds of `cortex_m::asm::delay`, of two cycles or more each, from a sensor's last byte to
-    /// /SS high.
+    /// Rounds of `cortex_m::asm::delay`, of two cycles or more, from the last byte to /SS high.
     pub const fn lag_rounds(&self, is_slow: bool) -> u32 {
         let lag_ns = if is_slow {
             SS_LAG_SLOW_NS
@@ -323,8 +330,7 @@ pub struct Pacing {
     pub rest_us: u32,
 }
 
-/// Prescaler and period of a 16-bit timer, whose product is the tick in counts
-/// of its clock.
+/// Prescaler and period of a 16-bit timer; their product is the tick in counts of its clock.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct TickPeriod {
     /// Counts of the timer's clock a count of the timer.
@@ -334,8 +340,7 @@ pub struct TickPeriod {
 }
 
 impl TickPeriod {
-    /// For a tick rate of [`TICK_MIN_HZ`] and more: exact where one of the
-    /// prescalers divides the tick, else within 2e-5.
+    /// Exact where one of the prescalers divides the tick, else within 2e-5.
     const fn new(tick_hz: u32, timer_hz: u32) -> Option<Self> {
         if tick_hz < TICK_MIN_HZ {
             return None;
@@ -364,23 +369,12 @@ impl TickPeriod {
     }
 }
 
-const _: () = {
-    let two_kilohertz = TickPeriod::new(2_000, 80_000_000);
-    assert!(matches!(
-        two_kilohertz,
-        Some(TickPeriod {
-            prescaler: 1,
-            period: 40_000
-        })
-    ));
-    let slowest = TickPeriod::new(TICK_MIN_HZ, 80_000_000);
-    assert!(matches!(slowest, Some(tick) if tick.counts() == 400_000));
-};
-
 #[cfg(test)]
 mod tests {
-    use super::{Clocks, Pacing, RECEIVED_BYTES, REST_US, TICK_MIN_HZ, serial_keeps_up};
-    use crate::boards::{ALL, NUCLEO_F446RE};
+    use super::{
+        Clocks, Pacing, RECEIVED_BYTES, REST_US, TICK_MIN_HZ, TickPeriod, serial_keeps_up,
+    };
+    use crate::boards::{ALL, BoardFacts, NUCLEO_F103RB, NUCLEO_F446RE, NUCLEO_G071RB};
 
     #[test]
     fn a_serial_port_keeps_up_while_two_ticks_of_bytes_find_room() {
@@ -410,6 +404,21 @@ mod tests {
                 assert_eq!(clocks.tick(TICK_MIN_HZ - 1), None);
             }
         }
+        let exact = |tick_hz, prescaler, period| {
+            let tick = TickPeriod { prescaler, period };
+            assert_eq!(TickPeriod::new(tick_hz, 80_000_000), Some(tick));
+        };
+        exact(2_000, 1, 40_000);
+        exact(TICK_MIN_HZ, 8, 50_000);
+        // A fast slot of 50 µs at 2 kHz; a safe one of 78.4 µs at 1 kHz, or 82 µs.
+        let slots = |board: BoardFacts| {
+            [2_000, 1_000].map(|tick_hz| board.clocks.slot_counts(tick_hz, REST_US).unwrap())
+        };
+        let counts = [[3_600, 5_649], [3_600, 5_649], [3_200, 5_248]];
+        assert_eq!(
+            [NUCLEO_F446RE, NUCLEO_F103RB, NUCLEO_G071RB].map(slots),
+            counts
+        );
     }
 
     #[test]
