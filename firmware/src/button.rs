@@ -23,15 +23,9 @@ pub struct Button {
     wait: u16,
 }
 
+/// A button that has not been asked is taken to have been held for long.
 impl Default for Button {
     fn default() -> Self {
-        Self::new()
-    }
-}
-
-impl Button {
-    /// A button that has not been asked. It is taken to have been held for long.
-    pub const fn new() -> Self {
         Self {
             is_down: true,
             changed: 0,
@@ -39,7 +33,9 @@ impl Button {
             wait: 0,
         }
     }
+}
 
+impl Button {
     /// It was down, and that has stopped the motors.
     pub const fn has_stopped(&mut self, limits: ButtonLimits) {
         self.wait = limits.settle;
@@ -77,10 +73,10 @@ mod tests {
         longest: 10,
     };
 
-    /// After which samples a press has ended, where the `at`-th has stopped the motors; `-` is
-    /// down.
+    /// After which samples a press has ended (`-` is down), where the `at`-th has stopped the
+    /// motors.
     fn presses(levels: &str, at: Option<usize>) -> Vec<usize> {
-        let mut button = Button::new();
+        let mut button = Button::default();
         let samples = levels.chars().enumerate();
         samples
             .filter_map(|(n, level)| {

@@ -12,13 +12,14 @@
 //! once. After that a tick cannot fail. Every image has the same layout; what an image was built
 //! without is refused by its name ([`Part`]).
 
-mod bus;
 mod bytes;
 mod check;
 mod parts;
 mod protects;
 mod reader;
 mod shape;
+
+use core::ops::Range;
 
 use mlx90333::Decoder;
 use serde::{Deserialize, Serialize};
@@ -31,7 +32,6 @@ use crate::perception::ClassifierConfig;
 use crate::sensing::SensorLimits;
 use crate::servo::ServoConfig;
 
-pub use bus::BusConfig;
 pub(crate) use bytes::ERASED;
 pub use bytes::{
     BoardCode, CONFIG_BYTES, ConfigBytes, HEADER_BYTES, Header, VERSION, decode, decode_into,
@@ -48,14 +48,6 @@ pub const NAME_BYTES: usize = 64;
 pub const OVERRIDES_BYTES: usize = 192;
 
 /// The constants of a module, in the number format of its tick.
-///
-/// ```
-/// use firmware::{BoardCode, Config, decode, encode};
-///
-/// # let config = Config::<f32>::still();
-/// let bytes = encode(&config, BoardCode::Simulation).unwrap();
-/// assert_eq!(decode::<f32>(&bytes, BoardCode::Simulation), Ok(config));
-/// ```
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(bound = "")]
 pub struct Config<R: Real> {
@@ -98,6 +90,38 @@ impl HeadConfig {
     pub const fn whiskers(&self) -> usize {
         self.sides as usize * self.whiskers_per_side as usize
     }
+
+    /// The whiskers of a board, counted from 0, left side first; none of a node that there is not.
+    pub fn of_node(&self, number: u8) -> Range<usize> {
+        if !Part::Bus.is_built() {
+            return 0..self.whiskers();
+        }
+        let nodes = self.bus.map_or(1, |bus| bus.nodes);
+        let each = self.whiskers().checked_div(nodes.into()).unwrap_or(0);
+        let first = usize::from(number) * each;
+        if number < nodes {
+            first..first + each
+        } else {
+            0..0
+        }
+    }
+
+    /// Whether a board carries whiskers of a side, 0: the left.
+    pub fn carries(&self, number: u8, side: usize) -> bool {
+        let own = self.of_node(number);
+        let each = usize::from(self.whiskers_per_side);
+        own.start < (side + 1) * each && own.end > side * each
+    }
+}
+
+/// The bus of a head, and how many boards share its whiskers.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+pub struct BusConfig {
+    /// Boards, 2 to [`MAX_NODES`](can::MAX_NODES): each carries as many whiskers as any other,
+    /// node 0 the first of the left side.
+    pub nodes: u8,
+    /// Bits a second, thousands: 125 to 1000.
+    pub kbit_s: u16,
 }
 
 /// Which sensor whiskers have, and in which of its modes. Written as its number.
@@ -135,9 +159,8 @@ pub struct SensingConfig {
     pub rest_us: u16,
     /// How frames of an MLX90333 are read.
     pub decoder: Decoder,
-    /// By how much a tick learns what whisking alone makes them read, 2⁻¹⁶
-    /// ([`SelfMotion::rate`](tactile::SelfMotion::rate)), which is no contact; `None`: it counts as
-    /// contact.
+    /// By how much a tick learns what whisking alone makes them read, which is no contact, 2⁻¹⁶
+    /// ([`SelfMotion::rate`](tactile::SelfMotion::rate)); `None`: that is contact.
     pub self_motion: Option<u16>,
     /// What is tolerated of them.
     pub limits: SensorLimits,
@@ -157,8 +180,7 @@ pub struct MotionConfig<R: Real> {
     pub servo: ServoConfig<R>,
     /// The motors' power stage.
     pub driver: Driver,
-    /// A fault of any whisker switches every motor off until it is gone; otherwise that of its
-    /// whisker alone.
+    /// A fault of any whisker switches every motor off until it is gone; otherwise its own.
     pub stops_all: bool,
     /// Motors are armed when the program starts, unless a fault made it start.
     pub arms_at_start: bool,

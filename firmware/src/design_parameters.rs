@@ -59,8 +59,8 @@ pub const fn button(tick_hz: u32) -> ButtonLimits {
 pub struct Plausible {
     /// Repeat to the bit for longer than this, s; infinite: no limit.
     pub frozen_s: f64,
-    /// Change faster than by this in a second, of the deflection from mid-scale to full
-    /// scale; infinite: no limit.
+    /// Change faster than this, of the deflection from mid-scale to full scale a second; infinite:
+    /// no limit.
     pub jump_per_s: f64,
 }
 
@@ -131,13 +131,11 @@ pub const fn retry(tick_hz: u32) -> Retry {
     }
 }
 
-/// How long the pin of decisions is high after one, ms: long enough for a program that looks
-/// at its pins a hundred times a second. A level that changed with each decision would tell
-/// nothing to one that has missed a change.
+/// How long the pin of decisions is high after one, ms: long enough for who looks a hundred times a
+/// second. Of a level that changed with each decision one could be missed.
 pub const DECIDED_MS: u32 = 10;
 
-/// `seconds` in ticks of a module that runs `tick_hz` times a second; at least
-/// one, at most `u16::MAX`.
+/// `seconds` in ticks, at `tick_hz` of them a second; at least one, at most `u16::MAX`.
 pub const fn ticks(seconds: f64, tick_hz: u32) -> u16 {
     let ticks = seconds * tick_hz as f64 + 0.5;
     if ticks < 1.0 {
@@ -149,7 +147,7 @@ pub const fn ticks(seconds: f64, tick_hz: u32) -> u16 {
     }
 }
 
-/// As [`ticks`], of milliseconds: for a board, which has no time for numbers of 64 bits.
+/// As [`ticks`], in 32 bits: for a board.
 pub const fn whole_ticks(milliseconds: u32, tick_hz: u32) -> u16 {
     let ticks = milliseconds.saturating_mul(tick_hz).saturating_add(500) / 1_000;
     if ticks == 0 {

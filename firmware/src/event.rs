@@ -1,5 +1,4 @@
-//! What a tick reports. Events are small values; whoever drains the queue
-//! formats them.
+//! What a tick reports. Events are small values; whoever drains the queue formats them.
 
 #[cfg(feature = "tmag5170")]
 mod tilt_fault;
@@ -56,11 +55,10 @@ pub enum SensorFault {
     Frozen,
     /// Its words jump about farther than a whisker can move.
     Jump,
-    /// Ticks without a good frame are too many, if never too many in succession. With the
-    /// number of what was wrong with the last.
+    /// Ticks without a good frame are too many, if never in succession: the number of the last's
+    /// fault.
     Often(u8),
-    /// A sensor that measures a magnet's tilt gives none; the reason says more. The last, as
-    /// programs without it number the others alike.
+    /// A magnet's tilt is not measured. The last, as programs without it number the others alike.
     #[cfg(feature = "tmag5170")]
     Tilt(TiltFault),
 }
@@ -108,8 +106,7 @@ impl fmt::Display for SensorFault {
 
 impl core::error::Error for SensorFault {}
 
-/// Something worth a line in the log. Ticks report all but the last four, which are the board's
-/// own.
+/// Something worth a line in the log. The last four are the board's own.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Event {
     /// A whisker touches something.
@@ -126,13 +123,12 @@ pub enum Event {
         /// The number of the touch that has ended.
         number: u16,
     },
-    /// A decision fell, by the samples of this whisker, or of all together: then by a
-    /// block of this one.
+    /// By the samples of this whisker, or of all together: then by a block of this one.
     Decision(Place, Decision),
     /// How what was named stands, after its decision.
     Pose(Place, Pose),
-    /// Readings of a whisker have been bad for longer than they may be: its
-    /// motor is off (fault) and it touches nothing.
+    /// Readings have been bad for too long (fault): the motor is off, and the whisker touches
+    /// nothing.
     SensorLost(Place, SensorFault),
     /// The last frame of a sensor that is lost for its frames, as it came.
     Frame(Place, [u8; FRAME_LEN]),
@@ -144,7 +140,7 @@ pub enum Event {
     MotorFault(Place, motor::Fault),
     /// A motor is tried again after its rest.
     MotorRetry(Place),
-    /// A motor has had too many faults: it stays off until it is cleared
+    /// It has had too many faults, and is off until it is cleared
     /// ([`Command::Clear`](crate::Command::Clear)).
     MotorGivenUp(Place),
     /// What has become of a board of a head, by what this one, of that number, says.

@@ -22,14 +22,13 @@ pub enum Reaction {
 /// How it ends.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Recovery {
-    /// The motor is tried again after a rest; after too many faults, only on command.
+    /// The motor is tried again after a rest; after too many faults on command.
     Retry,
     /// Once frames have been good for a while.
     GoodFrames,
     /// Nothing to end: it was counted.
     Counted,
-    /// With the start after the reset, motors off until they are armed; if its cause is still
-    /// there, it comes again.
+    /// With the start after the reset, motors off until they are armed; it may come again.
     Restart,
     /// Once motors are armed.
     Armed,
@@ -90,8 +89,7 @@ macro_rules! rows {
 }
 crate::fault_table!(rows);
 
-/// Whether something with this number can occur in an image of these parts: what cannot has no
-/// text there.
+/// Whether it can occur in an image of these parts: what cannot has no text there.
 pub const fn can_occur(number: u8) -> bool {
     match number {
         number::HALL_LOW..=number::SKIPPED_SECTOR => Part::SixStep.is_built(),

@@ -11,14 +11,12 @@ pub struct BusError;
 
 /// Where finished sensor frames come from.
 ///
-/// Reading takes most of a tick (64 bits at 400 kHz are 160 µs), so a board
-/// reads by DMA or interrupt while the tick works on the frame before.
+/// Reading takes most of a tick (64 bits at 400 kHz are 160 µs), so a board reads by DMA meanwhile.
 ///
 /// The sensor is deselected for some time between two good frames; after a bad one
 /// [`start`](Self::start) comes some ticks later, so that the sensor resynchronises.
 pub trait FrameSource {
-    /// The frame that was started last, if it is finished, without waiting. Afterwards
-    /// there is none under way.
+    /// The frame that was started last, if it is finished. Afterwards there is none under way.
     ///
     /// # Errors
     /// [`BusError`] if the transfer failed.
@@ -36,7 +34,7 @@ pub trait FrameSource {
 
 /// Where a whisker's words come from, whatever its sensor. Every [`FrameSource`] is one.
 pub trait WordSource {
-    /// The words of what was read last, without waiting: of frames by the `decoder`.
+    /// What was read last, without waiting: of frames by the `decoder`.
     ///
     /// # Errors
     /// Why there are none.
@@ -52,25 +50,7 @@ pub trait WordSource {
     }
 }
 
-#[inline]
-fn decode(
-    decoder: Decoder,
-    taken: Result<Option<[u8; FRAME_LEN]>, BusError>,
-) -> Result<[Word; 2], SensorFault> {
-    let bytes = taken
-        .map_err(|_| SensorFault::Bus)?
-        .ok_or(SensorFault::NoFrame)?;
-    // The usual one is known as this is compiled, which halves what it costs.
-    let frame = if decoder == const { Decoder::new() } {
-        const { Decoder::new() }.decode(&bytes)
-    } else {
-        decode_otherwise(decoder, bytes)
-    };
-    let frame = frame.map_err(SensorFault::Frame)?;
-    Ok([frame.first(), frame.second()])
-}
-
-/// The same for any decoder, and where time does not matter.
+/// A frame by any decoder, where time does not matter.
 #[cold]
 #[inline(never)]
 pub(crate) fn decode_otherwise(
@@ -83,7 +63,16 @@ pub(crate) fn decode_otherwise(
 impl<F: FrameSource> WordSource for F {
     #[inline]
     fn words(&mut self, decoder: Decoder) -> Result<[Word; 2], SensorFault> {
-        decode(decoder, self.take())
+        let taken = self.take().map_err(|_| SensorFault::Bus)?;
+        let bytes = taken.ok_or(SensorFault::NoFrame)?;
+        // The usual one is known as this is compiled, which halves what it costs.
+        let frame = if decoder == const { Decoder::new() } {
+            const { Decoder::new() }.decode(&bytes)
+        } else {
+            decode_otherwise(decoder, bytes)
+        };
+        let frame = frame.map_err(SensorFault::Frame)?;
+        Ok([frame.first(), frame.second()])
     }
 
     #[inline]
@@ -98,8 +87,7 @@ impl<F: FrameSource> WordSource for F {
 
 /// Where the whisker is.
 pub trait AngleInput {
-    /// Counts of the encoder or of the Hall sectors; protraction counts up.
-    /// May wrap around.
+    /// Counts of encoder or Hall sectors, which rise with protraction. They may wrap around.
     fn counts(&mut self) -> i32;
 }
 
@@ -109,8 +97,7 @@ pub trait Clock {
     fn now(&mut self) -> u32;
 }
 
-/// A sensor behind an ordinary blocking [`SpiDevice`]: reads in the tick
-/// itself. For slow ticks, for bring-up and for tests.
+/// A sensor behind a blocking [`SpiDevice`], read in the tick itself: for slow ticks and for tests.
 #[derive(Debug)]
 pub struct Polled<SPI> {
     sensor: Mlx90333<SPI>,

@@ -38,6 +38,7 @@ mod module;
 mod motion;
 #[cfg(feature = "bus")]
 mod node;
+mod numbered;
 mod packet;
 mod perception;
 mod record;
@@ -45,7 +46,6 @@ mod relay;
 mod self_test;
 mod sensing;
 mod servo;
-mod signals;
 mod telemetry;
 #[cfg(feature = "tmag5170")]
 mod tilt;
@@ -70,7 +70,7 @@ pub use node::Node;
 pub use packet::{EventRecord, Packet};
 pub use perception::{
     ClassifierConfig, CodeClassifier, ModelLimits, ModelState, NotCodes, Perception, Refusal,
-    Sample, SampleClassifier, Sensed,
+    Sample, SampleClassifier,
 };
 pub use record::{
     NotArmed, RECORD_WORDS, RESET_WINDOW_S, RESETS, Record, StartCause, Started, Startup,
@@ -79,7 +79,6 @@ pub use relay::{Frames, Heard, RELAYED_HZ, Relay};
 pub use self_test::{READINGS, SelfTest};
 pub use sensing::{BAD_WEIGHT, Reading, Sensor, SensorHealth, SensorLimits, SwingLimits};
 pub use servo::{FAULTS, HELD, MotorRecord, Retry, Servo, ServoConfig, ServoState, TooManyFaults};
-pub use signals::Signals;
 pub use telemetry::{About, Link, letters, may_load};
 #[cfg(feature = "tmag5170")]
 pub use tilt::{FULL_SCALE, TiltScale, TiltSource};

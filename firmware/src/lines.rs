@@ -75,8 +75,7 @@ macro_rules! say_event {
                 );
             }
             $crate::Event::SensorLost(place, why) => {
-                let [name, causes] = $texts(why.code());
-                $crate::say_fault!($say, place, why.code(), name, causes);
+                $crate::say_fault!($say, $texts, place, why.code());
             }
             $crate::Event::Frame(place, bytes) => {
                 let [high, low] = $crate::lines::halves(bytes);
@@ -88,15 +87,12 @@ macro_rules! say_event {
                     low
                 );
             }
-            $crate::Event::SensorBack(place) => {
-                $say!(info, "back {=str}", place.side_name());
-            }
+            $crate::Event::SensorBack(place) => $say!(info, "back {=str}", place.side_name()),
             $crate::Event::ZeroMoved(place, [x, y]) if $crate::Part::Zero.is_built() => {
                 $say!(info, "zero {=str} {=i16} {=i16}", place.side_name(), x, y);
             }
             $crate::Event::MotorFault(place, why) if $crate::Part::Motion.is_built() => {
-                let [name, causes] = $texts(why.code());
-                $crate::say_fault!($say, place, why.code(), name, causes);
+                $crate::say_fault!($say, $texts, place, why.code());
             }
             $crate::Event::MotorRetry(place) if $crate::Part::Motion.is_built() => {
                 $say!(info, "retry {=str}", place.side_name());
@@ -110,19 +106,13 @@ macro_rules! say_event {
                 $crate::NodeEvent::Heard(other) => {
                     $say!(info, "node {=u8} hears {=u8}", node, other);
                 }
-                $crate::NodeEvent::Lost(other) => {
-                    $say!(warn, "node {=u8} lost {=u8}", node, other);
-                }
+                $crate::NodeEvent::Lost(other) => $say!(warn, "node {=u8} lost {=u8}", node, other),
                 $crate::NodeEvent::Twin => {
                     $crate::say_board_fault!($say, $texts, $crate::faults::number::TWIN);
                 }
             },
-            $crate::Event::Stopped if $crate::Part::Motion.is_built() => {
-                $say!(info, "stopped");
-            }
-            $crate::Event::Armed if $crate::Part::Motion.is_built() => {
-                $say!(info, "armed");
-            }
+            $crate::Event::Stopped if $crate::Part::Motion.is_built() => $say!(info, "stopped"),
+            $crate::Event::Armed if $crate::Part::Motion.is_built() => $say!(info, "armed"),
             $crate::Event::Health(health) => {
                 let [period_us, lost]: [u32; 2] = $load;
                 $say!(
@@ -145,20 +135,20 @@ macro_rules! say_event {
     };
 }
 
-/// Says which fault a whisker has.
 #[doc(hidden)]
 #[macro_export]
 macro_rules! say_fault {
-    ($say:ident, $place:expr, $number:expr, $name:expr, $causes:expr) => {
+    ($say:ident, $texts:ident, $place:expr, $number:expr) => {{
+        let [name, causes] = $texts($number);
         $say!(
             error,
             "fault {=str} {=u8} {=istr} ({=istr}?)",
             $place.side_name(),
             $number,
-            $name,
-            $causes
-        )
-    };
+            name,
+            causes
+        );
+    }};
 }
 
 /// Says what has started, as [`say_event!`](crate::say_event) does: `$what` are the version, the
@@ -214,21 +204,11 @@ macro_rules! say_not_armed {
                     causes
                 );
             }
-            $crate::NotArmed::Unknown => {
-                $say!(warn, "not-armed 0 cause of the reset unknown");
-            }
-            $crate::NotArmed::OnCommand => {
-                $say!(info, "not-armed 0 the scene waits for a command");
-            }
-            $crate::NotArmed::Stopped => {
-                $say!(info, "not-armed 0 somebody has stopped the motors");
-            }
-            $crate::NotArmed::Before => {
-                $say!(info, "not-armed 0 the supply has been away");
-            }
-            $crate::NotArmed::Reset => {
-                $say!(info, "not-armed 0 it was reset");
-            }
+            $crate::NotArmed::Unknown => $say!(warn, "not-armed 0 cause of the reset unknown"),
+            $crate::NotArmed::OnCommand => $say!(info, "not-armed 0 the scene waits for a command"),
+            $crate::NotArmed::Stopped => $say!(info, "not-armed 0 somebody has stopped the motors"),
+            $crate::NotArmed::Before => $say!(info, "not-armed 0 the supply has been away"),
+            $crate::NotArmed::Reset => $say!(info, "not-armed 0 it was reset"),
         }
     };
 }
@@ -257,8 +237,7 @@ pub const fn halves(bytes: [u8; FRAME_LEN]) -> [u32; 2] {
     [(both >> 32) as u32, both as u32]
 }
 
-/// What stands before and after a name on a line: a quotation mark where it has spaces, which would
-/// make fields of it.
+/// Around a name on a line: a quotation mark where it has spaces, which would make fields of it.
 pub fn quote(name: &str) -> &'static str {
     if name.bytes().any(|byte| byte == b' ') {
         "\""

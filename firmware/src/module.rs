@@ -8,7 +8,7 @@ use whisking::{MAX_OWN, MAX_SIDES, Number, Real, filter};
 use crate::config::Part;
 use crate::io::{AngleInput, Clock, WordSource};
 use crate::motion::{Command, Motion, NoActiveWhisker, NotDone};
-use crate::perception::{Perception, SampleClassifier, Sensed};
+use crate::perception::{Perception, SampleClassifier};
 use crate::sensing::{Reading, Sensor, SensorLimits, Swing};
 use crate::servo::Servo;
 use crate::{Config, Event, HeadConfig, MotionConfig, Place, Timing, ZeroLimits};
@@ -50,11 +50,9 @@ pub struct Whisker<R, H: Hardware> {
     own: [SelfMotion; OWN],
     /// Of x in this tick, codes.
     predicted: i16,
-    /// Its contact π.
     felt: R,
     /// What counts of its reading: nothing while its motor [inhibits](Servo::is_inhibited) it.
     reading: Reading,
-    /// Whether it feels that it is whisked.
     swing: Swing,
     servo: Option<Servo<R, H::Motor, H::Angle>>,
 }
@@ -87,22 +85,13 @@ impl<R: Real, H: Hardware> Whisker<R, H> {
 
     /// Its motor, if it has one.
     #[inline]
-    pub const fn servo(&self) -> Option<&Servo<R, H::Motor, H::Angle>> {
-        if Part::Motion.is_built() {
-            self.servo.as_ref()
-        } else {
-            None
-        }
+    pub fn servo(&self) -> Option<&Servo<R, H::Motor, H::Angle>> {
+        self.servo.as_ref().filter(|_| Part::Motion.is_built())
     }
 
-    /// Its motor, for a simulation that looks at its hardware.
     #[inline]
-    pub const fn servo_mut(&mut self) -> Option<&mut Servo<R, H::Motor, H::Angle>> {
-        if Part::Motion.is_built() {
-            self.servo.as_mut()
-        } else {
-            None
-        }
+    fn servo_mut(&mut self) -> Option<&mut Servo<R, H::Motor, H::Angle>> {
+        self.servo.as_mut().filter(|_| Part::Motion.is_built())
     }
 }
 
@@ -157,12 +146,12 @@ impl<R: Real, H: Hardware> Module<R, H> {
             perception: None,
             clock,
             period,
-            timing: Timing::new(),
+            timing: Timing::default(),
         }
     }
 
-    /// Makes an [empty](Self::empty) module what [`of_node`](Self::of_node) makes, where it lies:
-    /// for a board, whose stack has no room for it.
+    /// As [`of_node`](Self::of_node), where an empty module lies: a board's stack has no room for
+    /// it.
     #[inline]
     pub fn build(
         &mut self,
@@ -212,7 +201,7 @@ impl<R: Real, H: Hardware> Module<R, H> {
         }
     }
 
-    /// A whisker that is inhibited, as its motor is being homed, may lean against its stop.
+    /// One that is inhibited, as it is being homed, may lean against its stop.
     #[inline]
     fn follow_zeros(&mut self, limits: ZeroLimits, events: &mut impl FnMut(Event)) {
         for whisker in &mut self.whiskers {
@@ -226,9 +215,8 @@ impl<R: Real, H: Hardware> Module<R, H> {
         }
     }
 
-    /// Predicts what whisking alone makes each whisker's x read, and learns it by `rate` in the air.
-    /// Nothing while its motor does not follow the pattern generator, nor where touches are not
-    /// found.
+    /// What whisking alone makes each whisker's x read, learnt by `rate` in the air. Nothing while
+    /// its motor does not follow the pattern generator, nor where touches are not found.
     #[inline]
     fn predict(&mut self, rate: u16, config: &MotionConfig<R>) {
         let (Some(perception), Some(motion)) = (&self.perception, &self.motion) else {
@@ -252,9 +240,8 @@ impl<R: Real, H: Hardware> Module<R, H> {
         }
     }
 
-    /// Contact π of each side: the largest |H50(x)| of its whiskers (BIOTACT eq. 9), of x without
-    /// self-motion where that is predicted. A whisker with a fault has none, and its filter is
-    /// reset.
+    /// Contact π of each side: the largest |H50(x)| of its whiskers (BIOTACT eq. 9), without
+    /// self-motion that is predicted. A whisker with a fault has none, and its filter is reset.
     #[inline]
     fn feel(&mut self, h50: &filter::Config<R>) {
         let mut most = const { [R::ZERO; MAX_SIDES] };
@@ -313,39 +300,25 @@ impl<R: Real, H: Hardware> Module<R, H> {
 
     /// How it moves; `None`: its whiskers are passive.
     #[inline]
-    pub const fn motion(&self) -> Option<&Motion<R>> {
-        if Part::Motion.is_built() {
-            self.motion.as_ref()
-        } else {
-            None
-        }
+    pub fn motion(&self) -> Option<&Motion<R>> {
+        self.motion.as_ref().filter(|_| Part::Motion.is_built())
     }
 
     #[inline]
-    pub(crate) const fn motion_mut(&mut self) -> Option<&mut Motion<R>> {
-        if Part::Motion.is_built() {
-            self.motion.as_mut()
-        } else {
-            None
-        }
+    pub(crate) fn motion_mut(&mut self) -> Option<&mut Motion<R>> {
+        self.motion.as_mut().filter(|_| Part::Motion.is_built())
     }
 
     /// What it decides, if anything.
-    pub const fn perception(&self) -> Option<&Perception<H::Classifier>> {
-        if Part::Classifier.is_built() {
-            self.perception.as_ref()
-        } else {
-            None
-        }
+    pub fn perception(&self) -> Option<&Perception<H::Classifier>> {
+        let perception = self.perception.as_ref();
+        perception.filter(|_| Part::Classifier.is_built())
     }
 
     /// What it decides, if anything.
-    pub const fn perception_mut(&mut self) -> Option<&mut Perception<H::Classifier>> {
-        if Part::Classifier.is_built() {
-            self.perception.as_mut()
-        } else {
-            None
-        }
+    pub fn perception_mut(&mut self) -> Option<&mut Perception<H::Classifier>> {
+        let perception = self.perception.as_mut();
+        perception.filter(|_| Part::Classifier.is_built())
     }
 
     /// What it decides with, which leaves the module without it.
@@ -368,8 +341,7 @@ impl<R: Real, H: Hardware> Module<R, H> {
         &mut self.timing
     }
 
-    /// Another configuration takes effect between two ticks, which this one
-    /// [may become](Config::may_become).
+    /// By a configuration that this one [may become](Config::may_become), between two ticks.
     pub fn retune(&mut self, config: &Config<R>, next: &Config<R>) {
         if let (Some(perception), Some(classifier)) = (&mut self.perception, &next.classifier) {
             perception.retune(classifier.rule.as_ref(), &next.classes);
@@ -408,9 +380,9 @@ impl<R: Real, H: Hardware> Module<R, H> {
         Ok(())
     }
 
-    /// Arms the motors of all whiskers, or keeps them off from the next tick on; all else goes on,
-    /// and what [rests](Servo::rests) rests on. A module starts with motors that are not armed.
-    /// Whoever arms them first says that their whiskers are at rest, unless they are homed.
+    /// Arms all motors, or keeps them off from the next tick on; what [rests](Servo::rests) rests
+    /// on. A module starts with motors that are not armed. Whoever arms them first says that their
+    /// whiskers are at rest, unless they are homed.
     pub fn arm(&mut self, is_armed: bool) {
         let Some(motion) = self.motion_mut() else {
             return;
@@ -464,14 +436,8 @@ impl<R: Number, H: Hardware> Module<R, H> {
             && let (Some(perception), Some(config)) = (&mut self.perception, &config.classifier)
         {
             for (n, whisker) in self.whiskers.iter().enumerate() {
-                let heard = Sensed {
-                    place: whisker.place,
-                    reading: whisker.reading,
-                    contact: whisker.felt,
-                    least: config.contact_min,
-                    says_pose: config.says_pose,
-                };
-                perception.step(n, heard, events);
+                let felt = (whisker.reading, whisker.felt);
+                perception.step((n, whisker.place), felt, config, events);
             }
         }
         self.timing.end(self.clock.now());

@@ -14,9 +14,8 @@ use crate::servo::TooManyFaults;
 pub enum Command<R> {
     /// The nominal gain g (BIOTACT eq. 12), limited to 0..=2.
     Gain(R),
-    /// Protraction θ that takes the place of the pattern generator's, limited
-    /// to the range of the position control; `None`: the pattern generator's
-    /// again.
+    /// Protraction θ in place of the pattern generator's, limited to the range of the position
+    /// control; `None`: the pattern generator's again.
     Setpoint(Option<R>),
     /// Runs a motor that was given up, or that rests, again; its faults count on.
     Clear,

@@ -82,14 +82,12 @@ pub struct Node {
     members: Members,
     replica: Replica,
     deciding: Deciding,
-    /// That is to be said.
     decision: Option<Decision>,
     due: Vec<Due, MOST_DUE>,
     /// What was said of contact last, and how long ago.
     said: Contact,
     since_said: u16,
-    /// Nodes that were heard, for the first time or again, since the last tick, a bit each; its own
-    /// number is a twin's.
+    /// Nodes that were heard first, or again, since the last tick; its own number is a twin's.
     news: u32,
     /// Messages that came too late, were no messages or out of range, or found no room.
     lost: u32,
@@ -123,8 +121,8 @@ impl Node {
         }
     }
 
-    /// How late the last tick began by the clock of the head, µs; negative: how early, zero where
-    /// that clock is its own or not known. Ticks have to be that much shorter for a while.
+    /// How late the last tick began by the clock of the head, µs; negative: early, zero where that
+    /// is its own or not known. Ticks have to be that much shorter for a while.
     pub const fn late_us(&self) -> i32 {
         self.late_us
     }
@@ -245,9 +243,8 @@ impl Node {
         }
     }
 
-    /// Before a tick, which begins at `now_us` by its own clock. What becomes of the node since the
-    /// last is an event of this tick, as is what the whiskers of the head together have decided,
-    /// by what those of another have felt.
+    /// Before a tick, which begins at `now_us` by its own clock. What becomes of the node, and what
+    /// the head has decided by what others have felt, are events of this tick.
     pub fn before<R: Number, H: Hardware>(
         &mut self,
         now_us: u64,
@@ -364,7 +361,6 @@ impl Node {
         }
     }
 
-    /// Sets the number of the tick by the clock of the head.
     fn keep_time(&mut self, now_us: u64, tick_hz: u32, events: &mut impl FnMut(NodeEvent)) {
         let Some((tick, late_us)) = self.clock.tick(now_us, tick_hz) else {
             self.late_us = 0;
@@ -388,8 +384,8 @@ impl Node {
         events(NodeEvent::Left);
     }
 
-    /// Joins the head as soon as it shares its clock and oscillators, or begins one if it is the
-    /// lowest that lives.
+    /// As soon as it shares clock and oscillators, or is the lowest that lives, which begins a
+    /// head.
     fn join<R: Real>(
         &mut self,
         motion: Option<&MotionConfig<R>>,

@@ -4,6 +4,6 @@ mod classifying;
 mod codes;
 mod refusal;
 
-pub use classifying::{ClassifierConfig, Perception, Sample, SampleClassifier, Sensed};
+pub use classifying::{ClassifierConfig, Perception, Sample, SampleClassifier};
 pub use codes::{CodeClassifier, ModelLimits, NotCodes};
 pub use refusal::{ModelState, Refusal};

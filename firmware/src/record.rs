@@ -54,8 +54,8 @@ impl StartCause {
         }
     }
 
-    /// The first whose flag is set in the reset status register. The most specific must come
-    /// first: a power-up sets the pin's flag too, and so does every internal reset.
+    /// The first whose flag is set. The most specific comes first: a power-up, as every internal
+    /// reset, sets the pin's too.
     pub fn first<const N: usize>(flags: [(bool, Self); N]) -> Self {
         let set = flags.into_iter().find(|(set, _)| *set);
         set.map_or(Self::Other, |(_, cause)| cause)
@@ -116,11 +116,9 @@ pub enum NotArmed {
     Before,
 }
 
-/// How often the chip has started and what befell it last. The default is that of a chip
-/// whose supply has just come.
+/// How often the chip has started and what befell it last; by default, as supply has just come.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Record {
-    /// Starts since power-up.
     starts: u32,
     /// The number of the last fault; 0: none.
     fault: u8,
@@ -128,7 +126,6 @@ pub struct Record {
     is_fresh: bool,
     /// Somebody stopped the motors, and nobody has armed them since.
     is_stopped: bool,
-    /// Seconds for which each of the last resets still counts.
     windows: [u8; RESETS - 1],
 }
 
@@ -139,7 +136,6 @@ pub struct Startup {
     pub number: u32,
     /// The number of the last fault since power-up; 0: none.
     pub fault: u8,
-    /// Why motors may be armed by command only.
     refusal: Option<NotArmed>,
 }
 
@@ -151,11 +147,6 @@ impl Startup {
     pub fn may_arm(&self, at_start: bool) -> Result<(), NotArmed> {
         let on_command = (!at_start).then_some(NotArmed::OnCommand);
         self.refusal.or(on_command).map_or(Ok(()), Err)
-    }
-
-    /// Whether it follows the fault with this number, which ended in a reset.
-    pub fn follows(&self, fault: u8) -> bool {
-        self.refusal == Some(NotArmed::After(fault))
     }
 }
 
@@ -202,8 +193,7 @@ impl Record {
         }
     }
 
-    /// Counts a start for `cause`. `found` is the record of the time before; without one RAM
-    /// has lost its contents, and nothing is known of it.
+    /// Counts a start for `cause`. Without a record of the time before, RAM has lost its contents.
     ///
     /// No motor may be armed by itself but where the supply has come, and RAM has lost what it
     /// had: only then nobody has stopped them, and no whisker was left where it is not at rest.
@@ -252,8 +242,7 @@ impl Record {
     }
 }
 
-/// FNV-1a by words, which any change of a single word changes; memory of zeros or ones is not
-/// its own sum.
+/// FNV-1a by words. Memory of zeros or ones is not its own sum.
 fn sum(words: [u32; RECORD_WORDS - 1]) -> u32 {
     words.into_iter().fold(0x811C_9DC5, |sum, word| {
         (sum ^ word).wrapping_mul(0x0100_0193)
@@ -350,7 +339,6 @@ mod tests {
             for cause in [StartCause::Watchdog, StartCause::Pin] {
                 let (record, start) = after(record, 100, cause);
                 assert_eq!(start.may_arm(true), Err(NotArmed::After(fault)));
-                assert!(start.follows(fault) && !start.follows(number::WATCHDOG));
                 let (_, start) = after(record, 100, StartCause::Pin);
                 assert_eq!(start.may_arm(true), Err(NotArmed::Reset));
                 assert_eq!(start.fault, fault);

@@ -17,8 +17,7 @@ use crate::io::decode_otherwise;
 /// How often it is read.
 pub const READINGS: u8 = 16;
 
-/// Farther from the first a code counts as this far, a quarter of the range, so that sums have 32
-/// bits.
+/// Farther from the first a code counts as this far, so that sums have 32 bits.
 const FARTHEST: i32 = 4_095;
 
 /// Numbers of faults that a frame can have, from that of the bus on.
@@ -34,8 +33,8 @@ pub struct SelfTest {
 }
 
 impl SelfTest {
-    /// Reads `sensor`, whose start-up is over. Where a frame was refused it rests for as long as it
-    /// needs to find the start of the next.
+    /// Once start-up is over. After a frame that was refused it rests until it finds the start of
+    /// the next.
     pub fn of<SPI: SpiDevice>(
         sensor: &mut Mlx90333<SPI>,
         delay: &mut impl DelayNs,

@@ -24,8 +24,8 @@ pub struct Reading {
     pub y: Word,
     /// A new frame arrived in this tick; otherwise the last good one is held.
     pub fresh: bool,
-    /// The words have changed within the time for which readings are held. If not, they
-    /// may be frozen: they still are the best there is to move by, but no evidence.
+    /// Words have changed within the time for which readings are held. Otherwise they may be
+    /// frozen: the best to move by, but no evidence.
     pub current: bool,
     /// False while the whisker has a fault, of its sensor or of its motor: x and y
     /// are then at rest and the motor must be off.
@@ -75,7 +75,6 @@ pub struct Sensor<F> {
     rest: u16,
     /// How near bad ticks are to [`SensorLimits::burst`].
     burst: u16,
-    /// What was wrong with the last bad frame.
     why: SensorFault,
 }
 
@@ -119,10 +118,10 @@ impl<F: WordSource> Sensor<F> {
         self.health
     }
 
-    /// Takes the frame of this tick, and begins the next. Without a good one the last
-    /// good reading is held for `limits.hold` ticks, or less if that happens too often;
-    /// then the sensor counts as faulty until `limits.recover` good ones have come in
-    /// succession. Words that repeat for `limits.frozen` ticks are a fault at once.
+    /// Takes the frame of this tick, and begins the next. Without a good one the last reading is
+    /// held for `limits.hold` ticks, or less if that happens too often; then the sensor is faulty
+    /// until `limits.recover` good ones have come in succession. Words that repeat for
+    /// `limits.frozen` ticks are a fault at once.
     #[inline]
     pub fn read(
         &mut self,
@@ -150,8 +149,7 @@ impl<F: WordSource> Sensor<F> {
         self.last
     }
 
-    /// The words of the frame that was finished, and the start of the next: after a frame
-    /// that was refused, only once the sensor has been deselected for `resync` ticks.
+    /// Starts the next frame, too: after one that was refused, `resync` ticks later.
     #[inline]
     fn next(&mut self, decoder: Decoder, resync: u16) -> Result<[Word; 2], SensorFault> {
         let mut read = Err(SensorFault::NoFrame);
@@ -183,8 +181,8 @@ impl<F: WordSource> Sensor<F> {
         };
     }
 
-    /// After [`read`](Self::read) and what was felt by it: follows the zero, where that is found
-    /// by itself, and whether the whisker `is_calm` is asked. Gives the codes by which it has moved.
+    /// Follows the zero after [`read`](Self::read), where that is found; gives the codes by which
+    /// it moved.
     #[inline]
     pub fn follow_zero(
         &mut self,
@@ -239,9 +237,9 @@ impl<F: WordSource> Sensor<F> {
             self.health = SensorHealth::Faulted { good: 0 };
             return;
         };
-        // A tick without a frame follows from one with a bad frame, if there was one; and a sensor that
-        // has reported an error starts again, which takes it 16 ms of silence (its sister's data
-        // sheet, MLX90316 revision 10, sections 16.7 and 16.9).
+        // A tick without a frame follows from one with a bad frame; and a sensor that has reported
+        // an error starts again, in 16 ms of silence (its sister's data sheet, MLX90316 revision
+        // 10, sections 16.7 and 16.9).
         let follows = match fault {
             SensorFault::NoFrame => true,
             SensorFault::Frame(FrameError::NoSensor) => {
@@ -270,8 +268,7 @@ impl<F: WordSource> Sensor<F> {
         self.show(place, events);
     }
 
-    /// Reports the last frame as it came, where that says more than what was wrong with it: all
-    /// ones and all zeros do not.
+    /// Shows the last frame where that says more than its fault: all ones and all zeros do not.
     fn show(&self, place: Place, events: &mut impl FnMut(Event)) {
         match self.why {
             SensorFault::Frame(FrameError::NoSensor | FrameError::LineLow) => {}

@@ -1,5 +1,4 @@
-//! The servo of one whisker: a motor with an angle input that follows a
-//! setpoint, and what it does about faults.
+//! The servo of one whisker: a motor that follows a setpoint, and what it does about faults.
 
 mod failing;
 mod finding;
@@ -60,8 +59,8 @@ pub struct Retry {
 /// So many faults within [`Retry::window`], and the motor is given up.
 pub const FAULTS: usize = 3;
 
-/// So many tests of its motion in succession that a motor fails, and it is given up: a whisker
-/// that something holds and an encoder that stands still look alike, and a test is gentle.
+/// So many tests of its motion in succession that a motor fails, and it is given up: a whisker that
+/// is held and an encoder that stands still look alike, and a test is gentle.
 pub const HELD: u8 = 6;
 
 /// What a servo is doing.
@@ -94,8 +93,7 @@ pub enum ServoState<R> {
     GivenUp,
 }
 
-/// What the last tick has done with a motor, in the formats of a
-/// [`TickRecord`](wire::TickRecord).
+/// What the last tick has done with a motor, as a [`TickRecord`](wire::TickRecord) has it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct MotorRecord {
     /// Where the whisker should be: protraction, Q13.
@@ -115,7 +113,6 @@ pub struct Servo<R, M, A> {
     angle: A,
     /// Counts at rest, θ = 0. Like the setpoint it is set once and never computed again.
     home: Voted<i32>,
-    /// Counts at the last tick.
     counts: i32,
     /// Whether home was found, where it is to be, since the motor was off.
     is_homed: bool,
@@ -165,11 +162,6 @@ impl<R: Real, M: MotorDriver, A: AngleInput> Servo<R, M, A> {
         }
     }
 
-    /// The hardware, for a simulation that looks at it.
-    pub const fn parts_mut(&mut self) -> (&mut M, &mut A) {
-        (&mut self.motor, &mut self.angle)
-    }
-
     #[inline]
     pub(crate) const fn running_at(&self) -> Option<i32> {
         match self.state {
@@ -199,16 +191,15 @@ impl<R: Real, M: MotorDriver, A: AngleInput> Servo<R, M, A> {
         matches!(self.state, ServoState::Resting { .. } | ServoState::GivenUp)
     }
 
-    /// Whether nothing that its whisker feels is of use: the motor rests, was given up, or
-    /// is being homed.
+    /// Whether nothing that its whisker feels is of use: it rests, or is being homed.
     #[inline]
     pub const fn is_inhibited(&self) -> bool {
         self.rests() || matches!(self.state, ServoState::Homing(_))
     }
 
     /// Whoever arms it first says that the whisker is at rest, θ = 0, now, unless it is homed.
-    /// After that the encoder counts on, whether the motor is off or not, and arming it moves rest
-    /// no more, but to where it is found. Faults are neither forgotten nor ended.
+    /// After that the encoder counts on, and arming moves rest no more. Faults are neither
+    /// forgotten nor ended.
     pub fn arm(&mut self) {
         if let ServoState::Off = self.state {
             self.is_homed = false;
@@ -248,9 +239,8 @@ impl<R: Real, M: MotorDriver, A: AngleInput> Servo<R, M, A> {
         self.setpoint.get().flatten()
     }
 
-    /// A setpoint that takes the place of the pattern generator's; `None`: the
-    /// pattern generator's again. Where the whisker is still on its way to the last, slowly, it
-    /// goes to this one as slowly, from where it is.
+    /// In place of the pattern generator's; `None`: that again. A whisker that is still on its way
+    /// to the last, slowly, goes to this one as slowly, from where it is.
     pub const fn set_setpoint(&mut self, setpoint: Option<R>) {
         self.setpoint = Voted::new(setpoint);
         if let ServoState::Running { has_new_aim, .. } = &mut self.state {
@@ -294,7 +284,6 @@ impl<R: Real, M: MotorDriver, A: AngleInput> Servo<R, M, A> {
         }
     }
 
-    /// Where it is: protraction.
     fn measured(&self, config: &ServoConfig<R>) -> R {
         let home = self.home.get().unwrap_or(self.counts);
         config.pd.measured(self.counts.wrapping_sub(home))
@@ -308,8 +297,7 @@ impl<R: Real, M: MotorDriver, A: AngleInput> Servo<R, M, A> {
         }
     }
 
-    /// One tick towards protraction `setpoint`, unless another was commanded;
-    /// off unless it `may_run`.
+    /// One tick towards protraction `setpoint`, unless another was commanded, where it `may_run`.
     // Apart: a tick in one piece runs out of registers.
     #[inline(never)]
     pub fn step(

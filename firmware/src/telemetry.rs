@@ -51,11 +51,9 @@ struct Decided {
 #[derive(Debug, Default)]
 pub struct Link {
     streams: bool,
-    /// The whiskers that touch something, a bit each.
     touching: u32,
     /// Flags of the events since the last record.
     said: Flags,
-    /// Records that found no room, since the start.
     lost: u32,
     /// Says so, where the next record is the first after some that were lost.
     gap: Flags,
@@ -65,15 +63,8 @@ pub struct Link {
 
 impl Link {
     /// A link on which nothing was asked for yet.
-    pub const fn new() -> Self {
-        Self {
-            streams: false,
-            touching: 0,
-            said: Flags::NONE,
-            lost: 0,
-            gap: Flags::NONE,
-            decided: [None; MAX_OWN],
-        }
+    pub fn new() -> Self {
+        Self::default()
     }
 
     /// Notes an event for the next record.
@@ -131,8 +122,7 @@ impl Link {
     }
 
     /// Carries out a request between two ticks.
-    // Apart: with the rest of a board's link it jumps by tables that the bound of its stack
-    // cannot follow.
+    // Apart: the bound of the stack cannot follow its jumps beside the rest of a board's link.
     #[inline(never)]
     pub fn carry_out<R: Real, H: Hardware>(
         &mut self,
@@ -198,10 +188,7 @@ impl Link {
             Said::Look(whisker) if Part::Bus.is_built() => {
                 let place = Place::new(whisker.side, whisker.number);
                 let found = module.whisker(place).ok_or(CommandStatus::NoWhisker);
-                found.map(|whisker| {
-                    let looked = self.looked(module, config, whisker);
-                    values = looked.values();
-                })
+                found.map(|whisker| values = self.looked(module, config, whisker).values())
             }
             Said::Version => {
                 values = VERSION;
@@ -293,8 +280,7 @@ impl Link {
         }
     }
 
-    // Apart: the loop would load all that whiskers have alike ahead, for which there are not
-    // registers enough.
+    // Apart: a loop would load what whiskers have alike, for which registers do not suffice.
     #[inline(never)]
     fn send_record<R: Real, H: Hardware>(
         &mut self,
@@ -348,7 +334,6 @@ pub fn letters(name: &str, from: u8) -> [i32; 2] {
 struct Tick<'a, R: Real, H: Hardware> {
     module: &'a Module<R, H>,
     config: &'a Config<R>,
-    /// Its number since the start.
     sequence: u32,
     /// The flags of it, and the whiskers that touch something.
     said: Flags,
@@ -382,8 +367,7 @@ impl<R: Real, H: Hardware> Tick<'_, R, H> {
         }
     }
 
-    /// What the last tick has done with the motor of the `n`-th whisker, if it has one, and z of
-    /// its side, Q13.
+    /// What the last tick has done with the motor of the `n`-th whisker, and z of its side, Q13.
     #[inline]
     fn moved(&self, n: usize, whisker: &Whisker<R, H>) -> Option<(MotorRecord, i16)> {
         let motion = self.module.motion()?;

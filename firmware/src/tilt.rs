@@ -15,8 +15,7 @@ use tmag5170::{
 use crate::io::WordSource;
 use crate::{SensorFault, TiltFault};
 
-/// Least code along Z, 1/64 of its full scale: 1.6 of 100 mT. Below it there is no magnet, or
-/// it is upside down.
+/// Least code along Z, 1.6 of 100 mT: below it there is no magnet, or it is upside down.
 const LEAST_Z: i32 = 512;
 
 /// The largest code of a field, of one conversion: there the field may be any that is larger.
@@ -55,8 +54,8 @@ impl TiltScale {
         }
     }
 
-    /// The words of X, Y and Z, limited to full scale. Where one of the three is at the end of its
-    /// range no tilt is known: then both words are at the end of theirs.
+    /// Limited to full scale. Where one of three is at the end of its range both words are at that
+    /// of theirs.
     ///
     /// # Errors
     /// [`TiltFault::NoMagnet`].
@@ -84,8 +83,7 @@ impl TiltScale {
     }
 }
 
-/// Codes of a word for a field of the range `across` and one of Z of the range `axial` with the
-/// same code; `None`: more than a product has room for.
+/// Codes of a word where fields of both ranges have the same code; `None`: too many for a product.
 const fn slope(across: Range, axial: Range, full_scale: f32) -> Option<i32> {
     // Both parts have the same ratios of ranges.
     let across_mt = across.full_scale_mt(Version::A1);
@@ -114,8 +112,7 @@ pub struct TiltSource<SPI> {
 }
 
 impl<SPI: SpiDevice> TiltSource<SPI> {
-    /// Takes a sensor, which is set up as `config` has it, but for its replies, which carry
-    /// registers.
+    /// Set up as `config` has it, but for its replies, which carry registers.
     pub fn new(sensor: Tmag5170<SPI>, config: Config, scale: TiltScale) -> Self {
         let mut config = config;
         config.system.data_type = DataType::Register;

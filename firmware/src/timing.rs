@@ -12,16 +12,6 @@ pub struct Timing {
 }
 
 impl Timing {
-    /// Before the first tick.
-    pub const fn new() -> Self {
-        Self {
-            worst: 0,
-            missed: 0,
-            begun: 0,
-            has_begun: false,
-        }
-    }
-
     /// A tick begins at `now`; one is due every `period` counts (0: not known).
     #[inline]
     pub fn begin(&mut self, now: u32, period: u32) {

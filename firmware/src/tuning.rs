@@ -28,7 +28,6 @@ type Bytes = heapless::Vec<u8, ROOM>;
 pub struct Tuning<B> {
     board: BoardCode,
     first: B,
-    /// What has taken its place; empty: nothing.
     since: Bytes,
     staged: Bytes,
 }
@@ -38,8 +37,7 @@ pub struct Tuning<B> {
 pub enum Prepared {
     /// This is the answer.
     Done(CommandStatus, [i32; 2]),
-    /// The next configuration is to take effect, by [`take_over`]; then [`Tuning::has_taken`] is
-    /// called.
+    /// It is to take effect, by [`take_over`]; then [`Tuning::has_taken`] is called.
     Next,
 }
 
@@ -232,8 +230,8 @@ fn word_of(bytes: &[u8], n: usize) -> u32 {
     u32::from_le_bytes(word)
 }
 
-/// Has a module that runs by `config` go on by `next` from now on, between two ticks: its caller
-/// gives it that one in each tick from now on.
+/// A module that runs by `config` goes on by `next`, which its caller gives it in each tick from
+/// now on.
 ///
 /// # Errors
 /// [`ConfigError::Shape`] or [`ConfigError::Armed`]; nothing has changed.

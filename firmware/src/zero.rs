@@ -12,12 +12,11 @@ use whisking::Voted;
 /// Steps of a word in a code of 14 bits.
 const CODE: i32 = 4;
 
-/// By how much a mean must differ from the zero to take its place: eight codes, twice the noise
-/// of a sample, and what part of a whisk at the end of a silence may add.
+/// By how much a mean must differ from the zero: eight codes, twice the noise of a sample, and what
+/// part of a whisk at the end of a silence may add.
 const STEP: u32 = 8 * CODE as u32;
 
-/// What a silence is, in which the zero of a sensor is found, and how far that may lie from
-/// mid-scale.
+/// When the zero of a sensor is found, and how far it may lie from mid-scale.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub struct ZeroLimits {
     /// Ticks of a silence.
@@ -32,7 +31,6 @@ pub struct ZeroLimits {
 /// judged as the sensor sends them.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Zero {
-    /// Codes from mid-scale, x and y.
     codes: Voted<[i16; 2]>,
     /// Words since the last touch, of which there are at most `u16::MAX`.
     ticks: u16,
@@ -45,9 +43,8 @@ impl Zero {
         self.codes.get().unwrap_or_default()
     }
 
-    /// Takes words that [`out_of`](Self::out_of) has given into the silence, or resets it
-    /// where the whisker is not calm. Returns the zero where they end it, and have moved the
-    /// zero.
+    /// Takes words that [`out_of`](Self::out_of) has given into the silence, which begins again
+    /// where the whisker is not calm. Gives the zero where they end it, and have moved it.
     #[inline]
     pub(crate) fn follow(
         &mut self,

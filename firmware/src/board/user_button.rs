@@ -34,7 +34,7 @@ impl UserButton {
     pub(crate) fn start() -> Self {
         Self {
             pin: Pin::new(USER_BUTTON, PinConfig::INPUT.pulled_up()),
-            button: Button::new(),
+            button: Button::default(),
             limits: design_parameters::button(pace::tick_hz()),
         }
     }

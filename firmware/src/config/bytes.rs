@@ -20,7 +20,6 @@ pub const CONFIG_BYTES: usize = if cfg!(target_os = "none") { 1536 } else { 4096
 /// Bytes of a [`Header`].
 pub const HEADER_BYTES: usize = 16;
 
-/// The first bytes.
 const MAGIC: u32 = u32::from_le_bytes(*b"WCFG");
 
 /// A word of flash that nothing was written to.
@@ -105,8 +104,7 @@ impl Header {
 /// Room for the bytes of a configuration.
 pub type ConfigBytes = heapless::Vec<u8, CONFIG_BYTES>;
 
-/// Reads values one after the other, by pieces: a whole configuration by value is more than the
-/// stack of a board.
+/// By pieces: a whole configuration by value is more than the stack of a board.
 struct Parts<'b> {
     reader: Reader<'b>,
     refused: ConfigError,
@@ -127,8 +125,7 @@ impl<'b> Parts<'b> {
         }
     }
 
-    /// Whether a part is there that may be absent. An image that was built without it has no
-    /// code to read it.
+    /// Whether a part is there. An image that was built without it has no code to read it.
     fn has(&mut self, part: Part) -> Result<bool, Refused> {
         let is_there = self.take(part)?;
         if is_there && !part.is_built() {

@@ -4,8 +4,6 @@
 //! Coarser than a scene's own ranges, and quick in every number format: no float is computed
 //! with. What passes cannot make a tick fail or leave the bounds that its states have.
 
-use core::fmt;
-
 use tactile::{ClassSetting, Deciding, MOST_THRESHOLD, RuleSettings};
 use whisking::motor::{Driver, GuardConfig, HomingConfig, ModelConfig};
 use whisking::{
@@ -13,36 +11,20 @@ use whisking::{
 };
 
 use super::{Config, ConfigError, HeadConfig, Links, MotionConfig, Part, SensingConfig};
+use crate::numbered::numbered;
 use crate::perception::ClassifierConfig;
 use crate::servo::ServoConfig;
 
 macro_rules! fields {
-    ($($name:ident = $code:literal: $text:literal;)*) => {
-        /// A value of a configuration, or some that belong together. Numbers keep their
-        /// meanings.
-        #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-        #[repr(u8)]
-        pub enum Field {
-            $(#[doc = $text]
-            $name = $code,)*
-        }
-
-        impl Field {
-            /// Every field.
-            pub const ALL: &[Self] = &[$(Self::$name),*];
-
-            /// It in words.
-            pub const fn text(self) -> &'static str {
-                match self {
-                    $(Self::$name => $text,)*
-                }
-            }
+    ($($rows:tt)*) => {
+        numbered! {
+            /// A value of a configuration, or some that belong together.
+            Field: $($rows)*
         }
     };
 }
 
-/// Hands every [`Field`], `Name = number: "text";`, to the macro `$then`. (A logger wants texts as
-/// literals.)
+/// Hands every [`Field`] to the macro `$then`: a logger wants texts as literals.
 #[doc(hidden)]
 #[macro_export]
 macro_rules! config_fields {
@@ -100,16 +82,6 @@ macro_rules! config_fields {
 config_fields!(fields);
 
 impl Field {
-    /// Its number.
-    pub const fn code(self) -> u8 {
-        self as u8
-    }
-
-    /// That of a number.
-    pub fn from_code(code: u8) -> Option<Self> {
-        Self::ALL.iter().copied().find(|field| field.code() == code)
-    }
-
     /// Whether an image of these parts may refuse it: where it cannot, it needs no text.
     pub const fn can_be_refused(self) -> bool {
         // By codes, which never change: of whisking and motors, then of the classifier.
@@ -119,12 +91,6 @@ impl Field {
             31..=35 | 45 => Part::Classifier.is_built(),
             _ => true,
         }
-    }
-}
-
-impl fmt::Display for Field {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(self.text())
     }
 }
 
@@ -163,7 +129,6 @@ fn built(part: Part) -> Checked {
     }
 }
 
-/// What a part needs that may be absent.
 #[inline]
 fn if_there<T>(part: Part, value: Option<&T>, check: impl FnOnce(&T) -> Checked) -> Checked {
     value.map_or(Ok(()), |value| {
@@ -193,7 +158,7 @@ impl<R: Real> Config<R> {
 }
 
 impl<R: Real> Config<R> {
-    /// Names the limit that does not protect a motor that is real, or the gain to change.
+    /// Names the limit that does not protect a motor, or the gain to change.
     pub(super) fn protects(&self) -> Checked {
         let motion = self.motion.as_ref().filter(|_| Part::Motion.is_built());
         let protects = motion.map_or(Ok(()), |motion| motion.protects(self.head.tick_hz));
@@ -319,7 +284,6 @@ impl<R: Real> MotionConfig<R> {
     }
 }
 
-/// A gain, 0 to 100, and a decay.
 fn of_gate<R: Real>(field: Field, gain: R::Coefficient, decay: &gate::Decay<R>) -> Checked {
     within(field, &[gain], Bound::positive(7))?;
     within(field, &[decay.tick], SHARE)?;

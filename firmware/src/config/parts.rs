@@ -1,39 +1,21 @@
 //! The parts that an image may be built without.
 
-use core::fmt;
+use crate::numbered::numbered;
 
 macro_rules! parts {
     (@built "") => { true };
     (@built $feature:tt) => { cfg!(feature = $feature) };
     ($($name:ident $feature:tt = $code:literal: $text:literal;)*) => {
-        /// A part of a configuration. Numbers keep their meanings.
-        #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-        #[repr(u8)]
-        pub enum Part {
-            $(#[doc = $text]
-            $name = $code,)*
+        numbered! {
+            /// A part of a configuration.
+            Part: $($name = $code: $text;)*
         }
 
         impl Part {
-            /// Every part.
-            pub const ALL: &[Self] = &[$(Self::$name),*];
-
             /// The cargo feature that it is built by; empty: it is always there.
             pub const fn feature(self) -> &'static str {
                 match self {
                     $(Self::$name => $feature,)*
-                }
-            }
-
-            /// Whether an image takes configurations over its links. One that does not runs by
-            /// the one that it was linked with: whoever made that has checked it, by the same
-            /// functions, and its sum says whether it is still what it was.
-            pub const TAKES_CONFIGURATIONS: bool = Self::Deploy.is_built() || Self::Set.is_built();
-
-            /// It in words.
-            pub const fn text(self) -> &'static str {
-                match self {
-                    $(Self::$name => $text,)*
                 }
             }
 
@@ -89,19 +71,8 @@ macro_rules! config_parts {
 config_parts!(parts);
 
 impl Part {
-    /// Its number.
-    pub const fn code(self) -> u8 {
-        self as u8
-    }
-
-    /// That of a number.
-    pub fn from_code(code: u8) -> Option<Self> {
-        Self::ALL.iter().copied().find(|part| part.code() == code)
-    }
-}
-
-impl fmt::Display for Part {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(self.text())
-    }
+    /// Whether an image takes configurations over its links. One that does not runs by the one that
+    /// it was linked with, which was checked by the same functions, and its sum says whether it is
+    /// still so.
+    pub const TAKES_CONFIGURATIONS: bool = Self::Deploy.is_built() || Self::Set.is_built();
 }

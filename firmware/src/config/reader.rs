@@ -1,9 +1,8 @@
 //! Reads postcard's format, so that little code is needed on a board.
 //!
 //! postcard's own reader may fail at each number, and what is derived for a structure asks after
-//! each. This one never fails at a number: beyond the end, or where a number is too large, it
-//! reads zero and remembers that ([`Reader::is_good`]); the compiler then drops the questions. It
-//! takes half of the code (docs/decisions.md, record 5).
+//! each. This one reads zero beyond the end, or where a number is too large, and remembers that
+//! ([`Reader::is_good`]), which takes half of the code (docs/decisions.md, record 5).
 
 use serde::Deserializer;
 use serde::de::{
@@ -15,7 +14,6 @@ pub(super) struct Reader<'de> {
     is_good: bool,
 }
 
-/// A value that cannot be: a name of no variant, text that is no UTF-8, a list without room.
 #[derive(Debug, thiserror::Error)]
 #[error("unreadable")]
 pub(super) struct Unreadable;
@@ -175,15 +173,6 @@ impl<'de> Deserializer<'de> for &mut Reader<'de> {
         visitor.visit_seq(Fields(self))
     }
 
-    fn deserialize_tuple_struct<V: Visitor<'de>>(
-        self,
-        _: &'static str,
-        _: usize,
-        visitor: V,
-    ) -> Result<V::Value, Unreadable> {
-        visitor.visit_seq(Fields(self))
-    }
-
     fn deserialize_struct<V: Visitor<'de>>(
         self,
         _: &'static str,
@@ -205,7 +194,7 @@ impl<'de> Deserializer<'de> for &mut Reader<'de> {
 
     // What no configuration has, or the format does not say.
     serde::forward_to_deserialize_any! {
-        i8 char string bytes byte_buf unit unit_struct map identifier ignored_any
+        i8 char string bytes byte_buf unit unit_struct tuple_struct map identifier ignored_any
     }
 
     fn deserialize_any<V: Visitor<'de>>(self, _: V) -> Result<V::Value, Unreadable> {
@@ -217,7 +206,6 @@ impl<'de> Deserializer<'de> for &mut Reader<'de> {
     }
 }
 
-/// Fields, as many as are asked for.
 struct Fields<'r, 'de>(&'r mut Reader<'de>);
 
 impl<'de> SeqAccess<'de> for Fields<'_, 'de> {
@@ -231,7 +219,6 @@ impl<'de> SeqAccess<'de> for Fields<'_, 'de> {
     }
 }
 
-/// Elements of a list, of which so many follow.
 struct Counted<'r, 'de>(&'r mut Reader<'de>, u32);
 
 impl<'de> SeqAccess<'de> for Counted<'_, 'de> {
@@ -250,7 +237,6 @@ impl<'de> SeqAccess<'de> for Counted<'_, 'de> {
     }
 }
 
-/// A variant of this number, and its fields.
 struct Variant<'r, 'de>(&'r mut Reader<'de>, u32);
 
 impl<'de> EnumAccess<'de> for Variant<'_, 'de> {

@@ -20,7 +20,6 @@ struct Member {
     /// shows that a node lives, and does not say what it feels.
     pi: [u16; MAX_SIDES],
     believed: u16,
-    /// Which sides it carries whiskers of.
     carries: [bool; MAX_SIDES],
 }
 
@@ -49,26 +48,25 @@ impl Members {
         all.filter(|(_, member)| member.left > 0)
     }
 
-    /// The lowest node that lives, has joined and carries a side; this one counts if it
+    /// The lowest node that lives, has joined and carries a side, or any; this one counts if it
     /// `has_joined`.
-    pub(super) fn leader(&self, side: usize, has_joined: bool) -> Option<u8> {
-        let carries = |member: &Member| member.carries.get(side) == Some(&true);
-        let own = self
-            .all
-            .get(usize::from(self.number))
-            .filter(|own| has_joined && carries(own));
-        let other = self
-            .living()
-            .find(|(_, member)| member.is_joined && carries(member));
+    fn lowest(&self, side: Option<usize>, has_joined: bool) -> Option<u8> {
+        let carries =
+            |member: &Member| side.is_none_or(|side| member.carries.get(side) == Some(&true));
+        let own = self.all.get(usize::from(self.number));
+        let own = own.filter(|own| has_joined && carries(own));
+        let mut living = self.living();
+        let other = living.find(|(_, member)| member.is_joined && carries(member));
         let own = own.map(|_| self.number);
         own.into_iter().chain(other.map(|(number, _)| number)).min()
     }
 
-    /// The lowest node that lives and has joined; this one counts if it `has_joined`.
+    pub(super) fn leader(&self, side: usize, has_joined: bool) -> Option<u8> {
+        self.lowest(Some(side), has_joined)
+    }
+
     pub(super) fn leader_of_time(&self, has_joined: bool) -> Option<u8> {
-        let other = self.living().find(|(_, member)| member.is_joined);
-        let own = has_joined.then_some(self.number);
-        own.into_iter().chain(other.map(|(number, _)| number)).min()
+        self.lowest(None, has_joined)
     }
 
     pub(super) fn is_lowest(&self) -> bool {
@@ -111,8 +109,7 @@ impl Members {
         }
     }
 
-    /// A tick passes: who was not heard for long does not live, and feels nothing; nor does one of
-    /// which nothing has come in time.
+    /// Who was not heard for long does not live; of whom nothing came in time feels nothing.
     pub(super) fn pass(&mut self, events: &mut impl FnMut(NodeEvent)) {
         for (number, member) in (0..).zip(&mut self.all) {
             if member.left == 1 {

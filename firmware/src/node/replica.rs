@@ -67,9 +67,8 @@ impl Replica {
         all.get(side).copied().filter(|_| of == tick)
     }
 
-    /// Corrects a side before tick `now` by what its leader had after the tick of its stamp. What was
-    /// kept since is corrected too: the leader's next ψ was said before this took effect, and would
-    /// have it corrected twice.
+    /// By what the leader of a side had after the tick of its stamp. What was kept since is
+    /// corrected too: the leader's next ψ was said before this took effect.
     pub(super) fn correct<R: Real>(
         &mut self,
         (config, state): (&oscillator::Config<R>, &mut oscillator::State<R>),
@@ -141,8 +140,8 @@ mod tests {
     }
 
     proptest! {
-        /// A follower that begins `off` radians beside its leader comes nearer by each message, by
-        /// its bound at most, and never passes by: what two messages say of the same difference is
+        /// A follower that begins `off` radians beside its leader comes nearer by each message,
+        /// within its bound, and never passes by: what two messages say of one difference is
         /// corrected once.
         #[test]
         fn a_difference_is_corrected_once(

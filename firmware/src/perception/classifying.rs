@@ -36,8 +36,7 @@ pub struct Sample {
     pub touch: u16,
 }
 
-/// A classifier of the two channels of each of some whiskers, counted from 0, left side
-/// first, and its state.
+/// A classifier of the two channels of some whiskers, counted from 0, left side first.
 pub trait SampleClassifier {
     /// Whether it takes the samples of a whisker.
     #[inline]
@@ -45,12 +44,10 @@ pub trait SampleClassifier {
         true
     }
 
-    /// Takes the sample of a whisker in every tick with a valid reading; a decision may
-    /// fall.
+    /// A whisker's sample in a tick with a valid reading; a decision may fall.
     fn push(&mut self, whisker: usize, sample: Sample) -> Option<Decision>;
 
-    /// How what a whisker touches stands, if it is of this class, right after a decision; none where
-    /// its model does not say
+    /// How what a whisker touches stands, if it is of this class, right after a decision
     /// ([`StreamClassifier::pose`](tactile::StreamClassifier::pose)).
     fn pose(&self, _whisker: usize, _class: usize) -> Option<Pose> {
         None
@@ -70,14 +67,13 @@ pub trait SampleClassifier {
         0
     }
 
-    /// What its whiskers have felt for the head to decide by
+    /// What its whiskers have felt, for the head
     /// ([`StreamClassifier::evidence`](tactile::StreamClassifier::evidence)).
     fn evidence(&self) -> Option<Felt> {
         None
     }
 
-    /// What those of another board have felt
-    /// ([`StreamClassifier::hear`](tactile::StreamClassifier::hear)).
+    /// What another board's have ([`StreamClassifier::hear`](tactile::StreamClassifier::hear)).
     fn hear(&mut self, _board: usize, _felt: Option<&Felt>) -> Option<Decision> {
         None
     }
@@ -88,24 +84,8 @@ pub trait SampleClassifier {
     /// The head has decided.
     fn forget(&mut self) {}
 
-    /// Other settings of its rule, and of its classes, take effect. Evidence stays unless those of
-    /// its classes are others. What does not fit changes nothing.
+    /// Evidence stays unless the settings of classes are others. What does not fit changes nothing.
     fn set_rule(&mut self, settings: &RuleSettings, classes: &[ClassSetting]);
-}
-
-/// A whisker in one tick.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Sensed<R> {
-    /// Where it is.
-    pub place: Place,
-    /// What its sensor reads.
-    pub reading: Reading,
-    /// Its contact π.
-    pub contact: R,
-    /// The contact from which its sample counts; none: it does.
-    pub least: Option<R>,
-    /// Whether it is said how what it names stands.
-    pub says_pose: bool,
 }
 
 /// What a module makes of its readings: touches, samples and decisions, of each whisker by
@@ -183,55 +163,29 @@ impl<C: SampleClassifier> Perception<C> {
         touches.map_or_else(Touching::default, TouchDetector::touching)
     }
 
-    /// One tick of whisker `n`, counted from 0, left side first. `events` gets touches and
-    /// decisions.
+    /// One tick of whisker `n`, counted from 0, left side first, by its reading and its contact π.
+    /// `events` gets touches and decisions.
     #[inline]
-    pub fn step<R: Real>(&mut self, n: usize, heard: Sensed<R>, events: &mut impl FnMut(Event)) {
-        let Sensed {
-            place,
-            reading,
-            contact,
-            least,
-            says_pose,
-        } = heard;
-        let Some(touches) = self.touches.get_mut(n) else {
+    pub(crate) fn step<R: Real>(
+        &mut self,
+        (n, place): (usize, Place),
+        (reading, contact): (Reading, R),
+        config: &ClassifierConfig<R>,
+        events: &mut impl FnMut(Event),
+    ) {
+        let classifier = &mut self.classifier;
+        let touches = self.touches.get_mut(n);
+        let Some(touches) = touches.filter(|_| classifier.hears(n)) else {
             return;
         };
-        if !self.classifier.hears(n) {
+        if !(reading.valid && reading.current) {
+            self.interrupt(n, place, events);
             return;
         }
-        let listener = Listener {
-            classifier: &mut self.classifier,
-            touches,
-            whisker: n,
-            place,
-            says_pose,
-        };
-        if reading.valid && reading.current {
-            let codes = [reading.x.code14(), reading.y.code14()];
-            let counts = least.is_none_or(|least| contact >= least);
-            listener.step(codes, counts, events);
-        } else {
-            listener.interrupt(events);
-        }
-    }
-}
-
-struct Listener<'a, C> {
-    classifier: &'a mut C,
-    touches: &'a mut TouchDetector,
-    whisker: usize,
-    place: Place,
-    says_pose: bool,
-}
-
-impl<C: SampleClassifier> Listener<'_, C> {
-    #[inline]
-    fn step(self, codes: [u16; 2], counts: bool, events: &mut impl FnMut(Event)) {
-        let place = self.place;
-        let Touching { number: last, .. } = self.touches.touching();
-        let Touching { number, is_onset } = if self.classifier.knows_touches() {
-            self.touches.step(codes)
+        let codes = [reading.x.code14(), reading.y.code14()];
+        let Touching { number: last, .. } = touches.touching();
+        let Touching { number, is_onset } = if classifier.knows_touches() {
+            touches.step(codes)
         } else {
             Touching::default()
         };
@@ -241,19 +195,18 @@ impl<C: SampleClassifier> Listener<'_, C> {
             let number = last;
             events(Event::TouchEnd { place, number });
         }
-        let is_sure = self.touches.is_sure();
         let sample = Sample {
             codes,
-            counts,
+            counts: config.contact_min.is_none_or(|least| contact >= least),
             // A false touch in the air is none to the classifier.
-            touch: if is_sure { number } else { 0 },
+            touch: if touches.is_sure() { number } else { 0 },
         };
-        if let Some(decision) = self.classifier.push(self.whisker, sample) {
+        if let Some(decision) = classifier.push(n, sample) {
             events(Event::Decision(place, decision));
             if Part::Pose.is_built()
-                && self.says_pose
+                && config.says_pose
                 && let Some(class) = decision.class()
-                && let Some(pose) = self.classifier.pose(self.whisker, class)
+                && let Some(pose) = classifier.pose(n, class)
             {
                 events(Event::Pose(place, pose));
             }
@@ -262,13 +215,15 @@ impl<C: SampleClassifier> Listener<'_, C> {
 
     /// A tick with a fault, or with a reading that may be frozen.
     #[cold]
-    fn interrupt(self, events: &mut impl FnMut(Event)) {
-        let place = self.place;
-        let Touching { number, .. } = self.touches.touching();
+    fn interrupt(&mut self, n: usize, place: Place, events: &mut impl FnMut(Event)) {
+        let Some(touches) = self.touches.get_mut(n) else {
+            return;
+        };
+        let Touching { number, .. } = touches.touching();
         if number != 0 {
             events(Event::TouchEnd { place, number });
         }
-        self.touches.interrupt();
-        self.classifier.interrupt(self.whisker);
+        touches.interrupt();
+        self.classifier.interrupt(n);
     }
 }

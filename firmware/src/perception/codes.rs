@@ -13,8 +13,7 @@ use super::{ModelState, Refusal, Sample, SampleClassifier};
 use crate::Part;
 use crate::config::ERASED;
 
-/// The model was not trained on the integer codes of a sensor's two channels,
-/// so that it cannot classify them.
+/// The model was not trained on the integer codes of a sensor's two channels.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
 #[error("the model was not trained on 14-bit sensor codes of two channels a whisker")]
 pub struct NotCodes;
@@ -57,8 +56,7 @@ pub struct ModelLimits {
     pub tick_hz: u32,
 }
 
-/// A classifier of sensors' codes with its model, or why there is none: then touches are
-/// found and nothing is decided.
+/// With its model, or why there is none: then touches are found and nothing is decided.
 #[derive(Debug, Clone)]
 pub struct CodeClassifier<W = &'static [u32]> {
     found: Result<Codes<W>, Refusal>,
@@ -71,19 +69,9 @@ struct Codes<W> {
     factors: Factors,
 }
 
-impl<W: Words> Codes<W> {
-    fn new(classifier: StreamClassifier<W>) -> Result<Self, NotCodes> {
-        Ok(Self {
-            factors: factors(classifier.model())?,
-            classifier,
-        })
-    }
-}
-
 impl<'p> CodeClassifier<&'p [u32]> {
-    /// With the model at the beginning of `place`, which starts on a four-byte boundary, if
-    /// it is undamaged and within `limits`, for the rule and the whiskers of a scene whose
-    /// module has so many.
+    /// With the model at the beginning of `place`, on a four-byte boundary, if it is undamaged and
+    /// within `limits`, for a scene's rule and whiskers.
     pub fn at_start(
         place: &'p [u8],
         limits: ModelLimits,
@@ -96,8 +84,7 @@ impl<'p> CodeClassifier<&'p [u32]> {
         classifier
     }
 
-    /// Becomes what [`at_start`](Self::at_start) makes, where it lies: for a board, whose stack
-    /// has no room for it. Classes have these priors and thresholds.
+    /// As [`at_start`](Self::at_start), where it lies: a board's stack has no room for it.
     pub fn find(
         &mut self,
         place: &'p [u8],
@@ -108,7 +95,7 @@ impl<'p> CodeClassifier<&'p [u32]> {
     ) {
         let (rule, deciding) = config;
         self.heard = deciding.heard(whiskers);
-        let found = find(place, limits).and_then(|model| {
+        self.found = find(place, limits).and_then(|model| {
             let of_each = 2 * self.heard;
             if ![2, of_each].contains(&model.channels()) {
                 return Err(Refusal::Channels);
@@ -116,11 +103,10 @@ impl<'p> CodeClassifier<&'p [u32]> {
             let classifier = StreamClassifier::unstarted(model, rule, deciding, whiskers);
             let classifier = classifier.map_err(Refusal::of_setup)?;
             let factors = factors(&model).map_err(|NotCodes| Refusal::Channels)?;
-            Ok((classifier, factors))
-        });
-        self.found = found.map(|(classifier, factors)| Codes {
-            classifier,
-            factors,
+            Ok(Codes {
+                classifier,
+                factors,
+            })
         });
         if let Ok(codes) = &mut self.found {
             codes.classifier.set_classes(&ClassSettings::of(classes));
@@ -167,7 +153,11 @@ impl<W: Words> CodeClassifier<W> {
     /// [`NotCodes`] if its model was not trained on a sensor's codes.
     pub fn new(classifier: StreamClassifier<W>) -> Result<Self, NotCodes> {
         let heard = classifier.streams();
-        let found = Ok(Codes::new(classifier)?);
+        let factors = factors(classifier.model())?;
+        let found = Ok(Codes {
+            classifier,
+            factors,
+        });
         Ok(Self { found, heard })
     }
 

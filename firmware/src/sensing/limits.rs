@@ -5,8 +5,7 @@ use serde::{Deserialize, Serialize};
 use super::swing::SwingLimits;
 use crate::zero::ZeroLimits;
 
-/// What is tolerated of a sensor, and how long a recovery takes; in ticks but for `jump`.
-/// `u16::MAX` is no limit.
+/// In ticks but for `jump`; `u16::MAX` is no limit.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub struct SensorLimits {
     /// Ticks without a good frame for which the last reading is held.
@@ -21,8 +20,7 @@ pub struct SensorLimits {
     pub frozen: u16,
     /// Largest change of a word in a tick, of its 65,536 steps.
     pub jump: u16,
-    /// Where ticks without a good frame are too many: each counts [`BAD_WEIGHT`], each with
-    /// one takes 1 away.
+    /// Most bad ticks: each counts [`BAD_WEIGHT`], each with a good frame takes 1 away.
     pub burst: u16,
     /// When its zero is found; `None`: it is mid-scale.
     pub zero: Option<ZeroLimits>,
@@ -45,6 +43,5 @@ impl SensorLimits {
     };
 }
 
-/// What a tick without a good frame counts: more than one in `BAD_WEIGHT + 1` of them are
-/// too many in the long run.
+/// More than one bad tick in `BAD_WEIGHT + 1` are too many in the long run.
 pub const BAD_WEIGHT: u16 = 4;

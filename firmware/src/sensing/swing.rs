@@ -16,8 +16,7 @@ use crate::faults::number;
 pub struct SwingLimits {
     /// Ticks of a look, some whisks.
     pub ticks: u16,
-    /// Counts of the encoder from one end of the whisks to the other from which a look tells
-    /// anything.
+    /// Counts of the encoder between the ends of whisks from which a look tells anything.
     pub counts: u32,
     /// Steps of a word, of 65,536, that x must move by in them.
     pub least: u16,
@@ -81,8 +80,7 @@ impl Swing {
         (self.was_felt, self.is_lost) = (was_felt, is_lost);
     }
 
-    /// One tick with the reading x, and with the counts of a motor that runs; `None`: it does not.
-    /// Says what is lost where it was not lost before.
+    /// `counts` are those of a motor that runs. Says what is lost where it was not lost before.
     #[inline]
     pub(crate) fn look(
         &mut self,

@@ -7,21 +7,20 @@ use super::{Servo, ServoConfig, ServoState};
 use crate::io::AngleInput;
 
 impl<R: Real, M: MotorDriver, A: AngleInput> Servo<R, M, A> {
-    /// Finds rest again with the next tick, where it is found; a motor that rests after a
-    /// fault rests on.
+    /// Finds rest again, where it is found; a motor that rests after a fault rests on.
     pub fn home(&mut self) {
         self.off();
         self.is_homed = false;
     }
 
-    /// The same where the home that was found is no more to be compared with.
+    /// What was found is no more to be compared with.
     pub(crate) fn forget_home(&mut self) {
         self.home();
         self.is_known = false;
     }
 
-    /// Looks for home again where it was found long ago: in the air, or where a whisker that feels
-    /// so much contact has not been there for as long again.
+    /// Home that was found long ago is looked for: in the air, or, felt or not, after as long
+    /// again.
     #[inline]
     pub(crate) fn check_home(&mut self, config: &ServoConfig<R>, felt: R) {
         let Some(how) = config.homing() else {

@@ -6,7 +6,6 @@ const MOST: u8 = 2;
 
 #[derive(Debug, Default)]
 pub(super) struct Leaps {
-    /// Not a count was seen in the last tick.
     stood: bool,
     seen: u8,
 }
