@@ -16,14 +16,12 @@ use crate::here::{CLOCKS, reset_spi, spi};
 pub(crate) struct Wires {
     /// Whether data is taken at the first edge of the clock, which is low at rest, or the second.
     pub(crate) phase: Cpha,
-    /// By so many steps of the divider, of which each doubles the clock, it is faster than for an
-    /// MLX90333.
+    /// Steps of the divider, each of which doubles the clock, beyond an MLX90333's.
     pub(crate) faster: u8,
     /// From /SS low to the clock.
     pub(crate) lead_rounds: u32,
     /// From the clock to /SS high.
     pub(crate) lag_rounds: u32,
-    /// While /SS is high.
     pub(crate) high_rounds: u32,
     /// Looks at the SPI's flags for a byte. One takes two cycles and more.
     pub(crate) polls: u32,
@@ -34,8 +32,7 @@ pub(crate) const fn rounds(ns: u32) -> u32 {
     (CLOCKS.core_hz / 1_000_000 * ns).div_ceil(2_000)
 }
 
-/// Most significant bit first, bytes, which the DMA fetches or not; /SS is ours. Also discards a
-/// frame that broke off in the middle of a byte.
+/// Also discards a frame that broke off in the middle of a byte.
 #[inline(never)]
 pub(crate) fn set_up(port: &SensorPort, wires: &Wires, has_dma: bool) {
     reset_spi(port.spi);
@@ -56,7 +53,6 @@ pub(crate) struct Device {
     wires: &'static Wires,
 }
 
-/// The SPI has not sent what it was given.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Stuck;
 
@@ -107,7 +103,6 @@ impl Device {
         })
     }
 
-    /// With /SS low.
     #[inline]
     fn carry_out(&self, operation: &mut Operation<'_, u8>) -> Result<(), Stuck> {
         match operation {

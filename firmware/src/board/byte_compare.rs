@@ -11,7 +11,6 @@ pub(crate) fn set_up(slot_counts: u16) {
         .write(|w| w.set_ccr(slot_counts.saturating_sub(1)));
 }
 
-/// Requests from the next match on.
 #[inline]
 pub(crate) fn begin(_: TimBasic) {
     TIM4.dier().write(|w| w.set_ccde(0, true));

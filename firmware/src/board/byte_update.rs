@@ -5,7 +5,6 @@ use stm32_metapac::timer::TimBasic;
 /// Nothing to set: updates need no more than the period.
 pub(crate) fn set_up(_: u16) {}
 
-/// Requests from the next update on.
 #[inline]
 pub(crate) fn begin(timer: TimBasic) {
     timer.dier().write(|w| w.set_ude(true));

@@ -1,12 +1,11 @@
-//! Counts with one writer, which a Cortex-M0+ can have too.
+//! What tick and idle share: counts with one writer, and what they ask of each other.
 
-use core::sync::atomic::{AtomicU32, Ordering};
+use core::sync::atomic::{AtomicBool, AtomicU32, Ordering};
 
 /// Ticks since the start. Only the tick counts it up.
 pub(crate) static TICKS: WrappingCounter = WrappingCounter::new();
 
-/// The longest tick of the last whole second, in counts of the clock. Only the tick
-/// sets it.
+/// The longest tick of the last whole second, in counts of the clock. Only the tick sets it.
 pub(crate) static WORST: WrappingCounter = WrappingCounter::new();
 
 /// Ticks missed since the start, as of the last whole second. Only the tick sets it.
@@ -19,8 +18,7 @@ impl WrappingCounter {
         Self(AtomicU32::new(0))
     }
 
-    /// One more, for the only writer; the new count. A load and a store, because a
-    /// Cortex-M0+ has no instruction that does both.
+    /// One more, for the only writer: a Cortex-M0+ has no instruction that loads and stores.
     #[inline]
     pub(crate) fn increment(&self) -> u32 {
         let count = self.get().wrapping_add(1);
@@ -36,5 +34,29 @@ impl WrappingCounter {
     #[inline]
     pub(crate) fn get(&self) -> u32 {
         self.0.load(Ordering::Relaxed)
+    }
+}
+
+/// Something that is to be done once.
+pub(crate) struct Request(AtomicBool);
+
+impl Request {
+    pub(crate) const fn none() -> Self {
+        Self(AtomicBool::new(false))
+    }
+
+    pub(crate) fn make(&self) {
+        self.0.store(true, Ordering::Relaxed);
+    }
+
+    /// Whether it is to be done now. A load and a store, because a Cortex-M0+ has no swap: what is
+    /// asked for again between both was asked for before it is done.
+    #[inline]
+    pub(crate) fn take(&self) -> bool {
+        let is_made = self.0.load(Ordering::Relaxed);
+        if is_made {
+            self.0.store(false, Ordering::Relaxed);
+        }
+        is_made
     }
 }

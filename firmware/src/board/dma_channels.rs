@@ -1,5 +1,4 @@
-//! DMA with channels (STM32F1, STM32G0): one moves the bytes that the SPI
-//! received (rx), one sends it a byte a request (tx). The board's file names them.
+//! DMA with channels (STM32F1, STM32G0): one moves what comes (rx), one what goes (tx).
 
 use stm32_metapac::DMA1;
 use stm32_metapac::bdma::Ch;
@@ -7,12 +6,17 @@ use stm32_metapac::bdma::regs::Isr;
 use stm32_metapac::bdma::vals::{Dir, Pl};
 
 pub(crate) struct Route {
-    /// Requested by the SPI's reception.
+    /// Requested by reception, of an SPI or a USART.
     pub(crate) rx: usize,
-    /// Requested by the byte timer's update.
+    /// Requested by the byte timer's update, or by transmission.
     pub(crate) tx: usize,
 }
 
+fn channel(number: usize) -> Ch {
+    DMA1.ch(number % 7)
+}
+
+/// Of a sensor: what the SPI received, and a byte a request for it.
 pub(crate) struct Transfers {
     rx: Channel,
     tx: Channel,
@@ -21,12 +25,10 @@ pub(crate) struct Transfers {
 #[derive(Clone, Copy)]
 struct Channel {
     registers: Ch,
-    /// Where its flags begin in ISR and IFCR.
     flags: u32,
 }
 
-/// Flags of a channel, from where they begin (RM0008 and RM0444, DMA interrupt status
-/// register).
+/// From where a channel's begin (RM0008 and RM0444, DMA interrupt status register).
 mod flag {
     pub(super) const COMPLETE: u32 = 1 << 1;
     pub(super) const ERROR: u32 = 1 << 3;
@@ -35,11 +37,9 @@ mod flag {
 
 impl Channel {
     fn new(number: usize) -> Self {
-        // The channels of DMA1 are seven.
-        let number = number % 7;
         Self {
-            registers: DMA1.ch(number),
-            flags: 4 * number as u32,
+            registers: channel(number),
+            flags: 4 * (number % 7) as u32,
         }
     }
 
@@ -50,14 +50,12 @@ impl Channel {
 }
 
 impl Transfers {
-    /// On a route that has its clock.
     pub(crate) fn new(&Route { rx, tx }: &Route) -> Self {
         let (rx, tx) = (Channel::new(rx), Channel::new(tx));
         Self { rx, tx }
     }
 
-    /// `received` must have room for as many bytes as each [`start`](Self::start) moves, and
-    /// both must be static.
+    /// `received` has room for as many bytes as each [`start`](Self::start) moves; both are static.
     pub(crate) fn set_up(&self, data_register: u32, received: u32, sent: u32) {
         for (channel, memory) in [(&self.rx, received), (&self.tx, sent)] {
             channel.registers.par().write_value(data_register);
@@ -65,8 +63,7 @@ impl Transfers {
         }
     }
 
-    /// Starts a transfer of `bytes` on both: the rx DMA to successive addresses, the
-    /// tx DMA always from the same one.
+    /// The rx DMA moves to successive addresses, the tx DMA always from the same one.
     #[inline]
     pub(crate) fn start(&self, bytes: u16) {
         // A channel takes a new count only while it is off, and stays on at its end.
@@ -116,5 +113,52 @@ impl Transfers {
         for channel in [&self.rx, &self.tx] {
             channel.registers.cr().write(|_| {});
         }
+    }
+}
+
+/// Of the serial port: a ring is filled with what comes, and a piece of memory sent at a time.
+pub(crate) struct SerialTransfers {
+    tx: Ch,
+}
+
+impl SerialTransfers {
+    /// Receives from now on into a static ring of so many bytes, and sends to `to`.
+    pub(crate) fn start(route: &Route, [from, to]: [u32; 2], ring: u32, bytes: u16) -> Self {
+        let (rx, tx) = (channel(route.rx), channel(route.tx));
+        rx.par().write_value(from);
+        rx.mar().write_value(ring);
+        rx.ndtr().write(|w| w.set_ndt(bytes));
+        rx.cr().write(|w| {
+            w.set_dir(Dir::FROM_PERIPHERAL);
+            w.set_minc(true);
+            w.set_circ(true);
+            w.set_en(true);
+        });
+        tx.par().write_value(to);
+        Self { tx }
+    }
+
+    /// Bytes of the ring that are left until it wraps.
+    #[inline]
+    pub(crate) fn left(route: &Route) -> u16 {
+        channel(route.rx).ndtr().read().ndt()
+    }
+
+    /// Whether a piece is under way. It is none after an error, which switches a channel off.
+    pub(crate) fn is_sending(&self) -> bool {
+        self.tx.cr().read().en() && self.tx.ndtr().read().ndt() != 0
+    }
+
+    /// Sends so many bytes from an address, where they must stay until they are sent.
+    pub(crate) fn send(&self, address: u32, bytes: u16) {
+        // A channel takes address and count only while it is off, and stays on at its end.
+        self.tx.cr().write(|_| {});
+        self.tx.mar().write_value(address);
+        self.tx.ndtr().write(|w| w.set_ndt(bytes));
+        self.tx.cr().write(|w| {
+            w.set_dir(Dir::FROM_MEMORY);
+            w.set_minc(true);
+            w.set_en(true);
+        });
     }
 }

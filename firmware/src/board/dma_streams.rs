@@ -1,20 +1,24 @@
-//! DMA with streams, which end by themselves (STM32F4): one moves the bytes that the SPI
-//! received (rx), one sends it a byte a request (tx). The board's file names them.
+//! DMA with streams, which end by themselves (STM32F4): one moves what comes (rx), one what goes
+//! (tx).
 
 use stm32_metapac::dma::regs::Ixr;
 use stm32_metapac::dma::vals::{Dir, Pl};
 use stm32_metapac::dma::{Dma, St};
 
-/// Two streams of one controller, of its first four, each with the channel of its request
-/// (RM0390, DMA request mapping).
+/// Two streams of one controller, of its first four for a sensor and of its last four for the
+/// serial port, each with the channel of its request (RM0390, DMA request mapping).
 pub(crate) struct Route {
     pub(crate) dma: Dma,
-    /// By the SPI's reception.
+    /// By reception, of an SPI or a USART.
     pub(crate) rx: (u8, u8),
-    /// By the byte timer's update.
+    /// By the byte timer's update, or by transmission.
     pub(crate) tx: (u8, u8),
 }
 
+/// Where a stream's flags begin in LISR, LIFCR, HISR and HIFCR.
+const FLAGS_AT: [u32; 4] = [0, 6, 16, 22];
+
+/// Of a sensor: what the SPI received, and a byte a request for it.
 pub(crate) struct Transfers {
     dma: Dma,
     rx: Stream,
@@ -25,7 +29,6 @@ pub(crate) struct Transfers {
 struct Stream {
     registers: St,
     channel: u8,
-    /// Where its flags begin in LISR and LIFCR.
     flags: u32,
 }
 
@@ -45,7 +48,7 @@ impl Stream {
         Self {
             registers: dma.st(number),
             channel,
-            flags: [0, 6, 16, 22][number],
+            flags: FLAGS_AT[number],
         }
     }
 
@@ -61,8 +64,7 @@ impl Transfers {
         Self { dma, rx, tx }
     }
 
-    /// `received` must have room for as many bytes as each [`start`](Self::start) moves, and
-    /// both must be static.
+    /// `received` has room for as many bytes as each [`start`](Self::start) moves; both are static.
     pub(crate) fn set_up(&self, data_register: u32, received: u32, sent: u32) {
         for (stream, memory) in [(&self.rx, received), (&self.tx, sent)] {
             stream.registers.par().write_value(data_register);
@@ -70,8 +72,7 @@ impl Transfers {
         }
     }
 
-    /// Starts a transfer of `bytes` on both: the rx DMA to successive addresses, the
-    /// tx DMA always from the same one.
+    /// The rx DMA moves to successive addresses, the tx DMA always from the same one.
     #[inline]
     pub(crate) fn start(&self, bytes: u16) {
         let flags = flag::ALL << self.rx.flags | flag::ALL << self.tx.flags;
@@ -124,9 +125,66 @@ impl Transfers {
         for stream in [&self.rx, &self.tx] {
             let cr = stream.registers.cr();
             cr.write(|_| {});
-            // A stream stops after the current byte, some bus cycles. If it does
-            // not, the next frame fails.
+            // After the current byte, some bus cycles. Otherwise the next frame fails.
             let _ = (0..1_000).any(|_| !cr.read().en());
         }
+    }
+}
+
+/// Of the serial port: a ring is filled with what comes, and a piece of memory sent at a time.
+pub(crate) struct SerialTransfers {
+    dma: Dma,
+    tx: St,
+    tx_channel: u8,
+    tx_flags: u32,
+}
+
+impl SerialTransfers {
+    /// Receives from now on into a static ring of so many bytes, and sends to `to`.
+    pub(crate) fn start(route: &Route, [from, to]: [u32; 2], ring: u32, bytes: u16) -> Self {
+        let stream = |number: u8| route.dma.st(usize::from(number % 8));
+        let (rx, tx) = (stream(route.rx.0), stream(route.tx.0));
+        rx.par().write_value(from);
+        rx.m0ar().write_value(ring);
+        rx.ndtr().write(|w| w.set_ndt(bytes));
+        rx.cr().write(|w| {
+            w.set_chsel(route.rx.1);
+            w.set_dir(Dir::PERIPHERAL_TO_MEMORY);
+            w.set_minc(true);
+            w.set_circ(true);
+            w.set_en(true);
+        });
+        tx.par().write_value(to);
+        Self {
+            dma: route.dma,
+            tx,
+            tx_channel: route.tx.1,
+            tx_flags: 0x3F << FLAGS_AT[usize::from(route.tx.0 % 4)],
+        }
+    }
+
+    #[inline]
+    pub(crate) fn left(route: &Route) -> u16 {
+        let rx = route.dma.st(usize::from(route.rx.0 % 8));
+        rx.ndtr().read().ndt()
+    }
+
+    /// Whether a piece is under way. It is none after an error, which switches a stream off.
+    pub(crate) fn is_sending(&self) -> bool {
+        self.tx.cr().read().en()
+    }
+
+    /// Sends so many bytes from an address, where they must stay until they are sent.
+    pub(crate) fn send(&self, address: u32, bytes: u16) {
+        // Those of the first four lie before.
+        self.dma.ifcr(1).write_value(Ixr(self.tx_flags));
+        self.tx.m0ar().write_value(address);
+        self.tx.ndtr().write(|w| w.set_ndt(bytes));
+        self.tx.cr().write(|w| {
+            w.set_chsel(self.tx_channel);
+            w.set_dir(Dir::MEMORY_TO_PERIPHERAL);
+            w.set_minc(true);
+            w.set_en(true);
+        });
     }
 }

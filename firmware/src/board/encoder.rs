@@ -10,12 +10,10 @@ use super::wiring::EncoderPort;
 
 /// A level counts after eight equal samples of the timer's clock: 111 ns at 72 MHz.
 const FILTER: FilterValue = FilterValue::FCK_INT_N8;
-/// A capture channel uses its own input (the register description names
-/// the setting after channel 4's).
+/// Its own input, which the register description names after channel 4's.
 const OWN_INPUT: CcmrInputCcs = CcmrInputCcs::TI4;
 
-/// An encoder's timer, whose low 16 bits are widened to 32: right as long as less than
-/// half of their round passes between two ticks.
+/// Widened from 16 bits: right as long as less than half of their round passes between two ticks.
 pub(crate) struct Encoder {
     timer: TimGp16,
     last: u16,

@@ -9,7 +9,8 @@ use cortex_m::peripheral::SCB;
 use cortex_m_rt::{ExceptionFrame, exception};
 use firmware::faults::number;
 
-use super::{log, outputs, retained, supply, watchdog};
+use super::{log, outputs, retained, watchdog};
+use crate::here::power;
 
 /// Set by the first fault, so that a fault while its line is written adds none.
 static DYING: AtomicBool = AtomicBool::new(false);
@@ -22,15 +23,13 @@ pub(crate) fn die(number: u8, details: impl FnOnce()) -> ! {
     watchdog::wait_for_reset()
 }
 
-/// The same for a supply that may be gone before a line is written, and does not bear this
-/// clock: the reset comes at once, and the next start has the line.
+/// For a supply that may be gone before a line is written: the next start has the line.
 fn die_at_once(number: u8) -> ! {
     begin(number);
     SCB::sys_reset()
 }
 
-/// What every fault begins with; whether it is the first. Once in the program, and not in
-/// each of the places that end here.
+/// What every fault begins with; whether it is the first. Once in the program.
 #[inline(never)]
 fn tell(number: u8) -> bool {
     let first = begin(number);
@@ -44,8 +43,7 @@ fn tell(number: u8) -> bool {
 fn begin(number: u8) -> bool {
     cortex_m::interrupt::disable();
     outputs::off();
-    // A load and a store, because a Cortex-M0+ has no swap; only a fault within
-    // a fault can come between.
+    // No swap, which a Cortex-M0+ lacks: only a fault within a fault can come between.
     let first = !DYING.load(Ordering::Relaxed);
     DYING.store(true, Ordering::Relaxed);
     if first {
@@ -101,7 +99,7 @@ extern "C" fn hard_fault(frame: Option<&ExceptionFrame>) -> ! {
         die(number::STACK_OVERFLOW, || {});
     };
     die(number::HARD_FAULT, || {
-        let [configurable, hard] = crate::here::fault_status();
+        let [configurable, hard] = fault_status();
         defmt::error!(
             "- at {=u32:#x}, called from {=u32:#x}, CFSR {=u32:#x}, HFSR {=u32:#x}",
             frame.pc(),
@@ -110,6 +108,18 @@ extern "C" fn hard_fault(frame: Option<&ExceptionFrame>) -> ! {
             hard
         );
     })
+}
+
+/// What the core says of a hard fault: CFSR and HFSR; nothing, on a Cortex-M0+.
+fn fault_status() -> [u32; 2] {
+    #[cfg(feature = "cortex-m0-plus")]
+    return [0; 2];
+    #[cfg(not(feature = "cortex-m0-plus"))]
+    #[allow(unsafe_code, reason = "the SCB has no owner in a fault")]
+    // SAFETY: status registers; reading them has no effect.
+    unsafe {
+        [(*SCB::PTR).cfsr.read(), (*SCB::PTR).hfsr.read()]
+    }
 }
 
 #[allow(unsafe_code, reason = "cortex-m-rt asks for it")]
@@ -126,7 +136,8 @@ unsafe fn NonMaskableInt() -> ! {
 // SAFETY: called by the hardware only; it does not return, so whatever it interrupts is over.
 #[exception]
 unsafe fn DefaultHandler(interrupt: i16) -> ! {
-    if supply::has_fallen() {
+    // The voltage detector has no handler of its own.
+    if power::has_fallen() {
         die_at_once(number::SUPPLY_LOW);
     }
     die(number::STRAY_INTERRUPT, || {

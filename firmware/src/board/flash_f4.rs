@@ -16,8 +16,7 @@ const SECTORS_BEFORE: u32 = 4;
 
 const FLASH_BASE: u32 = 0x0800_0000;
 
-/// 32 bits at a time, for which the supply must be 2.7 V or more, and is 3.3 V (RM0390, "Program
-/// and erase parallelism").
+/// 32 bits at a time, for which the supply must be 2.7 V (RM0390, "Program and erase parallelism").
 const AT_A_TIME: Psize = Psize::PSIZE32;
 
 /// What went wrong: OPERR, WRPERR, PGAERR, PGPERR and PGSERR, cleared by writing ones.

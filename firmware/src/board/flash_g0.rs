@@ -16,7 +16,6 @@ const FLASH_BASE: u32 = 0x0800_0000;
 /// by writing ones.
 const ERRORS: u32 = 0x3FA;
 
-/// What writes it: two words at a time.
 pub(crate) struct Writer {
     /// A word that waits for the other one of its pair.
     waiting: Option<(usize, u32)>,

@@ -2,8 +2,7 @@
 
 use stm32_metapac::FLASH;
 
-/// They open it, in this order (RM0390, "Unlocking the flash control register"; PM0075 and
-/// RM0444 have the same).
+/// In this order (RM0390, "Unlocking the flash control register"; PM0075, RM0444).
 const KEYS: [u32; 2] = [0x4567_0123, 0xCDEF_89AB];
 
 pub(crate) fn open() {

@@ -44,9 +44,7 @@ impl PinName {
     pub(crate) fn high(self) {
         self.port.bsrr().write_value(Bsrr(1 << self.number));
     }
-}
 
-impl PinName {
     #[inline]
     pub(crate) fn is_low(self) -> bool {
         self.port.idr().read().0 & 1 << self.number == 0

@@ -1,13 +1,11 @@
-//! Pins of chips with a mode, a type, a speed and a function register each
-//! (STM32F4, STM32G0).
+//! Pins of chips with a mode, a type, a speed and a function register each (STM32F4, STM32G0).
 
 use stm32_metapac::gpio::Gpio;
 use stm32_metapac::gpio::vals::{Moder, Ospeedr, Ot, Pupdr};
 
 use crate::board::pin_config::{Mode, PinConfig, Pull, Speed};
 
-/// Configures pin `n` of `port`, 0 to 15; the mode register last, so that the
-/// pin never drives with half a configuration.
+/// The mode register last, so that the pin never drives with half a configuration.
 #[inline(never)]
 pub(crate) fn configure(port: Gpio, n: usize, config: PinConfig) {
     let (moder, function) = match config.mode {

@@ -13,8 +13,7 @@ use crate::here::{self, Counter, SIDES};
 
 static INNER: StaticCell<Inner> = StaticCell::new();
 
-/// A module at its start, whose whiskers are at rest now, once the clocks are as its sensors
-/// need them. It can be made once.
+/// Once the clocks are as its sensors need them; whiskers are at rest now. It can be made once.
 #[inline(never)]
 pub(crate) fn start(
     settings: &Settings,

@@ -13,18 +13,38 @@ use core::sync::atomic::{AtomicU32, AtomicUsize, Ordering};
 
 use firmware::faults::number;
 
-use super::span::Span;
 use super::types::{Inner, Settings};
 use super::{faults, motors, pace, perception};
 
 /// Words of each that are looked at between two sleeps.
 const WORDS: usize = 16;
 
-/// Words that stay as they are, and a walk over them.
+/// Words that stay where and as they are.
+#[derive(Clone, Copy)]
+pub(crate) struct Span {
+    pub(crate) address: usize,
+    pub(crate) words: usize,
+}
+
+impl Span {
+    pub(crate) const NONE: Self = Self {
+        address: 0,
+        words: 0,
+    };
+
+    /// Those of something which stays where it is and which nothing writes from now on. A part
+    /// of a word at its end is left out; there is none.
+    pub(crate) fn of<T: ?Sized>(constant: &T) -> Self {
+        Self {
+            address: core::ptr::from_ref(constant).addr(),
+            words: size_of_val(constant) / size_of::<u32>(),
+        }
+    }
+}
+
 struct Region {
     span: Span,
     sum: u32,
-    /// The fault that another sum is.
     fault: u8,
     /// The word that is next, and the sum of those before it.
     next: usize,
@@ -80,8 +100,7 @@ impl Region {
     }
 }
 
-/// How often the tick has changed what is to stay as it is; where settings lie since, and the sums
-/// of settings and classifier. Idle reads them, the tick, which idle cannot interrupt, writes
+/// How often the tick has changed what is to stay; where settings lie since, and sums. Idle reads
 /// them.
 static CHANGES: AtomicU32 = AtomicU32::new(0);
 static SETTINGS_AT: AtomicUsize = AtomicUsize::new(0);
@@ -103,8 +122,8 @@ impl Changed {
         ])
     }
 
-    /// Before a change: whether both are what they were after the last. Where they are not,
-    /// nothing must change, and idle's walk will find the fault.
+    /// Before a change. Where one is not what it was, nothing must change: idle's walk will find
+    /// the fault.
     pub(crate) fn holds(&self) -> bool {
         self.0.iter().all(Region::holds)
     }
@@ -129,8 +148,7 @@ impl Changed {
 )]
 fn word(address: usize) -> u32 {
     let word;
-    // SAFETY: reads an aligned word of a region, which lives for ever; where the tick changes it,
-    // either value is a word.
+    // SAFETY: reads an aligned word that lives for ever; before or after a change it is a word.
     unsafe {
         core::arch::asm!(
             "ldr {word}, [{address}]",

@@ -12,7 +12,7 @@ use firmware::boards::{self, Slot, SlotHeader};
 use tactile::Model;
 use wire::{Answer, Command, CommandStatus, Load, LoadedWord, Request, TaggedCommand};
 
-use super::bus::{Post, Stop};
+use super::bus::{self, Post};
 use super::serial::Serial;
 use super::slots::{self, SLOTS};
 use super::telemetry::ProbeLine;
@@ -21,8 +21,7 @@ use super::{outputs, pace, retained, sleep, tick_timer};
 use crate::here::TICK_INTERRUPT;
 use crate::here::flash::Writer;
 
-/// What a serial port still sends when its DMA is done: a part of a second, two bytes at 5,000
-/// baud.
+/// A part of a second: two bytes at 5,000 baud, which are sent when the DMA is done.
 const LAST_BYTES_PART: u32 = 250;
 
 pub(crate) enum Line<'s> {
@@ -32,8 +31,7 @@ pub(crate) enum Line<'s> {
 }
 
 impl Line<'_> {
-    // Apart, as are words: together they are a function whose jumps the stack's check cannot
-    // follow.
+    // Apart, as are words: the stack's check cannot follow the jumps of both together.
     #[inline(never)]
     fn next(&mut self) -> Option<TaggedCommand> {
         let asked = match self {
@@ -57,7 +55,6 @@ impl Line<'_> {
         }
     }
 
-    /// Goes on sending; whether nothing is left.
     fn has_sent(&mut self) -> bool {
         match self {
             Self::Serial(serial) => serial.has_sent(),
@@ -76,16 +73,16 @@ struct Loading {
     last: u32,
 }
 
-/// What is to be loaded, by a module that runs by the scene of the slot `in_use`, or by none.
+/// By a module that runs by the scene of the slot `in_use`, or by none.
 #[derive(Clone, Copy)]
 pub(crate) struct Order {
     pub(crate) load: Load,
     pub(crate) in_use: Option<usize>,
     pub(crate) answer: Answer,
-    pub(crate) stop: Stop,
+    /// The number of this board in its head.
+    pub(crate) node: Option<u8>,
 }
 
-/// Erases, writes what comes, and resets the chip.
 pub(crate) fn run(mut line: Line<'_>, order: Order) -> ! {
     cortex_m::interrupt::disable();
     outputs::off();
@@ -98,7 +95,7 @@ pub(crate) fn run(mut line: Line<'_>, order: Order) -> ! {
         load,
         in_use,
         mut answer,
-        stop,
+        node,
     } = order;
     let mut loading = Loading::new(load, in_use);
     answer.status = written(loading.erase(&mut watchdog));
@@ -122,7 +119,7 @@ pub(crate) fn run(mut line: Line<'_>, order: Order) -> ! {
             // Its own are off, and stay so after the reset.
             Command::Stop => {
                 retained::set_stopped(true);
-                stop.say_alone();
+                bus::say_stop(node);
                 CommandStatus::Done
             }
             _ => CommandStatus::NotHere,
@@ -156,8 +153,7 @@ const fn written(well: bool) -> CommandStatus {
     }
 }
 
-/// Has no interrupt wake the core but that of the tick: those of frames that were under way stay
-/// pending.
+/// No interrupt wakes the core but the tick's: those of frames under way stay pending.
 fn leave_the_tick() {
     #[allow(unsafe_code, reason = "the NVIC has an owner in another type")]
     // SAFETY: this is the NVIC, whose registers are set with single stores; interrupts are
@@ -171,8 +167,7 @@ fn leave_the_tick() {
     }
 }
 
-/// Sleeps until the next tick would be. A masked interrupt wakes the core all the same, and is
-/// forgotten.
+/// A masked interrupt wakes the core all the same, and is forgotten.
 fn next_tick() {
     sleep::until_interrupt();
     tick_timer::acknowledge();
@@ -192,8 +187,7 @@ impl Loading {
         }
     }
 
-    /// Erases the slot, and the model's place where one comes that lies apart; whether all went
-    /// well.
+    /// With the model's place where one comes that lies apart; whether all went well.
     fn erase(&mut self, watchdog: &mut Watchdog) -> bool {
         let slot = self.slot;
         let is_well = self.writer.erase(slot.erased);

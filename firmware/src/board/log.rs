@@ -38,7 +38,6 @@ defmt::timestamp!("{=u32:ms}", {
         .wrapping_add(part * 1_000 / tick_hz)
 });
 
-/// A line of the table of wording.
 macro_rules! say {
     ($level:ident, $text:literal $(, $value:expr)* $(,)?) => {
         defmt::$level!($text $(, $value)*)
@@ -61,8 +60,7 @@ pub(crate) fn start(cause: StartCause, start: &Startup, found: &Scene) {
     scene(found);
 }
 
-/// Which scene runs, and why a slot does not count; an empty one has a line only where there is
-/// no scene.
+/// An empty slot has a line only where there is no scene.
 fn scene(found: &Scene) {
     if let Some(deployed) = &found.deployed {
         let name = slot_name(deployed.slot);
@@ -85,7 +83,6 @@ const fn slot_name(slot: usize) -> &'static str {
     if slot == 0 { "A" } else { "B" }
 }
 
-/// Why the scene of a slot does not count, in the words of [`ConfigError`].
 fn slot_refused(slot: &str, error: ConfigError) {
     let numbered = |before: defmt::Str, number: u16, behind: defmt::Str| {
         defmt::warn!(

@@ -22,7 +22,6 @@ struct Line {
 struct Staged {
     at: usize,
     room: u32,
-    /// One found none.
     is_lost: bool,
 }
 

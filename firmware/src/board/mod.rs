@@ -37,6 +37,7 @@ pub(crate) mod flash_lock;
 pub(crate) mod gpio;
 pub(crate) mod hardware;
 pub(crate) mod integrity;
+#[cfg(feature = "deploy")]
 pub(crate) mod loading;
 pub(crate) mod log;
 pub(crate) mod logger;
@@ -48,7 +49,6 @@ pub(crate) mod pin_config;
 #[macro_use]
 pub mod program;
 pub(crate) mod pwm;
-mod request;
 pub(crate) mod reset;
 pub(crate) mod retained;
 pub(crate) mod rtt;
@@ -70,7 +70,6 @@ pub(crate) mod serial;
 pub(crate) mod signal_pins;
 pub(crate) mod sleep;
 pub(crate) mod slots;
-pub(crate) mod span;
 pub(crate) mod supply;
 pub(crate) mod systick;
 #[cfg(not(feature = "rtt"))]

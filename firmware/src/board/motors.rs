@@ -6,11 +6,11 @@ use firmware::{Driver, Part};
 use whisking::motor::{Duty, Fault, HBridge, MotorDriver, SixStep, SixStepConfig, StallConfig};
 
 use super::gpio::{Pin, PinName};
+use super::integrity::Span;
 use super::outputs;
 use super::pin_config::{Mode, PinConfig};
 use super::pwm::Channel;
-use super::span::Span;
-use super::wiring::{ENABLES, HALLS, Output, PWMS, Side};
+use super::wiring::{ENABLES, HALLS, PWMS, Side};
 use crate::here::{PWM_FUNCTION, free_hall_pins};
 
 const PWM_PIN: PinConfig = PinConfig::new(Mode::AlternateOutput(PWM_FUNCTION));
@@ -30,8 +30,7 @@ pub(crate) enum Motor {
     Brushless(Brushless),
 }
 
-/// Whether motors are brushless, once more beside them: of a kind that is not theirs none must be
-/// driven, nor taken for switched off.
+/// Once more beside the motors: one of another kind must not be driven, nor taken for switched off.
 static IS_BRUSHLESS: AtomicBool = AtomicBool::new(false);
 
 #[inline]
@@ -65,7 +64,6 @@ pub(crate) struct MotorStart {
     pub(crate) driver: Driver,
     /// What a stall is to the power stage of a brushless one.
     pub(crate) stall: StallConfig,
-    /// Counts of the PWM in a period.
     pub(crate) pwm_counts: u16,
 }
 
@@ -112,8 +110,7 @@ fn brushless(with: &MotorStart) -> Brushless {
     free_hall_pins();
     let enables = pins(ENABLES, PinConfig::OUTPUT);
     let halls = pins(HALLS, PinConfig::INPUT.pulled_up());
-    let outputs = [Output::One, Output::Two, Output::Three];
-    let [a, b, c] = outputs.map(|output| Channel::of(output, with.pwm_counts));
+    let [a, b, c] = [0, 1, 2].map(|output| Channel::of(output, with.pwm_counts));
     let motor = SixStep::new((a, b, c), enables, halls, config).with_buffered_pwm();
     pins(PWMS, PWM_PIN);
     motor

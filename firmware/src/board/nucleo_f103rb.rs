@@ -4,9 +4,26 @@
 //! PA10, PC10 to PC12, and Halls on PA15, PB3 and PB10. The bus of a head is CAN on PA11 and PA12.
 //! TIM3 makes the ticks, SysTick measures them.
 
-use firmware::boards::{self, BoardFacts, Clocks, REST_US};
+use firmware::StartCause;
+use firmware::boards::{self, BoardFacts, Clocks};
+use stm32_metapac::Interrupt;
+use stm32_metapac::afio::vals::SwjCfg;
+use stm32_metapac::flash::vals::Latency;
+use stm32_metapac::rcc::vals::{Pllmul, Pllsrc, Ppre, Sw};
+use stm32_metapac::spi::Spi;
+use stm32_metapac::spi::vals::Br;
+use stm32_metapac::timer::{TimBasic, TimGp16};
+use stm32_metapac::usart::Usart;
+use stm32_metapac::{AFIO, DBGMCU, FLASH, RCC, SPI1, TIM2, TIM3, TIM4, USART2};
 
-/// What a PC knows of it too.
+use crate::board::pin_config::AlternateFunction;
+use crate::board::reset::{ClockSource, NoClock, comes, wait};
+pub(crate) use crate::board::systick::SysTick as Counter;
+use crate::board::wiring::{
+    EncoderPort, LEFT_BRIDGE, LEFT_ENCODER, LEFT_SENSOR, Received, SensorPort, Side,
+};
+use dma::Route;
+
 pub(crate) const FACTS: BoardFacts = boards::NUCLEO_F103RB;
 /// Its clocks, before they are halved for slow sensors.
 pub(crate) const CLOCKS: Clocks = FACTS.clocks;
@@ -24,8 +41,7 @@ const FLASH_WAIT_STATES: u8 = ((CORE_HZ - 1) / 24_000_000) as u8;
 
 const _: () = assert!(CORE_HZ == 72_000_000 && APB1_HZ <= 36_000_000);
 
-// Timers on APB1 count at twice the clock of their bus, those on APB2 at the
-// bus clock itself, which is not divided.
+// On APB1 timers count at twice the clock of their bus; APB2 is not divided.
 const _: () = assert!(
     CLOCKS.core_hz == CORE_HZ
         && CLOCKS.spi_hz == CORE_HZ / 256
@@ -34,12 +50,6 @@ const _: () = assert!(
         && CLOCKS.counter_hz == CORE_HZ
         && CLOCKS.pwm_hz == CORE_HZ
         && CLOCKS.serial_hz == APB1_HZ
-);
-
-// 28.4 µs a byte; a fast slot of 50 µs at 2 kHz, a safe one of 78.4 µs at 1 kHz.
-const _: () = assert!(
-    matches!(CLOCKS.slot_counts(2_000, REST_US), Some(3_600))
-        && matches!(CLOCKS.slot_counts(1_000, REST_US), Some(5_649))
 );
 
 #[path = "byte_compare.rs"]
@@ -52,210 +62,159 @@ pub(crate) mod flash;
 pub(crate) mod gpio;
 #[path = "power_f1.rs"]
 pub(crate) mod power;
-#[path = "serial_channels.rs"]
-pub(crate) mod serial_dma;
 #[path = "spi_v1.rs"]
 pub(crate) mod spi;
 #[path = "usart_v1.rs"]
 pub(crate) mod usart;
 
-pub(crate) use chip::*;
+pub(crate) const TICK_TIMER: TimGp16 = TIM3;
+pub(crate) const TICK_INTERRUPT: Interrupt = Interrupt::TIM3;
 
-mod chip {
-    use cortex_m::peripheral::SCB;
-    use firmware::StartCause;
-    use stm32_metapac::Interrupt;
-    use stm32_metapac::afio::vals::SwjCfg;
-    use stm32_metapac::flash::vals::Latency;
-    use stm32_metapac::rcc::vals::{Hpre, Pllmul, Pllsrc, Ppre, Sw};
-    use stm32_metapac::spi::Spi;
-    use stm32_metapac::spi::vals::Br;
-    use stm32_metapac::timer::{TimBasic, TimGp16};
-    use stm32_metapac::usart::Usart;
-    use stm32_metapac::{AFIO, DBGMCU, FLASH, RCC, SPI1, TIM2, TIM3, TIM4, USART2};
+/// Each pin has one alternate function without remapping.
+const ONLY: AlternateFunction = 0;
+/// Alternate function of the PWM's pins, TIM1.
+pub(crate) const PWM_FUNCTION: AlternateFunction = ONLY;
 
-    use super::dma::Route;
-    use super::serial_dma::SerialRoute;
-    use super::{APB1_HZ, CORE_HZ, FLASH_WAIT_STATES, PLL_MUL};
-    #[cfg(feature = "bus")]
-    use crate::board::gpio::PinName;
-    use crate::board::pin_config::AlternateFunction;
-    use crate::board::reset::{ClockSource, NoClock, comes, wait};
-    /// Measures the ticks.
-    pub(crate) use crate::board::systick::SysTick as Counter;
-    use crate::board::wiring::{
-        EncoderPort, LEFT_BRIDGE, LEFT_ENCODER, LEFT_SENSOR, Received, SensorPort, Side,
+/// The ST-LINK's serial port: USART2 by DMA1.
+pub(crate) const SERIAL_USART: Usart = USART2;
+/// Channels 6 and 7: USART2_RX, USART2_TX (RM0008, table 78).
+pub(crate) const SERIAL_ROUTE: Route = Route { rx: 5, tx: 6 };
+pub(crate) const SERIAL_FUNCTION: AlternateFunction = ONLY;
+
+/// The whisker: SPI1 by TIM4 and DMA1, PWM 1, TIM2.
+pub(crate) static LEFT: Side = Side {
+    sensor: SensorPort {
+        spi: SPI1,
+        divider: Br::DIV256,
+        #[allow(unsafe_code, reason = "a general timer begins with a basic one's registers")]
+        // SAFETY: the registers of both have the same offsets and bits (RM0008,
+        // chapters 15 and 17).
+        byte_timer: unsafe { TimBasic::from_ptr(TIM4.as_ptr()) },
+        byte_timer_divider: 1,
+        // Channels 2 and 1: SPI1_RX, TIM4_CH1 (RM0008, table 78).
+        dma: Route { rx: 1, tx: 0 },
+        received: {
+            static RECEIVED: Received = Received::new();
+            &RECEIVED
+        },
+        pins: LEFT_SENSOR,
+        function: ONLY,
+    },
+    bridge: LEFT_BRIDGE,
+    encoder: EncoderPort {
+        timer: TIM2,
+        a: LEFT_ENCODER[0],
+        b: LEFT_ENCODER[1],
+        function: ONLY,
+    },
+};
+
+pub(crate) static SIDES: &[&Side] = &[&LEFT];
+
+/// Reads why the chip started and forgets it, so that the next start tells its own.
+pub(crate) fn reset_cause() -> StartCause {
+    let flags = RCC.csr().read();
+    RCC.csr().modify(|w| w.set_rmvf(true));
+    StartCause::first([
+        (flags.iwdgrstf(), StartCause::Watchdog),
+        (flags.sftrstf(), StartCause::Software),
+        (flags.porrstf(), StartCause::Power),
+        (flags.pinrstf(), StartCause::Pin),
+    ])
+}
+
+/// By the ST-LINK's clock where that comes, with the non-maskable interrupt should it stop;
+/// otherwise at 64 MHz, the most that the PLL makes of the internal 8 MHz. Lets the timer of
+/// the tick run.
+pub(crate) fn start_clocks() -> Result<ClockSource, NoClock> {
+    RCC.cr().modify(|w| w.set_hsebyp(true));
+    RCC.cr().modify(|w| w.set_hseon(true));
+    let is_fed = comes(|| RCC.cr().read().hserdy());
+    let (source, factor) = if is_fed {
+        (Pllsrc::HSE_DIV_PREDIV, Pllmul::MUL9)
+    } else {
+        RCC.cr().modify(|w| w.set_hseon(false));
+        (Pllsrc::HSI_DIV2, Pllmul::MUL16)
     };
 
-    pub(crate) const TICK_TIMER: TimGp16 = TIM3;
-    pub(crate) const TICK_INTERRUPT: Interrupt = Interrupt::TIM3;
+    // Wait states before the clock that needs them.
+    FLASH.acr().modify(|w| {
+        w.set_prftbe(true);
+        w.set_latency(Latency::from_bits(FLASH_WAIT_STATES));
+    });
+    const { assert!(PLL_MUL == 9 && APB1_HZ * 2 == CORE_HZ) };
+    RCC.cfgr().modify(|w| {
+        w.set_pllsrc(source);
+        w.set_pllmul(factor);
+        w.set_ppre1(Ppre::DIV2);
+    });
+    RCC.cr().modify(|w| w.set_pllon(true));
+    wait(|| RCC.cr().read().pllrdy())?;
+    RCC.cfgr().modify(|w| w.set_sw(Sw::PLL1_P));
+    wait(|| RCC.cfgr().read().sws() == Sw::PLL1_P)?;
+    RCC.cr().modify(|w| w.set_csson(is_fed));
 
-    /// Each pin has one alternate function without remapping.
-    const ONLY: AlternateFunction = 0;
-    /// Alternate function of the PWM's pins, TIM1.
-    pub(crate) const PWM_FUNCTION: AlternateFunction = ONLY;
+    RCC.apb1enr().modify(|w| w.set_tim3en(true));
+    Ok(ClockSource::of(is_fed))
+}
 
-    /// The ST-LINK's serial port: USART2 by DMA1.
-    pub(crate) const SERIAL_USART: Usart = USART2;
-    /// Channels 6 and 7: USART2_RX, USART2_TX (RM0008, table 78).
-    pub(crate) const SERIAL_ROUTE: SerialRoute = SerialRoute { rx: 5, tx: 6 };
-    pub(crate) const SERIAL_FUNCTION: AlternateFunction = ONLY;
+/// CSSF in RCC_CIR (RM0008, chapter 7.3.3).
+pub(crate) fn has_clock_stopped() -> bool {
+    RCC.cir().read().cssf()
+}
 
-    /// The whisker: SPI1 by TIM4 and DMA1, PWM 1, TIM2.
-    pub(crate) static LEFT: Side = Side {
-        sensor: SensorPort {
-            spi: SPI1,
-            divider: Br::DIV256,
-            #[allow(unsafe_code, reason = "a general timer begins with a basic one's registers")]
-            // SAFETY: the registers of both have the same offsets and bits (RM0008,
-            // chapters 15 and 17).
-            byte_timer: unsafe { TimBasic::from_ptr(TIM4.as_ptr()) },
-            byte_timer_divider: 1,
-            // Channels 2 and 1: SPI1_RX, TIM4_CH1 (RM0008, table 78).
-            dma: Route { rx: 1, tx: 0 },
-            received: {
-                static RECEIVED: Received = Received::new();
-                &RECEIVED
-            },
-            pins: LEFT_SENSOR,
-            function: ONLY,
-        },
-        bridge: LEFT_BRIDGE,
-        encoder: EncoderPort {
-            timer: TIM2,
-            a: LEFT_ENCODER[0],
-            b: LEFT_ENCODER[1],
-            function: ONLY,
-        },
-    };
+pub(crate) fn clock_ports() {
+    RCC.apb2enr().modify(|w| {
+        w.set_gpioaen(true);
+        w.set_gpioben(true);
+        w.set_gpiocen(true);
+        w.set_afioen(true);
+    });
+}
 
-    pub(crate) static SIDES: &[&Side] = &[&LEFT];
+pub(crate) fn clock_sensors(_: u8) {
+    RCC.ahbenr().modify(|w| w.set_dma1en(true));
+    RCC.apb1enr().modify(|w| w.set_tim4en(true));
+    RCC.apb2enr().modify(|w| w.set_spi1en(true));
+}
 
-    /// Reads why the chip started and forgets it, so that the next start tells its own.
-    pub(crate) fn reset_cause() -> StartCause {
-        let flags = RCC.csr().read();
-        RCC.csr().modify(|w| w.set_rmvf(true));
-        StartCause::first([
-            (flags.iwdgrstf(), StartCause::Watchdog),
-            (flags.sftrstf(), StartCause::Software),
-            (flags.porrstf(), StartCause::Power),
-            (flags.pinrstf(), StartCause::Pin),
-        ])
-    }
+/// The controller of a head's bus, and the alternate function of its pins.
+#[cfg(feature = "bus")]
+pub(crate) const BUS: stm32_metapac::can::Can = stm32_metapac::CAN;
+#[cfg(feature = "bus")]
+pub(crate) const BUS_FUNCTION: AlternateFunction = ONLY;
 
-    /// Goes from the internal 8 MHz to [`super::CLOCKS`] by the ST-LINK's clock where that comes,
-    /// and has the chip raise the non-maskable interrupt should that stop; to 64 MHz, the most
-    /// that the PLL makes of the internal ones, where it does not. Lets the timer of the tick run.
-    pub(crate) fn start_clocks() -> Result<ClockSource, NoClock> {
-        RCC.cr().modify(|w| w.set_hsebyp(true));
-        RCC.cr().modify(|w| w.set_hseon(true));
-        let is_fed = comes(|| RCC.cr().read().hserdy());
-        let (source, factor) = if is_fed {
-            (Pllsrc::HSE_DIV_PREDIV, Pllmul::MUL9)
-        } else {
-            RCC.cr().modify(|w| w.set_hseon(false));
-            (Pllsrc::HSI_DIV2, Pllmul::MUL16)
-        };
+#[cfg(feature = "bus")]
+pub(crate) fn clock_bus() {
+    RCC.apb1enr().modify(|w| w.set_canen(true));
+}
 
-        // Wait states before the clock that needs them.
-        FLASH.acr().modify(|w| {
-            w.set_prftbe(true);
-            w.set_latency(Latency::from_bits(FLASH_WAIT_STATES));
-        });
-        const { assert!(PLL_MUL == 9 && APB1_HZ * 2 == CORE_HZ) };
-        RCC.cfgr().modify(|w| {
-            w.set_pllsrc(source);
-            w.set_pllmul(factor);
-            w.set_ppre1(Ppre::DIV2);
-        });
-        RCC.cr().modify(|w| w.set_pllon(true));
-        wait(|| RCC.cr().read().pllrdy())?;
-        RCC.cfgr().modify(|w| w.set_sw(Sw::PLL1_P));
-        wait(|| RCC.cfgr().read().sws() == Sw::PLL1_P)?;
-        RCC.cr().modify(|w| w.set_csson(is_fed));
+pub(crate) fn clock_serial() {
+    RCC.ahbenr().modify(|w| w.set_dma1en(true));
+    RCC.apb1enr().modify(|w| w.set_usart2en(true));
+}
 
-        RCC.apb1enr().modify(|w| w.set_tim3en(true));
-        Ok(ClockSource::of(is_fed))
-    }
+pub(crate) fn reset_spi(_: Spi) {
+    RCC.apb2rstr().modify(|w| w.set_spi1rst(true));
+    RCC.apb2rstr().modify(|w| w.set_spi1rst(false));
+}
 
-    /// Halves the clocks that [`start_clocks`] has brought: the core's is divided before it
-    /// comes to the buses.
-    pub(crate) fn halve_clocks() {
-        RCC.cfgr().modify(|w| w.set_hpre(Hpre::DIV2));
-    }
+pub(crate) fn clock_motors(_: u8) {
+    RCC.apb1enr().modify(|w| w.set_tim2en(true));
+    RCC.apb2enr().modify(|w| w.set_tim1en(true));
+}
 
-    /// Whether the clock security system has raised the non-maskable interrupt: CSSF in
-    /// RCC_CIR (RM0008, chapter 7.3.3).
-    pub(crate) fn has_clock_stopped() -> bool {
-        RCC.cir().read().cssf()
-    }
+/// PA15 and PB3 are JTAG's after a reset; the ST-LINK needs the two other wires only.
+pub(crate) fn free_hall_pins() {
+    AFIO.mapr().modify(|w| w.set_swj_cfg(SwjCfg::JTAG_DISABLE));
+}
 
-    pub(crate) fn clock_ports() {
-        RCC.apb2enr().modify(|w| {
-            w.set_gpioaen(true);
-            w.set_gpioben(true);
-            w.set_gpiocen(true);
-            w.set_afioen(true);
-        });
-    }
-
-    pub(crate) fn clock_sensors(_: u8) {
-        RCC.ahbenr().modify(|w| w.set_dma1en(true));
-        RCC.apb1enr().modify(|w| w.set_tim4en(true));
-        RCC.apb2enr().modify(|w| w.set_spi1en(true));
-    }
-
-    /// The controller of a head's bus; its pins RX and TX, and their alternate function.
-    #[cfg(feature = "bus")]
-    pub(crate) const BUS: stm32_metapac::can::Can = stm32_metapac::CAN;
-    #[cfg(feature = "bus")]
-    pub(crate) const BUS_PINS: [PinName; 2] = [PinName::new('A', 11), PinName::new('A', 12)];
-    #[cfg(feature = "bus")]
-    pub(crate) const BUS_FUNCTION: AlternateFunction = ONLY;
-
-    #[cfg(feature = "bus")]
-    pub(crate) fn clock_bus() {
-        RCC.apb1enr().modify(|w| w.set_canen(true));
-    }
-
-    pub(crate) fn clock_serial() {
-        RCC.ahbenr().modify(|w| w.set_dma1en(true));
-        RCC.apb1enr().modify(|w| w.set_usart2en(true));
-    }
-
-    pub(crate) fn reset_spi(_: Spi) {
-        RCC.apb2rstr().modify(|w| w.set_spi1rst(true));
-        RCC.apb2rstr().modify(|w| w.set_spi1rst(false));
-    }
-
-    pub(crate) fn clock_motors(_: u8) {
-        RCC.apb1enr().modify(|w| w.set_tim2en(true));
-        RCC.apb2enr().modify(|w| w.set_tim1en(true));
-    }
-
-    /// PA15 and PB3 are the debugger's after a reset, for JTAG. The ST-LINK
-    /// needs the two other wires only.
-    pub(crate) fn free_hall_pins() {
-        AFIO.mapr().modify(|w| w.set_swj_cfg(SwjCfg::JTAG_DISABLE));
-    }
-
-    /// Keeps the log readable while the core sleeps, and lets a debugger that
-    /// halts the core stop the motor (TIM1 then takes its outputs low) and the
-    /// watchdog.
-    pub(crate) fn prepare_for_debuggers() {
-        DBGMCU.cr().modify(|w| {
-            w.set_dbg_sleep(true);
-            w.set_tim1(true);
-            w.set_iwdg(true);
-        });
-    }
-
-    /// What the core says of a hard fault: CFSR and HFSR.
-    pub(crate) fn fault_status() -> [u32; 2] {
-        #[allow(unsafe_code, reason = "the SCB has no owner in a fault")]
-        // SAFETY: status registers; reading them has no effect.
-        unsafe {
-            [(*SCB::PTR).cfsr.read(), (*SCB::PTR).hfsr.read()]
-        }
-    }
+/// Keeps the log readable in sleep; a debugger that halts the core stops TIM1, whose outputs go
+/// low then, and the watchdog.
+pub(crate) fn prepare_for_debuggers() {
+    DBGMCU.cr().modify(|w| {
+        w.set_dbg_sleep(true);
+        w.set_tim1(true);
+        w.set_iwdg(true);
+    });
 }

@@ -4,9 +4,25 @@
 //! PA10, PC10 to PC12, and Halls on PA15, PB3 and PB10. TIM3 makes the ticks, SysTick
 //! measures them.
 
-use firmware::boards::{self, BoardFacts, Clocks, REST_US};
+use firmware::StartCause;
+use firmware::boards::{self, BoardFacts, Clocks};
+use stm32_metapac::Interrupt;
+use stm32_metapac::flash::vals::Latency;
+use stm32_metapac::rcc::vals::{Pllm, Plln, Pllr, Pllsrc, Sw};
+use stm32_metapac::spi::Spi;
+use stm32_metapac::spi::vals::Br;
+use stm32_metapac::timer::TimGp16;
+use stm32_metapac::usart::Usart;
+use stm32_metapac::{DBGMCU, DMAMUX1, FLASH, RCC, SPI1, SYSCFG, TIM2, TIM3, TIM6, USART2};
 
-/// What a PC knows of it too.
+use crate::board::pin_config::AlternateFunction;
+use crate::board::reset::{ClockSource, NoClock, settle, wait};
+pub(crate) use crate::board::systick::SysTick as Counter;
+use crate::board::wiring::{
+    EncoderPort, LEFT_BRIDGE, LEFT_ENCODER, LEFT_SENSOR, Received, SensorPort, Side,
+};
+use dma::Route;
+
 pub(crate) const FACTS: BoardFacts = boards::NUCLEO_G071RB;
 /// Its clocks, before they are halved for slow sensors.
 pub(crate) const CLOCKS: Clocks = FACTS.clocks;
@@ -15,15 +31,13 @@ pub(crate) type Number = whisking::Fix;
 /// The chip's own oscillator, Hz, within 1 % from 0 to 85 °C (data sheet). The
 /// board comes without a clock on the HSE input; so the tick is as exact as this.
 const HSI_HZ: u32 = 16_000_000;
-/// PLL multiplier: 128 MHz, inside the oscillator's 96 to 344 MHz. Its input
-/// is not divided: 2.66 to 16 MHz are allowed.
+/// PLL multiplier: 128 MHz, of 96 to 344. Its input is not divided: 2.66 to 16 MHz are allowed.
 const PLL_N: u8 = 8;
 /// PLL output divider, towards the core.
 const PLL_R: u32 = 2;
 /// Core clock, Hz: the chip's highest. Buses and timers have it too.
 const CORE_HZ: u32 = HSI_HZ * PLL_N as u32 / PLL_R;
-/// Wait states of the flash: one for each 24 MHz begun after the first, at the
-/// supply's range 1.
+/// Wait states of the flash: one for each 24 MHz begun after the first, at the supply's range 1.
 const FLASH_WAIT_STATES: u8 = ((CORE_HZ - 1) / 24_000_000) as u8;
 
 const _: () = assert!(CORE_HZ == 64_000_000);
@@ -39,12 +53,6 @@ const _: () = assert!(
         && CLOCKS.serial_hz == CORE_HZ
 );
 
-// 32 µs a byte; a fast slot of 50 µs at 2 kHz, a safe one of 82 µs at 1 kHz.
-const _: () = assert!(
-    matches!(CLOCKS.slot_counts(2_000, REST_US), Some(3_200))
-        && matches!(CLOCKS.slot_counts(1_000, REST_US), Some(5_248))
-);
-
 #[path = "byte_update.rs"]
 pub(crate) mod byte_request;
 #[path = "dma_channels.rs"]
@@ -55,213 +63,172 @@ pub(crate) mod flash;
 pub(crate) mod gpio;
 #[path = "power_g0.rs"]
 pub(crate) mod power;
-#[path = "serial_channels.rs"]
-pub(crate) mod serial_dma;
 #[path = "spi_v2.rs"]
 pub(crate) mod spi;
 #[path = "usart_v2.rs"]
 pub(crate) mod usart;
 
-pub(crate) use chip::*;
+pub(crate) const TICK_TIMER: TimGp16 = TIM3;
+pub(crate) const TICK_INTERRUPT: Interrupt = Interrupt::TIM3;
 
-mod chip {
-    use firmware::StartCause;
-    use stm32_metapac::Interrupt;
-    use stm32_metapac::flash::vals::Latency;
-    use stm32_metapac::rcc::vals::{Hpre, Pllm, Plln, Pllr, Pllsrc, Sw};
-    use stm32_metapac::spi::Spi;
-    use stm32_metapac::spi::vals::Br;
-    use stm32_metapac::timer::TimGp16;
-    use stm32_metapac::usart::Usart;
-    use stm32_metapac::{DBGMCU, DMAMUX1, FLASH, RCC, SPI1, SYSCFG, TIM2, TIM3, TIM6, USART2};
+/// DMA1 channel 1, counted from 0; it has an interrupt of its own.
+const RX_DMA: usize = 0;
+/// DMA1 channel 2.
+const TX_DMA: usize = 1;
+/// Numbers of requests (RM0444, table of the DMAMUX inputs).
+const SPI1_RX: u8 = 16;
+const TIM6_UP: u8 = 38;
+const USART2_RX: u8 = 52;
+const USART2_TX: u8 = 53;
+/// Alternate function of the PWM's pins, TIM1.
+pub(crate) const PWM_FUNCTION: AlternateFunction = 2;
 
-    use super::dma::Route;
-    use super::serial_dma::SerialRoute;
-    use super::{FLASH_WAIT_STATES, PLL_N, PLL_R};
-    use crate::board::pin_config::AlternateFunction;
-    use crate::board::reset::{ClockSource, NoClock, settle, wait};
-    /// Measures the ticks.
-    pub(crate) use crate::board::systick::SysTick as Counter;
-    use crate::board::wiring::{
-        EncoderPort, LEFT_BRIDGE, LEFT_ENCODER, LEFT_SENSOR, Received, SensorPort, Side,
-    };
+/// The ST-LINK's serial port: USART2 by DMA1.
+pub(crate) const SERIAL_USART: Usart = USART2;
+/// DMA1 channels 3 and 4.
+pub(crate) const SERIAL_ROUTE: Route = Route { rx: 2, tx: 3 };
+pub(crate) const SERIAL_FUNCTION: AlternateFunction = 1;
 
-    pub(crate) const TICK_TIMER: TimGp16 = TIM3;
-    pub(crate) const TICK_INTERRUPT: Interrupt = Interrupt::TIM3;
-
-    /// DMA1 channel 1, counted from 0; it has an interrupt of its own.
-    const RX_DMA: usize = 0;
-    /// DMA1 channel 2.
-    const TX_DMA: usize = 1;
-    /// Numbers of requests (RM0444, table of the DMAMUX inputs).
-    const SPI1_RX: u8 = 16;
-    const TIM6_UP: u8 = 38;
-    const USART2_RX: u8 = 52;
-    const USART2_TX: u8 = 53;
-    /// Alternate function of the PWM's pins, TIM1.
-    pub(crate) const PWM_FUNCTION: AlternateFunction = 2;
-
-    /// The ST-LINK's serial port: USART2 by DMA1.
-    pub(crate) const SERIAL_USART: Usart = USART2;
-    /// DMA1 channels 3 and 4.
-    pub(crate) const SERIAL_ROUTE: SerialRoute = SerialRoute { rx: 2, tx: 3 };
-    pub(crate) const SERIAL_FUNCTION: AlternateFunction = 1;
-
-    /// The whisker: SPI1 by TIM6 and DMA1, PWM 1, TIM2.
-    pub(crate) static LEFT: Side = Side {
-        sensor: SensorPort {
-            spi: SPI1,
-            divider: Br::DIV256,
-            byte_timer: TIM6,
-            byte_timer_divider: 1,
-            dma: Route {
-                rx: RX_DMA,
-                tx: TX_DMA,
-            },
-            received: {
-                static RECEIVED: Received = Received::new();
-                &RECEIVED
-            },
-            pins: LEFT_SENSOR,
-            function: 0,
+/// The whisker: SPI1 by TIM6 and DMA1, PWM 1, TIM2.
+pub(crate) static LEFT: Side = Side {
+    sensor: SensorPort {
+        spi: SPI1,
+        divider: Br::DIV256,
+        byte_timer: TIM6,
+        byte_timer_divider: 1,
+        dma: Route {
+            rx: RX_DMA,
+            tx: TX_DMA,
         },
-        bridge: LEFT_BRIDGE,
-        encoder: EncoderPort {
-            #[allow(unsafe_code, reason = "a timer of 32 bits has the registers of one of 16")]
-            // SAFETY: the registers of both have the same offsets, and the lower halves of
-            // count, reload and compare values the same bits (RM0444, chapter 22).
-            timer: unsafe { TimGp16::from_ptr(TIM2.as_ptr()) },
-            a: LEFT_ENCODER[0],
-            b: LEFT_ENCODER[1],
-            function: 2,
+        received: {
+            static RECEIVED: Received = Received::new();
+            &RECEIVED
         },
-    };
+        pins: LEFT_SENSOR,
+        function: 0,
+    },
+    bridge: LEFT_BRIDGE,
+    encoder: EncoderPort {
+        #[allow(unsafe_code, reason = "a timer of 32 bits has the registers of one of 16")]
+        // SAFETY: the registers of both have the same offsets, and the lower halves of
+        // count, reload and compare values the same bits (RM0444, chapter 22).
+        timer: unsafe { TimGp16::from_ptr(TIM2.as_ptr()) },
+        a: LEFT_ENCODER[0],
+        b: LEFT_ENCODER[1],
+        function: 2,
+    },
+};
 
-    pub(crate) static SIDES: &[&Side] = &[&LEFT];
+pub(crate) static SIDES: &[&Side] = &[&LEFT];
 
-    /// Reads why the chip started and forgets it, so that the next start tells its own.
-    pub(crate) fn reset_cause() -> StartCause {
-        let flags = RCC.csr().read();
-        RCC.csr().modify(|w| w.set_rmvf(true));
-        StartCause::first([
-            (flags.iwdgrstf(), StartCause::Watchdog),
-            (flags.sftrstf(), StartCause::Software),
-            (flags.pwrrstf(), StartCause::Power),
-            (flags.pinrstf(), StartCause::Pin),
-        ])
-    }
+/// Reads why the chip started and forgets it, so that the next start tells its own.
+pub(crate) fn reset_cause() -> StartCause {
+    let flags = RCC.csr().read();
+    RCC.csr().modify(|w| w.set_rmvf(true));
+    StartCause::first([
+        (flags.iwdgrstf(), StartCause::Watchdog),
+        (flags.sftrstf(), StartCause::Software),
+        (flags.pwrrstf(), StartCause::Power),
+        (flags.pinrstf(), StartCause::Pin),
+    ])
+}
 
-    /// Goes from the internal 16 MHz to [`super::CLOCKS`], and lets the timer
-    /// of the tick run.
-    pub(crate) fn start_clocks() -> Result<ClockSource, NoClock> {
-        const { assert!(PLL_N == 8 && PLL_R == 2) };
-        RCC.pllcfgr().write(|w| {
-            w.set_pllsrc(Pllsrc::HSI);
-            w.set_pllm(Pllm::DIV1);
-            w.set_plln(Plln::MUL8);
-            w.set_pllr(Pllr::DIV2);
-            w.set_pllren(true);
-        });
-        RCC.cr().modify(|w| w.set_pllon(true));
-        wait(|| RCC.cr().read().pllrdy())?;
+pub(crate) fn start_clocks() -> Result<ClockSource, NoClock> {
+    const { assert!(PLL_N == 8 && PLL_R == 2) };
+    RCC.pllcfgr().write(|w| {
+        w.set_pllsrc(Pllsrc::HSI);
+        w.set_pllm(Pllm::DIV1);
+        w.set_plln(Plln::MUL8);
+        w.set_pllr(Pllr::DIV2);
+        w.set_pllren(true);
+    });
+    RCC.cr().modify(|w| w.set_pllon(true));
+    wait(|| RCC.cr().read().pllrdy())?;
 
-        // Wait states before the clock that needs them.
-        let wait_states = Latency::from_bits(FLASH_WAIT_STATES);
-        FLASH.acr().modify(|w| {
-            w.set_prften(true);
-            w.set_icen(true);
-            w.set_latency(wait_states);
-        });
-        wait(|| FLASH.acr().read().latency() == wait_states)?;
-        RCC.cfgr().modify(|w| w.set_sw(Sw::PLL1_R));
-        wait(|| RCC.cfgr().read().sws() == Sw::PLL1_R)?;
+    // Wait states before the clock that needs them.
+    let wait_states = Latency::from_bits(FLASH_WAIT_STATES);
+    FLASH.acr().modify(|w| {
+        w.set_prften(true);
+        w.set_icen(true);
+        w.set_latency(wait_states);
+    });
+    wait(|| FLASH.acr().read().latency() == wait_states)?;
+    RCC.cfgr().modify(|w| w.set_sw(Sw::PLL1_R));
+    wait(|| RCC.cfgr().read().sws() == Sw::PLL1_R)?;
 
-        RCC.apbenr1().modify(|w| w.set_tim3en(true));
-        settle();
-        Ok(ClockSource::Own)
-    }
+    RCC.apbenr1().modify(|w| w.set_tim3en(true));
+    settle();
+    Ok(ClockSource::Own)
+}
 
-    /// Halves the clocks that [`start_clocks`] has brought: the core's is divided before it
-    /// comes to the buses.
-    pub(crate) fn halve_clocks() {
-        RCC.cfgr().modify(|w| w.set_hpre(Hpre::DIV2));
-    }
+/// Whether the non-maskable interrupt is that of a clock: this one runs by its own
+/// oscillator, which nothing watches. What is left is memory (RM0444, chapter 11.3).
+pub(crate) const fn has_clock_stopped() -> bool {
+    false
+}
 
-    /// Whether the non-maskable interrupt is that of a clock: this one runs by its own
-    /// oscillator, which nothing watches. What is left is memory (RM0444, chapter 11.3).
-    pub(crate) const fn has_clock_stopped() -> bool {
-        false
-    }
+pub(crate) fn clock_ports() {
+    RCC.gpioenr().modify(|w| {
+        w.set_gpioaen(true);
+        w.set_gpioben(true);
+        w.set_gpiocen(true);
+    });
+    settle();
+}
 
-    pub(crate) fn clock_ports() {
-        RCC.gpioenr().modify(|w| {
-            w.set_gpioaen(true);
-            w.set_gpioben(true);
-            w.set_gpiocen(true);
-        });
-        settle();
-    }
+pub(crate) fn clock_sensors(_: u8) {
+    RCC.ahbenr().modify(|w| w.set_dma1en(true));
+    RCC.apbenr1().modify(|w| w.set_tim6en(true));
+    RCC.apbenr2().modify(|w| w.set_spi1en(true));
+    settle();
+    DMAMUX1.ccr(RX_DMA).write(|w| w.set_dmareq_id(SPI1_RX));
+    DMAMUX1.ccr(TX_DMA).write(|w| w.set_dmareq_id(TIM6_UP));
+}
 
-    pub(crate) fn clock_sensors(_: u8) {
-        RCC.ahbenr().modify(|w| w.set_dma1en(true));
-        RCC.apbenr1().modify(|w| w.set_tim6en(true));
-        RCC.apbenr2().modify(|w| w.set_spi1en(true));
-        settle();
-        DMAMUX1.ccr(RX_DMA).write(|w| w.set_dmareq_id(SPI1_RX));
-        DMAMUX1.ccr(TX_DMA).write(|w| w.set_dmareq_id(TIM6_UP));
-    }
+/// Its USART has the bus's clock after a reset.
+pub(crate) fn clock_serial() {
+    RCC.ahbenr().modify(|w| w.set_dma1en(true));
+    RCC.apbenr1().modify(|w| w.set_usart2en(true));
+    settle();
+    DMAMUX1
+        .ccr(SERIAL_ROUTE.rx)
+        .write(|w| w.set_dmareq_id(USART2_RX));
+    DMAMUX1
+        .ccr(SERIAL_ROUTE.tx)
+        .write(|w| w.set_dmareq_id(USART2_TX));
+}
 
-    /// Its USART has the bus's clock after a reset.
-    pub(crate) fn clock_serial() {
-        RCC.ahbenr().modify(|w| w.set_dma1en(true));
-        RCC.apbenr1().modify(|w| w.set_usart2en(true));
-        settle();
-        DMAMUX1
-            .ccr(SERIAL_ROUTE.rx)
-            .write(|w| w.set_dmareq_id(USART2_RX));
-        DMAMUX1
-            .ccr(SERIAL_ROUTE.tx)
-            .write(|w| w.set_dmareq_id(USART2_TX));
-    }
+pub(crate) fn reset_spi(_: Spi) {
+    RCC.apbrstr2().modify(|w| w.set_spi1rst(true));
+    RCC.apbrstr2().modify(|w| w.set_spi1rst(false));
+}
 
-    pub(crate) fn reset_spi(_: Spi) {
-        RCC.apbrstr2().modify(|w| w.set_spi1rst(true));
-        RCC.apbrstr2().modify(|w| w.set_spi1rst(false));
-    }
+/// From the reset on PA8 and PB15 are pulled down, as the pins of a USB-C socket with an
+/// empty battery are, until the strobe of their controller, which is never switched on, lets
+/// go of them (RM0444, section 8.1.1; embassy-stm32's `ucpd::init` does the same).
+pub(crate) fn clock_motors(_: u8) {
+    RCC.apbenr1().modify(|w| w.set_tim2en(true));
+    RCC.apbenr2().modify(|w| {
+        w.set_tim1en(true);
+        w.set_syscfgen(true);
+    });
+    settle();
+    SYSCFG.cfgr1().modify(|w| {
+        w.set_ucpd1_strobe(true);
+        w.set_ucpd2_strobe(true);
+    });
+}
 
-    /// From the reset on PA8 and PB15 are pulled down, as the pins of a USB-C socket with an
-    /// empty battery are, until the strobe of their controller, which is never switched on, lets
-    /// go of them (RM0444, section 8.1.1; embassy-stm32's `ucpd::init` does the same).
-    pub(crate) fn clock_motors(_: u8) {
-        RCC.apbenr1().modify(|w| w.set_tim2en(true));
-        RCC.apbenr2().modify(|w| {
-            w.set_tim1en(true);
-            w.set_syscfgen(true);
-        });
-        settle();
-        SYSCFG.cfgr1().modify(|w| {
-            w.set_ucpd1_strobe(true);
-            w.set_ucpd2_strobe(true);
-        });
-    }
+/// The debugger has no claim to them on this chip.
+pub(crate) fn free_hall_pins() {}
 
-    /// The debugger has no claim to them on this chip.
-    pub(crate) fn free_hall_pins() {}
-
-    /// Keeps the log readable while the core sleeps, and lets a debugger that
-    /// halts the core stop the motor (TIM1 then takes its outputs low) and the
-    /// watchdog.
-    pub(crate) fn prepare_for_debuggers() {
-        RCC.apbenr1().modify(|w| w.set_dbgen(true));
-        settle();
-        // No bit is for sleep (RM0444, DBG_CR): bus and RAM keep their clocks in it, as they do
-        // after a reset (RCC_AHBSMENR), and the log can be read.
-        DBGMCU.apb1fzr().modify(|w| w.set_iwdg(true));
-        DBGMCU.apb2fzr().modify(|w| w.set_tim1(true));
-    }
-
-    /// What the core says of a hard fault: nothing, on a Cortex-M0+.
-    pub(crate) fn fault_status() -> [u32; 2] {
-        [0; 2]
-    }
+/// Keeps the log readable in sleep; a debugger that halts the core stops TIM1, whose outputs go
+/// low then, and the watchdog.
+pub(crate) fn prepare_for_debuggers() {
+    RCC.apbenr1().modify(|w| w.set_dbgen(true));
+    settle();
+    // No bit is for sleep (RM0444, DBG_CR): bus and RAM keep their clocks in it, as they do
+    // after a reset (RCC_AHBSMENR), and the log can be read.
+    DBGMCU.apb1fzr().modify(|w| w.set_iwdg(true));
+    DBGMCU.apb2fzr().modify(|w| w.set_tim1(true));
 }

@@ -10,9 +10,7 @@ use crate::here::clock_ports;
 /// Takes all motor outputs of the board low, of either side: the PWMs and the enables.
 /// The pins become plain outputs, so that no timer can raise them again.
 ///
-/// For the start and for fault handlers: no locks, nothing that can fail, and
-/// calling it again changes nothing. The motor drivers do not notice: after it
-/// the chip must be reset.
+/// No locks, nothing that can fail; again it changes nothing. After it the chip must be reset.
 #[inline(never)]
 pub(crate) fn off() {
     // No main output, and no automatic return of it: the timer's outputs go to

@@ -8,8 +8,8 @@ use firmware::boards::Clocks;
 use super::reset::ClockSource;
 use crate::here::FACTS;
 
-/// The clocks of this board, as they are and as slow sensors need them; and those where it runs by
-/// the chip's oscillator.
+/// By the clock from outside and by the chip's oscillator; as they are and as slow sensors need
+/// them.
 static CLOCKS: [[Clocks; 2]; 2] = [
     [FACTS.clocks, FACTS.clocks.halved()],
     [FACTS.clocks_internal, FACTS.clocks_internal.halved()],
@@ -31,7 +31,6 @@ pub(crate) fn runs_by(source: ClockSource) {
     PACE[2].store(is_internal.into(), Ordering::Relaxed);
 }
 
-/// Whether it runs by the chip's oscillator, as the clock from outside did not come.
 pub(crate) fn is_internal() -> bool {
     PACE[2].load(Ordering::Relaxed) != 0
 }

@@ -4,9 +4,9 @@ use firmware::{CodeClassifier, ModelLimits, ModelState, Part, Refusal};
 use tactile::Model;
 use whisking::Real;
 
+use super::integrity::Span;
 use super::scene::Deployed;
 use super::slots::{self, SLOTS};
-use super::span::Span;
 use super::types::{Inner, Number, Settings};
 use crate::here::FACTS;
 
@@ -34,14 +34,11 @@ fn of_node(heard: usize, settings: &Settings, node: u8) -> usize {
     heard.saturating_sub(own.start).min(own.len())
 }
 
-/// Finds the model of a scene; refuses it, if it is not the one that the scene was deployed with,
-/// or nothing for it.
+/// Refuses the model, if it is not the one that the scene was deployed with, or nothing for it.
 #[inline(never)]
 pub(crate) fn find(inner: &mut Inner, settings: &Settings, node: u8, deployed: Option<Deployed>) {
-    let perception = inner.perception_mut();
-    let perception = perception.filter(|_| Part::Classifier.is_built());
     let (Some(perception), Some(config), Some(deployed)) =
-        (perception, &settings.classifier, deployed)
+        (inner.perception_mut(), &settings.classifier, deployed)
     else {
         return;
     };
@@ -77,7 +74,6 @@ pub(crate) fn find(inner: &mut Inner, settings: &Settings, node: u8, deployed: O
     }
 }
 
-/// The contact π from which the model was trained, if that knows touches.
 fn gate(classifier: &Classifier) -> Option<Number> {
     let gate = classifier.gate()?;
     Some(Number::from_f32(gate))
@@ -87,8 +83,7 @@ pub(crate) fn gate_of(inner: &Inner) -> Option<Number> {
     gate(inner.perception()?.classifier())
 }
 
-/// Has samples count from the contact that the model was trained from, unless the scene says from
-/// which.
+/// Samples count from the contact that the model was trained from, unless the scene says another.
 pub(crate) fn adapt(settings: &mut Settings, gate: Option<Number>) {
     if let Some(classifier) = &mut settings.classifier {
         classifier.contact_min = classifier.contact_min.or(gate);
@@ -96,17 +91,13 @@ pub(crate) fn adapt(settings: &mut Settings, gate: Option<Number>) {
 }
 
 pub(crate) fn state(inner: &Inner) -> ModelState {
-    let perception = inner.perception().filter(|_| Part::Classifier.is_built());
-    perception.map_or(ModelState::NotHere, |perception| {
-        perception.classifier().state()
-    })
+    let perception = inner.perception();
+    perception.map_or(ModelState::NotHere, |found| found.classifier().state())
 }
 
-/// What of a module no sample changes: the model, what the classifier has made of it, the factors
-/// of its codes. Of one that decides nothing there is nothing.
+/// What no sample changes: the model, what the classifier has made of it, the factors of its codes.
 pub(crate) fn constants(inner: &Inner) -> [Span; 3] {
-    let perception = inner.perception().filter(|_| Part::Classifier.is_built());
-    let found = perception.and_then(|perception| {
+    let found = inner.perception().and_then(|perception| {
         let classifier = perception.classifier();
         let (constants, factors) = classifier.constants()?;
         let model = classifier.model()?;
@@ -123,8 +114,8 @@ pub(crate) struct Names(Option<Model<&'static [u32]>>);
 
 impl Names {
     pub(crate) fn of(inner: &Inner) -> Self {
-        let perception = inner.perception().filter(|_| Part::Classifier.is_built());
-        Self(perception.and_then(|perception| perception.classifier().model().copied()))
+        let perception = inner.perception();
+        Self(perception.and_then(|found| found.classifier().model().copied()))
     }
 
     pub(crate) fn find(&self, class: usize) -> Option<&str> {

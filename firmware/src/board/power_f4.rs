@@ -1,9 +1,9 @@
-//! The supply of an STM32F4: its voltage detector and its brown-out level (RM0390, chapters
-//! 5.2 and 3.8.1).
+//! An STM32F4's voltage detector and brown-out level (RM0390, chapters 5.2 and 3.8.1).
 
 use stm32_metapac::{EXTI, FLASH, PWR, RCC};
 
 use crate::board::reset::settle;
+use crate::board::supply::LINE;
 
 /// Threshold of the detector: 2.85 V or more as the supply falls, at most 3.10 V as it rises
 /// (PLS = 110; DS10693, reset and power control block). 144 MHz with four wait states need
@@ -12,9 +12,6 @@ const LEVEL: u8 = 6;
 
 /// What the option bytes call the only brown-out level above 2.7 V, 2.75 V or more.
 const BROWN_OUT_LEVEL_3: u8 = 0;
-
-/// Its line in EXTI.
-pub(crate) const LINE: usize = 16;
 
 pub(crate) fn start() {
     RCC.apb1enr().modify(|w| w.set_pwren(true));
@@ -37,8 +34,7 @@ pub(crate) fn forget() {
     EXTI.pr(0).write(|w| w.set_line(LINE, true));
 }
 
-/// Whether a dip that the detector is too slow for may go below what the clock needs without
-/// a reset.
+/// Whether a dip that the detector is too slow for may end in no reset.
 pub(crate) fn brown_out_is_low() -> bool {
     FLASH.optcr().read().bor_lev() != BROWN_OUT_LEVEL_3
 }

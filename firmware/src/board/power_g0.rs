@@ -3,15 +3,13 @@
 use stm32_metapac::{EXTI, PWR, RCC};
 
 use crate::board::reset::settle;
+use crate::board::supply::LINE;
 
 /// Threshold of the detector: about 2.9 V as the supply falls, about 3.0 V as it rises
 /// (PVDFT and PVDRT = 110; DS12232, reset and power control block). 64 MHz need 1.7 V, as the
 /// wait states do not depend on it in the regulator's range 1 (RM0444, chapter 3.3.4), and the
 /// board has 3.3 V.
 const LEVEL: u8 = 6;
-
-/// Its line in EXTI.
-pub(crate) const LINE: usize = 16;
 
 pub(crate) fn start() {
     RCC.apbenr1().modify(|w| w.set_pwren(true));
@@ -35,8 +33,7 @@ pub(crate) fn forget() {
     EXTI.rpr(0).write(|w| w.set_line(LINE, true));
 }
 
-/// The power-down reset, which is always there, ends what the clock cannot do: the chip works
-/// down to it (DS12232, general operating conditions), whatever the brown-out level.
+/// The chip works down to its power-down reset (DS12232), whatever the brown-out level.
 pub(crate) const fn brown_out_is_low() -> bool {
     false
 }

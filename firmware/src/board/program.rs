@@ -23,23 +23,24 @@ use super::about::About;
 use super::bus::{self, Head};
 use super::counters::{MISSED, TICKS, WORST, WrappingCounter};
 use super::integrity::Integrity;
-use super::loading::{Line, Order};
+#[cfg(feature = "deploy")]
+use super::loading::{self, Line, Order};
 use super::perception::Names;
 use super::scene::{Pace, Scene};
 use super::serial::{self, Serial};
 use super::signal_pins::SignalPins;
-use super::telemetry::{self, Configs, Exchange, Origin, Telemetry};
+#[cfg(feature = "deploy")]
+use super::telemetry::Origin;
+use super::telemetry::{self, Configs, Exchange, Telemetry};
 use super::types::{Inner, Settings};
 use super::user_button::{self, HAS_STOPPED, REQUEST, UserButton};
 use super::watchdog::Watchdog;
 use super::{
-    faults, hardware, loading, log, outputs, pace, perception, retained, scene, sensor, slots,
-    supply,
+    faults, hardware, log, outputs, pace, perception, reset, retained, scene, sensor, slots, supply,
 };
 use crate::here::{self, Counter};
 
-/// Events on their way from the tick to idle, and what idle sends to the tick. Fifteen events
-/// fit: idle drains them after every tick, which has four a side at most.
+/// Fifteen events fit: idle drains them after every tick, which has four a side at most.
 pub struct Queues {
     events: heapless::spsc::Queue<EventRecord, 16>,
     link: telemetry::Queues,
@@ -54,8 +55,7 @@ impl Queues {
     }
 }
 
-/// The module and its settings. A type of its own, because RTIC would make
-/// those inside public.
+/// A type of its own, because RTIC would make those inside public.
 pub struct Module {
     inner: &'static mut Inner,
     telemetry: Telemetry,
@@ -104,7 +104,7 @@ pub(crate) fn start(core: cortex_m::Peripherals, queues: &'static mut Queues) ->
         faults::die(number::NO_CLOCK, || {})
     };
     if is_slow {
-        here::halve_clocks();
+        reset::halve_clocks();
     }
     let (events, of_events) = queues.events.split();
     let (idle_ends, settings_ways, tick_ends) = queues.link.split();
@@ -183,8 +183,7 @@ fn say_not_armed(reason: NotArmed, about: &About) {
     serial::not_armed(reason, about);
 }
 
-/// Why there is no scene, where there is none: what is wrong with one that is there before that
-/// another place is empty.
+/// What is wrong with one that is there comes before that another place is empty.
 fn no_scene(found: &Scene) -> ConfigError {
     let mut all = found.refused.iter().flatten();
     let wrong = all.find(|error| **error != ConfigError::Absent);
@@ -237,8 +236,7 @@ fn obey(module: &mut Module, events: &mut Events) {
     }
 }
 
-/// Stops the motors with this tick, by a link or by the button, until somebody arms them: what was
-/// asked for before arms none, and no reset does.
+/// Until somebody arms them: what was asked for before arms none, and no reset does.
 #[cold]
 #[inline(never)]
 fn stop(module: &mut Module, events: &mut Events, is_by_button: bool) {
@@ -261,8 +259,7 @@ fn arm(module: &mut Module) {
     retained::set_stopped(false);
 }
 
-/// Puts an event into the queue. Events are few and come from many places, so that this stands in
-/// flash once.
+/// Events come from many places: this stands in flash once.
 #[inline(never)]
 fn put(events: &mut Events, telemetry: &mut Telemetry, event: Event) {
     // A tick counts itself once it has ended.
@@ -278,33 +275,22 @@ fn put(events: &mut Events, telemetry: &mut Telemetry, event: Event) {
 #[cold]
 #[inline(never)]
 fn tell(module: &mut Module) {
-    let Module {
-        inner,
-        telemetry,
-        settings,
-        ..
-    } = module;
-    telemetry.send(inner, settings, TICKS.get());
+    let telemetry = &mut module.telemetry;
+    telemetry.send(module.inner, module.settings, TICKS.get());
     if telemetry.waits() {
         talk(module);
     }
 }
 
-/// Carries out what was asked for.
 // Apart, so that records keep their registers.
 #[cold]
 #[inline(never)]
 fn talk(module: &mut Module) {
-    let Module {
-        inner,
-        telemetry,
-        head,
-        settings,
-        ..
-    } = module;
+    let telemetry = &mut module.telemetry;
+    let arms = telemetry.talk(module.inner, &mut module.settings, TICKS.get());
     // Other boards of a head may be off where this one is not.
-    if telemetry.talk(inner, settings, TICKS.get()) && Part::Bus.is_built() {
-        head.arm();
+    if arms && Part::Bus.is_built() {
+        module.head.arm();
     }
 }
 
@@ -330,7 +316,6 @@ pub(crate) fn hear(module: &mut Module) {
     module.head.hear();
 }
 
-/// Frames of this board have gone.
 #[cfg(feature = "bus")]
 pub(crate) fn said(module: &mut Module) {
     module.head.said();
@@ -346,7 +331,6 @@ pub(crate) struct Idle {
     about: About,
     events: Consumer<'static, EventRecord>,
     exchange: Exchange,
-    /// The slot of the scene that runs.
     in_use: Option<usize>,
     /// Ticks at the last feed of the watchdog, and at the last line on timing.
     fed: u32,
@@ -374,6 +358,7 @@ impl Idle {
         if self.about.links.has_rtt {
             self.exchange.take_from_probe(&self.names);
         }
+        #[cfg(feature = "deploy")]
         self.load();
         if Part::Motion.is_built()
             && retained::STOPPED.take()
@@ -416,14 +401,12 @@ impl Idle {
         self.report(EventRecord { sequence, event });
     }
 
+    #[cfg(feature = "deploy")]
     fn load(&mut self) {
-        if !Part::Deploy.is_built() {
-            return;
-        }
         let Some((load, answer, origin)) = self.exchange.load_due() else {
             return;
         };
-        let stop = self.exchange.post.stop();
+        let node = self.exchange.post.number();
         let line = match (origin, &mut self.serial) {
             (Origin::Board(_), _) => Line::Head(&mut self.exchange.post),
             (origin, Some(serial)) if origin.is_serial() => Line::Serial(serial),
@@ -433,7 +416,7 @@ impl Idle {
             load,
             in_use: self.in_use,
             answer,
-            stop,
+            node,
         };
         loading::run(line, order);
     }
@@ -463,8 +446,7 @@ impl Idle {
     }
 }
 
-/// The program of a board: binds the tasks to the interrupts of the tick timer
-/// and of each side's rx DMA.
+/// Binds the tasks to the interrupts of the tick timer and of each side's rx DMA.
 #[macro_export]
 macro_rules! program {
     (
@@ -478,8 +460,7 @@ macro_rules! program {
         )]
         mod app {
             use $crate::board::program::{self, Events, Idle, Module, Queues, Started};
-            use $crate::board::sleep;
-            use $crate::board::tick_timer::TickTimer;
+            use $crate::board::{sleep, tick_timer};
 
             #[shared]
             struct Shared {
@@ -490,7 +471,6 @@ macro_rules! program {
 
             #[local]
             struct Local {
-                tick_timer: TickTimer,
                 events: Events,
                 idle: &'static mut Idle,
             }
@@ -504,18 +484,13 @@ macro_rules! program {
                     events,
                     idle,
                 } = started;
-                let tick_timer = TickTimer::start(tick);
-                let local = Local {
-                    tick_timer,
-                    events,
-                    idle,
-                };
-                (Shared { module }, local)
+                tick_timer::start(tick);
+                (Shared { module }, Local { events, idle })
             }
 
-            #[task(binds = $tick, priority = 2, shared = [module], local = [tick_timer, events])]
+            #[task(binds = $tick, priority = 2, shared = [module], local = [events])]
             fn tick(cx: tick::Context) {
-                cx.local.tick_timer.acknowledge();
+                tick_timer::acknowledge();
                 program::tick(cx.shared.module, cx.local.events);
             }
 

@@ -12,10 +12,7 @@ use stm32_metapac::common::{RW, Reg};
 use stm32_metapac::timer::regs::Ccr1ch;
 use stm32_metapac::timer::vals::{Ossi, Ossr};
 
-use super::wiring::Output;
-
-/// PWM mode 1: high while the count is below the compare value. As a number,
-/// because its type has another name in each version of the timer.
+/// PWM mode 1, as a number: its type has another name in each version of the timer.
 const PWM_MODE_1: u8 = 6;
 const OUTPUTS: usize = 3;
 
@@ -41,8 +38,7 @@ pub(crate) fn start(counts: u16) {
             w.set_cce(channel, true);
         }
     });
-    // With outputs off (a fault, a debugger) the timer drives its idle level,
-    // low, instead of letting the pins float.
+    // With outputs off (a fault, a debugger) its idle level is low, and pins do not float.
     TIM1.bdtr().write(|w| {
         w.set_ossi(Ossi::IDLE_LEVEL);
         w.set_ossr(Ossr::IDLE_LEVEL);
@@ -56,13 +52,9 @@ pub(crate) fn start(counts: u16) {
 }
 
 impl Channel {
-    /// That of an output, once the timer was started with so many counts a period.
-    pub(crate) fn of(output: Output, counts: u16) -> Self {
-        let compare = match output {
-            Output::One => TIM1.ccr(0),
-            Output::Two => TIM1.ccr(1),
-            Output::Three => TIM1.ccr(2),
-        };
+    /// That of an output, counted from 0, once the timer was started with so many counts a period.
+    pub(crate) fn of(output: usize, counts: u16) -> Self {
+        let compare = TIM1.ccr(output % OUTPUTS);
         Self { compare, counts }
     }
 }

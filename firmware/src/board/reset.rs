@@ -1,6 +1,8 @@
-//! What may keep a chip from starting.
+//! What the starts of chips have in common, and what may keep one from it.
 
 use firmware::boards::CLOCK_WAIT_LOOPS;
+use stm32_metapac::RCC;
+use stm32_metapac::rcc::vals::Hpre;
 
 /// A clock that a board cannot run without did not come.
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -29,8 +31,12 @@ pub(crate) fn wait(ready: impl Fn() -> bool) -> Result<(), NoClock> {
     if comes(ready) { Ok(()) } else { Err(NoClock) }
 }
 
-/// A peripheral answers two cycles after its clock came (errata sheet of the
-/// STM32F4, RM0444).
+/// A peripheral answers two cycles after its clock came (errata sheet of the STM32F4, RM0444).
 pub(crate) fn settle() {
     cortex_m::asm::dsb();
+}
+
+/// Halves all clocks but the watchdog's: the core's is divided before it comes to the buses.
+pub(crate) fn halve_clocks() {
+    RCC.cfgr().modify(|w| w.set_hpre(Hpre::DIV2));
 }

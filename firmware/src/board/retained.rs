@@ -6,8 +6,8 @@ use core::sync::atomic::{AtomicU32, Ordering};
 
 use firmware::{RECORD_WORDS, Record, StartCause, Started, Startup};
 
+use super::counters::Request;
 use super::pace;
-use super::request::Request;
 use crate::here::power;
 
 /// Words that a reset leaves as they are.
@@ -19,8 +19,7 @@ struct Retained(UnsafeCell<MaybeUninit<[u32; RECORD_WORDS]>>);
 unsafe impl Sync for Retained {}
 
 #[allow(unsafe_code, reason = "the section has a meaning")]
-// SAFETY: cortex-m-rt neither clears nor fills this section, and nothing else is in need of
-// its contents.
+// SAFETY: cortex-m-rt neither clears nor fills this section, of which nothing else has need.
 #[unsafe(link_section = ".uninit.RECORD")]
 static RETAINED: Retained = Retained(UnsafeCell::new(MaybeUninit::uninit()));
 

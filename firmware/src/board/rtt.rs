@@ -25,7 +25,6 @@ pub(crate) static PACKETS: [AtomicU8; 1_920] = [const { AtomicU8::new(0) }; 1_92
 #[cfg(feature = "rtt")]
 pub(crate) static REQUESTS: [AtomicU8; 128] = [const { AtomicU8::new(0) }; 128];
 
-/// A ring, as the probe knows it.
 #[repr(C)]
 pub(crate) struct Ring {
     /// Ends with a zero.
@@ -40,15 +39,17 @@ pub(crate) struct Ring {
 }
 
 #[allow(unsafe_code, reason = "it has pointers, which the probe follows")]
-// SAFETY: they never change, and the program does not follow them; offsets and mode are
-// atomic.
+// SAFETY: they never change, and the program does not follow them; the rest is atomic.
 unsafe impl Sync for Ring {}
 
 /// What does not fit is left out.
 const NON_BLOCKING_SKIP: u32 = 0;
 
 impl Ring {
-    const fn new<T, const N: usize>(name: &'static [u8], bytes: &'static [T; N]) -> Self {
+    pub(crate) const fn new<T, const N: usize>(
+        name: &'static [u8],
+        bytes: &'static [T; N],
+    ) -> Self {
         Self {
             name: name.as_ptr(),
             start: bytes.as_ptr().cast(),
@@ -66,7 +67,6 @@ impl Ring {
         if writer < self.bytes { writer } else { 0 }
     }
 
-    /// Where the reader stands, alike.
     #[inline]
     pub(crate) fn reader(&self) -> u32 {
         let reader = self.reader.load(Ordering::Relaxed);
@@ -107,6 +107,23 @@ impl Ring {
         compiler_fence(Ordering::Release);
         self.reader.store(reader, Ordering::Relaxed);
     }
+}
+
+/// Puts bytes into a ring, whole or not at all, where so many more are kept free; whether it has.
+#[cfg(feature = "rtt")]
+pub(crate) fn put(ring: &Ring, places: &[AtomicU8], bytes: &[u8], kept: u32) -> bool {
+    let mut at = ring.writer() as usize;
+    if kept + bytes.len() as u32 > ring.room(at as u32) {
+        return false;
+    }
+    for byte in bytes {
+        if let Some(place) = places.get(at) {
+            place.store(*byte, Ordering::Relaxed);
+        }
+        at = if at + 1 < places.len() { at + 1 } else { 0 };
+    }
+    ring.has_written(at as u32);
+    true
 }
 
 #[cfg(feature = "rtt")]
@@ -150,10 +167,8 @@ static BLOCK: Block = Block {
 
 pub(crate) static LOG: &Ring = &BLOCK.ups[0];
 
-/// That of packets.
 #[cfg(feature = "rtt")]
 pub(crate) static UP: &Ring = &BLOCK.ups[1];
 
-/// That of requests.
 #[cfg(feature = "rtt")]
 pub(crate) static DOWN: &Ring = &BLOCK.downs[0];

@@ -38,7 +38,6 @@ pub(crate) struct Deployed {
     pub(crate) slot: usize,
     /// The CRC of the model that it was deployed with; 0: none.
     pub(crate) model: u32,
-    /// Its configuration.
     pub(crate) bytes: &'static [u8],
     pub(crate) crc: u32,
 }
@@ -83,7 +82,6 @@ pub(crate) fn find() -> Option<Scene> {
     Some(scene)
 }
 
-/// Makes settings those of a board without a scene, whatever reading has left of them.
 #[cold]
 #[inline(never)]
 fn still(settings: &mut Settings) {

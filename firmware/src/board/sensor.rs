@@ -1,15 +1,12 @@
 //! Reads an MLX90333's frames without the core: an SPI, whose bytes a timer
 //! spaces and DMA moves.
 //!
-//! Why not by its driver over a blocking `SpiDevice`, as a TMAG5170 is (`tilt.rs`): 64 bits at the
-//! sensor's 400 kHz are 160 us, and with the gaps that it needs between bytes a frame takes 430 us
-//! of the 500 us of a tick at 2 kHz. A core that waited for it would have 70 us left, and on two
-//! sides less than nothing; three frames of a TMAG5170 take some 25 us. So a tick computes with the
-//! frame that ended before it, while the next one comes.
+//! Why not by its driver, as a TMAG5170 is (`tilt.rs`): with the gaps that it needs between bytes a
+//! frame takes 430 us of the 500 us of a tick at 2 kHz, and three of a TMAG5170 some 25 us. So a
+//! tick computes with the frame that ended before it, while the next one comes.
 //!
-//! Before the first tick there is time, and nothing else to do: there [`self_test`] reads the sensor
-//! sixteen times by its driver, over the same pins. So what tests read a simulated sensor by reads
-//! the real one too, and a fault that only the DMA has shows itself as one.
+//! Before the first tick there is time: there [`self_test`] reads the sensor by its driver, over the
+//! same pins, as tests read a simulated one. So a fault that only the DMA has shows itself as one.
 //!
 //! - *slot*: the time from the start of a byte to that of the next. The sensor
 //!   needs a gap between bytes, which no SPI controller makes by itself.
@@ -18,12 +15,10 @@
 //! - *tx DMA*: writes one 0xFF into the SPI's data register at each request.
 //! - *rx DMA*: moves each received byte to memory and interrupts after the eighth.
 //!
-//! A frame takes some ten register writes: [`FrameSource::start`] in a tick starts
-//! one, [`Frames::end_of_frame`] in the interrupt of the rx DMA raises /SS, and
-//! [`FrameSource::take`] in the next tick returns the bytes. They share no state but the
-//! hardware's own flags. When to start one is the module's business, which leaves
-//! the sensor alone for a while after a bad frame. What differs between chips is in `spi_*.rs`,
-//! `dma_*.rs` and `byte_*.rs`.
+//! [`FrameSource::start`] in a tick starts a frame, [`Frames::end_of_frame`] in the interrupt of the
+//! rx DMA raises /SS, and [`FrameSource::take`] in the next tick returns the bytes. They share no
+//! state but the hardware's own flags. What differs between chips is in `spi_*.rs`, `dma_*.rs` and
+//! `byte_*.rs`.
 
 use core::sync::atomic::{AtomicU8, Ordering, compiler_fence};
 
@@ -39,7 +34,6 @@ use super::pin_config::{Mode, PinConfig};
 use super::wiring::SensorPort;
 use crate::here::{byte_request, dma::Transfers, spi};
 
-/// What every tx DMA sends.
 static SENT: AtomicU8 = AtomicU8::new(MASTER_BYTE);
 
 pub(crate) type Source = Frames;
@@ -79,7 +73,6 @@ pub(crate) struct Frames {
     port: &'static SensorPort,
     transfers: Transfers,
     running: bool,
-    /// The last frame as it came.
     last: u64,
     /// Rounds of delay from the last byte to /SS high.
     lag: u32,
@@ -94,8 +87,7 @@ pub(crate) struct FramePace {
 }
 
 impl Frames {
-    /// Sets everything up, once the sensors' clocks run; the first frame starts with the
-    /// first [`start`](FrameSource::start). The sensor must have had its start-up time by then.
+    /// Once the sensors' clocks run. The sensor has had its start-up time by the first frame.
     fn new(port: &'static SensorPort, pace: FramePace) -> Self {
         let FramePace { slot, lag } = pace;
         let pins = &port.pins;
@@ -132,8 +124,7 @@ impl Frames {
         }
     }
 
-    /// Stops the byte timer and raises /SS. The timer's DMA request is withdrawn
-    /// too: one that is still pending would put a byte before the next frame.
+    /// A DMA request that is still pending would put a byte before the next frame: it is withdrawn.
     #[inline]
     fn stop(&mut self) {
         let timer = self.port.byte_timer;

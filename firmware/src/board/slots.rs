@@ -1,6 +1,6 @@
-//! The flash in which scenes and models lie apart from the program: two slots, of which the
-//! newest valid one counts (`firmware::boards`). A program may bring a first scene with it, in the
-//! first (`config::linked`).
+//! The flash of scenes and models: two slots, of which the newest valid one counts
+//! (`firmware::boards`). A program may bring a first scene with it, in the first
+//! (`config::linked`).
 
 use firmware::boards::{self, Region, Slot, SlotHeader, has_armed};
 use firmware::{ConfigError, HEADER_BYTES, NotArmed, Part};
@@ -24,8 +24,7 @@ pub(crate) const ROOM: Load = {
     }
 };
 
-/// Whether words come in pairs, by which the flash of some boards is written: whoever sends fills
-/// up with zeros.
+/// By pairs the flash of some boards is written: whoever sends fills up with zeros.
 pub(crate) const fn is_paired(load: Load) -> bool {
     load.config.is_multiple_of(2) && load.model.is_multiple_of(2)
 }
@@ -60,7 +59,6 @@ const SEARCHED: usize = if Part::TAKES_CONFIGURATIONS {
     1
 };
 
-/// These, in their order.
 pub(crate) fn newest_first() -> impl Iterator<Item = usize> {
     let order = if Part::TAKES_CONFIGURATIONS {
         boards::newest_first(headers())
@@ -70,7 +68,6 @@ pub(crate) fn newest_first() -> impl Iterator<Item = usize> {
     order.into_iter().take(SEARCHED)
 }
 
-/// The bytes of a slot's configuration, which may go on behind it.
 pub(crate) fn config(slot: &Slot) -> &'static [u8] {
     contents(slot.config())
 }

@@ -11,6 +11,9 @@ use stm32_metapac::{EXTI, Interrupt};
 use super::log;
 use crate::here::power;
 
+/// The detector's line in EXTI, on all chips.
+pub(crate) const LINE: usize = 16;
+
 /// Looks after which a supply that is still low gets a line in the log: a few milliseconds,
 /// within which the detector has started.
 const PATIENCE_LOOKS: u32 = 10_000;
@@ -18,7 +21,7 @@ const PATIENCE_LOOKS: u32 = 10_000;
 /// Waits until there is enough of a supply for the clock; from then on its fall interrupts.
 pub(crate) fn start() {
     power::start();
-    EXTI.rtsr(0).modify(|w| w.set_line(power::LINE, true));
+    EXTI.rtsr(0).modify(|w| w.set_line(LINE, true));
     if (0..PATIENCE_LOOKS).all(|_| power::is_low()) {
         log::waits_for_supply();
     }
@@ -30,7 +33,7 @@ pub(crate) fn start() {
             break;
         }
     }
-    EXTI.imr(0).modify(|w| w.set_line(power::LINE, true));
+    EXTI.imr(0).modify(|w| w.set_line(LINE, true));
     #[allow(unsafe_code, reason = "cortex-m asks for it")]
     // SAFETY: its handler does not return, so no data are at stake; its priority, that
     // after a reset, is above every mask of a task.
@@ -40,9 +43,4 @@ pub(crate) fn start() {
     if power::brown_out_is_low() {
         log::brown_out_is_low();
     }
-}
-
-/// Whether an interrupt without a handler may be the detector's.
-pub(crate) fn has_fallen() -> bool {
-    power::has_fallen()
 }

@@ -4,9 +4,8 @@
 use cortex_m::peripheral::{SYST, syst::SystClkSource};
 use firmware::Clock;
 
-/// SysTick, 24 bits at the core's clock, widened to 32 when it is read. Right as
-/// long as it is read within its round (0.2 s at 72 MHz); each tick reads it
-/// twice.
+/// 24 bits at the core's clock, widened to 32: right while it is read within 0.2 s, as each tick
+/// does.
 pub(crate) struct SysTick {
     last: u32,
     now: u32,

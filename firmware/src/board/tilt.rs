@@ -27,8 +27,7 @@ pub(crate) struct FramePace {
     pub(crate) lag: u32,
 }
 
-/// Of SPI mode 0. At half of this clock, of 8 or 9 MHz, it takes a whole tick of 2 kHz to set two
-/// sensors up.
+/// Of SPI mode 0, at 8 or 9 MHz: at half of it, to set two sensors up takes a whole tick of 2 kHz.
 const WIRES: Wires = Wires {
     phase: Cpha::FIRST_EDGE,
     faster: 5,

@@ -8,8 +8,7 @@ pub(crate) fn data_registers(usart: Usart) -> [u32; 2] {
     [usart.dr().as_ptr() as u32; 2]
 }
 
-/// Eight bits, no parity, one stop bit, of which each is `divider` of the USART's clocks
-/// long; both ways by DMA.
+/// Eight bits, no parity, one stop bit, `divider` clocks a bit; both ways by DMA.
 pub(crate) fn start(usart: Usart, divider: u16) {
     usart.brr().write(|w| w.0 = divider.into());
     usart.cr3().write(|w| {

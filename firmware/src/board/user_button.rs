@@ -6,10 +6,10 @@
 use embedded_hal::digital::InputPin;
 use firmware::{Button, ButtonLimits, design_parameters};
 
+use super::counters::Request;
 use super::gpio::Pin;
 use super::pace;
 use super::pin_config::PinConfig;
-use super::request::Request;
 use super::wiring::USER_BUTTON;
 
 /// From idle to the tick: motors are to be armed.

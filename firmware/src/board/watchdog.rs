@@ -1,5 +1,4 @@
-//! The independent watchdog: resets the chip, which switches the motor's
-//! outputs off, when tick or idle stand still.
+//! The independent watchdog: resets the chip, and motors go off, when tick or idle stand still.
 
 use stm32_metapac::IWDG;
 use stm32_metapac::iwdg::vals::{Key, Pr};
@@ -18,8 +17,8 @@ impl Watchdog {
         Self::set(Pr::DIVIDE_BY4, CLOCKS.watchdog_counts())
     }
 
-    /// The one that runs, which from now on waits longer than the flash takes to be erased, 2 s at
-    /// most: 4 s where its oscillator is fastest, 11 s where it is slowest.
+    /// Longer than the flash takes to be erased, 2 s at most: 4 s where its oscillator is fastest,
+    /// 11 s where it is slowest.
     pub(crate) fn slow() -> Self {
         Self::set(Pr::DIVIDE_BY256, SLOW_COUNTS)
     }
@@ -28,9 +27,7 @@ impl Watchdog {
         key(Key::ENABLE);
         IWDG.pr().write(|w| w.set_pr(prescaler));
         IWDG.rlr().write(|w| w.set_rl(counts - 1));
-        // The settings cross into the watchdog's clock within five of its
-        // cycles, 300 µs at most. Should they not, the settings before
-        // hold: after a reset, half a second.
+        // Within five of its cycles, 300 µs; otherwise those before hold, half a second.
         let _ = (0..100_000).any(|_| IWDG.sr().read().0 == 0);
         let mut dog = Self(());
         dog.feed();
@@ -56,9 +53,7 @@ const LAST_FEEDS: u32 = 1_000;
 /// loop takes three, or four with a slow branch.
 const DELAY_CYCLES: u32 = 3;
 
-/// Gives the probe time to fetch the last line, then waits for the watchdog,
-/// started now if it was not: some ten milliseconds more if it runs, up to a
-/// second otherwise.
+/// The probe has time to fetch the last line; the watchdog bites within a second, started or not.
 #[inline(never)]
 pub(crate) fn wait_for_reset() -> ! {
     for _ in 0..LAST_FEEDS {

@@ -22,7 +22,6 @@ pub(crate) struct Side {
 pub(crate) struct SensorPort {
     pub(crate) spi: Spi,
     pub(crate) divider: Br,
-    /// Requests each byte of a frame.
     pub(crate) byte_timer: TimBasic,
     /// From its clock to that of [`CLOCKS`](crate::here::CLOCKS).
     pub(crate) byte_timer_divider: u16,
@@ -33,8 +32,7 @@ pub(crate) struct SensorPort {
     pub(crate) function: AlternateFunction,
 }
 
-/// Where an rx DMA puts the bytes, as words. Atomic because the compiler does
-/// not see the DMA's writes.
+/// As words; atomic, because the compiler does not see the DMA's writes.
 pub(crate) struct Received(pub(crate) [AtomicU32; FRAME_LEN / 4]);
 
 impl Received {
@@ -52,16 +50,9 @@ pub(crate) struct SensorPins {
     pub(crate) select: PinName,
 }
 
-/// An output of the PWM's timer.
-#[derive(Clone, Copy)]
-pub(crate) enum Output {
-    One,
-    Two,
-    Three,
-}
-
 pub(crate) struct BridgePort {
-    pub(crate) output: Output,
+    /// Of the PWM's timer, counted from 0.
+    pub(crate) output: usize,
     pub(crate) pwm: PinName,
     pub(crate) direction: PinName,
 }
@@ -88,7 +79,7 @@ pub(crate) const LEFT_SENSOR: SensorPins = SensorPins {
 pub(crate) const LEFT_ENCODER: [PinName; 2] = [pin('A', 0), pin('A', 1)];
 
 pub(crate) const LEFT_BRIDGE: BridgePort = BridgePort {
-    output: Output::One,
+    output: 0,
     pwm: PWMS[0],
     direction: pin('B', 5),
 };

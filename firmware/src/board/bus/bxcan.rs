@@ -10,9 +10,9 @@ use heapless::Vec;
 use stm32_metapac::can::vals::{Ide, Rtr};
 use stm32_metapac::can::{Can, regs};
 
-use crate::board::gpio::Pin;
+use crate::board::gpio::{Pin, PinName};
 use crate::board::pin_config::{Mode, PinConfig};
-use crate::here::{BUS, BUS_FUNCTION, BUS_PINS, clock_bus};
+use crate::here::{BUS, BUS_FUNCTION, clock_bus};
 
 const BOXES: usize = 3;
 
@@ -22,19 +22,20 @@ const MOST_WAITING: usize = 16;
 /// For how long a frame waits before it is given up, ms: whoever hears it later has no use for it.
 const LATE_MS: u32 = 4;
 
-/// After so long a controller that errors have switched off is let onto the bus again, ms: one
-/// that disturbs all others does so for some milliseconds ten times a second.
+/// After so long a controller that errors have switched off is let onto the bus again, ms.
 const OFF_MS: u32 = 100;
 
 pub(super) struct Controller {
     /// What each mailbox has, and for how many ticks it has waited in all.
     boxes: [Option<(Frame, u32)>; BOXES],
     waiting: Vec<(Frame, u32), MOST_WAITING>,
-    /// Ticks for which errors have switched it off.
     off: u32,
 }
 
 const CAN: Can = BUS;
+
+/// RX and TX.
+const PINS: [PinName; 2] = [PinName::new('A', 11), PinName::new('A', 12)];
 
 /// Bits of the first mailbox: its request is completed, its frame was sent, it is given up. Those
 /// of the next are eight higher. No panic stands in them, as in the functions that count mailboxes.
@@ -42,7 +43,6 @@ const RQCP: u32 = 1 << 0;
 const TXOK: u32 = 1 << 1;
 const ABRQ: u32 = 1 << 7;
 
-/// All mailboxes are empty.
 const EMPTY: u32 = 0b111 << 26;
 
 /// Acknowledges what no node waits for.
@@ -55,7 +55,7 @@ pub(super) fn ignore() {
 impl Controller {
     /// Sends and receives from now on, as soon as the bus has been silent for eleven bits.
     pub(super) fn start(timing: CanTiming) -> Self {
-        let [rx, tx] = BUS_PINS;
+        let [rx, tx] = PINS;
         clock_bus();
         Pin::new(
             rx,
@@ -93,8 +93,7 @@ impl Controller {
         }
     }
 
-    /// Sends a frame, in the order of identifiers. One for which there is no room is dropped: it
-    /// would come too late.
+    /// One for which there is no room is dropped: it would come too late.
     pub(super) fn say(&mut self, frame: Frame) {
         let _ = self.waiting.push((frame, 0));
         self.fill();
@@ -149,8 +148,7 @@ impl Controller {
         self.fill();
     }
 
-    /// Fills empty mailboxes. Of frames with one identifier there is one at a time, lest they
-    /// pass each other.
+    /// Of frames with one identifier one is in a mailbox at a time, lest they pass each other.
     fn fill(&mut self) {
         for n in 0..BOXES {
             if self.boxes.get(n).is_none_or(Option::is_some) {
@@ -196,12 +194,11 @@ pub(super) fn take() -> Option<Frame> {
     let data = bytes.get(..usize::from(length)).unwrap_or(&bytes);
     Some(Frame::new(id, data))
 }
-/// Lets every frame of data with a standard identifier into the first queue.
 fn accept_data() {
     accept([0, 0]);
 }
 
-/// Lets none but requests of other boards in, which then are not lost behind what nobody reads.
+/// None but requests of other boards, which then are not lost behind what nobody reads.
 pub(super) fn accept_requests() {
     accept(Letter::REQUESTS);
 }
@@ -235,7 +232,6 @@ pub(super) fn say_alone(frames: &[Frame]) {
     }
 }
 
-/// Whether all mailboxes are empty.
 pub(super) fn has_sent() -> bool {
     CAN.tsr().read().0 & EMPTY == EMPTY
 }

@@ -6,27 +6,19 @@ use wire::{Answer, ForNode, TaggedCommand, UnknownCommand};
 use crate::board::scene::Pace;
 use crate::board::types::{Inner, Settings};
 
-/// One board has all whiskers.
 pub(crate) const fn number(_: &Settings) -> u8 {
     0
 }
 
 pub(crate) struct Head;
 
-/// No other board.
 pub(crate) struct Post;
 
-/// No other board hears it.
-#[derive(Clone, Copy)]
-pub(crate) struct Stop;
-
-impl Stop {
-    pub(crate) fn say_alone(self) {}
-}
+pub(crate) fn say_stop(_: Option<u8>) {}
 
 impl Post {
-    pub(crate) const fn is_own(&self, _: u8) -> bool {
-        false
+    pub(crate) const fn number(&self) -> Option<u8> {
+        None
     }
 
     pub(crate) const fn has(&self, _: u8) -> bool {
@@ -53,10 +45,6 @@ impl Post {
 
     pub(crate) fn every(&self) -> u32 {
         1
-    }
-
-    pub(crate) fn stop(&self) -> Stop {
-        Stop
     }
 
     pub(crate) fn begin_loading(&mut self) {}

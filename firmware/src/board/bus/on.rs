@@ -21,7 +21,9 @@ use crate::board::types::{Inner, Settings};
 use crate::board::{pace, retained, tick_timer};
 use crate::here::Counter;
 use bxcan::Controller;
-pub(crate) use post::{Post, Stop};
+pub(crate) use post::Post;
+#[cfg(feature = "deploy")]
+pub(crate) use post::say_stop;
 
 /// Bits of the board's number, the lowest first: jumpers to ground. A board without one is node
 /// 0; a second one without stays off, and is silent, as soon as it hears the first.
@@ -36,7 +38,7 @@ const NUMBER: [PinName; 5] = [
 /// Rounds for which pull-ups of some 40 kΩ charge a jumper's pin: more than 10 µs.
 const PULL_UP_ROUNDS: u32 = 1_000;
 
-/// Which node of its head a board is, by its jumpers; 0 where it has all whiskers.
+/// By its jumpers; 0 where it has all whiskers.
 pub(crate) fn number(settings: &Settings) -> u8 {
     if settings.head.bus.is_none() {
         return 0;
@@ -65,16 +67,14 @@ struct OnBus {
     decided: Option<Decision>,
 }
 
-/// A tick is this much shorter or longer at most where it follows the clock of the head, as a share
-/// of it: ten times what crystals differ by, and nothing to a sensor's frame.
+/// At most this share of a tick: ten times what crystals differ by, and nothing to a sensor's
+/// frame.
 const FOLLOWS_MOST: i32 = 1_024;
-/// A tick makes good this part of what it is late by. The clock of the head is known to some
-/// microseconds, by messages that come between ticks.
+/// A tick makes good this part of what it is late by.
 const FOLLOWS: i32 = 16;
 
 struct Time {
     clock: Counter,
-    /// Counts in a microsecond.
     per_us: u32,
     /// The last tick, by the clock, and µs since the first.
     tick: u32,
@@ -87,7 +87,6 @@ struct Time {
     /// period and which are no microsecond yet.
     timer_per_us: i32,
     longer: i32,
-    /// By how many counts the next tick is longer.
     next_longer: i32,
 }
 
@@ -141,8 +140,7 @@ impl Time {
 }
 
 impl Head {
-    /// On the bus from now on, as node `number`. One whose number is none of the head's is
-    /// silent, as it has no whiskers.
+    /// One whose number is none of the head's is silent, as it has no whiskers.
     // Apart: a node is made on the stack, which another part of the start needs.
     #[inline(never)]
     pub(crate) fn start(settings: &Settings, pace: &Pace, number: u8) -> (Self, Post) {
@@ -166,24 +164,20 @@ impl Head {
         (Self(on_bus), post)
     }
 
-    /// Before a tick.
     pub(crate) fn before(
         &mut self,
         inner: &mut Inner,
         settings: &Settings,
         events: &mut impl FnMut(Event),
     ) {
-        let Some(OnBus {
-            node, own, decided, ..
-        }) = &mut self.0
-        else {
+        let Some(on_bus) = &mut self.0 else {
             return;
         };
-        let now_us = own.tick(settings.head.tick_hz);
-        *decided = None;
+        let now_us = on_bus.own.tick(settings.head.tick_hz);
+        on_bus.decided = None;
         let was_armed = inner.is_armed();
-        node.before(now_us, (inner, settings), events);
-        own.follow(node.late_us());
+        on_bus.node.before(now_us, (inner, settings), events);
+        on_bus.own.follow(on_bus.node.late_us());
         let is_armed = inner.is_armed();
         if is_armed != was_armed {
             // A reset does not undo what another board has asked for.
@@ -198,79 +192,60 @@ impl Head {
 
     #[inline]
     pub(crate) fn note(&mut self, event: &Event) {
-        if let (Some(OnBus { decided, .. }), Event::Decision(_, decision)) = (&mut self.0, event) {
-            decided.get_or_insert(*decision);
+        if let (Some(on_bus), Event::Decision(_, decision)) = (&mut self.0, event) {
+            on_bus.decided.get_or_insert(*decision);
         }
     }
 
-    /// After it: what this board says to the others.
     pub(crate) fn after(&mut self, inner: &Inner, settings: &Settings) {
-        let Some(OnBus {
-            node,
-            letters,
-            controller,
-            decided,
-            ..
-        }) = &mut self.0
-        else {
+        let Some(on_bus) = &mut self.0 else {
             return;
         };
+        let (node, controller) = (&mut on_bus.node, &mut on_bus.controller);
         controller.tick(settings.head.tick_hz);
-        node.after((inner, settings), *decided, &mut |frame| {
+        node.after((inner, settings), on_bus.decided, &mut |frame| {
             controller.say(frame);
         });
         // One a tick, so that they keep no message of the head from its place.
-        if let Some(frame) = letters.said.dequeue().filter(|_| !node.is_twin()) {
+        let letter = on_bus.letters.said.dequeue();
+        if let Some(frame) = letter.filter(|_| !node.is_twin()) {
             controller.say(frame);
         }
     }
 
     pub(crate) fn hear(&mut self) {
-        let Some(OnBus {
-            node,
-            number,
-            letters,
-            own,
-            ..
-        }) = &mut self.0
-        else {
+        let Some(on_bus) = &mut self.0 else {
             return bxcan::ignore();
         };
-        let at_us = own.now();
+        let at_us = on_bus.own.now();
         while let Some(frame) = bxcan::take() {
             match Part::of(&frame) {
-                None => node.hear(&frame, at_us),
+                None => on_bus.node.hear(&frame, at_us),
                 // What finds no room comes again.
-                Some(part) if part.to == *number => _ = letters.heard.enqueue(frame),
+                Some(part) if part.to == on_bus.number => _ = on_bus.letters.heard.enqueue(frame),
                 Some(_) => {}
             }
         }
     }
 
-    /// Frames of this board have come through.
     pub(crate) fn said(&mut self) {
-        let Some(OnBus {
-            node,
-            controller,
-            own,
-            ..
-        }) = &mut self.0
-        else {
+        let Some(on_bus) = &mut self.0 else {
             return bxcan::ignore();
         };
-        let at_us = own.now();
-        controller.go_on(&mut |frame: &Frame| node.said(frame, at_us));
+        let (node, at_us) = (&mut on_bus.node, on_bus.own.now());
+        let said = &mut |frame: &Frame| node.said(frame, at_us);
+        on_bus.controller.go_on(said);
     }
 
     pub(crate) fn stop(&mut self) {
-        if let Some(OnBus { node, .. }) = &mut self.0 {
-            node.stop();
+        if let Some(on_bus) = &mut self.0 {
+            on_bus.node.stop();
         }
     }
 
     pub(crate) fn arm(&mut self) {
-        if let Some(OnBus { node, .. }) = &mut self.0 {
-            node.arm();
+        if let Some(on_bus) = &mut self.0 {
+            on_bus.node.arm();
         }
     }
 }

@@ -18,7 +18,6 @@ pub(super) struct Queues {
     said: Queue<Frame, FRAMES>,
 }
 
-/// The interrupts' ends: of what has come, and of what is to go.
 pub(super) struct Ends {
     pub(super) heard: Producer<'static, Frame>,
     pub(super) said: Consumer<'static, Frame>,
@@ -33,16 +32,11 @@ struct Link {
 /// Nothing where one board has all whiskers.
 pub(crate) struct Post(Option<Link>);
 
-/// The board that would say it; nothing where one board has all whiskers.
-#[derive(Clone, Copy)]
-pub(crate) struct Stop(Option<u8>);
-
-impl Stop {
-    /// Says it, where no tick does. Whoever misses it, and is armed, hears it again from others.
-    pub(crate) fn say_alone(self) {
-        if let Some(number) = self.0 {
-            bxcan::say_alone(&[Message::Stop.frame(number, 0)]);
-        }
+/// Says a stop of the whole head as a board would, where no tick does. Whoever misses it, and is
+/// armed, hears it again from others.
+pub(crate) fn say_stop(number: Option<u8>) {
+    if let Some(number) = number {
+        bxcan::say_alone(&[Message::Stop.frame(number, 0)]);
     }
 }
 
@@ -87,19 +81,15 @@ impl Post {
         Self(None)
     }
 
-    /// Whether that is the number of this board.
-    pub(crate) fn is_own(&self, number: u8) -> bool {
-        let own = self.0.as_ref().map(|link| link.relay.number());
-        own == Some(number)
+    pub(crate) fn number(&self) -> Option<u8> {
+        self.0.as_ref().map(|link| link.relay.number())
     }
 
-    /// Whether the head has a board of that number.
     pub(crate) fn has(&self, number: u8) -> bool {
         self.0.as_ref().is_some_and(|link| link.relay.has(number))
     }
 
-    /// Asks another board; whether there is one of that number. Where there is no room it is asked
-    /// later.
+    /// Whether there is a board of that number. Where there is no room it is asked later.
     pub(crate) fn ask(&mut self, request: ForNode) -> bool {
         let Some(link) = &mut self.0 else {
             return false;
@@ -109,7 +99,6 @@ impl Post {
         frames.is_some()
     }
 
-    /// What has come for this board.
     pub(crate) fn next(&mut self) -> Option<Heard> {
         let link = self.0.as_mut()?;
         while let Some(frame) = link.heard.dequeue() {
@@ -141,7 +130,6 @@ impl Post {
         frames.is_none() || link.say(frames)
     }
 
-    /// Sends another board what a PC would get, if there is room.
     pub(crate) fn packet(&mut self, to: u8, packet: &Packet) {
         if let Some(link) = &mut self.0 {
             let frames = link.relay.packet(to, packet);
@@ -149,7 +137,6 @@ impl Post {
         }
     }
 
-    /// Of how many ticks one has its records sent.
     pub(crate) fn every(&self) -> u32 {
         Relay::every(pace::tick_hz())
     }
@@ -157,11 +144,6 @@ impl Post {
 
 /// What a loader uses, which has the controller for itself.
 impl Post {
-    /// A stop of the whole head, as this board would say it.
-    pub(crate) fn stop(&self) -> Stop {
-        Stop(self.0.as_ref().map(|link| link.relay.number()))
-    }
-
     pub(crate) fn begin_loading(&mut self) {
         bxcan::accept_requests();
     }

@@ -25,14 +25,13 @@ use crate::board::perception::Names;
 use crate::board::pin_config::{Mode, PinConfig};
 use crate::board::telemetry::{Exchange, Origin};
 use crate::board::wiring::SERIAL;
-use crate::here::serial_dma::SerialTransfers;
+use crate::here::dma::SerialTransfers;
 use crate::here::{self, SERIAL_FUNCTION, SERIAL_ROUTE, SERIAL_USART, usart};
 use received::Received;
 pub(crate) use received::ring;
 
 const VERSION: &str = env!("CARGO_PKG_VERSION");
 
-/// Requests that may wait for others.
 const WAITING: usize = 4;
 
 #[derive(Clone, Copy)]
@@ -78,7 +77,6 @@ pub(crate) fn send_record(frame: &Frame) -> bool {
     sent::record(frame)
 }
 
-/// Where in its ring the next byte that comes will be.
 #[inline]
 pub(crate) fn writer() -> usize {
     received::writer(SerialTransfers::left(&SERIAL_ROUTE))
@@ -91,7 +89,6 @@ pub(crate) struct Serial {
     /// The tick in which the last byte came.
     last_byte: u32,
     waiting: Deque<Asked, WAITING>,
-    /// Bytes of the piece under way.
     sending: u16,
     baud: u32,
     /// Bits a second that records of every tick take.
@@ -102,7 +99,6 @@ pub(crate) struct Serial {
 }
 
 impl Serial {
-    /// `None` where the scene has none.
     #[inline(never)]
     pub(crate) fn start(about: &About) -> Option<Self> {
         let baud = about.links.serial_baud?;
@@ -153,10 +149,10 @@ impl Serial {
         (exchange, names): (&mut Exchange, &Names),
     ) {
         self.receive(now);
-        exchange.answer_stops(|origin, answer| reply(origin, answer, about));
-        if let Some((origin, answer)) = exchange.answer()
-            && origin.is_serial()
-            && reply(origin, &answer, about)
+        exchange.answer_stops(|line, answer| reply(line, answer, about));
+        if let Some((pending, answer)) = exchange.answer()
+            && pending.origin.is_serial()
+            && reply(pending.line(), &answer, about)
         {
             exchange.has_answered();
         }
@@ -182,10 +178,9 @@ impl Serial {
                         sent::line(Line::new().text("ok help: ").text(text::ALLOWED).ended());
                     }
                     Ok(Spoken::Command(command)) => {
-                        let what = Request::Here(Ok(TaggedCommand { tag: 0, command }));
                         self.take(Asked {
-                            what,
-                            origin: Origin::Line(command),
+                            what: Request::Here(Ok(TaggedCommand { tag: 0, command })),
+                            origin: Origin::Line,
                             at,
                         });
                     }
@@ -207,8 +202,8 @@ impl Serial {
         }
     }
 
-    /// Has a request wait for its turn, unless it cannot be carried out here, or is a stop, which
-    /// the tick has seen.
+    /// Has a request wait for its turn, unless the line is too slow, or the tick has seen it as a
+    /// stop.
     fn take(&mut self, asked: Asked) {
         if asked.what.is_stop() && !self.is_loading {
             return;
@@ -224,8 +219,7 @@ impl Serial {
         }
     }
 
-    /// Whether the line carries records of every tick, with a twentieth left for lines and
-    /// answers.
+    /// With a twentieth left for lines and answers.
     const fn carries_records(&self) -> bool {
         self.records_baud / 20 * 21 <= self.baud
     }
@@ -272,7 +266,6 @@ impl Serial {
         sent::answer(&wire::frame_of(&Packet::Answer(*answer).bytes()));
     }
 
-    /// Goes on sending; whether nothing is left.
     pub(crate) fn has_sent(&mut self) -> bool {
         self.send();
         !self.transfers.is_sending() && sent::piece().is_none()
@@ -288,9 +281,9 @@ fn refuse(what: &[u8], why: &str) {
     sent::line(said.text(": ").text(why).ended());
 }
 
-/// Whether there was room.
-fn reply(origin: Origin, answer: &Answer, about: &About) -> bool {
-    let Origin::Line(command) = origin else {
+/// Answers what a line has asked for, or a frame; whether there was room.
+fn reply(line: Option<Command>, answer: &Answer, about: &About) -> bool {
+    let Some(command) = line else {
         return sent::answer(&wire::frame_of(&Packet::Answer(*answer).bytes()));
     };
     let mut said = Line::new();

@@ -1,5 +1,4 @@
-//! What the serial port has received: a ring that the DMA fills, the tick looks at for a stop, and
-//! idle reads.
+//! What has come: a ring that the DMA fills, the tick looks at for a stop, and idle reads.
 
 use core::sync::atomic::{AtomicU8, Ordering, compiler_fence};
 

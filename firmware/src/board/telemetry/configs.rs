@@ -25,7 +25,6 @@ impl Queue {
         Self([Way::new(), Way::new()])
     }
 
-    /// Idle's end and the tick's.
     pub(crate) fn split(&'static mut self) -> (Ways, Ways) {
         let Self([there, back]) = self;
         let (send, taken) = there.split();
@@ -48,15 +47,6 @@ pub(crate) struct Ways {
 /// How often the log says that settings differ, s.
 const AGAIN_S: u32 = 60;
 
-/// What idle has found out about a request.
-pub(crate) enum Verdict {
-    /// Nothing: the tick carries it out.
-    Unknown,
-    /// The settings that it asks for are on their way.
-    TakeOver,
-    Done(CommandStatus, [i32; 2]),
-}
-
 static TUNING: StaticCell<Tuning<&[u8]>> = StaticCell::new();
 static SPARE: StaticCell<Settings> = StaticCell::new();
 
@@ -78,7 +68,6 @@ pub(crate) struct Configs {
 }
 
 impl Configs {
-    /// Of a module that runs by this scene, or by none, and why. It can be made once.
     #[inline(never)]
     pub(crate) fn start(
         deployed: Result<Deployed, ConfigError>,
@@ -104,7 +93,7 @@ impl Configs {
         })
     }
 
-    /// Looks whether the tick has taken over what was on its way; whether it has.
+    /// Whether the tick has taken over what was on its way.
     fn settle(&mut self) -> bool {
         let changes = integrity::changes();
         if changes == self.changes {
@@ -117,43 +106,38 @@ impl Configs {
         true
     }
 
-    pub(crate) fn prepare(&mut self, command: Command) -> Verdict {
+    /// What idle has found out about a request; `None`: the tick carries it out.
+    pub(crate) fn prepare(&mut self, command: Command) -> Option<Prepared> {
         self.settle();
         if let (Command::Scene, Some(error)) = (command, self.none) {
             let [kind, _] = refusal_code(error);
-            return Verdict::Done(CommandStatus::Done, [0, -kind]);
+            return Some(Prepared::Done(CommandStatus::Done, [0, -kind]));
         }
         if let Some((status, values)) = self.tuning.read::<Number>(command) {
-            return Verdict::Done(status, values);
+            return Some(Prepared::Done(status, values));
         }
         if !Part::Set.is_built() {
-            return Verdict::Unknown;
+            return None;
         }
         let spare = match self.spare.take() {
             None => self.tick.receive.dequeue(),
             spare => spare,
         };
         // The tick gives it back before it takes another request.
-        let Some(spare) = spare else {
-            return Verdict::Unknown;
-        };
+        let spare = spare?;
         let prepared = self.tuning.prepare(command, spare);
         if let (Some(Prepared::Next), Command::Apply(length)) = (prepared, command) {
             perception::adapt(spare, self.gate);
             self.under_way = Some(length);
             // There is room for one.
             self.spare = self.tick.send.enqueue(spare).err();
-            return Verdict::TakeOver;
+        } else {
+            self.spare = Some(spare);
         }
-        self.spare = Some(spare);
-        match prepared {
-            Some(Prepared::Done(status, values)) => Verdict::Done(status, values),
-            _ => Verdict::Unknown,
-        }
+        prepared
     }
 
-    /// Says in the log that settings were changed, after every change, and once a minute while
-    /// they differ from the scene's.
+    /// After every change, and once a minute while settings differ from the scene's.
     pub(crate) fn log_changes(&mut self, now: u32) {
         if !Part::Set.is_built() {
             return;

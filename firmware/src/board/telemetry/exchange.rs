@@ -2,10 +2,10 @@
 
 use core::sync::atomic::Ordering;
 
-use firmware::{EventRecord, Heard, Packet, Relay, letters};
+use firmware::{EventRecord, Heard, Packet, Prepared, Relay, letters};
 use wire::{Answer, Command, CommandStatus, ForNode, Load, Request, TaggedCommand};
 
-use super::configs::{Configs, Verdict};
+use super::configs::Configs;
 use super::probe::ProbeLine;
 use super::stops::{By, OWED, STOPPED_IN};
 use super::{Asked, IdleEnds};
@@ -20,8 +20,8 @@ pub(crate) enum Origin {
     Probe,
     /// By a frame on the serial line.
     Frame,
-    /// By a line of text there, which says this.
-    Line(Command),
+    /// By a line of text there.
+    Line,
     /// By another board of the head.
     Board(u8),
 }
@@ -29,34 +29,31 @@ pub(crate) enum Origin {
 impl Origin {
     const fn link(self) -> By {
         match self {
-            Self::Frame | Self::Line(_) => By::Serial,
+            Self::Frame | Self::Line => By::Serial,
             // Another board arms none by a request.
             Self::Probe | Self::Board(_) => By::Probe,
         }
     }
 
-    const fn reader(self) -> Reader {
-        match self {
-            Self::Probe => Reader::Probe,
-            Self::Frame | Self::Line(_) => Reader::Serial,
-            Self::Board(from) => Reader::Board(from),
-        }
-    }
-
     pub(crate) const fn is_serial(self) -> bool {
-        matches!(self, Self::Frame | Self::Line(_))
+        matches!(self, Self::Frame | Self::Line)
     }
 }
 
 #[derive(Clone, Copy)]
-struct Pending {
-    origin: Origin,
+pub(crate) struct Pending {
+    pub(crate) origin: Origin,
     /// What it wants of this board: unknown commands want nothing.
     command: Option<Command>,
     is_elsewhere: bool,
 }
 
 impl Pending {
+    /// What a line of text has asked for.
+    pub(crate) fn line(&self) -> Option<Command> {
+        self.command.filter(|_| self.origin == Origin::Line)
+    }
+
     fn load(&self, answer: &Answer) -> Option<Load> {
         match self.command {
             Some(Command::Load(load)) if answer.status == CommandStatus::Done => Some(load),
@@ -65,22 +62,14 @@ impl Pending {
     }
 }
 
-/// Who gets records and events.
-#[derive(Clone, Copy, PartialEq, Eq)]
-enum Reader {
-    Probe,
-    Serial,
-    Board(u8),
-}
-
 pub(crate) struct Exchange {
     ends: IdleEnds,
     configs: Configs,
     pub(crate) probe: ProbeLine,
     pub(crate) post: Post,
-    /// Whoever has asked for them last, and whoever has asked another board.
-    reader: Option<Reader>,
-    reader_elsewhere: Option<Reader>,
+    /// Whoever has asked for records and events last, and whoever has asked another board for them.
+    reader: Option<Origin>,
+    reader_elsewhere: Option<Origin>,
     pending: Option<Pending>,
     answer: Option<Answer>,
     /// The number of the next request for the tick.
@@ -89,8 +78,7 @@ pub(crate) struct Exchange {
     paid: [u32; 3],
     has_motors: bool,
     has_serial: bool,
-    /// The serial line's request comes before the probe's: neither link waits for ever for the
-    /// other.
+    /// The serial line's request comes before the probe's, so that neither link waits for ever.
     is_serials_turn: bool,
 }
 
@@ -142,7 +130,6 @@ impl Exchange {
         }
     }
 
-    /// Takes what has come from other boards of the head.
     pub(crate) fn take_from_head(&mut self, names: &Names) {
         while let Some(heard) = self.post.next() {
             match heard {
@@ -154,9 +141,9 @@ impl Exchange {
                 Heard::Packet(packet) => {
                     // What another board asks goes to a third by itself.
                     match self.reader_elsewhere {
-                        Some(Reader::Probe) => _ = ProbeLine::put(&wire::frame_of(&packet)),
-                        Some(Reader::Serial) => serial::send_event(&wire::frame_of(&packet)),
-                        Some(Reader::Board(_)) | None => {}
+                        Some(Origin::Probe) => _ = ProbeLine::put(&wire::frame_of(&packet)),
+                        Some(Origin::Board(_)) | None => {}
+                        Some(_) => serial::send_event(&wire::frame_of(&packet)),
                     }
                 }
                 Heard::Say(_) => {}
@@ -175,7 +162,7 @@ impl Exchange {
             Request::Here(request) => request,
             // A whole head is armed, by whichever of its boards.
             Request::For(request)
-                if self.post.is_own(request.node)
+                if self.post.number() == Some(request.node)
                     || request.number() == Command::Arm.number() && self.post.has(request.node) =>
             {
                 request.here()
@@ -195,16 +182,19 @@ impl Exchange {
             }
         };
         log::requested(request.command);
-        let verdict = match request.command {
+        let prepared = match request.command {
             Command::Class(class, from) => class_name(names, class, from),
-            Command::Started => Verdict::Done(CommandStatus::Done, retained::started().values()),
+            Command::Started => {
+                let values = retained::started().values();
+                Some(Prepared::Done(CommandStatus::Done, values))
+            }
             // That is a message of the head, which no stop can come before.
             Command::Arm | Command::Stop if matches!(origin, Origin::Board(_)) => {
-                Verdict::Done(CommandStatus::NotHere, [0; 2])
+                Some(Prepared::Done(CommandStatus::NotHere, [0; 2]))
             }
             command => self.configs.prepare(command),
         };
-        if let Verdict::Done(status, values) = verdict {
+        if let Some(Prepared::Done(status, values)) = prepared {
             let answer = firmware::answer(request, TICKS.get(), (status, values));
             self.answer = Some(answer);
             return;
@@ -212,7 +202,7 @@ impl Exchange {
         let asked = Asked {
             number: self.number,
             request,
-            takes_over: matches!(verdict, Verdict::TakeOver),
+            takes_over: prepared == Some(Prepared::Next),
             by: origin.link(),
             at,
         };
@@ -229,7 +219,7 @@ impl Exchange {
             is_elsewhere: true,
         });
         if request.number() == Command::Stream(true).number() {
-            self.reader_elsewhere = Some(origin.reader());
+            self.reader_elsewhere = Some(origin);
         }
         if !self.post.ask(request) {
             self.answer = Some(Relay::no_board(&request, TICKS.get()));
@@ -243,14 +233,13 @@ impl Exchange {
         Some((self.pending?, self.answer?))
     }
 
-    pub(crate) fn answer(&mut self) -> Option<(Origin, Answer)> {
-        let (pending, answer) = self.answered()?;
+    pub(crate) fn answer(&mut self) -> Option<(Pending, Answer)> {
         // A loader has an answer of its own.
-        let is_sent = pending.load(&answer).is_none();
-        is_sent.then_some((pending.origin, answer))
+        let found = self.answered();
+        found.filter(|(pending, answer)| pending.load(answer).is_none())
     }
 
-    /// What is to be loaded, once it may be, and how that was asked for.
+    /// Once it may be loaded.
     pub(crate) fn load_due(&mut self) -> Option<(Load, Answer, Origin)> {
         // The loader answers no stop that was before it.
         if !self.has_answered_stops() {
@@ -268,18 +257,15 @@ impl Exchange {
         if let (true, Some(pending)) = (is_done, pending)
             && let Some(Command::Stream(on)) = pending.command
         {
-            self.reader = on.then_some(pending.origin.reader());
+            self.reader = on.then_some(pending.origin);
         }
     }
 
     /// Answers stops, which wait for no other answer, but for room; those that have come by one
     /// link since the last answer have one. `reply` says whether there was room.
-    pub(crate) fn answer_stops(&mut self, reply: impl Fn(Origin, &Answer) -> bool) {
-        for (way, origin) in [Origin::Frame, Origin::Line(Command::Stop)]
-            .into_iter()
-            .enumerate()
-        {
-            self.answer_stop(way + 1, |answer| reply(origin, answer));
+    pub(crate) fn answer_stops(&mut self, reply: impl Fn(Option<Command>, &Answer) -> bool) {
+        for (way, line) in [(1, None), (2, Some(Command::Stop))] {
+            self.answer_stop(way, |answer| reply(line, answer));
         }
     }
 
@@ -318,7 +304,8 @@ impl Exchange {
         self.answer_stop(0, |answer| {
             ProbeLine::put(&wire::frame_of(&Packet::Answer(*answer).bytes()))
         });
-        if let Some((Origin::Probe, answer)) = self.answer()
+        if let Some((pending, answer)) = self.answer()
+            && pending.origin == Origin::Probe
             && ProbeLine::put(&wire::frame_of(&Packet::Answer(answer).bytes()))
         {
             self.has_answered();
@@ -326,25 +313,22 @@ impl Exchange {
     }
 
     pub(crate) fn answer_head(&mut self) {
-        if let Some((Origin::Board(_), answer)) = self.answer()
+        if let Some((pending, answer)) = self.answer()
+            && matches!(pending.origin, Origin::Board(_))
             && self.post.answer(&answer)
         {
             self.has_answered();
         }
     }
 
+    /// Sends an event if there is room for it.
     pub(crate) fn send_event(&mut self, event: EventRecord) {
-        if let Some(reader) = self.reader {
-            self.send(reader, &Packet::Event(event));
-        }
-    }
-
-    /// Sends a packet if there is room for it.
-    fn send(&mut self, reader: Reader, packet: &Packet) {
-        match reader {
-            Reader::Probe => _ = ProbeLine::put(&wire::frame_of(&packet.bytes())),
-            Reader::Serial => serial::send_event(&wire::frame_of(&packet.bytes())),
-            Reader::Board(to) => self.post.packet(to, packet),
+        let packet = Packet::Event(event);
+        match self.reader {
+            None => {}
+            Some(Origin::Probe) => _ = ProbeLine::put(&wire::frame_of(&packet.bytes())),
+            Some(Origin::Board(to)) => self.post.packet(to, &packet),
+            Some(_) => serial::send_event(&wire::frame_of(&packet.bytes())),
         }
     }
 
@@ -354,14 +338,14 @@ impl Exchange {
         while let Some(record) = self.ends.records.peek() {
             let packet = Packet::Record(*record);
             let is_sent = match self.reader {
-                Some(Reader::Probe) => ProbeLine::record(&wire::frame_of(&packet.bytes())),
-                Some(Reader::Serial) => serial::send_record(&wire::frame_of(&packet.bytes())),
-                Some(Reader::Board(to)) => {
+                Some(Origin::Probe) => ProbeLine::record(&wire::frame_of(&packet.bytes())),
+                Some(Origin::Board(to)) => {
                     if record.sequence.is_multiple_of(self.post.every()) {
                         self.post.packet(to, &packet);
                     }
                     true
                 }
+                Some(_) => serial::send_record(&wire::frame_of(&packet.bytes())),
                 None => false,
             };
             // Those that came before the answer to who has asked for them wait for it.
@@ -373,9 +357,9 @@ impl Exchange {
     }
 }
 
-fn class_name(names: &Names, class: u8, from: u8) -> Verdict {
-    match names.find(class.into()) {
-        Some(name) => Verdict::Done(CommandStatus::Done, letters(name, from)),
-        None => Verdict::Done(CommandStatus::OutOfRange, [0; 2]),
-    }
+fn class_name(names: &Names, class: u8, from: u8) -> Option<Prepared> {
+    Some(match names.find(class.into()) {
+        Some(name) => Prepared::Done(CommandStatus::Done, letters(name, from)),
+        None => Prepared::Done(CommandStatus::OutOfRange, [0; 2]),
+    })
 }

@@ -1,7 +1,6 @@
 //! The link of a program that has none: nothing.
 
 use firmware::{Event, EventRecord, ModelState};
-use wire::{Answer, Load, Request};
 
 use crate::board::about::About;
 use crate::board::bus::Post;
@@ -35,44 +34,11 @@ impl Configs {
     }
 }
 
-pub(crate) struct ProbeLine;
-
-impl ProbeLine {
-    pub(crate) fn next(&mut self) -> Option<Request> {
-        None
-    }
-
-    pub(crate) fn reply(_: &Answer) {}
-
-    pub(crate) fn has_sent() -> bool {
-        true
-    }
-}
-
-/// How something was asked for, which nothing is.
-#[derive(Clone, Copy)]
-pub(crate) enum Origin {
-    Probe,
-    Board(u8),
-}
-
-impl Origin {
-    pub(crate) const fn is_serial(self) -> bool {
-        false
-    }
-}
-
-pub(crate) struct Exchange {
-    pub(crate) probe: ProbeLine,
-    pub(crate) post: Post,
-}
+pub(crate) struct Exchange;
 
 impl Exchange {
-    pub(crate) fn new(_: Ends, _: Configs, post: Post, _: &About) -> Self {
-        Self {
-            probe: ProbeLine,
-            post,
-        }
+    pub(crate) fn new(_: Ends, _: Configs, _: Post, _: &About) -> Self {
+        Self
     }
 
     pub(crate) fn log_changes(&mut self, _: u32) {}
@@ -80,10 +46,6 @@ impl Exchange {
     pub(crate) fn take_from_probe(&mut self, _: &Names) {}
 
     pub(crate) fn take_from_head(&mut self, _: &Names) {}
-
-    pub(crate) fn load_due(&mut self) -> Option<(Load, Answer, Origin)> {
-        None
-    }
 
     pub(crate) fn answer_probe(&mut self) {}
 

@@ -24,7 +24,10 @@ use crate::board::slots::{self, ROOM};
 use crate::board::types::{Inner, Settings};
 pub(crate) use configs::Configs;
 use configs::{Spare, Ways};
-pub(crate) use exchange::{Exchange, Origin};
+pub(crate) use exchange::Exchange;
+#[cfg(any(feature = "deploy", feature = "serial"))]
+pub(crate) use exchange::Origin;
+#[cfg(feature = "deploy")]
 pub(crate) use probe::ProbeLine;
 #[cfg(feature = "serial")]
 pub(crate) use stops::Looked;
@@ -110,8 +113,7 @@ pub(crate) struct Telemetry {
 }
 
 impl Telemetry {
-    /// Of a module with these settings, both of which stay where they are; it decides by this
-    /// model.
+    /// Settings and module stay where they are.
     pub(crate) fn new(
         settings: &Settings,
         inner: &Inner,
@@ -152,7 +154,6 @@ impl Telemetry {
         self.ends.requests.ready()
     }
 
-    /// Sends records of a tick, the `tick`-th since the start, if they were asked for.
     pub(crate) fn send(&mut self, module: &Inner, settings: &Settings, tick: u32) {
         let records = &mut self.ends.records;
         let put = &mut |record| records.enqueue(record).is_ok();

@@ -5,7 +5,7 @@ use core::sync::atomic::Ordering;
 use wire::{Answer, CONTENT_BYTES, Frame, Piece, Request, Splitter};
 
 use super::stops::PROBE;
-use crate::board::rtt::{DOWN, PACKETS, REQUESTS, UP};
+use crate::board::rtt::{self, DOWN, PACKETS, REQUESTS, UP};
 
 /// Bytes of the ring that records leave free, for events and answers.
 const KEPT: u32 = 128;
@@ -60,22 +60,11 @@ impl ProbeLine {
 
     /// Puts a record's frame in if room is left for the others; whether there was.
     pub(crate) fn record(frame: &Frame) -> bool {
-        has_room(KEPT + frame.len() as u32) && Self::put(frame)
+        rtt::put(UP, &PACKETS, frame, KEPT)
     }
 
     pub(crate) fn put(frame: &Frame) -> bool {
-        if !has_room(frame.len() as u32) {
-            return false;
-        }
-        let mut at = UP.writer() as usize;
-        for byte in frame {
-            if let Some(place) = PACKETS.get(at) {
-                place.store(*byte, Ordering::Relaxed);
-            }
-            at = if at + 1 < PACKETS.len() { at + 1 } else { 0 };
-        }
-        UP.has_written(at as u32);
-        true
+        rtt::put(UP, &PACKETS, frame, 0)
     }
 
     /// Sends an answer of a loader, which waits for nothing.
@@ -86,8 +75,4 @@ impl ProbeLine {
     pub(crate) fn has_sent() -> bool {
         UP.waiting() == 0
     }
-}
-
-fn has_room(bytes: u32) -> bool {
-    bytes <= UP.room(UP.writer())
 }

@@ -145,8 +145,7 @@ impl Stops {
         is_stop
     }
 
-    /// There were stops, after so many bytes of each link. What has come by the other link in the
-    /// same tick may have come before: then it has.
+    /// After so many bytes of each link. What has come by the other in the same tick came before.
     #[cold]
     #[inline(never)]
     fn stop_at(&mut self, tick: u32, stops: [Option<u32>; 2]) {
@@ -173,8 +172,7 @@ impl Stops {
     }
 }
 
-/// Keeps what had come with a stop long ago within half a round of the count: as far behind as no
-/// request is.
+/// Within half a round of the count, as far behind as no request is.
 fn follow(stopped_at: &mut u32, looked: &Looked) {
     let since = looked.bytes().wrapping_sub(*stopped_at);
     if since > FAR {
@@ -185,7 +183,7 @@ fn follow(stopped_at: &mut u32, looked: &Looked) {
 /// A link as it is looked at: its ring, and where the next byte will be written.
 type Arrived<'r> = (&'r [AtomicU8], usize);
 
-/// Looks at what has come by a link; how many bytes had come with the last stop in it.
+/// How many bytes had come by a link with the last stop in it.
 #[cold]
 #[inline(never)]
 fn look(
