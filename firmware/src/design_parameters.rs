@@ -1,7 +1,6 @@
 //! Every duration the module is built on, each with its derivation.
 //!
-//! Durations are given in seconds or microseconds and become ticks at the
-//! scene's tick rate.
+//! Durations are given in seconds or microseconds and become ticks at the scene's tick rate.
 
 use mlx90333::timing::SS_HIGH_US;
 

@@ -400,11 +400,21 @@ mod tests {
     #[test]
     fn every_event_has_its_fields() {
         let (place, number) = (Place::new(0, 0), 65_535);
-        let touch = Event::Touch { place, number };
-        assert_eq!(line_of(&touch), "12.345 touch left 65535");
-        let (place, number) = (RIGHT, 7);
-        let end = Event::TouchEnd { place, number };
-        assert_eq!(line_of(&end), "12.345 end right 7");
+        let health = Health {
+            worst_tenths: 123,
+            missed: 1,
+            dropped: 2,
+        };
+        for (event, expected) in [
+            (Event::Touch { place, number }, "touch left 65535"),
+            (Event::TouchEnd { place, number }, "end left 65535"),
+            (Event::SensorBack(RIGHT), "back right"),
+            (Event::MotorRetry(RIGHT), "retry right"),
+            (Event::MotorGivenUp(RIGHT), "off right"),
+            (Event::Health(health), "health 12.3 500 1 2 4294967295"),
+        ] {
+            assert_eq!(line_of(&event), format!("12.345 {expected}"));
+        }
         // Class 1 at even odds after 34 samples; the same, unnamed for each reason.
         for (touch, class, why) in [
             (0, "carpet", ""),
@@ -421,17 +431,11 @@ mod tests {
                 format!("12.345 decision right {class} {percent:.4} 34{why}")
             );
         }
-        assert_eq!(
-            line_of(&Event::SensorLost(RIGHT, SensorFault::NoFrame)),
-            "12.345 fault right 16 no frame in time (none was started: follows another fault?)"
-        );
-        assert!(
-            line_of(&Event::MotorFault(RIGHT, motor::Fault::Stall))
-                .starts_with("12.345 fault right 6 does not move as it is driven (held;")
-        );
-        assert_eq!(line_of(&Event::SensorBack(RIGHT)), "12.345 back right");
-        assert_eq!(line_of(&Event::MotorRetry(RIGHT)), "12.345 retry right");
-        assert_eq!(line_of(&Event::MotorGivenUp(RIGHT)), "12.345 off right");
+        let lost = line_of(&Event::SensorLost(RIGHT, SensorFault::NoFrame));
+        let why = "no frame in time (none was started: follows another fault?)";
+        assert_eq!(lost, format!("12.345 fault right 16 {why}"));
+        let stalls = line_of(&Event::MotorFault(RIGHT, motor::Fault::Stall));
+        assert!(stalls.starts_with("12.345 fault right 6 does not move as it is driven (held;"));
     }
 
     #[test]
@@ -448,7 +452,7 @@ mod tests {
     }
 
     #[test]
-    fn start_and_health_have_their_fields() {
+    fn a_start_has_its_fields() {
         let (mut record, first) = Record::start(None, StartCause::Power);
         record.note(number::WATCHDOG);
         let (_, second) = Record::start(Some(record), StartCause::Watchdog);
@@ -464,11 +468,5 @@ mod tests {
         assert_eq!(lines[1], again);
         assert!(lines[2].starts_with(&format!("0.000 fault board {number} ")));
         assert_eq!(lines.len(), 3);
-        let health = Event::Health(Health {
-            worst_tenths: 123,
-            missed: 1,
-            dropped: 2,
-        });
-        assert_eq!(line_of(&health), "12.345 health 12.3 500 1 2 4294967295");
     }
 }

@@ -23,11 +23,6 @@ const TENTH: u32 = 10;
 /// For how many tenths of a second an answer is waited for; and where flash is erased for it.
 const PATIENCE: u32 = 5;
 const LONG_PATIENCE: u32 = 200;
-const STREAM: Command = Command::Stream(true);
-const LOAD: Command = Command::Load(Load {
-    config: 0,
-    model: 0,
-});
 
 const _: () = assert!(LETTER_BYTES == PACKET_BYTES);
 const _: () = assert!(LETTER_BYTES >= 4 + 2 + COMMAND_MOST);
@@ -120,7 +115,7 @@ impl Relay {
             made: now,
             said: now,
         });
-        if request.number() == STREAM.number() {
+        if request.number() == Command::Stream(true).number() {
             self.reads = Some(request.node);
         }
         self.say_request()
@@ -133,7 +128,7 @@ impl Relay {
             made,
             said,
         } = self.asking?;
-        let is_long = request.number() == LOAD.number();
+        let is_long = request.number() == Command::Load(Load::default()).number();
         let patience = if is_long { LONG_PATIENCE } else { PATIENCE };
         let tenth = self.tick_hz / TENTH;
         if now.wrapping_sub(made) >= patience * tenth {

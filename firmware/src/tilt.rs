@@ -40,9 +40,8 @@ pub struct TiltScale {
 impl TiltScale {
     /// Words whose full scale is this tilt (as its tangent), for the ranges of `config`.
     ///
-    /// `None` if a field of X or Y would have more than 65,535 codes of a word for each of Z:
-    /// with equal ranges, for full scales below 0.25; with X and Y a quarter of Z, below
-    /// 0.0625.
+    /// `None` if a field of X or Y would have more than 65,535 codes of a word for each of Z: with
+    /// equal ranges, for full scales below 0.25; with X and Y a quarter of Z, below 0.0625.
     pub const fn new(config: &Config, full_scale: f32) -> Option<Self> {
         Self::of_ranges(config.sensor.ranges, full_scale)
     }

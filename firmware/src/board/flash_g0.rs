@@ -80,9 +80,8 @@ fn write_pair(address: usize, words: [u32; 2]) -> bool {
     FLASH.cr().write(|w| w.set_pg(true));
     let to = core::ptr::with_exposed_provenance_mut::<u32>(address);
     #[allow(unsafe_code, reason = "flash is programmed by stores")]
-    // SAFETY: two words of a slot or its model, which are whole pairs, as the loader sees to;
-    // while PG is set the flash takes the stores, and the program has no reference to it that
-    // is used.
+    // SAFETY: two words of a slot or its model, which are whole pairs, as the loader sees to; while
+    // PG is set the flash takes the stores, and the program has no reference to it that is used.
     unsafe {
         to.write_volatile(words[0]);
         to.add(1).write_volatile(words[1]);

@@ -1,9 +1,8 @@
 //! The NUCLEO-F446RE: STM32F446RE, Cortex-M4F at 144 MHz.
 //!
-//! Two whiskers, one a side: [`LEFT`] and [`RIGHT`] say what each hangs on. A brushless
-//! motor, of which there can be one, has TIM1's outputs PA8 to PA10, PC10 to PC12, and Halls
-//! on PA15, PB3 and PB10. The bus of a head is CAN1 on PA11 and PA12. TIM7 makes the ticks, TIM5
-//! measures them.
+//! Two whiskers, one a side: [`LEFT`] and [`RIGHT`] say what each hangs on. A brushless motor, of
+//! which there can be one, has TIM1's outputs PA8 to PA10, PC10 to PC12, and Halls on PA15, PB3 and
+//! PB10. The bus of a head is CAN1 on PA11 and PA12. TIM7 makes the ticks, TIM5 measures them.
 
 use firmware::boards::{self, BoardFacts, Clocks};
 use firmware::{Clock, StartCause};

@@ -1,8 +1,7 @@
 //! The NUCLEO-G071RB: STM32G071RB, Cortex-M0+ at 64 MHz, no FPU.
 //!
-//! One whisker: [`LEFT`] says what it hangs on. A brushless motor has TIM1's outputs PA8 to
-//! PA10, PC10 to PC12, and Halls on PA15, PB3 and PB10. TIM3 makes the ticks, SysTick
-//! measures them.
+//! One whisker: [`LEFT`] says what it hangs on. A brushless motor has TIM1's outputs PA8 to PA10,
+//! PC10 to PC12, and Halls on PA15, PB3 and PB10. TIM3 makes the ticks, SysTick measures them.
 
 use firmware::StartCause;
 use firmware::boards::{self, BoardFacts, Clocks};

@@ -5,10 +5,9 @@ use stm32_metapac::{EXTI, PWR, RCC};
 use crate::board::reset::settle;
 use crate::board::supply::LINE;
 
-/// Threshold of the detector: about 2.9 V as the supply falls, about 3.0 V as it rises
-/// (PVDFT and PVDRT = 110; DS12232, reset and power control block). 64 MHz need 1.7 V, as the
-/// wait states do not depend on it in the regulator's range 1 (RM0444, chapter 3.3.4), and the
-/// board has 3.3 V.
+/// Threshold of the detector: about 2.9 V as the supply falls, about 3.0 V as it rises (PVDFT and
+/// PVDRT = 110; DS12232, reset and power control block). 64 MHz need 1.7 V, as the wait states do
+/// not depend on it in the regulator's range 1 (RM0444, chapter 3.3.4), and the board has 3.3 V.
 const LEVEL: u8 = 6;
 
 pub(crate) fn start() {

@@ -1,8 +1,7 @@
 //! Motor PWM: TIM1, edge aligned, one compare channel a phase.
 //!
-//! Compare values are buffered: a new duty takes effect at the next period.
-//! The timer may raise its outputs again by itself (AOE) in no case: what
-//! [`outputs`](super::outputs) took low stays low.
+//! Compare values are buffered: a new duty takes effect at the next period. The timer may raise its
+//! outputs again by itself (AOE) in no case: what [`outputs`](super::outputs) took low stays low.
 
 use core::convert::Infallible;
 

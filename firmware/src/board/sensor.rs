@@ -1,5 +1,4 @@
-//! Reads an MLX90333's frames without the core: an SPI, whose bytes a timer
-//! spaces and DMA moves.
+//! Reads an MLX90333's frames without the core: an SPI, whose bytes a timer spaces and DMA moves.
 //!
 //! Why not by its driver, as a TMAG5170 is (`tilt.rs`): with the gaps that it needs between bytes a
 //! frame takes 430 us of the 500 us of a tick at 2 kHz, and three of a TMAG5170 some 25 us. So a

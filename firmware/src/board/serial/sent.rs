@@ -8,8 +8,8 @@ use crate::board::rtt::{self, Ring};
 /// Of the ring, so many bytes are kept for lines and answers where records take all they get.
 const KEPT: u32 = 256;
 
-/// Some lines, and records of as many ticks as idle may be late. Only idle and the start put them
-/// in.
+/// Some lines, and records of as many ticks as idle may be late, which idle and the start put in.
+/// Atomic, as the compiler does not see that the DMA reads them.
 static BYTES: [AtomicU8; 1024] = [const { AtomicU8::new(0) }; 1024];
 static RING: Ring = Ring::new(b"\0", &BYTES);
 
