@@ -73,8 +73,8 @@ mod tests {
         longest: 10,
     };
 
-    /// After which samples a press has ended (`-` is down), where the `at`-th has stopped the
-    /// motors.
+    /// After which samples a press has ended, where the `at`-th has stopped the motors; `-` is
+    /// down.
     fn presses(levels: &str, at: Option<usize>) -> Vec<usize> {
         let mut button = Button::default();
         let samples = levels.chars().enumerate();

@@ -58,8 +58,8 @@ pub const fn button(tick_hz: u32) -> ButtonLimits {
 pub struct Plausible {
     /// Repeat to the bit for longer than this, s; infinite: no limit.
     pub frozen_s: f64,
-    /// Change faster than this, of the deflection from mid-scale to full scale a second; infinite:
-    /// no limit.
+    /// Change faster than by this in a second, of the deflection from mid-scale to full
+    /// scale; infinite: no limit.
     pub jump_per_s: f64,
 }
 
@@ -146,7 +146,7 @@ pub const fn ticks(seconds: f64, tick_hz: u32) -> u16 {
     }
 }
 
-/// As [`ticks`], in 32 bits: for a board.
+/// As [`ticks`], of milliseconds: for a board, which has no time for numbers of 64 bits.
 pub const fn whole_ticks(milliseconds: u32, tick_hz: u32) -> u16 {
     let ticks = milliseconds.saturating_mul(tick_hz).saturating_add(500) / 1_000;
     if ticks == 0 {

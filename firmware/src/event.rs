@@ -55,8 +55,8 @@ pub enum SensorFault {
     Frozen,
     /// Its words jump about farther than a whisker can move.
     Jump,
-    /// Ticks without a good frame are too many, if never in succession: the number of the last's
-    /// fault.
+    /// Ticks without a good frame are too many, if never too many in succession. With the
+    /// number of what was wrong with the last.
     Often(u8),
     /// A magnet's tilt is not measured. The last, as programs without it number the others alike.
     #[cfg(feature = "tmag5170")]
@@ -127,8 +127,8 @@ pub enum Event {
     Decision(Place, Decision),
     /// How what was named stands, after its decision.
     Pose(Place, Pose),
-    /// Readings have been bad for too long (fault): the motor is off, and the whisker touches
-    /// nothing.
+    /// Readings of a whisker have been bad for longer than they may be: its
+    /// motor is off (fault) and it touches nothing.
     SensorLost(Place, SensorFault),
     /// The last frame of a sensor that is lost for its frames, as it came.
     Frame(Place, [u8; FRAME_LEN]),
@@ -140,7 +140,7 @@ pub enum Event {
     MotorFault(Place, motor::Fault),
     /// A motor is tried again after its rest.
     MotorRetry(Place),
-    /// It has had too many faults, and is off until it is cleared
+    /// A motor has had too many faults: it stays off until it is cleared
     /// ([`Command::Clear`](crate::Command::Clear)).
     MotorGivenUp(Place),
     /// What has become of a board of a head, by what this one, of that number, says.

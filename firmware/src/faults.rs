@@ -22,7 +22,7 @@ pub enum Reaction {
 /// How it ends.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Recovery {
-    /// The motor is tried again after a rest; after too many faults on command.
+    /// The motor is tried again after a rest; after too many faults, only on command.
     Retry,
     /// Once frames have been good for a while.
     GoodFrames,

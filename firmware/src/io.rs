@@ -34,7 +34,7 @@ pub trait FrameSource {
 
 /// Where a whisker's words come from, whatever its sensor. Every [`FrameSource`] is one.
 pub trait WordSource {
-    /// What was read last, without waiting: of frames by the `decoder`.
+    /// The words of what was read last, without waiting: of frames by the `decoder`.
     ///
     /// # Errors
     /// Why there are none.

@@ -150,8 +150,8 @@ impl<R: Real, H: Hardware> Module<R, H> {
         }
     }
 
-    /// As [`of_node`](Self::of_node), where an empty module lies: a board's stack has no room for
-    /// it.
+    /// Makes an [empty](Self::empty) module what [`of_node`](Self::of_node) makes, where it lies:
+    /// for a board, whose stack has no room for it.
     #[inline]
     pub fn build(
         &mut self,
@@ -201,7 +201,7 @@ impl<R: Real, H: Hardware> Module<R, H> {
         }
     }
 
-    /// One that is inhibited, as it is being homed, may lean against its stop.
+    /// A whisker that is inhibited, as its motor is being homed, may lean against its stop.
     #[inline]
     fn follow_zeros(&mut self, limits: ZeroLimits, events: &mut impl FnMut(Event)) {
         for whisker in &mut self.whiskers {
@@ -380,9 +380,9 @@ impl<R: Real, H: Hardware> Module<R, H> {
         Ok(())
     }
 
-    /// Arms all motors, or keeps them off from the next tick on; what [rests](Servo::rests) rests
-    /// on. A module starts with motors that are not armed. Whoever arms them first says that their
-    /// whiskers are at rest, unless they are homed.
+    /// Arms the motors of all whiskers, or keeps them off from the next tick on; all else goes on,
+    /// and what [rests](Servo::rests) rests on. A module starts with motors that are not armed.
+    /// Whoever arms them first says that their whiskers are at rest, unless they are homed.
     pub fn arm(&mut self, is_armed: bool) {
         let Some(motion) = self.motion_mut() else {
             return;

@@ -121,8 +121,8 @@ impl Node {
         }
     }
 
-    /// How late the last tick began by the clock of the head, µs; negative: early, zero where that
-    /// is its own or not known. Ticks have to be that much shorter for a while.
+    /// How late the last tick began by the clock of the head, µs; negative: how early, zero where
+    /// that clock is its own or not known. Ticks have to be that much shorter for a while.
     pub const fn late_us(&self) -> i32 {
         self.late_us
     }
@@ -384,8 +384,8 @@ impl Node {
         events(NodeEvent::Left);
     }
 
-    /// As soon as it shares clock and oscillators, or is the lowest that lives, which begins a
-    /// head.
+    /// Joins the head as soon as it shares its clock and oscillators, or begins one if it is the
+    /// lowest that lives.
     fn join<R: Real>(
         &mut self,
         motion: Option<&MotionConfig<R>>,

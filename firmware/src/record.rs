@@ -54,8 +54,8 @@ impl StartCause {
         }
     }
 
-    /// The first whose flag is set. The most specific comes first: a power-up, as every internal
-    /// reset, sets the pin's too.
+    /// The first whose flag is set in the reset status register. The most specific must come
+    /// first: a power-up sets the pin's flag too, and so does every internal reset.
     pub fn first<const N: usize>(flags: [(bool, Self); N]) -> Self {
         let set = flags.into_iter().find(|(set, _)| *set);
         set.map_or(Self::Other, |(_, cause)| cause)

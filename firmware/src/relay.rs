@@ -16,8 +16,8 @@ use crate::{BusConfig, Packet};
 /// Records of a whisker that go to another board in a second, at most.
 pub const RELAYED_HZ: u32 = 100;
 
-/// A request is said again each tenth of a second, but for one that erases flash: then nobody
-/// hears.
+/// A request is said again each tenth of a second until it is answered, but for one that erases
+/// flash: the board that does so hears nothing meanwhile.
 const TENTH: u32 = 10;
 
 /// For how many tenths of a second an answer is waited for; and where flash is erased for it.
@@ -105,7 +105,7 @@ impl Relay {
         if every > 1 { every } else { 1 }
     }
 
-    /// In tick `now`; `None`: the head has no such board.
+    /// Asks another board, in tick `now`; `None`: the head has no such board.
     pub fn ask(&mut self, request: ForNode, now: u32) -> Option<Frames> {
         if !self.has(request.node) || request.node == self.number {
             return None;
@@ -305,8 +305,8 @@ mod tests {
     }
 
     proptest! {
-        /// A request is carried out once at most, whatever is lost; its answer is its own or that
-        /// there is none.
+        /// Whatever is lost on the way, a request is carried out once at most, and its answer is its
+        /// own or that there is none.
         #[test]
         fn a_request_is_carried_out_once_and_answered(
             tags in prop::collection::vec(any::<u16>(), 1..6),

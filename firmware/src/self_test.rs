@@ -33,8 +33,8 @@ pub struct SelfTest {
 }
 
 impl SelfTest {
-    /// Once start-up is over. After a frame that was refused it rests until it finds the start of
-    /// the next.
+    /// Reads `sensor`, whose start-up is over. Where a frame was refused it rests for as long as it
+    /// needs to find the start of the next.
     pub fn of<SPI: SpiDevice>(
         sensor: &mut Mlx90333<SPI>,
         delay: &mut impl DelayNs,

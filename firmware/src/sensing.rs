@@ -24,8 +24,8 @@ pub struct Reading {
     pub y: Word,
     /// A new frame arrived in this tick; otherwise the last good one is held.
     pub fresh: bool,
-    /// Words have changed within the time for which readings are held. Otherwise they may be
-    /// frozen: the best to move by, but no evidence.
+    /// The words have changed within the time for which readings are held. If not, they
+    /// may be frozen: they still are the best there is to move by, but no evidence.
     pub current: bool,
     /// False while the whisker has a fault, of its sensor or of its motor: x and y
     /// are then at rest and the motor must be off.
@@ -118,10 +118,10 @@ impl<F: WordSource> Sensor<F> {
         self.health
     }
 
-    /// Takes the frame of this tick, and begins the next. Without a good one the last reading is
-    /// held for `limits.hold` ticks, or less if that happens too often; then the sensor is faulty
-    /// until `limits.recover` good ones have come in succession. Words that repeat for
-    /// `limits.frozen` ticks are a fault at once.
+    /// Takes the frame of this tick, and begins the next. Without a good one the last
+    /// good reading is held for `limits.hold` ticks, or less if that happens too often;
+    /// then the sensor counts as faulty until `limits.recover` good ones have come in
+    /// succession. Words that repeat for `limits.frozen` ticks are a fault at once.
     #[inline]
     pub fn read(
         &mut self,
@@ -181,8 +181,8 @@ impl<F: WordSource> Sensor<F> {
         };
     }
 
-    /// Follows the zero after [`read`](Self::read), where that is found; gives the codes by which
-    /// it moved.
+    /// After [`read`](Self::read) and what was felt by it: follows the zero, where that is found
+    /// by itself, and whether the whisker `is_calm` is asked. Gives the codes by which it has moved.
     #[inline]
     pub fn follow_zero(
         &mut self,
@@ -237,9 +237,9 @@ impl<F: WordSource> Sensor<F> {
             self.health = SensorHealth::Faulted { good: 0 };
             return;
         };
-        // A tick without a frame follows from one with a bad frame; and a sensor that has reported
-        // an error starts again, in 16 ms of silence (its sister's data sheet, MLX90316 revision
-        // 10, sections 16.7 and 16.9).
+        // A tick without a frame follows from one with a bad frame, if there was one; and a sensor that
+        // has reported an error starts again, which takes it 16 ms of silence (its sister's data
+        // sheet, MLX90316 revision 10, sections 16.7 and 16.9).
         let follows = match fault {
             SensorFault::NoFrame => true,
             SensorFault::Frame(FrameError::NoSensor) => {

@@ -59,8 +59,8 @@ pub struct Retry {
 /// So many faults within [`Retry::window`], and the motor is given up.
 pub const FAULTS: usize = 3;
 
-/// So many tests of its motion in succession that a motor fails, and it is given up: a whisker that
-/// is held and an encoder that stands still look alike, and a test is gentle.
+/// So many tests of its motion in succession that a motor fails, and it is given up: a whisker
+/// that something holds and an encoder that stands still look alike, and a test is gentle.
 pub const HELD: u8 = 6;
 
 /// What a servo is doing.
@@ -198,8 +198,8 @@ impl<R: Real, M: MotorDriver, A: AngleInput> Servo<R, M, A> {
     }
 
     /// Whoever arms it first says that the whisker is at rest, θ = 0, now, unless it is homed.
-    /// After that the encoder counts on, and arming moves rest no more. Faults are neither
-    /// forgotten nor ended.
+    /// After that the encoder counts on, whether the motor is off or not, and arming it moves rest
+    /// no more, but to where it is found. Faults are neither forgotten nor ended.
     pub fn arm(&mut self) {
         if let ServoState::Off = self.state {
             self.is_homed = false;

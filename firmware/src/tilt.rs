@@ -53,8 +53,8 @@ impl TiltScale {
         }
     }
 
-    /// Limited to full scale. Where one of three is at the end of its range both words are at that
-    /// of theirs.
+    /// The words of X, Y and Z, limited to full scale. Where one of the three is at the end of its
+    /// range no tilt is known: then both words are at the end of theirs.
     ///
     /// # Errors
     /// [`TiltFault::NoMagnet`].

@@ -230,8 +230,8 @@ fn word_of(bytes: &[u8], n: usize) -> u32 {
     u32::from_le_bytes(word)
 }
 
-/// A module that runs by `config` goes on by `next`, which its caller gives it in each tick from
-/// now on.
+/// Has a module that runs by `config` go on by `next` from now on, between two ticks: its caller
+/// gives it that one in each tick from now on.
 ///
 /// # Errors
 /// [`ConfigError::Shape`] or [`ConfigError::Armed`]; nothing has changed.

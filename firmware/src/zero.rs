@@ -12,8 +12,8 @@ use whisking::Voted;
 /// Steps of a word in a code of 14 bits.
 const CODE: i32 = 4;
 
-/// By how much a mean must differ from the zero: eight codes, twice the noise of a sample, and what
-/// part of a whisk at the end of a silence may add.
+/// By how much a mean must differ from the zero to take its place: eight codes, twice the noise
+/// of a sample, and what part of a whisk at the end of a silence may add.
 const STEP: u32 = 8 * CODE as u32;
 
 /// When the zero of a sensor is found, and how far it may lie from mid-scale.

@@ -18,7 +18,8 @@ impl WrappingCounter {
         Self(AtomicU32::new(0))
     }
 
-    /// One more, for the only writer: a Cortex-M0+ has no instruction that loads and stores.
+    /// One more, for the only writer: a load and a store, as a Cortex-M0+ has no instruction for
+    /// both.
     #[inline]
     pub(crate) fn increment(&self) -> u32 {
         let count = self.get().wrapping_add(1);

@@ -28,7 +28,7 @@ struct Channel {
     flags: u32,
 }
 
-/// From where a channel's begin (RM0008 and RM0444, DMA interrupt status register).
+/// A channel's, from where they begin (RM0008 and RM0444, DMA interrupt status register).
 mod flag {
     pub(super) const COMPLETE: u32 = 1 << 1;
     pub(super) const ERROR: u32 = 1 << 3;

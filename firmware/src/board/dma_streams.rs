@@ -125,7 +125,7 @@ impl Transfers {
         for stream in [&self.rx, &self.tx] {
             let cr = stream.registers.cr();
             cr.write(|_| {});
-            // After the current byte, some bus cycles. Otherwise the next frame fails.
+            // It stops after the current byte, some bus cycles. If not, the next frame fails.
             let _ = (0..1_000).any(|_| !cr.read().en());
         }
     }

@@ -21,7 +21,7 @@ use super::{outputs, pace, retained, sleep, tick_timer};
 use crate::here::TICK_INTERRUPT;
 use crate::here::flash::Writer;
 
-/// A part of a second: two bytes at 5,000 baud, which are sent when the DMA is done.
+/// A part of a second: two bytes at 5,000 baud, which go when the DMA is done.
 const LAST_BYTES_PART: u32 = 250;
 
 pub(crate) enum Line<'s> {
@@ -187,7 +187,7 @@ impl Loading {
         }
     }
 
-    /// With the model's place where one comes that lies apart; whether all went well.
+    /// Erases the model's place too, where one comes that lies apart; whether all went well.
     fn erase(&mut self, watchdog: &mut Watchdog) -> bool {
         let slot = self.slot;
         let is_well = self.writer.erase(slot.erased);

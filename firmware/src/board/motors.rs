@@ -30,7 +30,7 @@ pub(crate) enum Motor {
     Brushless(Brushless),
 }
 
-/// Once more beside the motors: one of another kind must not be driven, nor taken for switched off.
+/// Whether motors are brushless: none must be driven, nor taken for off, as if it were the other.
 static IS_BRUSHLESS: AtomicBool = AtomicBool::new(false);
 
 #[inline]

@@ -158,7 +158,7 @@ impl<R: Real> Config<R> {
 }
 
 impl<R: Real> Config<R> {
-    /// Names the limit that does not protect a motor, or the gain to change.
+    /// Names the limit that does not protect a motor that is real, or the gain to change.
     pub(super) fn protects(&self) -> Checked {
         let motion = self.motion.as_ref().filter(|_| Part::Motion.is_built());
         let protects = motion.map_or(Ok(()), |motion| motion.protects(self.head.tick_hz));

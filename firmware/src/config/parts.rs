@@ -7,7 +7,7 @@ macro_rules! parts {
     (@built $feature:tt) => { cfg!(feature = $feature) };
     ($($name:ident $feature:tt = $code:literal: $text:literal;)*) => {
         numbered! {
-            /// A part of a configuration.
+            /// A part of a configuration. Numbers keep their meanings.
             Part: $($name = $code: $text;)*
         }
 
@@ -71,8 +71,8 @@ macro_rules! config_parts {
 config_parts!(parts);
 
 impl Part {
-    /// Whether an image takes configurations over its links. One that does not runs by the one that
-    /// it was linked with, which was checked by the same functions, and its sum says whether it is
-    /// still so.
+    /// Whether an image takes configurations over its links. One that does not runs by
+    /// the one that it was linked with: whoever made that has checked it, by the same
+    /// functions, and its sum says whether it is still what it was.
     pub const TAKES_CONFIGURATIONS: bool = Self::Deploy.is_built() || Self::Set.is_built();
 }

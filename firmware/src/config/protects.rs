@@ -22,14 +22,14 @@ pub mod allowed {
     pub const MARGIN_DEG: RangeInclusive<f64> = 0.0..=45.0;
     /// `following_limit_deg`: twice a whisk, 84 degrees, and a little more.
     pub const FOLLOWING_DEG: RangeInclusive<f64> = 1.0..=90.0;
-    /// `top_speed_deg_s`: half of the slowest motor that calibration is tested with, 4,000 degrees
-    /// a second, to some twice the fastest, 20,000.
+    /// `top_speed_deg_s`: calibration is tested with motors of 4,000 to 20,000 degrees a second;
+    /// half of the slowest to some twice the fastest.
     pub const TOP_SPEED_DEG_S: RangeInclusive<f64> = 2.5e3..=6e4;
     /// `top_speed_deg_s` by `time_constant_s` at least: a little less than the slowest of those has.
     /// Of a motor that is slower nothing would be missed within half a whisk.
     pub const ACCELERATION_DEG_S2: f64 = 5e4;
-    /// `unmoved_duty` at most: four times the friction of the papers' motor. From more on nothing
-    /// is expected of a motor.
+    /// `unmoved_duty` at most: four times the friction of the papers'
+    /// motor. From more on a board expects nothing of a motor, which it must.
     pub const UNMOVED_DUTY: f64 = 0.5;
     /// Up to this `duty_limit` a board need not expect anything.
     pub const GENTLE_DUTY: f64 = 0.25;

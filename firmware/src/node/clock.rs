@@ -62,8 +62,8 @@ impl Clock {
         (number, self.said_us)
     }
 
-    /// Which tick of the head is nearest, and by how much it is past, µs; `None`: its clock is not
-    /// known.
+    /// Which tick of the head's clock is nearest to now, and by how much it is past, µs; none: that
+    /// clock is not known.
     pub(super) fn tick(&self, now_us: u64, tick_hz: u32) -> Option<(u32, i32)> {
         // Of 48 bits, as a message has: then the product fits, and a board divides no 128 bits.
         let us = now_us.wrapping_add_signed(self.offset_us) & ((1 << 48) - 1);

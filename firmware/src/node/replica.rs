@@ -140,8 +140,8 @@ mod tests {
     }
 
     proptest! {
-        /// A follower that begins `off` radians beside its leader comes nearer by each message,
-        /// within its bound, and never passes by: what two messages say of one difference is
+        /// A follower that begins `off` radians beside its leader comes nearer by each message, by
+        /// its bound at most, and never passes by: what two messages say of the same difference is
         /// corrected once.
         #[test]
         fn a_difference_is_corrected_once(

@@ -67,7 +67,7 @@ pub trait SampleClassifier {
         0
     }
 
-    /// What its whiskers have felt, for the head
+    /// What its whiskers have felt for the head to decide by
     /// ([`StreamClassifier::evidence`](tactile::StreamClassifier::evidence)).
     fn evidence(&self) -> Option<Felt> {
         None

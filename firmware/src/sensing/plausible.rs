@@ -23,8 +23,8 @@ impl Course {
         missed: u16::MAX,
     };
 
-    /// [`SensorFault::Jump`]: too far from the last, which stay. [`SensorFault::Frozen`]: too long
-    /// the same.
+    /// [`SensorFault::Jump`] if they are too far from the last: then those stay.
+    /// [`SensorFault::Frozen`] if they have been the same for too long.
     #[inline]
     pub(super) fn follow(
         &mut self,

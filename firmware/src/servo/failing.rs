@@ -24,8 +24,8 @@ impl<R: Real, M: MotorDriver, A: AngleInput> Servo<R, M, A> {
         }
     }
 
-    /// A tick longer ago. For a motor that was given up they stand still: where one has passed,
-    /// bits were flipped.
+    /// The last faults are a tick longer ago. For a motor that was given up they stand still:
+    /// where one has passed, it was not its faults that led there but flipped bits.
     #[inline]
     pub(super) fn age(&mut self, retry: Retry) {
         // Nearly always there is none, and nothing to count.

@@ -13,14 +13,14 @@ impl<R: Real, M: MotorDriver, A: AngleInput> Servo<R, M, A> {
         self.is_homed = false;
     }
 
-    /// What was found is no more to be compared with.
+    /// The same where the home that was found is no more to be compared with.
     pub(crate) fn forget_home(&mut self) {
         self.home();
         self.is_known = false;
     }
 
-    /// Home that was found long ago is looked for: in the air, or, felt or not, after as long
-    /// again.
+    /// Looks for home again where it was found long ago: in the air, or where a whisker that feels
+    /// so much contact has not been there for as long again.
     #[inline]
     pub(crate) fn check_home(&mut self, config: &ServoConfig<R>, felt: R) {
         let Some(how) = config.homing() else {

@@ -198,7 +198,7 @@ fn accept_data() {
     accept([0, 0]);
 }
 
-/// None but requests of other boards, which then are not lost behind what nobody reads.
+/// Lets none but requests of other boards in, which then are not lost behind what nobody reads.
 pub(super) fn accept_requests() {
     accept(Letter::REQUESTS);
 }
