@@ -21,5 +21,5 @@ pub use slot::{
 };
 pub use timing::{
     CLOCK_WAIT_LOOPS, CanTiming, Clocks, PWM_HZ, Pacing, RECEIVED_BYTES, REST_US, SLOT_FAST_NS,
-    TICK_MIN_HZ, TickPeriod, serial_keeps_up,
+    TICK_MIN_HZ, TickPeriod,
 };

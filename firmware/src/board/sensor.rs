@@ -4,8 +4,8 @@
 //! frame takes 430 us of the 500 us of a tick at 2 kHz, and three of a TMAG5170 some 25 us. So a
 //! tick computes with the frame that ended before it, while the next one comes.
 //!
-//! Before the first tick there is time: there [`self_test`] reads the sensor by its driver, over the
-//! same pins, as tests read a simulated one. So a fault that only the DMA has shows itself as one.
+//! Before the first tick there is time: there [`self_test`] reads the sensor by its driver, over
+//! the same pins, as tests read a simulated one. So a fault that only the DMA has shows itself.
 //!
 //! - *slot*: the time from the start of a byte to that of the next. The sensor
 //!   needs a gap between bytes, which no SPI controller makes by itself.
@@ -14,10 +14,10 @@
 //! - *tx DMA*: writes one 0xFF into the SPI's data register at each request.
 //! - *rx DMA*: moves each received byte to memory and interrupts after the eighth.
 //!
-//! [`FrameSource::start`] in a tick starts a frame, [`Frames::end_of_frame`] in the interrupt of the
-//! rx DMA raises /SS, and [`FrameSource::take`] in the next tick returns the bytes. They share no
-//! state but the hardware's own flags. What differs between chips is in `spi_*.rs`, `dma_*.rs` and
-//! `byte_*.rs`.
+//! [`FrameSource::start`] in a tick starts a frame, [`Frames::end_of_frame`] in the interrupt of
+//! the rx DMA raises /SS, and [`FrameSource::take`] in the next tick returns the bytes. They share
+//! no state but the hardware's own flags. What differs between chips is in `spi_*.rs`, `dma_*.rs`
+//! and `byte_*.rs`.
 
 use core::sync::atomic::{AtomicU8, Ordering, compiler_fence};
 

@@ -5,7 +5,7 @@ use core::fmt;
 use whisking::Real;
 
 use super::timing::serial_most;
-use super::{BoardFacts, Clocks, InHead, RECEIVED_BYTES, TICK_MIN_HZ, serial_keeps_up};
+use super::{BoardFacts, Clocks, InHead, RECEIVED_BYTES, TICK_MIN_HZ};
 use crate::{BusConfig, Config, ConfigError, Driver, Field, Part};
 
 /// What a scene needs of a board.
@@ -159,51 +159,41 @@ impl BoardFacts {
     /// The first thing that it cannot.
     pub fn fits(&self, needs: &Needs) -> Result<(), Misfit> {
         let sides = needs.sides_of_board();
+        let has_room = sides <= self.max_sides;
         if needs.bus.is_some() {
-            if matches!(self.in_head, InHead::Never) {
-                return Err(Misfit::NoBus);
-            }
-            if needs.decides && !matches!(self.in_head, InHead::Tuned) {
-                return Err(Misfit::DecidesInHead);
-            }
-            if sides > self.max_sides {
-                return Err(Misfit::Share(self.max_sides));
-            }
+            let is_full = needs.decides && self.in_head != InHead::Tuned;
+            refuse(self.in_head == InHead::Never, Misfit::NoBus)?;
+            refuse(is_full, Misfit::DecidesInHead)?;
+            refuse(!has_room, Misfit::Share(self.max_sides))?;
         } else {
-            if sides > self.max_sides {
-                return Err(Misfit::Sides(self.max_sides));
-            }
-            if needs.whiskers_per_side != 1 {
-                return Err(Misfit::Whiskers);
-            }
+            refuse(!has_room, Misfit::Sides(self.max_sides))?;
+            refuse(needs.whiskers_per_side != 1, Misfit::Whiskers)?;
         }
-        if sides > 1 && matches!(needs.driver, Some(Driver::SixStep)) {
-            return Err(Misfit::TwoBrushless);
-        }
+        let is_brushless = needs.driver == Some(Driver::SixStep);
+        refuse(sides > 1 && is_brushless, Misfit::TwoBrushless)?;
         let clocks = self.clocks_of(needs.is_slow);
         let most = clocks.tick_max_hz(needs.rest_us);
-        if needs.tick_hz < TICK_MIN_HZ || needs.tick_hz > most {
-            return Err(Misfit::TickHz {
-                most,
-                frame_us: clocks.frame_least_ns() / 1_000,
-                rest_us: needs.rest_us,
-            });
-        }
-        if let Some(bus) = needs.bus
-            && clocks.can_timing(bus.kbit_s).is_none()
-        {
-            return Err(Misfit::BusOfClock(clocks.serial_hz));
-        }
-        if let Some(baud) = needs.serial_baud {
-            if clocks.serial_divider(baud).is_none() {
-                return Err(Misfit::BaudOfClock(clocks.serial_hz));
-            }
-            if !serial_keeps_up(baud, needs.tick_hz) {
-                return Err(Misfit::BaudOfTicks(serial_most(needs.tick_hz)));
-            }
-        }
-        Ok(())
+        let too_fast = Misfit::TickHz {
+            most,
+            frame_us: clocks.frame_least_ns() / 1_000,
+            rest_us: needs.rest_us,
+        };
+        refuse(!(TICK_MIN_HZ..=most).contains(&needs.tick_hz), too_fast)?;
+        let hz = clocks.serial_hz;
+        let is_uneven = |bus: BusConfig| clocks.can_timing(bus.kbit_s).is_none();
+        refuse(needs.bus.is_some_and(is_uneven), Misfit::BusOfClock(hz))?;
+        let Some(baud) = needs.serial_baud else {
+            return Ok(());
+        };
+        let divider = clocks.serial_divider(baud);
+        refuse(divider.is_none(), Misfit::BaudOfClock(hz))?;
+        let most = serial_most(needs.tick_hz);
+        refuse(baud > most, Misfit::BaudOfTicks(most))
     }
+}
+
+fn refuse(is_misfit: bool, misfit: Misfit) -> Result<(), Misfit> {
+    if is_misfit { Err(misfit) } else { Ok(()) }
 }
 
 #[cfg(test)]

@@ -183,7 +183,7 @@ impl Exchange {
         };
         log::requested(request.command);
         let prepared = match request.command {
-            Command::Class(class, from) => class_name(names, class, from),
+            Command::Class(class, from) => Some(class_name(names, class, from)),
             Command::Started => {
                 let values = retained::started().values();
                 Some(Prepared::Done(CommandStatus::Done, values))
@@ -357,9 +357,9 @@ impl Exchange {
     }
 }
 
-fn class_name(names: &Names, class: u8, from: u8) -> Option<Prepared> {
-    Some(match names.find(class.into()) {
+fn class_name(names: &Names, class: u8, from: u8) -> Prepared {
+    match names.find(class.into()) {
         Some(name) => Prepared::Done(CommandStatus::Done, letters(name, from)),
         None => Prepared::Done(CommandStatus::OutOfRange, [0; 2]),
-    })
+    }
 }
