@@ -1,4 +1,4 @@
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable
 from os import PathLike
 from typing import Any, Union, final
 
@@ -28,7 +28,7 @@ __all__ = [
     "train",
 ]
 
-_Scene = str | PathLike[str] | Mapping[str, Any]
+_Scene = str | PathLike[str] | dict[str, Any]
 _Model = Union[Model, bytes, str, PathLike[str]]
 
 class SceneError(ValueError):
@@ -91,7 +91,7 @@ class Sim:
         *,
         seed: int | None = None,
         model: _Model | None = None,
-        set: Mapping[str, Any] | None = None,
+        set: dict[str, Any] | None = None,
     ) -> Self: ...
     def step(self, n: int = 1, *, every: int = 1) -> NDArray[np.void]:
         """Advances by `n` ticks, beyond the scene's end too, and returns every `every`th row of
@@ -171,7 +171,7 @@ class Envs:
         action: str = "setpoint",
         ticks: int = 1,
         model: _Model | None = None,
-        set: Mapping[str, Any] | None = None,
+        set: dict[str, Any] | None = None,
     ) -> Self: ...
     def step(
         self, actions: NDArray[np.float64], begin: NDArray[np.bool_], seeds: NDArray[np.uint64]
@@ -240,7 +240,7 @@ def read(
     `record` returns them, with the columns that the file has, and with its rate. `channels` are the columns that are read as the two channels.
     """
 def record(
-    scene: _Scene, *, seed: int | None = None, set: Mapping[str, Any] | None = None
+    scene: _Scene, *, seed: int | None = None, set: dict[str, Any] | None = None
 ) -> NDArray[np.void]:
     """Runs a scene and returns what its whiskers feel that are heard, the air included: a recording
     to train on. The scene's classifier is not used. Its type knows the rate,
@@ -252,7 +252,7 @@ def run_many(
     *,
     every: int = 20,
     model: _Model | None = None,
-    set: Mapping[str, Any] | None = None,
+    set: dict[str, Any] | None = None,
 ) -> tuple[NDArray[np.void], NDArray[np.void]]:
     """Runs a scene once for each seed, on all cores. `rows` is a structured array of shape
     (seeds, rows) with every `every`th row of each trace (0: none); `decisions` has those of all

@@ -13,7 +13,7 @@ Needs ``gymnasium``.
 """
 
 import operator
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Sequence
 from typing import Any
 
 import gymnasium
@@ -103,7 +103,7 @@ class WhiskerEnv(gymnasium.Env):
         action: str = "setpoint",
         ticks: int = 1,
         model: Any = None,
-        set: Mapping[str, Any] | None = None,
+        set: dict[str, Any] | None = None,
         render_mode: str | None = None,
     ) -> None:
         scene = SCENES["textures"] if scene is None else scene
@@ -165,7 +165,7 @@ class WhiskerVectorEnv(VectorEnv):
         action: str = "setpoint",
         ticks: int = 1,
         model: Any = None,
-        set: Mapping[str, Any] | None = None,
+        set: dict[str, Any] | None = None,
         render_mode: str | None = None,
     ) -> None:
         scene = SCENES["textures"] if scene is None else scene
