@@ -30,7 +30,8 @@ def main(seeds: int) -> list[dict]:
         of_setting = rows[n : n + seeds]
         setting = " ".join(f"{key}={of_setting[0][key]}" for key in KEYS)
         right = np.array([row["right"] for row in of_setting])
-        error = np.nanstd(right, ddof=1) / np.sqrt(seeds) if seeds > 1 else np.nan
+        count = np.isfinite(right).sum()
+        error = np.nanstd(right, ddof=1) / np.sqrt(count) if count > 1 else np.nan
         print(f"{setting}: right {np.nanmean(right):.3f} ± {error:.3f}")
     return rows
 
