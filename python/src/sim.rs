@@ -112,7 +112,8 @@ pub(crate) struct Sim {
     shape: TraceShape,
     classes: Vec<String>,
     name: String,
-    has_textures: bool,
+    /// The words of those that can be laid.
+    textures: Vec<&'static str>,
     tick_hz: u32,
     /// How many the scene lasts.
     ticks: u64,
@@ -135,7 +136,7 @@ impl Sim {
             tables: RunTables::of(scene, &classes),
             shape: TraceShape::of(scene),
             name: scene.name.clone(),
-            has_textures: scene.plant.textured.is_some(),
+            textures: scene.plant.textures_to_lay(),
             tick_hz: scene.tick_hz,
             ticks: scene.ticks(),
             angles_deg: scene
@@ -328,15 +329,16 @@ impl Sim {
 
     /// Has a texture laid in place of the present one, once that is not touched, and left there.
     fn lay(&self, py: Python<'_>, texture: &str) -> PyResult<()> {
-        let Some(place) = Texture::NAMES.iter().position(|name| *name == texture) else {
-            let allowed = Texture::NAMES.join(", ");
-            let fault = format!("texture: found {texture:?}, allowed: {allowed}");
-            return Err(wrong(fault));
-        };
-        if !self.has_textures {
+        if self.textures.is_empty() {
             let fault = format!("texture: scene {:?} has none to exchange", self.name);
             return Err(wrong(fault));
         }
+        let place = Texture::NAMES.iter().position(|name| *name == texture);
+        let Some(place) = place.filter(|_| self.textures.contains(&texture)) else {
+            let allowed = self.textures.join(", ");
+            let fault = format!("texture: found {texture:?}, allowed: {allowed}");
+            return Err(wrong(fault));
+        };
         let laid = py.detach(|| self.state().call(LAY, place, 0.0));
         laid.map_err(wrong)
     }

@@ -160,10 +160,13 @@ def test_setpoint_and_gain_move_the_whisker():
 
 def test_a_texture_is_laid():
     sim = vibrissa.Sim(TEXTURES)
-    sim.lay("rough-carpet")
-    assert set(sim.step(8000)["label"]) == {"rough-carpet"}
-    with pytest.raises(ValueError, match="allowed: smooth"):
-        sim.lay("silk")
+    sim.lay("carpet")
+    assert set(sim.step(8000)["label"]) == {"carpet"}
+    # Without an elastic shaft few are described, and none of the scene's own.
+    for other in ("silk", "rough-carpet", "own-1"):
+        with pytest.raises(ValueError, match="allowed: smooth, p600, p240, carpet$"):
+            sim.lay(other)
+    vibrissa.Sim("whisker").lay("rough-carpet")
     with pytest.raises(ValueError, match='"still" has none'):
         vibrissa.Sim(STILL).lay("carpet")
 

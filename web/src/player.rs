@@ -260,17 +260,8 @@ impl Player {
 
     /// The textures that can be laid: all that its plant computes; none where it has none.
     pub fn textures(&self) -> Vec<String> {
-        let Some(textured) = &self.scene.plant.textured else {
-            return Vec::new();
-        };
-        let elastic = self.scene.plant.kind == PlantKind::Whisker;
-        let known = |texture: Texture| match texture.own() {
-            Some(_) => textured.textures.contains(&texture),
-            None => elastic || texture.is_simple(),
-        };
-        let named = |name: &&&str| Texture::named(name).is_some_and(known);
-        let names = Texture::NAMES.iter().filter(named);
-        names.map(|name| (*name).to_owned()).collect()
+        let names = self.scene.plant.textures_to_lay().into_iter();
+        names.map(str::to_owned).collect()
     }
 
     /// Whiskers on each side.

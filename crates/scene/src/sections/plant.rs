@@ -162,6 +162,25 @@ keys! {
     }
 }
 
+impl PlantSection {
+    /// The words of the textures that can be laid before its whiskers: all that it computes; none
+    /// where it has none.
+    pub fn textures_to_lay(&self) -> Vec<&'static str> {
+        let Some(textured) = &self.textured else {
+            return Vec::new();
+        };
+        let elastic = self.kind == PlantKind::Whisker;
+        let known = |texture: Texture| match texture.own() {
+            Some(_) => textured.textures.contains(&texture),
+            None => elastic || texture.is_simple(),
+        };
+        let names = Texture::NAMES.iter().copied();
+        names
+            .filter(|name| Texture::named(name).is_some_and(known))
+            .collect()
+    }
+}
+
 /// Free air, motors and whiskers being simulated as for textures.
 impl Default for PlantSection {
     fn default() -> Self {
