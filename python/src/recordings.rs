@@ -138,7 +138,7 @@ pub(crate) fn array<'py>(
     let poses = || streams.iter().filter_map(|stream| stream.pose.as_deref());
     let pose = Kind::text(poses());
     let stands = has(streams, |stream| stream.stands.is_some()).then_some(Kind::Number);
-    let kinds = [
+    let mut kinds = [
         Some(label),
         Some(trial),
         Some(Kind::Number),
@@ -151,6 +151,12 @@ pub(crate) fn array<'py>(
     ];
     let mut names = COLUMNS.map(|column| column.name);
     names[2..4].copy_from_slice(&channels);
+    // A channel may be another column too, which is there once.
+    for (n, kind) in kinds.iter_mut().enumerate() {
+        if names[..n].contains(&names[n]) {
+            *kind = None;
+        }
+    }
     let columns = names.into_iter().zip(kinds);
     let layout = Layout::new(columns.filter_map(|(name, kind)| Some((name, kind?))));
     let mut rows = Vec::new();
@@ -159,7 +165,11 @@ pub(crate) fn array<'py>(
             let mut row = layout.row(&mut rows);
             row.text(&stream.label);
             row.text(&stream.trial);
-            row.numbers(&[*x, *y], 0);
+            for (at, value) in [(2, x), (3, y)] {
+                if kinds[at].is_some() {
+                    row.number(*value, 0);
+                }
+            }
             if kinds[4].is_some() {
                 let contact = stream.contact.as_ref().and_then(|all| all.get(n));
                 row.number(contact.copied().unwrap_or(1.0), 0);
@@ -171,8 +181,11 @@ pub(crate) fn array<'py>(
             if kinds[6].is_some() {
                 row.text(stream.pose.as_deref().unwrap_or_default());
             }
-            if stands.is_some() {
-                row.numbers(&stream.stands.unwrap_or([f64::NAN; 2]), 0);
+            let stands = stream.stands.unwrap_or([f64::NAN; 2]);
+            for (at, value) in [(7, stands[0]), (8, stands[1])] {
+                if kinds[at].is_some() {
+                    row.number(value, 0);
+                }
             }
         }
     }

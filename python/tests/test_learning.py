@@ -275,6 +275,11 @@ def test_files_do(heard, files):
     assert bytes(vibrissa.train(dict(zip("ab", halves)))) == bytes(model)
     decided = vibrissa.classify(model, whole)
     assert np.array_equal(decided, vibrissa.classify(model, heard))
+    # A channel may be a column that has a use of its own.
+    for channels in (("x", "contact"), ("trial", "y")):
+        assert vibrissa.read(whole, channels=channels).dtype.names[2:] != heard.dtype.names[2:]
+        both = [bytes(vibrissa.train(one, channels=channels)) for one in (whole, heard)]
+        assert both[0] == both[1]
     with pytest.raises(FileNotFoundError, match="nowhere.csv"):
         vibrissa.train("nowhere.csv")
     with pytest.raises(ValueError, match=r"whole\.csv: line 2: no column \"u\""):
