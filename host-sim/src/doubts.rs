@@ -6,7 +6,14 @@ pub mod outliers;
 
 use std::collections::HashSet;
 
+use tactile::ModelBuf;
+
+use crate::evaluation;
 use crate::recording::Stream;
+
+/// Share of samples that may lie outside of a model's range; of the training itself it is
+/// below 1 %.
+const OUTSIDE: f64 = 0.05;
 
 /// Something odd.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -31,6 +38,32 @@ pub fn doubts(recordings: &[(String, Vec<Stream>)], channels: [&str; 2]) -> Vec<
     }
     found.extend(equal::doubts(recordings));
     found
+}
+
+/// The first sample outside of a model's range, counted from 0 over all streams, and what it is; none
+/// where few are.
+pub fn outside(
+    model: &ModelBuf,
+    streams: &[Stream],
+    channels: [&str; 2],
+) -> Option<(usize, String)> {
+    let (outside, first) = evaluation::outside(model, streams);
+    let (sample, [channel, of_model]) = first.filter(|_| outside > OUTSIDE)?;
+    let mut samples = streams.iter().flat_map(|stream| &stream.samples);
+    let value = samples.nth(sample).and_then(|values| values.get(channel));
+    let (low, high) = model.quantiser(of_model).map_or((0.0, 0.0), |quantiser| {
+        let unit = f64::from(-quantiser.exponent).exp2();
+        let value = |code: i32| quantiser.origin + f64::from(code) * unit;
+        (value(quantiser.low), value(quantiser.high))
+    });
+    let said = format!(
+        "{} is {}; the model was trained on {low} to {high}. {:.0} % of samples lie outside of \
+         the range that the model was trained on: other units, another sensor, or another motion?",
+        channels.get(channel).unwrap_or(&""),
+        value.unwrap_or(&f64::NAN),
+        100.0 * outside
+    );
+    Some((sample, said))
 }
 
 /// Where a trial begins again after rows of another, and how often that is so.

@@ -7,11 +7,7 @@ use scene::file;
 use tactile::ModelBuf;
 
 use crate::recording::{self, Stream};
-use crate::{classifier, doubts, evaluation};
-
-/// Share of samples that may lie outside of a model's range; of the training itself it is
-/// below 1 %.
-const OUTSIDE: f64 = 0.05;
+use crate::{classifier, doubts};
 
 /// What does not fit, a line each: samples outside of the model's range, if there are more
 /// than a few, and labels that are none of its classes. `path` has the recording of which
@@ -23,25 +19,8 @@ pub fn misfits(
     streams: &[Stream],
 ) -> Vec<String> {
     let mut found = Vec::new();
-    let (outside, first) = evaluation::outside(model, streams);
-    if let Some((sample, [channel, of_model])) = first.filter(|_| outside > OUTSIDE) {
-        let mut samples = streams.iter().flat_map(|stream| &stream.samples);
-        let value = samples.nth(sample).and_then(|values| values.get(channel));
-        let (low, high) = model.quantiser(of_model).map_or((0.0, 0.0), |quantiser| {
-            let unit = f64::from(-quantiser.exponent).exp2();
-            let value = |code: i32| quantiser.origin + f64::from(code) * unit;
-            (value(quantiser.low), value(quantiser.high))
-        });
-        let said = format!(
-            "{} is {}; the model was trained on {low} to {high}. {:.0} % of samples lie outside of \
-             the range that the model was trained on: other units, another sensor, or another \
-             motion?",
-            channels.get(channel).unwrap_or(&""),
-            value.unwrap_or(&f64::NAN),
-            100.0 * outside
-        );
-        found.push((sample, "warning", said));
-    }
+    let outside = doubts::outside(model, streams, channels);
+    found.extend(outside.map(|(sample, said)| (sample, "warning", said)));
     let classes = classifier::names(model);
     let mut unknown: Vec<&str> = Vec::new();
     let mut first = 0;

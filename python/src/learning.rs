@@ -121,18 +121,6 @@ pub(crate) fn train(
     })
 }
 
-/// A recording that the Python side has prepared; what is odd about it becomes warnings.
-fn warned(
-    py: Python<'_>,
-    data: &Prepared<'_>,
-    channels: &[String; 2],
-) -> PyResult<(String, Vec<Stream>)> {
-    let read = [data.read()?];
-    recordings::warn(py, &read, channels)?;
-    let [read] = read;
-    Ok(read)
-}
-
 /// Whether a recording, if it says its samples a second, has those of the model.
 fn at_its_rate(model: &ModelBuf, rate: Option<u32>) -> PyResult<()> {
     let model = ("model".to_owned(), model.rate_hz());
@@ -164,12 +152,14 @@ pub(crate) fn classify<'py>(
     let model = model::given(model)?;
     at_its_rate(&model, rate)?;
     let has_pose = model.has_pose();
+    let read = [data.read()?];
+    recordings::warn_before(py, &read, &channels, &model)?;
+    let [(_, streams)] = &read;
     let replay = Replay::new(model, rule);
     let mut replay = replay.map_err(|fault| match fault {
         Fault::Model(fault) => wrong(format!("model: {fault}")),
         Fault::Rule(fault) => wrong(format!("{name}: {fault}")),
     })?;
-    let (_, streams) = &warned(py, &data, &channels)?;
     let decided = py.detach(|| {
         let each = streams.iter().map(|stream| replay.stream(stream));
         each.collect::<Result<Vec<Vec<Decided>>, _>>()
@@ -219,7 +209,7 @@ pub(crate) fn evaluate<'py>(
         .iter()
         .map(Prepared::read)
         .collect::<PyResult<Vec<_>>>()?;
-    recordings::warn(py, &read, &channels)?;
+    recordings::warn_before(py, &read, &channels, &model)?;
     let streams: Vec<Stream> = read.into_iter().flat_map(|(_, streams)| streams).collect();
     let presented = py.detach(|| evaluation::presentations(&model, threshold, &streams));
     let presented = presented.map_err(wrong)?;

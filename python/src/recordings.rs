@@ -9,6 +9,7 @@ use numpy::{PyReadonlyArray1, PyReadonlyArray2};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use scene::file;
+use tactile::ModelBuf;
 
 use crate::outside::{self, file_error};
 use crate::table::{Kind, Layout};
@@ -105,13 +106,35 @@ pub(crate) fn warn(
     let channels = channels.each_ref().map(String::as_str);
     for doubt in py.detach(|| doubts::doubts(recordings, channels)) {
         let name = recordings.get(doubt.recording).map_or("", |(name, _)| name);
-        let text = format!("{name}: row {}: {}", doubt.sample, doubt.said);
-        let keywords = PyDict::new(py);
-        // At the line that has called the function of Python.
-        keywords.set_item("stacklevel", 2)?;
-        let warnings = py.import("warnings")?;
-        warnings.call_method("warn", (text,), Some(&keywords))?;
+        warn_of(py, name, doubt.sample, &doubt.said)?;
     }
+    Ok(())
+}
+
+/// The same of recordings that a model is to judge, and of samples outside of its range.
+pub(crate) fn warn_before(
+    py: Python<'_>,
+    recordings: &[(String, Vec<Stream>)],
+    channels: &[String; 2],
+    model: &ModelBuf,
+) -> PyResult<()> {
+    warn(py, recordings, channels)?;
+    let channels = channels.each_ref().map(String::as_str);
+    for (name, streams) in recordings {
+        if let Some((row, said)) = py.detach(|| doubts::outside(model, streams, channels)) {
+            warn_of(py, name, row, &said)?;
+        }
+    }
+    Ok(())
+}
+
+fn warn_of(py: Python<'_>, name: &str, row: usize, said: &str) -> PyResult<()> {
+    let keywords = PyDict::new(py);
+    // At the line that has called the function of Python.
+    keywords.set_item("stacklevel", 2)?;
+    let text = format!("{name}: row {row}: {said}");
+    let warnings = py.import("warnings")?;
+    warnings.call_method("warn", (text,), Some(&keywords))?;
     Ok(())
 }
 

@@ -151,6 +151,10 @@ def test_what_is_odd_is_warned_of_by_row():
     with pytest.warns(UserWarning, match="row 7: x is 1000000000, far from"):
         model = vibrissa.train(data, tables="single")
     assert vibrissa.evaluate(model, usual()).hits == whole.hits
+    other = usual() | {"x": 3.0 * usual()["x"] + 50000.0}
+    for judge in (vibrissa.evaluate, vibrissa.classify):
+        with pytest.warns(UserWarning, match="row 0: x is .* 100 % of samples lie outside"):
+            judge(model, other)
     overlapping = joined(usual(), plain("low", 9, 1000 + repeated(400, 100)))
     with pytest.warns(UserWarning, match="trials must not overlap"):
         vibrissa.train(overlapping, tables="single")
