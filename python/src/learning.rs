@@ -117,6 +117,10 @@ pub(crate) fn train(
     recordings::warn(py, &read, &channels)?;
     trained.map(Model::from).map_err(|fault| match fault {
         TrainError::TooShort { .. } => wrong(format!("{fault}; {}", doubts::short(&read))),
+        TrainError::Range { channel } if channel < channels.len() => wrong(format!(
+            "{}: its range is too wide or too narrow",
+            channels[channel]
+        )),
         _ => wrong(fault),
     })
 }

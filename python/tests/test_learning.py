@@ -203,6 +203,8 @@ def test_a_recording_knows_its_rate_and_another_is_refused(heard):
     assert bytes(vibrissa.train(table, tables="single")) == bytes(model)
     with pytest.raises(ValueError, match="rate: found 2000, recording: tick_hz has 1000"):
         vibrissa.train(slow, tables="single", rate=2000)
+    with pytest.raises(ValueError, match="rate: found 0, allowed: above 0"):
+        vibrissa.train(columns, rate=0)
     both = "recording 1: tick_hz: found 2000, recording 2: tick_hz has 1000"
     with pytest.raises(ValueError, match=both):
         vibrissa.train([heard, slow], tables="single")
@@ -222,15 +224,33 @@ def test_a_recording_of_another_rate_is_not_judged(heard):
 def test_what_is_no_recording_is_said_by_column_and_row(heard):
     columns = {name: heard[name] for name in heard.dtype.names}
     text = np.where(np.arange(len(heard)) == 7, "0,5", heard["x"].astype(str))
+    depth = np.full(len(heard), "0,5")
     for changed, says in [
         (columns | {"x": text}, "row 7: x is '0,5'"),
         (columns | {"touch": np.full(len(heard), "yes")}, "row 0: touch: found 'yes'"),
+        (columns | {"touch": np.arange(len(heard)) % 9 - 2}, "row 0: touch: found '-2'"),
+        (columns | {"touch": np.arange(len(heard)) % 9 / 2}, "row 1: touch: found '0.5'"),
+        (columns | {"tilt_deg": depth == "", "depth_deg": depth}, "row 0: depth_deg is '0,5'"),
+        (columns | {"x": heard["x"] * 1e300}, "x: its range is too wide"),
         ({"lable": heard["label"], "x": heard["x"]}, "no column 'label'"),
     ]:
         with pytest.raises(ValueError, match=says):
             vibrissa.train(changed)
     with pytest.raises(ValueError, match="channels: both are 'x'"):
         vibrissa.train(columns, channels=("x", "x"))
+    with pytest.raises(ValueError, match="channels: found .*, two are needed"):
+        vibrissa.train(columns, channels=("x", "y", "contact"))
+    for judge in (vibrissa.train, lambda none: vibrissa.evaluate(SHIPPED, none)):
+        with pytest.raises(ValueError, match="recordings: found none"):
+            judge([])
+
+
+def test_blanks_about_cells_count_no_more_than_in_a_file(heard):
+    columns = {name: heard[name] for name in heard.dtype.names}
+    names = ("label", "trial")
+    blank = {name: np.char.add(np.char.add(" ", heard[name]), " ") for name in names}
+    empty = {"tilt_deg": np.full(len(heard), " "), "depth_deg": np.full(len(heard), "")}
+    assert bytes(vibrissa.train(columns | blank | empty, expect="same")) == SHIPPED
 
 
 def test_a_scene_without_a_classifier_has_no_use_for_a_model(heard):

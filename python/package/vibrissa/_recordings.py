@@ -50,13 +50,16 @@ def _is_missing(value: Any) -> bool:
 
 def _tokens(name: str, column: str, values: np.ndarray) -> np.ndarray:
     """Labels or trials as text; those that are missing are refused by their row."""
-    if values.dtype.kind in "iubU":
+    if values.dtype.kind == "U":
+        # As blanks about cells of a file.
+        return np.char.strip(values)
+    if values.dtype.kind in "iub":
         return values
     for row, value in enumerate(values):
         if _is_missing(value):
             raise ValueError(f"{name}: row {row}: the {column} is missing")
     texts = [value.decode() if isinstance(value, bytes) else str(value) for value in values]
-    return np.asarray(texts, dtype=str)
+    return np.char.strip(np.asarray(texts, dtype=str))
 
 
 def _poses(poses: np.ndarray | None, rows: int) -> np.ndarray:
@@ -69,40 +72,49 @@ def _poses(poses: np.ndarray | None, rows: int) -> np.ndarray:
 
 
 def _pose(poses: np.ndarray | None, row: int) -> str | None:
-    if poses is None or _is_missing(poses[row]) or str(poses[row]) == "":
+    if poses is None or _is_missing(poses[row]):
         return None
-    return str(poses[row])
+    return str(poses[row]).strip() or None
 
 
-def _stands(of_row: list[np.ndarray | None], row: int) -> tuple[float, float] | None:
+def _stands(
+    name: str, of_row: dict[str, np.ndarray | None], row: int
+) -> tuple[float, float] | None:
     """Tilt and depth, where both are there."""
-    values = [values[row] for values in of_row if values is not None]
-    if len(values) < len(of_row) or any(map(_is_missing, values)):
+    given = {column: values[[row]] for column, values in of_row.items() if values is not None}
+    empty = [_is_missing(one) or str(one).strip() == "" for (one,) in given.values()]
+    if len(given) < len(of_row) or any(empty):
         return None
-    tilt, depth = map(float, values)
+    tilt, depth = (float(_numbers(name, column, one, row)[0]) for column, one in given.items())
     return tilt, depth
 
 
 def _touches(name: str, values: np.ndarray) -> np.ndarray:
     """Numbers of touches, or truths."""
-    for row, value in enumerate(values if values.dtype.kind not in "iub" else ()):
-        is_text = isinstance(value, (str, bytes))
-        if is_text or _is_missing(value) or not 0 <= value <= 65535:
-            raise ValueError(
-                f"{name}: row {row}: touch: found {str(value)!r}, allowed: whole numbers from 0 to 65535"
-            )
-    whole = values.astype(np.int64)
-    if np.any(whole != values) or np.any((whole < 0) | (whole > 65535)):
-        raise ValueError(f"{name}: touch: allowed: whole numbers from 0 to 65535")
-    return whole.astype(np.uint16)
+    if values.dtype.kind in "iub":
+        wrong = np.flatnonzero((values < 0) | (values > 65535))
+    else:
+        wrong = [row for row, value in enumerate(values) if not _is_touch(value)]
+    for row in wrong[:1]:
+        raise ValueError(
+            f"{name}: row {row}: touch: found {str(values[row])!r}, "
+            "allowed: whole numbers from 0 to 65535"
+        )
+    return values.astype(np.uint16)
 
 
-def _numbers(name: str, column: str, values: np.ndarray) -> np.ndarray:
+def _is_touch(value: Any) -> bool:
+    if isinstance(value, (str, bytes)) or _is_missing(value):
+        return False
+    return 0 <= value <= 65535 and int(value) == value
+
+
+def _numbers(name: str, column: str, values: np.ndarray, first: int = 0) -> np.ndarray:
     """As numbers of double precision; what is none is refused by its row."""
     try:
         return np.ascontiguousarray(values, dtype=np.float64)
     except (TypeError, ValueError):
-        for row, value in enumerate(values):
+        for row, value in enumerate(values, first):
             try:
                 float(value)
             except (TypeError, ValueError):
@@ -112,6 +124,8 @@ def _numbers(name: str, column: str, values: np.ndarray) -> np.ndarray:
 
 
 def prepared(name: str, recording: Any, channels: tuple[str, str]) -> Prepared:
+    if len(channels) != 2:
+        raise ValueError(f"channels: found {channels!r}, two are needed")
     if channels[0] == channels[1]:
         raise ValueError(f"channels: both are {channels[0]!r}, two are needed")
     found = {column: _column(recording, column) for column in ("label", "trial", *channels)}
@@ -136,7 +150,7 @@ def prepared(name: str, recording: Any, channels: tuple[str, str]) -> Prepared:
     changes = np.flatnonzero(np.any(differ, axis=0)) + 1
     ends = [0, *changes.tolist(), len(label)]
     streams = [
-        (str(label[a]), str(trial[a]), a, b, _pose(pose, a), _stands(list(stands.values()), a))
+        (str(label[a]), str(trial[a]), a, b, _pose(pose, a), _stands(name, stands, a))
         for a, b in zip(ends, ends[1:])
         if b > a
     ]
@@ -159,6 +173,8 @@ def named(recordings: Any, channels: tuple[str, str]) -> list[tuple[str, Any]]:
         all_of_them = [(_name(one, f"recording {n}"), one) for n, one in enumerate(recordings, 1)]
     else:
         all_of_them = [(_name(recordings, "recording"), recordings)]
+    if not all_of_them:
+        raise ValueError("recordings: found none, allowed: one or more")
     return [
         (name, _core.read(one, channels=channels) if isinstance(one, (str, PathLike)) else one)
         for name, one in all_of_them
@@ -195,7 +211,8 @@ def rate_of(named: list[tuple[str, Any]], rate: int | None) -> int:
             f"{others[0]}: tick_hz is {own_rates[others[0]]}, {silent[0]}: tick_hz is not said; "
             "say what both have by rate"
         )
-    return said_rate(named, rate) or USUAL_RATE
+    said = said_rate(named, rate)
+    return USUAL_RATE if said is None else said
 
 
 def said_rate(named: list[tuple[str, Any]], rate: int | None = None) -> int | None:
