@@ -9,6 +9,7 @@
 
 use std::env::args;
 use std::f64::consts::TAU;
+use std::str::FromStr;
 use std::time::Instant;
 
 use physics::{
@@ -25,10 +26,13 @@ const TOUCH: f64 = 1.0;
 const STILL: usize = 2;
 
 fn main() {
-    let Some((push_rad, push_s, tick_hz, finer, contact, repeats)) = arguments() else {
-        eprintln!("push PUSH_DEG PUSH_S TICK_HZ FINER plate|free REPEATS");
-        std::process::exit(2);
+    let words: Vec<String> = args().skip(1).collect();
+    let [push_deg, push_s, tick_hz, finer, contact, repeats] = words.as_slice() else {
+        refuse();
     };
+    let push_rad = number::<f64>(push_deg).to_radians();
+    let [push_s, tick_hz] = [push_s, tick_hz].map(|word| number::<f64>(word));
+    let (finer, repeats) = (number(finer), number::<usize>(repeats));
     let shaft = Shaft::biotact(Biotact::Middle);
     let facing = Facing {
         tilt_deg: 0.0,
@@ -40,7 +44,7 @@ fn main() {
         ..Surface::of(Material::Flat)
     };
     let plate = Plate::in_the_way(TOUCH, shaft.length_m, &facing, smooth);
-    let plate = contact.then_some(plate);
+    let plate = (contact == "plate").then_some(plate);
 
     let ticks = (push_s * tick_hz).round() as usize;
     let dt_s = 1.0 / tick_hz;
@@ -75,20 +79,11 @@ fn main() {
     println!("seconds,{}", least_s / push_s);
 }
 
-fn arguments() -> Option<(f64, f64, f64, u32, bool, usize)> {
-    let mut words = args().skip(1);
-    let push_deg: f64 = words.next()?.parse().ok()?;
-    let push_s = words.next()?.parse().ok()?;
-    let tick_hz = words.next()?.parse().ok()?;
-    let finer = words.next()?.parse().ok()?;
-    let contact = words.next()? == "plate";
-    let repeats = words.next()?.parse().ok()?;
-    Some((
-        push_deg.to_radians(),
-        push_s,
-        tick_hz,
-        finer,
-        contact,
-        repeats,
-    ))
+fn number<T: FromStr>(word: &str) -> T {
+    word.parse().unwrap_or_else(|_| refuse())
+}
+
+fn refuse() -> ! {
+    eprintln!("push PUSH_DEG PUSH_S TICK_HZ FINER plate|free REPEATS");
+    std::process::exit(2)
 }

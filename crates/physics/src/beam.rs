@@ -162,7 +162,6 @@ impl Assembly {
         }
     }
 
-    /// Leaves out the rows that are held.
     fn hold(self, held: usize) -> Self {
         let square = |m: DMatrix<f64>| m.remove_rows(0, held).remove_columns(0, held);
         Self {

@@ -33,13 +33,11 @@ pub(crate) struct Problem {
     pub(crate) response: [[f64; 3]; 3],
     /// 1/k_n and 1/k_t, m/N; positive.
     pub(crate) springs: [f64; 2],
-    /// Coefficient of friction μ.
     pub(crate) friction: f64,
     /// First guess of the direction of T if the tip slides: the last one, or zero.
     pub(crate) near: [f64; 2],
 }
 
-/// The force of a contact during a part.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(crate) struct Force {
     /// N and the two components of T, N.

@@ -39,7 +39,6 @@ pub(crate) struct Grid {
 /// An arc length, and how places there come from tangents.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Place {
-    /// From the base, m.
     pub(crate) at_m: f64,
     /// Of each node in the integral of the tangent, m.
     pub(crate) weights: [f64; NODES],

@@ -13,9 +13,6 @@ pub struct Magnet {
     axial_mt: f64,
 }
 
-/// μ₀ / (4π), in T m/A.
-const MU_0_OVER_4_PI: f64 = 1e-7;
-
 impl Magnet {
     /// From its field at the sensor while the whisker is at rest, mT, 0.01 to 1000.
     ///
@@ -24,15 +21,6 @@ impl Magnet {
     pub fn of_field(axial_mt: f64) -> Result<Self, BadSetting> {
         BadSetting::check("axial_mt", axial_mt, 0.01, 1000.0)?;
         Ok(Self { axial_mt })
-    }
-
-    /// From its moment, A m², and its distance from the sensor, m.
-    ///
-    /// # Errors
-    /// If they give a field out of the range of [`Magnet::of_field`].
-    pub fn of_moment(moment_a_m2: f64, distance_m: f64) -> Result<Self, BadSetting> {
-        let axial_t = 2.0 * MU_0_OVER_4_PI * moment_a_m2 / distance_m.powi(3);
-        Self::of_field(1e3 * axial_t)
     }
 
     /// The field at the sensor along X, Y and Z, mT, of a magnet tilted by these angles, rad:
@@ -78,20 +66,9 @@ mod tests {
     }
 
     #[test]
-    fn a_known_moment() {
-        // 1 A m² at 10 cm: 0.2 mT on the axis, 0.1 mT beside it.
-        let magnet = Magnet::of_moment(1.0, 0.1).unwrap();
-        let [x, y, z] = magnet.field_mt([0.0; 2]);
-        assert!(x == 0.0 && y == 0.0 && (z - 0.2).abs() < 1e-15);
-        let [x, y, z] = magnet.field_mt([std::f64::consts::FRAC_PI_2, 0.0]);
-        assert!((x + 0.1).abs() < 1e-15 && y == 0.0 && z.abs() < 1e-15);
-    }
-
-    #[test]
     fn settings_out_of_range_are_refused() {
         assert!(Magnet::of_field(0.0).is_err());
         assert!(Magnet::of_field(f64::NAN).is_err());
-        assert!(Magnet::of_moment(1.0, 0.0).is_err());
     }
 
     proptest! {

@@ -43,7 +43,6 @@ pub(crate) struct ModalShaft {
 }
 
 impl ModalShaft {
-    /// The constants of a checked shaft with its modes.
     pub(crate) fn new(shaft: &Shaft, modes: &Modes) -> Self {
         let of = |k: usize| modes.modes.get(k).copied();
         let part = |k: usize, value: fn(BendingMode) -> f64| of(k).map_or(0.0, value);
@@ -144,7 +143,6 @@ pub(crate) struct ModalState {
 }
 
 impl ModalState {
-    /// Moves the modes on without a force.
     #[inline]
     pub(crate) fn free(&mut self, step: &ModalStep) {
         for ((x, v), over) in self.x.iter_mut().zip(&mut self.v).zip(&step.over) {
@@ -232,7 +230,6 @@ impl ModalState {
         0.5 * (moving.sum::<f64>() + (MODES..SHAPES).map(square).sum::<f64>())
     }
 
-    /// Kinetic and elastic energy, J.
     pub(crate) fn energy_j(&self, shaft: &ModalShaft) -> f64 {
         let moving = self.v.iter().flatten().map(|v| 0.5 * v * v);
         moving.sum::<f64>() + self.elastic_j(shaft)

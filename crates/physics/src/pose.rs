@@ -77,7 +77,6 @@ impl PlateFrame {
 
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct PlatePose {
-    /// Base of the shaft, m.
     pub(crate) base: V3,
     pub(crate) x: V3,
     pub(crate) y: V3,

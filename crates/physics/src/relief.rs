@@ -50,11 +50,9 @@ impl Default for Cell {
 
 #[derive(Debug, Clone, Copy, Default)]
 struct Octave {
-    /// Lattice points a metre.
     per_m: f64,
     /// Height of a lattice number of 1, m.
     height_m: f64,
-    /// Direction of the lattice.
     turn: [f64; 2],
     seed: u64,
     /// The cell of the last place: the next one mostly lies in it too.
@@ -101,7 +99,6 @@ impl Octave {
         }
     }
 
-    /// Height and its slopes at a place.
     #[inline]
     fn at(&mut self, place: [f64; 2]) -> [f64; 3] {
         let [c, s] = self.turn;

@@ -63,7 +63,6 @@ pub(crate) struct Sensor {
 }
 
 impl Sensor {
-    /// With checked settings.
     pub(crate) fn new(settings: SensorSettings, seed: u64) -> Self {
         Self {
             settings,
@@ -104,12 +103,10 @@ impl Sensor {
         }
     }
 
-    /// The last measurement, ±8191.
     pub(crate) fn codes(&self) -> [i16; 2] {
         self.codes
     }
 
-    /// The last measurement, ±1.
     pub(crate) fn reading(&self) -> [f64; 2] {
         self.codes.map(|code| f64::from(code) / CODES)
     }

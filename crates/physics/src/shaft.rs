@@ -56,7 +56,6 @@ impl Shaft {
         Ok(())
     }
 
-    /// Diameter at a distance from the base, m.
     pub(crate) fn diameter_m(&self, at_m: f64) -> f64 {
         let share = at_m / self.length_m;
         self.hub_diameter_m + share * (self.tip_diameter_m - self.hub_diameter_m)

@@ -247,7 +247,6 @@ impl Curve {
         core::array::from_fn(|n| up[0] * x[n] + up[1] * y[n] + up[2] * z[n])
     }
 
-    /// The lowest place, for such heights.
     #[inline]
     pub(crate) fn lowest(&self, grid: &Grid, up: V3) -> Place {
         grid.lowest(&self.rises(up))
@@ -256,10 +255,8 @@ impl Curve {
     /// Whether it falls up to an arc length and rises from there on, for such heights.
     #[inline]
     pub(crate) fn has_one_valley(&self, grid: &Grid, at_m: f64, up: V3) -> bool {
-        let [x, y, z] = &self.0;
-        let nodes = grid.nodes.iter().zip(x.iter().zip(y.iter().zip(z)));
-        nodes.fold(true, |has, (node_m, (x, (y, z)))| {
-            let rise = up[0] * x + up[1] * y + up[2] * z;
+        let nodes = grid.nodes.iter().zip(self.rises(up));
+        nodes.fold(true, |has, (node_m, rise)| {
             has & if *node_m < at_m {
                 rise <= 0.0
             } else {

@@ -50,7 +50,6 @@ mod law;
 mod outputs;
 mod part;
 mod rounds;
-mod secant;
 mod second;
 mod step;
 

@@ -38,7 +38,6 @@ struct Shot {
     place: [f64; 2],
 }
 
-/// The solutions from push to push.
 pub(super) struct Path<'p> {
     press: &'p Press,
     normal: V3,

@@ -142,7 +142,6 @@ pub(super) struct Ground {
     /// With its values limited to their ranges.
     pub(super) surface: Surface,
     pub(super) relief: Relief,
-    /// 1/k, m/N.
     pub(super) compliance_m_n: f64,
 }
 
@@ -175,7 +174,6 @@ impl Ground {
 pub(super) struct Touch {
     /// Stretch along the whisker's axes x, y and z, m.
     pub(super) stretch: V3,
-    /// Its energy, J.
     pub(super) spring_j: f64,
     /// Where on the shaft; none: has not touched yet.
     pub(super) place: Option<Place>,
@@ -194,14 +192,12 @@ pub(super) struct Touch {
     /// Its normal component; positive: in contact.
     pub(super) normal_n: f64,
     pub(super) stuck: bool,
-    /// Speed at which it slides, m/s.
     pub(super) slip_m_s: f64,
     /// By how much the ground is taken as lower than it is, m.
     pub(super) lowered_m: f64,
 }
 
 impl Touch {
-    /// A foot in the air with a stretch.
     #[inline]
     pub(super) fn in_the_air(compliance: &Compliance, stretch: V3) -> Self {
         let force = compliance.force(stretch);

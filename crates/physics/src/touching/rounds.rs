@@ -18,7 +18,6 @@
 
 use super::body::Body;
 use super::law::{Moves, Part, Solved};
-use super::secant::secant;
 use crate::contact::Frame;
 use crate::grid::Place;
 use crate::modal::pushed;
@@ -44,6 +43,9 @@ const MOST: f64 = 0.1;
 /// Smallest share of a round.
 const LEAST: f64 = 0.05;
 
+/// Distances below this have no direction, m: heights are rounded.
+const NO_WAY_M: f64 = 1e-12;
+
 /// A place of the ground, with its height and slopes.
 pub(super) type Known = (V3, [f64; 3]);
 
@@ -62,7 +64,6 @@ struct Round {
     /// The force along x, y and z, and on each shape.
     force: V3,
     forces: Amplitudes,
-    /// The state at the end.
     end: Amplitudes,
     curve: Curve,
 }
@@ -172,7 +173,7 @@ impl Body {
             (there, ground_at(there))
         });
         let way = aside(along, [there[0] - foot[0], there[1] - foot[1]]);
-        let slopes = aside(along, secant([0.0; 2], part.ground, way, ground));
+        let slopes = aside(along, secant(part.ground, way, ground));
         let solved = self.solve(part, Frame::new(slopes), &moves);
         let force = new.components(solved.frame.plate(solved.force.local));
         let forces = moves.forces(force);
@@ -241,6 +242,20 @@ pub(super) fn bowed(tangent: Option<&Tangent>, ground: [f64; 3], at: V3) -> [f64
         Some(tangent) => tangent.bowed(ground, at[0]),
         None => ground,
     }
+}
+
+/// Slopes of a plane through the ground (height, slopes) at both ends of a way: the mean
+/// of the slopes there, corrected along it (the mean-value discrete gradient
+/// of Gonzalez 1996), so that slopes · distance is the difference of the heights.
+#[inline]
+fn secant(start: [f64; 3], way: [f64; 2], end: [f64; 3]) -> [f64; 2] {
+    let mean = [0.5 * start[1] + 0.5 * end[1], 0.5 * start[2] + 0.5 * end[2]];
+    let square = way[0] * way[0] + way[1] * way[1];
+    if square < NO_WAY_M * NO_WAY_M {
+        return mean;
+    }
+    let missed = (end[0] - start[0] - mean[0] * way[0] - mean[1] * way[1]) / square;
+    [mean[0] + missed * way[0], mean[1] + missed * way[1]]
 }
 
 /// The direction of a vector along the plate; none of a vector across it.

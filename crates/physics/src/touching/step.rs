@@ -27,6 +27,9 @@ const SLIDES: f64 = 0.25;
 /// whips about a place of contact is seen before it is far behind the plate.
 const WHIPS: f64 = 0.02;
 
+/// How often a shaft is bent out of a plate at most.
+const CLEARING: usize = 8;
+
 impl Body {
     /// A step before the ground to a pose in its coordinates. Returns into how
     /// many parts it was cut; none where the tip stays clear.
@@ -94,7 +97,7 @@ impl Body {
     /// statically out of it, as the contact would throw it out. What
     /// depth is left presses the ground in.
     fn bend_clear(&mut self, pose: &PlatePose) {
-        for _ in 0..8 {
+        for round in 0..=CLEARING {
             let angles = self.shaft.shapes.angles(&self.state.x);
             let curve = angles.curve();
             let (place, tangent) = self.nearest(&curve, pose);
@@ -104,26 +107,22 @@ impl Body {
             if deep <= 0.0 {
                 return;
             }
+            if round == CLEARING {
+                let compliance = self.shaft.compliance(self.ground.compliance_m_n);
+                self.touch.stretch = pose.components([0.0, 0.0, -deep]);
+                let force = compliance.force(self.touch.stretch);
+                self.touch.spring_j = -0.5 * dot(force, self.touch.stretch);
+                self.touch.normal_n = deep / compliance.rest;
+                self.touch.next_m = place.at_m;
+                self.touch.place = Some(place);
+                return;
+            }
             let ways = self.shaft.shapes.ways(&angles, &place);
             let up = ways.towards(pose.up());
             // A tenth of the length at a time.
             let far = deep.min(0.1 * self.shaft.length_m);
             self.state.lean(&self.shaft, &up, far);
             self.state.limit(&self.shaft);
-        }
-        let curve = self.state.curve(&self.shaft);
-        let (place, tangent) = self.nearest(&curve, pose);
-        let seen = tangent.map(|tangent| tangent.see(pose));
-        let pose = seen.as_ref().unwrap_or(pose);
-        let deep = self.deep(&curve, &place, pose);
-        if deep > 0.0 {
-            let compliance = self.shaft.compliance(self.ground.compliance_m_n);
-            let stretch = pose.components([0.0, 0.0, -deep]);
-            self.touch.spring_j = -0.5 * dot(compliance.force(stretch), stretch);
-            self.touch.stretch = stretch;
-            self.touch.normal_n = deep / compliance.rest;
-            self.touch.next_m = place.at_m;
-            self.touch.place = Some(place);
         }
     }
 

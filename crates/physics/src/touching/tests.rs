@@ -9,7 +9,7 @@ mod rough;
 mod whip;
 
 use super::TouchingWhisker;
-use crate::{Material, Outline, Plate, Pose, SensorSettings, Shaft, Surface};
+use crate::{Facing, Material, Outline, Plate, Pose, SensorSettings, Shaft, Surface};
 
 pub(super) const DT: f64 = 5e-4;
 
@@ -38,6 +38,14 @@ pub(super) fn nosed(tip_m: [f64; 3]) -> Pose {
         base_m: [x - length_m * cosine, y, z + length_m * sine],
         x: [sine, 0.0, cosine],
         y: [0.0, -1.0, 0.0],
+    }
+}
+
+pub(super) fn slanted(slant_deg: f64) -> Facing {
+    Facing {
+        slant_deg,
+        tilt_deg: 0.0,
+        elevation_deg: 0.0,
     }
 }
 

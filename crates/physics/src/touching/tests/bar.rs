@@ -2,15 +2,8 @@
 //! (`tests/truth/bar.py`), and swept past the end of a plate.
 
 use super::elastica::{Pushed, same, table};
-use super::flat;
+use super::{flat, slanted};
 use crate::{Biotact, Facing, Outline, Plate, Shaft};
-
-/// The plate lies along the straight shaft.
-const STRAIGHT: Facing = Facing {
-    slant_deg: 0.0,
-    tilt_deg: 0.0,
-    elevation_deg: 0.0,
-};
 
 #[test]
 fn around_a_bar_moments_forces_and_places_are_those_of_elasticas_until_it_lets_go() {
@@ -23,7 +16,7 @@ fn around_a_bar_moments_forces_and_places_are_those_of_elasticas_until_it_lets_g
         let ground = flat(1e6, 1.0, friction, friction);
         let plate = Plate {
             outline: Outline::bar(first.get("radius_m")),
-            ..Plate::in_the_way(1.0, first.get("reach_m"), &STRAIGHT, ground)
+            ..Plate::in_the_way(1.0, first.get("reach_m"), &slanted(0.0), ground)
         };
         let mut pushed = Pushed::new(&shaft, plate);
         for row in case {
@@ -78,7 +71,7 @@ fn a_shaft_that_is_drawn_over_the_end_of_a_plate_flicks_off_as_from_a_bar_and_ri
     let (reach_m, radius_m) = (0.9 * shaft.length_m, 1e-3);
     let bar = Plate {
         outline: Outline::bar(radius_m),
-        ..Plate::in_the_way(1.0, reach_m, &STRAIGHT, ground)
+        ..Plate::in_the_way(1.0, reach_m, &slanted(0.0), ground)
     };
     // Its flat part begins there and goes on beyond the tip.
     let begins = Plate {
@@ -86,7 +79,7 @@ fn a_shaft_that_is_drawn_over_the_end_of_a_plate_flicks_off_as_from_a_bar_and_ri
             flat_m: [reach_m - shaft.length_m, f64::INFINITY],
             radius_m,
         },
-        ..Plate::in_the_way(1.0, shaft.length_m, &STRAIGHT, ground)
+        ..Plate::in_the_way(1.0, shaft.length_m, &slanted(0.0), ground)
     };
     let [mut round, mut ending] = [bar, begins].map(|plate| Pushed::new(&shaft, plate));
     let turned = |pushed: &Pushed| pushed.whisker.rotation_rad()[0];

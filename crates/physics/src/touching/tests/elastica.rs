@@ -1,7 +1,7 @@
 //! Slowly pushed whiskers against exact elasticas, which another program solved
 //! (`tests/truth/elastica.py`).
 
-use super::{QUIET, flat};
+use super::{QUIET, flat, slanted};
 use crate::elastica::Press;
 use crate::vector::{add, dot, scale, sub};
 use crate::{Biotact, Facing, Follicle, Plate, Pose, Shaft, TOUCHING_TAPER, TouchingWhisker};
@@ -95,9 +95,8 @@ fn pushed(case: &[Row]) -> Vec<[f64; 4]> {
     let shaft = first.shaft();
     let length_m = shaft.length_m;
     let facing = Facing {
-        slant_deg: first.get("slant_deg"),
         tilt_deg: first.get("tilt_deg"),
-        elevation_deg: 0.0,
+        ..slanted(first.get("slant_deg"))
     };
     let friction = first.get("friction");
     let ground = flat(1e6, 1.0, friction, friction);
@@ -152,12 +151,8 @@ fn moment_off(taper: f64, slant_deg: f64, push_deg: f64) -> f64 {
         friction: 0.0,
     };
     let truth = press.at(&[push_deg]).unwrap()[0].moment_n_m[0];
-    let facing = Facing {
-        slant_deg,
-        tilt_deg: 0.0,
-        elevation_deg: 0.0,
-    };
-    let plate = Plate::in_the_way(1.0, shaft.length_m, &facing, flat(1e6, 1.0, 0.0, 0.0));
+    let slippery = flat(1e6, 1.0, 0.0, 0.0);
+    let plate = Plate::in_the_way(1.0, shaft.length_m, &slanted(slant_deg), slippery);
     let mut pushed = Pushed::new(&shaft, plate);
     pushed.to(push_deg);
     let [turned, _] = pushed.whisker.rotation_rad();

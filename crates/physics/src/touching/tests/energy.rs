@@ -34,26 +34,8 @@ fn any_release() -> impl Strategy<Value = Release> {
     (0.0..0.7_f64, -0.05..0.05_f64, [-0.2..0.2_f64, -0.2..0.2])
 }
 
-const GRITS: [Grit; 16] = [
-    Grit::P40,
-    Grit::P50,
-    Grit::P60,
-    Grit::P80,
-    Grit::P100,
-    Grit::P120,
-    Grit::P150,
-    Grit::P180,
-    Grit::P220,
-    Grit::P240,
-    Grit::P280,
-    Grit::P320,
-    Grit::P360,
-    Grit::P400,
-    Grit::P500,
-    Grit::P600,
-];
-
 pub(super) fn materials() -> Vec<Material> {
+    use Grit::*;
     let mut all = vec![
         Material::Flat,
         Material::SmoothPlastic,
@@ -63,7 +45,10 @@ pub(super) fn materials() -> Vec<Material> {
         Material::Tarmac,
         Material::Vinyl,
     ];
-    all.extend(GRITS.map(Material::Sandpaper));
+    let grits = [
+        P40, P50, P60, P80, P100, P120, P150, P180, P220, P240, P280, P320, P360, P400, P500, P600,
+    ];
+    all.extend(grits.map(Material::Sandpaper));
     all.extend([5, 20, 100].map(Material::Relief));
     all
 }

@@ -4,7 +4,7 @@
 use core::f64::consts::TAU;
 
 use super::elastica::{Row, table};
-use super::{DT, QUIET, flat};
+use super::{DT, QUIET, flat, slanted};
 use crate::pose::PlateFrame;
 use crate::{Biotact, Facing, Outline, Plate, Pose, Shaft, TouchingWhisker};
 
@@ -33,14 +33,6 @@ fn swung(
     for tick in 1..=ticks {
         whisker.step(&pose(tick), Some(plate), DT);
         look(&whisker, &pose(tick));
-    }
-}
-
-fn slanted(slant_deg: f64) -> Facing {
-    Facing {
-        slant_deg,
-        tilt_deg: 0.0,
-        elevation_deg: 0.0,
     }
 }
 
