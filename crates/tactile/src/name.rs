@@ -8,11 +8,10 @@ use core::fmt;
 /// Why a name is refused.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
+#[expect(missing_docs, reason = "the messages say it")]
 pub enum NameError {
-    /// A letter that is not to be seen: a control character, or one that turns or joins text.
     #[error("has the character {0:?}, which is not to be seen")]
     Hidden(char),
-    /// A spreadsheet would take it for a formula.
     #[error("begins with {0:?}, as a formula of a spreadsheet does")]
     Formula(char),
 }

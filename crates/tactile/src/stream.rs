@@ -2,8 +2,6 @@
 //! classifiers share: look up the log-likelihoods of a sample, add them to the sums of
 //! the open block, at its end those of its roughness.
 
-use core::fmt;
-
 use crate::decision::{Decision, Reason};
 use crate::format::{MAX_CLASSES, MAX_STREAMS};
 use crate::model::Model;
@@ -13,22 +11,14 @@ use crate::sums::Sums;
 use crate::words::{JOINT, OPINION, Words};
 
 /// A sample with another number of channels than the model.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
+#[error("a sample of {found} channels; the model has {expected}")]
 pub struct WrongChannels {
     /// Of the model.
     pub expected: usize,
     /// Of the sample.
     pub found: usize,
 }
-
-impl fmt::Display for WrongChannels {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self { expected, found } = self;
-        write!(f, "a sample of {found} channels; the model has {expected}")
-    }
-}
-
-impl core::error::Error for WrongChannels {}
 
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct StreamState<E> {

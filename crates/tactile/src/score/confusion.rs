@@ -10,23 +10,12 @@ use super::statistics::Statistics;
 /// Why a trial cannot be counted.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
+#[expect(missing_docs, reason = "the messages say it")]
 pub enum ScoreError {
-    /// A class that the matrix does not have.
     #[error("class {class} of {classes}, from zero")]
-    Class {
-        /// The class.
-        class: usize,
-        /// How many there are.
-        classes: usize,
-    },
-    /// Matrices of different numbers of classes cannot be added.
+    Class { class: usize, classes: usize },
     #[error("matrices of {ours} and of {theirs} classes")]
-    Classes {
-        /// Of the one.
-        ours: usize,
-        /// Of the other.
-        theirs: usize,
-    },
+    Classes { ours: usize, theirs: usize },
 }
 
 /// A confusion matrix and the trials missed.

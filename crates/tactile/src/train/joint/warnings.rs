@@ -21,89 +21,46 @@ pub const CHANCE: f64 = 0.4;
 /// What a user has to know before trusting the model.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
+#[expect(missing_docs, reason = "the names of fields say it")]
 pub enum Warning {
     /// So few trials of a class that its figures are worth little.
-    FewTrials {
-        /// The class.
-        name: String,
-        /// How many.
-        trials: usize,
-    },
+    FewTrials { name: String, trials: usize },
     /// Trials that were too short for a block.
-    Empty {
-        /// The class.
-        name: String,
-        /// How many.
-        trials: usize,
-    },
+    Empty { name: String, trials: usize },
     /// The only trial of a class was cut in halves.
-    Halved {
-        /// The class.
-        name: String,
-    },
+    Halved { name: String },
     /// All is of one recording: what the report says of another one is unknown.
     OneRecording,
     /// Not every class is in several recordings: trials were held out, not recordings.
     NotAcrossRecordings,
     /// A pose, of several, with so few touches of a class that it does not count as one.
     Pose {
-        /// What it is called.
         pose: String,
-        /// The class.
         name: String,
-        /// How many.
         touches: usize,
-        /// How many it needs.
         least: usize,
     },
     /// So few touches of a class that there is no second opinion.
     NoOpinion {
-        /// The class.
         name: String,
-        /// How many.
         touches: usize,
-        /// How many it needs.
         least: usize,
     },
     /// So little of a class that no poses are estimated.
     NoPose {
-        /// The class.
         name: String,
-        /// Of what there is too little.
         what: &'static str,
-        /// How many.
         found: usize,
-        /// How many it needs.
         least: usize,
     },
     /// A tilt or depth too large to be said in hundredths: no poses are estimated.
-    WidePose {
-        /// The value.
-        found: f64,
-        /// The largest size.
-        most: f64,
-    },
+    WidePose { found: f64, most: f64 },
     /// Two classes are taken for one another.
-    Alike {
-        /// Their names.
-        names: [String; 2],
-        /// Share of the longest stretches that the other class wins.
-        mistaken: f64,
-    },
+    Alike { names: [String; 2], mistaken: f64 },
     /// What decisions state lies above the 95 % interval of those that were right.
-    Overstated {
-        /// The mean of what they state.
-        stated: f64,
-        /// The share that was right.
-        found: Interval,
-    },
+    Overstated { stated: f64, found: Interval },
     /// A table's weight is zero, or the most there is.
-    Weight {
-        /// The table.
-        table: usize,
-        /// Its weight.
-        weight: f64,
-    },
+    Weight { table: usize, weight: f64 },
 }
 
 pub(super) struct Doubts<'a> {
