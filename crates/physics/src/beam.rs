@@ -43,8 +43,6 @@ pub struct BendingMode {
     pub omega_rad_s: f64,
     /// φ at the tip, 1/√kg; positive.
     pub tip: f64,
-    /// φ′ at the base, 1/(m √kg): rotation of the magnet.
-    pub base_rotation: f64,
     /// ∫ ρ A φ dz, √kg: force of the mode, with a minus, for an acceleration of
     /// the base of 1 m/s².
     pub translation: f64,
@@ -208,7 +206,6 @@ fn solve(shaft: &Shaft, count: usize) -> Option<Modes> {
         .map(|(shape, omega_rad_s)| BendingMode {
             omega_rad_s: *omega_rad_s,
             tip: shape[tip],
-            base_rotation: base_rotation(shape),
             translation: beam.drive[0].dot(shape),
             rotation: beam.drive[1].dot(shape),
         })

@@ -64,17 +64,12 @@ impl Grid {
             length_m * (1.0 - left * left)
         };
         let edges = core::array::from_fn(edge);
-        let mut nodes = [length_m; NODES];
-        for (inside, pair) in nodes.chunks_mut(POINTS).zip(edges.windows(2)) {
+        let (mut nodes, mut weights) = ([length_m; NODES], [0.0; NODES]);
+        for (segment, pair) in edges.windows(2).enumerate() {
             let long = pair[1] - pair[0];
-            for (node, off) in inside.iter_mut().zip([-OFF, 0.0, OFF]) {
-                *node = pair[0] + (0.5 + off) * long;
-            }
-        }
-        let mut weights = [0.0; NODES];
-        for (inside, pair) in weights.chunks_mut(POINTS).zip(edges.windows(2)) {
-            for (weight, [area, ..]) in inside.iter_mut().zip(parabolas(1.0)) {
-                *weight = (pair[1] - pair[0]) * area;
+            for (n, [area, ..]) in parabolas(1.0).into_iter().enumerate() {
+                nodes[segment * POINTS + n] = pair[0] + (0.5 + [-OFF, 0.0, OFF][n]) * long;
+                weights[segment * POINTS + n] = long * area;
             }
         }
         let mut grid = Self {

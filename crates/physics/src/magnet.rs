@@ -39,17 +39,6 @@ impl Magnet {
         let across = -0.5 * self.axial_mt * sinc;
         [across * x, across * y, self.axial_mt * libm::cos(angle)]
     }
-
-    /// The tilt that a field at the sensor shows, rad, whatever the magnet's strength:
-    /// the inverse of [`Magnet::field_mt`].
-    pub fn tilt_rad([x, y, z]: [f64; 3]) -> [f64; 2] {
-        let across = libm::hypot(x, y);
-        if across == 0.0 {
-            return [0.0; 2];
-        }
-        let angle = libm::atan2(2.0 * across, z);
-        [-angle * x / across, -angle * y / across]
-    }
 }
 
 #[cfg(test)]
@@ -80,14 +69,6 @@ mod tests {
             let expected = by_vectors(axial, tilted);
             for (field, expected) in magnet.field_mt([x, y]).into_iter().zip(expected) {
                 prop_assert!((field - expected).abs() < 1e-12 * axial);
-            }
-        }
-
-        #[test]
-        fn the_tilt_comes_back(axial in 1.0..200.0, x in -1.5..1.5, y in -1.5..1.5) {
-            let field = Magnet::of_field(axial).unwrap().field_mt([x, y]);
-            for (tilt, expected) in Magnet::tilt_rad(field).into_iter().zip([x, y]) {
-                prop_assert!((tilt - expected).abs() < 1e-12);
             }
         }
     }

@@ -244,10 +244,7 @@ impl ModalState {
         let beyond = square > MOST_RAD * MOST_RAD;
         if beyond {
             let cut = MOST_RAD / square.sqrt();
-            for value in self.x.iter_mut().flatten() {
-                *value *= cut;
-            }
-            for value in self.v.iter_mut().flatten() {
+            for value in self.x.iter_mut().chain(&mut self.v).flatten() {
                 *value *= cut;
             }
         }
@@ -256,7 +253,7 @@ impl ModalState {
 
     #[inline]
     pub(crate) fn is_finite(&self) -> bool {
-        let mut values = self.x.iter().flatten().chain(self.v.iter().flatten());
+        let mut values = self.x.iter().chain(&self.v).flatten();
         values.all(|value| value.is_finite())
     }
 }

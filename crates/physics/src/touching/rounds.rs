@@ -50,21 +50,12 @@ const NO_WAY_M: f64 = 1e-12;
 pub(super) type Known = (V3, [f64; 3]);
 
 struct Round {
-    /// Which place of the ground the foot feels at the end.
-    felt: [f64; 2],
-    /// Where the foot was expected, where it is, and how far that is apart on ground that it feels.
+    found: Found,
+    /// Where the foot was expected, and how far that is from where it is on ground that it feels.
     there: V3,
-    next: V3,
     miss: [f64; 2],
     /// How far the place is off where its ways bring it, m.
     off_m: f64,
-    /// Where on the shaft it would rather be, m from the base.
-    better_m: f64,
-    solved: Solved,
-    /// The force along x, y and z, and on each shape.
-    force: V3,
-    forces: Amplitudes,
-    end: Amplitudes,
     curve: Curve,
 }
 
@@ -72,10 +63,14 @@ struct Round {
 #[derive(Clone)]
 pub(super) struct Found {
     pub(super) place: Place,
+    /// Which place of the ground the foot feels at the end.
     pub(super) felt: [f64; 2],
+    /// Where on the shaft it would rather be, m from the base.
     pub(super) better_m: f64,
+    /// Where the foot is.
     pub(super) next: V3,
     pub(super) solved: Solved,
+    /// The force along x, y and z, and on each shape.
     pub(super) force: V3,
     pub(super) forces: Amplitudes,
     pub(super) end: Amplitudes,
@@ -98,26 +93,17 @@ impl Body {
         loop {
             n += 1;
             let round = self.round(part, &place, &end, to, ground.take());
-            end = round.end;
+            end = round.found.end;
             let miss = round.miss;
             if let Some(old) = missed.replace(miss) {
                 relax = relaxed(relax, old, miss);
             }
-            let small = OFF * part.response * length(round.force);
-            let better_m = round.better_m;
+            let small = OFF * part.response * length(round.found.force);
+            let better_m = round.found.better_m;
             let still = n > 2 || (better_m.min(length_m) - place.at_m).abs() <= SHIFT * length_m;
             if n == ROUNDS || (round.off_m <= small && length2(miss) < near && still) {
                 self.curve = Some(round.curve);
-                return Found {
-                    place,
-                    felt: round.felt,
-                    better_m,
-                    next: round.next,
-                    solved: round.solved,
-                    force: round.force,
-                    forces: round.forces,
-                    end,
-                };
+                return round.found;
             }
             if still {
                 to = Some([0, 1].map(|i| round.there[i] + relax * miss[i]));
@@ -186,16 +172,19 @@ impl Body {
         let went = [0, 1].map(|i| next[i] - foot[i]);
         let slid = aside(along, went);
         Round {
-            felt: [0, 1].map(|i| felt[i] + slid[i]),
             miss: aside(along, [0, 1].map(|i| next[i] - there[i])),
             there,
-            next,
             off_m: length(sub(bent, straight)),
-            better_m: self.better_m(part, place, force, &moves, &angles, &curve),
-            solved,
-            force,
-            forces,
-            end,
+            found: Found {
+                place: *place,
+                felt: [0, 1].map(|i| felt[i] + slid[i]),
+                better_m: self.better_m(part, place, force, &moves, &angles, &curve),
+                next,
+                solved,
+                force,
+                forces,
+                end,
+            },
             curve,
         }
     }
