@@ -37,9 +37,7 @@ pub enum RuleSettings {
 // 160 to 250 bytes smaller.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum AnyEvidence {
-    /// Of the window rule.
     Window(Totals),
-    /// Of the sequential rule.
     Sequential(SequentialEvidence),
 }
 

@@ -54,7 +54,7 @@ impl Deciding {
 #[derive(Debug, Clone)]
 pub struct StreamClassifier<W = &'static [u32]> {
     constants: Constants<AnyRule, W>,
-    streams: Vec<StreamState<AnyEvidence>, MAX_STREAMS>,
+    streams: Vec<StreamState<AnyRule>, MAX_STREAMS>,
     deciding: Deciding,
     heard: usize,
     elsewhere: Elsewhere,
@@ -65,7 +65,6 @@ impl<W: Words> StreamClassifier<W> {
     /// classes are equal.
     ///
     /// # Errors
-    ///
     /// The settings do not fit the model or one another, there are no whiskers or more than
     /// [`MAX_STREAMS`] to hear, or the program was built without what is asked for.
     pub fn new(
@@ -83,7 +82,6 @@ impl<W: Words> StreamClassifier<W> {
     /// [restarts](Self::restart): for a board, whose stack has no room for both.
     ///
     /// # Errors
-    ///
     /// As [`Self::new`].
     #[inline]
     pub fn unstarted(
@@ -132,7 +130,6 @@ impl<W: Words> StreamClassifier<W> {
     /// tables, its channels 2n and 2n + 1 (BIOTACT eq. 15).
     ///
     /// # Errors
-    ///
     /// As [`crate::NaiveBayes::push`].
     #[inline]
     pub fn push_to(
@@ -158,7 +155,6 @@ impl<W: Words> StreamClassifier<W> {
     /// Takes a sample of a stream that does not count, as [`crate::NaiveBayes::pass`].
     ///
     /// # Errors
-    ///
     /// As [`crate::NaiveBayes::push`].
     #[inline]
     pub fn pass_to(&mut self, stream: usize, codes: &[i32]) -> Result<(), WrongChannels> {
@@ -199,7 +195,6 @@ impl<W: Words> StreamClassifier<W> {
     /// other rule: then all streams start again.
     ///
     /// # Errors
-    ///
     /// As [`Self::new`]; nothing has changed.
     pub fn set_rule(&mut self, settings: RuleSettings) -> Result<(), SetupError> {
         check(settings, self.deciding)?;
@@ -226,7 +221,7 @@ impl<W: Words> StreamClassifier<W> {
 
     /// Forgets all evidence.
     pub fn restart(&mut self) {
-        const UNSTARTED: StreamState<AnyEvidence> = StreamState::unstarted(AnyEvidence::NONE);
+        const UNSTARTED: StreamState<AnyRule> = StreamState::unstarted(AnyEvidence::NONE);
         let Constants { model, rule } = &self.constants;
         for _ in self.streams.len()..self.heard.min(MAX_STREAMS) {
             // No more than there is room for.
@@ -358,14 +353,8 @@ impl<W: Words> StreamClassifier<W> {
         for (sum, more) in excess.iter_mut().zip(elsewhere) {
             *sum = sum.saturating_add(more);
         }
-        for stream in &mut self.streams {
-            if stream.evidence.is_begun() {
-                stream.evidence = rule.start();
-                stream.spend();
-            }
-        }
-        self.elsewhere.forget();
         let is_below = model.has_floors() && excess.iter().any(|tables| *tables < 0);
+        self.forget();
         let touch = by.map_or(0, |(_, touch)| touch);
         let decision = decision.in_touch(touch, reason(is_below, objection));
         match by.and_then(|(n, _)| self.streams.get_mut(n)) {
@@ -381,7 +370,7 @@ impl<W: Words> StreamClassifier<W> {
 fn sum(
     rule: &SequentialRule,
     classes: usize,
-    (streams, elsewhere): (&[StreamState<AnyEvidence>], &Elsewhere),
+    (streams, elsewhere): (&[StreamState<AnyRule>], &Elsewhere),
 ) -> SequentialEvidence {
     let all = streams
         .iter()

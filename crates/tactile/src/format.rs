@@ -125,7 +125,6 @@ impl Header {
         }
     }
 
-    /// Words of the opinion.
     pub(crate) const fn opinion_words(&self) -> usize {
         (self.floors >> 8) as usize
     }
@@ -166,27 +165,22 @@ impl TableRecord<'_> {
     pub(crate) const BYTES: usize = 4 * TABLE_WORDS;
 
     pub(crate) const fn source(self) -> u8 {
-        let [first, ..] = self.0;
-        *first as u8
+        self.0[0] as u8
     }
 
     #[inline]
     pub(crate) const fn axes(self) -> u8 {
-        let [first, ..] = self.0;
-        (*first >> 8) as u8
+        (self.0[0] >> 8) as u8
     }
 
-    /// Zero.
     pub(crate) const fn reserved(self) -> u16 {
-        let [first, ..] = self.0;
-        (*first >> 16) as u16
+        (self.0[0] >> 16) as u16
     }
 
     /// The word of the file at which its rows begin.
     #[inline]
     pub(crate) const fn first(self) -> u32 {
-        let [_, first, ..] = self.0;
-        *first
+        self.0[1]
     }
 
     #[inline]
@@ -209,7 +203,6 @@ impl TableRecord<'_> {
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct AxisRecord {
     pub(crate) channel: u8,
-    /// Zero.
     pub(crate) reserved: u8,
     pub(crate) last_bin: u16,
     pub(crate) high: i32,

@@ -17,7 +17,6 @@ pub(crate) struct Layout {
     pub(crate) classes: usize,
     pub(crate) channels: usize,
     pub(crate) row_words: usize,
-    /// Samples.
     pub(crate) block: u32,
     pub(crate) touch: Option<TouchRule>,
     /// The channels' records end and those of the tables of samples begin.

@@ -11,7 +11,7 @@
 //! - **likelihood**: the probability of a bin given a class, trained on a
 //!   recording (LEP10; LEP12 eq. 3; BIOTACT section IV).
 //! - **table**: the likelihoods of the cells of one channel or of two together.
-//! - **roughness**: how much a channel trembles over a block (see [`Roughness`]).
+//! - **roughness**: how much a channel trembles over a block (`roughness.rs`).
 //! - **touch**: from the first sample with contact until contact has been absent for
 //!   a while; its onset limits the evidence that came before.
 //! - **unknown**: a decision whose leader is less likely than its class's *floors*.
@@ -106,7 +106,7 @@ mod train_error;
 mod window;
 mod words;
 
-pub use any_rule::{AnyEvidence, AnyRule, RuleSettings};
+pub use any_rule::{AnyRule, RuleSettings};
 pub use binner::Binner;
 pub use class_setting::{ClassList, ClassSetting, ClassSettings, MOST_THRESHOLD};
 pub use classifier::{Deciding, StreamClassifier};
@@ -114,7 +114,6 @@ pub use constants::Constants;
 pub use decision::{Decision, Posterior, Reason};
 pub use elsewhere::Felt;
 pub use error::{ModelError, QuantiserError, SetupError};
-pub use evidence::EvidenceScale;
 pub use format::{
     CRC_BYTES, ENTRIES_PER_BIT, ENTRY_MAX, ENTRY_OFFSET_BITS, LOG_FLOOR, MAX_BINS, MAX_BLOCK,
     MAX_CHANNELS, MAX_CLASSES, MAX_NAME_BYTES, MAX_SAMPLE_AXES, MAX_SAMPLES_TIMES_CHANNELS,
@@ -129,12 +128,10 @@ pub use model_buf::{Axis, ModelBuf, ModelParts, TableParts, TableSource};
 pub use naive_bayes::{NaiveBayes, Posteriors};
 pub use opinion::{Estimate, Pose, Whisked};
 pub use quantiser::Quantiser;
-pub use roughness::Roughness;
 pub use rule::DecisionRule;
 pub use self_motion::SelfMotion;
-pub use sequential::{Sequential, SequentialEvidence, SequentialRule, Threshold};
+pub use sequential::{Sequential, SequentialRule, Threshold};
 pub use stream::WrongChannels;
-pub use totals::Totals;
 pub use touch::{TouchDetector, Touching};
 pub use window::{Window, WindowRule};
 pub use words::{JOINT, OPINION, PRIORS, Words};

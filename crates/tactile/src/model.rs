@@ -50,7 +50,6 @@ impl<'a> Model<&'a [u32]> {
     /// four-byte boundary.
     ///
     /// # Errors
-    ///
     /// [`ModelError`] with the first thing found wrong: the checks go from the
     /// magic, version and header to the length, the checksum and the content.
     pub fn parse(bytes: &'a [u8]) -> Result<Self, ModelError> {
@@ -62,7 +61,6 @@ impl<'a> Model<&'a [u32]> {
     /// classes is wrong too, and no more.
     ///
     /// # Errors
-    ///
     /// As [`Model::parse`], of the magic, version, length and checksum.
     pub fn linked(bytes: &'a [u8]) -> Result<Self, ModelError> {
         Self::placed(bytes, Layout::read(bytes)?)
@@ -72,7 +70,6 @@ impl<'a> Model<&'a [u32]> {
     /// flash. `bytes` must start on a four-byte boundary.
     ///
     /// # Errors
-    ///
     /// As [`Model::parse`].
     pub fn at_start(bytes: &'a [u8]) -> Result<Self, ModelError> {
         let length = Layout::length(bytes)?;
@@ -89,7 +86,6 @@ impl<W: Words> Model<W> {
     /// Reads a model from the words of its file.
     ///
     /// # Errors
-    ///
     /// As [`Model::parse`].
     pub fn from_words(words: W) -> Result<Self, ModelError> {
         let layout = Layout::check(bytes(words.as_ref()))?;
@@ -286,7 +282,6 @@ impl<'m> Parts<'m> {
         self.layout.classes
     }
 
-    /// Samples in a block.
     #[inline]
     pub(crate) const fn block(self) -> u32 {
         self.layout.block

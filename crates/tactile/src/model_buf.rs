@@ -38,7 +38,7 @@ pub struct ModelParts<'p> {
 pub enum TableSource {
     /// The codes of each sample.
     Samples,
-    /// The roughness of each block (see [`crate::Roughness`]).
+    /// The roughness of each block (`roughness.rs`).
     Roughness,
 }
 
@@ -165,7 +165,6 @@ impl ModelBuf {
     /// Puts a model together.
     ///
     /// # Errors
-    ///
     /// As [`Model::parse`]: whatever could not be read back.
     pub fn new(parts: &ModelParts<'_>) -> Result<Self, ModelError> {
         let classes = parts.names.len();
@@ -263,7 +262,6 @@ impl ModelBuf {
     /// knows nothing.
     ///
     /// # Errors
-    ///
     /// None: a model stays one.
     pub fn at_rate(&self, rate_hz: u32) -> Result<Self, ModelError> {
         let mut all = self.as_bytes().to_vec();
@@ -309,7 +307,6 @@ impl ModelBuf {
     /// Copies and checks the content of a model file, however it is aligned.
     ///
     /// # Errors
-    ///
     /// As [`Model::parse`].
     pub fn from_bytes(bytes: &[u8]) -> Result<Self, ModelError> {
         let (chunks, rest) = bytes.as_chunks();

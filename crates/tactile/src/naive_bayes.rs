@@ -17,7 +17,7 @@ use crate::words::Words;
 #[derive(Debug, Clone)]
 pub struct NaiveBayes<R: DecisionRule, W = &'static [u32]> {
     constants: Constants<R, W>,
-    stream: StreamState<R::Evidence>,
+    stream: StreamState<R>,
     /// Whose tables, where each whisker has its own.
     whisker: Option<usize>,
 }
@@ -26,7 +26,6 @@ impl<R: DecisionRule, W: Words> NaiveBayes<R, W> {
     /// Joins a model and a rule; nothing is seen yet, all classes are equal.
     ///
     /// # Errors
-    ///
     /// The rule's settings do not fit the model.
     pub fn new(model: Model<W>, settings: R::Settings) -> Result<Self, SetupError> {
         let constants = Constants::new(model, settings)?;
@@ -58,7 +57,6 @@ impl<R: DecisionRule, W: Words> NaiveBayes<R, W> {
     /// A decision may fall with the last sample of a block.
     ///
     /// # Errors
-    ///
     /// The number of codes is not the model's number of channels; the sample
     /// is then not taken.
     #[inline]
@@ -77,7 +75,6 @@ impl<R: DecisionRule, W: Words> NaiveBayes<R, W> {
     /// differences of which roughness is made.
     ///
     /// # Errors
-    ///
     /// As [`Self::push`].
     #[inline]
     pub fn pass(&mut self, codes: &[i32]) -> Result<(), WrongChannels> {

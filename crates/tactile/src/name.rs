@@ -38,7 +38,6 @@ pub const fn is_hidden(letter: char) -> bool {
 /// Checks a name.
 ///
 /// # Errors
-///
 /// The first thing found wrong.
 pub fn check(name: &str) -> Result<(), NameError> {
     if let Some(letter) = name.chars().find(|letter| is_hidden(*letter)) {

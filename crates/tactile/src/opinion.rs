@@ -395,7 +395,6 @@ pub(crate) struct Judge {
     held: Option<Decision>,
     /// Samples of those before it.
     spent: u32,
-    /// Whether this touch has had its decision.
     is_done: bool,
     /// Decisions in a row that named none, and were not said.
     refused: u8,

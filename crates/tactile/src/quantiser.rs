@@ -9,7 +9,6 @@ use crate::binner::Binner;
 use crate::divide::divide;
 use crate::error::QuantiserError;
 
-/// Largest magnitude of [`Quantiser::exponent`].
 const MAX_EXPONENT: i32 = 1000;
 
 /// The range of one channel and the scale of its codes.
@@ -41,7 +40,6 @@ impl Quantiser {
     /// Checks the ranges for a number of bins.
     ///
     /// # Errors
-    ///
     /// [`QuantiserError`] names the bad one. The range must be one code (a
     /// constant channel), or from above two codes a bin to below 2³¹ codes.
     pub fn check(&self, bins: usize) -> Result<(), QuantiserError> {
@@ -90,7 +88,6 @@ impl Quantiser {
     /// The division-free form for the streaming step; see [`Binner`].
     ///
     /// # Errors
-    ///
     /// As [`Self::check`].
     pub fn binner(&self, bins: usize) -> Result<Binner, QuantiserError> {
         self.check(bins)?;

@@ -15,7 +15,7 @@ const FRACTION_BITS: u32 = 6;
 
 /// The delay lines of the first two channels, and their sums over the open block.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Roughness {
+pub(crate) struct Roughness {
     line: [[i32; ROUGH_CHANNELS]; KEPT],
     sums: [u32; ROUGH_CHANNELS],
     /// The place of the oldest sample, by its lower bits; at least [`KEPT`] once the
@@ -23,15 +23,8 @@ pub struct Roughness {
     oldest: usize,
 }
 
-impl Default for Roughness {
-    fn default() -> Self {
-        Self::new()
-    }
-}
-
 impl Roughness {
-    /// Before the first sample.
-    pub const fn new() -> Self {
+    pub(crate) const fn new() -> Self {
         Self {
             line: [[0; ROUGH_CHANNELS]; KEPT],
             sums: [0; ROUGH_CHANNELS],
@@ -43,7 +36,7 @@ impl Roughness {
     /// that do not count; until it is full there is no difference. That of codes beyond
     /// ±2²⁹ wraps around.
     #[inline(never)]
-    pub fn push(&mut self, codes: &[i32], counts: bool) {
+    pub(crate) fn push(&mut self, codes: &[i32], counts: bool) {
         let new = match *codes {
             [x, y, ..] => [x, y],
             [x] => [x, 0],
@@ -69,26 +62,25 @@ impl Roughness {
 
     /// Whether the next sample has a difference.
     #[inline]
-    pub const fn is_full(&self) -> bool {
+    pub(crate) const fn is_full(&self) -> bool {
         self.oldest >= KEPT
     }
 
     /// The code of a channel over the open block; 0 to 2047.
     #[inline]
-    pub fn code(&self, channel: usize) -> i32 {
+    pub(crate) fn code(&self, channel: usize) -> i32 {
         let sum = self.sums.get(channel).copied().unwrap_or(0);
         octaves(sum.saturating_add(1))
     }
 
     /// Samples are missing: there is no difference again until the delay line is full.
     #[inline]
-    pub const fn interrupt(&mut self) {
+    pub(crate) const fn interrupt(&mut self) {
         self.oldest = 0;
     }
 
-    /// Begins another block.
     #[inline]
-    pub fn clear(&mut self) {
+    pub(crate) fn clear(&mut self) {
         self.sums = [0; ROUGH_CHANNELS];
     }
 }

@@ -19,7 +19,6 @@ pub trait DecisionRule: Sized {
     /// The rule for a model.
     ///
     /// # Errors
-    ///
     /// The settings do not fit the model.
     fn new<W: Words>(model: &Model<W>, settings: Self::Settings) -> Result<Self, SetupError>;
 

@@ -25,7 +25,7 @@ use crate::words::{PRIORS, Words};
 const MAX_THRESHOLD: f64 = 1.0 - 1e-12;
 
 /// A threshold on the posterior probability, prepared for the comparison.
-/// Computable at compile time. It is stored as its [words](Self::words).
+/// Computable at compile time. It is stored as two words.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(try_from = "[u32; 2]", into = "[u32; 2]")]
 pub struct Threshold {
@@ -40,7 +40,6 @@ impl Threshold {
     /// 2⁻²⁴ of itself.
     ///
     /// # Errors
-    ///
     /// [`SetupError::Threshold`] outside that range, and where it is not a number.
     pub const fn new(theta: f64) -> Result<Self, SetupError> {
         // Not a number fails both comparisons.
@@ -76,24 +75,6 @@ impl Threshold {
         }
     }
 
-    /// It as two words.
-    pub const fn words(self) -> [u32; 2] {
-        [self.bound, self.gain as u32]
-    }
-
-    /// The threshold of two [words](Self::words); none if [`new`](Self::new) makes none like
-    /// it, but for its rounding.
-    pub const fn from_words([bound, gain]: [u32; 2]) -> Option<Self> {
-        let most = if gain == 0 { MAX_ODDS } else { ONE / 2 };
-        // Odds of 1e-12 have a gain of 38.
-        if bound > ONE / 4 && bound <= most && gain <= 38 {
-            let gain = gain as u8;
-            Some(Self { bound, gain })
-        } else {
-            None
-        }
-    }
-
     /// (1 − θ)/θ, rounded up.
     pub fn odds(self) -> f64 {
         // 2 to the power of 26 and the gain.
@@ -102,16 +83,23 @@ impl Threshold {
 }
 
 impl From<Threshold> for [u32; 2] {
-    fn from(threshold: Threshold) -> Self {
-        threshold.words()
+    fn from(Threshold { bound, gain }: Threshold) -> Self {
+        [bound, gain.into()]
     }
 }
 
 impl TryFrom<[u32; 2]> for Threshold {
     type Error = SetupError;
 
-    fn try_from(words: [u32; 2]) -> Result<Self, SetupError> {
-        Self::from_words(words).ok_or(SetupError::Threshold)
+    /// None that [`new`](Self::new) makes none like, but for its rounding.
+    fn try_from([bound, gain]: [u32; 2]) -> Result<Self, SetupError> {
+        let most = if gain == 0 { MAX_ODDS } else { ONE / 2 };
+        // Odds of 1e-12 have a gain of 38.
+        let is_one = bound > ONE / 4 && bound <= most && gain <= 38;
+        let gain = gain as u8;
+        is_one
+            .then_some(Self { bound, gain })
+            .ok_or(SetupError::Threshold)
     }
 }
 
@@ -386,8 +374,8 @@ mod tests {
             1.0 - 1e-12,
         ] {
             let threshold = Threshold::new(theta).unwrap();
-            let read = Threshold::from_words(threshold.words());
-            assert_eq!(read, Some(threshold), "{theta}");
+            let read = Threshold::try_from(<[u32; 2]>::from(threshold));
+            assert_eq!(read, Ok(threshold), "{theta}");
             let error = threshold.odds() / ((1.0 - theta) / theta) - 1.0;
             let stated = 0.0..=2.0_f64.powi(-24);
             assert!(stated.contains(&error), "{theta} {error}");
@@ -401,7 +389,8 @@ mod tests {
             [ONE / 2, 39],
             [ONE, 256],
         ] {
-            assert_eq!(Threshold::from_words(words), None, "{words:?}");
+            let read = Threshold::try_from(words);
+            assert_eq!(read, Err(SetupError::Threshold), "{words:?}");
         }
     }
 
@@ -413,8 +402,8 @@ mod tests {
             let units = ClassSetting::new(1.0, Some(theta)).threshold;
             let threshold = Threshold::of_units(units);
             // None of new's, but for its rounding.
-            let read = Threshold::from_words(threshold.words());
-            assert_eq!(read, Some(threshold), "{theta}");
+            let read = Threshold::try_from(<[u32; 2]>::from(threshold));
+            assert_eq!(read, Ok(threshold), "{theta}");
             let error = threshold.odds() / ((1.0 - theta) / theta) - 1.0;
             assert!((-6.9e-4..5e-6).contains(&error), "{theta}: {error}");
         }

@@ -20,10 +20,10 @@ pub struct WrongChannels {
     pub found: usize,
 }
 
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub(crate) struct StreamState<E> {
+#[derive(Debug, Clone)]
+pub(crate) struct StreamState<R: DecisionRule> {
     pub(crate) sums: Sums,
-    pub(crate) evidence: E,
+    pub(crate) evidence: R::Evidence,
     pub(crate) touch: u16,
     /// Of models that object; where the program was built without, there is none.
     judges: [Judge; OPINION as usize],
@@ -76,12 +76,8 @@ fn add_rise(sums: &mut [u32; MAX_CLASSES], rise: &[i32; MAX_CLASSES], block: u32
     }
 }
 
-impl<E> StreamState<E> {
-    pub(crate) fn new<R, W>(model: &Model<W>, rule: &R) -> Self
-    where
-        R: DecisionRule<Evidence = E>,
-        W: Words,
-    {
+impl<R: DecisionRule> StreamState<R> {
+    pub(crate) fn new<W: Words>(model: &Model<W>, rule: &R) -> Self {
         let mut state = Self::unstarted(rule.start());
         state.restart(model, rule);
         state
@@ -89,7 +85,7 @@ impl<E> StreamState<E> {
 
     /// With this evidence, before it [starts](Self::restart).
     #[inline]
-    pub(crate) const fn unstarted(evidence: E) -> Self {
+    pub(crate) const fn unstarted(evidence: R::Evidence) -> Self {
         Self {
             sums: Sums::new(0),
             evidence,
@@ -99,11 +95,7 @@ impl<E> StreamState<E> {
     }
 
     /// Forgets all that was seen, where it lies: a board's stack has no room for another.
-    pub(crate) fn restart<R, W>(&mut self, model: &Model<W>, rule: &R)
-    where
-        R: DecisionRule<Evidence = E>,
-        W: Words,
-    {
+    pub(crate) fn restart<W: Words>(&mut self, model: &Model<W>, rule: &R) {
         self.sums = Sums::new(rule.interval());
         self.evidence = rule.start();
         self.touch = 0;
@@ -160,11 +152,7 @@ impl<E> StreamState<E> {
         }
     }
 
-    pub(crate) fn begin_touch<R, W>(&mut self, model: &Model<W>, rule: &R, number: u16)
-    where
-        R: DecisionRule<Evidence = E>,
-        W: Words,
-    {
+    pub(crate) fn begin_touch<W: Words>(&mut self, model: &Model<W>, rule: &R, number: u16) {
         self.touch = number;
         let Some(touch) = model.touch_rule() else {
             return;
@@ -193,11 +181,11 @@ impl<E> StreamState<E> {
     /// Adds what the roughness of a full block says, and begins the next; the block's
     /// sums.
     #[inline]
-    pub(crate) fn close_block<R, W>(&mut self, model: &Model<W>, rule: &R) -> (&mut [u32], &mut E)
-    where
-        R: DecisionRule<Evidence = E>,
-        W: Words,
-    {
+    pub(crate) fn close_block<W: Words>(
+        &mut self,
+        model: &Model<W>,
+        rule: &R,
+    ) -> (&mut [u32], &mut R::Evidence) {
         if model.has_roughness() || model.has_floors() {
             self.sums.end_of_block(model.parts());
         }
@@ -220,11 +208,11 @@ impl<E> StreamState<E> {
     /// The end of a block of a stream that decides by itself.
     // Once a block: apart from the samples, which then need less of the stack.
     #[inline(never)]
-    pub(crate) fn end_of_block<R, W>(&mut self, model: &Model<W>, rule: &R) -> Option<Decision>
-    where
-        R: DecisionRule<Evidence = E>,
-        W: Words,
-    {
+    pub(crate) fn end_of_block<W: Words>(
+        &mut self,
+        model: &Model<W>,
+        rule: &R,
+    ) -> Option<Decision> {
         let _ = self.close_block(model, rule);
         let section = heard(model, rule);
         let is_early = self.is_early(section);

@@ -15,14 +15,7 @@ pub struct Totals {
     samples: u32,
 }
 
-impl Default for Totals {
-    fn default() -> Self {
-        Self::new()
-    }
-}
-
 impl Totals {
-    /// Of no block.
     pub const fn new() -> Self {
         Self {
             sums: [0; MAX_CLASSES],
@@ -87,7 +80,7 @@ mod tests {
     fn totals_neither_wrap_nor_lose_the_leader() {
         let mut totals = Totals {
             samples: u32::MAX,
-            ..Totals::default()
+            ..Totals::new()
         };
         totals.sums[..2].copy_from_slice(&[u64::MAX - 5, u64::MAX - 1_u64.rotate_right(20)]);
         totals.add(&[10, 10], 10);

@@ -253,7 +253,6 @@ mod tests {
         differences.end_of_block()
     }
 
-    /// The mean of a channel.
     fn mean(samples: &[[f64; 2]], channel: usize) -> f64 {
         let block = (samples.len() - KEPT) as f64;
         let of = samples[KEPT..].iter().map(|s| s[channel].round());

@@ -90,7 +90,6 @@ impl<'m> Section<'m> {
         HEAD_WORDS + before.sum::<usize>()
     }
 
-    /// What is weighed of each state.
     #[inline]
     pub(crate) fn weighed(self) -> usize {
         if self.byte(0) & DEFLECTIONS == 0 {
@@ -148,7 +147,6 @@ impl<'m> Section<'m> {
         Some([*words.get(of)?, *words.get(PARTS - 1 + of)?])
     }
 
-    /// The first stage that has weights.
     #[inline]
     pub(crate) fn first_stage(self) -> usize {
         if self.byte(0) & LATE == 0 {

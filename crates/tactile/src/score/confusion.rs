@@ -41,7 +41,6 @@ impl Confusion {
     /// Counts a trial of a class: the class named, or none.
     ///
     /// # Errors
-    ///
     /// There is no such class; nothing is then counted.
     pub fn add(&mut self, truth: usize, named: Option<usize>) -> Result<(), ScoreError> {
         let classes = self.classes;
@@ -63,7 +62,6 @@ impl Confusion {
     /// Adds the trials of another matrix, as of another fold or machine.
     ///
     /// # Errors
-    ///
     /// It has other classes.
     pub fn merge(&mut self, other: &Self) -> Result<(), ScoreError> {
         if self.classes != other.classes {
