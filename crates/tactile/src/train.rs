@@ -64,7 +64,6 @@ impl Trainer {
     /// A trainer for samples of so many channels.
     ///
     /// # Errors
-    ///
     /// An option or the number of channels is out of range.
     pub fn new(channels: usize, options: Options) -> Result<Self, TrainError> {
         check_counts(MAX_CLASSES, channels, options.block)?;
@@ -84,7 +83,6 @@ impl Trainer {
     /// Adds a sample of a class. Classes are numbered as they first appear.
     ///
     /// # Errors
-    ///
     /// The sample or the name is unusable; it is then not added.
     pub fn add(&mut self, label: &str, sample: &[f64]) -> Result<(), TrainError> {
         if sample.len() != self.channels {
@@ -100,7 +98,6 @@ impl Trainer {
     /// one whisker.
     ///
     /// # Errors
-    ///
     /// As [`Self::add`].
     pub fn add_from(
         &mut self,
@@ -116,25 +113,13 @@ impl Trainer {
         if let Some(channel) = sample.iter().position(|x| !x.is_finite()) {
             return Err(TrainError::NotFinite { channel });
         }
-        let class = self.class_of(label)?;
-        self.classes.push(class);
+        let class = class_of(&mut self.names, label)?;
+        // At most 31.
+        self.classes.push(class as u8);
         self.values.extend(std::iter::repeat_n(f64::NAN, first));
         self.values.extend_from_slice(sample);
         self.values.extend(std::iter::repeat_n(f64::NAN, after));
         Ok(())
-    }
-
-    fn class_of(&mut self, label: &str) -> Result<u8, TrainError> {
-        if let Some(class) = self.names.iter().position(|n| n == label) {
-            // At most 31.
-            return Ok(class as u8);
-        }
-        TrainError::check_name(label)?;
-        if self.names.len() == MAX_CLASSES {
-            return Err(TrainError::TooManyClasses);
-        }
-        self.names.push(label.to_owned());
-        Ok((self.names.len() - 1) as u8)
     }
 
     /// Class names, in order of first appearance.
@@ -165,14 +150,9 @@ impl Trainer {
     /// Trains the model.
     ///
     /// # Errors
-    ///
     /// Fewer than two classes, or a range that cannot be scaled.
     pub fn train(&self) -> Result<ModelBuf, TrainError> {
-        match self.names.len() {
-            0 => return Err(TrainError::NoSamples),
-            1 => return Err(TrainError::OneClass),
-            _ => {}
-        }
+        check_names(&self.names)?;
         if let Some((channel, class)) = self.unfelt() {
             return Err(TrainError::Unfelt { channel, class });
         }
@@ -245,6 +225,28 @@ impl Trainer {
             .then(|| integer_quantiser(low, high, bins)))
         .flatten()
         .or_else(|| real_quantiser(low, high, bins))
+    }
+}
+
+/// The number of a class, which is added to the others where it is new.
+fn class_of(names: &mut Vec<String>, label: &str) -> Result<usize, TrainError> {
+    if let Some(class) = names.iter().position(|name| name == label) {
+        return Ok(class);
+    }
+    TrainError::check_name(label)?;
+    if names.len() == MAX_CLASSES {
+        return Err(TrainError::TooManyClasses);
+    }
+    names.push(label.to_owned());
+    Ok(names.len() - 1)
+}
+
+/// Whether there is something to distinguish.
+const fn check_names(names: &[String]) -> Result<(), TrainError> {
+    match names {
+        [] => Err(TrainError::NoSamples),
+        [_] => Err(TrainError::OneClass),
+        _ => Ok(()),
     }
 }
 

@@ -37,13 +37,14 @@ mod weights;
 use std::vec::Vec;
 
 use super::opinion::poses::Poses;
-use super::opinion::{self, Material, Trained};
+use super::opinion::{self, Material};
+use super::{check_names, class_of};
 use crate::train_error::TrainError;
-use axes::{Axes, Layout};
 use blocks::Blocks;
 pub use floors::Floor;
 pub use model::JointModel;
-use pieces::{Folded, Piece, names};
+use pieces::{Folded, Piece};
+use report::THRESHOLD;
 pub use report::{AtThreshold, ClassReport, PoseReport, Report};
 use run::{Rule, felt, of_unknown};
 pub use tables::LogTable;
@@ -56,42 +57,29 @@ use weights::{Known, Prior};
 
 /// Weights of the rule. Floors and they ask for each other: weights are fitted to all stretches,
 /// then to those that the floors let pass.
-fn fit(rule: &mut Rule, folded: &Folded<'_>, evidence: &[Evidence], options: &Options) {
+fn fit(rule: &mut Rule, folded: &Folded<'_>, evidence: &[Evidence]) {
     let classes = evidence.first().map_or(0, |piece| piece.classes);
     let lengths = weights::lengths(folded, classes);
     let prior = Some(Prior::TEXTURES);
     rule.weights = weights::fitted(evidence, &lengths, prior, None);
-    if let Some(floors) = floors_of(rule, folded, evidence, options) {
-        let known = Known {
-            rule,
-            floors: &floors,
-        };
-        rule.weights = weights::fitted(evidence, &lengths, prior, Some(known));
-    }
+    let floors = &floors_of(rule, folded, evidence);
+    let known = Some(Known { rule, floors });
+    rule.weights = weights::fitted(evidence, &lengths, prior, known);
 }
 
-/// Floors that go with the weights of a rule; none where nothing is to be refused.
-fn floors_of(
-    rule: &Rule,
-    folded: &Folded<'_>,
-    evidence: &[Evidence],
-    options: &Options,
-) -> Option<Vec<Floor>> {
-    if options.refused <= 0.0 {
-        return None;
-    }
+/// Floors that go with the weights of a rule.
+fn floors_of(rule: &Rule, folded: &Folded<'_>, evidence: &[Evidence]) -> Vec<Floor> {
     let pieces = &folded.pieces;
     let classes = evidence.first().map_or(0, |piece| piece.classes);
     let unknown = |class| of_unknown(class, pieces, evidence, rule);
     let unknown: Vec<_> = (0..classes).map(unknown).collect();
     let felt = felt(pieces, evidence, rule);
-    Some(floors::of(&felt, classes, options.refused, &unknown))
+    floors::of(&felt, classes, floors::REFUSED, &unknown)
 }
 
 /// Trains from trials in the order in which they were felt.
 ///
 /// # Errors
-///
 /// An option, a name or a sample that is unusable, fewer than two classes, or a
 /// class that was not felt for two blocks.
 pub fn train(trials: &[Trial], options: &Options) -> Result<JointModel, TrainError> {
@@ -106,15 +94,19 @@ pub fn train(trials: &[Trial], options: &Options) -> Result<JointModel, TrainErr
 /// The same, whose report is of the tables and floors alone.
 fn once(trials: &[Trial], options: &Options) -> Result<JointModel, TrainError> {
     options.check()?;
-    let names = names(trials)?;
+    let mut names = Vec::new();
+    let classes = trials
+        .iter()
+        .map(|trial| class_of(&mut names, &trial.label));
+    let classes: Vec<usize> = classes.collect::<Result<_, _>>()?;
+    check_names(&names)?;
     let scales = blocks::scales(trials)?;
     let mut pieces = Vec::new();
-    for trial in trials {
-        let class = names.iter().position(|name| *name == trial.label);
+    for (trial, class) in trials.iter().zip(&classes) {
         let blocks = Blocks::of(trial, &scales, options);
         if blocks.len() > 0 {
             pieces.push(Piece {
-                class: class.unwrap_or_default(),
+                class: *class,
                 recording: &trial.recording,
                 // Numbered once all are known.
                 fold: 0,
@@ -125,20 +117,17 @@ fn once(trials: &[Trial], options: &Options) -> Result<JointModel, TrainError> {
     let folded = Folded::new(pieces, &names)?;
     let pieces = &folded.pieces;
 
-    let axes = Axes::of(pieces, options.bins);
-    let layout = Layout::joint(&axes, options.block);
-    let tables = Tables::count(&layout, pieces, names.len(), options.smooth);
+    let shapes = axes::shapes(pieces, options.bins, options.block);
+    let tables = Tables::count(shapes, pieces, names.len(), options.smooth);
     let mut evidence = tables.held_out(pieces);
     let mut rule = Rule {
-        threshold: options.threshold,
-        limit_bits: options.limit_bits,
+        threshold: THRESHOLD,
         block: options.block,
         weights: Vec::new(),
-        sources: layout.sources(),
         unknown: None,
         apart: false,
     };
-    fit(&mut rule, &folded, &evidence, options);
+    fit(&mut rule, &folded, &evidence);
     let poses = Poses::of(trials);
     let doubts = Doubts {
         names: &names,
@@ -147,11 +136,9 @@ fn once(trials: &[Trial], options: &Options) -> Result<JointModel, TrainError> {
         evidence: &evidence,
         weights: &rule.weights,
     };
-    let Trained {
-        opinion,
-        warnings: scarce,
-    } = opinion::train(&Material {
+    let (opinion, scarce) = opinion::train(&Material {
         trials,
+        classes: &classes,
         names: &names,
         scales: &scales,
         block: options.block,
@@ -173,7 +160,7 @@ fn once(trials: &[Trial], options: &Options) -> Result<JointModel, TrainError> {
             unite(&mut table.log2_p, &groups);
         }
     }
-    let floors = |rule: &Rule| floors_of(rule, &folded, &evidence, options);
+    let floors = |rule: &Rule| floors_of(rule, &folded, &evidence);
     if opinion.is_none() {
         rule.weights = first_names::lowered(&rule, pieces, &evidence, floors);
     }
@@ -187,7 +174,7 @@ fn once(trials: &[Trial], options: &Options) -> Result<JointModel, TrainError> {
         trials,
         folded: &folded,
         evidence: &evidence,
-        floors: floors.as_deref(),
+        floors: &floors,
         warnings,
     }
     .report(&rule);

@@ -115,6 +115,8 @@ const FOLDS: usize = 8;
 pub(super) struct Material<'a> {
     pub(super) trials: &'a [Trial],
     pub(super) names: &'a [String],
+    /// Of each trial.
+    pub(super) classes: &'a [usize],
     pub(super) scales: &'a [Quantiser; CHANNELS],
     pub(super) block: u32,
     pub(super) expect: Expect,
@@ -123,12 +125,6 @@ pub(super) struct Material<'a> {
     /// Of each class the first one from which its trials cannot be distinguished, itself if
     /// there is none.
     pub(super) alike: &'a [usize],
-}
-
-/// An opinion, if there is enough to train one, and what there is too little of.
-pub(super) struct Trained {
-    pub(super) opinion: Option<Opinion>,
-    pub(super) warnings: Vec<Warning>,
 }
 
 struct Felt {
@@ -143,37 +139,28 @@ struct Felt {
     /// Recordings in which every class was felt.
     poses: Vec<usize>,
     stages: usize,
-    /// By how much it may differ in use.
     sensor: Sensor,
 }
 
 /// Trains from what there is; none where a class was not touched often enough, or nothing is
-/// expected to differ.
-pub(super) fn train(material: &Material<'_>) -> Trained {
+/// expected to differ. Says as well what there is too little of.
+pub(super) fn train(material: &Material<'_>) -> (Option<Opinion>, Vec<Warning>) {
     let felt = Felt::of(material);
     let names = felt.poses.len() >= LEAST_POSES && !felt.begins_again;
     let mut warnings = felt.lacking(material);
     if !names && material.expect == Expect::Same {
-        return Trained {
-            opinion: None,
-            warnings,
-        };
+        return (None, warnings);
     }
     let scarce = felt.scarce(material.names);
     let is_enough = scarce.is_none() && felt.stages > 0;
     warnings.extend(scarce);
     if !is_enough {
-        return Trained {
-            opinion: None,
-            warnings,
-        };
+        return (None, warnings);
     }
     let (stands, lacking) = Stands::of(&felt.touches, material.trials, material.names, felt.stages);
     warnings.extend(lacking);
-    Trained {
-        opinion: of_felt(&felt, names, material, stands.as_ref()),
-        warnings,
-    }
+    let opinion = of_felt(&felt, names, material, stands.as_ref());
+    (opinion, warnings)
 }
 
 fn of_felt(
@@ -264,17 +251,8 @@ impl Felt {
         } = *material;
         let Poses { of_trial, .. } = material.poses;
         let recordings = material.poses.count();
-        let of_class: Vec<usize> = trials
-            .iter()
-            .map(|trial| {
-                names
-                    .iter()
-                    .position(|name| *name == trial.label)
-                    .unwrap_or(0)
-            })
-            .collect();
         let sense = Sense::of(trials, scales, block);
-        let numbers = (of_class.as_slice(), of_trial.as_slice());
+        let numbers = (material.classes, of_trial.as_slice());
         let of = |gains, kind| sense.touches(trials, scales, numbers, (gains, kind));
         let poses = |touches: &[Touch]| -> Vec<usize> {
             let all = |recording: usize| {

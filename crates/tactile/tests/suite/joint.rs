@@ -13,10 +13,9 @@ fn trial(label: &str, recording: &str, mean: [f64; 2], length: usize, seed: u64)
     Trial {
         label: label.to_owned(),
         recording: recording.to_owned(),
-        pose: None,
-        stands: None,
         samples: samples.collect(),
         touches: vec![1; length],
+        ..Trial::default()
     }
 }
 
@@ -29,12 +28,8 @@ fn same() -> Options {
     }
 }
 
-/// Five trials each of two classes whose means are `apart` standard deviations apart.
-fn two(apart: f64, length: usize) -> Vec<Trial> {
-    trials(10, apart, length)
-}
-
-fn trials(count: usize, apart: f64, length: usize) -> Vec<Trial> {
+/// Trials of two classes by turns, whose means are `apart` standard deviations apart.
+fn of_two(count: usize, apart: f64, length: usize) -> Vec<Trial> {
     let means = [[-50.0 * apart, 0.0], [50.0 * apart, 0.0]];
     let all = (0..count).zip(1..);
     all.map(|(n, seed)| trial(["a", "b"][n % 2], "one", means[n % 2], length, seed))
@@ -47,12 +42,11 @@ fn two_normals_have_their_likelihood_ratio_and_posterior() {
     let options = Options {
         bins: 32,
         block: 1,
-        refused: 0.0,
         expect: Expect::Same,
         ..Options::default()
     };
     // So many trials that their weights are their own.
-    let trained = train(&trials(200, 0.5, 400), &options).unwrap();
+    let trained = train(&of_two(200, 0.5, 400), &options).unwrap();
     assert_eq!(trained.names, ["a", "b"]);
     let table = &trained.tables[0];
     assert_eq!(table.source, TableSource::Samples);
@@ -88,7 +82,7 @@ fn two_normals_have_their_likelihood_ratio_and_posterior() {
 #[test]
 fn warnings_say_what_the_trials_cannot_tell() {
     // Two classes from the same source, one far away in a single trial.
-    let mut trials = two(0.0, 2_000);
+    let mut trials = of_two(10, 0.0, 2_000);
     trials.push(trial("c", "one", [0.0, 2_000.0], 2_000, 99));
     let trained = train(&trials, &same()).unwrap();
     let warnings = &trained.report.warnings;
@@ -112,7 +106,7 @@ fn warnings_say_what_the_trials_cannot_tell() {
         .flat_map(|table| table.log2_p.chunks(3));
     assert!(rows.clone().all(|row| row[0] == row[1]) && rows.clone().any(|row| row[1] != row[2]));
 
-    let mut trials = two(2.0, 2_000);
+    let mut trials = of_two(10, 2.0, 2_000);
     for (n, trial) in trials.iter_mut().enumerate() {
         trial.recording = (n / 4).to_string();
     }
@@ -124,7 +118,7 @@ fn warnings_say_what_the_trials_cannot_tell() {
 #[test]
 fn faults_are_named() {
     let refused = |change: fn(&mut Vec<Trial>), error| {
-        let mut trials = two(1.0, 100);
+        let mut trials = of_two(10, 1.0, 100);
         change(&mut trials);
         assert_eq!(train(&trials, &same()).unwrap_err(), error);
     };
@@ -148,7 +142,7 @@ fn faults_are_named() {
         expect: Expect::Same,
         ..Options::default()
     };
-    let error = train(&two(1.0, 100), &options).unwrap_err();
+    let error = train(&of_two(10, 1.0, 100), &options).unwrap_err();
     assert_eq!(error.to_string(), "bins 1; 2 to 128 is allowed");
 }
 
@@ -161,13 +155,13 @@ fn the_model_file_decides_as_the_report_says() {
         expect: Expect::Same,
         ..Options::default()
     };
-    let trained = train(&two(0.5, 20_000), &options).unwrap();
+    let trained = train(&of_two(10, 0.5, 20_000), &options).unwrap();
     let model = trained.model().unwrap();
     let rule = model.touch_rule().unwrap();
     assert_eq!((rule.limit, rule.gap), (2048, 200));
     let mut classifier = Sequential::new(model, threshold(0.99)).unwrap();
     let (mut decided, mut right, mut samples) = (0, 0, 0.0);
-    for (n, fresh) in two(0.5, 20_000).iter().enumerate() {
+    for (n, fresh) in of_two(10, 0.5, 20_000).iter().enumerate() {
         // The same means, other samples.
         let mean = [if n % 2 == 0 { -25.0 } else { 25.0 }, 0.0];
         let other = trial(&fresh.label, "two", mean, 20_000, n as u64 + 100);

@@ -4,7 +4,7 @@ use std::sync::LazyLock;
 
 use proptest::prelude::*;
 use tactile::train::Expect;
-use tactile::train::joint::{Options, Trial, Warning, train};
+use tactile::train::joint::{JointModel, Options, Trial, Warning, train};
 use tactile::{
     CRC_BYTES, Deciding, Decision, ModelBuf, Pose, RuleSettings, SetupError, StreamClassifier,
     Whisked, checksum,
@@ -48,11 +48,21 @@ fn trial(label: &str, amplitude: f64, [x_bend, y_bend]: [f64; 2], seed: u64) -> 
     Trial {
         label: label.to_owned(),
         recording: format!("pose {x_bend} {y_bend}"),
-        pose: None,
-        stands: None,
         samples,
         touches,
+        ..Trial::default()
     }
+}
+
+/// What training makes of trials, and the model.
+pub(crate) fn learn(trials: impl IntoIterator<Item = Trial>) -> (JointModel, ModelBuf) {
+    learn_by(trials, &Options::default())
+}
+
+fn learn_by(trials: impl IntoIterator<Item = Trial>, options: &Options) -> (JointModel, ModelBuf) {
+    let trained = train(&trials.into_iter().collect::<Vec<_>>(), options).unwrap();
+    let model = trained.model().unwrap();
+    (trained, model)
 }
 
 fn trained(poses: &[f64]) -> ModelBuf {
@@ -73,8 +83,7 @@ fn expecting(expect: Expect, bends: &[[f64; 2]]) -> ModelBuf {
         expect,
         ..Options::default()
     };
-    let trained = train(&trials.collect::<Vec<_>>(), &options).unwrap();
-    trained.model().unwrap()
+    learn_by(trials, &options).1
 }
 
 /// One that objects, one that names, and one that estimates poses.
@@ -91,8 +100,7 @@ fn six_classes_with_a_second_opinion_fit_a_small_board() {
         let seeds = [2 * n as u64, 2 * n as u64 + 1];
         seeds.map(|seed| trial(label, f64::from(15 * n), [900.0, -300.0], seed))
     });
-    let trained = train(&trials.collect::<Vec<_>>(), &Options::default()).unwrap();
-    let model = trained.model().unwrap();
+    let (_, model) = learn(trials);
     assert!(model.has_opinion());
     let bytes = model.as_bytes().len();
     assert!(bytes <= ROOM, "{bytes} bytes");
@@ -135,10 +143,9 @@ fn learnt(friction: f64) -> (Vec<[f64; 2]>, ModelBuf) {
         whisked: WHISKED,
         ..Options::default()
     };
-    let trained = train(&standings(friction, |as_it_is| as_it_is), &options).unwrap();
-    let errors = &trained.opinion.as_ref().unwrap().pose_errors;
-    let at_six = errors.iter().map(|stages| stages[5]).collect();
-    (at_six, trained.model().unwrap())
+    let (trained, model) = learn_by(standings(friction, |as_it_is| as_it_is), &options);
+    let errors = trained.opinion.unwrap().pose_errors;
+    (errors.iter().map(|stages| stages[5]).collect(), model)
 }
 
 /// The first so many bytes of a model with some changed, and the sum that belongs to them.
@@ -294,8 +301,7 @@ fn surfaces_that_tremble_alike_are_named_by_their_deflection() {
     let in_poses = poses.iter().zip([100, 200, 300]);
     let trials =
         in_poses.flat_map(|(pose, seed)| (0..4).flat_map(move |n| surfaces(*pose, seed + 2 * n)));
-    let trained = train(&trials.collect::<Vec<_>>(), &Options::default()).unwrap();
-    let model = trained.model().unwrap();
+    let (_, model) = learn(trials);
     for felt in surfaces(-200.0, 900) {
         let class = model.names().position(|name| name == felt.label);
         let decisions = decisions(&model, &felt);
@@ -346,8 +352,7 @@ fn poses_that_are_measured_twice_are_held_out_together() {
                 ..trial
             }
         }));
-        let trained = train(&trials, &Options::default()).unwrap();
-        trained.opinion.unwrap().pose_errors[0][5][0]
+        learn(trials).0.opinion.unwrap().pose_errors[0][5][0]
     };
     let [expected, found] = [0.0, 1e-4].map(errors);
     assert!((found / expected - 1.0).abs() < 0.01, "{found} {expected}");
@@ -400,8 +405,7 @@ fn poses_of_others_are_only_guessed() {
         stands: all[(n + 18) % all.len()].stands,
         ..all[n].clone()
     });
-    let trained = train(&permuted.collect::<Vec<_>>(), &Options::default()).unwrap();
-    for stages in &trained.opinion.unwrap().pose_errors {
+    for stages in &learn(permuted).0.opinion.unwrap().pose_errors {
         for [tilt, depth] in stages {
             assert!((2.2..4.0).contains(tilt), "{tilt}");
             assert!((0.85..1.6).contains(depth), "{depth}");
@@ -410,27 +414,24 @@ fn poses_of_others_are_only_guessed() {
 }
 
 #[test]
-fn a_depth_that_cannot_be_said_is_not_learnt() {
-    let trials = standings(0.0, |[tilt, depth]| [tilt, 320.0 + depth]);
-    let trained = train(&trials, &Options::default()).unwrap();
-    let is_wide = |warning: &Warning| matches!(warning, Warning::WidePose { .. });
-    assert!(trained.report.warnings.iter().any(is_wide));
-    assert!(!trained.model().unwrap().has_pose());
-}
-
-#[test]
-fn few_values_of_a_pose_are_said_to_be_too_few() {
-    let trials = standings(0.0, |[tilt, _]| [tilt, 8.0]);
-    let trained = train(&trials, &Options::default()).unwrap();
-    let warned = trained.report.warnings.iter();
+fn a_depth_that_cannot_be_said_or_never_differs_is_not_learnt() {
     let lacks = Warning::NoPose {
         name: "smooth".to_owned(),
         what: "values of tilt_deg or depth_deg",
         found: 1,
         least: 6,
     };
-    assert_eq!(warned.filter(|warning| **warning == lacks).count(), 1);
-    assert!(!trained.model().unwrap().has_pose());
+    let too_deep = standings(0.0, |[tilt, depth]| [tilt, 320.0 + depth]);
+    let alike = standings(0.0, |[tilt, _]| [tilt, 8.0]);
+    for (trials, is_wide) in [(too_deep, true), (alike, false)] {
+        let (trained, model) = learn(trials);
+        let mut warnings = trained.report.warnings.into_iter();
+        assert!(warnings.any(|warning| match warning {
+            Warning::WidePose { .. } => is_wide,
+            other => other == lacks && !is_wide,
+        }));
+        assert!(!model.has_pose());
+    }
 }
 
 #[test]

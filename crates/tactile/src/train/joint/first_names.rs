@@ -25,7 +25,7 @@ const RARE: f64 = 0.05;
 /// ones is Poisson's.
 fn keep(mut names: Vec<Decided>) -> bool {
     names.dedup_by_key(|name| name.piece);
-    let wrong = names.iter().filter(|name| name.class != name.truth).count() as u64;
+    let wrong = names.iter().filter(|name| !name.is_right()).count() as u64;
     let expected: f64 = names.iter().map(|name| 1.0 - name.posterior).sum();
     // None where nothing is expected to be wrong.
     let as_many = Poisson::new(expected).map(|wrongs| wrongs.sf(wrong.saturating_sub(1)));
@@ -38,7 +38,7 @@ pub(super) fn lowered(
     rule: &Rule,
     pieces: &[Piece<'_>],
     evidence: &[Evidence],
-    floors: impl Fn(&Rule) -> Option<Vec<Floor>>,
+    floors: impl Fn(&Rule) -> Vec<Floor>,
 ) -> Vec<f64> {
     let mut lower = Rule {
         apart: true,
@@ -55,7 +55,7 @@ pub(super) fn lowered(
             };
             let mut names = decisions(pieces, evidence, &rule);
             names.retain(|decided| {
-                let floor = floors.as_ref().and_then(|floors| floors.get(decided.class));
+                let floor = floors.get(decided.class);
                 floor.is_none_or(|floor| !floor.refuses(decided.entries))
             });
             keep(names)

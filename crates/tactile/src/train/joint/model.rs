@@ -5,17 +5,18 @@ use std::vec::Vec;
 
 use super::floors::Floor;
 use super::report::Report;
+use super::run::LIMIT_BITS;
 use super::tables::LogTable;
 use super::trial::{CHANNELS, Options};
 use crate::error::ModelError;
 use crate::format::{ENTRIES_PER_BIT, ENTRY_OFFSET_BITS};
 use crate::layout::TouchRule;
 use crate::model::Floors;
-use crate::model_buf::{ModelBuf, ModelParts, TableParts, TableSource};
+use crate::model_buf::{ModelBuf, ModelParts, TableParts};
 use crate::quantiser::Quantiser;
 use crate::train::opinion::Opinion;
 
-/// Where the largest entries of all tables of a source are smaller, it has no floor.
+/// Where the largest entries of a table are smaller, it has no floor.
 const LEAST_ENTRY: u16 = 32;
 
 /// What training gives.
@@ -27,12 +28,12 @@ pub struct JointModel {
     pub options: Options,
     /// The scale of the codes of each channel.
     pub scales: [Quantiser; CHANNELS],
-    /// Tables of log-likelihoods, not yet weighted.
+    /// Tables of log-likelihoods, not yet weighted: of samples, and of roughness.
     pub tables: Vec<LogTable>,
     /// Weight of each table, 0 to [`MAX_WEIGHT`](super::MAX_WEIGHT).
     pub weights: Vec<f64>,
-    /// A floor a class; none where none was wanted.
-    pub floors: Option<Vec<Floor>>,
+    /// A floor a class.
+    pub floors: Vec<Floor>,
     /// In how many poses it was trained, of some classes or of all.
     pub poses: usize,
     /// A second opinion; none where nothing is expected to differ, or too little was touched.
@@ -46,7 +47,6 @@ impl JointModel {
     /// round(w (log₂ p + 20) · 1024).
     ///
     /// # Errors
-    ///
     /// A setting that no model file can hold.
     pub fn model(&self) -> Result<ModelBuf, ModelError> {
         let unit = f64::from(ENTRIES_PER_BIT);
@@ -75,20 +75,15 @@ impl JointModel {
                 entries,
             })
             .collect();
-        let floors = self.floors.as_ref().filter(|_| !names);
-        let floors = floors.map(|floors| {
+        let floors = (!names).then(|| {
             // Of entries of some units rounding would decide.
-            let weighs = |is_of: fn(&TableSource) -> bool| {
-                let of = self.tables.iter().zip(&self.weights);
-                let mut of = of.filter(|(table, _)| is_of(&table.source));
-                of.any(|(_, weight)| entry(weight * f64::from(ENTRY_OFFSET_BITS)) >= LEAST_ENTRY)
-            };
-            let samples = weighs(|source| matches!(source, TableSource::Samples));
-            let roughness = weighs(|source| !matches!(source, TableSource::Samples));
-            let floor = |weighs: bool, bits: f64| if weighs { entry(bits) } else { 0 };
-            let floors = floors.iter().map(|floor_of| Floors {
-                samples: floor(samples, floor_of.samples),
-                roughness: floor(roughness, floor_of.roughness),
+            let is_felt =
+                |weight: &f64| entry(weight * f64::from(ENTRY_OFFSET_BITS)) >= LEAST_ENTRY;
+            let [samples, roughness] = [0, 1].map(|n| self.weights.get(n).is_some_and(is_felt));
+            let floor = |is_felt: bool, bits: f64| if is_felt { entry(bits) } else { 0 };
+            let floors = self.floors.iter().map(|floors| Floors {
+                samples: floor(samples, floors.samples),
+                roughness: floor(roughness, floors.roughness),
             });
             floors.collect::<Vec<_>>()
         });
@@ -99,7 +94,7 @@ impl JointModel {
             tables: &tables,
             floors: floors.as_deref(),
             touch: Some(TouchRule {
-                limit: (self.options.limit_bits * unit).round() as u32,
+                limit: (LIMIT_BITS * unit).round() as u32,
                 gate: self.options.gate as f32,
                 gap: self.options.gap,
             }),

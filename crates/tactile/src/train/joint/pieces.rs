@@ -5,8 +5,6 @@ use std::vec;
 use std::vec::Vec;
 
 use super::blocks::Blocks;
-use super::trial::Trial;
-use crate::format::MAX_CLASSES;
 use crate::train_error::TrainError;
 
 /// The blocks of a trial, or of half a trial.
@@ -16,26 +14,6 @@ pub(super) struct Piece<'t> {
     /// The pieces of a fold are held out together.
     pub(super) fold: usize,
     pub(super) blocks: Blocks,
-}
-
-/// In order of first appearance.
-pub(super) fn names(trials: &[Trial]) -> Result<Vec<String>, TrainError> {
-    let mut names: Vec<String> = Vec::new();
-    for trial in trials {
-        if names.contains(&trial.label) {
-            continue;
-        }
-        TrainError::check_name(&trial.label)?;
-        if names.len() == MAX_CLASSES {
-            return Err(TrainError::TooManyClasses);
-        }
-        names.push(trial.label.clone());
-    }
-    match names.len() {
-        0 => Err(TrainError::NoSamples),
-        1 => Err(TrainError::OneClass),
-        _ => Ok(names),
-    }
 }
 
 pub(super) struct Folded<'t> {

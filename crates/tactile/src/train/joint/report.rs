@@ -12,7 +12,10 @@ use super::warnings::Warning;
 use crate::score::Interval;
 
 /// Thresholds at which the rule is tried.
-const THRESHOLDS: [f64; 7] = [0.8, 0.9, 0.95, 0.98, 0.99, 0.995, 0.999];
+const THRESHOLDS: [f64; 7] = [0.8, 0.9, 0.95, 0.98, THRESHOLD, 0.995, 0.999];
+/// The one at which floors and the figures of classes let it decide, and which of them it is.
+pub(super) const THRESHOLD: f64 = 0.99;
+pub(super) const USUAL: usize = 4;
 
 /// What was found of a class.
 #[derive(Debug, Clone, PartialEq)]
@@ -54,8 +57,6 @@ pub struct AtThreshold {
     pub samples: f64,
     /// Share of decisions that said "unknown".
     pub unknown: Interval,
-    /// Share of trials without a decision.
-    pub undecided: Interval,
 }
 
 /// What was found of a pose when it was held out.
@@ -89,8 +90,8 @@ pub struct Report {
 impl Report {
     /// Warns where decisions at the threshold state more than they keep.
     pub(super) fn doubt(&mut self) {
-        let own = self.calibration.iter();
-        let own = own.filter(|at| at.threshold == self.threshold && at.stated > at.found.high);
+        let own = self.calibration.get(USUAL);
+        let own = own.filter(|at| at.stated > at.found.high);
         let doubts = own.map(|at| Warning::Overstated {
             stated: at.stated,
             found: at.found,
@@ -99,47 +100,25 @@ impl Report {
     }
 }
 
-/// What was said of a part that was held out, by tables and floors or by the whole model.
-pub(super) struct Said {
-    /// Which of the parts.
-    pub(super) of: usize,
-    pub(super) truth: usize,
-    pub(super) leader: usize,
-    pub(super) posterior: f64,
-    pub(super) samples: u32,
-    /// Not unknown.
-    pub(super) is_named: bool,
-}
-
-impl Said {
-    pub(super) const fn is_right(&self) -> bool {
-        self.leader == self.truth
-    }
-}
-
-/// The share of parts in which no class was named.
-pub(super) fn undecided(said: &[Said], parts: impl Iterator<Item = usize>) -> Interval {
-    let is_decided = |part: usize| said.iter().any(|said| said.of == part && said.is_named);
-    let (mut silent, mut count) = (0, 0);
-    for part in parts {
-        count += 1;
-        silent += usize::from(!is_decided(part));
-    }
-    Interval::of(silent, count)
+/// In how many parts no class was named, and of how many.
+pub(super) fn silent(said: &[Decided], parts: impl Iterator<Item = usize>) -> [usize; 2] {
+    let is_decided = |part: usize| said.iter().any(|said| said.piece == part && said.is_named);
+    parts.fold([0; 2], |[silent, count], part| {
+        [silent + usize::from(!is_decided(part)), count + 1]
+    })
 }
 
 impl AtThreshold {
-    pub(super) fn of(threshold: f64, said: &[Said], parts: usize) -> Self {
+    pub(super) fn of(threshold: f64, said: &[Decided]) -> Self {
         let named = || said.iter().filter(|said| said.is_named);
         let count = named().count();
-        let mean = |of: &dyn Fn(&Said) -> f64| named().map(of).sum::<f64>() / count as f64;
+        let mean = |of: &dyn Fn(&Decided) -> f64| named().map(of).sum::<f64>() / count as f64;
         Self {
             threshold,
             stated: mean(&|said| said.posterior),
             found: Interval::of(named().filter(|said| said.is_right()).count(), count),
             samples: mean(&|said| f64::from(said.samples)),
             unknown: Interval::of(said.len() - count, said.len()),
-            undecided: undecided(said, 0..parts),
         }
     }
 }
@@ -151,7 +130,7 @@ impl ClassReport {
         names: &[String],
         trials: &[Trial],
         noticed: Interval,
-        said: &[Said],
+        said: &[Decided],
         parts: impl Iterator<Item = usize>,
     ) -> Self {
         let of = || said.iter().filter(|said| said.truth == class);
@@ -159,15 +138,15 @@ impl ClassReport {
         let count = named().count();
         let right = of().filter(|said| said.is_right()).count();
         let right_named = named().filter(|said| said.is_right()).count();
-        let as_other = |n| named().filter(|said| said.leader == n).count();
+        let as_other = |n| named().filter(|said| said.class == n).count();
         let samples = named().map(|said| f64::from(said.samples));
-        let silent = undecided(said, parts);
+        let [undecided, parts] = silent(said, parts);
         let own = trials.iter().filter(|trial| trial.label == names[class]);
         Self {
             name: names[class].clone(),
             trials: own.count(),
-            parts: silent.count,
-            undecided: (silent.share * silent.count as f64).round() as usize,
+            parts,
+            undecided,
             named: (0..names.len()).map(as_other).collect(),
             unknown: of().count() - count,
             hits: Interval::of(right_named, count),
@@ -183,52 +162,45 @@ pub(super) struct Maker<'a> {
     pub(super) trials: &'a [Trial],
     pub(super) folded: &'a Folded<'a>,
     pub(super) evidence: &'a [Evidence],
-    pub(super) floors: Option<&'a [Floor]>,
+    pub(super) floors: &'a [Floor],
     pub(super) warnings: Vec<Warning>,
 }
 
 impl Maker<'_> {
     pub(super) fn report(self, rule: &Rule) -> Report {
-        let threshold = rule.threshold;
-        let parts = self.folded.pieces.len();
-        let calibration = THRESHOLDS
-            .map(|threshold| AtThreshold::of(threshold, &self.said(rule, threshold), parts));
-        let said = self.said(rule, threshold);
+        let said = THRESHOLDS.map(|threshold| self.said(rule, threshold));
+        let class = |class| self.class(class, &said[USUAL], rule);
+        let calibration = THRESHOLDS.iter().zip(&said);
         Report {
-            threshold,
-            classes: (0..self.names.len())
-                .map(|class| self.class(class, &said, rule))
+            threshold: THRESHOLD,
+            classes: (0..self.names.len()).map(class).collect(),
+            calibration: calibration
+                .map(|(at, said)| AtThreshold::of(*at, said))
                 .collect(),
-            calibration: calibration.to_vec(),
             poses: Vec::new(),
             warnings: self.warnings,
         }
     }
 
-    fn said(&self, rule: &Rule, threshold: f64) -> Vec<Said> {
+    fn said(&self, rule: &Rule, threshold: f64) -> Vec<Decided> {
         let rule = Rule {
             threshold,
             apart: true,
             ..rule.clone()
         };
-        let decided = decisions(&self.folded.pieces, self.evidence, &rule);
-        let said = decided.iter().map(|decided| Said {
-            of: decided.piece,
-            truth: decided.truth,
-            leader: decided.class,
-            posterior: decided.posterior,
-            samples: decided.samples,
-            is_named: !self.refused(decided),
-        });
-        said.collect()
+        let mut said = decisions(&self.folded.pieces, self.evidence, &rule);
+        for said in &mut said {
+            said.is_named = !self.refused(said);
+        }
+        said
     }
 
     fn refused(&self, decided: &Decided) -> bool {
-        let floor = self.floors.and_then(|floors| floors.get(decided.class));
+        let floor = self.floors.get(decided.class);
         floor.is_some_and(|floor| floor.refuses(decided.entries))
     }
 
-    fn class(&self, class: usize, said: &[Said], rule: &Rule) -> ClassReport {
+    fn class(&self, class: usize, said: &[Decided], rule: &Rule) -> ClassReport {
         let pieces = &self.folded.pieces;
         let found = of_unknown(class, pieces, self.evidence, rule);
         let noticed = found.iter().filter(|decided| self.refused(decided)).count();

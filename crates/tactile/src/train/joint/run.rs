@@ -6,35 +6,41 @@ use std::vec::Vec;
 use super::pieces::Piece;
 use super::tables::Evidence;
 use crate::format::ENTRY_OFFSET_BITS;
-use crate::model_buf::TableSource;
+
+/// Most that a class may lie behind at the onset of a touch, bits.
+pub(super) const LIMIT_BITS: f64 = 2.0;
 
 #[derive(Clone)]
 pub(super) struct Rule {
-    /// On the posterior.
     pub(super) threshold: f64,
-    /// On a deficit at the onset of a touch.
-    pub(super) limit_bits: f64,
-    /// Samples of a block.
     pub(super) block: u32,
+    /// Of the table of samples, and of that of roughness.
     pub(super) weights: Vec<f64>,
-    /// Of each table.
-    pub(super) sources: Vec<TableSource>,
     /// A class that it does not know: what would be made of it is asked.
     pub(super) unknown: Option<usize>,
     /// Whether each piece is judged for itself; else evidence goes on within a recording.
     pub(super) apart: bool,
 }
 
+/// What was said of a part, by tables alone, with floors, or by the whole model.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Decided {
+    /// Which of the parts that were held out.
     pub(super) piece: usize,
     pub(super) truth: usize,
     pub(super) class: usize,
     pub(super) posterior: f64,
     pub(super) samples: u32,
-    /// Mean of the leader's weighted entries since the onset of the touch, bits: of
-    /// the tables of samples, and of roughness.
+    /// Not unknown.
+    pub(super) is_named: bool,
+    /// Mean of the leader's weighted entries since the onset of the touch, bits, by table.
     pub(super) entries: [f64; 2],
+}
+
+impl Decided {
+    pub(super) const fn is_right(&self) -> bool {
+        self.class == self.truth
+    }
 }
 
 /// The mean entries, as [`Decided::entries`], of the class that was felt: at a decision,
@@ -58,6 +64,7 @@ pub(super) fn decisions(pieces: &[Piece<'_>], evidence: &[Evidence], rule: &Rule
             class: verdict.class,
             posterior: verdict.posterior,
             samples: verdict.blocks * rule.block,
+            is_named: true,
             entries: state.entries(verdict.class),
         });
     });
@@ -138,9 +145,8 @@ struct State<'r> {
     rule: &'r Rule,
     /// Bits behind the leader.
     deficits: Vec<f64>,
-    /// Blocks since a decision.
     blocks: u32,
-    /// Blocks of the touch, and the sums of their weighted entries, by source.
+    /// Blocks of the touch, and the sums of their weighted entries, by table.
     touched: u32,
     sums: [Vec<f64>; 2],
 }
@@ -158,7 +164,7 @@ impl<'r> State<'r> {
 
     fn onset(&mut self) {
         for deficit in &mut self.deficits {
-            *deficit = deficit.min(self.rule.limit_bits);
+            *deficit = deficit.min(LIMIT_BITS);
         }
         self.touched = 0;
         self.sums.iter_mut().for_each(|sums| sums.fill(0.0));
@@ -168,8 +174,7 @@ impl<'r> State<'r> {
     fn block(&mut self, means: &[f64]) -> Option<Verdict> {
         let classes = self.deficits.len();
         let tables = means.chunks_exact(classes).zip(&self.rule.weights);
-        for ((table, weight), source) in tables.zip(&self.rule.sources) {
-            let sums = &mut self.sums[*source as usize];
+        for ((table, weight), sums) in tables.zip(&mut self.sums) {
             let of_classes = self.deficits.iter_mut().zip(sums).zip(table);
             for ((deficit, sum), mean) in of_classes {
                 *deficit -= weight * mean;
@@ -202,8 +207,8 @@ impl<'r> State<'r> {
         })
     }
 
-    /// Mean weighted entries of a class since the onset, by source.
+    /// Mean weighted entries of a class since the onset, by table.
     fn entries(&self, class: usize) -> [f64; 2] {
-        [0, 1].map(|source| self.sums[source][class] / f64::from(self.touched.max(1)))
+        [0, 1].map(|table| self.sums[table][class] / f64::from(self.touched.max(1)))
     }
 }

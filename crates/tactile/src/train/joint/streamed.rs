@@ -7,7 +7,8 @@ use std::thread;
 use std::vec::Vec;
 
 use super::model::JointModel;
-use super::report::{AtThreshold, ClassReport, PoseReport, Said, undecided};
+use super::report::{AtThreshold, ClassReport, PoseReport, USUAL, silent};
+use super::run::Decided;
 use super::trial::Trial;
 use crate::error::ModelError;
 use crate::score::Interval;
@@ -21,14 +22,6 @@ const FOLDS: usize = 4;
 /// In how many at most, of poses.
 const MOST_FOLDS: usize = 8;
 
-/// What was said of a part that was held out.
-struct OfFold {
-    /// At each threshold of the calibration.
-    said: Vec<Vec<Said>>,
-    /// At the model's own.
-    own: Vec<Said>,
-}
-
 /// Replaces the report of a model by one of the classifier as it streams: where each class was
 /// felt in several poses each is held out, else some trials of each class. Where these are too few
 /// to be held out, the report stays that of tables and floors.
@@ -36,14 +29,10 @@ pub(super) fn report(model: &mut JointModel, trials: &[Trial]) -> Result<(), Tra
     let poses = Some(Poses::of(trials)).filter(|poses| are_whole(poses, trials, &model.names));
     let folds = folds(model, trials, poses.as_ref());
     let last = folds.iter().copied().max().unwrap_or(0);
-    let thresholds: Vec<f64> = model
-        .report
-        .calibration
-        .iter()
-        .map(|at| at.threshold)
-        .collect();
+    let thresholds = model.report.calibration.iter().map(|at| at.threshold);
+    let thresholds: Vec<f64> = thresholds.collect();
     let of_fold = |fold| of_fold(model, trials, (&folds, fold), &thresholds);
-    let of_folds: Vec<Option<OfFold>> = thread::scope(|scope| {
+    let of_folds: Vec<Option<Vec<Vec<Decided>>>> = thread::scope(|scope| {
         let begin = |fold| thread::Builder::new().spawn_scoped(scope, move || of_fold(fold));
         let begun: Vec<_> = (0..=last).map(begin).collect();
         let ends = begun.into_iter().enumerate();
@@ -54,40 +43,39 @@ pub(super) fn report(model: &mut JointModel, trials: &[Trial]) -> Result<(), Tra
         })
         .collect::<Result<_, TrainError>>()
     })?;
-    let mut said: Vec<Vec<Said>> = thresholds.iter().map(|_| Vec::new()).collect();
-    let mut own: Vec<Said> = Vec::new();
+    let mut said: Vec<Vec<Decided>> = thresholds.iter().map(|_| Vec::new()).collect();
     for of_fold in of_folds {
         // Too little is left without a part: what there is is not worth less for that.
         let Some(of_fold) = of_fold else {
             return Ok(());
         };
-        for (said, of_fold) in said.iter_mut().zip(of_fold.said) {
+        for (said, of_fold) in said.iter_mut().zip(of_fold) {
             said.extend(of_fold);
         }
-        own.extend(of_fold.own);
     }
+    let own = &said[USUAL];
     let report = &mut model.report;
     for (at, said) in report.calibration.iter_mut().zip(&said) {
-        *at = AtThreshold::of(at.threshold, said, trials.len());
+        *at = AtThreshold::of(at.threshold, said);
     }
     for (class, report) in report.classes.iter_mut().enumerate() {
         let of_class = (0..trials.len()).filter(|part| trials[*part].label == report.name);
-        *report = ClassReport::of(class, &model.names, trials, report.noticed, &own, of_class);
+        *report = ClassReport::of(class, &model.names, trials, report.noticed, own, of_class);
     }
     if let Some(poses) = poses {
-        report.poses = of_poses(&poses, &own, trials, &model.names);
+        report.poses = of_poses(&poses, own, trials, &model.names);
     }
     Ok(())
 }
 
-/// What a model without the trials of one part says of them; none where too little is left to train
+/// What a model without the trials of one part says of them at each threshold; none where too little is left to train
 /// one of the same kind.
 fn of_fold(
     model: &JointModel,
     trials: &[Trial],
     (folds, fold): (&[usize], usize),
     thresholds: &[f64],
-) -> Result<Option<OfFold>, TrainError> {
+) -> Result<Option<Vec<Vec<Decided>>>, TrainError> {
     let pick = |is_held_out: bool| {
         let of = trials.iter().enumerate().zip(folds);
         of.filter(move |(_, of)| (**of == fold) == is_held_out)
@@ -102,12 +90,12 @@ fn of_fold(
         return Ok(None);
     }
     let held_out: Vec<(usize, &Trial)> = pick(true).collect();
-    let at = |threshold: f64| stream(&other, &model.names, &held_out, threshold);
-    let said = thresholds.iter().map(|threshold| at(*threshold));
-    Ok(Some(OfFold {
-        said: said.collect::<Result<_, _>>()?,
-        own: at(model.report.threshold)?,
-    }))
+    let at = |threshold: &f64| stream(&other, &model.names, &held_out, *threshold);
+    thresholds
+        .iter()
+        .map(at)
+        .collect::<Result<_, _>>()
+        .map(Some)
 }
 
 /// Whether each class was felt in several poses.
@@ -142,7 +130,7 @@ fn stream(
     names: &[String],
     trials: &[(usize, &Trial)],
     threshold: f64,
-) -> Result<Vec<Said>, TrainError> {
+) -> Result<Vec<Decided>, TrainError> {
     let threshold = Threshold::new(threshold).map_err(|_| TrainError::NoSamples)?;
     let buffer = model.model()?;
     let number = |name: &String| names.iter().position(|of| of == name).unwrap_or(0);
@@ -165,14 +153,15 @@ fn stream(
             }
             if let Ok(Some(decision)) = classifier.push(&codes) {
                 // Folds may meet classes in another order.
-                let leader = model.names.get(decision.leader()).map_or(0, number);
-                said.push(Said {
-                    of: *trial,
+                let class = model.names.get(decision.leader()).map_or(0, number);
+                said.push(Decided {
+                    piece: *trial,
                     truth: number(&of.label),
-                    leader,
+                    class,
                     posterior: f64::from(decision.posterior().q32()) / 4_294_967_296.0,
                     samples: decision.samples(),
                     is_named: decision.class().is_some(),
+                    entries: [f64::NAN; 2],
                 });
             }
         }
@@ -180,19 +169,21 @@ fn stream(
     Ok(said)
 }
 
-/// What was said of each pose that has a name.
-fn of_poses(poses: &Poses, said: &[Said], trials: &[Trial], names: &[String]) -> Vec<PoseReport> {
+fn of_poses(
+    poses: &Poses,
+    said: &[Decided],
+    trials: &[Trial],
+    names: &[String],
+) -> Vec<PoseReport> {
     let of = |(pose, name): (usize, &Option<String>)| {
         let is_of = |trial: &usize| poses.of_trial.get(*trial) == Some(&pose);
         let decided = |label: Option<&String>| {
             let of_label = |trial: &usize| label.is_none_or(|label| trials[*trial].label == *label);
             let own = (0..trials.len()).filter(is_of).filter(of_label);
-            let Interval { share, count, .. } = undecided(said, own);
-            // Of none there is no share.
-            let silent = (share * count as f64).round() as usize;
+            let [silent, count] = silent(said, own);
             Interval::of(count - silent, count)
         };
-        let named = || said.iter().filter(|s| s.is_named && is_of(&s.of));
+        let named = || said.iter().filter(|s| s.is_named && is_of(&s.piece));
         Some(PoseReport {
             name: name.clone()?,
             decided: decided(None),

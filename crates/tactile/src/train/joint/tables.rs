@@ -3,7 +3,7 @@
 use std::vec;
 use std::vec::Vec;
 
-use super::axes::{Layout, Shape};
+use super::axes::Shape;
 use super::pieces::Piece;
 use super::trial::CHANNELS;
 use crate::format::LOG_FLOOR;
@@ -52,29 +52,28 @@ pub(super) fn unite(of_classes: &mut [f64], first: &[usize]) {
     }
 }
 
-pub(super) struct Tables<'l> {
-    layout: &'l Layout,
+pub(super) struct Tables {
     classes: usize,
     kernel: Vec<f64>,
-    /// Of each table.
-    counted: Vec<Counted>,
+    all: Vec<Table>,
 }
 
-struct Counted {
+struct Table {
+    shape: Shape,
     /// Of each piece the cells of its blocks.
     cells: Vec<Vec<usize>>,
     /// Histogram of each class.
     of_class: Vec<Vec<f64>>,
 }
 
-impl<'l> Tables<'l> {
+impl Tables {
     pub(super) fn count(
-        layout: &'l Layout,
+        shapes: [Shape; 2],
         pieces: &[Piece<'_>],
         classes: usize,
         smooth: f64,
     ) -> Self {
-        let count = |shape: &Shape| {
+        let count = |shape: Shape| {
             let cells: Vec<_> = pieces.iter().map(|piece| shape.cells_of(piece)).collect();
             let mut of_class = vec![vec![0.0; shape.cells()]; classes];
             for (piece, cells) in pieces.iter().zip(&cells) {
@@ -82,31 +81,31 @@ impl<'l> Tables<'l> {
                     of_class[piece.class][cell] += 1.0;
                 }
             }
-            Counted { cells, of_class }
+            Table {
+                shape,
+                cells,
+                of_class,
+            }
         };
         Self {
-            layout,
             classes,
             kernel: gaussian(smooth),
-            counted: layout.shapes.iter().map(count).collect(),
+            all: shapes.into_iter().map(count).collect(),
         }
     }
 
-    /// Tables of all that was counted.
     pub(super) fn finished(&self) -> Vec<LogTable> {
-        let tables = self.layout.shapes.iter().zip(&self.counted);
-        tables
-            .map(|(shape, counted)| LogTable {
-                source: shape.source,
-                axes: shape.axes,
-                log2_p: self.log2_p(shape, &counted.of_class),
-            })
-            .collect()
+        let finished = |table: &Table| LogTable {
+            source: table.shape.source,
+            axes: table.shape.axes,
+            log2_p: self.log2_p(&table.shape, &table.of_class),
+        };
+        self.all.iter().map(finished).collect()
     }
 
     /// What tables that have not counted its fold say of each piece.
     pub(super) fn held_out(&self, pieces: &[Piece<'_>]) -> Vec<Evidence> {
-        let tables = self.layout.shapes.len();
+        let tables = self.all.len();
         let mut evidence: Vec<Evidence> = pieces
             .iter()
             .map(|piece| Evidence {
@@ -120,20 +119,19 @@ impl<'l> Tables<'l> {
         let folds = pieces.iter().map(|piece| piece.fold + 1).max();
         for fold in 0..folds.unwrap_or(0) {
             let within = || (0..pieces.len()).filter(|&n| pieces[n].fold == fold);
-            for (table, (shape, counted)) in
-                self.layout.shapes.iter().zip(&self.counted).enumerate()
-            {
-                let mut of_class = counted.of_class.clone();
+            for (n_table, table) in self.all.iter().enumerate() {
+                let Table { shape, cells, .. } = table;
+                let mut of_class = table.of_class.clone();
                 for n in within() {
-                    for &cell in &counted.cells[n] {
+                    for &cell in &cells[n] {
                         of_class[pieces[n].class][cell] -= 1.0;
                     }
                 }
                 let log2_p = self.log2_p(shape, &of_class);
                 for n in within() {
                     let rows = evidence[n].means.chunks_exact_mut(tables * self.classes);
-                    for (row, cells) in rows.zip(counted.cells[n].chunks_exact(shape.lookups)) {
-                        let means = &mut row[table * self.classes..][..self.classes];
+                    for (row, cells) in rows.zip(cells[n].chunks_exact(shape.lookups)) {
+                        let means = &mut row[n_table * self.classes..][..self.classes];
                         for &cell in cells {
                             let entries = &log2_p[cell * self.classes..][..self.classes];
                             for (mean, entry) in means.iter_mut().zip(entries) {

@@ -11,7 +11,6 @@ use super::tables::Evidence;
 use super::trial::{Options, Trial};
 use super::weights::Prior;
 use super::{first_names, floors, weights};
-use crate::model_buf::TableSource;
 
 /// Uniform in 0 to 1: a linear congruential generator is random enough.
 struct Dice(u64);
@@ -34,11 +33,9 @@ impl Dice {
 fn blocks(samples: Vec<[f64; 2]>, touches: Vec<u16>, block: u32) -> Blocks {
     let trial = Trial {
         label: String::from("a"),
-        recording: String::new(),
-        pose: None,
-        stands: None,
         samples,
         touches,
+        ..Trial::default()
     };
     let options = Options {
         block,
@@ -180,10 +177,8 @@ fn many_trials_outweigh_the_prior() {
 fn rule(weight: f64) -> Rule {
     Rule {
         threshold: 0.99,
-        limit_bits: 2.0,
         block: 20,
         weights: vec![weight],
-        sources: vec![TableSource::Samples],
         unknown: None,
         apart: false,
     }
@@ -226,7 +221,7 @@ fn first_names_are_right_as_often_as_stated_where_trials_have_a_character() {
     };
     let lowered = |weight: f64, deviation: f64| {
         let (pieces, evidence) = trials(8, 200, deviation);
-        first_names::lowered(&rule(weight), &pieces, &evidence, |_| None)[0]
+        first_names::lowered(&rule(weight), &pieces, &evidence, |_| Vec::new())[0]
     };
     // The log-likelihood ratio, as above: trials that do not differ ask for nothing less.
     let weight = 2.0 * 0.2 / core::f64::consts::LN_2;
@@ -314,6 +309,7 @@ fn floors_are_put_where_a_class_that_was_not_trained_shows() {
         class: 0,
         posterior: 0.995,
         samples: 100,
+        is_named: true,
         entries,
     };
     // One unlike in its samples, one in its roughness, each by more and more.

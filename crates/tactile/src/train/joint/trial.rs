@@ -25,14 +25,6 @@ pub struct Options {
     /// Samples without contact after which another touch begins, in recordings of which
     /// the module did not say.
     pub gap: u32,
-    /// Most that a class may lie behind at the onset of a touch, bits.
-    pub limit_bits: f64,
-    /// Posterior at which the report and the floors let the rule decide.
-    pub threshold: f64,
-    /// Share of decisions that the floors may refuse of what they were learnt from; 0: no
-    /// floors. Of other recordings they refuse more: where a scene's one run was trained on,
-    /// 1 % became 3 % of textures and 6 % of the elastic whisker.
-    pub refused: f64,
     /// How much may differ between training and use.
     pub expect: Expect,
     /// How it was whisked, which the model keeps.
@@ -48,9 +40,6 @@ impl Default for Options {
             block: 40,
             gate: 0.05,
             gap: 200,
-            limit_bits: 2.0,
-            threshold: 0.99,
-            refused: 0.01,
             expect: Expect::default(),
             whisked: Whisked::default(),
         }
@@ -75,10 +64,7 @@ impl Options {
         option("smooth", self.smooth, 0.0, 128.0)?;
         option("block", f64::from(self.block), 1.0, f64::from(MAX_BLOCK))?;
         option("gate", self.gate, 0.0, 1.0)?;
-        option("gap", f64::from(self.gap), 1.0, 1e9)?;
-        option("limit", self.limit_bits, 0.0, 1000.0)?;
-        option("threshold", self.threshold, 0.5, 1.0 - 1e-12)?;
-        option("refused", self.refused, 0.0, 0.5)
+        option("gap", f64::from(self.gap), 1.0, 1e9)
     }
 }
 

@@ -79,10 +79,9 @@ impl Doubts<'_> {
                 .folded
                 .pieces
                 .iter()
-                .filter(|piece| piece.class == class)
-                .count();
+                .filter(|piece| piece.class == class);
             let halved = self.folded.halved.contains(&class);
-            let felt = if halved { 1 } else { pieces };
+            let felt = if halved { 1 } else { pieces.count() };
             let trials = self
                 .trials
                 .iter()

@@ -63,9 +63,8 @@ impl Known<'_> {
         };
         let mut entries = [0.0; 2];
         let tables = weighted(leader).zip(&self.rule.weights);
-        for ((sum, weight), source) in tables.zip(&self.rule.sources) {
-            let offset = f64::from(ENTRY_OFFSET_BITS);
-            entries[*source as usize] += sum / length as f64 + weight * offset;
+        for ((sum, weight), entry) in tables.zip(&mut entries) {
+            *entry = sum / length as f64 + weight * f64::from(ENTRY_OFFSET_BITS);
         }
         !self.floors[leader].refuses(entries)
     }

@@ -278,16 +278,19 @@ mod tests {
 
     use super::*;
 
-    #[test]
-    fn posteriors_are_the_share_that_is_right() {
-        let touch = |trial, class| Touch {
+    fn touch(trial: usize, class: usize) -> Touch {
+        Touch {
             class,
             recording: 0,
             goes_on: false,
             trial,
             features: Vec::new(),
-            path: Vec::new(),
-        };
+            path: vec![[0.0; 2]],
+        }
+    }
+
+    #[test]
+    fn posteriors_are_the_share_that_is_right() {
         // One of ten trials is of another class.
         let touches: Vec<Touch> = (0..10).map(|n| touch(n, usize::from(n == 0))).collect();
         let held_out = |touch| HeldOut {
@@ -321,12 +324,8 @@ mod tests {
                 let (class, differs) = (n as usize % 3, f64::from(n * n % 7));
                 let across = [0.0, 1.0, 40.0][class];
                 Touch {
-                    class,
-                    recording: 0,
-                    goes_on: false,
-                    trial: n as usize,
                     features: vec![core::array::from_fn(|k| across + differs * k as f64)],
-                    path: vec![[0.0; 2]],
+                    ..touch(n as usize, class)
                 }
             })
             .collect();

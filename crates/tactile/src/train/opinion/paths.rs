@@ -77,7 +77,6 @@ impl Paths {
         paths
     }
 
-    /// Of the touches of one class in several poses.
     pub(super) fn of_several(poses: &[Vec<&Touch>], sensor: Sensor) -> Self {
         let mut paths = Self {
             sensor,
@@ -152,7 +151,6 @@ impl Paths {
         }
     }
 
-    /// In deviations.
     fn whitened(&self, from: &[f64], to: impl Iterator<Item = f64>) -> Vec<f64> {
         let all = to.zip(from).zip(&self.deviations);
         all.map(|((to, from), deviation)| (to - from) / deviation)

@@ -44,7 +44,6 @@ pub(super) struct Stands {
 struct Row<'t> {
     touch: &'t Touch,
     stands: [f64; TARGETS],
-    /// The number of its pose.
     pose: usize,
 }
 
@@ -125,7 +124,6 @@ impl Stands {
         (Some(Self { limits, classes }), None)
     }
 
-    /// Errors of each class after each stage.
     pub(super) fn errors(&self) -> Vec<Vec<[f64; TARGETS]>> {
         let of = |stages: &Vec<Fit>| stages.iter().map(|fit| fit.errors).collect();
         self.classes.iter().map(of).collect()

@@ -25,7 +25,6 @@ pub(super) struct Touch {
 }
 
 impl Touch {
-    /// Blocks.
     pub(super) fn len(&self) -> usize {
         self.path.len()
     }
@@ -73,7 +72,6 @@ pub(super) struct Sense {
     pub(super) narrow: Narrow,
     /// Mean of the air, or of all where there is none; 1/256 narrow codes.
     pub(super) rest: [i32; CHANNELS],
-    /// Samples of a block.
     pub(super) block: u32,
 }
 
@@ -120,7 +118,6 @@ impl Sense {
         sense
     }
 
-    /// The mean of the air.
     fn mean(&self, trials: &[Trial], scales: &[Quantiser; CHANNELS]) -> [i32; CHANNELS] {
         let has_air = trials.iter().any(|trial| trial.touches.contains(&0));
         let (mut sums, mut count) = ([0_i64; CHANNELS], 0_i64);
@@ -214,7 +211,6 @@ impl Sense {
 
 #[cfg(test)]
 mod tests {
-    use std::string::String;
     use std::vec;
 
     use super::*;
@@ -227,12 +223,9 @@ mod tests {
             ]
         };
         Trial {
-            label: String::new(),
-            recording: String::new(),
-            pose: None,
-            stands: None,
             samples: (0..200).map(sample).collect(),
             touches: vec![1; 200],
+            ..Trial::default()
         }
     }
 
