@@ -51,14 +51,8 @@
 //!
 //! # Features
 //!
-//! - `sequential`, `window`, `several`, `joint`, `opinion`, `priors` (all by default): the two
-//!   rules, more whiskers than the first, models with roughness, floors and touches, and with a
-//!   second opinion, classes with priors and thresholds of their own.
-//!   A [`StreamClassifier`] refuses what the program was built without, and links no code for it.
-//! - `pair`, `array`: on a board, two whiskers instead of one, or as many as in a simulation
-//!   ([`MAX_STREAMS`]).
-//! - `std`: `train` (models from recordings, f64), `score` (how good
-//!   a classifier is) and the owned `ModelBuf`.
+//! `Cargo.toml` says what each is for. A [`StreamClassifier`] refuses what the program was built
+//! without, and links no code for it.
 #![cfg_attr(not(test), no_std)]
 
 #[cfg(feature = "std")]

@@ -256,7 +256,10 @@ mod tests {
                 for sample in &codes {
                     let sample = &sample[..channels];
                     c.push(sample).unwrap();
-                    prop_assert!(c.push(&sample[1..]).is_err());
+                    for other in [&sample[1..], &[sample, &[0]].concat()] {
+                        let (expected, found) = (channels, other.len());
+                        prop_assert_eq!(c.push(other), Err(WrongChannels { expected, found }));
+                    }
                     for (code, entries) in sample.iter().zip(&entries) {
                         let bin = (code * 8).div_euclid(1000).clamp(0, 7) as usize;
                         let row = entries.chunks(classes).nth(bin).unwrap();

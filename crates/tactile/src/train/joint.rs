@@ -50,8 +50,8 @@ use run::{Rule, felt, of_unknown};
 pub use tables::LogTable;
 use tables::{Evidence, Tables, unite};
 pub use trial::{CHANNELS, Options, Trial};
-use warnings::Doubts;
 pub use warnings::{CHANCE, Warning};
+use warnings::{Doubts, MISTAKEN};
 pub use weights::MAX_WEIGHT;
 use weights::{Known, Prior};
 
@@ -145,11 +145,11 @@ fn once(trials: &[Trial], options: &Options) -> Result<JointModel, TrainError> {
         expect: options.expect,
         whisked: options.whisked,
         poses: &poses,
-        alike: &doubts.groups(),
+        alike: &doubts.groups(MISTAKEN),
     });
     let mut warnings = doubts.warnings();
     warnings.extend(scarce);
-    let groups = doubts.groups_of_chance();
+    let groups = doubts.groups(CHANCE);
     let mut tables = tables.finished();
     if opinion.is_none() {
         // Nothing else objects to a name.

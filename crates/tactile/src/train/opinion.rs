@@ -55,31 +55,15 @@ pub enum Expect {
 }
 
 impl Expect {
-    /// By what copies of a recording are scaled in y.
-    const fn gains(self) -> &'static [f64] {
+    /// By what copies of a recording are scaled in y; by what others are in x and y, of touches that
+    /// last, which have no way that tells their scale (a sixth is enough for a fifth); by how much
+    /// the sensor may be turned, radians, and its scale in y be another.
+    const fn differs(self) -> (&'static [f64], &'static [f64], [f64; 2]) {
+        const HALF_TO_TWICE: &[f64] = &[0.5, 0.7, 1.4, 2.0];
         match self {
-            Self::Same => &[],
-            Self::Bench => &[0.8, 1.25],
-            Self::Other => &[0.5, 0.7, 1.4, 2.0],
-        }
-    }
-
-    /// By what others are in x and y, of touches that last: these have no way that tells their
-    /// scale. A sixth is enough for a fifth.
-    const fn gains_of_both(self) -> &'static [f64] {
-        match self {
-            Self::Same => &[],
-            Self::Bench => &[0.83, 1.2],
-            Self::Other => &[0.5, 0.7, 1.4, 2.0],
-        }
-    }
-
-    /// By how much the sensor may be turned, radians, and its scale in y be another.
-    const fn sensor(self) -> [f64; 2] {
-        match self {
-            Self::Same => [0.0, 0.0],
-            Self::Bench => [6_f64.to_radians(), 0.2],
-            Self::Other => [15_f64.to_radians(), 0.5],
+            Self::Same => (&[], &[], [0.0; 2]),
+            Self::Bench => (&[0.8, 1.25], &[0.83, 1.2], [6_f64.to_radians(), 0.2]),
+            Self::Other => (HALF_TO_TWICE, HALF_TO_TWICE, [15_f64.to_radians(), 0.5]),
         }
     }
 }
@@ -180,7 +164,7 @@ fn of_felt(
             has_unseen: false,
             alike: &itself,
             weighed: WEIGHED,
-            sensor: material.expect.sensor(),
+            sensor: material.expect.differs().2,
         }
     } else {
         Covariance {
@@ -280,9 +264,10 @@ impl Felt {
         }
         touches.retain(|touch| begins_again || !touch.goes_on);
         let mut with_copies = touches.clone();
-        let of_both = expect.gains_of_both().iter().filter(|_| begins_again);
+        let (of_y, of_both, [turn, scale]) = expect.differs();
+        let of_both = of_both.iter().filter(|_| begins_again);
         let of_both = of_both.map(|gain| [*gain; CHANNELS]);
-        let gains = expect.gains().iter().map(|gain| [1.0, *gain]);
+        let gains = of_y.iter().map(|gain| [1.0, *gain]);
         for (n, gains) in gains.chain(of_both).enumerate() {
             let mut copies = of(gains, kind);
             copies.retain(|touch| begins_again || !touch.goes_on);
@@ -299,7 +284,6 @@ impl Felt {
         let reach = |stage: usize| (0..classes).all(|class| count(class, stage) >= LEAST_OF_STAGE);
         let poses = poses(&touches);
         let stages = (1..=STAGES).take_while(|stage| reach(*stage)).count();
-        let [turn, scale] = material.expect.sensor();
         let sensor = Sensor {
             turn,
             scale,

@@ -3,7 +3,7 @@
 use crate::common::{code, ln_ratio, model, threshold, two_normals};
 use tactile::{
     AnyRule, Decision, DecisionRule, Model, ModelBuf, NaiveBayes, RuleSettings, Sequential,
-    SequentialRule, SetupError, Window, WindowRule, WrongChannels,
+    SequentialRule, SetupError, Window, WindowRule,
 };
 
 #[test]
@@ -124,18 +124,6 @@ fn window_lengths_are_checked() {
     // Two block means of the same ratio.
     let p = 1.0 / (1.0 + (-2.0 * ln_ratio(700)).exp());
     assert!((decision.posterior().to_f64() - p).abs() < 1e-3);
-}
-
-#[test]
-fn samples_of_other_channels_are_refused_and_not_taken() {
-    let buf = two_normals(2);
-    let mut c = Window::new(buf.view(), 2).unwrap();
-    let wrong = |found| Err(WrongChannels { expected: 1, found });
-    assert_eq!(c.push(&[]), wrong(0));
-    assert_eq!(c.push(&[700, 700]), wrong(2));
-    assert_eq!(c.push(&[700]), Ok(None));
-    assert_eq!(c.push(&[700, 700]), wrong(2));
-    assert!(c.push(&[700]).unwrap().is_some());
 }
 
 /// A rule chosen at run time does what its own type does.

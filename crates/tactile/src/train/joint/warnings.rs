@@ -14,7 +14,7 @@ const FEW_TRIALS: usize = 3;
 /// Lengths of stretches, blocks, by which classes are compared: the longest that there are.
 const COMPARED: [usize; 4] = [32, 16, 8, 4];
 /// Share of those that may be taken for another class before two cannot be distinguished.
-const MISTAKEN: f64 = 0.25;
+pub(super) const MISTAKEN: f64 = 0.25;
 /// The share of those from which on tables that decide alone name neither: their names are chance.
 pub const CHANCE: f64 = 0.4;
 
@@ -122,14 +122,10 @@ impl Doubts<'_> {
         warnings
     }
 
-    /// Of each class the first one that cannot be distinguished from it; itself if there is none.
-    pub(super) fn groups(&self) -> Vec<usize> {
-        joined(self.alike().map(|(pair, _)| pair), self.names.len())
-    }
-
-    /// The same of those whose names are chance.
-    pub(super) fn groups_of_chance(&self) -> Vec<usize> {
-        let pairs = self.alike().filter(|(_, mistaken)| *mistaken > CHANCE);
+    /// Of each class the first one from which it cannot be distinguished, itself if there is none,
+    /// of pairs that are taken for one another more often than this.
+    pub(super) fn groups(&self, mistaken: f64) -> Vec<usize> {
+        let pairs = self.alike().filter(|(_, of)| *of > mistaken);
         joined(pairs.map(|(pair, _)| pair), self.names.len())
     }
 

@@ -14,7 +14,7 @@
 use std::vec;
 use std::vec::Vec;
 
-use super::matrix::{Matrix, less, mean, square};
+use super::matrix::{Matrix, less, mean, pooled, square};
 use super::touches::Touch;
 use crate::opinion::{FEATURES, STATES};
 
@@ -159,23 +159,14 @@ impl Linear {
         let (mut freedom_within, mut freedom_between) = (0, 0);
         let mut centres = Vec::new();
         for class in 0..classes {
-            let mut means = Vec::new();
-            for recording in 0..recordings {
-                let of: Vec<&[f64]> = rows
-                    .iter()
-                    .filter(|row| (row.touch.class, row.touch.recording) == (class, recording))
-                    .map(|row| row.means.as_slice())
-                    .collect();
-                if of.len() < 3 {
-                    continue;
-                }
-                let centre = mean(size, of.iter().copied());
-                for row in &of {
-                    within.add_square(&less(row, &centre), 1.0);
-                }
-                freedom_within += of.len() - 1;
-                means.push(centre);
-            }
+            let of_recording = |recording: usize| -> Vec<&[f64]> {
+                let own = |row: &Row<'_>| (row.touch.class, row.touch.recording);
+                let of = rows.iter().filter(|row| own(row) == (class, recording));
+                of.map(|row| row.means.as_slice()).collect()
+            };
+            let of_recordings = (0..recordings).map(of_recording);
+            let (means, freedom) = pooled(size, of_recordings, &mut within);
+            freedom_within += freedom;
             if means.is_empty() {
                 return None;
             }

@@ -133,6 +133,25 @@ pub(super) fn mean<'v>(size: usize, vectors: impl Iterator<Item = &'v [f64]>) ->
     sum
 }
 
+/// The mean of each group of at least three vectors, and the degrees of freedom of how these differ
+/// from it, which is added to `within`.
+pub(super) fn pooled<'v>(
+    size: usize,
+    groups: impl Iterator<Item = Vec<&'v [f64]>>,
+    within: &mut Matrix,
+) -> (Vec<Vec<f64>>, usize) {
+    let (mut centres, mut freedom) = (Vec::new(), 0);
+    for of in groups.filter(|of| of.len() >= 3) {
+        let centre = mean(size, of.iter().copied());
+        for vector in &of {
+            within.add_square(&less(vector, &centre), 1.0);
+        }
+        freedom += of.len() - 1;
+        centres.push(centre);
+    }
+    (centres, freedom)
+}
+
 pub(super) fn less(a: &[f64], b: &[f64]) -> Vec<f64> {
     a.iter().zip(b).map(|(a, b)| a - b).collect()
 }

@@ -5,7 +5,7 @@
 use std::vec::Vec;
 
 use super::linear::LEAST_VARIANCE;
-use super::matrix::{Matrix, less, mean, quantile, square};
+use super::matrix::{Matrix, less, mean, pooled, quantile, square};
 use super::touches::Touch;
 use crate::opinion::{BLOCKS, FEATURES, OUTLIER, PARTS, STAGES, STATES};
 
@@ -115,25 +115,12 @@ impl State {
             .filter_map(|touch| Some((touch.recording, touch.state(state, blocks)?)))
             .collect();
         let mut within = Matrix::zero(FEATURES);
-        let mut centres = Vec::new();
-        let mut freedom = 0;
         let recordings = means.iter().map(|(recording, _)| recording + 1).max();
-        for recording in 0..recordings.unwrap_or(0) {
-            let of: Vec<&[f64]> = means
-                .iter()
-                .filter(|(of, _)| *of == recording)
-                .map(|(_, mean)| mean.as_slice())
-                .collect();
-            if of.len() < 3 {
-                continue;
-            }
-            let centre = mean(FEATURES, of.iter().copied());
-            for means in &of {
-                within.add_square(&less(means, &centre), 1.0);
-            }
-            freedom += of.len() - 1;
-            centres.push(centre);
-        }
+        let of_recordings = (0..recordings.unwrap_or(0)).map(|recording| -> Vec<&[f64]> {
+            let of = means.iter().filter(|(of, _)| *of == recording);
+            of.map(|(_, mean)| mean.as_slice()).collect()
+        });
+        let (centres, freedom) = pooled(FEATURES, of_recordings, &mut within);
         let centre = mean(FEATURES, centres.iter().map(Vec::as_slice));
         within.scale(1.0 / freedom.max(1) as f64);
         within.shrink(SHRINK, LEAST_VARIANCE);

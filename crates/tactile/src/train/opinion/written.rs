@@ -55,16 +55,18 @@ pub(super) fn stage(words: &mut Vec<u32>, (stage, weighed): (usize, usize), line
     write_halves(words, &all);
 }
 
+/// Sets a bit of the kind.
+fn mark(words: &mut [u32], kind: u8) {
+    if let Some(head) = words.first_mut() {
+        *head |= u32::from(kind);
+    }
+}
+
 /// Bit 6 of the kind, and of each class what is typical of means.
 pub(super) fn means<'t>(words: &mut Vec<u32>, typical: impl Iterator<Item = &'t Typical>) {
-    if let Some(head) = words.first_mut() {
-        *head |= u32::from(MEANS);
-    }
-    words.extend(
-        typical
-            .flat_map(|typical| typical.of_means.concat())
-            .map(squared),
-    );
+    mark(words, MEANS);
+    let of_means = typical.flat_map(|typical| typical.of_means.concat());
+    words.extend(of_means.map(squared));
 }
 
 /// A squared distance in deviations, as it is compared.
@@ -74,10 +76,7 @@ fn squared(square: f64) -> u32 {
 
 /// Bit 2 of the kind, and what poses are estimated by, of the stages in which a decision may fall.
 pub(super) fn stands(words: &mut Vec<u32>, stands: &Stands) {
-    const KIND: u32 = 4;
-    if let Some(head) = words.first_mut() {
-        *head |= KIND;
-    }
+    mark(words, 4);
     let first = *Section::new(words, 0).pose_stages().start();
     // `as` saturates: what a target cannot be is the nearest that it can.
     let hundredths = |value: f64| (100.0 * value).round();
@@ -103,14 +102,11 @@ pub(super) fn stands(words: &mut Vec<u32>, stands: &Stands) {
 
 /// Bit 3 of the kind, and by how much a sensor may differ, if at all.
 pub(super) fn bounds(words: &mut Vec<u32>, sensor: Sensor) {
-    const KIND: u32 = 8;
     let bounds = sensor.bounds();
     if bounds == Bounds::default() {
         return;
     }
-    if let Some(head) = words.first_mut() {
-        *head |= KIND;
-    }
+    mark(words, 8);
     // Each is 4,096 at most: half of the scale, and half a radian.
     let [turn, scale] = [bounds.turn, bounds.scale].map(i32::cast_unsigned);
     words.push(turn | scale << 16);
@@ -129,12 +125,8 @@ fn scaled_words(numbers: &[f64]) -> (u32, Vec<u32>) {
 pub(super) fn typical(words: &mut Vec<u32>, typical: &Typical) {
     for state in &typical.states {
         let unit = f64::from(1 << FEATURE_BITS);
-        let means: Vec<i16> = state
-            .mean
-            .iter()
-            .map(|m| (m * unit).round() as i16)
-            .collect();
-        write_halves(words, &means);
+        let means = state.mean.iter().map(|m| (m * unit).round() as i16);
+        write_halves(words, &means.collect::<Vec<_>>());
         let unit = f64::from(1 << STATE_BITS) / unit;
         let rows = state.whitening.triangle().flatten();
         let (shift, triangle) = scaled(&rows.map(|value| value * unit).collect::<Vec<_>>());
