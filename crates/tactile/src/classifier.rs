@@ -354,11 +354,12 @@ impl<W: Words> StreamClassifier<W> {
             *sum = sum.saturating_add(more);
         }
         let is_below = model.has_floors() && excess.iter().any(|tables| *tables < 0);
+        let has_opinion = section.is_some();
         self.forget();
         let touch = by.map_or(0, |(_, touch)| touch);
         let decision = decision.in_touch(touch, reason(is_below, objection));
         match by.and_then(|(n, _)| self.streams.get_mut(n)) {
-            Some(stream) => stream.say(section, decision),
+            Some(stream) => stream.say(has_opinion, decision),
             None => Some(decision),
         }
     }

@@ -234,17 +234,13 @@ impl<R: DecisionRule> StreamState<R> {
         let is_below = model.has_floors() && excess.iter().any(|tables| *tables < 0);
         let objection = self.objection(section, model.classes(), decision.leader());
         let decision = decision.in_touch(self.touch, reason(is_below, objection));
-        self.say(section, decision)
+        self.say(section.is_some(), decision)
     }
 
     /// The decision, if it is to be said: without an opinion each is.
-    pub(crate) fn say(
-        &mut self,
-        section: Option<Section<'_>>,
-        decision: Decision,
-    ) -> Option<Decision> {
-        match (section, self.judges.as_mut_slice()) {
-            (Some(_), [judge, ..]) => judge.say(decision),
+    pub(crate) fn say(&mut self, has_opinion: bool, decision: Decision) -> Option<Decision> {
+        match self.judges.as_mut_slice() {
+            [judge, ..] if has_opinion => judge.say(decision),
             _ => Some(decision),
         }
     }
