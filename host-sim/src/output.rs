@@ -112,7 +112,7 @@ impl Output {
 }
 
 /// What came of writing to standard output; `done` where whoever read it has read enough.
-fn unless_closed<T>(written: io::Result<T>, done: T) -> io::Result<T> {
+pub(crate) fn unless_closed<T>(written: io::Result<T>, done: T) -> io::Result<T> {
     match written {
         Err(error) if error.kind() == io::ErrorKind::BrokenPipe => Ok(done),
         written => written,

@@ -9,6 +9,7 @@ mod warnings;
 use std::fmt::Display;
 use std::io::{self, Write};
 use std::process::ExitCode;
+use std::sync::OnceLock;
 
 use firmware::lines::{self, Context};
 use firmware::{Event, NodeEvent};
@@ -17,7 +18,7 @@ use wire::Line;
 
 use crate::Error;
 use crate::decisions::{self, Decided, Score, UNKNOWN};
-use crate::output::remove_on_interrupt;
+use crate::output::{remove_on_interrupt, unless_closed};
 use evaluation::over;
 pub(crate) use evaluation::{doubts, figures, thresholds};
 pub use poses::of_model;
@@ -25,11 +26,18 @@ pub(crate) use poses::second_opinion;
 pub(crate) use runs::{over_runs, seed_range};
 pub(crate) use training::training;
 
+/// What has kept a line from standard output.
+static UNSAID: OnceLock<String> = OnceLock::new();
+
 /// A line on standard output. A closed pipe does not stop the work: what
-/// counts is in the files. What is not to be seen, as of a file's name, is shown escaped, so that
+/// counts is in the files; where a line is lost otherwise, as on a full disk, it has failed in
+/// the end ([`ended`]). What is not to be seen, as of a file's name, is shown escaped, so that
 /// nothing of others can command the terminal.
 pub fn say(line: impl Display) {
-    let _ = writeln!(io::stdout().lock(), "{}", seen(line));
+    let written = writeln!(io::stdout().lock(), "{}", seen(line));
+    if let Err(fault) = unless_closed(written, ()) {
+        let _ = UNSAID.set(format!("standard output: {fault}"));
+    }
 }
 
 /// A line on standard error, likewise.
@@ -68,7 +76,13 @@ pub fn program(program: &str, work: impl FnOnce() -> Result<(), Error>) -> ExitC
 
 /// The exit status of a program that has ended so; what went wrong it says on standard error.
 pub fn ended(program: &str, done: Result<(), Error>) -> ExitCode {
-    match done {
+    let unsaid = || {
+        UNSAID
+            .get()
+            .cloned()
+            .map_or(Ok(()), |why| Err(Error::Work(why)))
+    };
+    match done.and_then(|()| unsaid()) {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
             warn(format_args!("{program}: {error}"));

@@ -69,6 +69,20 @@ fn a_reader_that_stops_is_no_fault() {
     assert!(ended.status.success(), "{ended:?}");
 }
 
+/// The same of what is said, as of figures and warnings, and of a table.
+#[cfg(target_os = "linux")]
+#[test]
+fn a_full_disk_is_a_fault() {
+    let place = Place::usual();
+    for line in ["columns", "record s.toml --out -"] {
+        let full = std::fs::File::create("/dev/full").unwrap();
+        let ended = place.command(line).stdout(full).output().unwrap();
+        let said = String::from_utf8_lossy(&ended.stderr);
+        assert_eq!(ended.status.code(), Some(1), "{line}: {said}");
+        assert!(said.contains("standard output: No space left"), "{said}");
+    }
+}
+
 #[test]
 fn pipes_links_folders_and_devices_are_refused_and_stay_what_they_are() {
     let place = Place::usual();
