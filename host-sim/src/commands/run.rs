@@ -31,7 +31,8 @@ pub struct Arguments {
     /// The model that its module decides by, where the scene names none
     #[arg(long, value_name = "FILE")]
     pub model: Option<PathBuf>,
-    /// The scene in whose world it runs: what its whiskers meet, for how long, and the seed
+    /// The scene in whose world it runs: what its whiskers meet, for how long, and the seed; --set
+    /// sets keys of these there
     #[arg(long, value_name = "SCENE")]
     pub world: Option<PathBuf>,
     /// Where to write
@@ -79,9 +80,16 @@ pub fn run(arguments: &Arguments, verbosity: Verbosity) -> Result<String, Error>
         let files = files.chain([&arguments.scene.file]);
         output::check_apart(plot, files.map(PathBuf::as_path))?;
     }
-    let mut loaded = Loaded::with(&arguments.scene)?;
+    let SceneChoice { file, set } = arguments.scene.clone();
+    let is_of_world = |one: &Override| {
+        let key = one.key();
+        arguments.world.is_some()
+            && (key.starts_with("plant.") || ["duration_s", "seed"].contains(&key))
+    };
+    let (of_world, set): (Vec<_>, _) = set.into_iter().partition(is_of_world);
+    let mut loaded = Loaded::with(&SceneChoice { file, set })?;
     if let Some(world) = &arguments.world {
-        loaded = loaded.in_world(world)?;
+        loaded = loaded.placed(world, &Scene::load_with(world, &of_world)?.0)?;
     }
     if let Some(model) = &arguments.model {
         loaded = loaded.with_model(model)?;
@@ -204,9 +212,12 @@ impl Loaded {
     ///
     /// # Errors
     /// [`Error::Input`] for a scene that is wrong, or a world that does not fit the module.
-    pub fn in_world(mut self, path: &Path) -> Result<Self, Error> {
-        let world = Scene::load(path)?;
-        let placed = self.scene.in_world(&world);
+    pub fn in_world(self, path: &Path) -> Result<Self, Error> {
+        self.placed(path, &Scene::load(path)?)
+    }
+
+    fn placed(mut self, path: &Path, world: &Scene) -> Result<Self, Error> {
+        let placed = self.scene.in_world(world);
         self.scene = placed.map_err(|fault| Error::file(path, fault))?;
         Ok(self)
     }

@@ -29,6 +29,14 @@ fn a_model_decides_alike_linked_and_deployed_and_in_the_world_of_another_scene()
         let trace = |out: &str| place.text(&format!("{out}/trace.csv"));
         assert_eq!(trace(out), trace("linked"));
     }
+    // What the world brings is set there.
+    let ran = place.done(
+        "run bench.toml --world linked.toml --model the.model --set duration_s=0.1 --set seed=7 \
+         --set motor.arm=on-command --out short",
+    );
+    let said = "0.1 s simulated, 200 ticks, seed 7\n\
+                in short: trace.csv, decisions.csv, trace.svg, trace.png\nits motors were not armed";
+    assert!(ran.stdout.contains(said), "{ran:?}");
 }
 
 #[test]
