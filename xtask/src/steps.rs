@@ -72,8 +72,13 @@ impl Steps {
     }
 
     pub(crate) fn end(self) -> Result<(), Fault> {
+        let done = self.done.into_inner().unwrap_or_default();
+        let has_run = |part: &String| done.iter().any(|(name, _)| name.contains(part));
+        if let Some(part) = self.wanted.iter().find(|part| !has_run(part)) {
+            return Err(format!("no step has {part:?} in its name"));
+        }
         println!();
-        for (name, took) in self.done.into_inner().unwrap_or_default() {
+        for (name, took) in done {
             println!("{:>7.1} s  {name}", took.as_secs_f64());
         }
         let took = self.begun.elapsed().as_secs_f64();
@@ -95,4 +100,18 @@ fn processors() -> Duration {
             .filter_map(|n| n.parse::<u64>().ok())
             .sum::<u64>(),
     )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Steps;
+
+    #[test]
+    fn a_name_that_no_step_has_is_refused() {
+        for (wanted, is_known) in [("", true), ("int", true), ("lint", true), ("lists", false)] {
+            let steps = Steps::new(vec!["lints".to_owned(), wanted.to_owned()]);
+            steps.run("lints", || Ok(())).unwrap();
+            assert_eq!(steps.end().is_ok(), is_known, "{wanted}");
+        }
+    }
 }
