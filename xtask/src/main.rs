@@ -304,7 +304,31 @@ struct EmulateWhat {
 }
 
 impl Emulate {
+    /// Refuses what would have no effect: clap asks for no option that one which is there excludes.
+    fn check(&self) -> Result<(), run::Fault> {
+        let what = &self.what;
+        let given = [
+            (
+                self.json.is_some() || self.world.is_some(),
+                what.scenario.is_some(),
+                "--scenario",
+            ),
+            (self.all || self.probe != "attached", what.check, "--check"),
+            (self.minutes != 10.0, what.deadlines, "--deadlines"),
+            (self.ppm != 0, what.head, "--head"),
+            (self.stops != 100, what.stopping, "--stopping"),
+        ];
+        match given
+            .into_iter()
+            .find(|(is_given, is_of_use, _)| *is_given && !is_of_use)
+        {
+            Some((.., of)) => Err(format!("an option is given that is of use with {of} alone")),
+            None => Ok(()),
+        }
+    }
+
     fn run(self) -> Result<(), run::Fault> {
+        self.check()?;
         let on = if self.any_scene {
             emulate::Emulated::deployed(self.board)?
         } else {
@@ -400,6 +424,34 @@ fn main() -> ExitCode {
         Err(fault) => {
             eprintln!("xtask: {fault}");
             ExitCode::FAILURE
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use clap::Parser;
+
+    use super::{Arguments, Command};
+
+    #[test]
+    fn an_option_of_another_scenario_is_refused() {
+        for (line, of) in [
+            ("--latency --ppm 10 scenes/rcp.toml", "--head"),
+            ("--out o --all", "--check"),
+            ("--out o --probe absent scenes/rcp.toml", "--check"),
+            ("--check --json o scenes/rcp.toml", "--scenario"),
+            ("--head --ppm 10 scenes/rcp.toml", ""),
+        ] {
+            let words = ["xtask", "emulate"].into_iter().chain(line.split(' '));
+            let Command::Emulate(emulate) = Arguments::parse_from(words).command else {
+                panic!("{line}");
+            };
+            let refused = emulate.check().err().unwrap_or_default();
+            assert!(
+                refused.contains(of) && refused.is_empty() == of.is_empty(),
+                "{line}"
+            );
         }
     }
 }
