@@ -246,6 +246,14 @@ impl Conversation {
         Ok(answer)
     }
 
+    /// Motors are off from here on, where there are any.
+    pub(crate) fn stop(&mut self) -> Result<(), Error> {
+        match self.answer(Command::Stop)?.status {
+            CommandStatus::Done | CommandStatus::NoWhisker => Ok(()),
+            status => Err(Error::Work(format!("stop: {status}"))),
+        }
+    }
+
     fn await_answer(&mut self, tag: u16, command: Command) -> Result<Answer, Error> {
         let begun = self.now_s();
         while self.now_s() - begun < PATIENCE_S {

@@ -153,7 +153,7 @@ pub(crate) fn watch(
 /// Listens for so long to a sensor at rest, its motor off.
 pub(crate) fn at_rest(whisker: &mut Listening<'_>, seconds: f64) -> Result<Vec<Sample>, Error> {
     rest(whisker.module())?;
-    whisker.module().ask(Command::Stop)?;
+    whisker.module().stop()?;
     whisker.go_on()?;
     whisker.watch(0.2, |_| true)?;
     whisker.watch(seconds, |_| true)

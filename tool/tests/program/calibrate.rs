@@ -46,6 +46,9 @@ fn a_check_of_what_its_scene_says_finds_nothing() {
     let check = "check --sim @bench.toml --seconds 12 --out report";
     place.done(check).prints("0 of 17 figures need a look");
     place.holds("report/check.md", "| records lost |  | 0 | 0 | 0 |");
+    // A whisker without a motor is watched as well.
+    let passive = "check --sim @passive.toml --seconds 8 --out passive";
+    place.done(passive).prints("0 of ");
     // In a world in which it meets something it says what differs.
     let ran = place.fails(&format!("{check} --world @textures.toml"));
     ran.prints("swing of ");

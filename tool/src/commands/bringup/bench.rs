@@ -55,10 +55,7 @@ impl Bench {
 
     /// Motors are off from here on, where there are any.
     pub(super) fn stop(&mut self) -> Result<(), Error> {
-        match self.module.answer(Command::Stop)?.status {
-            CommandStatus::Done | CommandStatus::NoWhisker => Ok(()),
-            status => Err(Error::Work(format!("motors: {status}"))),
-        }
+        self.module.stop()
     }
 
     pub(super) fn ask(&mut self, what: &str) -> Result<(), Error> {
