@@ -20,6 +20,7 @@ mod interrupt;
 mod loading;
 mod monitor;
 mod probe;
+mod quoted;
 mod record_file;
 mod resting;
 mod sample;

@@ -13,6 +13,7 @@ use wire::Command;
 
 use crate::configuration::{Running, Taken, not_built};
 use crate::conversation::Conversation;
+use crate::quoted::quoted;
 use crate::source::SourceChoice;
 
 pub(crate) use live::{LIVE, LiveKey, Value, is_of_classes, live_key};
@@ -68,7 +69,7 @@ impl Tuner {
     }
 
     fn remedy(&self) -> String {
-        format!("whisker deploy --scene {}", self.path.display())
+        format!("whisker deploy --scene {}", quoted(&self.path))
     }
 
     pub(crate) fn look(&self, module: &mut Conversation) -> Result<Has, Error> {

@@ -19,6 +19,7 @@ use crate::calibrate::{
     picture, push, steps, suggest,
 };
 use crate::interrupt;
+use crate::quoted::quoted;
 use crate::resting::rest;
 use crate::sample::Sample;
 use crate::tuning::{Tuner, named};
@@ -91,7 +92,7 @@ pub(crate) fn calibrate(arguments: &Arguments) -> Result<(), Error> {
         report::say(format_args!(
             "next: whisker capture --label NAME --pose NAME --calibration {}; in three to five poses, \
              each time with the samples held some degrees otherwise, from the second on with --resume",
-            arguments.out.join("calibration.toml").display()
+            quoted(&arguments.out.join("calibration.toml"))
         ));
     }
     Ok(())

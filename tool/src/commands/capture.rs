@@ -18,7 +18,8 @@ use crate::capture::{
     CALIBRATION, Checks, Label, Recording, SIDE, Stands, Touches, sampled, stands, token,
 };
 use crate::conversation::Conversation;
-use crate::source::{Source, SourceChoice, seconds};
+use crate::quoted::quoted;
+use crate::source::{Source, SourceChoice, seconds, workspace};
 use crate::tally::{Before, SIDES, Tally, side};
 
 /// Poses from which on a model names textures between them.
@@ -178,20 +179,21 @@ fn complete(
 /// What comes next, by what is in the recording and what lies beside it: other labels where there
 /// is one, training, a model that it can judge, and, where somebody holds the samples, other poses.
 fn next(out: &Path, tick_hz: u32, [labels, poses]: [usize; 2], is_simulated: bool) -> String {
-    let name = out.display();
+    let name = quoted(out);
+    // A release has the program, and no cargo.
+    let host_sim = workspace().map_or("host-sim", |_| "cargo run -p host-sim --");
     if labels < 2 {
         return "next: another sample, as a model tells samples apart: go on with --resume --label \
                 NAME"
             .to_owned();
     }
     let mut lines = vec![format!(
-        "next: cargo run -p host-sim -- train --data {name} --rate {tick_hz} --out MODEL"
+        "next: {host_sim} train --data {name} --rate {tick_hz} --out MODEL"
     )];
     if let Some(model) = model_beside(out, tick_hz) {
         lines.push(format!(
-            "or, if it was not trained on these touches: cargo run -p host-sim -- evaluate --model {} \
-             --data {name}",
-            model.display()
+            "or, if it was not trained on these touches: {host_sim} evaluate --model {} --data {name}",
+            quoted(&model)
         ));
     }
     if poses < POSES && !is_simulated {

@@ -9,6 +9,7 @@ use scene::{Override, file, key_facts};
 use similar::TextDiff;
 
 use crate::configuration::RunsBy;
+use crate::quoted::quoted;
 use crate::scene_file;
 use crate::source::{SourceChoice, seconds};
 use crate::tuning::{LIVE, LiveKey, Tuner, Value, live_key, named};
@@ -180,8 +181,9 @@ pub(crate) fn save(arguments: &SaveArguments) -> Result<(), Error> {
     }
     output::write_whole(path, edited.as_bytes())?;
     report::say(format_args!(
-        "{name}: saved; whisker deploy --scene {name} has the module start with it, with --model \
-         where it names none"
+        "{name}: saved; whisker deploy --scene {} has the module start with it, with --model where \
+         it names none",
+        quoted(path)
     ));
     Ok(())
 }

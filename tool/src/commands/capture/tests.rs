@@ -96,11 +96,11 @@ fn a_person_takes_their_time_and_the_touch_that_they_interrupt_does_not_count() 
 #[test]
 fn what_comes_next_depends_on_what_is_there() {
     let folder = tempfile::tempdir().unwrap();
-    let out = folder.path().join("mine.csv");
+    let out = folder.path().join("my own.csv");
     let said = |there, is_simulated| super::next(&out, 2000, there, is_simulated);
     assert!(said([1, 1], false).starts_with("next: another sample"));
     let train = said([2, 3], false);
-    assert!(train.contains("train --data") && !train.contains('\n'));
+    assert!(train.contains("train --data '") && !train.contains('\n'));
     assert!(said([2, 1], false).contains("three to five are best, and there is 1"));
     // Nobody holds a simulated sample.
     assert!(!said([2, 1], true).contains("pose"));
