@@ -72,6 +72,11 @@ fn a_board_that_is_well_passes_every_step() {
     let all = "module frames rest rate noise encoder motor";
     assert!(names.eq(all.split(' ')), "{json}");
     assert_eq!(steps[1]["seen"]["sum_rule"], "b1-b6");
+    let second = steps[1]["saw"][1].as_str();
+    assert!(
+        second.is_some_and(|line| line.starts_with("sum ")),
+        "{json}"
+    );
 }
 
 /// What is known of the sensor from one source or none: each is another than the board takes it for.

@@ -75,8 +75,8 @@ impl Part {
         self
     }
 
-    pub(super) fn saw(&mut self, line: impl Into<String>) {
-        self.saw.push(line.into());
+    pub(super) fn saw(&mut self, lines: impl Into<String>) {
+        self.saw.extend(lines.into().lines().map(str::to_owned));
     }
 
     pub(super) fn means(mut self, what: impl Into<String>) -> Self {
@@ -105,8 +105,9 @@ impl Part {
     fn print(&self) {
         report::say(self.title());
         report::say(format_args!("  did:   {}", self.did));
-        let saw = self.saw.iter().flat_map(|saw| saw.lines());
-        saw.for_each(|saw| report::say(format_args!("  saw:   {saw}")));
+        for saw in &self.saw {
+            report::say(format_args!("  saw:   {saw}"));
+        }
         report::say(format_args!("  means: {}", self.means));
         for finding in &self.findings {
             report::say(format_args!("  to do: {finding}"));
