@@ -50,7 +50,7 @@ pub(crate) struct Arguments {
     seconds: Option<f64>,
     /// Opens no window, but shows the last of so many pictures, 20 in a second of the module, as
     /// text
-    #[arg(long, value_name = "N", conflicts_with_all = ["seconds", "speed"], value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
+    #[arg(long, value_name = "N", conflicts_with_all = ["seconds", "speed", "save"], value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
     frames: Option<u32>,
     /// Columns and rows of that picture
     #[arg(long, value_name = "COLUMNSxROWS", requires = "frames", default_value = "100x30", value_parser = size)]

@@ -21,7 +21,7 @@ pub(crate) struct Arguments {
     #[command(flatten)]
     source: SourceChoice,
     /// Records that were written before: says what is in them
-    #[arg(long, value_name = "FILE.csv", group = "source", conflicts_with_all = ["out", "seconds", "seed", "program", "board"])]
+    #[arg(long, value_name = "FILE.csv", group = "source", conflicts_with_all = ["out", "seconds", "seed", "program", "board", "world", "scenario", "flash", "baud", "lay_by", "node"])]
     file: Option<PathBuf>,
     /// For how long; without it as long as the scene lasts
     #[arg(long, value_name = "S", value_parser = seconds)]
@@ -45,6 +45,10 @@ pub(crate) fn records(arguments: &Arguments, verbosity: Verbosity) -> Result<(),
     if let Some(path) = &arguments.file {
         let bytes = file::read_piped(path, file::TABLE_BYTES);
         let bytes = bytes.map_err(|error| Error::file(path, error))?;
+        if bytes.starts_with(mcap::MAGIC) {
+            let fault = "messages (.mcap) are not read here; allowed: a table (.csv)";
+            return Err(Error::file(path, fault));
+        }
         let table = crate::table::read(&bytes).map_err(|fault| Error::file(path, fault))?;
         let mut summary = Summary::default();
         table.records.iter().for_each(|record| summary.take(record));

@@ -60,7 +60,7 @@ pub(crate) struct SourceChoice {
     #[arg(long, value_name = "PATH", group = "source", conflicts_with_all = ["program", "board", "world", "flash", "seed"])]
     port: Option<PathBuf>,
     /// The scene's serial_baud
-    #[arg(long, value_name = "N", requires = "port", default_value_t = 115_200)]
+    #[arg(long, value_name = "N", conflicts_with_all = ["sim", "emulated", "probe"], default_value_t = 115_200)]
     baud: u32,
     /// Lays samples on a real bench, in place of a person: a command for the shell, which finds
     /// the sample's name in $SAMPLE, and ends once it lies there

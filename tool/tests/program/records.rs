@@ -87,4 +87,14 @@ fn what_is_wrong_is_said() {
     place.refuses("records --file bad.csv", column);
     place.refuses("records --sim bench.toml", "--out");
     place.refuses("records --sim bench.toml --out /", "/: not a file name");
+    place.done("records --sim bench.toml --seconds 0.01 --out r.mcap");
+    place.refuses("records --file r.mcap", "r.mcap: messages (.mcap) are not");
+    // Nothing is accepted that would have no effect.
+    for line in [
+        "log --sim bench.toml --baud 9600",
+        "records --file bad.csv --world bench.toml",
+        "monitor --sim bench.toml --frames 1 --save m.csv",
+    ] {
+        place.refuses(line, "cannot be used with");
+    }
 }
