@@ -254,9 +254,9 @@ pub(crate) fn verdict(met: bool) -> &'static str {
     if met { "met" } else { "**missed**" }
 }
 
-/// Percent without a digit behind the point, the paper's beside ours.
+/// Percent, the paper's as it is printed there, beside ours without a digit behind the point.
 pub(crate) fn beside(paper: f64, ours: f64) -> String {
-    format!("{paper:.0} / **{}**", figure(ours, 0))
+    format!("{paper} / **{}**", figure(ours, 0))
 }
 
 /// Percent of the trials of a true class in which `named` was named.

@@ -103,5 +103,8 @@ mod tests {
         let one = figure(2.0, 1).to_string();
         assert_eq!(joined(&[&none, &one]).unwrap(), "2.0");
         assert!(joined(&[&one, &format!("{one} more")]).is_none());
+        // The paper's own figure keeps its digits.
+        let beside = crate::page::beside(82.5, 49.6);
+        assert_eq!(joined(&[&beside]).unwrap(), "82.5 / **50**");
     }
 }
