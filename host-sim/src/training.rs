@@ -172,7 +172,6 @@ impl How {
                     gap: self.gap_samples(tick_hz),
                     expect: self.expect.into(),
                     whisked: self.whisked,
-                    ..default
                 };
                 let joint = joint(recordings, &options)?;
                 let model = joint.model()?.at_rate(tick_hz)?;

@@ -166,7 +166,7 @@ impl<C: SampleClassifier> Perception<C> {
     /// One tick of whisker `n`, counted from 0, left side first, by its reading and its contact π.
     /// `events` gets touches and decisions.
     #[inline]
-    pub(crate) fn step<R: Real>(
+    pub fn step<R: Real>(
         &mut self,
         (n, place): (usize, Place),
         (reading, contact): (Reading, R),

@@ -8,7 +8,7 @@
 use std::path::Path;
 
 use firmware::design_parameters::{Plausible, sensor_limits};
-use firmware::{Event, Perception, Place, Reading, Sensed, SensorLimits};
+use firmware::{ClassifierConfig, Event, Perception, Place, Reading, SensorLimits};
 use host_sim::classifier::{Classifier, Codes, posteriors};
 use host_sim::loaded::Loaded;
 use host_sim::{Error, files};
@@ -120,7 +120,8 @@ impl Track {
 pub(crate) struct Listener {
     perception: Option<Perception<Codes>>,
     classes: Vec<String>,
-    least: Option<f32>,
+    /// What a listener needs of it: from what contact samples count.
+    config: ClassifierConfig<f32>,
     h50: filter::Config<f32>,
     limits: SensorLimits,
     tracks: [Track; 2],
@@ -145,7 +146,12 @@ impl Listener {
         Ok(Self {
             classes,
             perception: Some(Perception::new(codes, SIDES.len(), tick_hz)),
-            least: known.contact_min.map(|least| least as f32),
+            config: ClassifierConfig {
+                rule: None,
+                deciding: Deciding::Each,
+                contact_min: known.contact_min.map(|least| least as f32),
+                says_pose: false,
+            },
             h50,
             limits: sensor_limits(tick_hz, plausible),
             tracks: [Track::default(); 2],
@@ -213,14 +219,8 @@ impl Listener {
         };
         for (n, (track, record)) in self.tracks.iter_mut().zip(records).enumerate() {
             let (contact, reading) = track.follow(record, &self.h50, self.limits);
-            let sensed = Sensed {
-                place: Place::new(n as u8, 0),
-                reading,
-                contact,
-                least: self.least,
-                says_pose: false,
-            };
-            perception.step(n, sensed, &mut |event| {
+            let whisker = (n, Place::new(n as u8, 0));
+            perception.step(whisker, (reading, contact), &self.config, &mut |event| {
                 if let Event::Decision(place, decision) = event {
                     self.decided.push((place.side.into(), decision));
                 }
