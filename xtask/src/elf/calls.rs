@@ -7,7 +7,7 @@ use std::path::Path;
 
 use object::{Object, ObjectSection, ObjectSymbol, SymbolKind};
 
-use super::thumb::{self, Step};
+use super::thumb::{self, Code, Instruction, Step};
 use crate::firmware::with_elf;
 use crate::run::Fault;
 
@@ -38,9 +38,10 @@ pub(crate) struct Calls {
 
 impl Calls {
     pub(crate) fn of(elf: &Path) -> Result<Self, Fault> {
+        let instructions = thumb::disassembled(elf)?;
         with_elf(elf, |file| {
             Ok::<_, object::Error>(Self {
-                functions: functions(file)?,
+                functions: functions(file, &instructions)?,
                 vectors: vectors(file)?,
             })
         })
@@ -96,25 +97,15 @@ fn vectors(file: &object::File<'_>) -> Result<Vec<u64>, object::Error> {
     Ok(words.iter().map(address).collect())
 }
 
-fn functions(file: &object::File<'_>) -> Result<BTreeMap<u64, Function>, object::Error> {
+fn functions(
+    file: &object::File<'_>,
+    instructions: &[Instruction],
+) -> Result<BTreeMap<u64, Function>, object::Error> {
     let mut functions = BTreeMap::new();
     let Some(text) = file.section_by_name(".text") else {
         return Ok(functions);
     };
     let (data, origin) = (text.data()?, text.address());
-    // `$t` and `$d` say where instructions and where constants begin.
-    let mut is_code = BTreeMap::new();
-    for symbol in file.symbols() {
-        match symbol.name()?.get(..2) {
-            Some("$t") => is_code.insert(symbol.address(), true),
-            Some("$d") => is_code.insert(symbol.address(), false),
-            _ => None,
-        };
-    }
-    let is_instruction = |address: u64| {
-        let mark = is_code.range(..=address).next_back();
-        mark.is_none_or(|(_, is_code)| *is_code)
-    };
     for symbol in file.symbols() {
         let begin = symbol.address() & !1;
         let range = begin..begin + symbol.size();
@@ -127,18 +118,19 @@ fn functions(file: &object::File<'_>) -> Result<BTreeMap<u64, Function>, object:
             continue;
         };
         let name = format!("{:#}", rustc_demangle::demangle(symbol.name()?));
-        functions.insert(begin, function(name, range, body, is_instruction));
+        let [from, to] = [range.start, range.end]
+            .map(|end| instructions.partition_point(|code| code.address < end));
+        let code = Code {
+            instructions: &instructions[from..to],
+            bytes: body,
+            begin,
+        };
+        functions.insert(begin, function(name, range, code.steps()));
     }
     Ok(functions)
 }
 
-fn function(
-    name: String,
-    range: Range<u64>,
-    body: &[u8],
-    is_instruction: impl Fn(u64) -> bool,
-) -> Function {
-    let steps = thumb::steps(body, range.start, is_instruction);
+fn function(name: String, range: Range<u64>, steps: Vec<Step>) -> Function {
     let mut function = Function {
         name,
         range,

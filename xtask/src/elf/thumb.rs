@@ -1,15 +1,15 @@
-//! As much of Thumb code as stack and calls need (Arm v7-M and v6-M Architecture
-//! Reference Manuals, chapters A5 to A7): what moves the stack pointer down, and what
-//! goes somewhere else. What cannot be followed is [`Step::Open`].
+//! As much of Thumb code as stack and calls need, as llvm-objdump shows it, which comes with the
+//! toolchain: what moves the stack pointer down, and what goes somewhere else. What cannot be
+//! followed is [`Step::Open`].
 
 mod jump;
 #[cfg(test)]
 mod tests;
-mod writes;
 
-use std::collections::BTreeSet;
+use std::path::{Path, PathBuf};
+use std::process::Command;
 
-use jump::Jump;
+use crate::run::{Fault, output, top};
 
 /// What an instruction does.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -21,250 +21,173 @@ pub(super) enum Step {
     Trap,
 }
 
-/// The steps of a function whose code `body` begins at address `begin`, in
-/// order of address; `is_instruction` tells instructions from constants.
-pub(super) fn steps(body: &[u8], begin: u64, is_instruction: impl Fn(u64) -> bool) -> Vec<Step> {
-    let instructions = instructions(body, begin, &is_instruction);
-    let place = begin..begin + body.len() as u64;
-    let literals = instructions.iter().filter_map(|code| code.literal());
-    let literals: BTreeSet<u64> = literals.collect();
-    let is_literal = |at: u64| literals.contains(&(at & !3));
-    let mut steps = Vec::new();
-    for (number, code) in instructions.iter().enumerate() {
-        let before = number.checked_sub(1).map(|before| instructions[before]);
-        let frame = before.and_then(|before| code.frame(before, |at| word(body, begin, at)));
-        let called = || called(&instructions[..number], *code, |at| word(body, begin, at));
-        let step = frame.map(Step::Push).or_else(|| called().map(Step::Go));
-        let before = &instructions[number.saturating_sub(4)..number];
-        let jump = code.jump(before);
-        steps.extend(step.or_else(|| code.step().filter(|_| jump.is_none())));
-        if let Some(jump) = jump {
-            let table = jump::table(body, &place, code.end(), &is_instruction, is_literal);
-            let stays = jump.stays(table, code.address, |to| place.contains(&to));
-            steps.extend((!stays).then_some(Step::Open));
-        }
-    }
-    steps
+pub(super) struct Instruction {
+    pub(super) address: u64,
+    end: u64,
+    name: String,
+    operands: String,
+    /// Where it goes, or where the constant lies that it loads.
+    refers_to: Option<u64>,
 }
 
-/// The function that `code` calls by a register that holds a constant, which the last
-/// instruction to write it has loaded, or moved from another: how several calls of one function
-/// take less room. `before` is the code before it.
-fn called(
-    mut before: &[Instruction],
-    code: Instruction,
-    word: impl Fn(u64) -> Option<i32>,
-) -> Option<u64> {
-    let mut register = code.goes_by()?;
-    loop {
-        let last = before.iter().rposition(|code| code.may_write(register))?;
-        let writer = before[last];
-        if let Some(from) = writer.is_move_to(register) {
-            (before, register) = (&before[..last], from);
-            continue;
-        }
-        let address = word(writer.literal().filter(|_| writer.is_load_of(register))?)?;
-        let address = u64::from(address.cast_unsigned());
-        return (address & 1 == 1).then_some(address & !1);
-    }
+/// The instructions of a program, in order of address.
+pub(super) fn disassembled(elf: &Path) -> Result<Vec<Instruction>, Fault> {
+    let mut compiler = Command::new("rustc");
+    compiler.args(["--print", "target-libdir"]);
+    let libraries = PathBuf::from(output(compiler.current_dir(top()))?.trim());
+    let mut tool = Command::new(libraries.with_file_name("bin").join("llvm-objdump"));
+    let said = output(tool.args(["--disassemble", "--section=.text"]).arg(elf))?;
+    Ok(said.lines().filter_map(Instruction::read).collect())
 }
 
-fn word(body: &[u8], begin: u64, address: u64) -> Option<i32> {
-    let at = usize::try_from(address.checked_sub(begin)?).ok()?;
-    let bytes = body.get(at..)?.first_chunk()?;
-    Some(i32::from_le_bytes(*bytes))
+/// A function: its instructions, and its bytes from an address on, which hold constants too.
+pub(super) struct Code<'c> {
+    pub(super) instructions: &'c [Instruction],
+    pub(super) bytes: &'c [u8],
+    pub(super) begin: u64,
 }
 
-#[derive(Debug, Clone, Copy)]
-struct Instruction {
-    address: u64,
-    first: u16,
-    /// Of those of four bytes.
-    second: Option<u16>,
-}
-
-fn instructions(body: &[u8], begin: u64, is_instruction: impl Fn(u64) -> bool) -> Vec<Instruction> {
-    let half = |address: u64| -> Option<u16> {
-        let at = (address - begin) as usize;
-        let bytes = body.get(at..at + 2)?;
-        Some(u16::from_le_bytes([bytes[0], bytes[1]]))
-    };
-    let mut found = Vec::new();
-    let mut address = begin;
-    while let Some(first) = half(address) {
-        if !is_instruction(address) {
-            address += 2;
-            continue;
-        }
-        // Three patterns of the top five bits begin an instruction of four bytes.
-        let is_wide = first >> 11 >= 0b11101;
-        let second = half(address + 2).filter(|_| is_wide);
-        let code = Instruction {
-            address,
-            first,
-            second,
+impl Code<'_> {
+    /// What it does, in order of address.
+    pub(super) fn steps(&self) -> Vec<Step> {
+        let numbers = 0..self.instructions.len();
+        let step = |number| {
+            let (before, rest) = self.instructions.split_at(number);
+            self.step(before, &rest[0])
         };
-        address = code.end();
-        found.push(code);
-    }
-    found
-}
-
-impl Instruction {
-    fn end(self) -> u64 {
-        self.address + if self.second.is_some() { 4 } else { 2 }
+        numbers.filter_map(step).collect()
     }
 
-    fn step(self) -> Option<Step> {
-        match self.second {
-            Some(second) => wide(self.first, second, self.address),
-            None => narrow(self.first, self.address),
+    fn step(&self, before: &[Instruction], code: &Instruction) -> Option<Step> {
+        let Instruction { name, operands, .. } = code;
+        let is = |start: &str| name.starts_with(start);
+        let (first, rest) = operands.split_once(", ").unwrap_or((operands, ""));
+        if let Some(stays) = self.stays(before, code) {
+            return (!stays).then_some(Step::Open);
+        }
+        if is("udf") || is("bkpt") {
+            return Some(Step::Trap);
+        }
+        if is("push") || is("vpush") {
+            let each = if operands.contains('d') { 8 } else { 4 };
+            return Some(Step::Push(each * operands.split(',').count() as u64));
+        }
+        // A store that takes the room for it.
+        if let Some((_, bytes)) = operands.split_once("[sp, #-") {
+            return number(bytes.strip_suffix("]!")?).map(Step::Push);
+        }
+        match (first, rest.strip_prefix("sp, ").unwrap_or(rest)) {
+            ("sp", by) if is("add") || is("sub") => match by.strip_prefix('#') {
+                Some(_) if is("add") => None,
+                Some(bytes) => number(bytes).map(Step::Push),
+                // From another register, to where it was before.
+                None if by.contains('#') => None,
+                None => Some(self.frame(before, by).map_or(Step::Open, Step::Push)),
+            },
+            ("lr", "") if is("bx") => None,
+            (register, "") if is("bx") || is("blx") => {
+                let called = self.called(before, register);
+                Some(called.map_or(Step::Open, Step::Go))
+            }
+            // From the stack it goes back.
+            ("pc", from) if is("ldr") && !from.starts_with("[sp]") => Some(Step::Open),
+            (from, list) if is("ldm") && list.contains("pc") && !from.starts_with("sp") => {
+                Some(Step::Open)
+            }
+            _ => code.refers_to.filter(|_| is("b") || is("cb")).map(Step::Go),
         }
     }
 
-    /// The bytes of stack that it takes by ADD SP, register, where `before` loads that register
-    /// with a constant below zero: how a core without SUBW takes a large frame.
-    fn frame(self, before: Self, word: impl Fn(u64) -> Option<i32>) -> Option<u64> {
-        let is_add = self.second.is_none() && self.first & 0xFF87 == 0x4485;
-        let is_load = before.second.is_none() && before.first >> 11 == 0b01001;
-        let same = self.first >> 3 & 0xF == before.first >> 8 & 7;
-        if !(is_add && is_load && same) {
-            return None;
-        }
-        let moved = word(before.literal()?)?;
+    /// The bytes of stack that are taken by ADD SP, `register`, where the instruction before loads
+    /// that with a constant below zero: how a core without SUBW takes a large frame.
+    fn frame(&self, before: &[Instruction], register: &str) -> Option<u64> {
+        let load = before.last().filter(|code| code.is_load_to(register))?;
+        let moved = self.word(load.refers_to?)?.cast_signed();
         (moved < 0).then(|| moved.unsigned_abs().into())
     }
 
-    /// The constant that it loads from beside the code: LDR and VLDR relative to PC.
-    fn literal(self) -> Option<u64> {
-        let from = (self.address + 4) & !3;
-        let first = self.first;
-        let Some(second) = self.second.map(u64::from) else {
-            return (first >> 11 == 0b01001).then(|| from + 4 * u64::from(first & 0xFF));
+    /// The function that is called by a register that holds a constant, which the last
+    /// instruction to write it has loaded, or moved from another: how several calls of one function
+    /// take less room.
+    fn called<'r>(&'r self, before: &'r [Instruction], register: &'r str) -> Option<u64> {
+        let last = before.iter().rposition(|code| code.may_write(register))?;
+        let writer = &before[last];
+        let moved = writer.operands.split_once(", ");
+        if let Some((_, from)) = moved.filter(|(to, _)| writer.name == "mov" && *to == register) {
+            return self.called(&before[..last], from);
+        }
+        let load = Some(writer).filter(|code| code.is_load_to(register))?;
+        let address = u64::from(self.word(load.refers_to?)?);
+        (address & 1 == 1).then_some(address & !1)
+    }
+
+    fn word(&self, address: u64) -> Option<u32> {
+        let at = usize::try_from(address.checked_sub(self.begin)?).ok()?;
+        let bytes = self.bytes.get(at..)?.first_chunk()?;
+        Some(u32::from_le_bytes(*bytes))
+    }
+
+    fn has(&self, address: u64) -> bool {
+        (self.begin..self.begin + self.bytes.len() as u64).contains(&address)
+    }
+}
+
+fn number(text: &str) -> Option<u64> {
+    u64::from_str_radix(text.trim_start_matches("0x"), 16).ok()
+}
+
+/// Instructions that write none of the registers that they name.
+const READ_ONLY: [&str; 12] = [
+    "blx", "bx", "cb", "cmn", "cmp", "push", "st", "teq", "tst", "vcmp", "vpush", "vst",
+];
+/// What a call leaves with any value.
+const LOST_BY_A_CALL: [&str; 5] = ["r0", "r1", "r2", "r3", "r12"];
+
+impl Instruction {
+    /// Of a line: address, bytes, name and operands, and behind them what these come to.
+    fn read(line: &str) -> Option<Self> {
+        let mut columns = line.splitn(3, '\t');
+        let (address, bytes) = columns.next()?.split_once(": ")?;
+        let address = number(address.trim())?;
+        let name = columns.next().filter(|name| !name.starts_with('.'))?;
+        let rest = columns.next().unwrap_or_default();
+        let (referring, _) = rest.split_once(" <").unwrap_or_default();
+        let refers_to = referring.rsplit_once("0x");
+        let operands = rest.split(['@', '<']).next().unwrap_or_default();
+        let halves = bytes.split_whitespace().count() as u64;
+        Some(Self {
+            address,
+            end: address + 2 * halves,
+            name: name.to_owned(),
+            operands: operands.trim_end().to_owned(),
+            refers_to: refers_to.and_then(|(_, digits)| number(digits)),
+        })
+    }
+
+    /// Whether it loads a constant from beside the code.
+    fn is_load(&self) -> bool {
+        self.operands.contains("[pc, #")
+    }
+
+    fn is_load_to(&self, register: &str) -> bool {
+        let (to, from) = self.operands.split_once(", ").unwrap_or_default();
+        ["ldr", "ldr.w"].contains(&&*self.name) && to == register && from.starts_with("[pc")
+    }
+
+    /// Whether it may write a register: more than it does, where that is shorter to say.
+    fn may_write(&self, register: &str) -> bool {
+        let is = |name: &&str| self.name.starts_with(*name);
+        let moves_base = self.operands.contains('!') || self.operands.contains("],");
+        // What a move takes from stays as it is.
+        let end = if self.name == "mov" { ',' } else { '[' };
+        let outside = self.operands.split(end).next().unwrap_or_default();
+        let named = match (moves_base, READ_ONLY.iter().any(is)) {
+            (true, _) => &self.operands,
+            (false, true) => "",
+            (false, false) => outside,
         };
-        let (is_up, offset) = match first {
-            0xF85F | 0xF8DF => (first & 0x80 != 0, second & 0xFFF),
-            _ if first & 0xFF3F == 0xED1F => (first & 0x80 != 0, 4 * (second & 0xFF)),
-            _ => return None,
-        };
-        Some(if is_up { from + offset } else { from - offset })
-    }
-
-    /// If it jumps by a table: `before` is the code before it.
-    fn jump(self, before: &[Self]) -> Option<Jump> {
-        if let Some(second) = self.second {
-            // A table that stands behind constants has its address taken just before.
-            let base = self.first & 0xF;
-            let is_known = base == 15 || before.last()?.is_address_to(base);
-            return Jump::wide(self.first, second).filter(|_| is_known);
-        }
-        // MOV PC, register, to whose address the choice is added.
-        let register = self.first >> 3 & 0xF;
-        let is_move = self.first & 0xFF87 == 0x4687;
-        if is_move && before.iter().any(|code| code.is_address_to(register)) {
-            return Some(Jump::Branches);
-        }
-        let loads = before.iter().nth_back(1);
-        Jump::narrow(self.first, loads.map_or(0, |loads| loads.first))
-    }
-}
-
-/// The address that a branch goes to: four beyond the instruction, plus `offset`.
-fn target(address: u64, offset: i64) -> Step {
-    Step::Go(address.wrapping_add(4).wrapping_add_signed(offset))
-}
-
-/// `value`, whose topmost bit is number `bits` − 1, with its sign.
-fn signed(value: u32, bits: u32) -> i64 {
-    let shift = 32 - bits;
-    i64::from((value << shift).cast_signed() >> shift)
-}
-
-fn narrow(code: u16, address: u64) -> Option<Step> {
-    let word = u32::from(code);
-    match code {
-        // PUSH: a register a bit, and LR.
-        0xB400..=0xB5FF => Some(Step::Push(4 * u64::from((word & 0x1FF).count_ones()))),
-        // SUB SP, #imm7 * 4.
-        0xB080..=0xB0FF => Some(Step::Push(4 * u64::from(word & 0x7F))),
-        // B with a condition.
-        0xD000..=0xDDFF => Some(target(address, signed(word & 0xFF, 8) * 2)),
-        // UDF, BKPT.
-        0xDE00..=0xDEFF | 0xBE00..=0xBEFF => Some(Step::Trap),
-        // CBZ, CBNZ.
-        _ if code & 0xF500 == 0xB100 => {
-            let offset = (word >> 9 & 1) << 6 | (word >> 3 & 0x1F) << 1;
-            Some(target(address, offset.into()))
-        }
-        // B.
-        0xE000..=0xE7FF => Some(target(address, signed(word & 0x7FF, 11) * 2)),
-        // BX register; BX LR goes back.
-        0x4700..=0x477F if code & 0x78 != 0x70 => Some(Step::Open),
-        // BLX register that may have any value.
-        0x4780..=0x47FF => Some(Step::Open),
-        // ADD SP, register. MOV SP, register takes it back up.
-        _ if code & 0xFF87 == 0x4485 => Some(Step::Open),
-        _ => None,
-    }
-}
-
-fn wide(first: u16, second: u16, address: u64) -> Option<Step> {
-    let (a, b) = (u32::from(first), u32::from(second));
-    match first {
-        // PUSH.W (STMDB SP!).
-        0xE92D => Some(Step::Push(4 * u64::from(b.count_ones()))),
-        // STR Rt, [SP, #-imm8]!, of which PUSH of one register is one.
-        0xF84D if b & 0xF00 == 0xD00 => Some(Step::Push(u64::from(b & 0xFF))),
-        // STRD Rt, Rt2, [SP, #-imm8 * 4]!.
-        0xE96D => Some(Step::Push(4 * u64::from(b & 0xFF))),
-        // VPUSH, in words either way.
-        _ if a & 0xFFBF == 0xED2D => Some(Step::Push(4 * u64::from(b & 0xFF))),
-        // SUB.W SP, SP, #constant.
-        0xF1AD | 0xF5AD if b & 0x8F00 == 0x0D00 => {
-            let code = (a >> 10 & 1) << 11 | (b >> 12 & 7) << 8 | b & 0xFF;
-            Some(expanded(code).map_or(Step::Open, |bytes| Step::Push(bytes.into())))
-        }
-        // SUBW SP, SP, #imm12.
-        0xF2AD | 0xF6AD if b & 0x8F00 == 0x0D00 => {
-            let bytes = (a >> 10 & 1) << 11 | (b >> 12 & 7) << 8 | b & 0xFF;
-            Some(Step::Push(bytes.into()))
-        }
-        // LDR PC; POP of PC goes back.
-        _ if a & 0xFF70 == 0xF850 && b >> 12 == 15 => {
-            ((first, second) != (0xF85D, 0xFB04)).then_some(Step::Open)
-        }
-        // LDM with PC; from the stack it goes back.
-        _ if matches!(a & 0xFFD0, 0xE890 | 0xE910) && b >> 15 == 1 => {
-            (first != 0xE8BD).then_some(Step::Open)
-        }
-        // TBB and TBH whose table stands elsewhere.
-        _ if a & 0xFFF0 == 0xE8D0 && b & 0xFFE0 == 0xF000 && first != 0xE8DF => Some(Step::Open),
-        // UDF.W.
-        0xF7F0..=0xF7FF if b & 0xF000 == 0xA000 => Some(Step::Trap),
-        // BL, and B.W without a condition.
-        0xF000..=0xF7FF if b & 0x9000 == 0x9000 => {
-            let s = a >> 10 & 1;
-            let [i1, i2] = [b >> 13 & 1, b >> 11 & 1].map(|j| 1 ^ j ^ s);
-            let offset = s << 24 | i1 << 23 | i2 << 22 | (a & 0x3FF) << 12 | (b & 0x7FF) << 1;
-            Some(target(address, signed(offset, 25)))
-        }
-        // B.W with a condition; conditions of 0b111x are other instructions.
-        0xF000..=0xF7FF if b & 0xD000 == 0x8000 && a >> 7 & 7 != 7 => {
-            let (s, j1, j2) = (a >> 10 & 1, b >> 13 & 1, b >> 11 & 1);
-            let offset = s << 20 | j2 << 19 | j1 << 18 | (a & 0x3F) << 12 | (b & 0x7FF) << 1;
-            Some(target(address, signed(offset, 21)))
-        }
-        _ => None,
-    }
-}
-
-/// A constant of twelve coded bits that is one byte, rotated or not (A5.3.2);
-/// `None` for repeated bytes, which are no size of a stack.
-fn expanded(code: u32) -> Option<u32> {
-    let rotation = code >> 7;
-    match rotation {
-        0 | 1 => Some(code & 0xFF),
-        8.. => Some((code & 0x7F | 0x80).rotate_right(rotation)),
-        _ => None,
+        let mut names = named.split(|c: char| !c.is_ascii_alphanumeric());
+        let loses = is(&"bl") && LOST_BY_A_CALL.contains(&register);
+        loses || is(&"strex") || names.any(|name| name == register)
     }
 }
