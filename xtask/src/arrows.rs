@@ -35,8 +35,8 @@ fn row(name: &Value) -> Option<usize> {
 
 #[test]
 fn dependencies_point_down() {
-    let ask = ["metadata", "--no-deps", "--format-version=1", "--offline"];
-    let said = output(&mut cargo(&ask)).unwrap();
+    let ask = "metadata --no-deps --format-version=1 --offline";
+    let said = output(&mut cargo(ask)).unwrap();
     let said: Value = serde_json::from_str(&said).unwrap();
     for package in said["packages"].as_array().unwrap() {
         let name = &package["name"];

@@ -14,17 +14,10 @@ pub(crate) const DENY: [&str; 3] = ["--", "-D", "warnings"];
 
 /// All that runs on this PC in one build, so that nothing is compiled twice with other features:
 /// without the counts, which take the crates as a board does, and without what only Python loads.
-pub(crate) const ALL: [&str; 5] = [
-    "--workspace",
-    "--exclude",
-    "count",
-    "--exclude",
-    "whisker-python",
-];
+pub(crate) const ALL: &str = "--workspace --exclude count --exclude whisker-python";
 
-/// What [`ALL`] does not build, and features of what is in no program for this PC. Debug probes and
-/// libFuzzer, which are linted and built at night, make a fifth more to compile.
-const NOT_BUILT: [&str; 5] = ["-p", "count", "--all-targets", "--features", DRIVERS];
+/// Features of what is in no program for this PC. Debug probes and libFuzzer, which are linted and
+/// built at night, make a fifth more to compile.
 const DRIVERS: &str = "mlx90333/defmt,tmag5170/defmt";
 
 /// Of the properties' cases.
@@ -86,30 +79,29 @@ fn page() -> Result<(), Fault> {
 }
 
 fn format() -> Result<(), Fault> {
-    run(&mut cargo(&["fmt", "--all", "--check"]))?;
+    run(&mut cargo("fmt --all --check"))?;
     studies::format()
 }
 
 fn lints() -> Result<(), Fault> {
-    let drivers = ["clippy", "-p", "mlx90333", "-p", "tmag5170"];
-    run(cargo(&drivers).args(NOT_BUILT).args(DENY))?;
+    let mut drivers = cargo("clippy -p count -p mlx90333 -p tmag5170 --all-targets");
+    run(drivers.args(["--features", DRIVERS]).args(DENY))?;
     let [board, ..] = Board::ALL;
     let board = board.build_arguments(board.every_part);
-    run(cargo(&["clippy"]).args(board).args(DENY))
+    run(cargo(&format!("clippy {board}")).args(DENY))
 }
 
 /// With the tests' features, which programs alone have not.
 fn build() -> Result<(), Fault> {
-    let mut build = cargo(&["build", "--locked", "--all-targets"]);
-    run(linted(build.args(ALL)))?;
+    run(linted(&mut cargo(&format!("build --locked --all-targets {ALL}"))))?;
     take_built_programs()
 }
 
 /// Properties are tried on the same cases in each run, so that a change passes or fails by what
 /// it changes; the nightly run tries others.
 fn tests() -> Result<(), Fault> {
-    let mut test = cargo(&["test", "--locked"]);
-    run(linted(test.args(ALL)).env("PROPTEST_RNG_SEED", SEED))
+    let mut test = cargo(&format!("test --locked {ALL}"));
+    run(linted(&mut test).env("PROPTEST_RNG_SEED", SEED))
 }
 
 /// Half of it runs beside the other half; the rest is for the night.
@@ -125,14 +117,8 @@ fn board() -> Result<(), Fault> {
 /// What the first board does with one side, by a program made for it; and what is deployed to the
 /// last.
 fn first_board() -> Result<(), Fault> {
-    let one_side = [
-        "compare",
-        "overload",
-        "starting",
-        "supply",
-        "damage",
-        "sensor-loss",
-    ];
+    let one_side = "compare overload starting supply damage sensor-loss";
+    let one_side: Vec<&str> = one_side.split(' ').collect();
     let [first, _, smallest] = Board::ALL;
     Emulated::linked(first).run(emulate::FULL, &one_side)?;
     // As long as all the rest: beside it.
@@ -146,11 +132,9 @@ fn first_board() -> Result<(), Fault> {
 fn other_boards() -> Result<(), Fault> {
     let [board, small, smallest] = Board::ALL;
     let linked = Emulated::linked(board);
-    linked.run(
-        emulate::tilt(board)?,
-        &["compare --duration 4", "sensor-loss"],
-    )?;
-    let fixed = variants::in_fixed_point(&emulate::noisiest()?)?;
+    let tilted = emulate::tilt(board)?;
+    linked.run(tilted, &["compare --duration 4", "sensor-loss"])?;
+    let fixed = variants::with(&emulate::noisiest()?, &emulate::FIXED)?;
     linked.run(fixed, &["compare"])?;
     linked.run(emulate::head_of_two()?, &["head --duration 2 --ppm 300"])?;
     let board = Emulated::deployed(board)?;
@@ -170,7 +154,8 @@ fn other_boards() -> Result<(), Fault> {
     }
     let in_short = ["compare --probe pulled", "sensor-loss"];
     let [small, smallest] = [Emulated::deployed(small)?, Emulated::deployed(smallest)?];
-    let [likely, learning] = emulate::full_with_options()?;
-    small.run(likely, &in_short)?;
-    smallest.run(learning, &in_short)
+    // What not every board has room for.
+    let keys = ["classifier.prior.smooth=0.6", "sensor.self_motion_s=0.5"];
+    small.run(variants::with(emulate::FULL, &keys[..1])?, &in_short)?;
+    smallest.run(variants::with(emulate::FULL, &keys)?, &in_short)
 }

@@ -44,13 +44,10 @@ fn count(
     features: &[&str],
 ) -> Result<Vec<Figure>, Fault> {
     let target = Board::named(board)?.target;
-    run::run(
-        cargo(&["build", "--locked", "--profile", "firmware", "-p", "count"])
-            .args(programs.iter().flat_map(|name| ["--bin", name]))
-            .args(features)
-            .args(["--target", target])
-            .env("RUSTFLAGS", "-D warnings"),
-    )?;
+    let mut build = cargo("build --locked --profile firmware -p count");
+    build.args(programs.iter().flat_map(|name| ["--bin", name]));
+    build.args(features).args(["--target", target]);
+    run::run(build.env("RUSTFLAGS", "-D warnings"))?;
     let folder = run::target().join(target).join("firmware");
     let mut figures = Vec::new();
     for program in programs {

@@ -12,7 +12,7 @@ const WORKSPACES: [&str; 2] = ["Cargo.toml", studies::MANIFEST];
 
 fn deny(what: &[&str]) -> Result<(), Fault> {
     WORKSPACES.into_iter().try_for_each(|manifest| {
-        let mut deny = cargo(&["deny", "--locked", "--manifest-path", manifest, "check"]);
+        let mut deny = cargo(&format!("deny --locked --manifest-path {manifest} check"));
         deny.arg("--config").arg(top().join("deny.toml"));
         run(deny.args(what))
     })
@@ -20,7 +20,7 @@ fn deny(what: &[&str]) -> Result<(), Fault> {
 
 /// Checks licences, duplicates and sources, if cargo-deny is there.
 pub(crate) fn check() -> Result<(), Fault> {
-    if output(&mut cargo(&["deny", "--version"])).is_err() {
+    if output(&mut cargo("deny --version")).is_err() {
         println!("not checked: cargo-deny is not installed; cargo xtask nightly installs it");
         return Ok(());
     }
@@ -32,7 +32,7 @@ pub(crate) fn check() -> Result<(), Fault> {
 pub(crate) fn install_and_check() -> Result<(), Fault> {
     installed("deny")?;
     check()?;
-    if run(&mut cargo(&["deny", "fetch", "db"])).is_err() {
+    if run(&mut cargo("deny fetch db")).is_err() {
         println!("advisories are not checked: their database cannot be reached");
         return Ok(());
     }

@@ -110,21 +110,16 @@ fn fill(folder: &Path) -> Result<(), Fault> {
             .map(drop)
             .map_err(|error| format!("{}: {error}", from.display()))
     };
-    let stripped = ["--config", "profile.release.strip='symbols'"];
-    let programs = ["-p", "host-sim", "-p", "whisker"];
-    let probes = ["--features", "whisker/probe"];
-    run(cargo(&["build", "--locked", "--release"])
-        .args(stripped)
-        .args(programs)
-        .args(probes))?;
+    let mut build = cargo("build --locked --release -p host-sim -p whisker");
+    build.args(["--config", "profile.release.strip='symbols'"]);
+    run(build.args(["--features", "whisker/probe"]))?;
     for program in ["host-sim", "whisker"] {
-        put(
-            &target().join("release").join(program),
-            &format!("bin/{program}"),
-        )?;
+        let built = target().join("release").join(program);
+        put(&built, &format!("bin/{program}"))?;
     }
     for board in Board::ALL {
-        run(cargo(&["build"]).args(board.build_arguments(board.every_part)))?;
+        let arguments = board.build_arguments(board.every_part);
+        run(&mut cargo(&format!("build {arguments}")))?;
         let elf = firmware::elf_in(board, &target());
         put(&elf, &format!("boards/{}.elf", board.name))?;
     }

@@ -56,7 +56,7 @@ fn from_tables(check: bool) -> Result<(), Fault> {
 /// What runs of the simulator and of the bench's program give.
 fn of_runs(check: bool) -> Result<(), Fault> {
     // As the README has it.
-    let said = output(&mut cargo(&["run", "--quiet", "-p", "host-sim"]))?;
+    let said = output(&mut cargo("run --quiet -p host-sim"))?;
     print!("{said}");
     let page = main_job::page(&said, &read(&top().join(DECISIONS))?)?;
     document("docs/textures.md", page.as_bytes(), check)?;

@@ -35,7 +35,7 @@ impl Emulated {
         })
     }
 
-    fn program(&self, scene: &Path) -> Result<PathBuf, Fault> {
+    pub(crate) fn program(&self, scene: &Path) -> Result<PathBuf, Fault> {
         match &self.any_scene {
             Some(program) => Ok(program.clone()),
             None => firmware::build(self.board, scene),
@@ -48,8 +48,7 @@ impl Emulated {
         let scene = scene.as_ref();
         let program = self.program(scene)?;
         for scenario in scenarios {
-            let mut command = emulator("scenario");
-            command.args(scenario.split(' '));
+            let mut command = emulator(&format!("scenario {scenario}"));
             match *scenario {
                 "telemetry" => {
                     let without = self.program(&variants::without_telemetry(scene)?)?;
@@ -79,11 +78,8 @@ impl Emulated {
 }
 
 pub(crate) fn files(on: &Emulated, scene: &Path, out: &Path) -> Result<(), Fault> {
-    let mut command = emulator("run");
-    command
-        .arg("--out")
-        .arg(absolute(out)?)
-        .arg(absolute(scene)?);
+    let mut command = emulator("run --out");
+    command.arg(absolute(out)?).arg(absolute(scene)?);
     run(command.arg("--program").arg(on.program(scene)?))
 }
 
@@ -97,40 +93,23 @@ pub(crate) fn tried(
     world: Option<&Path>,
     json: &Path,
 ) -> Result<(), Fault> {
-    let mut command = files_of_try(scene, scenario, world, json)?;
+    let mut command = trial(scene, scenario, json)?;
+    if let Some(world) = world {
+        command.arg("--world").arg(absolute(world)?);
+    }
     let checked = command.status().map_err(|error| error.to_string())?;
     if !checked.success() {
         std::process::exit(checked.code().unwrap_or(1));
     }
-    run(&mut trying(on, scene, scenario, world, json)?)
+    run(command.arg("--program").arg(on.program(scene)?))
 }
 
-/// The command that does the same without that.
-pub(crate) fn trying(
-    on: &Emulated,
-    scene: &Path,
-    scenario: &Path,
-    world: Option<&Path>,
-    json: &Path,
-) -> Result<Command, Fault> {
-    let mut command = files_of_try(scene, scenario, world, json)?;
-    command.arg("--program").arg(on.program(scene)?);
-    Ok(command)
-}
-
-fn files_of_try(
-    scene: &Path,
-    scenario: &Path,
-    world: Option<&Path>,
-    json: &Path,
-) -> Result<Command, Fault> {
+/// The command that does so in its own world, without the program.
+pub(crate) fn trial(scene: &Path, scenario: &Path, json: &Path) -> Result<Command, Fault> {
     let mut command = emulator("try");
     command.arg(absolute(scene)?);
     for (option, path) in [("--scenario", scenario), ("--json", json)] {
         command.arg(option).arg(absolute(path)?);
-    }
-    if let Some(world) = world {
-        command.arg("--world").arg(absolute(world)?);
     }
     Ok(command)
 }
@@ -143,7 +122,7 @@ const SERIAL_BAUDS: [u32; 3] = [921_600, 2_000_000, 115_200];
 /// is the program of the scene itself.
 fn serial(on: &Emulated, scene: &Path, without: &Path, to: &mut Command) -> Result<(), Fault> {
     let [one, two, slow] = SERIAL_BAUDS;
-    let is_one = variants::whiskers(scene)? == 1;
+    let is_one = variants::load(scene)?.whiskers() == 1;
     let fast = variants::with_serial(scene, if is_one { one } else { two })?;
     let slow = variants::with_serial(scene, slow)?;
     to.arg(absolute(&fast)?);
@@ -167,9 +146,8 @@ pub(crate) fn picture(board: Board, scenes: &[PathBuf], out: &Path) -> Result<()
 /// What the scenario `deadlines` measures, as `what,mean,worst` lines.
 pub(crate) fn deadlines(board: Board, scene: &Path, minutes: f64) -> Result<String, Fault> {
     let program = firmware::build(board, scene)?;
-    let mut command = emulator("--quiet");
-    command.args(["scenario", "deadlines", "--csv"]);
-    command.args(["--minutes", &minutes.to_string()]);
+    let mut command = emulator("--quiet scenario deadlines --csv --minutes");
+    command.arg(minutes.to_string());
     output(command.arg(top().join(scene)).arg("--program").arg(program))
 }
 
@@ -200,8 +178,7 @@ pub(crate) fn compare_all(on: &Emulated) -> Result<(), Fault> {
     }
     if board.facts.has_fpu && on.any_scene.is_none() {
         for scene in IN_FIXED_POINT {
-            let fixed = variants::in_fixed_point(&top().join(scene))?;
-            on.run(fixed, COMPARE)?;
+            on.run(variants::with(scene, &FIXED)?, COMPARE)?;
         }
     }
     on.run(with_slow_sensors()?, COMPARE)
@@ -226,6 +203,7 @@ pub(crate) const TILT: &str = "scenes/tmag5170.toml";
 
 /// Of the scenes, those that are compared in fixed point too, which takes programs of their own.
 const IN_FIXED_POINT: [&str; 2] = [FULL, CIA];
+pub(crate) const FIXED: [&str; 1] = ["whisking.numbers=fixed"];
 
 /// [`TILT`] on every side of the board.
 pub(crate) fn tilt(board: Board) -> Result<PathBuf, Fault> {
@@ -237,10 +215,19 @@ pub(crate) fn tilt(board: Board) -> Result<PathBuf, Fault> {
     }
 }
 
-/// [`JUDGED`] on both sides, where it asks for more than any scene of `scenes/`.
+/// [`JUDGED`] on both sides with what no scene of `scenes/` asks for: sensors that find their zeros,
+/// which are not at mid-scale, contact without self-motion, priors and thresholds of the model's
+/// classes, and poses.
 pub(crate) fn judged_with_options() -> Result<PathBuf, Fault> {
-    let both = variants::on_both_sides(&top().join(JUDGED))?;
-    variants::with_options(&both)
+    let keys = [
+        "sensor.zero_after_s=0.5",
+        "sensor.self_motion_s=1.0",
+        "plant.zero_codes=[[40.0, -60.0], [-90.0, 30.0]]",
+        "classifier.pose=true",
+        "classifier.prior.smooth=0.6",
+        "classifier.thresholds.carpet=0.999",
+    ];
+    variants::with(variants::on_both_sides(&top().join(JUDGED))?, &keys)
 }
 
 /// [`FULL`] where its sensors are in their slow mode, and the board at half its clock for them.
@@ -250,34 +237,12 @@ pub(crate) fn with_slow_sensors() -> Result<PathBuf, Fault> {
 
 /// [`FULL`] with a brushless motor, which no scene of `scenes/` has.
 pub(crate) fn brushless() -> Result<PathBuf, Fault> {
-    variants::with(&top().join(FULL), &["motor.driver=six-step"])
-}
-
-/// [`CIA`] with a board a whisker, two dozen: what bus and boards bear at most.
-pub(crate) fn large_head() -> Result<PathBuf, Fault> {
-    let keys = ["head.nodes=24", "head.whiskers_per_side=12"];
-    variants::with(&top().join(CIA), &keys)
-}
-
-/// Two boards with a whisker each, which decide so: `first`, `each`, or `together`.
-pub(crate) fn deciding_head(whiskers: &str) -> Result<PathBuf, Fault> {
-    let whiskers = format!("classifier.whiskers={whiskers:?}");
-    let keys = ["head.nodes=2", "head.whiskers_per_side=2", &whiskers];
-    variants::with(&top().join(WORLD), &keys)
-}
-
-/// [`FULL`] with priors, and besides without self-motion in its contact: what not every board has
-/// room for. Writes them and returns their paths.
-pub(crate) fn full_with_options() -> Result<[PathBuf; 2], Fault> {
-    let keys = ["classifier.prior.smooth=0.6", "sensor.self_motion_s=0.5"];
-    let full = &top().join(FULL);
-    let likely = variants::with(full, &keys[..1])?;
-    Ok([likely, variants::with(full, &keys)?])
+    variants::with(FULL, &["motor.driver=six-step"])
 }
 
 /// [`CIA`] on a board a side, which a bus joins.
 pub(crate) fn head_of_two() -> Result<PathBuf, Fault> {
-    variants::with(&top().join(CIA), &["head.nodes=2"])
+    variants::with(CIA, &["head.nodes=2"])
 }
 
 /// [`FULL`] on both sides: the noisiest scene.

@@ -120,7 +120,7 @@ fn on_boards(boards: &[Board], scenes: &[PathBuf], hours: f64) -> Result<Vec<Sha
     let mut shards = Vec::new();
     for (n, (board, scene)) in taken.iter().cycle().take(count).enumerate() {
         let seed = 1 + (n / taken.len()) as u32;
-        let scene = variants::with_seed(scene, seed)?;
+        let scene = variants::with(scene, &[format!("seed={seed}")])?;
         let stem = scene.file_stem().unwrap_or_default().display();
         let program = folder().join(format!("{}-{stem}.elf", board.name));
         let shard = Shard {
@@ -141,7 +141,7 @@ fn on_boards(boards: &[Board], scenes: &[PathBuf], hours: f64) -> Result<Vec<Sha
 fn run_all(shards: &[Shard], at_once: NonZero<usize>) -> Result<(), Fault> {
     // Built once, before they all want to.
     if built("emulator").is_none() {
-        run(&mut cargo(&["build", "--quiet", "-p", "emulator"]))?;
+        run(&mut cargo("build --quiet -p emulator"))?;
     }
     let left = shards.iter().filter(|shard| !shard.file().exists());
     run_at_once(left.map(Shard::command).collect(), at_once.get())
@@ -149,37 +149,47 @@ fn run_all(shards: &[Shard], at_once: NonZero<usize>) -> Result<(), Fault> {
 
 /// All hours of `choice`, and docs/measured/endurance.md from them.
 pub(crate) fn all(choice: &Choice) -> Result<(), Fault> {
-    if !choice.resume {
-        remove(&folder())?;
-    }
-    let scenes = listing(&top().join("scenes"), "toml")?;
-    let mut shards = on_pc(&scenes, choice.hours);
-    shards.extend(on_boards(&Board::ALL, &scenes, choice.board_hours)?);
-    run_all(&shards, choice.shards)?;
+    let shards = made(
+        [choice.hours, choice.board_hours],
+        None,
+        choice.shards,
+        choice.resume,
+    )?;
     let mut page = emulator("endurance");
     page.args(shards.iter().map(Shard::file));
     run(page.arg("--out").arg(top().join(PAGE)))
 }
 
+/// Runs shards of so many hours on the PC and on boards: all, or of one scene on the first.
+fn made(
+    [on_the_pc, on_the_boards]: [f64; 2],
+    alone: Option<&str>,
+    at_once: NonZero<usize>,
+    keeps: bool,
+) -> Result<Vec<Shard>, Fault> {
+    if !keeps {
+        remove(&folder())?;
+    }
+    let scenes = listing(&top().join("scenes"), "toml")?;
+    let mut shards = on_pc(&scenes, on_the_pc);
+    shards.extend(match alone {
+        Some(scene) => on_boards(&Board::ALL[..1], &[top().join(scene)], on_the_boards)?,
+        None => on_boards(&Board::ALL, &scenes, on_the_boards)?,
+    });
+    run_all(&shards, at_once)?;
+    Ok(shards)
+}
+
 /// The form of the night: the week on the PC, and an hour on the boards, where a day takes
 /// more than one.
 pub(crate) fn nightly() -> Result<(), Fault> {
-    remove(&folder())?;
-    let scenes = listing(&top().join("scenes"), "toml")?;
-    let mut shards = on_pc(&scenes, 168.0);
-    shards.extend(on_boards(&Board::ALL, &scenes, 1.0)?);
-    run_all(&shards, AT_ONCE)
+    made([168.0, 1.0], None, AT_ONCE, false).map(drop)
 }
 
 /// The short form of CI: minutes of every scene on the PC, and the wraps of all counters on
 /// one board.
 pub(crate) fn short() -> Result<(), Fault> {
-    remove(&folder())?;
-    let scenes = listing(&top().join("scenes"), "toml")?;
-    let mut shards = on_pc(&scenes, SHORT_H[0]);
-    let full = [top().join(emulate::FULL)];
-    shards.extend(on_boards(&Board::ALL[..1], &full, SHORT_H[1])?);
-    run_all(&shards, AT_ONCE)
+    made(SHORT_H, Some(emulate::FULL), AT_ONCE, false).map(drop)
 }
 
 /// Hours of the short form, on the PC and on the board, where touches are reported after a second

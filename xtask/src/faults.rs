@@ -7,7 +7,7 @@ use std::process::Command;
 use clap::Args;
 use scene::{Scene, SensorModel};
 
-use crate::emulate::variants;
+use crate::emulate::{self, variants};
 use crate::firmware::{self, Board};
 use crate::run::{
     Fault, emulator, listing, read, read_bytes, remove, run, run_at_once, target, top, write,
@@ -44,6 +44,7 @@ pub(crate) struct Choice {
 }
 
 /// Scenes, and the programs that were built for them; none: on the PC.
+#[derive(Default)]
 struct Subject {
     name: &'static str,
     scenes: Vec<PathBuf>,
@@ -61,8 +62,8 @@ const MOTORS: [(&str, &str); 4] = [
 ];
 
 fn other_motors() -> Result<Vec<PathBuf>, Fault> {
-    let scene = top().join(crate::emulate::WORLD);
-    let other = |(name, key): (&str, &str)| variants::with(&scene, &[&format!("name={name}"), key]);
+    let named = |name| format!("name={name}");
+    let other = |(name, key): (_, &str)| variants::with(emulate::WORLD, &[&*named(name), key]);
     MOTORS.into_iter().map(other).collect()
 }
 
@@ -81,13 +82,13 @@ impl Subject {
             PC => Ok(Self {
                 name: PC,
                 scenes,
-                programs: Vec::new(),
                 runs: Some(runs),
+                ..Self::default()
             }),
             WORDS => Ok(Self {
                 name: WORDS,
                 runs: None,
-                ..Self::on(Board::ALL[0], &[top().join(crate::emulate::FULL)], runs)?
+                ..Self::on(Board::ALL[0], &[top().join(emulate::FULL)], runs)?
             }),
             _ => Self::on(Board::named(name)?, &scenes, runs),
         }
@@ -98,9 +99,8 @@ impl Subject {
         let folder = folder().join(board.name);
         let mut subject = Self {
             name: board.name,
-            scenes: Vec::new(),
-            programs: Vec::new(),
             runs: Some(runs),
+            ..Self::default()
         };
         for scene in scenes {
             let scene = variants::single(scene)?;
@@ -152,16 +152,14 @@ impl Subject {
     }
 
     fn run(&self, shards: u64) -> Result<Vec<PathBuf>, Fault> {
-        let runs = match self.runs {
-            Some(runs) => runs.to_string(),
-            None => "as many runs as words".to_owned(),
-        };
+        let as_words = || "as many runs as words".to_owned();
+        let runs = self.runs.map_or_else(as_words, |runs| runs.to_string());
         println!("{}: {runs} in {} scenes", self.name, self.scenes.len());
         let table = |shard| folder().join(format!("{}-{shard}.csv", self.name));
         let tables: Vec<PathBuf> = (0..shards).map(table).collect();
-        let shard =
-            |(shard, out): (u64, &PathBuf)| self.command(0, self.runs, [shard, shards], out);
-        let commands = (0..shards).zip(&tables).map(shard);
+        let commands = (0..shards).zip(&tables);
+        let commands =
+            commands.map(|(shard, out)| self.command(0, self.runs, [shard, shards], out));
         run_at_once(commands.collect(), tables.len())?;
         Ok(tables)
     }
@@ -180,16 +178,10 @@ pub(crate) fn all(choice: &Choice) -> Result<(), Fault> {
     let on_a_board = choice.runs / A_BOARD_S;
     let boards = Board::ALL.map(|board| (board.name, on_a_board));
     let on_pc = choice.runs - on_a_board * boards.len() as u64;
-    let everywhere = [(PC, on_pc), (WORDS, 0)]
-        .into_iter()
-        .chain(boards)
-        .collect();
-    let wanted: Vec<(&str, u64)> = match &choice.subject {
-        Some(name) if ![PC, WORDS].contains(&name.as_str()) => {
-            vec![(Board::named(name)?.name, choice.runs)]
-        }
-        Some(name) => vec![(name, choice.runs)],
-        None => everywhere,
+    let wanted = match choice.subject.as_deref() {
+        Some(name @ (PC | WORDS)) => vec![(name, choice.runs)],
+        Some(name) => vec![(Board::named(name)?.name, choice.runs)],
+        None => [&[(PC, on_pc), (WORDS, 0)], &boards[..]].concat(),
     };
     if !choice.resume {
         remove(&folder())?;
@@ -236,7 +228,7 @@ fn summed_up(tables: &[PathBuf], page: Option<&Path>) -> Result<(), Fault> {
 pub(crate) fn short() -> Result<(), Fault> {
     remove(&folder())?;
     let mut tables = Subject::of(PC, 500)?.run(2)?;
-    let one = [top().join(crate::emulate::FULL)];
+    let one = [top().join(emulate::FULL)];
     tables.extend(Subject::on(Board::ALL[0], &one, 10)?.run(2)?);
     summed_up(&tables, None)
 }

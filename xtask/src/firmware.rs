@@ -61,23 +61,13 @@ impl Board {
     }
 
     /// What cargo needs to build its program with `parts`, features of the crate `firmware`.
-    pub(crate) fn build_arguments(self, parts: &[&str]) -> Vec<String> {
+    pub(crate) fn build_arguments(self, parts: &[&str]) -> String {
         let features = [&[self.name], parts].concat().join(",");
-        let arguments = [
-            "--locked",
-            "--profile",
-            "firmware",
-            "-p",
-            "firmware",
-            "--no-default-features",
-            "--features",
-            &features,
-            "--bin",
-            &self.program(),
-            "--target",
-            self.target,
-        ];
-        arguments.map(str::to_owned).to_vec()
+        let (program, target) = (self.program(), self.target);
+        format!(
+            "--locked --profile firmware -p firmware --no-default-features --features {features} \
+             --bin {program} --target {target}"
+        )
     }
 }
 
@@ -135,7 +125,7 @@ fn kept(board: Board, mut compiler: Command) -> Result<PathBuf, Fault> {
     }
     run(&mut compiler)?;
     let kept = target().join(format!("kept/{}.elf", built.len() + 1));
-    write(&kept, read_bytes(&elf(board))?)?;
+    write(&kept, read_bytes(&elf_in(board, &target()))?)?;
     built.insert(arguments, kept.clone());
     Ok(kept)
 }
@@ -164,53 +154,47 @@ impl Linked {
 /// Makes what is linked for the scene at `path`; or why the board does not take it.
 pub(crate) fn linked(board: Board, path: &Path) -> Result<Result<Linked, String>, Fault> {
     let scene = Scene::load(path).map_err(|error| error.to_string())?;
-    let folder = path.parent().unwrap_or(Path::new(""));
-    let model = scene
-        .model_path(folder)
-        .map(|path| {
-            let path = top().join(path);
-            let model = ModelBuf::from_bytes(&read_bytes(&path)?);
-            model.map_err(|error| format!("{}: {error}", path.display()))
-        })
-        .transpose()?;
-    let image = config::image(&scene, model.as_ref(), board.facts, "");
-    Ok(image
-        .map(|image| Linked {
-            image,
-            name: scene.name,
-            model,
-        })
-        .map_err(|misfit| misfit.to_string()))
+    let model = model(&scene, path)?;
+    Ok(
+        match config::image(&scene, model.as_ref(), board.facts, "") {
+            Ok(image) => Ok(Linked {
+                image,
+                name: scene.name,
+                model,
+            }),
+            Err(misfit) => Err(misfit.to_string()),
+        },
+    )
+}
+
+/// The model of the scene at `path`, if it names one.
+pub(crate) fn model(scene: &Scene, path: &Path) -> Result<Option<ModelBuf>, Fault> {
+    let path = scene.model_path(path.parent().unwrap_or(Path::new("")));
+    let read = |path| {
+        let path = top().join(path);
+        let model = ModelBuf::from_bytes(&read_bytes(&path)?);
+        model.map_err(|error| format!("{}: {error}", path.display()))
+    };
+    path.map(read).transpose()
 }
 
 /// A scene, seen from here or from the top of the workspace.
-fn find(scene: &Path) -> Result<PathBuf, Fault> {
-    std::path::absolute(scene)
-        .ok()
-        .filter(|path| path.is_file())
-        .or_else(|| Some(top().join(scene)).filter(|path| path.is_file()))
-        .ok_or_else(|| format!("{}: no such scene", scene.display()))
+pub(crate) fn find(scene: &Path) -> Result<PathBuf, Fault> {
+    let places = [std::path::absolute(scene).ok(), Some(top().join(scene))];
+    let found = places.into_iter().flatten().find(|path| path.is_file());
+    found.ok_or_else(|| format!("{}: no such scene", scene.display()))
 }
 
 fn compiler(board: Board, parts: &[&str]) -> Command {
-    let mut command = cargo(&["build"]);
-    command
-        .args(board.build_arguments(parts))
-        .env("RUSTFLAGS", "-D warnings");
+    let mut command = cargo(&format!("build {}", board.build_arguments(parts)));
+    command.env("RUSTFLAGS", "-D warnings");
     command
 }
 
-/// Where cargo puts a board's program.
-pub(crate) fn elf(board: Board) -> PathBuf {
-    elf_in(board, &target())
-}
-
-/// The same, where cargo builds in another folder.
+/// Where cargo puts a board's program that builds in this folder.
 pub(crate) fn elf_in(board: Board, built: &Path) -> PathBuf {
-    built
-        .join(board.target)
-        .join("firmware")
-        .join(board.program())
+    let folder = built.join(board.target).join("firmware");
+    folder.join(board.program())
 }
 
 /// Bytes that a program takes.

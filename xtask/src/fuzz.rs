@@ -77,17 +77,7 @@ pub(crate) fn all(names: &[String], minutes: f64, page: bool) -> Result<(), Faul
 }
 
 fn build(with_slow: bool) -> Result<(), Fault> {
-    let what = [
-        "build",
-        "--locked",
-        "--quiet",
-        "--profile",
-        "fuzz",
-        "-p",
-        "fuzz",
-        "--bins",
-    ];
-    let mut command = cargo(&what);
+    let mut command = cargo("build --locked --quiet --profile fuzz -p fuzz --bins");
     let features = if with_slow { "engine,shards" } else { "engine" };
     command.args(["--no-default-features", "--features", features]);
     command.args(["--target", HOST]);

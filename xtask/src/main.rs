@@ -337,7 +337,7 @@ impl Emulate {
         let Some(scene) = self.scene else {
             return emulate::compare_all(&on);
         };
-        let scene = emulate::variants::with(&scene, &self.set)?;
+        let scene = emulate::variants::with(scene, &self.set)?;
         let what = self.what;
         if let (Some(scenario), Some(json)) = (&what.scenario, &self.json) {
             return emulate::tried(&on, &scene, scenario, self.world.as_deref(), json);

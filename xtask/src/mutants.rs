@@ -32,11 +32,8 @@ fn kept() -> Result<Kept, Fault> {
 pub(crate) fn all() -> Result<(), Fault> {
     let kept = kept()?;
     let tree = copy(&target().join("mutants"))?;
-    let faults = kept
-        .mutant
-        .iter()
-        .filter_map(|mutant| mutant.survives(&tree));
-    let faults: Vec<Fault> = faults.collect();
+    let mutants = kept.mutant.iter();
+    let faults: Vec<Fault> = mutants.filter_map(|one| one.survives(&tree)).collect();
     let (all, caught) = (kept.mutant.len(), kept.mutant.len() - faults.len());
     println!("{caught} of {all} mutants are caught");
     no_faults(&faults)
@@ -68,7 +65,7 @@ impl Mutant {
     /// Whether the test fails; a mutant that does not compile is no mutant.
     fn ask(&self, tree: &Path) -> Result<(), Fault> {
         let test = |last: &[&str]| {
-            let mut command = cargo(&["test", "--quiet", "--locked"]);
+            let mut command = cargo("test --quiet --locked");
             command.args(self.test.split(' ')).args(last);
             // Beside the copy, so that the next night compiles only what has changed.
             command.env("CARGO_TARGET_DIR", target().join("of-mutants"));

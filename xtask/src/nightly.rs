@@ -3,10 +3,10 @@
 
 use ::firmware::boards::InHead;
 use std::path::{Path, PathBuf};
-use std::process::Command;
 use std::time::{SystemTime, UNIX_EPOCH};
 
 use crate::emulate::Emulated;
+use crate::emulate::variants::with;
 use crate::firmware::{self, Board};
 use crate::run::{Fault, cargo, installed, run, target, top};
 use crate::steps::Steps;
@@ -24,10 +24,10 @@ pub(crate) fn all(only: Vec<String>) -> Result<(), Fault> {
     steps.try_run("lints of every board", lints);
     steps.try_run("the bench's program with debug probes", with_probes);
     steps.try_run("properties on other cases", || {
-        run(cargo(&["test", "--locked"]).args(ci::ALL))?;
+        let test = format!("test --locked {}", ci::ALL);
+        run(&mut cargo(&test))?;
         // What a newcomer's `cargo test` leaves out: it builds the program of another board.
-        let ignored = ["--test", "program", "--", "--ignored"];
-        run(cargo(&["test", "--locked"]).args([&ci::ALL[..], &ignored].concat()))?;
+        run(cargo(&test).args(["--test", "program", "--", "--ignored"]))?;
         studies::check(None)
     });
     steps.try_run("size of every scene on every board", || {
@@ -60,8 +60,7 @@ pub(crate) fn all(only: Vec<String>) -> Result<(), Fault> {
 }
 
 fn with_probes() -> Result<(), Fault> {
-    let tool = ["--locked", "-p", "whisker", "--features", "probe"];
-    run(cargo(&["test"]).args(tool))
+    run(&mut cargo("test --locked -p whisker --features probe"))
 }
 
 fn lints() -> Result<(), Fault> {
@@ -70,12 +69,12 @@ fn lints() -> Result<(), Fault> {
         let tilt = firmware::linked(board, &top().join(emulate::TILT))??;
         for parts in [board.every_part, &tilt.image.features] {
             let arguments = board.build_arguments(parts);
-            run(cargo(&["clippy"]).args(arguments).args(ci::DENY))?;
+            run(cargo(&format!("clippy {arguments}")).args(ci::DENY))?;
         }
     }
-    let apart = ["clippy", "--all-targets", "-p", "whisker", "-p", "fuzz"];
     let features = ["--features", "whisker/probe,fuzz/engine"];
-    run(cargo(&apart).args(features).args(ci::DENY))
+    let mut apart = cargo("clippy --all-targets -p whisker -p fuzz");
+    run(apart.args(features).args(ci::DENY))
 }
 
 fn boards() -> Result<(), Fault> {
@@ -94,10 +93,14 @@ fn boards() -> Result<(), Fault> {
             linked.run(emulate::CIA, &["latency"])?;
             let both = emulate::noisiest()?;
             linked.run(&both, &["compare"])?;
-            linked.run(emulate::large_head()?, &["head --duration 2"])?;
-            // By crystals apart.
+            // A board a whisker: what bus and boards bear at most.
+            let keys = ["head.nodes=24", "head.whiskers_per_side=12"];
+            linked.run(with(emulate::CIA, &keys)?, &["head --duration 2"])?;
+            // Two boards with a whisker each, by crystals apart.
             for whiskers in ["first", "each", "together"] {
-                let head = emulate::deciding_head(whiskers)?;
+                let whiskers = format!("classifier.whiskers={whiskers:?}");
+                let keys = ["head.nodes=2", "head.whiskers_per_side=2", &whiskers];
+                let head = with(emulate::WORLD, &keys)?;
                 linked.run(head, &["head --duration 10 --ppm 300"])?;
             }
             scenes.push(both);
@@ -130,7 +133,6 @@ fn mutations() -> Result<(), Fault> {
     installed("mutants")?;
     let now = SystemTime::now().duration_since(UNIX_EPOCH);
     let day = now.map_err(|error| error.to_string())?.as_secs() / (24 * 60 * 60);
-    let mut command: Command = cargo(&["mutants", "--shard"]);
-    command.arg(format!("{}/{NIGHTS}", day % NIGHTS));
-    run(command.arg("--output").arg(target()))
+    let shard = format!("mutants --shard {}/{NIGHTS} --output", day % NIGHTS);
+    run(cargo(&shard).arg(target()))
 }

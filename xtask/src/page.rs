@@ -11,9 +11,8 @@ pub(crate) fn path() -> PathBuf {
 }
 
 pub(crate) fn build() -> Result<(), Fault> {
-    let core = ["build", "--locked", "-p", "page", "--lib"];
     let web = ["--profile", "page", "--target", "wasm32-unknown-unknown"];
-    run(cargo(&core).args(web))?;
+    run(cargo("build --locked -p page --lib").args(web))?;
     let mut pack = cargo_apart("run", "web/pack", "packer");
     pack.arg("--");
     pack.arg(target().join("wasm32-unknown-unknown/page/page.wasm"));

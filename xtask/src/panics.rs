@@ -27,16 +27,6 @@ const START: &str = "Reset";
 
 const CONTROL: &str = "scenes/full.toml";
 
-/// What the walk over a program has seen.
-pub(crate) struct Proven {
-    /// Functions of its interrupts, and how many of these there are.
-    tick: usize,
-    interrupts: usize,
-    /// Functions of the start and of idle, and of the handlers of faults.
-    idle: usize,
-    handlers: usize,
-}
-
 /// Checks the scenes, or every one, on `board`, or on every one, and sees that a panic
 /// would be found.
 pub(crate) fn all(board: Option<Board>, scenes: &[PathBuf]) -> Result<(), Fault> {
@@ -45,21 +35,13 @@ pub(crate) fn all(board: Option<Board>, scenes: &[PathBuf]) -> Result<(), Fault>
     for board in board.map_or(Board::ALL.to_vec(), |board| vec![board]) {
         for scene in scenes {
             let name = scene.file_stem().unwrap_or_default().display();
+            let place = format!("{name}, {}", board.name);
             match firmware::try_build(board, scene)? {
                 Ok(elf) => {
-                    let Proven {
-                        tick,
-                        interrupts,
-                        idle,
-                        handlers,
-                    } = check(&elf).map_err(|fault| format!("{name}, {}: {fault}", board.name))?;
-                    println!(
-                        "{name}, {}: no way to a panic in {tick} functions of {interrupts} \
-                         interrupts, {idle} of start and idle, {handlers} of handlers of faults",
-                        board.name
-                    );
+                    let proven = check(&elf).map_err(|fault| format!("{place}: {fault}"))?;
+                    println!("{place}: no way to a panic in {proven}");
                 }
-                Err(reason) => println!("{name}, {}: {reason}", board.name),
+                Err(reason) => println!("{place}: {reason}"),
             }
         }
         control(board)?;
@@ -84,7 +66,8 @@ fn sleeps_well(elf: &Path) -> Result<(), Fault> {
     ))
 }
 
-pub(crate) fn check(elf: &Path) -> Result<Proven, Fault> {
+/// Gives what has been walked over.
+pub(crate) fn check(elf: &Path) -> Result<String, Fault> {
     sleeps_well(elf)?;
     let program = Program::of(elf)?;
     let tasks = program.calls.tasks()?;
@@ -96,12 +79,13 @@ pub(crate) fn check(elf: &Path) -> Result<Proven, Fault> {
     let handlers = program.walk(&program.calls.named(MEANT))?;
     wrong.extend(handlers.ends);
     no_faults(&wrong)?;
-    Ok(Proven {
-        tick: tick.functions,
-        interrupts: tasks.len(),
-        idle: idle.functions,
-        handlers: handlers.functions,
-    })
+    Ok(format!(
+        "{} functions of {} interrupts, {} of start and idle, {} of handlers of faults",
+        tick.functions,
+        tasks.len(),
+        idle.functions,
+        handlers.functions
+    ))
 }
 
 /// Builds [`CONTROL`] with checks of overflow and sees panics found in its interrupts.

@@ -43,8 +43,8 @@ pub(crate) fn pip(python: &Path) -> Command {
     command
 }
 
-/// The Pythons of this machine that the wheel is for: number and program, the oldest first.
-fn pythons() -> Vec<(u32, PathBuf)> {
+/// The Pythons of this machine that the wheel is for, the oldest first.
+fn pythons() -> Vec<PathBuf> {
     let home = env::var_os("HOME").map(PathBuf::from).unwrap_or_default();
     let versions = fs::read_dir(home.join(".pyenv/versions"))
         .into_iter()
@@ -53,22 +53,23 @@ fn pythons() -> Vec<(u32, PathBuf)> {
     let path = env::var_os("PATH").unwrap_or_default();
     let folders: Vec<PathBuf> = installed.chain(env::split_paths(&path)).collect();
     let of = |minor: u32| {
-        let all = folders
-            .iter()
-            .map(move |folder| folder.join(format!("python3.{minor}")));
-        let mut there = all.filter(|program| {
-            // A shim of a version that is not chosen is there and does not run.
+        let name = format!("python3.{minor}");
+        let mut all = folders.iter().map(|folder| folder.join(&name));
+        // A shim of a version that is not chosen is there and does not run.
+        all.find(|program| {
             program.exists() && output(Command::new(program).arg("--version")).is_ok()
-        });
-        there.next().map(|program| (minor, program))
+        })
     };
     (OLDEST..NEWEST).filter_map(of).collect()
 }
 
 fn newest() -> Result<PathBuf, Fault> {
     let none = || format!("no Python from 3.{OLDEST} on");
-    let (_, python) = pythons().pop().ok_or_else(none)?;
-    Ok(python)
+    pythons().pop().ok_or_else(none)
+}
+
+fn oldest() -> Result<PathBuf, Fault> {
+    pythons().into_iter().next().ok_or("no Python".to_owned())
 }
 
 /// What builds the wheel of the package in a folder to another, which is emptied.
@@ -83,12 +84,21 @@ fn maturin(python: &Path, package: &Path, wheels: &Path) -> Result<Command, Faul
     Ok(build)
 }
 
-fn only(wheels: &Path) -> Result<PathBuf, Fault> {
-    let built = listing(wheels, "whl")?;
-    built
-        .into_iter()
-        .next()
-        .ok_or_else(|| "no wheel was built".to_owned())
+const BUILT_NONE: &str = "no wheel was built";
+
+/// The file of this kind in a folder, or that there is none.
+fn only(folder: &Path, extension: &str, none: &str) -> Result<PathBuf, Fault> {
+    let first = listing(folder, extension)?.into_iter().next();
+    first.ok_or_else(|| none.to_owned())
+}
+
+/// The Python side's tests, in this environment.
+fn tests(inside: &Path) -> Result<Command, Fault> {
+    let mut tests = Command::new(inside);
+    tests.args(["-m", "pytest", "--quiet"]);
+    tests.env("WHISKER_TRACES", traces::written()?);
+    tests.current_dir(top().join("python"));
+    Ok(tests)
 }
 
 /// The wheel in a clean environment of the newest Python of this machine, where its tests are run,
@@ -98,60 +108,36 @@ pub(crate) fn test() -> Result<(), Fault> {
     let wheels = place("wheels");
     let mut build = maturin(&python, &top().join("python"), &wheels)?;
     run(linted(build.args(AS_TESTS)))?;
-    let wheel = only(&wheels)?;
+    let wheel = only(&wheels, "whl", BUILT_NONE)?;
     let packages = ["gymnasium", "mypy", "pandas", "pytest"];
     let inside = environment(&python, "newest", &packages)?;
     run(pip(&inside).arg(&wheel))?;
     // The stubs say what is there.
     let mut stubs = Command::new(&inside);
     run(stubs.args(["-m", "mypy.stubtest", "vibrissa._core"]))?;
-    let mut tests = Command::new(inside);
-    tests
-        .args(["-m", "pytest", "--quiet"])
-        .env("WHISKER_TRACES", traces::written()?);
-    run(tests.current_dir(top().join("python")))?;
+    run(&mut tests(&inside)?)?;
     try_wheel(&wheels)
 }
 
 /// What takes long: the source distribution, built outside the checkout; sweeps on Dask and Ray;
 /// every notebook.
 pub(crate) fn whole() -> Result<(), Fault> {
-    let pythons = pythons();
-    let (_, python) = pythons.last().ok_or("no Python")?;
-    let tools = environment(python, "tools", &[MATURIN])?;
+    let tools = environment(&newest()?, "tools", &[MATURIN])?;
     let sources = place("sources");
     remove(&sources)?;
     let mut pack = Command::new(tools);
     pack.args(["-m", "maturin", "sdist", "--out"]).arg(&sources);
     run(pack.current_dir(top().join("python")))?;
-    let packed = listing(&sources, "gz")?;
-    let packed = packed.first().ok_or("no source distribution was made")?;
-    let packages = [
-        "dask[distributed]",
-        "ray",
-        "gymnasium",
-        "pytest",
-        "ipykernel",
-        "matplotlib",
-        "nbclient",
-        "nbformat",
-        "pandas",
-        "xarray",
-    ];
+    let packed = only(&sources, "gz", "no source distribution was made")?;
+    let packages = "dask[distributed] ray gymnasium pytest ipykernel matplotlib nbclient nbformat \
+                    pandas xarray";
+    let packages: Vec<&str> = packages.split_whitespace().collect();
     // Ray comes to a new Python late.
-    let (_, oldest) = pythons.first().ok_or("no Python")?;
-    let inside = environment(oldest, "whole", &packages)?;
+    let inside = environment(&oldest()?, "whole", &packages)?;
     let elsewhere = env::temp_dir();
     run(pip(&inside).arg(packed).current_dir(&elsewhere))?;
-    let folder = top().join("python");
-    let mut tests = Command::new(&inside);
-    tests
-        .args(["-m", "pytest", "--quiet"])
-        .env("WHISKER_WHOLE", "1");
-    run(tests
-        .env("WHISKER_TRACES", traces::written()?)
-        .current_dir(&folder))?;
-    run(Command::new(&inside).arg(folder.join("notebooks/execute.py")))
+    run(tests(&inside)?.env("WHISKER_WHOLE", "1"))?;
+    run(Command::new(&inside).arg(top().join("python/notebooks/execute.py")))
 }
 
 pub(crate) fn release() -> Result<PathBuf, Fault> {
@@ -165,12 +151,8 @@ pub(crate) fn release() -> Result<PathBuf, Fault> {
 pub(crate) fn try_wheel(folder: &Path) -> Result<(), Fault> {
     const LINE: &str = "import vibrissa; sim = vibrissa.Sim(vibrissa.SCENES['rcp']); \
                         print('by the wheel: whisked to', sim.step(1000)['angle_left_deg'].max())";
-    let pythons = pythons();
-    let (_, oldest) = pythons.first().ok_or("no Python")?;
-    let inside = environment(oldest, "tried", &[])?;
-    let wheels = listing(folder, "whl")?;
-    let wheel = wheels.first().ok_or("no wheel in the archive")?;
-    run(pip(&inside).arg(wheel))?;
+    let inside = environment(&oldest()?, "tried", &[])?;
+    run(pip(&inside).arg(only(folder, "whl", "no wheel in the archive")?))?;
     // Of the wheel, not of a folder that has the package, too.
     run(Command::new(inside).args(["-I", "-c", LINE]))
 }
@@ -210,7 +192,11 @@ impl Measured {
         let python = newest()?;
         let mut build = maturin(&python, &tree.join("python"), &built.join("wheels"))?;
         run(build.args(RELEASE).env("CARGO_TARGET_DIR", built))?;
-        Self::with(&only(&built.join("wheels"))?, tree, "speeds-other")
+        Self::with(
+            &only(&built.join("wheels"), "whl", BUILT_NONE)?,
+            tree,
+            "speeds-other",
+        )
     }
 
     /// Its figures, as JSON.
@@ -221,7 +207,9 @@ impl Measured {
 
 /// Error against time of the bending whisker and of MuJoCo; the page is written where programs are.
 pub(crate) fn against_mujoco() -> Result<(), Fault> {
-    run(cargo(&["build", "--locked", "--release"]).args(["-p", "physics", "--example", "push"]))?;
+    run(&mut cargo(
+        "build --locked --release -p physics --example push",
+    ))?;
     let inside = environment(&newest()?, "mujoco", &["mujoco>=4,<5", "scipy"])?;
     let mut compare = Command::new(inside);
     compare

@@ -3,6 +3,7 @@
 
 use std::fs;
 use std::path::{Path, PathBuf};
+use std::process::Command;
 
 use object::{Object, ObjectSection, SectionFlags};
 
@@ -46,7 +47,7 @@ pub(crate) fn twice(board: Board, scene: &Path) -> Result<(), Fault> {
 pub(crate) fn copy(folder: &Path) -> Result<PathBuf, Fault> {
     let wrong = |error: std::io::Error| format!("{}: {error}", folder.display());
     remove(folder)?;
-    let mut git = std::process::Command::new("git");
+    let mut git = Command::new("git");
     let files = ["ls-files", "--cached", "--others", "--exclude-standard"];
     for file in output(git.args(files).current_dir(top()))?.lines() {
         let (from, to) = (top().join(file), folder.join(file));
@@ -63,9 +64,9 @@ fn build(board: Board, scene: &Path, folder: &Path) -> Result<PathBuf, Fault> {
     let built = folder.join("target");
     let remap = format!("-D warnings --remap-path-prefix={}=.", folder.display());
     let linked = firmware::linked(board, &folder.join(scene))??;
-    let mut compiler = cargo(&["build", "--quiet"]);
+    let arguments = board.build_arguments(&linked.image.features);
+    let mut compiler = cargo(&format!("build --quiet {arguments}"));
     run(compiler
-        .args(board.build_arguments(&linked.image.features))
         .current_dir(folder)
         .env("CARGO_TARGET_DIR", &built)
         .env("RUSTFLAGS", remap))?;

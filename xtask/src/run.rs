@@ -82,9 +82,10 @@ pub(crate) fn listing(folder: &Path, extension: &str) -> Result<Vec<PathBuf>, Fa
     Ok(paths)
 }
 
-pub(crate) fn cargo(arguments: &[&str]) -> Command {
+/// `cargo` at the top, with arguments that are parted by spaces.
+pub(crate) fn cargo(arguments: &str) -> Command {
     let mut command = Command::new(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
-    command.args(arguments).current_dir(top());
+    command.args(arguments.split(' ')).current_dir(top());
     command
 }
 
@@ -101,9 +102,9 @@ pub(crate) fn linted(command: &mut Command) -> &mut Command {
 /// `cargo` with a command for a package outside the workspace, which is built in a folder of its
 /// own.
 pub(crate) fn cargo_apart(command: &str, package: &str, folder: &str) -> Command {
-    let mut command = cargo(&[command, "--quiet", "--locked", "--manifest-path"]);
-    command.arg(format!("{package}/Cargo.toml"));
-    command.arg("--target-dir").arg(target().join(folder));
+    let manifest = format!("--manifest-path {package}/Cargo.toml --target-dir");
+    let mut command = cargo(&format!("{command} --quiet --locked {manifest}"));
+    command.arg(target().join(folder));
     command
 }
 
@@ -134,24 +135,18 @@ pub(crate) fn built(package: &str) -> Option<PathBuf> {
 
 /// A program of the workspace, to be run at the top.
 pub(crate) fn workspace_program(package: &str) -> Command {
-    match built(package) {
-        None => {
-            let mut command = cargo(&["run", "--quiet", "-p", package]);
-            command.arg("--");
-            command
-        }
-        Some(path) => {
-            let mut command = Command::new(path);
-            command.current_dir(top());
-            command
-        }
-    }
+    let Some(path) = built(package) else {
+        return cargo(&format!("run --quiet -p {package} --"));
+    };
+    let mut command = Command::new(path);
+    command.current_dir(top());
+    command
 }
 
-/// The emulator, with the first of its arguments.
-pub(crate) fn emulator(first: &str) -> Command {
+/// The emulator, with its first arguments, which are parted by spaces.
+pub(crate) fn emulator(arguments: &str) -> Command {
     let mut command = workspace_program("emulator");
-    command.arg(first);
+    command.args(arguments.split(' '));
     command
 }
 
@@ -212,11 +207,10 @@ pub(crate) fn once(
 
 /// Installs a subcommand of cargo, unless it is there.
 pub(crate) fn installed(subcommand: &str) -> Result<(), Fault> {
-    if output(&mut cargo(&[subcommand, "--version"])).is_ok() {
+    if output(&mut cargo(&format!("{subcommand} --version"))).is_ok() {
         return Ok(());
     }
-    let package = format!("cargo-{subcommand}");
-    run(&mut cargo(&["install", "--locked", &package]))
+    run(&mut cargo(&format!("install --locked cargo-{subcommand}")))
 }
 
 pub(crate) fn output(command: &mut Command) -> Result<String, Fault> {

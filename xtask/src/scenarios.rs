@@ -9,7 +9,7 @@ use std::process::Command;
 use serde::Deserialize;
 use serde_json::Value;
 
-use crate::emulate::{BENCH, Emulated, trying, variants};
+use crate::emulate::{BENCH, Emulated, trial, variants};
 use crate::firmware::Board;
 use crate::run::{AT_ONCE, Fault, no_faults, read, run_at_once, target, top, write};
 
@@ -136,11 +136,13 @@ impl Row {
         let head = if self.head { &HEAD[..] } else { &[] };
         let set = self.set.iter().map(String::as_str);
         let keys: Vec<&str> = PLANT.iter().chain(head).copied().chain(set).collect();
-        let scene = variants::with(&top().join(BENCH), &keys)?;
+        let scene = variants::with(BENCH, &keys)?;
         let file = top().join(format!("tests/scenarios/{}.toml", self.file));
         let linked = Emulated::linked(BOARD);
         let on = if self.set == [TILT] { &linked } else { on };
-        trying(on, &scene, &file, None, &self.json())
+        let mut command = trial(&scene, &file, &self.json())?;
+        command.arg("--program").arg(on.program(&scene)?);
+        Ok(command)
     }
 }
 

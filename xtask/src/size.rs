@@ -20,7 +20,6 @@ use crate::run::{Fault, listing, no_faults, read_bytes, top};
 use crate::{panics, speed};
 use parts::{Named, Seen};
 pub(crate) use table::{ANY_SCENE, TABLE, beside_goals, limits};
-use tactile::ModelBuf;
 
 /// Names between them, on one board, what no scene names: not in the table.
 const CONTROL: &str = "xtask/src/size/control.toml";
@@ -54,9 +53,9 @@ pub(crate) fn all(csv: Option<&Path>, check: bool) -> Result<(), Fault> {
             measured.take(board, &scene, None)?;
         }
         measured.take(board, &judging_poses()?, None)?;
-        measured.control(board, Path::new(CONTROL))?;
+        measured.control(board, Path::new(CONTROL))??;
         if board.facts.in_head != InHead::Never {
-            measured.control(board, &head_of_two()?)?;
+            measured.control(board, &head_of_two()?)??;
         }
         measured.any_scene(board)?;
     }
@@ -84,7 +83,7 @@ pub(crate) fn print(board: Board, scene: &str, elf: &Path) -> Result<(), Fault> 
 }
 
 fn judging_poses() -> Result<PathBuf, Fault> {
-    with(&top().join(JUDGED), &["classifier.pose=true"])
+    with(JUDGED, &["classifier.pose=true"])
 }
 
 /// Checks what most of CI's other steps run, and a few programs beside it that show of each part
@@ -101,11 +100,11 @@ pub(crate) fn short() -> Result<(), Fault> {
     let together = ["classifier.whiskers=together"];
     for scene in [
         PathBuf::from(CONTROL),
-        with(&judged_with_options()?, &together)?,
+        with(judged_with_options()?, &together)?,
         head_of_two()?,
         tilt(board)?,
     ] {
-        measured.control(board, &scene)?;
+        measured.control(board, &scene)??;
     }
     for board in Board::ALL {
         measured.any_scene(board)?;
@@ -131,13 +130,10 @@ impl Measured {
         path: &Path,
         host: Option<u64>,
     ) -> Result<Option<String>, Fault> {
-        let scene = load(path)?;
-        let elf = match firmware::try_build(board, path)? {
+        let elf = match self.control(board, path)? {
             Ok(elf) => elf,
             Err(reason) => return Ok(Some(reason)),
         };
-        let misfits = misfits(&mut self.seen, board, path, &scene, &elf)?;
-        self.wrong.extend(misfits);
         self.check_panics(board, &path.display().to_string(), &elf);
         let name = path.file_stem().unwrap_or_default().to_string_lossy();
         self.figures.push(measured(board, &name, &elf, host)?);
@@ -158,13 +154,14 @@ impl Measured {
         Ok(())
     }
 
-    /// Builds a scene that has no line in the table.
-    fn control(&mut self, board: Board, path: &Path) -> Result<(), Fault> {
-        let scene = load(path)?;
-        let elf = firmware::build(board, path)?;
-        let misfits = misfits(&mut self.seen, board, path, &scene, &elf)?;
-        self.wrong.extend(misfits);
-        Ok(())
+    /// Builds a scene, which gets no line in the table; or why the board does not take it.
+    fn control(&mut self, board: Board, path: &Path) -> Result<Result<PathBuf, String>, Fault> {
+        let elf = firmware::try_build(board, path)?;
+        if let Ok(elf) = &elf {
+            let misfits = misfits(&mut self.seen, board, path, elf)?;
+            self.wrong.extend(misfits);
+        }
+        Ok(elf)
     }
 
     /// The lines, if every program holds what its scene names and nothing else, and
@@ -179,10 +176,6 @@ impl Measured {
     }
 }
 
-fn load(path: &Path) -> Result<Scene, Fault> {
-    Scene::load(top().join(path)).map_err(|error| error.to_string())
-}
-
 fn measured(board: Board, scene: &str, elf: &Path, host: Option<u64>) -> Result<Figure, Fault> {
     let Size { flash, ram } = Size::of(elf)?;
     let numbers = [flash, ram, stack::worst(board, elf)?].map(|bytes| bytes as f64);
@@ -194,42 +187,23 @@ fn measured(board: Board, scene: &str, elf: &Path, host: Option<u64>) -> Result<
     })
 }
 
-fn model_bytes(scene: &Scene) -> Result<Option<Vec<u8>>, Fault> {
-    let path = scene.model_path(&top().join("scenes"));
-    path.map(|path| read_bytes(&top().join(path))).transpose()
-}
-
 /// What a program holds against its scene, or lacks.
-fn misfits(
-    seen: &mut Seen,
-    board: Board,
-    path: &Path,
-    scene: &Scene,
-    elf: &Path,
-) -> Result<Vec<String>, Fault> {
-    let functions = contents::functions(elf)?;
-    let named = model_bytes(scene)?;
-    let model = named
-        .as_ref()
-        .map(|bytes| ModelBuf::from_bytes(bytes))
-        .transpose();
-    let model = model.map_err(|error| format!("{}: {error}", path.display()))?;
-    let holds = Named {
-        scene,
-        model: model.as_ref(),
-    };
-    let mut wrong = seen.compare(&functions, holds, board.facts)?;
+fn misfits(seen: &mut Seen, board: Board, path: &Path, elf: &Path) -> Result<Vec<String>, Fault> {
+    let (functions, at) = (contents::functions(elf)?, top().join(path));
+    let scene = &Scene::load(&at).map_err(|error| error.to_string())?;
+    let held = firmware::model(scene, &at)?;
+    let model = held.as_ref();
+    let mut wrong = seen.compare(&functions, Named { scene, model }, board.facts)?;
     for path in listing(&top().join("scenes/models"), "model")? {
         let (name, model) = (path.display(), read_bytes(&path)?);
         let found = contents::occurrences(elf, &model)?;
-        let expected = usize::from(named.as_ref() == Some(&model));
+        let expected = usize::from(held.as_ref().is_some_and(|held| held.as_bytes() == model));
         if found != expected {
             wrong.push(format!("{name}: {found} times in flash, not {expected}"));
         }
     }
-    let place = format!("{} on {}", path.display(), board.name);
-    Ok(wrong
-        .into_iter()
-        .map(|what| format!("{place}: {what}"))
-        .collect())
+    for what in &mut wrong {
+        *what = format!("{} on {}: {what}", path.display(), board.name);
+    }
+    Ok(wrong)
 }

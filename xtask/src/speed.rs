@@ -105,7 +105,9 @@ fn environments(other: &Path) -> Result<(), Fault> {
 /// runs of so many ticks that the start of the program does not count.
 pub(crate) fn ns_per_tick(scene: &Path) -> Result<u64, Fault> {
     let ticks = 100_000;
-    let (program, long) = (Program::own()?.path, variants::with_ticks(scene, ticks)?);
+    let duration_s = f64::from(ticks) / f64::from(variants::load(scene)?.tick_hz);
+    let long = variants::with(scene, &[format!("duration_s={duration_s:?}")])?;
+    let program = Program::own()?.path;
     let mut least = f64::INFINITY;
     for _ in 0..3 {
         let begun = Instant::now();
@@ -141,15 +143,7 @@ impl Program {
     }
 
     fn released(tree: PathBuf, built: &Path) -> Result<Self, Fault> {
-        let build = [
-            "build",
-            "--release",
-            "--locked",
-            "--quiet",
-            "-p",
-            "host-sim",
-        ];
-        let mut build = cargo(&build);
+        let mut build = cargo("build --release --locked --quiet -p host-sim");
         run(build.current_dir(&tree).env("CARGO_TARGET_DIR", built))?;
         let path = built.join("release/host-sim");
         Ok(Self { path, tree })

@@ -9,17 +9,13 @@ use crate::run::{Fault, cargo, linted, run, target};
 pub(crate) const MANIFEST: &str = "studies/Cargo.toml";
 
 fn in_workspace(command: &str) -> Command {
-    cargo(&[command, "--locked", "--manifest-path", MANIFEST])
-}
-
-fn program() -> Command {
-    let mut program = in_workspace("run");
-    program.args(["--quiet", "--"]);
-    program
+    cargo(&format!("{command} --locked --manifest-path {MANIFEST}"))
 }
 
 pub(crate) fn format() -> Result<(), Fault> {
-    run(&mut cargo(&["fmt", "--manifest-path", MANIFEST, "--check"]))
+    run(&mut cargo(&format!(
+        "fmt --manifest-path {MANIFEST} --check"
+    )))
 }
 
 /// Tests, which make pages in short; with a seed, properties are tried on the same cases in each
@@ -44,5 +40,7 @@ pub(crate) fn experiments() -> Result<(), Fault> {
 /// Makes a page, `decisions`, `poses`, `standing` or `report`, or checks that it is up to date. They show
 /// docs/measured/instructions.csv, which `cargo xtask count` writes.
 pub(crate) fn page(page: &str, check: bool) -> Result<(), Fault> {
-    run(program().arg(page).args(check.then_some("--check")))
+    let mut program = in_workspace("run");
+    program.args(["--quiet", "--", page]);
+    run(program.args(check.then_some("--check")))
 }

@@ -6,10 +6,11 @@ use std::path::{Path, PathBuf};
 use scene::Scene;
 use toml::{Table, Value};
 
+use crate::firmware::find;
 use crate::run::{Fault, absolute, read, target, write};
 
 /// As often as sensors in their slow mode compute a value, about, Hz.
-const SLOW_HZ: i64 = 500;
+const SLOW_HZ: &str = "tick_hz=500";
 
 /// The scene at `path` with one whisker a side, the first, which is what a board carries.
 pub(crate) fn single(path: &Path) -> Result<PathBuf, Fault> {
@@ -17,7 +18,7 @@ pub(crate) fn single(path: &Path) -> Result<PathBuf, Fault> {
     if whiskers == 1 {
         return Ok(path.to_owned());
     }
-    variant(path, "single", |_, table| {
+    variant(path, "single", |table| {
         set(table, "head", "whiskers_per_side", 1);
         if let Some(gains) = list(table, "whisking", "gain") {
             *gains = gains.iter().step_by(whiskers).cloned().collect();
@@ -27,7 +28,7 @@ pub(crate) fn single(path: &Path) -> Result<PathBuf, Fault> {
 
 /// The scene, which has the left side alone, with both sides alike and coupled.
 pub(crate) fn on_both_sides(path: &Path) -> Result<PathBuf, Fault> {
-    variant(path, "both", |_, table| {
+    variant(path, "both", |table| {
         set(table, "head", "sides", "both");
         set(table, "whisking", "coupling", true);
         for (part, key) in [("whisking", "start"), ("plant", "obstacle_deg")] {
@@ -38,73 +39,37 @@ pub(crate) fn on_both_sides(path: &Path) -> Result<PathBuf, Fault> {
     })
 }
 
-pub(crate) fn in_fixed_point(path: &Path) -> Result<PathBuf, Fault> {
-    variant(path, "fixed", |_, table| {
-        set(table, "whisking", "numbers", "fixed");
-    })
-}
-
 /// The scene with sensors in their slow mode. It classifies nothing: models are of another rate.
 pub(super) fn with_slow_sensors(path: &Path) -> Result<PathBuf, Fault> {
-    variant(path, "slow", |_, table| {
-        table.insert("tick_hz".to_owned(), SLOW_HZ.into());
-        replace(table, "sensor", [("mode", "slow".into())]);
-        table.remove("classifier");
-    })
-}
-
-/// The scene with what no scene of `scenes/` asks for: sensors that find their zeros, which are not
-/// at mid-scale, contact without self-motion, priors and thresholds of the model's classes, and poses.
-pub(super) fn with_options(path: &Path) -> Result<PathBuf, Fault> {
-    variant(path, "options", |_, table| {
-        let keys = [("zero_after_s", 0.5.into()), ("self_motion_s", 1.0.into())];
-        replace(table, "sensor", keys);
-        let pairs = [[40.0, -60.0], [-90.0, 30.0]].map(|codes| Value::from(codes.to_vec()));
-        set(table, "plant", "zero_codes", pairs.to_vec());
-        set(table, "classifier", "pose", true);
-        for (key, class, value) in [("prior", "smooth", 0.6), ("thresholds", "carpet", 0.999)] {
-            let of_class = Table::from_iter([(class.to_owned(), value.into())]);
-            set(table, "classifier", key, of_class);
-        }
-    })
+    let path = variant(path, "undecided", |table| drop(table.remove("classifier")))?;
+    with(&path, &[SLOW_HZ, "sensor.mode=slow"])
 }
 
 pub(crate) fn without_telemetry(path: &Path) -> Result<PathBuf, Fault> {
-    variant(path, "silent", |_, table| {
-        replace(table, "telemetry", [("rtt", false.into())]);
+    variant(path, "silent", |table| {
+        let silent = Table::from_iter([("rtt".to_owned(), false.into())]);
+        table.insert("telemetry".to_owned(), silent.into());
     })
 }
 
 pub(super) fn with_serial(path: &Path, baud: u32) -> Result<PathBuf, Fault> {
-    variant(path, &format!("{baud}-baud"), |scene, table| {
-        let pins = scene.classifier.is_some();
-        let keys = [("serial_baud", baud.into()), ("pins", pins.into())];
-        replace(table, "telemetry", keys);
-    })
-}
-
-pub(crate) fn with_seed(path: &Path, seed: u32) -> Result<PathBuf, Fault> {
-    variant(path, &format!("seed-{seed}"), |_, table| {
-        table.insert("seed".to_owned(), seed.into());
-    })
-}
-
-pub(crate) fn with_ticks(path: &Path, ticks: u32) -> Result<PathBuf, Fault> {
-    variant(path, "long", |scene, table| {
-        let duration_s = f64::from(ticks) / f64::from(scene.tick_hz);
-        table.insert("duration_s".to_owned(), duration_s.into());
-    })
+    let pins = load(path)?.classifier.is_some();
+    let keys = [format!("serial_baud={baud}"), format!("pins={pins}")];
+    with(path, &keys.map(|key| format!("telemetry.{key}")))
 }
 
 /// Most letters that a file is named by keys with: with the rest, file systems take 255.
 const MOST_NAME: usize = 200;
 
 /// The scene with other values, each `KEY=VALUE`: a key with its sections, and TOML or a word.
-pub(crate) fn with(path: &Path, keys: &[impl AsRef<str>]) -> Result<PathBuf, Fault> {
+/// Its path may be seen from the top.
+pub(crate) fn with(path: impl AsRef<Path>, keys: &[impl AsRef<str>]) -> Result<PathBuf, Fault> {
+    let path = path.as_ref();
     let keys: Vec<&str> = keys.iter().map(AsRef::as_ref).collect();
     if keys.is_empty() {
         return Ok(path.to_owned());
     }
+    let path = &find(path).unwrap_or_else(|_| path.to_owned());
     let mut values = Vec::new();
     for &key in &keys {
         let allowed = || format!("--set {key}: allowed: KEY=VALUE, such as motor.kp=0.04");
@@ -122,7 +87,7 @@ pub(crate) fn with(path: &Path, keys: &[impl AsRef<str>]) -> Result<PathBuf, Fau
         name.truncate(MOST_NAME);
         name = format!("{name}-{:x}", sum.finish());
     }
-    variant(path, &name, |_, table| {
+    variant(path, &name, |table| {
         for (key, value) in values {
             let (parts, key) = key.rsplit_once('.').unwrap_or(("", key));
             let mut parts = parts.split('.').filter(|part| !part.is_empty());
@@ -137,25 +102,17 @@ pub(crate) fn with(path: &Path, keys: &[impl AsRef<str>]) -> Result<PathBuf, Fau
     })
 }
 
-pub(super) fn whiskers(path: &Path) -> Result<usize, Fault> {
-    load(path).map(|scene| scene.whiskers())
-}
-
-fn load(path: &Path) -> Result<Scene, Fault> {
+pub(crate) fn load(path: &Path) -> Result<Scene, Fault> {
     Scene::load(path).map_err(|problems| problems.to_string())
 }
 
 /// Writes the scene at `path` after a `change`, which its file's name gets added, and gives the
 /// new path.
-fn variant(
-    path: &Path,
-    name: &str,
-    change: impl FnOnce(&Scene, &mut Table),
-) -> Result<PathBuf, Fault> {
+fn variant(path: &Path, name: &str, change: impl FnOnce(&mut Table)) -> Result<PathBuf, Fault> {
     let scene = load(path)?;
     let table = read(path)?.parse();
     let mut table: Table = table.map_err(|error| format!("{}: {error}", path.display()))?;
-    change(&scene, &mut table);
+    change(&mut table);
     // The model stands beside the first scene.
     if let Some(model) = scene.model_path(path.parent().unwrap_or(Path::new("."))) {
         let model = absolute(&model)?;
@@ -172,11 +129,6 @@ fn set(table: &mut Table, part: &str, key: &str, value: impl Into<Value>) {
     if let Some(part) = table.get_mut(part).and_then(Value::as_table_mut) {
         part.insert(key.to_owned(), value.into());
     }
-}
-
-fn replace<const N: usize>(table: &mut Table, part: &str, keys: [(&str, Value); N]) {
-    let keys = keys.map(|(key, value)| (key.to_owned(), value));
-    table.insert(part.to_owned(), Table::from_iter(keys).into());
 }
 
 fn list<'t>(table: &'t mut Table, part: &str, key: &str) -> Option<&'t mut Vec<Value>> {
