@@ -2,7 +2,7 @@
 //! on the bus and all.
 
 use crate::common;
-use acceptance::claims::{Figure, Quantity, RUN_S, TABLE};
+use crate::reference::claims::{Figure, Quantity, RUN_S, TABLE};
 
 #[test]
 fn every_claim_holds() {

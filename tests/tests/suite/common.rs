@@ -1,14 +1,14 @@
 //! Runs the product on the settings of the reference program.
 
-use std::fmt::Write;
+use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
-use acceptance::claims::read_trace;
-use acceptance::reference::{Row, Settings};
+use crate::reference::claims::read_trace;
+use crate::reference::{Gate, Obstacle, Row, Settings};
 use host_sim::commands::run::{self, Arguments};
 use host_sim::progress::Verbosity;
 
-pub(crate) fn scene(settings: &Settings, integrator: &str, duration_s: f64) -> String {
+fn scene(settings: &Settings, integrator: &str, duration_s: f64) -> String {
     let [left, right] = &settings.gains;
     assert_eq!(left.len(), right.len());
     let gains: Vec<f64> = left.iter().chain(right).copied().collect();
@@ -24,32 +24,22 @@ pub(crate) fn scene(settings: &Settings, integrator: &str, duration_s: f64) -> S
         settings.start,
     );
     for (name, gate) in [("rcp", &settings.rcp), ("cia", &settings.cia)] {
-        if let Some(gate) = gate {
-            write!(
-                text,
-                "[{name}]\ngain = {:?}\ntau_s = {:?}\n",
-                gate.gain, gate.tau_s
-            )
-            .unwrap();
+        if let Some(Gate { gain, tau_s }) = gate {
+            writeln!(text, "[{name}]\ngain = {gain:?}\ntau_s = {tau_s:?}").unwrap();
         }
     }
-    text.push_str("[plant]\nkind = \"ideal\"\n");
-    if let Some(obstacle) = &settings.obstacle {
-        let (at, stiffness) = (obstacle.at_deg, obstacle.stiffness);
-        write!(text, "obstacle_deg = {at:?}\nstiffness = {stiffness:?}\n").unwrap();
+    text += "[plant]\nkind = \"ideal\"\n";
+    if let Some(Obstacle { at_deg, stiffness }) = settings.obstacle {
+        writeln!(text, "obstacle_deg = {at_deg:?}\nstiffness = {stiffness:?}").unwrap();
     }
     text
 }
 
 /// The product's trace of `settings`.
 pub(crate) fn trace(settings: &Settings, integrator: &str, duration_s: f64) -> Vec<Row> {
-    run(&scene(settings, integrator, duration_s))
-}
-
-fn run(scene: &str) -> Vec<Row> {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("scene.toml");
-    std::fs::write(&path, scene).unwrap();
+    std::fs::write(&path, scene(settings, integrator, duration_s)).unwrap();
     let arguments = Arguments::of(&path, folder.path());
     run::run(&arguments, Verbosity::Quiet).unwrap();
     let text = std::fs::read_to_string(folder.path().join("trace.csv")).unwrap();

@@ -2,7 +2,7 @@
 //! module runs.
 
 use crate::played::{
-    HOLD, Played, TICK_HZ, angles, apart, extent, free, play, scene, textured, undisturbed,
+    HOLD, Played, TICK_HZ, angles, apart, extent, free, play_once, scene, textured, undisturbed,
 };
 use firmware::Event;
 use firmware::design_parameters::{Plausible, sensor_limits};
@@ -36,11 +36,9 @@ fn a_disturbed_line_is_borne() {
     let scene = scene(1, &textured(100.0), rcp);
     let length = 20 * TICK_HZ;
     let disturbed = |lost, flipped| {
-        play(&scene, length, |tick, run| {
-            if tick == 0 {
-                for (n, seed) in (0..2).zip(1..) {
-                    run.slave_mut(n).unwrap().disturb(lost, flipped, seed);
-                }
+        play_once(&scene, length, 0, |run| {
+            for (n, seed) in (0..2).zip(1..) {
+                run.slave_mut(n).unwrap().disturb(lost, flipped, seed);
             }
         })
     };
@@ -75,10 +73,8 @@ fn a_disturbed_line_is_borne() {
 /// Half of all frames bad: lost once, and not up and down from then on.
 #[test]
 fn a_line_that_is_mostly_noise_is_given_up_once() {
-    let played = play(&free(1), 10 * TICK_HZ, |tick, run| {
-        if tick == 0 {
-            (0..2).for_each(|n| run.slave_mut(n).unwrap().disturb(0.3, 0.3, 5));
-        }
+    let played = play_once(&free(1), 10 * TICK_HZ, 0, |run| {
+        (0..2).for_each(|n| run.slave_mut(n).unwrap().disturb(0.3, 0.3, 5));
     });
     let lost = |(_, event): &(u64, Event)| matches!(event, Event::SensorLost(..));
     assert_eq!(played.events.len(), 2, "{:?}", played.events);

@@ -1,7 +1,7 @@
 //! Encoders that stand still, and motors that are not as the scene has them: the ones are off before
 //! the whisker is far, the others are no fault.
 
-use crate::played::{LEFT, TICK_HZ, alone, error_deg, play, setpoints};
+use crate::played::{LEFT, TICK_HZ, alone, error_deg, play, play_once, setpoints};
 use firmware::Event;
 use host_sim::motor::{EncoderFlaws, SimMotor, Wire};
 use host_sim::trace::Row;
@@ -11,6 +11,8 @@ use rand_xoshiro::Xoshiro256PlusPlus;
 /// Of motors that are not as their model: how many times as fast, and as slow to be so.
 const MOTORS: [(f64, f64); 5] = [(1.0, 1.0), (0.7, 1.0), (1.3, 1.0), (1.0, 0.7), (1.0, 1.3)];
 
+const NONE: EncoderFlaws = EncoderFlaws::NONE;
+
 pub(crate) const GIVEN_UP: Event = Event::MotorGivenUp(LEFT);
 
 /// A whisk, ticks.
@@ -18,81 +20,45 @@ pub(crate) fn cycle(frequency_hz: f64) -> u64 {
     (TICK_HZ as f64 / frequency_hz) as u64
 }
 
-/// What becomes of an encoder.
-#[derive(Debug, Clone, Copy)]
-enum Flaw {
-    /// It stands still, and jitters by so many counts.
-    Stuck(u16),
-    /// It counts, from now on, so many times what it should.
-    Scale(f64),
-}
-
-impl Flaw {
-    fn befall(self, motor: &mut SimMotor) {
-        let none = EncoderFlaws::NONE;
-        let flaws = match self {
-            Self::Stuck(jitter) => {
-                motor.cut(Wire::Encoder);
-                EncoderFlaws { jitter, ..none }
-            }
-            Self::Scale(scale) => EncoderFlaws { scale, ..none },
-        };
-        motor.set_encoder(flaws);
-    }
-}
-
-/// What became of a motor whose encoder has a flaw from a tick on.
-#[derive(Debug)]
-struct Lost {
-    /// Ticks in which it was driven more than 5 degrees from its setpoint before.
-    far_for: usize,
-    /// By how much it left its whisk, and that until the end, degrees.
-    outside_deg: f64,
-    is_given_up: bool,
-}
-
-/// An encoder that has a flaw from somewhere in a whisk on, for twelve seconds.
-fn lost(frequency_hz: f64, phase: f64, flaw: Flaw, friction: f64, motor: &str) -> Lost {
-    let cycle = cycle(frequency_hz);
-    let start = TICK_HZ + cycle + (phase * cycle as f64) as u64;
-    let scene = alone(frequency_hz, motor);
-    let played = play(&scene, start + 12 * TICK_HZ, |tick, run| {
-        let motor = run.motor_mut(0).unwrap();
-        motor.set_friction(friction);
-        if tick == start {
-            flaw.befall(motor);
-        }
-    });
-    let is_fault = |event: &Event| matches!(event, Event::MotorFault(LEFT, _));
-    let after = played.events.iter().filter(|(tick, _)| *tick >= start);
-    let (off, _) = after.clone().find(|(_, event)| is_fault(event)).unwrap();
-    let after_start = &played.rows[start as usize..];
-    let whisk = &setpoints(&played)[(start - cycle) as usize..];
-    let [lowest, highest] =
-        [f64::min, f64::max].map(|end| whisk.iter().copied().reduce(end).unwrap());
-    let outside = |row: &Row| (lowest - row.angle_deg[0]).max(row.angle_deg[0] - highest);
-    let driven = after_start.iter().take((off - start) as usize);
-    Lost {
-        far_for: driven.filter(|row| error_deg(row) > 5.0).count(),
-        outside_deg: after_start.iter().map(outside).fold(0.0, f64::max),
-        is_given_up: played.events.last().map(|(_, event)| *event) == Some(GIVEN_UP),
-    }
-}
-
 /// Limits that ask less of a motor: one that is weaker than its model is hotter, and farther behind.
 pub(crate) const UNLIMITED: &str = "following_limit_deg = 60\ncontinuous_duty = 0.9\n";
 
-/// Whatever the frequency and wherever in a whisk: the motor is driven for 100 ms beyond 5 degrees at
-/// most, comes no more than 20 degrees outside of its whisk, and is given up.
-fn is_off_in_time(flaw: Flaw, friction: f64, motor: &str) {
+/// An encoder that has flaws from somewhere in a whisk on, or stands still with them, for twelve
+/// seconds. Whatever the frequency and wherever in a whisk: the motor is driven for 100 ms beyond 5
+/// degrees at most, comes no more than 20 degrees outside of its whisk, and is given up.
+fn is_off_in_time(flaws: EncoderFlaws, is_stuck: bool, friction: f64, motor: &str) {
     for frequency_hz in [0.5, 1.0, 2.0, 4.0, 8.0, 12.0] {
         for phase in (0..8).map(|n| f64::from(n) / 8.0) {
-            let lost = lost(frequency_hz, phase, flaw, friction, motor);
-            let case = format!("{flaw:?}, {frequency_hz} Hz at {phase}, {friction}, {motor}");
-            let far_ms = lost.far_for as f64 * 1e3 / TICK_HZ as f64;
+            let cycle = cycle(frequency_hz);
+            let start = TICK_HZ + cycle + (phase * cycle as f64) as u64;
+            let scene = alone(frequency_hz, motor);
+            let played = play(&scene, start + 12 * TICK_HZ, |tick, run| {
+                let motor = run.motor_mut(0).unwrap();
+                motor.set_friction(friction);
+                if tick == start {
+                    if is_stuck {
+                        motor.cut(Wire::Encoder);
+                    }
+                    motor.set_encoder(flaws);
+                }
+            });
+            let case = format!("{flaws:?}, {frequency_hz} Hz at {phase}, {friction}, {motor}");
+            let is_fault = |event: &Event| matches!(event, Event::MotorFault(LEFT, _));
+            let mut after = played.events.iter().filter(|(tick, _)| *tick >= start);
+            let (off, _) = after.find(|(_, event)| is_fault(event)).unwrap();
+            let rows = &played.rows[start as usize..];
+            let driven = rows.iter().take((off - start) as usize);
+            let far = driven.filter(|row| error_deg(row) > 5.0).count();
+            let far_ms = far as f64 * 1e3 / TICK_HZ as f64;
             assert!(far_ms <= 100.0, "{case}: {far_ms} ms");
-            assert!(lost.outside_deg <= 20.0, "{case}: {}", lost.outside_deg);
-            assert!(lost.is_given_up, "{case}");
+            let whisk = &setpoints(&played)[(start - cycle) as usize..];
+            let [lowest, highest] =
+                [f64::min, f64::max].map(|end| whisk.iter().copied().reduce(end).unwrap());
+            let outside = |row: &Row| (lowest - row.angle_deg[0]).max(row.angle_deg[0] - highest);
+            let outside_deg = rows.iter().map(outside).fold(0.0, f64::max);
+            assert!(outside_deg <= 20.0, "{case}: {outside_deg}");
+            let last = played.events.last().map(|(_, event)| *event);
+            assert_eq!(last, Some(GIVEN_UP), "{case}");
         }
     }
 }
@@ -101,7 +67,8 @@ fn is_off_in_time(flaw: Flaw, friction: f64, motor: &str) {
 fn a_motor_whose_encoder_stands_still_or_jitters_is_off_before_the_whisker_is_far() {
     for friction in [1.0, 4.0] {
         for jitter in [0, 2, 3] {
-            is_off_in_time(Flaw::Stuck(jitter), friction, "");
+            let jittering = EncoderFlaws { jitter, ..NONE };
+            is_off_in_time(jittering, true, friction, "");
         }
     }
 }
@@ -112,7 +79,11 @@ fn a_motor_whose_encoder_counts_the_other_way_is_off_before_the_whisker_is_far()
     for (speed, time_constant) in MOTORS {
         let motor = model(speed, time_constant) + "continuous_duty = 0.9\n";
         for friction in [1.0, 2.0, 4.0] {
-            is_off_in_time(Flaw::Scale(-1.0), friction, &motor);
+            let backwards = EncoderFlaws {
+                scale: -1.0,
+                ..NONE
+            };
+            is_off_in_time(backwards, false, friction, &motor);
         }
     }
 }
@@ -205,10 +176,9 @@ fn what_makes_a_whisker_heavy_while_it_runs_is_no_fault() {
     ];
     for (name, change) in changes {
         for frequency_hz in [0.2, 0.5, 2.0, 5.0, 8.0] {
-            let played = play(&alone(frequency_hz, ""), 6 * TICK_HZ, |tick, run| {
-                if tick == 3 * TICK_HZ + 321 {
-                    change(run.motor_mut(0).unwrap());
-                }
+            let (scene, at) = (alone(frequency_hz, ""), 3 * TICK_HZ + 321);
+            let played = play_once(&scene, 6 * TICK_HZ, at, |run| {
+                change(run.motor_mut(0).unwrap());
             });
             assert_eq!(played.events, [], "{name} at {frequency_hz} Hz");
         }

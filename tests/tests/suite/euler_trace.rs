@@ -2,7 +2,7 @@
 //! against the independent program, with the sensor's 14-bit words in the loop.
 
 use crate::common;
-use acceptance::reference::{Gate, Obstacle, Row, Settings, euler};
+use crate::reference::{Gate, Obstacle, Row, Settings, euler};
 
 /// Largest difference of each column as a share of its full scale.
 fn differences(a: &[Row], b: &[Row]) -> [f64; 5] {

@@ -2,8 +2,8 @@
 //! switch the motor of that whisker off, and nothing else suffers.
 
 use crate::played::{
-    HOLD, RECOVER, TICK_HZ, angles, apart, extent, free, is_unaffected, lost, play, scene,
-    setpoints, undisturbed,
+    HOLD, RECOVER, TICK_HZ, angles, apart, extent, free, is_unaffected, lost, play, play_once,
+    scene, setpoints, undisturbed,
 };
 use firmware::design_parameters::{Plausible, sensor_limits};
 use firmware::{Event, Place, SensorFault};
@@ -52,10 +52,8 @@ fn short_faults_are_bridged() {
     let course = angles(&sound, 0);
     for (fault, _) in WIRE {
         for frames in [1, FRAMES] {
-            let played = play(&scene, length, |tick, run| {
-                if tick == AMID {
-                    slave(run, 0).inject(fault, frames as u32);
-                }
+            let played = play_once(&scene, length, AMID, |run| {
+                slave(run, 0).inject(fault, frames as u32);
             });
             assert_eq!(played.events, [], "{fault:?}");
             let found = angles(&played, 0);
@@ -167,10 +165,8 @@ fn a_faulty_sensor_feels_nothing() {
 fn one_of_twenty_four_leaves_the_others_alone() {
     let scene = free(12);
     let sound = undisturbed(&scene, 2000);
-    let played = play(&scene, 2000, |tick, run| {
-        if tick == AMID {
-            slave(run, 7).set_fault(Some(WireFault::Silent));
-        }
+    let played = play_once(&scene, 2000, AMID, |run| {
+        slave(run, 7).set_fault(Some(WireFault::Silent));
     });
     let place = Place::new(0, 7);
     let fault = SensorFault::Frame(FrameError::NoSensor);

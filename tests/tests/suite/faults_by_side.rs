@@ -2,7 +2,8 @@
 //! stop; and what is left of the lost side's touch: nothing.
 
 use crate::played::{
-    HOLD, Played, TICK_HZ, angles, extent, is_unaffected, of, play, scene, textured, undisturbed,
+    HOLD, Played, TICK_HZ, angles, extent, is_unaffected, of, play, play_once, scene, textured,
+    undisturbed,
 };
 use firmware::design_parameters::RETRY_S;
 use firmware::{Event, Place};
@@ -79,10 +80,8 @@ fn a_lost_side_excites_no_other() {
     let scene = scene(1, plant, CIA);
     let sound = undisturbed(&scene, 3000);
     let start = first_touch(&sound, 0, 1000);
-    let played = play(&scene, 3000, |tick, run| {
-        if tick == start {
-            run.slave_mut(0).unwrap().set_fault(Some(WireFault::Silent));
-        }
+    let played = play_once(&scene, 3000, start, |run| {
+        run.slave_mut(0).unwrap().set_fault(Some(WireFault::Silent));
     });
     let gain = |played: &Played, tick: u64| played.rows[tick as usize].g;
     let lost = start + HOLD;

@@ -1,12 +1,15 @@
 //! Whiskers that look for their stop: a hand that holds one meanwhile, and encoders that lose counts.
 
-use crate::played::{LEFT, Played, TICK_HZ, alone, angles, farthest, faults, play, undisturbed};
+use crate::played::{
+    LEFT, Played, TICK_HZ, alone, angles, farthest, faults, play, play_once, undisturbed,
+};
 use firmware::Event;
 use host_sim::motor::EncoderFlaws;
 use host_sim::run::Run;
 use scene::Scene;
 use whisking::motor::Fault;
 
+const NONE: EncoderFlaws = EncoderFlaws::NONE;
 /// When an encoder begins to lose counts.
 const SLIPS: u64 = 3 * TICK_HZ;
 
@@ -79,16 +82,13 @@ fn a_whisker_that_was_homed_is_braked() {
 }
 
 /// What became of an encoder that loses this share of the counts of protraction.
-fn slips(slip: f64, motor: &str, ticks: u64) -> Played {
-    let none = EncoderFlaws::NONE;
-    flawed(EncoderFlaws { slip, ..none }, SLIPS, motor, ticks)
+fn slips(slip: f64, ticks: u64) -> Played {
+    flawed(EncoderFlaws { slip, ..NONE }, SLIPS, ticks)
 }
 
-fn flawed(flaws: EncoderFlaws, from: u64, motor: &str, ticks: u64) -> Played {
-    play(&finds(motor), ticks, |tick, run| {
-        if tick == from {
-            run.motor_mut(0).unwrap().set_encoder(flaws);
-        }
+fn flawed(flaws: EncoderFlaws, from: u64, ticks: u64) -> Played {
+    play_once(&finds(""), ticks, from, |run| {
+        run.motor_mut(0).unwrap().set_encoder(flaws);
     })
 }
 
@@ -105,7 +105,7 @@ fn drifted(played: &Played, end: u64) -> f64 {
 #[test]
 fn lost_counts_are_found_before_the_end_stop() {
     for (slip, least_deg, most_deg) in [(0.001, 1.0, 3.0), (0.01, 10.0, 30.0)] {
-        let played = slips(slip, "", 90 * TICK_HZ);
+        let played = slips(slip, 90 * TICK_HZ);
         let found = faults(&played);
         let (first, _) = found[0];
         let drifted = drifted(&played, first - TICK_HZ);
@@ -120,7 +120,7 @@ fn lost_counts_are_found_before_the_end_stop() {
 
 #[test]
 fn a_whisker_that_loses_half_its_counts_is_given_up() {
-    let played = slips(0.5, "", 20 * TICK_HZ);
+    let played = slips(0.5, 20 * TICK_HZ);
     let found = faults(&played);
     let (first, _) = found[0];
     assert!(first - SLIPS < 3 * TICK_HZ, "{first}");
@@ -132,13 +132,11 @@ fn a_whisker_that_loses_half_its_counts_is_given_up() {
 #[test]
 fn a_sound_whisker_goes_home_now_and_then_without_a_fault() {
     for slip in [0.0, 1e-4] {
-        let played = slips(slip, "", 65 * TICK_HZ);
+        let played = slips(slip, 65 * TICK_HZ);
         assert_eq!(played.events, []);
         let angles = (0..).zip(angles(&played, 0)).skip(2 * TICK_HZ as usize);
-        let low: Vec<u64> = angles
-            .filter(|(_, angle)| *angle < 30.1)
-            .map(|(tick, _)| tick)
-            .collect();
+        let low = angles.filter(|(_, angle)| *angle < 30.1);
+        let low: Vec<u64> = low.map(|(tick, _)| tick).collect();
         let gaps = low.windows(2).filter(|pair| pair[1] - pair[0] > TICK_HZ);
         assert_eq!(1 + gaps.count(), 3, "every 20 s");
         let drifted = drifted(&played, 60 * TICK_HZ);
@@ -152,8 +150,7 @@ fn a_scale_that_is_wrong_is_found_at_home() {
     for scale in [0.5, 2.0] {
         for phase in 0..8 {
             let from = SLIPS + phase * TICK_HZ / 16;
-            let none = EncoderFlaws::NONE;
-            let played = flawed(EncoderFlaws { scale, ..none }, from, "", 30 * TICK_HZ);
+            let played = flawed(EncoderFlaws { scale, ..NONE }, from, 30 * TICK_HZ);
             let found = faults(&played);
             println!("{scale} from {from}: {found:?}");
             let (first, _) = found[0];

@@ -17,6 +17,7 @@ mod motion_faults;
 mod played;
 mod precision;
 mod pressed;
+mod reference;
 mod reference_claims;
 mod second_sensor;
 mod sensing_faults;

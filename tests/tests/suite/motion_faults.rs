@@ -2,7 +2,7 @@
 //! encoder, and switched off.
 
 use crate::played::{
-    LEFT, Played, TICK_HZ, angles, error_deg, extent, free_with, play, undisturbed,
+    LEFT, Played, TICK_HZ, angles, error_deg, extent, free_with, play, play_once, undisturbed,
 };
 use firmware::{Event, FAULTS, HELD};
 use host_sim::motor::Wire;
@@ -13,14 +13,6 @@ fn free_at(frequency_hz: f64, motor: &str) -> Scene {
     let mut scene = free_with(motor);
     scene.whisking.as_mut().unwrap().frequency_hz = frequency_hz;
     scene
-}
-
-fn cut_at(scene: &Scene, ticks: u64, wire: Wire, start: u64) -> Played {
-    play(scene, ticks, |tick, run| {
-        if tick == start {
-            run.motor_mut(0).unwrap().cut(wire);
-        }
-    })
 }
 
 /// Nothing may befall the right motor.
@@ -55,7 +47,9 @@ fn sound_motors_have_no_fault_at_any_frequency() {
 fn a_motor_wired_backwards_is_given_up() {
     for frequency_hz in [0.5, 2.0, 8.0] {
         let scene = free_at(frequency_hz, "");
-        let played = cut_at(&scene, 20 * TICK_HZ, Wire::EncoderChannels, 0);
+        let played = play_once(&scene, 20 * TICK_HZ, 0, |run| {
+            run.motor_mut(0).unwrap().cut(Wire::EncoderChannels);
+        });
         let found = faults(&played);
         assert_eq!(found.len(), FAULTS, "{frequency_hz} Hz: {found:?}");
         let given_up = played.events.last().unwrap();

@@ -33,6 +33,7 @@ pub(crate) const BOARD: Target<'_> = Target {
 };
 
 /// What came of a scene; a row a tick.
+#[derive(Default)]
 pub(crate) struct Played {
     pub(crate) rows: Vec<Row>,
     /// Events but touches and frames, with their tick, from 0.
@@ -54,10 +55,8 @@ pub(crate) fn scene(whiskers_per_side: usize, plant: &str, more: &str) -> Scene 
 
 /// One whisker in free air that whisks so often a second; keys of its motor follow.
 pub(crate) fn alone(frequency_hz: f64, motor: &str) -> Scene {
-    alone_with(
-        &format!("frequency_hz = {frequency_hz:?}\nnoise = 0.005\ngain = 1.0"),
-        motor,
-    )
+    let whisking = format!("frequency_hz = {frequency_hz:?}\nnoise = 0.005\ngain = 1.0");
+    alone_with(&whisking, motor)
 }
 
 /// The same with these keys of its whisking.
@@ -87,12 +86,7 @@ pub(crate) fn textured(at_deg: f64) -> String {
 /// Plays `ticks` of a scene; `act` is called before each.
 pub(crate) fn play(scene: &Scene, ticks: u64, mut act: impl FnMut(u64, &mut Run)) -> Played {
     let mut run = Run::new(scene, None).unwrap();
-    let mut played = Played {
-        rows: Vec::new(),
-        events: Vec::new(),
-        frames: Vec::new(),
-        heard: Vec::new(),
-    };
+    let mut played = Played::default();
     for tick in 0..ticks {
         act(tick, &mut run);
         played.rows.push(run.tick());
@@ -103,11 +97,21 @@ pub(crate) fn play(scene: &Scene, ticks: u64, mut act: impl FnMut(u64, &mut Run)
                 event => played.events.push((tick, event)),
             }
         }
+        let sample = run.sample();
         played
             .heard
-            .extend(run.sample().map(|sample| (tick, sample.codes)));
+            .extend(sample.map(|sample| (tick, sample.codes)));
     }
     played
+}
+
+/// Plays `ticks` of a scene, in which something is done once, before a tick.
+pub(crate) fn play_once(scene: &Scene, ticks: u64, at: u64, act: impl Fn(&mut Run)) -> Played {
+    play(scene, ticks, |tick, run| {
+        if tick == at {
+            act(run);
+        }
+    })
 }
 
 pub(crate) fn undisturbed(scene: &Scene, ticks: u64) -> Played {
@@ -176,10 +180,8 @@ pub(crate) fn extent(values: &[f64]) -> f64 {
 
 pub(crate) fn apart(a: &[f64], b: &[f64]) -> f64 {
     assert_eq!(a.len(), b.len());
-    a.iter()
-        .zip(b)
-        .map(|(a, b)| (a - b).abs())
-        .fold(0.0, f64::max)
+    let differences = a.iter().zip(b).map(|(a, b)| (a - b).abs());
+    differences.fold(0.0, f64::max)
 }
 
 /// What is of a side in a row is the same to the last bit.

@@ -1,8 +1,8 @@
 //! Fixed point against the reference in double precision, on sensor codes of
 //! any spread, in windows.
 
-use acceptance::reference::bayes::{self, Rule};
-use acceptance::reference::recording::Sample;
+use crate::reference::bayes::{self, Rule};
+use crate::reference::recording::Sample;
 use proptest::prelude::*;
 use tactile::Window;
 use tactile::train::{Options, Trainer};

@@ -2,17 +2,15 @@
 //! solved.
 
 use std::collections::BTreeMap;
-use std::path::Path;
 
+use crate::common::project;
 use host_sim::pressing::Pressing;
 
 /// A row by the names of its columns.
 type Row = BTreeMap<String, f64>;
 
 fn rows(file: &str) -> Vec<Row> {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR"))
-        .join("truth")
-        .join(file);
+    let path = project(&format!("tests/truth/{file}"));
     let mut table = csv::Reader::from_path(path).unwrap();
     table.deserialize().map(|row| row.unwrap()).collect()
 }

@@ -3,19 +3,15 @@
 //! else is tested against it.
 
 use std::f64::consts::{PI, TAU};
-use std::path::Path;
 
-use acceptance::claims::{self, ANGLE_TOLERANCE_DEG, Claim, Figure, Quantity, RUN_S, TABLE};
-use acceptance::reference::butterworth::Lowpass;
-use acceptance::reference::{Reading, Row, Settings, euler};
+use crate::common::project;
+use crate::reference::butterworth::Lowpass;
+use crate::reference::claims::{self, ANGLE_TOLERANCE_DEG, Claim, Figure, Quantity, RUN_S, TABLE};
+use crate::reference::{Reading, Row, Settings, euler};
 
-fn file(path: &str) -> String {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(path);
-    std::fs::read_to_string(&path).unwrap_or_else(|error| panic!("{}: {error}", path.display()))
-}
-
-fn table(path: &str) -> Vec<Vec<f64>> {
-    let text = file(path);
+fn table(name: &str) -> Vec<Vec<f64>> {
+    let path = project(&format!("tests/reference/{name}"));
+    let text = std::fs::read_to_string(path).unwrap();
     let numbers = |line: &str| line.split(',').map(|cell| cell.parse().unwrap()).collect();
     text.lines().skip(1).map(numbers).collect()
 }
@@ -110,7 +106,7 @@ fn euler_errs_as_published() {
         };
         let rows = euler::run(&settings, 10.0 / frequency_hz);
         // Ticks of 2 kHz, of which every fourth is one of 500 Hz.
-        let exact = table(&format!("reference/whisk_{frequency_hz}hz.csv"));
+        let exact = table(&format!("whisk_{frequency_hz}hz.csv"));
         let every = 2000.0 / tick_hz;
         let compared = exact.iter().filter(|exact| exact[0] % every == 0.0);
         let differences = compared.flat_map(|exact| {
@@ -144,7 +140,7 @@ fn sides_lock_within_two_whisks() {
 
 #[test]
 fn butterworth_agrees_with_scipy() {
-    for row in table("reference/butterworth.csv") {
+    for row in table("butterworth.csv") {
         let filter = Lowpass::new(50.0, row[0]);
         for (ours, scipy) in filter.b.iter().chain(&filter.a).zip(&row[1..]) {
             let bound = 1e-12 * scipy.abs().max(1e-3);
@@ -152,7 +148,7 @@ fn butterworth_agrees_with_scipy() {
         }
     }
     let mut filter = Lowpass::new(50.0, 2000.0);
-    for row in table("reference/butterworth_step.csv") {
+    for row in table("butterworth_step.csv") {
         assert!((filter.step(1.0) - row[0]).abs() < 1e-12);
     }
 }

@@ -6,8 +6,8 @@ use crate::common;
 use std::collections::{BTreeMap, HashMap};
 use std::path::{Path, PathBuf};
 
-use acceptance::reference::bayes::{self, Decision, Model};
-use acceptance::reference::recording::{Sample, read_recording};
+use crate::reference::bayes::{self, Decided, Model};
+use crate::reference::recording::{Sample, read_recording};
 use host_sim::commands::classify;
 use host_sim::commands::train::{self, Arguments};
 use host_sim::progress::Verbosity;
@@ -54,7 +54,7 @@ fn terrain() -> Terrain {
 }
 
 /// What the product decides, and what it says about it.
-fn decide(terrain: &Terrain, rule: Rule) -> (Vec<Decision>, String) {
+fn decide(terrain: &Terrain, rule: Rule) -> (Vec<Decided>, String) {
     let out = terrain.folder.path().join("decisions.csv");
     let data = data("terrain-test.csv");
     let (model, quiet) = (&terrain.model, Verbosity::Quiet);
@@ -62,7 +62,7 @@ fn decide(terrain: &Terrain, rule: Rule) -> (Vec<Decision>, String) {
     (read_decisions(&out), said.unwrap())
 }
 
-fn read_decisions(path: &Path) -> Vec<Decision> {
+fn read_decisions(path: &Path) -> Vec<Decided> {
     let mut table = csv::Reader::from_path(path).unwrap();
     let header: Vec<&str> = table.headers().unwrap().iter().collect();
     let expected = "label,trial,decision,samples,posterior,touch,reason,among";
@@ -84,7 +84,7 @@ fn figures() -> Vec<[f64; 6]> {
 }
 
 /// Decisions by stream (label and trial) and the sample after which they fall.
-fn by_place(decisions: &[Decision]) -> BTreeMap<(&str, &str, usize), &Decision> {
+fn by_place(decisions: &[Decided]) -> BTreeMap<(&str, &str, usize), &Decided> {
     let mut ends: HashMap<(&str, &str), usize> = HashMap::new();
     let places = decisions.iter().map(|d| {
         let end = ends.entry((&d.label, &d.trial)).or_default();
@@ -98,7 +98,7 @@ fn by_place(decisions: &[Decision]) -> BTreeMap<(&str, &str, usize), &Decision> 
 
 /// The share of decisions that both programs make after the same samples for
 /// the same class, and the largest difference of the posterior among those.
-fn agreement(a: &[Decision], b: &[Decision]) -> (f64, f64) {
+fn agreement(a: &[Decided], b: &[Decided]) -> (f64, f64) {
     let (a, b) = (by_place(a), by_place(b));
     let differences = a.iter().filter_map(|(place, a)| {
         let b = b.get(place)?;
@@ -112,7 +112,7 @@ fn agreement(a: &[Decision], b: &[Decision]) -> (f64, f64) {
 }
 
 #[track_caller]
-fn agree(what: &str, product: &[Decision], reference: &[Decision], within: f64) {
+fn agree(what: &str, product: &[Decided], reference: &[Decided], within: f64) {
     let (share, worst) = agreement(product, reference);
     println!("{what}: {share:.4} as the reference, posteriors within {worst:.4}");
     assert!(share >= 0.995, "{what}: {share}");
@@ -125,7 +125,7 @@ fn decisions_have_the_known_figures_and_agree_with_the_reference() {
     let terrain = terrain();
     assert_eq!(terrain.reference.classes, ["sandy_loam", "ice", "asphalt"]);
     let reference = |rule| bayes::classify(&terrain.reference, &terrain.test, rule);
-    let percent = |decisions: &[Decision]| 100.0 * bayes::hit_rate(decisions);
+    let percent = |decisions: &[Decided]| 100.0 * bayes::hit_rate(decisions);
     let figures = figures();
     assert_eq!(figures.len(), 3);
     for [threshold, hits, samples, count, window, window_hits] in figures {

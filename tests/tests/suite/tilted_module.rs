@@ -1,7 +1,7 @@
 //! A module whose whiskers have TMAG5170s: it feels what they are bent by, as noisily as such a
 //! sensor does.
 
-use crate::played::{play, scene, textured, undisturbed};
+use crate::played::{play_once, scene, textured, undisturbed};
 use firmware::Event;
 use host_sim::bus::tmag5170::LineFault;
 use scene::Scene;
@@ -50,11 +50,9 @@ fn it_feels_what_it_is_bent_by() {
 /// What the end of the range means is said once, as a limit, and the whisker feels nothing.
 #[test]
 fn a_magnet_that_is_too_near_is_a_limit_and_no_contact() {
-    let played = play(&tilted(), 16_000, |tick, run| {
-        if tick == 2_000 {
-            let slave = run.tmag_mut(0).unwrap();
-            slave.set_fault(Some(LineFault::NearField));
-        }
+    let played = play_once(&tilted(), 16_000, 2_000, |run| {
+        let slave = run.tmag_mut(0).unwrap();
+        slave.set_fault(Some(LineFault::NearField));
     });
     let said: Vec<&Event> = played.events.iter().map(|(_, event)| event).collect();
     assert_eq!(said, [&Event::Limit(36)]);

@@ -5,7 +5,7 @@ use std::ops::Range;
 use firmware::{Event, SensorFault};
 use host_sim::bus::WireFault;
 
-use crate::played::{LEFT, Played, TICK_HZ, play, scene, textured, undisturbed};
+use crate::played::{LEFT, Played, TICK_HZ, play_once, scene, textured, undisturbed};
 
 /// A silence, in ticks of the scenes below.
 const SILENCE: u64 = 2 * TICK_HZ;
@@ -88,10 +88,9 @@ fn while_it_touches_something_in_every_whisk_there_is_no_silence() {
 fn frozen_words_stay_a_fault_and_move_no_zero() {
     let keys = "[sensor]\nzero_after_s = 0.5\nzero_calm = 0.1\nfrozen_s = 1\n";
     let drifting = plant(300.0, [0.0; 2], [60.0, 0.0]);
-    let played = play(&scene(1, &drifting, keys), 4 * TICK_HZ, |tick, run| {
-        if tick == TICK_HZ + 10 {
-            run.slave_mut(0).unwrap().set_fault(Some(WireFault::Frozen));
-        }
+    let scene = scene(1, &drifting, keys);
+    let played = play_once(&scene, 4 * TICK_HZ, TICK_HZ + 10, |run| {
+        run.slave_mut(0).unwrap().set_fault(Some(WireFault::Frozen));
     });
     let lost = |event: &(u64, Event)| {
         matches!(event.1, Event::SensorLost(LEFT, SensorFault::Frozen)).then_some(event.0)

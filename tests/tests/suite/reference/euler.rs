@@ -22,7 +22,7 @@ struct Whisker {
 
 /// A module of two sides, between ticks.
 #[derive(Clone, Debug)]
-pub struct Module {
+pub(crate) struct Module {
     settings: Settings,
     ticks: u64,
     psi: [[f64; 2]; 2],
@@ -31,8 +31,7 @@ pub struct Module {
 }
 
 impl Module {
-    /// A module at its start.
-    pub fn new(settings: &Settings) -> Self {
+    pub(crate) fn new(settings: &Settings) -> Self {
         let whiskers = settings.gains.clone().map(|gains| {
             gains
                 .into_iter()
@@ -54,14 +53,13 @@ impl Module {
         }
     }
 
-    /// ψ of both sides.
-    pub fn psi(&self) -> [[f64; 2]; 2] {
+    pub(crate) fn psi(&self) -> [[f64; 2]; 2] {
         self.psi
     }
 
     /// Advances by one tick and returns its row. A side without whiskers shows
     /// θ' = 50 degrees, g = 0 and no contact.
-    pub fn tick(&mut self) -> Row {
+    pub(crate) fn tick(&mut self) -> Row {
         let contact = [self.sense(0), self.sense(1)];
         self.gate(contact);
         self.step();
@@ -157,8 +155,7 @@ fn through_sensor_word(x: f64) -> f64 {
     (code - 8192.0) / 8191.0
 }
 
-/// Rows of a run of `duration_s` seconds, one a tick.
-pub fn run(settings: &Settings, duration_s: f64) -> Vec<Row> {
+pub(crate) fn run(settings: &Settings, duration_s: f64) -> Vec<Row> {
     let ticks = (duration_s * settings.tick_hz).round() as usize;
     let mut module = Module::new(settings);
     (0..ticks).map(|_| module.tick()).collect()

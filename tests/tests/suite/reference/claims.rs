@@ -7,38 +7,31 @@
 //!
 //! All claims are for forward Euler at 2 kHz, 2 Hz, no noise. What the paper
 //! leaves open: both sides start at ψ = \[1, 0\] with θ at rest; the steady
-//! state does not depend on it. A row measures any implementation's trace,
-//! see [`read_trace`].
+//! state does not depend on it. A row measures any implementation's trace.
 
-use crate::reference::{Gate, Obstacle, Row, Settings};
+use super::{Gate, Obstacle, Row, Settings};
 
-/// Length of a run, in seconds.
-pub const RUN_S: f64 = 10.0;
-/// Whisks of steady state, the last of the run.
-pub const STEADY_WHISKS: usize = 5;
-/// How near an angle must come, in degrees.
-pub const ANGLE_TOLERANCE_DEG: f64 = 0.1;
+/// Length of a run.
+pub(crate) const RUN_S: f64 = 10.0;
+const STEADY_WHISKS: usize = 5;
+/// How near an angle must come.
+pub(crate) const ANGLE_TOLERANCE_DEG: f64 = 0.1;
 /// How near z must come: half a unit of the last digit given.
-pub const Z_TOLERANCE: f64 = 0.0005;
+const Z_TOLERANCE: f64 = 0.0005;
 /// Fall of θ', in degrees, that makes a maximum a peak. The smallest real one
 /// (Fig. 8, between its two peaks) is 5 degrees.
-pub const PROMINENCE_DEG: f64 = 0.5;
-/// π at which a contact begins.
-pub const TOUCH: f64 = 0.05;
-/// π at which a contact has ended. Ringing of H50 after release stays below.
-pub const RELEASE: f64 = 0.02;
+const PROMINENCE_DEG: f64 = 0.5;
+const TOUCH: f64 = 0.05;
+/// Ringing of H50 after release stays below.
+const RELEASE: f64 = 0.02;
 
-/// Index of the left side in a row's pairs.
-pub const LEFT: usize = 0;
-/// Index of the right side in a row's pairs.
-pub const RIGHT: usize = 1;
+const LEFT: usize = 0;
+const RIGHT: usize = 1;
 
 /// What is measured over the steady state, of a side.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Quantity {
-    /// Smallest θ', in degrees.
+pub(crate) enum Quantity {
     MinTheta(usize),
-    /// Largest θ', in degrees.
     MaxTheta(usize),
     /// Smallest z: what is left of the suppression when the next contact comes.
     MinZ(usize),
@@ -48,23 +41,18 @@ pub enum Quantity {
     ContactsPerWhisk(usize),
 }
 
-/// A row of the table.
 #[derive(Clone, Copy, Debug)]
-pub struct Claim {
-    /// The paper's figure, and the gain where the figure has several.
-    pub figure: Figure,
-    /// What is measured.
-    pub quantity: Quantity,
-    /// Its value.
-    pub value: f64,
+pub(crate) struct Claim {
+    pub(crate) figure: Figure,
+    pub(crate) quantity: Quantity,
+    pub(crate) value: f64,
     /// Its value with eq. 7 as printed (`Reading::mass_misprint`), where known:
     /// this separates an implementation from one that follows the misprint.
-    pub misprinted: Option<f64>,
+    pub(crate) misprinted: Option<f64>,
 }
 
-/// The settings of a claim.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Figure {
+pub(crate) enum Figure {
     /// Free whisking at a gain g of all whiskers.
     Fig6(f64),
     /// RCP, σ_z = 0.7, τ_z = T_W/4, obstacles at 100 (left) and 125 (right).
@@ -78,8 +66,7 @@ pub enum Figure {
 use Figure::{Fig6, Fig7, Fig8, Fig9};
 use Quantity::{ContactsPerWhisk, MaxTheta, MinTheta, MinZ, PeaksPerWhisk};
 
-/// The table.
-pub const TABLE: [Claim; 19] = [
+pub(crate) const TABLE: [Claim; 19] = [
     // Higher g, higher θ'; at g = 2 θ approaches but does not exceed unity
     // (largest θ 0.9974; 0.875 with the misprint).
     claim(Fig6(0.5), MinTheta(LEFT), 67.2, None),
@@ -116,8 +103,8 @@ const fn claim(figure: Figure, quantity: Quantity, value: f64, misprinted: Optio
 }
 
 impl Figure {
-    /// The figure's settings; run them for [`RUN_S`].
-    pub fn settings(self) -> Settings {
+    /// Run them for [`RUN_S`].
+    pub(crate) fn settings(self) -> Settings {
         let papers = Settings::papers();
         let whisk_s = papers.whisk_s();
         let gate = |gain: f64, tau_s: f64| Some(Gate { gain, tau_s });
@@ -152,7 +139,7 @@ impl Quantity {
     /// Measures it over the last [`STEADY_WHISKS`] whisks of `rows`, a run at
     /// `settings`. `None`: too few rows, a value that is not finite, or whisks
     /// that differ in a count.
-    pub fn measure(self, settings: &Settings, rows: &[Row]) -> Option<f64> {
+    pub(crate) fn measure(self, settings: &Settings, rows: &[Row]) -> Option<f64> {
         let whisk = (settings.whisk_s() * settings.tick_hz).round() as usize;
         // One whisk more, so that whole whisks remain after the cut below.
         let tail = rows.len().checked_sub((STEADY_WHISKS + 1) * whisk)?;
@@ -180,7 +167,7 @@ impl Quantity {
 
 impl Claim {
     /// Whether `measured` satisfies the claim at `value` (or `misprinted`).
-    pub fn is_near(&self, measured: f64, value: f64) -> bool {
+    pub(crate) fn is_near(&self, measured: f64, value: f64) -> bool {
         let tolerance = match self.quantity {
             MinTheta(_) | MaxTheta(_) => ANGLE_TOLERANCE_DEG,
             MinZ(_) => Z_TOLERANCE,
@@ -213,7 +200,7 @@ fn same_in_all(mut counts: impl Iterator<Item = usize>) -> Option<f64> {
 }
 
 /// Peaks of a sequence of angles that begins and ends in troughs.
-pub fn peaks(angles: impl IntoIterator<Item = f64>) -> usize {
+pub(crate) fn peaks(angles: impl IntoIterator<Item = f64>) -> usize {
     let (mut count, mut rising) = (0, false);
     let mut extreme = f64::INFINITY; // the trough so far, or the peak if rising
     for angle in angles {
@@ -233,7 +220,7 @@ pub fn peaks(angles: impl IntoIterator<Item = f64>) -> usize {
 }
 
 /// Contacts begun in a sequence of π that begins free.
-pub fn contacts(signal: impl IntoIterator<Item = f64>) -> usize {
+pub(crate) fn contacts(signal: impl IntoIterator<Item = f64>) -> usize {
     let (mut count, mut touching) = (0, false);
     for pi in signal {
         if !touching && pi > TOUCH {
@@ -247,10 +234,7 @@ pub fn contacts(signal: impl IntoIterator<Item = f64>) -> usize {
 
 /// Reads a trace file: a header with at least the nine columns
 /// `t_s,theta_left_deg,…,contact_right`, in any order, then a row a tick.
-///
-/// # Errors
-/// The line that does not fit, and why.
-pub fn read_trace(text: &str) -> Result<Vec<Row>, String> {
+pub(crate) fn read_trace(text: &str) -> Result<Vec<Row>, String> {
     let mut lines = text.lines();
     let header: Vec<&str> = lines.next().unwrap_or("").split(',').collect();
     let read_row = |line: &str| -> Result<Row, String> {

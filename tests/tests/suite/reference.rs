@@ -9,97 +9,89 @@
 //!
 //! Source of all equations: Sullivan et al. 2011 ("BIOTACT"), section III.
 
-pub mod bayes;
-pub mod butterworth;
-pub mod euler;
-pub mod recording;
+pub(crate) mod bayes;
+pub(crate) mod butterworth;
+pub(crate) mod claims;
+pub(crate) mod euler;
+pub(crate) mod recording;
 
 /// Limit of |ψ| after each forward Euler step (text below BIOTACT eq. 2).
-pub const PSI_LIMIT: f64 = 1.5;
+pub(crate) const PSI_LIMIT: f64 = 1.5;
 /// Spring constant k of the muscle (BIOTACT eq. 7).
-pub const SPRING: f64 = 1.0;
+pub(crate) const SPRING: f64 = 1.0;
 /// Cutoff of H50 in Hz (text below BIOTACT eq. 5).
-pub const CONTACT_CUTOFF_HZ: f64 = 50.0;
+pub(crate) const CONTACT_CUTOFF_HZ: f64 = 50.0;
 
 /// What a module is and what it meets. [`Settings::papers`] has the values that
 /// hold throughout BIOTACT; figures change single fields.
 #[derive(Clone, Debug)]
-pub struct Settings {
-    /// Ticks a second, 1/T.
-    pub tick_hz: f64,
-    /// Whisks a second, f_W.
-    pub frequency_hz: f64,
-    /// Nominal gain of every whisker, one list a side; its length is the number
-    /// of whiskers on that side. Each in 0 to 2.
-    pub gains: [Vec<f64>; 2],
+pub(crate) struct Settings {
+    pub(crate) tick_hz: f64,
+    /// f_W.
+    pub(crate) frequency_hz: f64,
+    /// Nominal gain of every whisker of each side, 0 to 2.
+    pub(crate) gains: [Vec<f64>; 2],
     /// ψ of each side before the first tick.
-    pub start: [[f64; 2]; 2],
-    /// Whether the sides are coupled (eq. 4, τ11 = 2 T_W).
-    pub coupling: bool,
-    /// Rapid cessation of protraction (eq. 10); `None` keeps z at 0.
-    pub rcp: Option<Gate>,
-    /// Contact-induced asymmetry (eq. 12–14); `None` keeps g nominal.
-    pub cia: Option<Gate>,
-    /// What the whiskers meet; `None` is free air.
-    pub obstacle: Option<Obstacle>,
+    pub(crate) start: [[f64; 2]; 2],
+    /// Of the sides (eq. 4, τ11 = 2 T_W).
+    pub(crate) coupling: bool,
+    /// Eq. 10; `None` keeps z at 0.
+    pub(crate) rcp: Option<Gate>,
+    /// Eq. 12–14; `None` keeps g nominal.
+    pub(crate) cia: Option<Gate>,
+    pub(crate) obstacle: Option<Obstacle>,
     /// Whether contact passes through the sensor's 14-bit word.
-    pub quantise: bool,
-    /// How to read the misprinted formulas.
-    pub reading: Reading,
+    pub(crate) quantise: bool,
+    pub(crate) reading: Reading,
 }
 
 /// A gate that contact opens and time closes.
 #[derive(Clone, Copy, Debug)]
-pub struct Gate {
-    /// σ: the gate's value per unit of contact.
-    pub gain: f64,
-    /// τ: time constant of the return, in seconds.
-    pub tau_s: f64,
+pub(crate) struct Gate {
+    /// σ: its value per unit of contact.
+    pub(crate) gain: f64,
+    /// τ of the return.
+    pub(crate) tau_s: f64,
 }
 
 /// Obstacles beside the head (eq. 11).
 #[derive(Clone, Copy, Debug)]
-pub struct Obstacle {
+pub(crate) struct Obstacle {
     /// θ'_lim of each side, in degrees.
-    pub at_deg: [f64; 2],
+    pub(crate) at_deg: [f64; 2],
     /// σ_x: deflection per degree beyond the obstacle.
-    pub stiffness: f64,
+    pub(crate) stiffness: f64,
 }
 
 /// Which reading of the misprinted equations to follow; all `false` is the one
 /// that satisfies the paper's own claims.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct Reading {
+pub(crate) struct Reading {
     /// Eq. 7 as printed, m = f_W²/100, in place of m = T_W²/100.
-    pub mass_misprint: bool,
+    pub(crate) mass_misprint: bool,
     /// Eq. 12 as printed, ⟨max(g*, σ_g ζ)⟩, in place of
     /// ⟨max(g*, g_nominal + σ_g ζ)⟩.
-    pub cia_misprint: bool,
+    pub(crate) cia_misprint: bool,
     /// Eq. 13 as printed, g* = g + T/(τ_g (1 − g)), in place of
     /// g* = g + (T/τ_g)(g_nominal − g). Infinite at g = 1.
-    pub g_decay_misprint: bool,
+    pub(crate) g_decay_misprint: bool,
 }
 
-/// The state after a tick, as a row of a trace. Pairs are left, right; θ' and g
-/// are those of the first whisker of the side.
+/// A row of a trace: time and θ' after a tick, and the z, g and π that it used. Pairs are left,
+/// right; θ' and g are those of the first whisker of the side.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Row {
-    /// Time after the tick, in seconds.
-    pub t_s: f64,
-    /// θ' after the tick, in degrees.
-    pub theta_deg: [f64; 2],
-    /// z used by the tick.
-    pub z: [f64; 2],
-    /// g used by the tick.
-    pub g: [f64; 2],
-    /// π that the tick sensed.
-    pub contact: [f64; 2],
+pub(crate) struct Row {
+    pub(crate) t_s: f64,
+    pub(crate) theta_deg: [f64; 2],
+    pub(crate) z: [f64; 2],
+    pub(crate) g: [f64; 2],
+    pub(crate) contact: [f64; 2],
 }
 
 impl Settings {
     /// The values that hold throughout BIOTACT: 2 kHz, 2 Hz, one whisker a side
     /// at gain 1, coupled, both sides started at ψ = \[1, 0\], in free air.
-    pub fn papers() -> Self {
+    pub(crate) fn papers() -> Self {
         Self {
             tick_hz: 2000.0,
             frequency_hz: 2.0,
@@ -114,18 +106,16 @@ impl Settings {
         }
     }
 
-    /// T, in seconds.
-    pub fn tick_s(&self) -> f64 {
+    pub(crate) fn tick_s(&self) -> f64 {
         1.0 / self.tick_hz
     }
 
-    /// T_W, in seconds.
-    pub fn whisk_s(&self) -> f64 {
+    pub(crate) fn whisk_s(&self) -> f64 {
         1.0 / self.frequency_hz
     }
 
-    /// m of eq. 7 in the chosen reading.
-    pub fn mass(&self) -> f64 {
+    /// m of eq. 7.
+    pub(crate) fn mass(&self) -> f64 {
         if self.reading.mass_misprint {
             self.frequency_hz * self.frequency_hz / 100.0
         } else {
@@ -172,6 +162,6 @@ pub(crate) fn muscle_acceleration(
 }
 
 /// θ' in degrees: 100 θ + 50 (text below BIOTACT eq. 8).
-pub fn to_degrees(theta: f64) -> f64 {
+pub(crate) fn to_degrees(theta: f64) -> f64 {
     100.0 * theta + 50.0
 }

@@ -11,7 +11,7 @@ use serde::Deserialize;
 use super::recording::{Sample, streams};
 
 /// Added to each smoothed, normalised bin before the logarithm.
-pub const FLOOR: f64 = 1e-6;
+const FLOOR: f64 = 1e-6;
 
 /// Equal-width bins over a channel's range.
 #[derive(Clone, Copy, Debug)]
@@ -31,11 +31,10 @@ impl Bins {
     }
 }
 
-/// Likelihoods of each class.
 #[derive(Clone, Debug)]
-pub struct Model {
+pub(crate) struct Model {
     /// Class names in the order of the training file.
-    pub classes: Vec<String>,
+    pub(crate) classes: Vec<String>,
     block: usize,
     bins: [Bins; 2],
     /// Log-likelihood of a bin: \[class\]\[channel\]\[bin\].
@@ -44,7 +43,7 @@ pub struct Model {
 
 /// Learns a model: `bins` bins a channel, smoothed over `smooth` bins, used in
 /// blocks of `block` samples.
-pub fn train(recording: &[Sample], bins: usize, smooth: f64, block: usize) -> Model {
+pub(crate) fn train(recording: &[Sample], bins: usize, smooth: f64, block: usize) -> Model {
     let mut classes: Vec<String> = Vec::new();
     for sample in recording {
         if !classes.contains(&sample.label) {
@@ -103,31 +102,26 @@ fn smoothed(counts: &[f64], sigma: f64) -> Vec<f64> {
 
 /// When to decide.
 #[derive(Clone, Copy, Debug)]
-pub enum Rule {
+pub(crate) enum Rule {
     /// After the block in which the largest posterior exceeds this.
     Sequential(f64),
     /// After this many samples, a multiple of the block.
     Window(usize),
 }
 
-/// A decision.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
-pub struct Decision {
-    /// True class.
-    pub label: String,
-    /// Trial of the stream.
-    pub trial: String,
-    /// The class decided for.
-    pub decision: String,
-    /// Samples that the decision used.
-    pub samples: usize,
-    /// Posterior probability of that class, 0 to 1.
-    pub posterior: f64,
+pub(crate) struct Decided {
+    /// The true class.
+    pub(crate) label: String,
+    pub(crate) trial: String,
+    pub(crate) decision: String,
+    pub(crate) samples: usize,
+    pub(crate) posterior: f64,
 }
 
 /// Decisions on a recording, in stream order. Evidence is dropped at the end of
 /// a stream.
-pub fn classify(model: &Model, recording: &[Sample], rule: Rule) -> Vec<Decision> {
+pub(crate) fn classify(model: &Model, recording: &[Sample], rule: Rule) -> Vec<Decided> {
     let mut decisions = Vec::new();
     for stream in streams(recording) {
         let mut evidence = vec![0.0; model.classes.len()];
@@ -143,7 +137,7 @@ pub fn classify(model: &Model, recording: &[Sample], rule: Rule) -> Vec<Decision
                 Rule::Window(window) => samples == window,
             };
             if decided {
-                decisions.push(Decision {
+                decisions.push(Decided {
                     label: block[0].label.clone(),
                     trial: block[0].trial.clone(),
                     decision: model.classes[best].clone(),
@@ -183,7 +177,7 @@ fn winner(evidence: &[f64]) -> (usize, f64) {
 }
 
 /// Hit rate of each class averaged over the labels that have decisions, 0 to 1.
-pub fn hit_rate(decisions: &[Decision]) -> f64 {
+pub(crate) fn hit_rate(decisions: &[Decided]) -> f64 {
     let mut labels: Vec<&str> = decisions.iter().map(|d| d.label.as_str()).collect();
     labels.sort_unstable();
     labels.dedup();
@@ -194,7 +188,6 @@ pub fn hit_rate(decisions: &[Decision]) -> f64 {
     labels.iter().map(|label| of_label(label)).sum::<f64>() / labels.len() as f64
 }
 
-/// Samples of a decision, on average.
-pub fn mean_samples(decisions: &[Decision]) -> f64 {
+pub(crate) fn mean_samples(decisions: &[Decided]) -> f64 {
     decisions.iter().map(|d| d.samples as f64).sum::<f64>() / decisions.len() as f64
 }

@@ -5,32 +5,23 @@
 
 use serde::Deserialize;
 
-/// A row of a recording.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
-pub struct Sample {
-    /// Class name.
-    pub label: String,
-    /// Token of the trial.
-    pub trial: String,
-    /// The first channel.
-    pub x: f64,
-    /// The second one.
-    pub y: f64,
+pub(crate) struct Sample {
+    pub(crate) label: String,
+    pub(crate) trial: String,
+    pub(crate) x: f64,
+    pub(crate) y: f64,
 }
 
 impl Sample {
-    /// Both channels.
-    pub const fn channels(&self) -> [f64; 2] {
+    pub(crate) const fn channels(&self) -> [f64; 2] {
         [self.x, self.y]
     }
 }
 
 /// Reads a recording: a header with at least `label,trial,x,y`, in any order,
 /// then a sample a row.
-///
-/// # Errors
-/// The number of the line that does not fit, and why.
-pub fn read_recording(text: &str) -> Result<Vec<Sample>, String> {
+pub(crate) fn read_recording(text: &str) -> Result<Vec<Sample>, String> {
     let mut reader = csv::ReaderBuilder::new();
     let mut table = reader.trim(csv::Trim::All).from_reader(text.as_bytes());
     let samples: Result<_, csv::Error> = table.deserialize().collect();
@@ -38,6 +29,6 @@ pub fn read_recording(text: &str) -> Result<Vec<Sample>, String> {
 }
 
 /// The streams: runs of rows of one label and trial.
-pub fn streams(recording: &[Sample]) -> impl Iterator<Item = &[Sample]> {
+pub(crate) fn streams(recording: &[Sample]) -> impl Iterator<Item = &[Sample]> {
     recording.chunk_by(|one, next| one.label == next.label && one.trial == next.trial)
 }

@@ -7,11 +7,11 @@ use std::f64::consts::PI;
 /// pre-warped at its cutoff, at rest initially:
 /// y(n) = Σ b_k x(n − k) − Σ a_k y(n − k).
 #[derive(Clone, Debug)]
-pub struct Lowpass {
+pub(crate) struct Lowpass {
     /// Feed-forward coefficients b_0 to b_3.
-    pub b: [f64; 4],
+    pub(crate) b: [f64; 4],
     /// Feedback coefficients a_1 to a_3 (a_0 = 1).
-    pub a: [f64; 3],
+    pub(crate) a: [f64; 3],
     inputs: [f64; 3],
     outputs: [f64; 3],
 }
@@ -20,7 +20,7 @@ impl Lowpass {
     /// Designs the filter from the analogue poles −Ω and Ω exp(±j 2π/3), where
     /// Ω T/2 = tan(π `cutoff_hz`/`tick_hz`); `cutoff_hz` lies below half of
     /// `tick_hz`.
-    pub fn new(cutoff_hz: f64, tick_hz: f64) -> Self {
+    pub(crate) fn new(cutoff_hz: f64, tick_hz: f64) -> Self {
         // s T/2 of the poles; the transform is z = (1 + sT/2)/(1 − sT/2).
         let warped = (PI * cutoff_hz / tick_hz).tan();
         let real_pole = (1.0 - warped) / (1.0 + warped);
@@ -48,8 +48,7 @@ impl Lowpass {
         }
     }
 
-    /// Takes the next input and returns the next output.
-    pub fn step(&mut self, x: f64) -> f64 {
+    pub(crate) fn step(&mut self, x: f64) -> f64 {
         let [x1, x2, x3] = self.inputs;
         let [y1, y2, y3] = self.outputs;
         let y = self.b[0] * x + self.b[1] * x1 + self.b[2] * x2 + self.b[3] * x3
