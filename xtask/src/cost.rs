@@ -69,12 +69,10 @@ pub(crate) fn write_page(check: bool) -> Result<(), Fault> {
     document(PAGE, page.as_bytes(), check)
 }
 
-/// The stages of one processor, which the committed counts of kernels add up to, or of
+/// Some stages: of one processor, which the committed counts of kernels add up to, or of
 /// one scene on the board.
 fn measured(stages: &[Stage]) -> Result<Vec<Figure>, Fault> {
-    let Some(first) = stages.first() else {
-        return Ok(Vec::new());
-    };
+    let first = &stages[0];
     let figure = |stage: &Stage, [mean, worst]: [f64; 2]| {
         let mut figure = Figure::instructions(&[&stage.name, &stage.target], mean, worst);
         figure.note = page::note(stage, &figure.numbers);
@@ -83,11 +81,8 @@ fn measured(stages: &[Stage]) -> Result<Vec<Figure>, Fault> {
     if first.is_on_board() {
         let board = firmware::Board::named(&first.target)?;
         let said = emulate::deadlines(board, Path::new(&first.from), MINUTES)?;
-        let figures = stages.iter().map(|stage| {
-            let found = page::figures(&said, &stage.counts)?;
-            Ok(figure(stage, found))
-        });
-        return figures.collect();
+        let found = |stage: &Stage| Ok(figure(stage, page::figures(&said, &stage.counts)?));
+        return stages.iter().map(found).collect();
     }
     let counted = count::TABLE.read(None)?;
     let figures = stages.iter().map(|stage| {

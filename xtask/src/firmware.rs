@@ -155,16 +155,12 @@ impl Linked {
 pub(crate) fn linked(board: Board, path: &Path) -> Result<Result<Linked, String>, Fault> {
     let scene = Scene::load(path).map_err(|error| error.to_string())?;
     let model = model(&scene, path)?;
-    Ok(
-        match config::image(&scene, model.as_ref(), board.facts, "") {
-            Ok(image) => Ok(Linked {
-                image,
-                name: scene.name,
-                model,
-            }),
-            Err(misfit) => Err(misfit.to_string()),
-        },
-    )
+    let image = match config::image(&scene, model.as_ref(), board.facts, "") {
+        Ok(image) => image,
+        Err(misfit) => return Ok(Err(misfit.to_string())),
+    };
+    let name = scene.name;
+    Ok(Ok(Linked { image, name, model }))
 }
 
 /// The model of the scene at `path`, if it names one.

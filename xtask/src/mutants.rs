@@ -32,19 +32,17 @@ fn kept() -> Result<Kept, Fault> {
 pub(crate) fn all() -> Result<(), Fault> {
     let kept = kept()?;
     let tree = copy(&target().join("mutants"))?;
-    let mutants = kept.mutant.iter();
-    let faults: Vec<Fault> = mutants.filter_map(|one| one.survives(&tree)).collect();
+    let survives = |mutant: &Mutant| {
+        let fault = mutant.try_in(&tree).err()?;
+        Some(format!("{}: {}: {fault}", mutant.file, mutant.replace))
+    };
+    let faults: Vec<Fault> = kept.mutant.iter().filter_map(survives).collect();
     let (all, caught) = (kept.mutant.len(), kept.mutant.len() - faults.len());
     println!("{caught} of {all} mutants are caught");
     no_faults(&faults)
 }
 
 impl Mutant {
-    fn survives(&self, tree: &Path) -> Option<Fault> {
-        let fault = self.try_in(tree).err()?;
-        Some(format!("{}: {}: {fault}", self.file, self.replace))
-    }
-
     fn try_in(&self, tree: &Path) -> Result<(), Fault> {
         let file = tree.join(&self.file);
         let whole = self.find_in(&file)?;

@@ -43,15 +43,12 @@ pub(crate) struct Choice {
 /// as the other program it is.
 pub(crate) fn speed(choice: &Choice) -> Result<(), Fault> {
     let own = Program::own()?;
-    let other = choice.vs.as_deref().map(Program::of).transpose()?;
+    let of = |other: &PathBuf| Program::released(absolute(other)?, &built(other)?);
+    let other = choice.vs.as_ref().map(of).transpose()?;
     println!(
         "µs a tick, least and median of {}: this tree{}",
         choice.rounds,
-        if other.is_some() {
-            ", the other, times as fast"
-        } else {
-            ""
-        }
+        other.as_ref().map_or("", |_| ", the other, times as fast")
     );
     for path in SCENES {
         let scene = Scene::load(top().join(path)).map_err(|error| error.to_string())?;
@@ -136,10 +133,6 @@ fn built(other: &Path) -> Result<PathBuf, Fault> {
 impl Program {
     fn own() -> Result<Self, Fault> {
         Self::released(top(), &absolute(&target())?)
-    }
-
-    fn of(other: &Path) -> Result<Self, Fault> {
-        Self::released(absolute(other)?, &built(other)?)
     }
 
     fn released(tree: PathBuf, built: &Path) -> Result<Self, Fault> {

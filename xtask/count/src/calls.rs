@@ -59,7 +59,7 @@ macro_rules! kernel {
         $inputs:expr, $start:expr $(,)?
     ) => {{
         #[inline(never)]
-        extern "C" fn body$(<$number: $crate::Format>)?(
+        extern "C" fn body$(<$number: whisking::Number>)?(
             $input: $takes,
             $state: &mut $keeps,
         ) $(-> $gives)? $body

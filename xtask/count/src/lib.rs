@@ -20,26 +20,6 @@ pub mod classifier;
 pub mod module;
 pub mod samples;
 
-use whisking::{Fix, Number};
-
-/// A number format to be measured.
-pub trait Format: Number {
-    /// Its name in the table.
-    const NAME: &'static str;
-}
-
-impl Format for f32 {
-    const NAME: &'static str = "f32";
-}
-
-impl Format for f64 {
-    const NAME: &'static str = "f64";
-}
-
-impl Format for Fix {
-    const NAME: &'static str = "fix";
-}
-
 /// Makes a program that calls this function. Once all kernels are counted the core sleeps, which
 /// the emulator sees. On a PC the kernels run, and nothing is counted.
 #[macro_export]

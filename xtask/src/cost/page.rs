@@ -7,26 +7,21 @@ use crate::figures::{Figure, INSTRUCTIONS};
 use crate::run::Fault;
 use crate::size;
 
-/// Mean and worst of `what` in `what,mean,worst` lines.
-pub(super) fn figures(said: &str, what: &str) -> Result<[f64; 2], Fault> {
-    let line = said.lines().find_map(|line| {
-        let fields: Vec<&str> = line.split(',').collect();
-        match fields[..] {
-            [name, mean, worst] if name == what => Some((mean, worst)),
-            _ => None,
-        }
-    });
-    let (mean, worst) = line.ok_or_else(|| format!("the board does not tell its {what}"))?;
-    let number = |text: &str| text.parse().map_err(|_| format!("{what}: {text}"));
-    Ok([number(mean)?, number(worst)?])
+/// Mean and worst of `what` in `what,mean,worst` lines, as they stand there.
+fn cells<'t>(said: &'t str, what: &str) -> Result<[&'t str; 2], Fault> {
+    let of = |line: &'t str| line.strip_prefix(what)?.strip_prefix(',')?.split_once(',');
+    let found = said.lines().find_map(of).map(<[&str; 2]>::from);
+    found.ok_or_else(|| format!("the board does not tell its {what}"))
 }
 
-/// The bytes of stack that the board of docs/measured/deadlines.csv has used.
-fn painted(deadlines: &str) -> Result<f64, Fault> {
-    let start = "bytes of stack by its paint,,";
-    let bytes = deadlines.lines().find_map(|line| line.strip_prefix(start));
-    let bytes = bytes.and_then(|bytes| bytes.parse().ok());
-    bytes.ok_or_else(|| "docs/measured/deadlines.csv does not tell the stack".to_owned())
+fn number(what: &str, text: &str) -> Result<f64, Fault> {
+    text.parse().map_err(|_| format!("{what}: {text}"))
+}
+
+/// The same as numbers.
+pub(super) fn figures(said: &str, what: &str) -> Result<[f64; 2], Fault> {
+    let [mean, worst] = cells(said, what)?;
+    Ok([number(what, mean)?, number(what, worst)?])
 }
 
 /// The goals for the mean and for the worst, as far as there are any.
@@ -94,25 +89,21 @@ pub(super) fn page(figures: &[Figure], deadlines: &str, sizes: &[Figure]) -> Res
         format!("| {key} | {numbers} | {goal} | {verdict} | {others} |")
     });
     let deadline = |line: &str| format!("| {} |", line.replace(',', " | "));
-    let used = painted(deadlines)?;
-    let full = sizes
-        .iter()
-        .find(|size| size.key == ["full", "nucleo-f446re"]);
+    let shown: Vec<String> = deadlines.lines().skip(1).map(deadline).collect();
+    let stack = "bytes of stack by its paint";
+    let [_, used] = cells(deadlines, stack)?;
+    let used = number(stack, used)?;
+    let mut full = sizes.iter();
+    let full = full.find(|size| size.key == ["full", "nucleo-f446re"]);
     if full.is_some_and(|size| used > size.numbers[2]) {
-        return Err(format!(
-            "{used} bytes of stack were used: its bound is wrong"
-        ));
+        let fault = format!("{used} bytes of stack were used: its bound is wrong");
+        return Err(fault);
     }
     Ok(format!(
         include_str!("page.md"),
         stages = rows.collect::<Vec<_>>().join("\n"),
         reasons = missed(&stages, figures)?.trim_end(),
-        deadlines = deadlines
-            .lines()
-            .skip(1)
-            .map(deadline)
-            .collect::<Vec<_>>()
-            .join("\n"),
+        deadlines = shown.join("\n"),
         limits = size::limits(),
         sizes = size::beside_goals(sizes)?,
     ))

@@ -1,13 +1,15 @@
 //! The page of faults and limits, from the firmware's table.
 
+use std::fmt::Debug;
+
 use firmware::FAULTS;
 use firmware::design_parameters::{RECOVER_S, RETRY_S, WINDOW_S};
-use firmware::faults::{Reaction, Recovery, TABLE};
+use firmware::faults::TABLE;
 
 pub(super) fn page() -> String {
     let rows = TABLE.iter().map(|row| {
         let (number, name, causes, check) = (row.number, row.name, row.causes, row.check);
-        let (reaction, recovery) = (at_once(row.reaction), ends(row.recovery));
+        let (reaction, recovery) = (words(row.reaction), words(row.recovery));
         format!("| {number} | {name} | {causes} | {check} | {reaction} | {recovery} |")
     });
     format!(
@@ -20,24 +22,12 @@ pub(super) fn page() -> String {
     )
 }
 
-/// What a fault does, in a word that the page explains.
-const fn at_once(reaction: Reaction) -> &'static str {
-    match reaction {
-        Reaction::WhiskerOff => "whisker off",
-        Reaction::AllOff => "all off",
-        Reaction::NotArmed => "not armed",
-        Reaction::GoesOn => "goes on",
-    }
-}
-
-/// How it ends, likewise.
-const fn ends(recovery: Recovery) -> &'static str {
-    match recovery {
-        Recovery::Retry => "retry",
-        Recovery::GoodFrames => "good frames",
-        Recovery::Restart => "restart",
-        Recovery::Armed => "armed",
-        Recovery::Counted => "counted",
-        Recovery::Deployed => "deployed",
-    }
+/// The name of a kind, as the page explains it.
+fn words(kind: impl Debug) -> String {
+    let name = format!("{kind:?}");
+    let letters = name.chars().map(|letter| {
+        let space = if letter.is_uppercase() { " " } else { "" };
+        format!("{space}{}", letter.to_ascii_lowercase())
+    });
+    letters.collect::<Vec<_>>().concat().trim_start().to_owned()
 }

@@ -91,17 +91,20 @@ fn seen(from: f64, to: f64) -> String {
 
 fn drawn(ticks: &[Tick], decisions: &[Decision], obstacle: f64) -> String {
     let [left, .., below] = CHART;
-    format!(
-        r#"<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 820 270" font-family="sans-serif" font-size="14">
-<rect width="100%" height="100%" fill="white"/>
-{}{}{}{}<text x="{left}" y="{}">{SECONDS} s of a simulated run of scenes/textures.toml, at its own pace</text>
-</svg>
-"#,
+    let caption = below + 30.0;
+    let parts = [
         surfaces(ticks, obstacle),
         whisker(ticks, obstacle),
         readings(ticks),
         named(decisions),
-        below + 30.0
+    ];
+    let parts = parts.concat();
+    format!(
+        r#"<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 820 270" font-family="sans-serif" font-size="14">
+<rect width="100%" height="100%" fill="white"/>
+{parts}<text x="{left}" y="{caption}">{SECONDS} s of a simulated run of scenes/textures.toml, at its own pace</text>
+</svg>
+"#
     )
 }
 
@@ -132,9 +135,8 @@ fn surfaces(ticks: &[Tick], obstacle: f64) -> String {
 /// The whisker, its motor, and a dot while it touches.
 fn whisker(ticks: &[Tick], obstacle: f64) -> String {
     let shown = ticks.iter().step_by(STEP).chain(ticks.last());
-    let shafts: Vec<String> = shown
-        .map(|tick| shaft(tick.angle_left_deg, obstacle))
-        .collect();
+    let shafts = shown.map(|tick| shaft(tick.angle_left_deg, obstacle));
+    let shafts: Vec<String> = shafts.collect();
     let touches = |tick: &Tick| tick.angle_left_deg >= obstacle;
     let mut dots = vec![(0.0, "0")];
     for (before, after) in ticks.iter().zip(ticks.iter().skip(1)) {
@@ -167,11 +169,8 @@ fn readings(ticks: &[Tick]) -> String {
         let here = column.iter().map(|tick| y_of(tick.x_left));
         let (top, bottom) = here.fold((f64::MAX, f64::MIN), |(a, b), y| (a.min(y), b.max(y)));
         let first = if line.is_empty() { 'M' } else { 'L' };
-        let _ = write!(
-            line,
-            "{first}{:.0} {top:.1}V{bottom:.1}",
-            x_of(column[0].t_s)
-        );
+        let x = x_of(column[0].t_s);
+        let _ = write!(line, "{first}{x:.0} {top:.1}V{bottom:.1}");
     }
     let width = right - left;
     format!(
@@ -192,28 +191,21 @@ fn x_of(t_s: f64) -> f64 {
 fn named(decisions: &[Decision]) -> String {
     let [left, _, above, _] = CHART;
     let mut svg = String::new();
-    for (
-        n,
-        Decision {
-            class,
-            posterior,
-            t_s,
-        },
-    ) in decisions.iter().enumerate()
-    {
+    for (n, decision) in decisions.iter().enumerate() {
+        let (class, t_s) = (&decision.class, decision.t_s);
         let until = decisions.get(n + 1).map_or(SECONDS, |next| next.t_s);
         let says = match class.as_str() {
             "unknown" => class.clone(),
-            _ => format!("{class}, {:.1} % sure", 100.0 * posterior),
+            _ => format!("{class}, {:.1} % sure", 100.0 * decision.posterior),
         };
         let _ = writeln!(
             svg,
             r##"<circle cx="{:.1}" cy="{}" r="4" fill="#2e8b57" opacity="0">{}</circle>
 <text x="{left}" y="55" font-size="20" fill="#2e8b57" opacity="0">{says}{}</text>"##,
-            x_of(*t_s),
+            x_of(t_s),
             above - 15.0,
-            seen(*t_s, SECONDS),
-            seen(*t_s, until)
+            seen(t_s, SECONDS),
+            seen(t_s, until)
         );
     }
     svg

@@ -16,12 +16,8 @@ pub(crate) enum When {
 }
 
 impl When {
-    pub(crate) const fn name(self) -> &'static str {
-        match self {
-            Self::Always => "always",
-            Self::Nightly => "nightly",
-            Self::Hardware => "hardware",
-        }
+    pub(crate) fn name(self) -> String {
+        format!("{self:?}").to_lowercase()
     }
 }
 
@@ -101,53 +97,36 @@ pub(crate) fn differs(shown: &str, said: &str) -> Option<String> {
 /// Whether `said` is `shown`, whose ellipses stand for anything.
 fn is_like(shown: &str, said: &str) -> bool {
     let mut parts = shown.split('…');
-    let Some(mut rest) = parts.next().and_then(|first| said.strip_prefix(first)) else {
+    let Some(rest) = parts.next().and_then(|first| said.strip_prefix(first)) else {
         return false;
     };
-    let mut parts = parts.peekable();
-    if parts.peek().is_none() {
+    let Some(last) = parts.next_back() else {
         return rest.is_empty();
-    }
-    while let Some(part) = parts.next() {
-        if parts.peek().is_none() {
-            return rest.ends_with(part);
-        }
-        match rest.split_once(part) {
-            Some((_, after)) => rest = after,
-            None => return false,
-        }
-    }
-    true
+    };
+    let after = parts.try_fold(rest, |rest, part| Some(rest.split_once(part)?.1));
+    after.is_some_and(|rest| rest.ends_with(last))
 }
 
 #[cfg(test)]
 mod tests {
-    use super::{When, blocks, differs, pages};
+    use super::{Block, When, blocks, differs, pages};
 
     #[test]
     fn blocks_are_found_with_what_they_print() {
         let text = "```sh\na \\\n  b\n```\nSo:\n```text output\nc\n```\n\n1. x\n   ```sh hardware\n   d\n   ```\n\
                     ```toml\ne\n```\n```sh nightly\nf\n```\n";
-        let found = blocks(text).unwrap();
-        let parts: Vec<_> = found
-            .iter()
-            .map(|block| {
-                (
-                    block.when,
-                    block.line,
-                    block.commands.as_str(),
-                    block.shown.as_deref(),
-                )
-            })
-            .collect();
-        assert_eq!(
-            parts,
-            [
-                (When::Always, 1, "a \\\n  b\n", Some("c\n")),
-                (When::Hardware, 11, "d\n", None),
-                (When::Nightly, 17, "f\n", None),
-            ]
-        );
+        let block = |when, line, commands: &str, shown: Option<&str>| Block {
+            when,
+            line,
+            commands: commands.to_owned(),
+            shown: shown.map(str::to_owned),
+        };
+        let expected = [
+            block(When::Always, 1, "a \\\n  b\n", Some("c\n")),
+            block(When::Hardware, 11, "d\n", None),
+            block(When::Nightly, 17, "f\n", None),
+        ];
+        assert_eq!(blocks(text).unwrap(), expected);
     }
 
     #[test]

@@ -6,7 +6,7 @@
 use count::classifier::{classifier, push};
 use count::module::Module;
 use count::samples::frame;
-use count::{Format, kernel, model};
+use count::{kernel, model};
 use heapless::Vec;
 use mlx90333::Decoder;
 use tactile::Sequential;
@@ -15,19 +15,19 @@ use whisking::{Fix, Integrator, MAX_OWN, MAX_SIDES, Number, Real, State, filter,
 count::program!(computation);
 
 fn computation() {
-    each::<f32>();
-    each::<Fix>();
+    each::<f32>("f32");
+    each::<Fix>("fix");
 }
 
 #[inline(never)]
-fn each<R: Format>() {
+fn each<R: Number>(format: &str) {
     let (name, sides, whiskers) = if cfg!(feature = "array") {
         ("computation of 2 whiskers", 2, 1)
     } else {
         ("computation of 1 whisker", 1, 1)
     };
     let module = Module::new(Integrator::Exact, sides, whiskers);
-    kernel!([R] R::NAME, name,
+    kernel!([R] format, name,
         (call: u32, (module, pipeline): &mut (&Module<R>, Pipeline<R>)) -> u32 {
             pipeline.tick(module, call)
         },

@@ -1,28 +1,29 @@
 //! The whole pattern generator, by each integrator.
 #![cfg_attr(target_os = "none", no_std, no_main)]
 
+use count::kernel;
 use count::module::Module;
 use count::samples::{Two, pair};
-use count::{Format, kernel};
-use whisking::{Config, Fix, Integrator, State};
+use whisking::{Config, Fix, Integrator, Number, State};
 
 count::program!(whisking);
 
 fn whisking() {
-    each::<f32>();
-    each::<f64>();
-    each::<Fix>();
+    each::<f32>("f32");
+    each::<f64>("f64");
+    each::<Fix>("fix");
 }
 
 #[inline(never)]
-fn each<R: Format>() {
-    tick::<R>("whisking 2 sides 1 whisker", Integrator::Exact);
-    tick::<R>("whisking 2 sides 1 whisker (euler)", Integrator::Euler);
+fn each<R: Number>(format: &str) {
+    tick::<R>(format, "whisking 2 sides 1 whisker", Integrator::Exact);
+    let euler = "whisking 2 sides 1 whisker (euler)";
+    tick::<R>(format, euler, Integrator::Euler);
 }
 
-fn tick<R: Format>(name: &str, integrator: Integrator) {
+fn tick<R: Number>(format: &str, name: &str, integrator: Integrator) {
     let module = Module::<R>::new(integrator, 2, 1);
-    kernel!([R] R::NAME, name,
+    kernel!([R] format, name,
         (contact: Two<R>, (config, state): &mut (&Config<R>, State<R>)) {
             config.step(state, &[contact.0, contact.1]);
         },
