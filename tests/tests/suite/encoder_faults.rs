@@ -13,15 +13,15 @@ const MOTORS: [(f64, f64); 5] = [(1.0, 1.0), (0.7, 1.0), (1.3, 1.0), (1.0, 0.7),
 
 const NONE: EncoderFlaws = EncoderFlaws::NONE;
 
-pub(crate) const GIVEN_UP: Event = Event::MotorGivenUp(LEFT);
+const GIVEN_UP: Event = Event::MotorGivenUp(LEFT);
 
 /// A whisk, ticks.
-pub(crate) fn cycle(frequency_hz: f64) -> u64 {
+fn cycle(frequency_hz: f64) -> u64 {
     (TICK_HZ as f64 / frequency_hz) as u64
 }
 
 /// Limits that ask less of a motor: one that is weaker than its model is hotter, and farther behind.
-pub(crate) const UNLIMITED: &str = "following_limit_deg = 60\ncontinuous_duty = 0.9\n";
+const UNLIMITED: &str = "following_limit_deg = 60\ncontinuous_duty = 0.9\n";
 
 /// An encoder that has flaws from somewhere in a whisk on, or stands still with them, for twelve
 /// seconds. Whatever the frequency and wherever in a whisk: the motor is driven for 100 ms beyond 5
@@ -128,7 +128,7 @@ fn a_motor_whose_encoder_has_a_loose_contact_is_given_up_near_its_whisk() {
 
 /// Keys of a scene by which its motor is so many times as fast, and as slow to be so, as its
 /// model.
-pub(crate) fn model(speed: f64, time_constant: f64) -> String {
+fn model(speed: f64, time_constant: f64) -> String {
     format!(
         "top_speed_deg_s = {:?}\ntime_constant_s = {:?}\n",
         15_000.0 / speed,
@@ -181,6 +181,72 @@ fn what_makes_a_whisker_heavy_while_it_runs_is_no_fault() {
                 change(run.motor_mut(0).unwrap());
             });
             assert_eq!(played.events, [], "{name} at {frequency_hz} Hz");
+        }
+    }
+}
+
+/// What is done to a whisker that is no fault.
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Hand {
+    None,
+    /// A soft one pushes with so much, N·m, for half of each second.
+    Soft(f64),
+    /// A finger holds it for 0.3 s each second.
+    Finger,
+}
+
+/// So many motors at random are tried in each row.
+const DRAWN: u64 = 24;
+
+/// Motors lost, of those of a row, and with any fault: speed and time constant anywhere within
+/// 30 % of what the scene says, from 0.05 to 14 Hz.
+fn tried(friction: f64, play_deg: f64, hand: Hand) -> [usize; 2] {
+    let mut found = [0; 2];
+    let mut random = Xoshiro256PlusPlus::seed_from_u64(35);
+    let mut within = || 0.7 + 0.6 * (random.next_u64() >> 11) as f64 / (1_u64 << 53) as f64;
+    for n in 0..DRAWN {
+        let frequency_hz = [0.05, 0.2, 0.5, 2.0, 8.0, 14.0][n as usize % 6];
+        // The model is wrong instead of the motor.
+        let motor = model(within(), within()) + UNLIMITED;
+        let ticks = TICK_HZ * 2 + (2 * cycle(frequency_hz)).clamp(8 * TICK_HZ, 20 * TICK_HZ);
+        let played = play(&alone(frequency_hz, &motor), ticks, |tick, run| {
+            let motor = run.motor_mut(0).unwrap();
+            if tick == 0 {
+                motor.set_play_deg(play_deg);
+                motor.set_friction(friction);
+            }
+            let holds = tick > TICK_HZ && tick % TICK_HZ < 3 * TICK_HZ / 10;
+            let pushes = tick > TICK_HZ && tick % TICK_HZ < TICK_HZ / 2;
+            match hand {
+                Hand::None => {}
+                Hand::Soft(torque_nm) => motor.set_load_nm(if pushes { torque_nm } else { 0.0 }),
+                Hand::Finger => motor.block(holds),
+            }
+        });
+        let has = |wanted: fn(&Event) -> bool| played.events.iter().any(|(_, event)| wanted(event));
+        found[0] += usize::from(has(|event| *event == GIVEN_UP));
+        found[1] += usize::from(has(|event| matches!(event, Event::MotorFault(LEFT, _))));
+    }
+    found
+}
+
+#[test]
+fn no_motor_of_24_is_lost_whatever_its_friction_its_play_and_what_touches_it() {
+    println!("hand, friction, play: lost, with a fault");
+    for hand in [
+        Hand::None,
+        Hand::Soft(1.5e-3),
+        Hand::Soft(-1.5e-3),
+        Hand::Finger,
+    ] {
+        for friction in [1.0, 2.0, 4.0] {
+            for play_deg in [0.0, 1.0, 3.0] {
+                let [lost, faults] = tried(friction, play_deg, hand);
+                let row = format!("{hand:?}, {friction}, {play_deg}: {lost}, {faults}");
+                println!("{row}");
+                assert_eq!(lost, 0, "{row}");
+                assert_eq!(faults > 0, hand == Hand::Finger, "{row}");
+            }
         }
     }
 }

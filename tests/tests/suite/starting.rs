@@ -6,7 +6,7 @@ use crate::played::{
 };
 use firmware::{Event, FAULTS};
 use host_sim::bus::WireFault;
-use host_sim::motor::Wire;
+use host_sim::motor::{SimMotor, Wire};
 use whisking::motor::Fault;
 
 /// Whiskers that look for their stop once they are armed, in tick [`ARMED`].
@@ -75,18 +75,20 @@ fn a_whisker_sets_off_softly_from_where_it_is() {
     assert!(farthest(&played, 3 * TICK_HZ) < 25.0, "it is back");
 }
 
+/// A whisker that looks for its stop once it is armed; what is done to its motor before the first
+/// tick.
+fn finds(ticks: u64, befall: impl Fn(&mut SimMotor)) -> Played {
+    play(&free_with(FIND), ticks, |tick, run| match tick {
+        0 => befall(run.motor_mut(0).unwrap()),
+        ARMED => run.arm(true),
+        _ => {}
+    })
+}
+
 #[test]
 fn rest_is_found_wherever_a_whisker_is() {
-    let scene = free_with(FIND);
     for start_deg in [30.0, 31.0, 50.0, 100.0, 160.0] {
-        let played = play(&scene, 4 * TICK_HZ, |tick, run| {
-            if tick == 0 {
-                run.motor_mut(0).unwrap().turn_to_deg(start_deg);
-            }
-            if tick == ARMED {
-                run.arm(true);
-            }
-        });
+        let played = finds(4 * TICK_HZ, |motor| motor.turn_to_deg(start_deg));
         assert_eq!(played.events, [], "{start_deg}");
         let mut heard = played.heard.iter().map(|(tick, _)| *tick);
         let first = heard.find(|tick| *tick > ARMED).unwrap();
@@ -102,16 +104,10 @@ fn rest_is_found_wherever_a_whisker_is() {
 
 #[test]
 fn homing_ends_by_a_fault_where_the_encoder_does_not_tell_the_truth() {
-    let scene = free_with(FIND);
     for wire in [Wire::Encoder, Wire::EncoderChannels, Wire::Winding(0)] {
-        let played = play(&scene, 10 * TICK_HZ, |tick, run| {
-            if tick == 0 {
-                run.motor_mut(0).unwrap().turn_to_deg(100.0);
-                run.motor_mut(0).unwrap().cut(wire);
-            }
-            if tick == ARMED {
-                run.arm(true);
-            }
+        let played = finds(10 * TICK_HZ, |motor| {
+            motor.turn_to_deg(100.0);
+            motor.cut(wire);
         });
         let found = faults(&played);
         assert_eq!(found.len(), FAULTS, "{wire:?}: {found:?}");
@@ -119,10 +115,8 @@ fn homing_ends_by_a_fault_where_the_encoder_does_not_tell_the_truth() {
             Wire::EncoderChannels => [Fault::Runaway, Fault::Encoder],
             _ => [Fault::Encoder; 2],
         };
-        assert!(
-            found.iter().all(|(_, fault)| expected.contains(fault)),
-            "{found:?}"
-        );
+        let mut kinds = found.iter().map(|(_, fault)| fault);
+        assert!(kinds.all(|fault| expected.contains(fault)), "{found:?}");
         assert!(found[0].0 < TICK_HZ, "{wire:?}: {found:?}");
         assert!(extent(&angles(&played, 0)) < 200.0, "{wire:?}");
     }
