@@ -1,5 +1,7 @@
 //! The project's scenes and models, which are part of the page.
 
+use wasm_bindgen::prelude::wasm_bindgen;
+
 /// Name and content of files of a folder.
 macro_rules! files {
     ($include:ident, $folder:literal, $extension:literal: $($name:literal),* $(,)?) => {
@@ -44,18 +46,21 @@ fn of(files: &'static [(&str, &[u8])], name: &str) -> Option<&'static [u8]> {
     found.map(|(_, content)| *content)
 }
 
-/// The names of the scenes; that which is shown first comes first.
-pub fn names() -> impl Iterator<Item = &'static str> {
-    SCENES.iter().map(|(name, _)| *name)
+/// The names of the scenes that are on the page; that which is shown first comes first.
+#[wasm_bindgen]
+pub fn scenes() -> Vec<String> {
+    SCENES.iter().map(|(name, _)| (*name).to_owned()).collect()
 }
 
-/// The text of a scene.
-pub fn text(name: &str) -> Option<&'static str> {
-    std::str::from_utf8(of(SCENES, name)?).ok()
+/// The text of one of them; none of another name.
+#[wasm_bindgen]
+pub fn scene_text(name: &str) -> Option<String> {
+    let bytes = of(SCENES, name)?;
+    Some(std::str::from_utf8(bytes).ok()?.to_owned())
 }
 
 /// The bytes of the model that a scene calls so, such as `models/textures.model`.
-pub fn model(path: &str) -> Option<&'static [u8]> {
+pub(crate) fn model(path: &str) -> Option<&'static [u8]> {
     let name = path.strip_prefix("models/")?.strip_suffix(".model")?;
     of(MODELS, name)
 }

@@ -8,7 +8,7 @@ mod bundle;
 mod player;
 mod tracer;
 
-pub use bundle::{model, names, text};
+pub use bundle::{scene_text, scenes};
 pub use player::Player;
 pub use tracer::Tracer;
 
@@ -27,7 +27,7 @@ fn loaded(text: &str, set: &str) -> Result<Loaded, String> {
     let set: Vec<Override> = set.collect();
     let read = Loaded::from_text("scene", text, &set, |path| {
         let name = path.to_string_lossy();
-        let found = model(&name).map(<[u8]>::to_vec);
+        let found = bundle::model(&name).map(<[u8]>::to_vec);
         found.ok_or_else(|| "not on this page".to_owned())
     });
     read.map_err(|error| error.to_string())
@@ -54,46 +54,32 @@ pub fn lacks(text: &str, key: &str) -> bool {
     loaded.is_ok_and(|loaded| player::setting(&loaded.scene, key).is_none())
 }
 
-/// The names of the scenes that are on the page.
-#[wasm_bindgen]
-pub fn scenes() -> Vec<String> {
-    names().map(str::to_owned).collect()
-}
-
-/// The text of one of them; none of another name.
-#[wasm_bindgen]
-pub fn scene_text(name: &str) -> Option<String> {
-    text(name).map(str::to_owned)
-}
-
 #[cfg(test)]
 mod tests {
-    use super::{Tracer, loaded, scenes};
+    use super::{Tracer, loaded, scene_text, scenes};
 
     #[test]
     fn every_scene_on_the_page_can_be_played_with_its_model() {
         assert!(scenes().len() > 10);
         for name in scenes() {
-            let scene = loaded(super::text(&name).unwrap(), "").unwrap();
+            let scene = loaded(&scene_text(&name).unwrap(), "").unwrap();
             scene.classifier().unwrap();
         }
     }
 
     #[test]
     fn what_is_wrong_is_said_in_the_scene_s_words() {
-        let text = super::text("whisker").unwrap();
+        let text = &scene_text("whisker").unwrap();
         let fault = loaded(&text.replace("2000", "20"), "").unwrap_err();
         assert!(fault.starts_with("scene:7: tick_hz: found 20; "), "{fault}");
         let fault = loaded(text, "rcp.gain=-1\n").unwrap_err();
-        assert!(
-            fault.starts_with("rcp.gain: rcp.gain: found -1; "),
-            "{fault}"
-        );
+        let expected = "rcp.gain: rcp.gain: found -1; ";
+        assert!(fault.starts_with(expected), "{fault}");
     }
 
     #[test]
     fn the_trace_is_the_same_in_parts_and_its_hash_is_of_its_bytes() {
-        let text = super::text("cia").unwrap();
+        let text = &scene_text("cia").unwrap();
         let mut whole = Tracer::new(text, "", true).unwrap();
         assert!(whole.step(1_000_000));
         let mut parts = Tracer::new(text, "", false).unwrap();

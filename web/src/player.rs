@@ -93,11 +93,8 @@ impl Player {
             if self.done.is_multiple_of(EVERY) {
                 self.run.look_at_whiskers(&mut self.whiskers);
                 points.push(t_s);
-                for w in self
-                    .whiskers
-                    .iter()
-                    .step_by(self.scene.head.whiskers_per_side.max(1))
-                {
+                let each = self.scene.head.whiskers_per_side.max(1);
+                for w in self.whiskers.iter().step_by(each) {
                     let [x, y] = w.codes;
                     points.extend([w.theta_deg, w.angle_deg, x, y, w.contact]);
                 }
@@ -116,10 +113,8 @@ impl Player {
             let bent = self.run.bent(n);
             let bent = bent.unwrap_or_else(|| self.held(n, w.angle_deg));
             bodies.extend([w.angle_deg, bent.length_m, w.contact]);
-            let points = bent
-                .contacts
-                .map(|at| at.map_or([f64::NAN; 3], |at| at.point_m));
-            bodies.extend(points.as_flattened());
+            let point = |at: Option<At>| at.map_or([f64::NAN; 3], |at| at.point_m);
+            bodies.extend(bent.contacts.map(point).as_flattened());
             bodies.extend(bent.points_m.as_flattened());
         }
         bodies
@@ -308,7 +303,7 @@ mod tests {
     use super::{Player, line};
 
     fn player(scene: &str) -> Player {
-        Player::new(crate::text(scene).unwrap(), "").unwrap()
+        Player::new(&crate::scene_text(scene).unwrap(), "").unwrap()
     }
 
     #[test]
@@ -337,11 +332,8 @@ mod tests {
         assert!(!decisions.is_empty());
         for line in decisions {
             let cells: Vec<&str> = line.split('\t').collect();
-            let worth = if cells[2] == "unknown" {
-                "right"
-            } else {
-                "wrong"
-            };
+            let is_right = cells[2] == "unknown";
+            let worth = if is_right { "right" } else { "wrong" };
             assert_eq!((cells[5], cells[6]), ("carpet", worth), "{line}");
         }
     }
@@ -349,7 +341,7 @@ mod tests {
     #[test]
     fn whiskers_of_a_head_are_on_their_boards_and_say_what_they_decide() {
         let keys = "head.whiskers_per_side=4\nhead.rows=2\nhead.nodes=8\nclassifier.whiskers=each";
-        let mut player = Player::new(crate::text("both").unwrap(), keys).unwrap();
+        let mut player = Player::new(&crate::scene_text("both").unwrap(), keys).unwrap();
         assert_eq!(player.stands()[..6], [0, 0, 0, 1, 0, 1]);
         assert_eq!(player.stands()[21..], [1, 1, 7]);
         let mut numbers = std::collections::BTreeSet::new();

@@ -86,9 +86,8 @@ impl Tracer {
     /// SHA-256 of the trace, once the scene has ended.
     pub fn hash(&self) -> String {
         let hash = self.written.hash.clone().finalize();
-        let digits =
-            |byte: &u8| [byte >> 4, byte & 15].map(|digit| b"0123456789abcdef"[usize::from(digit)]);
-        hash.iter().flat_map(digits).map(char::from).collect()
+        let digits = hash.iter().map(|byte| format!("{byte:02x}"));
+        digits.collect()
     }
 
     /// What was written since the last call, if it is kept.
