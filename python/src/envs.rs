@@ -17,7 +17,7 @@ use rayon::prelude::*;
 use rayon::{ThreadPool, ThreadPoolBuilder};
 use scene::Scene;
 
-use crate::outside::wrong;
+use crate::outside::{self, wrong};
 use crate::recipe::{Parts, Recipe};
 use crate::scenes::{Given, raised};
 
@@ -48,11 +48,13 @@ fn pool() -> PyResult<Arc<ThreadPool>> {
     Ok(new)
 }
 
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, PartialEq)]
 enum Action {
     Setpoint,
     Gain,
 }
+
+const ACTIONS: [(&str, Action); 2] = [("setpoint", Action::Setpoint), ("gain", Action::Gain)];
 
 struct Member {
     run: Run,
@@ -125,11 +127,9 @@ pub(crate) struct Envs {
     members: Mutex<Vec<Member>>,
     action: Action,
     ticks: u64,
-    whiskers: usize,
-    per_side: usize,
+    scene: Scene,
     count: usize,
     limits: [f64; 2],
-    tick_hz: u32,
     recipe: Recipe,
 }
 
@@ -158,7 +158,7 @@ pub(crate) fn restored_envs(
         pool.install(|| {
             members.try_for_each(|(member, (seed, acts))| {
                 member.reset(*seed)?;
-                let mut acts = acts.chunks_exact(envs.whiskers.max(1));
+                let mut acts = acts.chunks_exact(envs.whiskers().max(1));
                 acts.try_for_each(|values| member.step(envs.action, values, ticks))
             })
         })
@@ -179,19 +179,11 @@ impl Envs {
         action: &str,
         ticks: u64,
     ) -> PyResult<Self> {
-        let action = match action {
-            "setpoint" => Action::Setpoint,
-            "gain" => Action::Gain,
-            _ => {
-                let fault = format!("action: found {action:?}, allowed: setpoint, gain");
-                return Err(wrong(fault));
+        let action = outside::one_of("action", action, &ACTIONS)?;
+        for (name, number) in [("count", count as u64), ("ticks", ticks)] {
+            if number == 0 {
+                return Err(wrong(format!("{name}: found 0, allowed: above 0")));
             }
-        };
-        if count == 0 {
-            return Err(wrong("count: found 0, allowed: above 0"));
-        }
-        if ticks == 0 {
-            return Err(wrong("ticks: found 0, allowed: above 0"));
         }
         let raise = |error| raised(py, error);
         let classifier = loaded.classifier().map_err(raise)?;
@@ -217,11 +209,9 @@ impl Envs {
             members: Mutex::new(members.map_err(raise)?),
             action,
             ticks,
-            whiskers: loaded.scene.whiskers(),
-            per_side: loaded.scene.head.whiskers_per_side,
+            scene: loaded.scene.clone(),
             count,
             limits,
-            tick_hz: loaded.scene.tick_hz,
             recipe: Recipe::new(given, loaded),
         })
     }
@@ -254,37 +244,46 @@ impl Envs {
             did.collect::<Vec<Did>>()
         });
         let make = py.import("vibrissa._core")?.getattr("restored_envs")?;
-        let action = match self.action {
-            Action::Setpoint => "setpoint",
-            Action::Gain => "gain",
+        let [(setpoint, _), (gain, _)] = ACTIONS;
+        let action = if self.action == Action::Gain {
+            gain
+        } else {
+            setpoint
         };
         let parts = self.recipe.parts(py);
         Ok((make, (parts, action.to_owned(), self.ticks, did)))
     }
 
     /// Restarts those that `begin` names, with their `seeds`; the others act, `actions` having
-    /// the shape (envs, whiskers). Returns what each whisker then feels, of shape
-    /// (envs, 4 × whiskers), and whether the scene has ended.
+    /// the shape (envs, whiskers), or stay as they are where there are none. Returns what each
+    /// whisker then feels, of shape (envs, 4 × whiskers), and whether the scene has ended.
     fn step<'py>(
         &self,
         py: Python<'py>,
-        actions: PyReadonlyArray2<'py, f64>,
+        actions: Option<PyReadonlyArray2<'py, f64>>,
         begin: PyReadonlyArray1<'py, bool>,
         seeds: PyReadonlyArray1<'py, u64>,
     ) -> PyResult<Stepped<'py>> {
-        let (actions, begin, seeds) = (actions.as_slice()?, begin.as_slice()?, seeds.as_slice()?);
-        let (each, width) = (self.whiskers, OBSERVED * self.whiskers);
-        if actions.len() != self.count * each
-            || begin.len() != self.count
-            || seeds.len() != self.count
-        {
+        let actions = actions
+            .as_ref()
+            .map(PyReadonlyArray2::as_slice)
+            .transpose()?;
+        let (begin, seeds, each) = (begin.as_slice()?, seeds.as_slice()?, self.whiskers());
+        let width = OBSERVED * each;
+        let fits = actions.is_none_or(|actions| actions.len() == self.count * each);
+        if !fits || [begin.len(), seeds.len()] != [self.count; 2] {
             let fault = format!("actions: allowed: the shape ({}, {each})", self.count);
             return Err(wrong(fault));
         }
         let mut seen = vec![0.0; self.count * width];
         let mut ended = vec![false; self.count];
-        for (values, begin) in actions.chunks_exact(each).zip(begin) {
-            if !begin && let Some(value) = values.iter().find(|value| !value.is_finite()) {
+        let acts: Vec<Option<&[f64]>> = match actions {
+            Some(actions) => actions.chunks_exact(each).map(Some).collect(),
+            None => vec![None; self.count],
+        };
+        for (values, begin) in acts.iter().zip(begin) {
+            let mut values = values.iter().copied().flatten().filter(|_| !begin);
+            if let Some(value) = values.find(|value| !value.is_finite()) {
                 let fault = format!("actions: found {value}, allowed: finite numbers");
                 return Err(wrong(fault));
             }
@@ -292,7 +291,7 @@ impl Envs {
         let pool = pool()?;
         py.detach(|| {
             let mut members = self.members.lock();
-            let given = actions.par_chunks_exact(each).zip(begin).zip(seeds);
+            let given = acts.into_par_iter().zip(begin).zip(seeds);
             let shown = seen.par_chunks_exact_mut(width).zip(&mut ended);
             let all = members
                 .par_iter_mut()
@@ -303,7 +302,7 @@ impl Envs {
                 all.try_for_each(|((member, ((values, begin), seed)), (seen, ended))| {
                     if *begin {
                         member.reset(*seed)?;
-                    } else {
+                    } else if let Some(values) = values {
                         member.step(self.action, values, self.ticks)?;
                     }
                     member.observe(seen);
@@ -317,48 +316,22 @@ impl Envs {
         Ok((seen, ended.into_pyarray(py)))
     }
 
-    /// Restarts those that `begin` names, with their `seeds`; the others stay as they are. Returns
-    /// what each whisker then feels.
-    fn restart<'py>(
-        &self,
-        py: Python<'py>,
-        begin: PyReadonlyArray1<'py, bool>,
-        seeds: PyReadonlyArray1<'py, u64>,
-    ) -> PyResult<Bound<'py, PyArray2<f32>>> {
-        let (begin, seeds) = (begin.as_slice()?, seeds.as_slice()?);
-        let width = OBSERVED * self.whiskers;
-        let mut seen = vec![0.0; self.count * width];
-        let restarted = py.detach(|| {
-            let mut members = self.members.lock();
-            let places = members.iter_mut().zip(seen.chunks_exact_mut(width));
-            for ((member, seen), (begin, seed)) in places.zip(begin.iter().zip(seeds)) {
-                if *begin {
-                    member.reset(*seed)?;
-                }
-                member.observe(seen);
-            }
-            Ok(())
-        });
-        restarted.map_err(|error: Error| wrong(error))?;
-        seen.into_pyarray(py).reshape((self.count, width))
-    }
-
     /// Actions a second.
     #[getter]
     fn rate_hz(&self) -> f64 {
-        f64::from(self.tick_hz) / self.ticks as f64
+        f64::from(self.scene.tick_hz) / self.ticks as f64
     }
 
     /// How many whiskers a side has.
     #[getter]
     const fn whiskers_per_side(&self) -> usize {
-        self.per_side
+        self.scene.head.whiskers_per_side
     }
 
     /// How many whiskers each has.
     #[getter]
-    const fn whiskers(&self) -> usize {
-        self.whiskers
+    fn whiskers(&self) -> usize {
+        self.scene.whiskers()
     }
 
     /// The least and the largest action.

@@ -1,16 +1,14 @@
 //! Record, train, classify, evaluate: the commands of host-sim on arrays.
 
-use host_sim::cells::Cells as _;
 use host_sim::classifier::{self, Fault};
 use host_sim::decisions::{Columns, Decided, UNKNOWN};
 use host_sim::doubts;
-use host_sim::evaluation::{self, Evaluation, Shown};
+use host_sim::evaluation::{self, Evaluation};
 use host_sim::rate;
 use host_sim::recording::{self, Recorder, Stream};
 use host_sim::replay::Replay;
 use host_sim::run::Run;
 use host_sim::training::{Expected, How, Tables};
-use numpy::PyArray2;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use scene::Rule;
@@ -22,7 +20,7 @@ use crate::model::{self, Model};
 use crate::outside::{self, wrong};
 use crate::recordings::{self, Prepared};
 use crate::scenes::{Given, raised};
-use crate::table::{self, Kind, Layout};
+use crate::table;
 
 /// Runs a scene and returns what its whiskers feel that are heard, the air included: a recording
 /// to train on. The scene's classifier is not used. Its type knows the rate,
@@ -72,25 +70,14 @@ pub(crate) fn train(
     expect: &str,
     rate: u32,
 ) -> PyResult<Model> {
-    let tables = match tables {
-        "joint" => Tables::Joint,
-        "single" => Tables::Single,
-        _ => {
-            return Err(wrong(format!(
-                "tables: found {tables:?}, allowed: joint, single"
-            )));
-        }
-    };
-    let expect = match expect {
-        "same" => Expected::Same,
-        "bench" => Expected::Bench,
-        "other" => Expected::Other,
-        _ => {
-            return Err(wrong(format!(
-                "expect: found {expect:?}, allowed: same, bench, other"
-            )));
-        }
-    };
+    let known = [("joint", Tables::Joint), ("single", Tables::Single)];
+    let tables = outside::one_of("tables", tables, &known)?;
+    let known = [
+        ("same", Expected::Same),
+        ("bench", Expected::Bench),
+        ("other", Expected::Other),
+    ];
+    let expect = outside::one_of("expect", expect, &known)?;
     let how = How {
         bins,
         smooth,
@@ -104,10 +91,8 @@ pub(crate) fn train(
     if rate == 0 {
         return Err(wrong("rate: found 0, allowed: above 0"));
     }
-    let read = data
-        .iter()
-        .map(Prepared::read)
-        .collect::<PyResult<Vec<_>>>()?;
+    let read: PyResult<Vec<_>> = data.iter().map(Prepared::read).collect();
+    let read = read?;
     let mut streams = read.iter().flat_map(|(_, streams)| streams);
     if streams.any(|stream| stream.label == UNKNOWN) {
         let fault = format!("label: {UNKNOWN:?} is what a decision for none of the classes says");
@@ -144,14 +129,9 @@ pub(crate) fn classify<'py>(
     window: Option<u32>,
     rate: Option<u32>,
 ) -> PyResult<Bound<'py, PyAny>> {
-    let rule = match window {
-        Some(samples) => Rule::Window { samples },
-        None => Rule::Sequential { threshold },
-    };
-    let name = if window.is_some() {
-        "window"
-    } else {
-        "threshold"
+    let (name, rule) = match window {
+        Some(samples) => ("window", Rule::Window { samples }),
+        None => ("threshold", Rule::Sequential { threshold }),
     };
     let model = model::given(model)?;
     at_its_rate(&model, rate)?;
@@ -173,29 +153,7 @@ pub(crate) fn classify<'py>(
     table::decisions(py, &[(None, &decided)], columns)
 }
 
-/// The model's classes, what else was presented, and "unknown"; and how often each of them, a row,
-/// was taken for each, a column.
-fn confusion(classes: Vec<String>, presented: &[Shown]) -> (Vec<String>, Vec<Vec<i64>>) {
-    let mut labels = classes;
-    let presented_labels = presented.iter().map(|shown| shown.label.as_str());
-    for label in presented_labels.chain([UNKNOWN]) {
-        if !labels.iter().any(|known| known == label) {
-            labels.push(label.to_owned());
-        }
-    }
-    let mut counts = vec![vec![0; labels.len()]; labels.len()];
-    for decided in presented.iter().flat_map(|shown| &shown.decided) {
-        let place = |name: &str| labels.iter().position(|label| label == name);
-        let row = place(&decided.label).and_then(|row| counts.get_mut(row));
-        let cell = place(&decided.decision).and_then(|column| row?.get_mut(column));
-        if let Some(cell) = cell {
-            *cell += 1;
-        }
-    }
-    (labels, counts)
-}
-
-/// What a model is worth on recordings that the Python side has prepared.
+/// What a model is worth on recordings that the Python side has prepared, which puts it into arrays.
 #[pyfunction]
 #[pyo3(signature = (model, data, *, channels, threshold, rate))]
 pub(crate) fn evaluate<'py>(
@@ -209,10 +167,8 @@ pub(crate) fn evaluate<'py>(
     let model = model::given(model)?;
     at_its_rate(&model, rate)?;
     let classes = classifier::names(&model);
-    let read = data
-        .iter()
-        .map(Prepared::read)
-        .collect::<PyResult<Vec<_>>>()?;
+    let read: PyResult<Vec<_>> = data.iter().map(Prepared::read).collect();
+    let read = read?;
     recordings::warn_before(py, &read, &channels, &model)?;
     let streams: Vec<Stream> = read.into_iter().flat_map(|(_, streams)| streams).collect();
     let presented = py.detach(|| evaluation::presentations(&model, threshold, &streams));
@@ -229,62 +185,31 @@ pub(crate) fn evaluate<'py>(
         ("undecided", found.undecided),
         ("found", found.calibration.found),
     ];
+    let parts = |of: Interval| (of.share, of.low, of.high, of.count);
     for (name, share) in shares {
-        let Interval {
-            share,
-            low,
-            high,
-            count,
-        } = share;
-        dict.set_item(name, (share, low, high, count))?;
+        dict.set_item(name, parts(share))?;
     }
     dict.set_item("stated", found.calibration.stated)?;
-    let (labels, counts) = confusion(classes, &presented);
-    dict.set_item("confusion", PyArray2::from_vec2(py, &counts)?)?;
-    dict.set_item("labels", labels)?;
-
-    let names = ["stated_from", "stated_to", "stated", "found", "low", "high"];
-    let mut columns = names.map(|name| (name, Kind::Number)).to_vec();
-    columns.push(("decisions", Kind::Whole));
-    let (layout, mut rows) = (Layout::new(columns), Vec::new());
-    for bin in &found.calibration.bins {
-        let Interval {
-            share,
-            low,
-            high,
-            count,
-        } = bin.found;
-        let cells = [bin.low, bin.high, bin.stated, share, low, high];
-        let mut row = layout.row(&mut rows);
-        row.numbers(&cells, 0);
-        row.number(count as f64, 0);
-    }
-    dict.set_item("calibration", layout.array(py, rows)?)?;
-
-    let name = Kind::text(found.classes.iter().map(|class| class.name.as_str()));
-    let columns = [
-        ("name", name),
-        ("presented", Kind::Whole),
-        ("decisions", Kind::Whole),
-        ("hits", Kind::Number),
-        ("samples", Kind::Number),
-        ("refused", Kind::Number),
-        ("undecided", Kind::Number),
-    ];
-    let (layout, mut rows) = (Layout::new(columns), Vec::new());
-    for class in &found.classes {
-        let cells = [
-            class.presented as f64,
-            class.hits.count as f64,
+    let shown = presented.iter().map(|shown| shown.label.as_str());
+    let labels = classes.iter().map(String::as_str).chain(shown);
+    dict.set_item("labels", labels.chain([UNKNOWN]).collect::<Vec<_>>())?;
+    let decided = presented.iter().flat_map(|shown| &shown.decided);
+    let pairs = decided.map(|decided| (&decided.label, &decided.decision));
+    dict.set_item("decided", pairs.collect::<Vec<_>>())?;
+    let bins = found.calibration.bins.iter();
+    let bins = bins.map(|bin| (bin.low, bin.high, bin.stated, parts(bin.found)));
+    dict.set_item("calibration", bins.collect::<Vec<_>>())?;
+    let classes = found.classes.iter().map(|class| {
+        let samples = class.samples.map_or(f64::NAN, |samples| samples.mean);
+        let counts = (&class.name, class.presented, class.hits.count);
+        let shares = (
             class.hits.share,
-            class.samples.map_or(f64::NAN, |samples| samples.mean),
+            samples,
             class.refused.share,
             class.undecided.share,
-        ];
-        let mut row = layout.row(&mut rows);
-        row.text(&class.name);
-        row.numbers(&cells, 0);
-    }
-    dict.set_item("classes", layout.array(py, rows)?)?;
+        );
+        (counts, shares)
+    });
+    dict.set_item("classes", classes.collect::<Vec<_>>())?;
     Ok(dict)
 }

@@ -39,7 +39,7 @@ mod _core {
     #[pymodule_export]
     use crate::recordings::read;
     #[pymodule_export]
-    use crate::scenes::{Problem, SceneError};
+    use crate::scenes::SceneError;
     #[pymodule_export]
     use crate::sim::{Sim, columns, restored_sim};
 }

@@ -7,7 +7,7 @@ use host_sim::classifier;
 use host_sim::training::TrainedModel;
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
-use pyo3::types::{PyBytes, PyType};
+use pyo3::types::PyBytes;
 use scene::file;
 use tactile::ModelBuf;
 use tactile::train::joint::Report;
@@ -52,8 +52,8 @@ impl Model {
     }
 
     /// For other processes: its bytes alone, without what held-out trials said.
-    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> (Bound<'py, PyType>, (Bound<'py, PyBytes>,)) {
-        (slf.get_type(), (slf.get().__bytes__(slf.py()),))
+    fn __getnewargs__<'py>(&self, py: Python<'py>) -> (Bound<'py, PyBytes>,) {
+        (self.__bytes__(py),)
     }
 
     /// Writes the bytes to a file.

@@ -52,6 +52,19 @@ pub(crate) fn heed() -> PyResult<()> {
     Python::attach(|py| py.check_signals())
 }
 
+/// What a word stands for.
+///
+/// # Errors
+/// `ValueError` with the words that are allowed.
+pub(crate) fn one_of<T: Clone>(name: &str, found: &str, allowed: &[(&str, T)]) -> PyResult<T> {
+    let of_it = allowed.iter().find(|(word, _)| *word == found);
+    of_it.map(|(_, meant)| meant.clone()).ok_or_else(|| {
+        let words: Vec<&str> = allowed.iter().map(|(word, _)| *word).collect();
+        let words = words.join(", ");
+        wrong(format_args!("{name}: found {found:?}, allowed: {words}"))
+    })
+}
+
 /// Whether a number that was given is within its range.
 ///
 /// # Errors

@@ -5,10 +5,10 @@ use std::path::{Path, PathBuf};
 use host_sim::Error;
 use host_sim::loaded::Loaded;
 use pyo3::create_exception;
-use pyo3::exceptions::{PyFileNotFoundError, PyOSError, PyRuntimeError, PyTypeError, PyValueError};
+use pyo3::exceptions::{PyOSError, PyRuntimeError, PyTypeError, PyValueError};
 use pyo3::prelude::*;
-use pyo3::types::{PyDict, PyList, PyTuple, PyType};
-use scene::{Override, Problems, Scene, file};
+use pyo3::types::{PyDict, PyList, PyTuple};
+use scene::{Override, Problem, Scene, file};
 
 use crate::model;
 use crate::outside::file_error;
@@ -20,63 +20,26 @@ create_exception!(
     "What is wrong with a scene, one problem a line; `problems` has them singly."
 );
 
-/// The fields of a [`Problem`], in order.
-type Fields = (String, Option<usize>, String, String, String);
-
-/// One thing wrong with a scene.
-#[pyclass(frozen, get_all, module = "vibrissa")]
-#[derive(Clone)]
-pub(crate) struct Problem {
-    /// The scene's file, or where in the arguments it stands.
-    file: String,
-    /// Line, counted from 1; None for what is not in a file.
-    line: Option<usize>,
-    /// The key with its section, such as `head.sides`.
-    key: String,
-    /// What was found.
-    found: String,
-    /// What is allowed.
-    allowed: String,
-}
-
-#[pymethods]
-impl Problem {
-    #[new]
-    fn new(file: String, line: Option<usize>, key: String, found: String, allowed: String) -> Self {
-        Self {
-            file,
-            line,
-            key,
-            found,
-            allowed,
-        }
-    }
-
-    /// For other processes.
-    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> (Bound<'py, PyType>, Fields) {
-        let its = slf.get().clone();
-        let fields = (its.file, its.line, its.key, its.found, its.allowed);
-        (slf.get_type(), fields)
-    }
-
-    fn __repr__(&self) -> String {
-        let Self {
-            file,
-            line,
-            key,
-            found,
-            allowed,
-        } = self;
-        let line = line.map_or("None".to_owned(), |line| line.to_string());
-        format!(
-            "Problem(file={file:?}, line={line}, key={key:?}, found={found:?}, allowed={allowed:?})"
-        )
-    }
-}
-
-fn scene_error(py: Python<'_>, message: String, problems: Vec<Problem>) -> PyErr {
+/// With its problems as Python has them.
+fn scene_error(py: Python<'_>, message: String, problems: &[Problem]) -> PyErr {
     let error = SceneError::new_err(message);
-    match error.value(py).setattr("problems", problems) {
+    let given = || {
+        let class = py.import("vibrissa._scenes")?.getattr("Problem")?;
+        let each = problems.iter().map(|problem| {
+            let Problem {
+                file,
+                line,
+                key,
+                found,
+                allowed,
+            } = problem;
+            class.call1((file, line, key, found, allowed))
+        });
+        error
+            .value(py)
+            .setattr("problems", each.collect::<PyResult<Vec<_>>>()?)
+    };
+    match given() {
         Ok(()) => error,
         Err(other) => other,
     }
@@ -85,21 +48,10 @@ fn scene_error(py: Python<'_>, message: String, problems: Vec<Problem>) -> PyErr
 /// An error of the simulator as an exception.
 pub(crate) fn raised(py: Python<'_>, error: Error) -> PyErr {
     match error {
-        Error::Input(message) => scene_error(py, message, Vec::new()),
+        Error::Input(message) => scene_error(py, message, &[]),
         Error::Work(message) => PyRuntimeError::new_err(message),
         Error::Write { .. } => PyOSError::new_err(error.to_string()),
     }
-}
-
-fn refused(py: Python<'_>, problems: &Problems) -> PyErr {
-    let each = problems.as_slice().iter().map(|problem| Problem {
-        file: problem.file.clone(),
-        line: problem.line,
-        key: problem.key.clone(),
-        found: problem.found.clone(),
-        allowed: problem.allowed.clone(),
-    });
-    scene_error(py, problems.to_string(), each.collect())
 }
 
 /// A scene as it was given: what is checked, and where its model is looked for.
@@ -152,7 +104,10 @@ impl Given {
             ))
         })?;
         let path = match scene.extract::<String>() {
-            Ok(name) if is_name(&name) && !path.is_file() => named(scene.py(), &name)?,
+            Ok(name) if is_name(&name) && !path.is_file() => {
+                let scenes = scene.py().import("vibrissa._scenes")?;
+                scenes.call_method1("named", (name,))?.extract()?
+            }
             _ => path,
         };
         Ok(Self {
@@ -166,7 +121,8 @@ impl Given {
     /// The scene alone, as a recording needs it.
     pub(crate) fn scene(&self, py: Python<'_>, seed: Option<u64>) -> PyResult<Scene> {
         let read = Scene::from_str_with(&self.file, &self.text, &self.set);
-        let (mut scene, _) = read.map_err(|problems| refused(py, &problems))?;
+        let (mut scene, _) =
+            read.map_err(|all| scene_error(py, all.to_string(), all.as_slice()))?;
         let path = Path::new(&self.file);
         config::check(&scene).map_err(|fault| raised(py, Error::file(path, fault)))?;
         scene.seed = seed.unwrap_or(scene.seed);
@@ -217,42 +173,6 @@ fn is_text(scene: &str) -> bool {
 /// Whether it may be a scene's name: a path has a separator or an extension.
 fn is_name(scene: &str) -> bool {
     !scene.is_empty() && !scene.contains(['.', '/', '\\'])
-}
-
-/// The file of a scene that is given by its name: one of the package, or `scenes/NAME.toml` here.
-///
-/// # Errors
-/// `FileNotFoundError` with the names that are most like it.
-fn named(py: Python<'_>, name: &str) -> PyResult<PathBuf> {
-    let all = py.import("vibrissa")?.getattr("SCENES")?;
-    if let Ok(path) = all.get_item(name) {
-        return path.extract();
-    }
-    let here = Path::new("scenes").join(format!("{name}.toml"));
-    if here.is_file() {
-        return Ok(here);
-    }
-    let mut known: Vec<String> = all
-        .try_iter()?
-        .map(|name| name?.extract())
-        .collect::<PyResult<_>>()?;
-    let beside = std::fs::read_dir("scenes").into_iter().flatten().flatten();
-    let beside = beside.map(|entry| entry.path()).filter(|path| {
-        path.extension()
-            .is_some_and(|extension| extension == "toml")
-    });
-    known.extend(beside.filter_map(|path| Some(path.file_stem()?.to_str()?.to_owned())));
-    known.sort();
-    known.dedup();
-    let matches = py.import("difflib")?.getattr("get_close_matches")?;
-    let nearest: Vec<String> = matches.call1((name, &known))?.extract()?;
-    let allowed = if nearest.is_empty() {
-        format!("a path, or a name: {}", known.join(", "))
-    } else {
-        format!("a path, or a name; nearest: {}", nearest.join(", "))
-    };
-    let fault = format!("scene: found {name:?}, allowed: {allowed}");
-    Err(PyFileNotFoundError::new_err(fault))
 }
 
 /// The keys of a table, of which messages say where they stand; None is left out.

@@ -7,7 +7,7 @@ use host_sim::columns::Column;
 use host_sim::decisions::Decided;
 use host_sim::loaded::Loaded;
 use host_sim::run::Run;
-use host_sim::trace::{self, TraceLine, TraceShape, TraceWriter, WhiskerRow};
+use host_sim::trace::{self, TraceLine, TraceWriter, WhiskerRow};
 use host_sim::{decisions, pressing, recording};
 use numpy::PyArray2;
 use parking_lot::{Mutex, MutexGuard};
@@ -15,7 +15,7 @@ use physics::Bent;
 use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyDict};
-use scene::Texture;
+use scene::{Scene, Texture};
 use tactile::Posteriors;
 
 use crate::outside::{self, wrong};
@@ -109,16 +109,8 @@ impl State {
 pub(crate) struct Sim {
     state: Mutex<State>,
     tables: RunTables,
-    shape: TraceShape,
     classes: Vec<String>,
-    name: String,
-    /// The words of those that can be laid.
-    textures: Vec<&'static str>,
-    tick_hz: u32,
-    /// How many the scene lasts.
-    ticks: u64,
-    /// Lowest and highest setpoint, degrees; none: nothing moves.
-    angles_deg: Option<[f64; 2]>,
+    scene: Scene,
     posteriors: Layout,
     recipe: Recipe,
 }
@@ -132,23 +124,11 @@ impl Sim {
         let mut run = run.map_err(raised)?;
         let last = run.posteriors();
         let classes = run.classes().to_vec();
+        let columns = iter::once("t_s").chain(classes.iter().map(String::as_str));
         Ok(Self {
             tables: RunTables::of(scene, &classes),
-            shape: TraceShape::of(scene),
-            name: scene.name.clone(),
-            textures: scene.plant.textures_to_lay(),
-            tick_hz: scene.tick_hz,
-            ticks: scene.ticks(),
-            angles_deg: scene
-                .motor
-                .as_ref()
-                .map(|motor| [motor.min_deg, motor.max_deg]),
-            posteriors: Layout::new(
-                ["t_s"]
-                    .into_iter()
-                    .chain(classes.iter().map(String::as_str))
-                    .map(|name| (name, Kind::Number)),
-            ),
+            scene: scene.clone(),
+            posteriors: Layout::new(columns.map(|name| (name, Kind::Number))),
             classes,
             state: Mutex::new(State {
                 run,
@@ -231,7 +211,7 @@ impl Sim {
         bent.ok_or_else(|| {
             let fault = format!(
                 "whisker {whisker}, counted from 0, left side first: scene {:?} has none that bends",
-                self.name
+                self.scene.name
             );
             wrong(fault)
         })
@@ -311,8 +291,8 @@ impl Sim {
     /// counted from 0, left side first.
     #[pyo3(signature = (degrees, whisker=0))]
     fn setpoint(&self, py: Python<'_>, degrees: Option<f64>, whisker: usize) -> PyResult<()> {
-        if let (Some(degrees), Some([least, most])) = (degrees, self.angles_deg) {
-            outside::within("setpoint", degrees, least, most)?;
+        if let (Some(degrees), Some(motor)) = (degrees, &self.scene.motor) {
+            outside::within("setpoint", degrees, motor.min_deg, motor.max_deg)?;
         }
         let value = degrees.unwrap_or(f64::NAN);
         let set = py.detach(|| self.state().call(SETPOINT, whisker, value));
@@ -329,13 +309,14 @@ impl Sim {
 
     /// Has a texture laid in place of the present one, once that is not touched, and left there.
     fn lay(&self, py: Python<'_>, texture: &str) -> PyResult<()> {
-        if self.textures.is_empty() {
-            let fault = format!("texture: scene {:?} has none to exchange", self.name);
+        let textures = self.scene.plant.textures_to_lay();
+        if textures.is_empty() {
+            let fault = format!("texture: scene {:?} has none to exchange", self.scene.name);
             return Err(wrong(fault));
         }
         let place = Texture::NAMES.iter().position(|name| *name == texture);
-        let Some(place) = place.filter(|_| self.textures.contains(&texture)) else {
-            let allowed = self.textures.join(", ");
+        let Some(place) = place.filter(|_| textures.contains(&texture)) else {
+            let allowed = textures.join(", ");
             let fault = format!("texture: found {texture:?}, allowed: {allowed}");
             return Err(wrong(fault));
         };
@@ -372,7 +353,7 @@ impl Sim {
     /// `trace.csv` from here to the scene's end, byte for byte as host-sim writes it.
     fn trace_csv<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyBytes>> {
         let written = py.detach(|| {
-            let mut table = TraceWriter::new(Vec::new(), self.shape)?;
+            let mut table = TraceWriter::new(Vec::new(), self.tables.shape)?;
             let left = self.state().left();
             self.each_tick(left, |state, _| {
                 let first = state.tick(true);
@@ -407,13 +388,13 @@ impl Sim {
     /// The scene's name.
     #[getter]
     fn name(&self) -> &str {
-        &self.name
+        &self.scene.name
     }
 
     /// Ticks a second.
     #[getter]
     const fn tick_hz(&self) -> u32 {
-        self.tick_hz
+        self.scene.tick_hz
     }
 
     /// The seed of this run.
@@ -424,8 +405,8 @@ impl Sim {
 
     /// How many ticks the scene lasts.
     #[getter]
-    const fn ticks(&self) -> u64 {
-        self.ticks
+    fn ticks(&self) -> u64 {
+        self.scene.ticks()
     }
 
     /// How many ticks have passed.
@@ -442,7 +423,7 @@ impl Sim {
 
     fn __repr__(&self, py: Python<'_>) -> String {
         let done = py.detach(|| self.state().done);
-        let Self { name, ticks, .. } = self;
+        let (name, ticks) = (&self.scene.name, self.scene.ticks());
         format!("<vibrissa.Sim {name:?}: tick {done} of {ticks}>")
     }
 }

@@ -138,7 +138,7 @@ impl Cells for Row<'_> {
 /// The tables of a scene's run.
 #[derive(Debug, Clone)]
 pub(crate) struct RunTables {
-    shape: TraceShape,
+    pub(crate) shape: TraceShape,
     pub(crate) trace: Layout,
     pub(crate) decisions: Columns,
 }

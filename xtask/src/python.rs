@@ -143,7 +143,7 @@ pub(crate) fn whole() -> Result<(), Fault> {
 pub(crate) fn release() -> Result<PathBuf, Fault> {
     let wheels = place("wheels");
     run(maturin(&newest()?, &top().join("python"), &wheels)?.args(RELEASE))?;
-    only(&wheels)
+    only(&wheels, "whl", BUILT_NONE)
 }
 
 /// Installs the wheel of this folder into a clean environment of the oldest Python of this

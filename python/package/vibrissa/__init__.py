@@ -10,11 +10,8 @@ returns them.
 True
 """
 
-from pathlib import Path
-
 from vibrissa._core import (
     Model,
-    Problem,
     SceneError,
     Sim,
     __version__,
@@ -24,12 +21,8 @@ from vibrissa._core import (
     record,
     run_many,
 )
+from vibrissa._scenes import SCENES, Problem
 from vibrissa.learning import Evaluation, Share, Why, classify, evaluate, train, why
-
-#: The scenes of the project by their names, with their models beside them.
-SCENES: dict[str, Path] = {
-    path.stem: path for path in sorted((Path(__file__).parent / "scenes").glob("*.toml"))
-}
 
 __all__ = [
     "SCENES",

@@ -6,12 +6,13 @@ import numpy as np
 from numpy.typing import NDArray
 from typing_extensions import Self
 
+from vibrissa._scenes import Problem
+
 __version__: str
 
 __all__ = [
     "Envs",
     "Model",
-    "Problem",
     "SceneError",
     "Sim",
     "__version__",
@@ -35,24 +36,6 @@ class SceneError(ValueError):
     """What is wrong with a scene, one problem a line; `problems` has them singly."""
 
     problems: list[Problem]
-
-@final
-class Problem:
-    """One thing wrong with a scene."""
-
-    def __new__(
-        cls, file: str, line: int | None, key: str, found: str, allowed: str
-    ) -> Self: ...
-    file: str
-    """The scene's file, or where in the arguments it stands."""
-    line: int | None
-    """Line, counted from 1; None for what is not in a file."""
-    key: str
-    """The key with its section, such as `head.sides`."""
-    found: str
-    """What was found."""
-    allowed: str
-    """What is allowed."""
 
 @final
 class Model:
@@ -174,17 +157,14 @@ class Envs:
         set: dict[str, Any] | None = None,
     ) -> Self: ...
     def step(
-        self, actions: NDArray[np.float64], begin: NDArray[np.bool_], seeds: NDArray[np.uint64]
+        self,
+        actions: NDArray[np.float64] | None,
+        begin: NDArray[np.bool_],
+        seeds: NDArray[np.uint64],
     ) -> tuple[NDArray[np.float32], NDArray[np.bool_]]:
         """Restarts those that `begin` names, with their `seeds`; the others act, `actions` having
-        the shape (envs, whiskers). Returns what each whisker then feels, of shape
-        (envs, 4 × whiskers), and whether the scene has ended.
-        """
-    def restart(
-        self, begin: NDArray[np.bool_], seeds: NDArray[np.uint64]
-    ) -> NDArray[np.float32]:
-        """Restarts those that `begin` names, with their `seeds`; the others stay as they are. Returns
-        what each whisker then feels.
+        the shape (envs, whiskers), or stay as they are where there are none. Returns what each
+        whisker then feels, of shape (envs, 4 × whiskers), and whether the scene has ended.
         """
     @property
     def whiskers(self) -> int:
@@ -291,4 +271,4 @@ def evaluate(
     threshold: float,
     rate: int | None,
 ) -> dict[str, Any]:
-    """What a model is worth on recordings that the Python side has prepared."""
+    """What a model is worth on recordings that the Python side has prepared, which puts it into arrays."""

@@ -203,7 +203,7 @@ class WhiskerVectorEnv(VectorEnv):
         for n in np.flatnonzero(mask):
             self._randoms[n] = np.random.default_rng(seeds[n])
         self._seeds = np.where(mask, np.array(seeds, np.uint64), self._seeds)
-        self._before = self._envs.restart(mask, self._seeds)
+        self._before, _ = self._envs.step(None, mask, self._seeds)
         self._ended &= ~mask
         return self._before.copy(), {"seed": self._seeds.copy()}
 

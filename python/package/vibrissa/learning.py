@@ -174,8 +174,22 @@ def evaluate(
     data = [prepared(name, one, channels) for name, one in given]
     rate = said_rate(given)
     found = _core.evaluate(model, data, channels=channels, threshold=threshold, rate=rate)
-    shares = ("found", "refused", "strange", "undecided")
-    return Evaluation(**{**found, **{name: Share(*found[name]) for name in shares}})
+    for name in ("found", "refused", "strange", "undecided"):
+        found[name] = Share(*found[name])
+    names = ("stated_from", "stated_to", "stated", "found", "low", "high")
+    columns = [*((name, "f8") for name in names), ("decisions", "i8")]
+    bins = [(*stated, *share) for *stated, share in found["calibration"]]
+    found["calibration"] = np.array(bins, columns)
+    rows = [(*counts, *shares) for counts, shares in found["classes"]]
+    width = max((len(row[0]) for row in rows), default=1)
+    columns = [("name", f"U{width + width % 2}"), ("presented", "i8"), ("decisions", "i8")]
+    names = ("hits", "samples", "refused", "undecided")
+    found["classes"] = np.array(rows, [*columns, *((name, "f8") for name in names)])
+    labels = found["labels"] = list(dict.fromkeys(found["labels"]))
+    found["confusion"] = np.zeros((len(labels), len(labels)), np.int64)
+    for label, decision in found.pop("decided"):
+        found["confusion"][labels.index(label), labels.index(decision)] += 1
+    return Evaluation(**found)
 
 
 def _model_first(model: Any, recordings: Any) -> tuple[Any, Any]:
