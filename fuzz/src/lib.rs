@@ -71,56 +71,33 @@ pub fn recording(data: &[u8]) {
 mod tests {
     use std::path::Path;
 
-    /// Runs `target` over the files of a folder, seen from the top of the workspace.
-    fn over(target: fn(&[u8]), folder: &str) {
-        let folder = Path::new("..").join(folder);
-        let mut files = 0;
-        for entry in folder.read_dir().unwrap() {
-            let path = entry.unwrap().path();
-            if path.is_file() {
-                target(&std::fs::read(path).unwrap());
-                files += 1;
+    /// Runs each target over the files of its folders, seen from the top of the workspace.
+    #[test]
+    fn first_inputs_are_read() {
+        type Target = fn(&[u8]);
+        let scenes = &["scenes", "fuzz/corpus/scene"][..];
+        let targets: &[(Target, &[&str])] = &[
+            (super::config, &["fuzz/corpus/config"]),
+            (super::frame, &["fuzz/corpus/frame"]),
+            (super::model, &["scenes/models", "fuzz/corpus/model"]),
+            (super::recording, &["fuzz/corpus/recording"]),
+            (super::scene, scenes),
+            #[cfg(feature = "shards")]
+            (super::shards, &["fuzz/corpus/shards"]),
+            (super::simulation, scenes),
+        ];
+        for &(target, folders) in targets {
+            for folder in folders {
+                let mut files = 0;
+                for entry in Path::new("..").join(folder).read_dir().unwrap() {
+                    let path = entry.unwrap().path();
+                    if path.is_file() {
+                        target(&std::fs::read(path).unwrap());
+                        files += 1;
+                    }
+                }
+                assert!(files > 0, "{folder}");
             }
         }
-        assert!(files > 0, "{}", folder.display());
-    }
-
-    #[test]
-    fn configurations() {
-        over(super::config, "fuzz/corpus/config");
-    }
-
-    #[test]
-    fn frames() {
-        over(super::frame, "fuzz/corpus/frame");
-    }
-
-    #[test]
-    fn models() {
-        over(super::model, "scenes/models");
-        over(super::model, "fuzz/corpus/model");
-    }
-
-    #[test]
-    fn recordings() {
-        over(super::recording, "fuzz/corpus/recording");
-    }
-
-    #[test]
-    fn scenes() {
-        over(super::scene, "scenes");
-        over(super::scene, "fuzz/corpus/scene");
-    }
-
-    #[cfg(feature = "shards")]
-    #[test]
-    fn tables_of_shards() {
-        over(super::shards, "fuzz/corpus/shards");
-    }
-
-    #[test]
-    fn simulations() {
-        over(super::simulation, "scenes");
-        over(super::simulation, "fuzz/corpus/scene");
     }
 }

@@ -47,9 +47,6 @@ fn build<R: Real>(scene: &Scene, runs_on: RunsOn) {
 }
 
 /// The first ticks of the scenes that are taken, without their classifiers.
-///
-/// # Panics
-/// If a value of the trace is no number.
 pub fn simulation(data: &[u8]) {
     let Some(scene) = read(data) else { return };
     let Ok(mut run) = Run::new(&scene, None) else {

@@ -10,11 +10,8 @@ const END: u8 = 0;
 /// If rows that are taken are not what is read back after they are written, if a run is lost or
 /// counted twice, or if the page names no harmful one.
 pub fn shards(data: &[u8]) {
-    let tables: Result<Vec<Vec<RunRow>>, csv::Error> = data
-        .split(|byte| *byte == END)
-        .map(campaign::read)
-        .collect();
-    let tables = match tables {
+    let tables = data.split(|byte| *byte == END).map(campaign::read);
+    let tables: Vec<Vec<RunRow>> = match tables.collect::<Result<_, _>>() {
         Ok(tables) => tables,
         Err(error) => {
             assert!(!error.to_string().is_empty());
