@@ -64,11 +64,11 @@ pub struct Brushed {
 #[derive(Debug, Clone)]
 pub struct Brushless {
     /// Inputs of phases 1 to 3.
-    pub pwms: (SimPwm, SimPwm, SimPwm),
+    pub pwms: [SimPwm; 3],
     /// Enables of phases 1 to 3.
-    pub enables: (SimPin, SimPin, SimPin),
+    pub enables: [SimPin; 3],
     /// Hall sensors 1 to 3.
-    pub halls: (SimHall, SimHall, SimHall),
+    pub halls: [SimHall; 3],
     /// Angle input, if the driver's count of sectors is not used.
     pub encoder: SimEncoder,
 }
@@ -115,7 +115,7 @@ impl SimMotor {
     }
 
     /// A three-phase motor at rest with its pins; phases and sensors as in
-    /// [`whisking::motor::COMMUTATION`].
+    /// [`whisking::motor::SixStep`].
     ///
     /// # Errors
     /// The first setting out of its range.
@@ -167,11 +167,11 @@ impl SimMotor {
     }
 
     fn brushless_pins(&self) -> Brushless {
-        let end = |i| self.end(i);
+        let ends = || [0, 1, 2].map(|i| self.end(i));
         Brushless {
-            pwms: (SimPwm(end(0)), SimPwm(end(1)), SimPwm(end(2))),
-            enables: (SimPin(end(0)), SimPin(end(1)), SimPin(end(2))),
-            halls: (SimHall(end(0)), SimHall(end(1)), SimHall(end(2))),
+            pwms: ends().map(SimPwm),
+            enables: ends().map(SimPin),
+            halls: ends().map(SimHall),
             encoder: self.encoder(),
         }
     }

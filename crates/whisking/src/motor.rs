@@ -34,23 +34,22 @@ mod hall;
 mod hbridge;
 mod homing;
 mod model;
-mod phases;
 mod six_step;
 mod stall;
 
 use core::fmt;
 
+use embedded_hal::pwm::SetDutyCycle;
 use serde::{Deserialize, Serialize};
 
-pub use commutation::{COMMUTATION, CommutationStep, Pair, Phase, Role, Sector};
+pub use commutation::Sector;
 pub use duty::Duty;
 pub use guard::{FOLLOWING_S, GuardConfig, GuardSettings, Guards, Heat, Moved, STALL_S, WINDING_S};
 pub use hall::HallTracker;
 pub use hbridge::HBridge;
 pub use homing::{Homed, Homing, HomingConfig, HomingSettings};
 pub use model::{Expected, MOST_FRICTION, ModelConfig, ModelSettings};
-pub use phases::{HallInputs, PhaseEnables, PhasePwms};
-pub use six_step::{SixStep, SixStepConfig, SixStepState};
+pub use six_step::{SixStep, SixStepConfig};
 pub use stall::{StallConfig, StallGuard};
 
 /// The stage that turns a duty into winding currents.
@@ -73,7 +72,6 @@ pub trait MotorDriver {
     /// fault is returned.
     ///
     /// # Errors
-    ///
     /// The fault that stands, or the one just found.
     fn drive(&mut self, duty: Duty) -> Result<(), Fault>;
 
@@ -86,6 +84,18 @@ pub trait MotorDriver {
     /// Clears the fault. The motor stays off until the next
     /// [`drive`](Self::drive).
     fn clear(&mut self);
+}
+
+/// Sets a PWM to the magnitude of a duty, scaled to its largest.
+#[inline]
+fn set_pwm(pwm: &mut impl SetDutyCycle, duty: Duty) -> Result<(), Fault> {
+    let counts = duty.scaled_to(pwm.max_duty_cycle());
+    pwm.set_duty_cycle(counts).map_err(|_| Fault::Pwm)
+}
+
+#[inline]
+fn zero_pwm(pwm: &mut impl SetDutyCycle) -> Result<(), Fault> {
+    pwm.set_duty_cycle_fully_off().map_err(|_| Fault::Pwm)
 }
 
 /// Why a motor was switched off.

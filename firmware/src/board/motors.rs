@@ -18,7 +18,7 @@ const PWM_PIN: PinConfig = PinConfig::new(Mode::AlternateOutput(PWM_FUNCTION));
 type Brushed = HBridge<Channel, Pin>;
 
 /// A brushless motor with Hall sensors on three half-bridges (L6230).
-type Brushless = SixStep<(Channel, Channel, Channel), (Pin, Pin, Pin), (Pin, Pin, Pin)>;
+type Brushless = SixStep<Channel, Pin, Pin>;
 
 /// A motor of either kind. Of one that an image is built without there is none, and no code.
 #[allow(
@@ -103,15 +103,12 @@ fn brushless(with: &MotorStart) -> Brushless {
         stall: with.stall,
         ..SixStepConfig::DEFAULT
     };
-    let pins = |names: [PinName; 3], config| {
-        let [a, b, c] = names.map(|name| Pin::new(name, config));
-        (a, b, c)
-    };
+    let pins = |names: [PinName; 3], config| names.map(|name| Pin::new(name, config));
     free_hall_pins();
     let enables = pins(ENABLES, PinConfig::OUTPUT);
     let halls = pins(HALLS, PinConfig::INPUT.pulled_up());
-    let [a, b, c] = [0, 1, 2].map(|output| Channel::of(output, with.pwm_counts));
-    let motor = SixStep::new((a, b, c), enables, halls, config).with_buffered_pwm();
+    let channels = [0, 1, 2].map(|output| Channel::of(output, with.pwm_counts));
+    let motor = SixStep::new(channels, enables, halls, config).with_buffered_pwm();
     pins(PWMS, PWM_PIN);
     motor
 }

@@ -7,8 +7,7 @@ use whisking::motor::{Duty, Fault, MotorDriver, SixStep, SixStepConfig};
 use super::tests::any_settings;
 use super::{MotorSettings, SimEncoder, SimHall, SimMotor, SimPin, SimPwm, Wire};
 
-type Driver =
-    SixStep<(SimPwm, SimPwm, SimPwm), (SimPin, SimPin, SimPin), (SimHall, SimHall, SimHall)>;
+type Driver = SixStep<SimPwm, SimPin, SimHall>;
 
 fn motor(settings: MotorSettings) -> (SimMotor, Driver, SimEncoder) {
     let (motor, pins) = SimMotor::brushless(settings).unwrap();

@@ -15,25 +15,32 @@
 //! A motor's own lettering of windings and sensors may differ; its wiring must
 //! be brought to this convention (the 1307BH's has not been verified).
 
-/// One of the three motor phases.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-pub enum Phase {
-    /// Axis at 0°.
+/// One of the three motor phases, whose axis is at 0°, 120° or 240°.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Phase {
     One,
-    /// Axis at 120°.
     Two,
-    /// Axis at 240°.
     Three,
 }
 
 impl Phase {
-    /// All three, in order.
-    pub const ALL: [Self; 3] = [Self::One, Self::Two, Self::Three];
+    pub(super) const ALL: [Self; 3] = [Self::One, Self::Two, Self::Three];
+
+    /// Its part of three.
+    #[inline]
+    pub(super) const fn of<T>(self, parts: &mut [T; 3]) -> &mut T {
+        let [one, two, three] = parts;
+        match self {
+            Self::One => one,
+            Self::Two => two,
+            Self::Three => three,
+        }
+    }
 }
 
 /// What a phase does in a step.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-pub enum Role {
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(super) enum Role {
     /// Enable low: neither switch conducts.
     Float,
     /// Enabled, input carries the PWM.
@@ -43,27 +50,21 @@ pub enum Role {
 }
 
 /// The driven pair of phases: current flows into `high` and out of `low`.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-pub struct Pair {
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) struct Pair {
     /// The phase with the PWM.
-    pub high: Phase,
+    pub(super) high: Phase,
     /// The phase tied to ground; not the same as `high`.
-    pub low: Phase,
+    pub(super) low: Phase,
 }
 
 impl Pair {
-    /// The pair for the opposite torque.
-    #[must_use]
-    pub const fn reversed(self) -> Self {
-        Self {
-            high: self.low,
-            low: self.high,
-        }
+    const fn new(high: Phase, low: Phase) -> Self {
+        Self { high, low }
     }
 
-    /// What one phase does.
     #[inline]
-    pub fn role(self, phase: Phase) -> Role {
+    pub(super) fn role(self, phase: Phase) -> Role {
         if phase == self.high {
             Role::High
         } else if phase == self.low {
@@ -74,39 +75,24 @@ impl Pair {
     }
 }
 
-/// A row of the commutation table.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-pub struct CommutationStep {
-    /// The Hall code of the sector, bit 0 being sensor 1.
-    pub hall: u8,
-    /// The pair to drive for forward torque.
-    pub forward: Pair,
-}
-
-const fn step(hall: u8, high: Phase, low: Phase) -> CommutationStep {
-    let forward = Pair { high, low };
-    CommutationStep { hall, forward }
-}
-
-/// The commutation table, by sector, in the order a forward rotor passes them.
-pub const COMMUTATION: [CommutationStep; 6] = [
-    step(0b001, Phase::Two, Phase::Three), // rotor 0°, field 90°
-    step(0b011, Phase::Two, Phase::One),   // rotor 60°, field 150°
-    step(0b010, Phase::Three, Phase::One), // rotor 120°, field 210°
-    step(0b110, Phase::Three, Phase::Two), // rotor 180°, field 270°
-    step(0b100, Phase::One, Phase::Two),   // rotor 240°, field 330°
-    step(0b101, Phase::One, Phase::Three), // rotor 300°, field 30°
+/// The pairs for forward torque, by sector, in the order a forward rotor passes them.
+const FORWARD: [Pair; 6] = [
+    Pair::new(Phase::Two, Phase::Three), // rotor 0°, field 90°
+    Pair::new(Phase::Two, Phase::One),   // rotor 60°, field 150°
+    Pair::new(Phase::Three, Phase::One), // rotor 120°, field 210°
+    Pair::new(Phase::Three, Phase::Two), // rotor 180°, field 270°
+    Pair::new(Phase::One, Phase::Two),   // rotor 240°, field 330°
+    Pair::new(Phase::One, Phase::Three), // rotor 300°, field 30°
 ];
 
 /// A sixth of an electrical turn, 0 to 5; sector s is centred on 60 s°.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Sector(u8);
 
 impl Sector {
-    /// The sector of a Hall code; none for the impossible 0 and 7 (and for
-    /// anything above).
+    /// The sector of a Hall code; none for the impossible 0 and 7 (and for anything above).
     #[inline]
-    pub const fn from_hall(code: u8) -> Option<Self> {
+    pub(super) const fn from_hall(code: u8) -> Option<Self> {
         match code {
             0b001 => Some(Self(0)),
             0b011 => Some(Self(1)),
@@ -118,24 +104,22 @@ impl Sector {
         }
     }
 
-    /// The number of the sector, 0 to 5.
-    #[inline]
-    pub const fn index(self) -> u8 {
-        self.0
-    }
-
     /// Sectors forward from `earlier` to this one, 0 to 5.
     #[inline]
-    pub const fn ahead_of(self, earlier: Self) -> u8 {
+    pub(super) const fn ahead_of(self, earlier: Self) -> u8 {
         // Both are below 6: the sum is 1 to 11.
         (self.0 + 6 - earlier.0) % 6
     }
 
     /// The pair to drive for torque in the given direction.
     #[inline]
-    pub const fn pair(self, forward: bool) -> Pair {
+    pub(super) const fn pair(self, forward: bool) -> Pair {
         // The remainder changes nothing; it shows that the index is in range.
-        let pair = COMMUTATION[self.0 as usize % 6].forward;
-        if forward { pair } else { pair.reversed() }
+        let Pair { high, low } = FORWARD[self.0 as usize % 6];
+        if forward {
+            Pair { high, low }
+        } else {
+            Pair::new(low, high)
+        }
     }
 }

@@ -46,7 +46,6 @@ impl HallTracker {
     /// valid code only gives the sector.
     ///
     /// # Errors
-    ///
     /// [`Fault::InvalidHall`], with nothing changed; [`Fault::SkippedSector`],
     /// with the motion counted all the same.
     #[inline]
@@ -82,12 +81,6 @@ impl HallTracker {
     #[inline]
     pub const fn counts(&self) -> i32 {
         self.counts
-    }
-
-    /// The sector last seen.
-    #[inline]
-    pub const fn sector(&self) -> Option<Sector> {
-        self.sector
     }
 
     /// Forgets the skips in succession; position and count stay.

@@ -3,7 +3,7 @@
 use embedded_hal::digital::{OutputPin, PinState};
 use embedded_hal::pwm::SetDutyCycle;
 
-use super::{Duty, Fault, MotorDriver};
+use super::{Duty, Fault, MotorDriver, set_pwm, zero_pwm};
 
 /// Sign-magnitude drive: the PWM carries the size of the duty, the direction
 /// pin its sign (high is protraction). The input pair is called PH/EN or
@@ -21,7 +21,7 @@ use super::{Duty, Fault, MotorDriver};
 /// alone: a bridge at zero ignores it, and if the PWM has failed, a change of the
 /// pin under a live PWM would reverse the motor.
 ///
-/// Stall and encoder are the caller's: see [`StallGuard`](super::StallGuard).
+/// Stall and encoder are the caller's: see [`Guards`](super::Guards).
 #[derive(Debug)]
 pub struct HBridge<PWM, DIR> {
     pwm: PWM,
@@ -69,26 +69,17 @@ impl<PWM: SetDutyCycle, DIR: OutputPin> HBridge<PWM, DIR> {
         self.fault
     }
 
-    /// Switches off and gives the outputs back.
-    pub fn release(mut self) -> (PWM, DIR) {
-        self.off();
-        (self.pwm, self.dir)
-    }
-
     #[inline]
     fn set_pwm(&mut self, duty: Duty) -> Result<(), Fault> {
         // Set before the write: a failed one may still have taken effect.
         self.live |= duty != Duty::ZERO;
-        let counts = duty.scaled_to(self.pwm.max_duty_cycle());
-        self.pwm.set_duty_cycle(counts).map_err(|_| Fault::Pwm)?;
+        set_pwm(&mut self.pwm, duty)?;
         self.live = duty != Duty::ZERO;
         Ok(())
     }
 
     fn zero_pwm(&mut self) -> Result<(), Fault> {
-        self.pwm
-            .set_duty_cycle_fully_off()
-            .map_err(|_| Fault::Pwm)?;
+        zero_pwm(&mut self.pwm)?;
         self.live = false;
         Ok(())
     }

@@ -9,19 +9,15 @@
 //! to ground, so the current circulates through the low switches between
 //! pulses and a zero duty brakes; `off` floats all phases and coasts.
 
-use serde::{Deserialize, Serialize};
+use embedded_hal::digital::{InputPin, OutputPin, PinState};
+use embedded_hal::pwm::SetDutyCycle;
 
-use super::{
-    Duty, Fault, HallInputs, HallTracker, MotorDriver, Pair, Phase, PhaseEnables, PhasePwms, Role,
-    Sector, StallConfig, StallGuard,
-};
+use super::commutation::{Pair, Phase, Role, Sector};
+use super::{Duty, Fault, HallTracker, MotorDriver, StallConfig, StallGuard, set_pwm, zero_pwm};
 
 /// Settings of a [`SixStep`] driver.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct SixStepConfig {
-    /// Magnet pole pairs of the rotor: electrical turns per rotor turn. Used
-    /// only to state the resolution.
-    pub pole_pairs: u8,
     /// Ticks in succession with skipped Hall sectors that are a fault; see
     /// [`HallTracker`] for the speed this allows.
     pub skip_limit: u8,
@@ -33,35 +29,14 @@ impl SixStepConfig {
     /// For the BIOTACT motor (Faulhaber 1307BH) at 2000 Hz. One pole pair is
     /// assumed, not verified.
     pub const DEFAULT: Self = Self {
-        pole_pairs: 1,
         skip_limit: 4,
         stall: StallConfig::DEFAULT,
     };
-
-    /// Hall counts per rotor turn, `6 · pole_pairs`.
-    pub const fn counts_per_turn(&self) -> u16 {
-        6 * self.pole_pairs as u16
-    }
-
-    /// Degrees of whisker per Hall count behind a gear of `gear_ratio` rotor
-    /// turns per whisker turn: `360 / (6 · pole_pairs · gear_ratio)`, both
-    /// factors being above zero.
-    ///
-    /// BIOTACT's 11:1 gear gives 66 counts a turn, 5.45°: coarse against a
-    /// whisk of some tens of degrees. An encoder on the rotor is better.
-    pub fn degrees_per_count(&self, gear_ratio: f32) -> f32 {
-        360.0 / (f32::from(self.counts_per_turn()) * gear_ratio)
-    }
 }
 
-impl Default for SixStepConfig {
-    fn default() -> Self {
-        Self::DEFAULT
-    }
-}
-
-/// Six-step driver over three PWM inputs, three enables and three Hall inputs,
-/// each given as a tuple; phases and signs as in [`COMMUTATION`].
+/// Six-step driver over the three PWM inputs IN1 to IN3 of the power stage, its enables EN1 to
+/// EN3 (low floats a phase) and three Hall inputs; phase k has its axis at 120° (k − 1), and sensor
+/// k is high while the rotor's magnet is within 90° of it.
 ///
 /// Each [`drive`](MotorDriver::drive) reads the sensors and sets the step. The
 /// lead of 60° to 120° holds at the tick; until the next one it falls by the
@@ -70,13 +45,11 @@ impl Default for SixStepConfig {
 /// When the step changes, phases that change role are floated first, then their
 /// inputs change, then the enables rise: no intermediate pattern drives. A
 /// duty of zero keeps the last direction.
-///
-/// [`COMMUTATION`]: super::COMMUTATION
 #[derive(Debug)]
 pub struct SixStep<PWM, EN, HALL> {
-    pwms: PWM,
-    enables: EN,
-    halls: HALL,
+    pwms: [PWM; 3],
+    enables: [EN; 3],
+    halls: [HALL; 3],
     tracker: HallTracker,
     stall: StallConfig,
     guard: StallGuard,
@@ -88,29 +61,24 @@ pub struct SixStep<PWM, EN, HALL> {
     state: SixStepState,
 }
 
-/// What a [`SixStep`] driver is doing.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum SixStepState {
+#[derive(Debug, Clone, Copy)]
+enum SixStepState {
     /// All phases float.
     Off,
     /// A pair of phases is driven.
     Driving {
-        /// The pair.
         pair: Pair,
         /// The duty of its high phase.
         duty: Duty,
     },
-    /// All phases float until the fault is cleared.
-    Faulted {
-        /// The first fault that was found.
-        fault: Fault,
-    },
+    /// All phases float until the fault, the first that was found, is cleared.
+    Faulted { fault: Fault },
 }
 
-impl<PWM: PhasePwms, EN: PhaseEnables, HALL: HallInputs> SixStep<PWM, EN, HALL> {
+impl<PWM: SetDutyCycle, EN: OutputPin, HALL: InputPin> SixStep<PWM, EN, HALL> {
     /// Takes the pins and switches off. If that fails, the first
     /// [`drive`](MotorDriver::drive) returns the fault.
-    pub fn new(pwms: PWM, enables: EN, halls: HALL, config: SixStepConfig) -> Self {
+    pub fn new(pwms: [PWM; 3], enables: [EN; 3], halls: [HALL; 3], config: SixStepConfig) -> Self {
         let mut motor = Self {
             pwms,
             enables,
@@ -137,26 +105,10 @@ impl<PWM: PhasePwms, EN: PhaseEnables, HALL: HallInputs> SixStep<PWM, EN, HALL> 
         self
     }
 
-    /// Hall sectors passed since the start, forward less backward, wrapping;
-    /// [`SixStepConfig::degrees_per_count`] makes it an angle.
+    /// Hall sectors passed since the start, forward less backward, wrapping.
     #[inline]
     pub const fn counts(&self) -> i32 {
         self.tracker.counts()
-    }
-
-    /// The sector last seen.
-    pub const fn sector(&self) -> Option<Sector> {
-        self.tracker.sector()
-    }
-
-    /// What it is doing.
-    pub const fn state(&self) -> SixStepState {
-        self.state
-    }
-
-    /// Whether the motor moves when it is driven.
-    pub const fn guard(&self) -> StallGuard {
-        self.guard
     }
 
     /// The fault that holds the motor off.
@@ -167,41 +119,27 @@ impl<PWM: PhasePwms, EN: PhaseEnables, HALL: HallInputs> SixStep<PWM, EN, HALL> 
         }
     }
 
-    /// Reads the sensors without touching the outputs, so that the count goes
-    /// on while the motor is off. Once per tick, instead of
-    /// [`drive`](MotorDriver::drive).
-    ///
-    /// # Errors
-    ///
-    /// The fault that holds the motor off: an earlier one, or one just found.
-    pub fn observe(&mut self) -> Result<(), Fault> {
-        let seen = self.track();
-        if let Some(fault) = self.fault() {
-            return Err(fault);
-        }
-        match seen {
-            Ok(_) => Ok(()),
-            Err(fault) => {
-                self.fail(fault);
-                Err(fault)
-            }
-        }
-    }
-
     /// Its PWMs.
-    pub const fn pwms(&self) -> &PWM {
+    pub const fn pwms(&self) -> &[PWM; 3] {
         &self.pwms
     }
 
-    /// Switches off and gives the pins back.
-    pub fn release(mut self) -> (PWM, EN, HALL) {
-        self.off();
-        (self.pwms, self.enables, self.halls)
+    #[inline]
+    fn enable(&mut self, phase: Phase, on: bool) -> Result<(), Fault> {
+        let enable = phase.of(&mut self.enables);
+        let state = PinState::from(on);
+        enable.set_state(state).map_err(|_| Fault::Pin)
     }
 
+    /// Takes in the Hall code. Sensors may be read one after another: only one changes at a time,
+    /// so the code is that of before or after the change.
     #[inline]
     fn track(&mut self) -> Result<Sector, Fault> {
-        let code = self.halls.code()?;
+        let mut code = 0;
+        for (bit, hall) in self.halls.iter_mut().enumerate() {
+            let is_high = hall.is_high().map_err(|_| Fault::Pin)?;
+            code |= u8::from(is_high) << bit;
+        }
         self.tracker.update(code)
     }
 
@@ -233,7 +171,7 @@ impl<PWM: PhasePwms, EN: PhaseEnables, HALL: HallInputs> SixStep<PWM, EN, HALL> 
     fn apply(&mut self, pair: Pair, duty: Duty) -> Result<(), Fault> {
         match self.state {
             SixStepState::Driving { pair: old, .. } if old == pair => {
-                self.pwms.set(pair.high, duty)?;
+                set_pwm(pair.high.of(&mut self.pwms), duty)?;
             }
             SixStepState::Driving {
                 pair: old,
@@ -255,19 +193,19 @@ impl<PWM: PhasePwms, EN: PhaseEnables, HALL: HallInputs> SixStep<PWM, EN, HALL> 
         let changes = |phase| old.is_none_or(|old| old.role(phase) != pair.role(phase));
         for phase in Phase::ALL.into_iter().filter(|&phase| changes(phase)) {
             if old.is_none_or(|old| old.role(phase) != Role::Float) {
-                self.enables.enable(phase, false)?;
+                self.enable(phase, false)?;
             }
         }
         for phase in Phase::ALL.into_iter().filter(|&phase| changes(phase)) {
             // The high phase gets its duty at once after this.
             if phase != pair.high {
-                self.pwms.zero(phase)?;
+                zero_pwm(phase.of(&mut self.pwms))?;
             }
         }
-        self.pwms.set(pair.high, duty)?;
+        set_pwm(pair.high.of(&mut self.pwms), duty)?;
         for phase in [pair.low, pair.high] {
             if changes(phase) {
-                self.enables.enable(phase, true)?;
+                self.enable(phase, true)?;
             }
         }
         Ok(())
@@ -284,16 +222,16 @@ impl<PWM: PhasePwms, EN: PhaseEnables, HALL: HallInputs> SixStep<PWM, EN, HALL> 
     fn coast(&mut self) -> Result<(), Fault> {
         let mut result = Ok(());
         for phase in Phase::ALL {
-            result = result.and(self.enables.enable(phase, false));
+            result = result.and(self.enable(phase, false));
         }
         for phase in Phase::ALL {
-            result = result.and(self.pwms.zero(phase));
+            result = result.and(zero_pwm(phase.of(&mut self.pwms)));
         }
         result
     }
 }
 
-impl<PWM: PhasePwms, EN: PhaseEnables, HALL: HallInputs> MotorDriver for SixStep<PWM, EN, HALL> {
+impl<PWM: SetDutyCycle, EN: OutputPin, HALL: InputPin> MotorDriver for SixStep<PWM, EN, HALL> {
     /// As in the trait; the count goes on while a fault stands, as far as the
     /// sensors allow.
     #[inline]

@@ -25,30 +25,14 @@ impl StallConfig {
     };
 }
 
-impl Default for StallConfig {
-    fn default() -> Self {
-        Self::DEFAULT
-    }
-}
-
 /// Whether a motor moves when it is driven.
 ///
-/// [`SixStep`](super::SixStep) has one inside. A motor on an
-/// [`HBridge`](super::HBridge) gives no sign of motion itself: there the control
-/// loop owns the guard and updates it from the encoder. `moved` then means *by
-/// more than the count or two by which a rotor on an encoder edge flickers*.
+/// [`SixStep`](super::SixStep) has one inside. A motor on an [`HBridge`](super::HBridge) gives no
+/// sign of motion itself: there the control loop looks at the encoder.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum StallGuard {
-    /// The motor moves, or is not driven hard enough to count.
-    #[default]
-    Free,
-    /// Driven without moving.
-    Still {
-        /// Ticks in succession, fewer than make a stall.
-        ticks: u16,
-    },
-    /// Driven without moving for too long.
-    Stalled,
+pub struct StallGuard {
+    /// Ticks in succession, driven hard and not moving.
+    still: u16,
 }
 
 impl StallGuard {
@@ -57,25 +41,12 @@ impl StallGuard {
     /// the motor moves or the duty falls to the threshold.
     #[inline]
     pub fn update(&mut self, config: StallConfig, duty: Duty, moved: bool) -> bool {
-        *self = if moved || duty.magnitude() <= config.threshold.magnitude() {
-            Self::Free
+        let is_still = !moved && duty.magnitude() > config.threshold.magnitude();
+        self.still = if is_still {
+            self.still.saturating_add(1)
         } else {
-            match *self {
-                Self::Free => Self::after(config, 1),
-                Self::Still { ticks } => Self::after(config, ticks.saturating_add(1)),
-                Self::Stalled => Self::Stalled,
-            }
+            0
         };
-        *self == Self::Stalled
-    }
-
-    /// After `ticks` in succession, driven and not moving.
-    #[inline]
-    fn after(config: StallConfig, ticks: u16) -> Self {
-        if ticks >= config.ticks {
-            Self::Stalled
-        } else {
-            Self::Still { ticks }
-        }
+        self.still >= config.ticks.max(1)
     }
 }

@@ -1,7 +1,8 @@
 //! Hall codes and the count: the tracker is exact up to its speed limit and faults above.
 
+use crate::pins::CODES;
 use proptest::prelude::*;
-use whisking::motor::{COMMUTATION, Fault, HallTracker};
+use whisking::motor::{Fault, HallTracker};
 
 #[test]
 fn half_a_turn_is_counted_the_way_it_last_moved() {
@@ -57,7 +58,7 @@ proptest! {
         let mut seen = Ok(());
         let mut at = start;
         for _ in 0..3000 {
-            let code = COMMUTATION[sector(at).rem_euclid(6) as usize].hall;
+            let code = CODES[sector(at).rem_euclid(6) as usize];
             seen = tracker.update(code).map(drop);
             if velocity.abs() <= 2000 {
                 prop_assert_eq!(tracker.counts(), sector(at) - sector(start));

@@ -5,28 +5,6 @@ use proptest::sample::select;
 use whisking::motor::{Duty, StallConfig, StallGuard};
 
 #[test]
-fn it_says_how_long_the_motor_has_stood_still() {
-    let config = StallConfig {
-        ticks: 3,
-        threshold: Duty::from_q15(16_384),
-    };
-    let mut guard = StallGuard::default();
-    for state in [
-        StallGuard::Still { ticks: 1 },
-        StallGuard::Still { ticks: 2 },
-        StallGuard::Stalled,
-    ] {
-        guard.update(config, Duty::FULL, false);
-        assert_eq!(guard, state);
-    }
-    for free in [(Duty::FULL, true), (Duty::ZERO, false)] {
-        guard.update(config, free.0, free.1);
-        assert_eq!(guard, StallGuard::Free);
-        guard = StallGuard::Stalled;
-    }
-}
-
-#[test]
 fn the_count_does_not_wrap() {
     let config = StallConfig {
         ticks: u16::MAX,

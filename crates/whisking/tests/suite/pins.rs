@@ -20,8 +20,10 @@ pub(crate) const FREE_RUNNING: SixStepConfig = SixStepConfig {
         ticks: 1,
         threshold: Duty::FULL,
     },
-    ..SixStepConfig::DEFAULT
 };
+
+/// Hall codes in the order in which a forward rotor shows them, from sector 0 on.
+pub(crate) const CODES: [u8; 6] = [1, 3, 2, 6, 4, 5];
 
 /// What the pins of one driver have done, as words like `EN1=1` or `IN2=500`; with `!` those
 /// that failed.
@@ -198,20 +200,14 @@ pub(crate) fn bridge(failing: &str) -> Bench<HBridge<Wire, Wire>> {
     bench
 }
 
-type Three = (Wire, Wire, Wire);
-pub(crate) type Motor = Bench<SixStep<Three, Three, Three>>;
+pub(crate) type Motor = Bench<SixStep<Wire, Wire, Wire>>;
 
 /// A six-step driver in sector 0, with its start in the log still.
 pub(crate) fn six_step(config: SixStepConfig, failing: &str) -> Motor {
     let names = ["IN1", "IN2", "IN3", "EN1", "EN2", "EN3"];
     let bench = Bench::new(names, failing, |outputs, halls| {
         let [in1, in2, in3, en1, en2, en3] = outputs.clone();
-        SixStep::new(
-            (in1, in2, in3),
-            (en1, en2, en3),
-            halls.clone().into(),
-            config,
-        )
+        SixStep::new([in1, in2, in3], [en1, en2, en3], halls.clone(), config)
     });
     bench.turn(1);
     bench
