@@ -11,7 +11,6 @@ use std::ops::RangeInclusive;
 use crate::choice::Choice;
 use crate::kind::{Kind, Range};
 
-/// One key of a section.
 #[derive(Clone, Copy)]
 pub(crate) struct Row {
     pub(crate) name: &'static str,
@@ -179,7 +178,6 @@ pub(crate) const fn name(longest: usize) -> Key<String> {
     Key::of(Kind::Name { longest })
 }
 
-/// A path: a string that is not empty.
 pub(crate) const fn path() -> Key<String> {
     Key::of(Kind::Path)
 }
@@ -189,7 +187,6 @@ pub(crate) const fn per_whisker(ends: RangeInclusive<f64>) -> Key<Vec<f64>> {
     Key::of(Kind::PerWhisker(Range::closed(&ends)))
 }
 
-/// A list of real numbers, one a side.
 pub(crate) const fn per_side(ends: RangeInclusive<f64>) -> Key<Vec<f64>> {
     Key::of(Kind::PerSide(Range::closed(&ends)))
 }
@@ -204,7 +201,6 @@ pub(crate) const fn per_class(range: Range) -> Key<Vec<(String, f64)>> {
     Key::of(Kind::PerClass(range))
 }
 
-/// A list of pairs of real numbers, one pair a side.
 pub(crate) const fn pair_per_side(ends: RangeInclusive<f64>) -> Key<Vec<[f64; 2]>> {
     Key::of(Kind::PairPerSide(Range::closed(&ends)))
 }

@@ -19,7 +19,6 @@ pub(crate) enum Kind {
     Words(&'static [&'static str]),
 }
 
-/// A range of real numbers.
 #[derive(Clone, Copy)]
 pub(crate) struct Range {
     pub(crate) low: f64,

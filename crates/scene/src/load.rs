@@ -22,10 +22,8 @@ impl Scene {
     /// Reads a scene from its text. `file` is what messages call it.
     ///
     /// # Errors
-    ///
-    /// All problems of the text, in the order of its lines. Where the TOML
-    /// syntax is broken, only that is reported (once a line): keys read past a
-    /// broken line might not be what was meant.
+    /// All problems of the text, in the order of its lines. Where the TOML syntax is broken, only
+    /// that is reported (once a line): keys read past a broken line might not be what was meant.
     pub fn from_str(file: &str, text: &str) -> Result<Self, Problems> {
         Self::from_str_with(file, text, &[]).map(|(scene, _)| scene)
     }
@@ -34,7 +32,6 @@ impl Scene {
     /// where all keys stand.
     ///
     /// # Errors
-    ///
     /// As [`Scene::from_str`].
     pub fn from_str_with(
         file: &str,
@@ -80,7 +77,6 @@ impl Scene {
     /// Reads a scene file.
     ///
     /// # Errors
-    ///
     /// A file that cannot be read, named; else as [`Scene::from_str`].
     pub fn load(path: impl AsRef<Path>) -> Result<Self, Problems> {
         Self::load_with(path, &[]).map(|(scene, _)| scene)
@@ -90,7 +86,6 @@ impl Scene {
     /// where all keys stand.
     ///
     /// # Errors
-    ///
     /// As [`Scene::load`].
     pub fn load_with(
         path: impl AsRef<Path>,

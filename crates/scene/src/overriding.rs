@@ -5,8 +5,7 @@ use std::str::FromStr;
 
 use toml::de::DeValue;
 
-/// A key that is given in place of the file's, or besides: it is checked as if it stood
-/// there.
+/// A key that is given in place of the file's, or besides: it is checked as if it stood there.
 ///
 /// ```
 /// use scene::{Override, Scene};

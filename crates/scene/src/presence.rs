@@ -1,5 +1,4 @@
-//! What the declarations ask for: which sections and keys are there, and how
-//! long lists are.
+//! What the declarations ask for: which sections and keys are there, and how long lists are.
 
 use crate::key::{Need, Row};
 use crate::kind::Kind;
@@ -9,7 +8,6 @@ use crate::text::Text;
 use crate::value::Value;
 use crate::values::{Entry, Given, Values};
 
-/// Checks all sections and keys, noting problems in `text`.
 pub(crate) fn check(values: &Values, text: &mut Text<'_>) {
     for section in sections() {
         match values.section(section.name) {
@@ -56,8 +54,7 @@ pub(crate) fn settle(values: &mut Values) {
     }
 }
 
-/// Whether the key is an error: where none of the conditions under which it is
-/// allowed holds.
+/// Whether the key is an error: where none of the conditions under which it is allowed holds.
 fn is_barred(section: &Section, key: &Row, values: &Values) -> bool {
     let fails = |condition| values.holds(section.name, condition) == Some(false);
     !key.only.is_empty() && key.only.iter().all(|condition| fails(*condition))

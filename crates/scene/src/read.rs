@@ -113,16 +113,10 @@ fn resolve(
         return Some(exact);
     }
     if text.is_full() {
-        text.report(
-            name.span().start,
-            String::new(),
-            String::new(),
-            String::new(),
-        );
+        text.count();
         return None;
     }
-    // A key that another section has stands in the wrong place; so does a table
-    // inside a table.
+    // A key that another section has stands in the wrong place; so does a table inside a table.
     let homes: Vec<String> = sections()
         .filter(|home| {
             let is_table = home.name.is_empty() && self::section(written).is_some();

@@ -70,8 +70,7 @@ impl Rules<'_, '_> {
 
     /// Each row of a side has as many whiskers as any other.
     fn rows_are_alike(&mut self) {
-        let rows = self.get::<usize>("head", "rows");
-        let each = self.get::<usize>("head", "whiskers_per_side");
+        let [rows, each] = ["rows", "whiskers_per_side"].map(|key| self.get::<usize>("head", key));
         if let (Some(rows), Some(each)) = (rows, each)
             && !each.is_multiple_of(rows)
         {

@@ -22,6 +22,14 @@ pub(crate) enum Presence {
     },
 }
 
+impl Presence {
+    /// Leaving it out means `without`.
+    pub(crate) const fn optional(without: &'static str) -> Self {
+        let needs = None;
+        Self::Optional { without, needs }
+    }
+}
+
 /// A key, or several that one struct holds.
 #[derive(Clone, Copy)]
 pub(crate) enum Entry {

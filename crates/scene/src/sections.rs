@@ -46,7 +46,6 @@ pub(crate) fn sections() -> impl Iterator<Item = &'static Section> {
     std::iter::once(&TOP).chain(Scene::TABLES)
 }
 
-/// The section of this name.
 pub(crate) fn section(name: &str) -> Option<&'static Section> {
     sections().find(|section| section.name == name)
 }

@@ -1,8 +1,7 @@
 //! Suggestions for misspelt words.
 
-/// Least Jaro–Winkler similarity (0 to 1) at which two words count as alike.
-/// It admits one slip in a short word (`gian`) and a forgotten unit (`tau`),
-/// and keeps unrelated keys apart.
+/// Least Jaro–Winkler similarity (0 to 1) at which two words count as alike. It admits one slip in
+/// a short word (`gian`) and a forgotten unit (`tau`), and keeps unrelated keys apart.
 const ALIKE: f64 = 0.84;
 
 /// The candidate that `word` is most likely a misspelling of, if any is near.

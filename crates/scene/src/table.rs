@@ -36,10 +36,7 @@ pub(crate) const fn required<K: Keys>() -> Table<K::Value> {
 /// A table that may be left out, which means `without`.
 pub(crate) const fn optional<K: Keys>(without: &'static str) -> Table<Option<K::Value>> {
     Table {
-        presence: Presence::Optional {
-            without,
-            needs: None,
-        },
+        presence: Presence::optional(without),
         with: None,
         entries: K::ENTRIES,
         read: |from, is_there| {
@@ -55,10 +52,7 @@ pub(crate) const fn optional<K: Keys>(without: &'static str) -> Table<Option<K::
 /// A table that may be left out, whose value is then its type's default, which means `without`.
 pub(crate) const fn or_default<K: Keys<Value: Default>>(without: &'static str) -> Table<K::Value> {
     Table {
-        presence: Presence::Optional {
-            without,
-            needs: None,
-        },
+        presence: Presence::optional(without),
         with: None,
         entries: K::ENTRIES,
         read: |from, is_there| {
@@ -74,10 +68,7 @@ pub(crate) const fn or_default<K: Keys<Value: Default>>(without: &'static str) -
 /// A table whose keys all have defaults: it is always there. Leaving it out means `without`.
 pub(crate) const fn by_default<K: Keys>(without: &'static str) -> Table<K::Value> {
     Table {
-        presence: Presence::Optional {
-            without,
-            needs: None,
-        },
+        presence: Presence::optional(without),
         ..required::<K>()
     }
 }

@@ -86,8 +86,7 @@ impl<'a> Text<'a> {
 
     pub(crate) fn report(&mut self, offset: usize, key: String, found: String, allowed: String) {
         if self.is_full() {
-            self.more += 1;
-            return;
+            return self.count();
         }
         let (file, line) = self.place(offset);
         let problem = Problem {
@@ -100,6 +99,11 @@ impl<'a> Text<'a> {
         self.problems.push((offset, problem));
     }
 
+    /// One more, of which nothing else is said.
+    pub(crate) fn count(&mut self) {
+        self.more += 1;
+    }
+
     /// Whether further problems are only counted.
     pub(crate) fn is_full(&self) -> bool {
         self.problems.len() >= MOST_PROBLEMS
@@ -109,7 +113,6 @@ impl<'a> Text<'a> {
         self.problems.is_empty()
     }
 
-    /// All problems noted, in file order.
     pub(crate) fn into_problems(mut self) -> Problems {
         self.problems.sort_by_key(|(offset, _)| *offset);
         let list = self.problems.into_iter().map(|(_, p)| p).collect();

@@ -54,16 +54,13 @@ impl Fault {
 /// it (at least one fault).
 pub(crate) fn check(kind: &Kind, value: &Spanned<DeValue<'_>>) -> Result<Value, Vec<Fault>> {
     let one = |result: Result<Value, Fault>| result.map_err(|fault| vec![fault]);
+    let some = |found: Option<Value>| found.ok_or_else(|| vec![Fault::at(value)]);
     match kind {
-        Kind::Bool => one(value
-            .get_ref()
-            .as_bool()
-            .map(Value::Bool)
-            .ok_or_else(|| Fault::at(value))),
-        Kind::Integer { low, high } => one(integer(value)
-            .filter(|n| (*low..=*high).contains(n))
-            .map(Value::Integer)
-            .ok_or_else(|| Fault::at(value))),
+        Kind::Bool => some(value.get_ref().as_bool().map(Value::Bool)),
+        Kind::Integer { low, high } => {
+            let integer = integer(value).filter(|n| (*low..=*high).contains(n));
+            some(integer.map(Value::Integer))
+        }
         Kind::Number(range) => one(number(*range, value).map(Value::Number)),
         Kind::Word(words) => one(word(words, value).map(|w| Value::Text(w.to_owned()))),
         Kind::Name { longest } => one(text(value, |name| is_name(name, *longest))),
@@ -94,12 +91,18 @@ fn each<T>(
     entries: &DeArray<'_>,
     check: impl Fn(&Spanned<DeValue<'_>>) -> Result<T, Fault>,
 ) -> Result<Vec<T>, Vec<Fault>> {
-    let mut good = Vec::with_capacity(entries.len());
-    let mut faults = Vec::new();
-    for (i, entry) in entries.iter().enumerate() {
-        match check(entry) {
+    sorted((1..).zip(entries).map(|(n, entry)| {
+        let checked = check(entry);
+        checked.map_err(|fault| fault.with_note(format!("as entry {n}")))
+    }))
+}
+
+fn sorted<T>(checked: impl Iterator<Item = Result<T, Fault>>) -> Result<Vec<T>, Vec<Fault>> {
+    let (mut good, mut faults) = (Vec::new(), Vec::new());
+    for one in checked {
+        match one {
             Ok(value) => good.push(value),
-            Err(fault) => faults.push(fault.with_note(format!("as entry {}", i + 1))),
+            Err(fault) => faults.push(fault),
         }
     }
     if faults.is_empty() {
@@ -143,19 +146,12 @@ fn per_class(range: Range, value: &Spanned<DeValue<'_>>) -> Result<Vec<(String, 
     let table = value.get_ref().as_table();
     let table = table.filter(|table| !table.is_empty());
     let table = table.ok_or_else(|| vec![Fault::at(value)])?;
-    let numbers = table.iter().map(|(class, entry)| {
+    sorted(table.iter().map(|(class, entry)| {
         let class = class.get_ref();
         let number = number(range, entry);
         let number = number.map_err(|fault| fault.with_note(format!("of class {class:?}")))?;
         Ok((class.to_string(), number))
-    });
-    let (good, bad): (Vec<_>, Vec<_>) = numbers.partition(Result::is_ok);
-    let faults: Vec<Fault> = bad.into_iter().filter_map(Result::err).collect();
-    if faults.is_empty() {
-        Ok(good.into_iter().filter_map(Result::ok).collect())
-    } else {
-        Err(faults)
-    }
+    }))
 }
 
 fn word(
@@ -182,22 +178,18 @@ fn distinct_words(
         return Err(vec![Fault::at(value)]);
     }
     let found = each(entries, |entry| word(words, entry))?;
-    let repeats: Vec<Fault> = entries
-        .iter()
-        .enumerate()
-        .filter(|(i, _)| {
-            found
-                .iter()
-                .take(*i)
-                .any(|word| found.get(*i) == Some(word))
-        })
-        .map(|(i, entry)| Fault::at(entry).with_note(format!("again as entry {}", i + 1)))
-        .collect();
-    if repeats.is_empty() {
-        Ok(found.into_iter().map(str::to_owned).collect())
-    } else {
-        Err(repeats)
-    }
+    sorted(
+        found
+            .iter()
+            .zip(entries)
+            .enumerate()
+            .map(|(i, (word, entry))| {
+                if found.iter().take(i).any(|before| before == word) {
+                    return Err(Fault::at(entry).with_note(format!("again as entry {}", i + 1)));
+                }
+                Ok((*word).to_owned())
+            }),
+    )
 }
 
 fn text(value: &Spanned<DeValue<'_>>, is_good: impl Fn(&str) -> bool) -> Result<Value, Fault> {

@@ -88,8 +88,7 @@ impl Values {
         self.keys.get(&(section, key))?.offset
     }
 
-    /// Whether a condition holds in a section; `None` where a refused value
-    /// leaves it open.
+    /// Whether a condition holds in a section; `None` where a refused value leaves it open.
     pub(crate) fn holds(&self, section: &'static str, condition: Condition) -> Option<bool> {
         match condition {
             Condition::Given(key) => Some(self.offset(section, key).is_some()),

@@ -10,7 +10,6 @@ use crate::kind::Range;
 use crate::values::{Part, Read};
 
 choice! {
-    /// The rules' words.
     pub(crate) enum RuleName {
         /// [`Rule::Sequential`].
         Sequential = "sequential",

@@ -104,9 +104,7 @@ choice! {
 const TEXTURED: Condition = Is("kind", PlantKind::Textured.name());
 const ELASTIC: Condition = Is("kind", PlantKind::Whisker.name());
 
-/// The plants with textures.
 const TEXTURES: &[Condition] = &[TEXTURED, ELASTIC];
-/// The plant with an elastic shaft.
 const WHISKER: &[Condition] = &[ELASTIC];
 /// The most that a plate may be tilted, either way.
 pub(crate) const TILT_LIMIT_DEG: f64 = 80.0;

@@ -28,7 +28,6 @@ choice! {
 /// A shaft of the scene's own numbers.
 const OWN: &[Condition] = &[Is("shaft", ShaftName::Own.name())];
 
-/// One of those numbers.
 const fn own(ends: RangeInclusive<f64>) -> Key<f64> {
     number(ends)
         .required_if(OWN, "that of `shaft`")

@@ -1,6 +1,6 @@
 //! Scenes that are in order, and what they come out as.
 
-use crate::common::{FULL, with};
+use crate::common::{FULL, left, with};
 use mlx90333::{ByteOrder, Mode, SumRule};
 use scene::{
     Arm, ClassifierSection, Deciding, Driver, Exchanged, GateSettings, HeadSection, Integrator,
@@ -186,10 +186,7 @@ fn one_gain_stands_for_every_whisker_and_negative_zero_is_zero() {
 
 #[test]
 fn a_left_half_has_one_entry_a_side() {
-    let text = with(FULL, "[whisking]", "sides = 'left'\n[whisking]");
-    let text = with(&text, "[[1.0, 0.0], [1.0, 0.0]]", "[[1.0, 0.0]]");
-    let text = with(&text, "[100.0, 125.0]", "[100.0]");
-    let scene = read(&text);
+    let scene = read(&left());
     assert_eq!(scene.head.sides, Sides::Left);
     assert_eq!(scene.whiskers(), 1);
     let whisking = scene.whisking.expect("whisking is in the text");
@@ -312,6 +309,16 @@ fn a_scene_is_loaded_and_its_model_found_beside_it() {
 
     let (before, _) = FULL.split_once("[classifier]").expect("it is there");
     assert_eq!(read(before).model_path(folder.path()), None);
+}
+
+#[test]
+fn the_example_on_the_page_is_a_scene() {
+    let page = scene::reference();
+    let (_, rest) = page.split_once("```toml\n").expect("an example begins");
+    let (example, _) = rest.split_once("```\n").expect("and ends");
+    let scene = read(example);
+    assert_eq!(scene.name, "example");
+    assert_eq!(scene.motor.map(|motor| motor.kp), Some(0.04));
 }
 
 /// [`FULL`] as it stands on a bench: what it meets and its model are left out.

@@ -4,6 +4,4 @@ mod accepts;
 mod common;
 mod hardening;
 mod overrides;
-mod reference;
 mod refuses;
-mod relations;
