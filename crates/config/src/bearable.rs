@@ -63,21 +63,12 @@ pub(crate) fn check(whisking: &WhiskingSection, motor: &MotorSection) -> Result<
     if bears(found) >= BOUT_S {
         return Ok(());
     }
-    let (mut most, mut too_much) = (0.0, found);
-    for _ in 0..40 {
-        let middle = f64::midpoint(most, too_much);
-        if bears(middle) >= BOUT_S {
-            most = middle;
-        } else {
-            too_much = middle;
-        }
-    }
     Err(Unbearable {
         found,
         bears_s: bears(found),
         duty: gain * duty(motor, found),
         continuous: motor.continuous_duty,
-        most,
+        most: crate::edge(found, |frequency_hz| bears(frequency_hz) >= BOUT_S),
     })
 }
 
@@ -104,25 +95,20 @@ fn duty(motor: &MotorSection, frequency_hz: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::{Unbearable, bears_s, duty};
+    use crate::tests::scene;
     use scene::{MotorSection, Scene};
 
-    fn scene(frequency_hz: f64) -> Scene {
-        let text = format!(
-            "name = \"fast\"\ntick_hz = 2000\nduration_s = 1\nseed = 1\n\
-             [head]\nwhiskers_per_side = 1\nsides = \"left\"\n\
-             [whisking]\nfrequency_hz = {frequency_hz:?}\nintegrator = \"exact\"\n\
-             coupling = false\nnoise = 0.0\ngain = 1.0\nstart = [[1.0, 0.0]]\n\
-             [plant]\nkind = \"ideal\"\n[motor]\n"
-        );
-        Scene::from_str("fast.toml", &text).unwrap_or_else(|problems| panic!("{problems}"))
+    fn at(frequency_hz: f64) -> Scene {
+        let frequency = format!("whisking.frequency_hz={frequency_hz:?}");
+        scene(&[&frequency, "whisking.gain=1"])
     }
 
     fn motor() -> MotorSection {
-        scene(8.0).motor.unwrap()
+        at(8.0).motor.unwrap()
     }
 
     fn check(frequency_hz: f64) -> Result<(), Unbearable> {
-        super::check(&scene(frequency_hz).whisking.unwrap(), &motor())
+        super::check(&at(frequency_hz).whisking.unwrap(), &motor())
     }
 
     /// What the simulated motor took, in two seconds of whisking.

@@ -141,16 +141,7 @@ fn of_costs(
 
 /// ℓ of 2 sinh ℓ + 2 ℓ = `gain`, up to 28; its sinh is convex and rises, so it is bisected.
 fn log_odds(gain: f64) -> f64 {
-    let (mut low, mut high) = (0.0, 28.0);
-    for _ in 0..60 {
-        let middle: f64 = 0.5 * (low + high);
-        if 2.0 * middle.sinh() + 2.0 * middle < gain {
-            low = middle;
-        } else {
-            high = middle;
-        }
-    }
-    low
+    crate::edge(28.0, |odds| 2.0 * odds.sinh() + 2.0 * odds < gain)
 }
 
 /// The threshold of no class, where costs give each its own: the largest of those.

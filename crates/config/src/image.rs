@@ -139,21 +139,24 @@ pub fn image(
         classes: classes.as_ref(),
         overrides,
     };
-    let format = on_board(scene, board.name, board.has_fpu)?;
-    let (config, bytes, features) = if format == NumberFormat::Fixed {
+    if on_board(scene, board.name, board.has_fpu)? == NumberFormat::Fixed {
         let config = build::<Fix>(scene, target)?;
-        let bytes = checked(&config, board)?;
-        let features = features(&config, model, board);
-        (AnyConfig::Fixed(Box::new(config)), bytes, features)
+        made(config, AnyConfig::Fixed, model, board)
     } else {
         let config = build::<f32>(scene, target)?;
-        let bytes = checked(&config, board)?;
-        let features = features(&config, model, board);
-        (AnyConfig::Single(Box::new(config)), bytes, features)
-    };
+        made(config, AnyConfig::Single, model, board)
+    }
+}
+
+fn made<R: Real>(
+    config: Config<R>,
+    any: fn(Box<Config<R>>) -> AnyConfig,
+    model: Option<&ModelBuf>,
+    board: &BoardFacts,
+) -> Result<Image, Unfit> {
     Ok(Image {
-        config,
-        bytes,
-        features,
+        bytes: checked(&config, board)?,
+        features: features(&config, model, board),
+        config: any(Box::new(config)),
     })
 }

@@ -21,10 +21,11 @@ pub use fits::Unfit;
 pub use image::{AnyConfig, Image, image};
 pub use linked::{Unlinked, linked};
 pub use module::{GATE, RunsOn, Target, build, bus, decoder, rule_settings};
-pub use numbers::{NoSuchFormat, NumberFormat, in_simulation, on_board};
+pub use numbers::{NoSuchFormat, in_simulation, on_board};
 pub use protecting::Unprotected;
 pub use settling::Unsettled;
 pub use stability::{Instability, Unstable};
+pub use whisking::FormatCode as NumberFormat;
 
 use scene::{PlantKind, Scene};
 use tactile::{ModelBuf, Whisked};
@@ -139,6 +140,20 @@ pub enum Mismatch {
     Config(#[from] firmware::ConfigError),
 }
 
+/// Where a condition that holds for small values ends, from 0 to `high`: at 0 if it never does.
+fn edge(mut high: f64, holds: impl Fn(f64) -> bool) -> f64 {
+    let mut low = 0.0;
+    for _ in 0..60 {
+        let middle = f64::midpoint(low, high);
+        if holds(middle) {
+            low = middle;
+        } else {
+            high = middle;
+        }
+    }
+    low
+}
+
 fn words(whisked: &Whisked) -> String {
     let frequency = whisked.frequency_mhz;
     let frequency = frequency.map(|mhz| format!("at {} Hz", f64::from(mhz) / 1000.0));
@@ -159,11 +174,8 @@ pub fn whisked(scene: &Scene) -> Whisked {
     }
 }
 
-/// Whether a scene whisks as its model was trained, as far as that is known.
-///
-/// # Errors
-/// [`Mismatch::Whisked`]: what the model holds decisions against would be of another motion.
-pub fn whisks_as(scene: &Scene, trained: Whisked) -> Result<(), Mismatch> {
+/// What a model holds decisions against is of the motion that it was trained in.
+fn whisks_as(scene: &Scene, trained: Whisked) -> Result<(), Mismatch> {
     let scene = whisked(scene);
     if trained.differs(&scene) {
         return Err(Mismatch::Whisked { trained, scene });
@@ -211,9 +223,8 @@ pub fn settings(scene: &Scene) -> Option<whisking::Settings> {
     })
 }
 
-/// Whether the scene's integrator can carry it: `exact` can carry any scene,
-/// forward Euler none whose muscles swing up; and its motor can bear its whisking. [`build`] checks
-/// both too.
+/// Whether the scene's integrator can carry it: `exact` can carry any scene, forward Euler none
+/// whose muscles swing up; and its motor can bear its whisking. [`build`] checks both too.
 ///
 /// # Errors
 /// [`Mismatch::Unstable`], [`Mismatch::Unbearable`].
@@ -275,7 +286,7 @@ pub fn contact<R: Real>(
 }
 
 #[cfg(test)]
-mod tests {
+pub(crate) mod tests {
     use super::{RunsOn, Target, Whisked, build, check, contact, contact_min, whisked, whisks_as};
     use firmware::{Config, MotionConfig};
     use scene::Scene;
@@ -308,9 +319,23 @@ tau_s = 0.125
 kind = "ideal"
 "#;
 
+    const PASSIVE: &str = "name=\"p\"\ntick_hz=2000\nduration_s=1\nseed=1\n\
+        [head]\nwhiskers_per_side=1\n[plant]\nkind=\"ideal\"\n";
+
+    /// The scene with these keys, `KEY=VALUE`, in the place of its own.
+    pub(crate) fn scene(keys: &[&str]) -> Scene {
+        let keys = keys.iter().map(|key| key.parse().unwrap());
+        let read = Scene::from_str_with("rcp7.toml", SCENE, &keys.collect::<Vec<_>>());
+        read.unwrap_or_else(|problems| panic!("{problems}")).0
+    }
+
+    pub(crate) fn passive() -> Scene {
+        Scene::from_str("p.toml", PASSIVE).unwrap()
+    }
+
     #[test]
     fn every_value_reaches_its_place_left_side_first() {
-        let scene = Scene::from_str("rcp7.toml", SCENE).unwrap();
+        let scene = scene(&[]);
         let motion = motion(&scene);
         let whiskers = motion.start.whiskers.iter();
         assert!(whiskers.map(|whisker| (whisker.side, whisker.gain)).eq([
@@ -337,7 +362,7 @@ kind = "ideal"
 
     #[test]
     fn guards_are_in_counts_of_the_encoder() {
-        let scene = Scene::from_str("rcp7.toml", SCENE).unwrap();
+        let scene = scene(&[]);
         let guards = motion(&scene).servo.guards;
         let hard = guards.stall.threshold.q15();
         assert_eq!(hard, 16_384, "half of a full duty");
@@ -377,11 +402,11 @@ kind = "ideal"
             (7.5, 1000),
         ] {
             for integrator in ["exact", "euler"] {
-                let text = SCENE
-                    .replace("frequency_hz = 2.0", &format!("frequency_hz = {hz:?}"))
-                    .replace("tick_hz = 2000", &format!("tick_hz = {ticks}"))
-                    .replace("\"exact\"", &format!("\"{integrator}\""));
-                let scene = Scene::from_str("s.toml", &text).unwrap();
+                let scene = scene(&[
+                    &format!("whisking.frequency_hz={hz:?}"),
+                    &format!("tick_hz={ticks}"),
+                    &format!("whisking.integrator={integrator}"),
+                ]);
                 assert_eq!(whisked(&scene).frequency_mhz, Some((hz * 1000.0) as u32));
                 // Forward Euler does not carry all of them.
                 if check(&scene).is_err() {
@@ -396,7 +421,7 @@ kind = "ideal"
 
     #[test]
     fn a_model_that_was_whisked_otherwise_is_refused_in_words() {
-        let scene = Scene::from_str("rcp7.toml", SCENE).unwrap();
+        let scene = scene(&[]);
         let trained = |frequency_mhz, has_rcp| Whisked {
             frequency_mhz,
             has_rcp,
@@ -418,13 +443,13 @@ kind = "ideal"
 
     #[test]
     fn scene_and_model_have_one_gate() {
-        let scene = |contact_min: &str| {
-            let classifier = format!(
-                "[classifier]\nrule = \"window\"\nmodel = \"m\"\nwindow = 20\n{contact_min}"
-            );
-            Scene::from_str("s.toml", &format!("{SCENE}{classifier}")).unwrap()
-        };
-        let (says, silent) = (scene("contact_min = 0.05"), scene(""));
+        let window = [
+            "classifier.rule=window",
+            "classifier.model=m",
+            "classifier.window=20",
+        ];
+        let silent = scene(&window);
+        let says = scene(&[&window[..], &["classifier.contact_min=0.05"]].concat());
         assert_eq!(contact_min(&says, None), Ok(Some(0.05)));
         assert_eq!(contact_min(&says, Some(0.05)), Ok(Some(0.05)));
         assert_eq!(contact_min(&silent, Some(0.25)), Ok(Some(0.25)));
@@ -432,16 +457,12 @@ kind = "ideal"
         let refused = contact_min(&says, Some(0.25)).unwrap_err().to_string();
         assert!(refused.contains("found 0.05; allowed: 0.25"), "{refused}");
         // A scene that is only scored has a classifier all the same.
-        let without = Scene::from_str("rcp7.toml", SCENE).unwrap();
-        assert_eq!(contact_min(&without, Some(0.25)), Ok(Some(0.25)));
+        assert_eq!(contact_min(&scene(&[]), Some(0.25)), Ok(Some(0.25)));
     }
 
     #[test]
     fn what_a_scene_leaves_out_is_none() {
-        let passive = "name=\"p\"\ntick_hz=2000\nduration_s=1\nseed=1\n\
-            [head]\nwhiskers_per_side=1\n[plant]\nkind=\"ideal\"\n";
-        let scene = Scene::from_str("p.toml", passive).unwrap();
-        let config: Config<f32> = build(&scene, BOARD).unwrap();
+        let config: Config<f32> = build(&passive(), BOARD).unwrap();
         assert!(config.motion.is_none() && config.contact.is_none());
         assert!(config.classifier.is_none());
         assert_eq!(config.check(), Ok(()));

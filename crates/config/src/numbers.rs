@@ -1,48 +1,28 @@
 //! Number format of the tick: what `whisking.numbers` comes to where the scene runs.
 
-use std::fmt;
-
 use scene::{Integrator, Numbers, Scene};
-
-/// Number format in which a tick is computed.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum NumberFormat {
-    /// `f32`.
-    Single,
-    /// `f64`; only in simulations.
-    Double,
-    /// [`whisking::Fix`].
-    Fixed,
-}
+use whisking::FormatCode as NumberFormat;
 
 /// A number format that a board does not have.
 ///
 /// It prints as `whisking.numbers: what was found; what is allowed`.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[error("whisking.numbers: found \"{found}\"; allowed on the {board}: {}", self.allowed())]
 pub struct NoSuchFormat {
     found: Numbers,
     board: String,
     has_fpu: bool,
 }
 
-impl fmt::Display for NoSuchFormat {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let (allowed, reason) = match (self.found, self.has_fpu) {
-            (Numbers::Double, true) => {
-                ("\"auto\", \"f32\" or \"fixed\"; ", "f64 is for simulations")
-            }
-            (Numbers::Double, false) => ("\"auto\" or \"fixed\"; ", "f64 is for simulations"),
-            _ => ("\"auto\" or \"fixed\", ", "because it has no FPU"),
-        };
-        write!(
-            f,
-            "whisking.numbers: found \"{}\"; allowed on the {}: {allowed}{reason}",
-            self.found, self.board
-        )
+impl NoSuchFormat {
+    const fn allowed(&self) -> &'static str {
+        match (self.found, self.has_fpu) {
+            (Numbers::Double, true) => "\"auto\", \"f32\" or \"fixed\"; f64 is for simulations",
+            (Numbers::Double, false) => "\"auto\" or \"fixed\"; f64 is for simulations",
+            _ => "\"auto\" or \"fixed\", because it has no FPU",
+        }
     }
 }
-
-impl std::error::Error for NoSuchFormat {}
 
 /// The format of a simulation. `auto` is `f64` for `euler`, whose point is to be
 /// the papers', otherwise `f32`.
@@ -80,19 +60,14 @@ fn given(scene: &Scene) -> Numbers {
 
 #[cfg(test)]
 mod tests {
-    use super::NumberFormat::{Double, Fixed, Single};
-    use super::{NumberFormat, in_simulation, on_board};
+    use super::NumberFormat::{self, Double, Fixed, Single};
+    use super::{in_simulation, on_board};
+    use crate::tests::{passive, scene};
     use scene::Scene;
 
-    const PASSIVE: &str = "name='a'\ntick_hz=2000\nduration_s=1\nseed=1\n\
-                           head.whiskers_per_side=1\nplant.kind='ideal'\n";
-
-    fn scene(integrator: &str, numbers: &str) -> Scene {
-        let text = format!(
-            "{PASSIVE}[whisking]\nfrequency_hz=2\nintegrator='{integrator}'\ncoupling=true\n\
-             noise=0\ngain=1\nstart=[[1, 0], [1, 0]]\nnumbers='{numbers}'\n"
-        );
-        Scene::from_str("s.toml", &text).unwrap()
+    fn of(integrator: &str, numbers: &str) -> Scene {
+        let integrator = format!("whisking.integrator={integrator}");
+        scene(&[&integrator, &format!("whisking.numbers={numbers}")])
     }
 
     #[test]
@@ -104,23 +79,22 @@ mod tests {
             ("euler", "f32", Single),
             ("euler", "fixed", Fixed),
         ] {
-            assert_eq!(in_simulation(&scene(integrator, numbers)), format);
+            assert_eq!(in_simulation(&of(integrator, numbers)), format);
         }
-        let passive = Scene::from_str("s.toml", PASSIVE).unwrap();
-        assert_eq!(in_simulation(&passive), Single);
+        assert_eq!(in_simulation(&passive()), Single);
     }
 
     #[test]
     fn a_board_has_what_its_core_computes() {
         let on = |numbers, has_fpu| -> Result<NumberFormat, String> {
-            on_board(&scene("euler", numbers), "toy", has_fpu).map_err(|error| error.to_string())
+            on_board(&of("euler", numbers), "toy", has_fpu).map_err(|error| error.to_string())
         };
         assert_eq!(
             [true, false].map(|fpu| on("auto", fpu)),
             [Ok(Single), Ok(Fixed)]
         );
         assert_eq!(
-            ["fixed", "f32"].map(|of| on(of, true)),
+            ["fixed", "f32"].map(|numbers| on(numbers, true)),
             [Ok(Fixed), Ok(Single)]
         );
         let no_fpu = "\"auto\" or \"fixed\", because it has no FPU";
@@ -135,7 +109,6 @@ mod tests {
                 format!("whisking.numbers: found \"{numbers}\"; allowed on the toy: {allowed}");
             assert_eq!(on(numbers, has_fpu), Err(expected));
         }
-        let passive = Scene::from_str("s.toml", PASSIVE).unwrap();
-        assert_eq!(on_board(&passive, "toy", false), Ok(Fixed));
+        assert_eq!(on_board(&passive(), "toy", false), Ok(Fixed));
     }
 }

@@ -5,6 +5,11 @@ use std::fmt;
 use whisking::motor::{GuardSettings, ModelConfig};
 use whisking::pd::{self, Unborne};
 
+use crate::edge;
+
+/// More than any gain that is suggested.
+const MOST: f64 = 10.0;
+
 /// A motor that would not settle after a step of its setpoint.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Unsettled {
@@ -89,13 +94,13 @@ pub(crate) fn check(
     let with_kp = |kp| settles(pd::Settings { kp, ..*found }).is_ok();
     let with_kd = |kd| settles(pd::Settings { kd, ..*found });
     // Below the smallest, kp is too large for it; above the largest, it is itself.
-    let least = edge(|kd| with_kd(kd) == Err(Unborne::Kp));
-    let most = edge(|kd| with_kd(kd) != Err(Unborne::Kd));
+    let least = edge(MOST, |kd| with_kd(kd) == Err(Unborne::Kp));
+    let most = edge(MOST, |kd| with_kd(kd) != Err(Unborne::Kd));
     let kd = [least, most];
     Err(Unsettled {
         what,
         found: *found,
-        kp: edge(with_kp),
+        kp: edge(MOST, with_kp),
         kd: with_kd(f64::midpoint(least, most)).is_ok().then_some(kd),
     })
 }
@@ -103,18 +108,4 @@ pub(crate) fn check(
 fn settles(pd: &pd::Settings, model: &ModelConfig<f64>, tick_hz: f64) -> Result<(), Unborne> {
     // Settings out of range were refused before.
     pd.build(tick_hz).map_or(Ok(()), |pd| pd.settles(model))
-}
-
-/// Where a condition that holds for small values ends: at 0 if it never does.
-fn edge(holds: impl Fn(f64) -> bool) -> f64 {
-    let (mut low, mut high) = (0.0, 10.0);
-    for _ in 0..60 {
-        let middle = f64::midpoint(low, high);
-        if holds(middle) {
-            low = middle;
-        } else {
-            high = middle;
-        }
-    }
-    low
 }

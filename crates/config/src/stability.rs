@@ -1,12 +1,10 @@
 //! Scenes that forward Euler cannot carry, or carries badly.
 //!
-//! The papers' integrator is explicit: with too long a tick its oscillators
-//! leave their circle, its muscles swing up, its gates overshoot. The tick's
-//! clamps keep every state in bounds even then. Muscles that swing up no longer
-//! follow the equations, so such a scene is refused. Oscillators and gates that
-//! the clamps hold are still the papers' integrator; they get a warning.
-//! The limits follow from the constants of the tick itself (f64), not from a
-//! second copy of them:
+//! The papers' integrator is explicit: with too long a tick its oscillators leave their circle, its
+//! muscles swing up, its gates overshoot. The tick's clamps keep every state in bounds even then.
+//! Muscles that swing up no longer follow the equations, so such a scene is refused. Oscillators
+//! and gates that the clamps hold are still the papers' integrator; they get a warning. The limits
+//! follow from the constants of the tick itself (f64), not from a second copy of them:
 //!
 //! - *oscillators* (BIOTACT eq. 3): a step takes r to
 //!   √((r + k (1 − r))² + (φ r)²), with k = T/τ_r and φ = 2π f_W T. It leaves
@@ -17,6 +15,9 @@
 //!   multiplies the faster mode by 1 − 10 f_W T (2 + √3), which must stay
 //!   above −1: f_W T < 0.0536.
 //! - *gates* (eqs. 10 and 13): 1 − T/τ must not be negative: τ ≥ T.
+
+#[cfg(test)]
+mod tests;
 
 use std::fmt;
 

@@ -1,6 +1,5 @@
 //! Which program a configuration is made for.
 
-use config::NumberFormat;
 use firmware::boards::{ALL, BoardFacts};
 use firmware::{BoardCode, VERSION};
 use host_sim::Error;
@@ -50,11 +49,6 @@ impl Program {
             None => config::in_simulation(scene),
             Some(facts) => config::on_board(scene, facts.name, facts.has_fpu)
                 .map_err(|fault| Error::Input(fault.to_string()))?,
-        };
-        let format = match format {
-            NumberFormat::Single => FormatCode::Single,
-            NumberFormat::Double => FormatCode::Double,
-            NumberFormat::Fixed => FormatCode::Fixed,
         };
         Ok(Self { board, format })
     }

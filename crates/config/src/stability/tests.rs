@@ -1,24 +1,25 @@
 //! What forward Euler can carry: the limits stand where the product itself, run
 //! on either side of them, starts to misbehave.
 
-use config::{Instability, Mismatch, RunsOn, Target, Unstable, build, cautions, check};
 use firmware::Config;
 use scene::Scene;
 use whisking::oscillator::Psi;
 use whisking::{Integrator, Settings, State};
 
+use crate::{Instability, Mismatch, RunsOn, Target, Unstable, build, cautions, check};
+
 fn scene(frequency_hz: f64, tick_hz: u32, integrator: &str, tau_s: [f64; 2]) -> Scene {
     let [rcp, cia] = tau_s;
-    let text = format!(
-        "name = \"s\"\ntick_hz = {tick_hz}\nduration_s = 1\nseed = 1\n\
-         [head]\nwhiskers_per_side = 1\n\
-         [whisking]\nfrequency_hz = {frequency_hz:?}\nintegrator = \"{integrator}\"\n\
-         coupling = true\nnoise = 0.0\ngain = 1.0\nstart = [[1.0, 0.0], [0.6, 0.5]]\n\
-         [rcp]\ngain = 0.7\ntau_s = {rcp:?}\n[cia]\ngain = 0.5\ntau_s = {cia:?}\n\
-         [plant]\nkind = \"ideal\"\n\
-         [motor]\nkp = 0.005\nkd = 0.0001\n"
-    );
-    Scene::from_str("s.toml", &text).unwrap()
+    crate::tests::scene(&[
+        &format!("whisking.frequency_hz={frequency_hz:?}"),
+        &format!("tick_hz={tick_hz}"),
+        &format!("whisking.integrator={integrator}"),
+        &format!("rcp.tau_s={rcp:?}"),
+        "cia.gain=0.5",
+        &format!("cia.tau_s={cia:?}"),
+        "motor.kp=0.005",
+        "motor.kd=0.0001",
+    ])
 }
 
 /// The only caution about a scene that is taken.
@@ -36,8 +37,7 @@ fn is_clean(scene: &Scene) -> bool {
 }
 
 fn built(scene: &Scene) -> Result<Config<f64>, Mismatch> {
-    let target = Target::of(RunsOn::Board);
-    build(scene, target)
+    build(scene, Target::of(RunsOn::Board))
 }
 
 /// The product with forward Euler, both sides alike, and a whisker each.
@@ -93,8 +93,7 @@ fn the_exact_integrator_carries_everything() {
     }
 }
 
-/// A circle of 1.5 lies at f_W T = 0.0084375: 25 Hz at 2962.96 ticks a second,
-/// 16.875 Hz at 2000.
+/// A circle of 1.5 lies at f_W T = 0.0084375: 25 Hz at 2962.96 ticks a second, 16.875 Hz at 2000.
 #[test]
 fn the_circle_may_touch_the_limit_of_psi_but_not_lie_beyond() {
     assert!(is_clean(&scene(25.0, 2_963, "euler", [1.0; 2])));
@@ -155,8 +154,7 @@ fn swings(cycles: f64) -> bool {
     (0..20_000).any(|_| running.tick().1.abs() > 1e-2)
 }
 
-/// The faster pole meets −1 at f_W T = 2/(10 (2 + √3)) = 0.053590: 25 Hz at
-/// 466.5 ticks a second.
+/// The faster pole meets −1 at f_W T = 2/(10 (2 + √3)) = 0.053590: 25 Hz at 466.5 ticks a second.
 #[test]
 fn muscles_swing_up_beyond_their_pole() {
     let cycles = 0.2 / (2.0 + 3.0_f64.sqrt());
