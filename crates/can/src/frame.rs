@@ -23,17 +23,12 @@ const POLYNOMIAL: u16 = 0x4599;
 
 impl Frame {
     /// The frame of an identifier of eleven bits and up to eight bytes; what is more is cut off.
-    pub const fn new(id: u16, bytes: &[u8]) -> Self {
+    pub fn new(id: u16, bytes: &[u8]) -> Self {
         let mut data = [0; 8];
         let mut length = 0;
-        let (from, _) = bytes.split_at(if bytes.len() < 8 { bytes.len() } else { 8 });
-        let mut rest = from;
-        let mut places: &mut [u8] = &mut data;
-        while let ([byte, more @ ..], [place, other @ ..]) = (rest, places) {
+        for (place, byte) in data.iter_mut().zip(bytes) {
             *place = *byte;
             length += 1;
-            rest = more;
-            places = other;
         }
         Self {
             id: id & 0x7ff,

@@ -114,7 +114,6 @@ const EVIDENCE: u16 = 8;
 
 const JOINED: u8 = 1;
 const ARMED: u8 = 2;
-/// The lowest bit of a round.
 const ROUND: u8 = 2;
 const UNKNOWN: u8 = 0xff;
 

@@ -29,17 +29,13 @@ impl Load {
     /// The word that comes as the `number`-th, from 0: the model, then the configuration from its
     /// third word on, then its second, its first last. Whatever lies there is no configuration
     /// before that is written, so that a deployment which is cut off leaves the scene before.
-    pub const fn word(self, number: u32) -> Option<LoadedWord> {
-        let (model, config) = (self.model as u32, self.config as u32);
+    pub fn word(self, number: u32) -> Option<LoadedWord> {
+        let [model, config] = [self.model, self.config].map(u32::from);
         if number < model {
             return Some(LoadedWord::Model(number as u16));
         }
         let n = number - model;
-        let last = if config < LAST_WORDS {
-            config
-        } else {
-            LAST_WORDS
-        };
+        let last = config.min(LAST_WORDS);
         if n >= config {
             None
         } else if n < config - last {

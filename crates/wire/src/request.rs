@@ -166,82 +166,36 @@ impl Command {
     }
 
     /// The word for it in a [text](crate::text).
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::Hello => "hello",
-            Self::Status => "status",
-            Self::Name(_) => "name",
-            Self::Stream(_) => "stream",
-            Self::Arm => "arm",
-            Self::Stop => "stop",
-            Self::Clear(_) => "clear",
-            Self::Home(_) => "home",
-            Self::Gain(..) => "gain",
-            Self::Setpoint(..) => "setpoint",
-            Self::Release(_) => "release",
-            Self::Version => "version",
-            Self::Model => "model",
-            Self::Config(_) => "config",
-            Self::Scene => "scene",
-            Self::Stage(..) => "stage",
-            Self::Apply(_) => "apply",
-            Self::Forget => "forget",
-            Self::Load(_) => "load",
-            Self::Word(..) => "word",
-            Self::Restart => "restart",
-            Self::Zero(_) => "zero",
-            Self::Board => "board",
-            Self::Class(..) => "class",
-            Self::Frame(_) => "frame",
-            Self::Started => "started",
-            Self::Look(_) => "look",
-        }
+    pub fn name(self) -> &'static str {
+        let name = NAMES.get(usize::from(self.number()));
+        name.copied().unwrap_or_default()
     }
 }
+
+/// The words of commands, by their numbers.
+const NAMES: [&str; 27] = [
+    "hello", "status", "name", "stream", "arm", "stop", "clear", "home", "gain", "setpoint",
+    "release", "version", "model", "config", "stage", "load", "word", "apply", "forget", "restart",
+    "zero", "scene", "board", "class", "frame", "started", "look",
+];
 
 #[cfg(test)]
 pub(crate) mod tests {
     use proptest::prelude::*;
 
-    use super::{Command, Load, WhiskerId};
+    use super::{Command, NAMES};
+    use crate::COMMAND_MOST;
 
+    /// Any command, by its number and any bytes behind it.
     pub(crate) fn commands() -> impl Strategy<Value = Command> {
-        let whisker = any::<(u8, u8)>().prop_map(|(side, number)| WhiskerId { side, number });
-        (0..27_u8, whisker, any::<(i32, u8, u16)>()).prop_map(|(which, whisker, values)| {
-            let (value, byte, half) = values;
-            let word = value.cast_unsigned();
-            match which {
-                0 => Command::Hello,
-                1 => Command::Status,
-                2 => Command::Name(byte),
-                3 => Command::Stream(value > 0),
-                4 => Command::Arm,
-                5 => Command::Stop,
-                6 => Command::Clear(whisker),
-                7 => Command::Home(whisker),
-                8 => Command::Gain(whisker, value),
-                9 => Command::Setpoint(whisker, value),
-                10 => Command::Release(whisker),
-                11 => Command::Version,
-                12 => Command::Model,
-                13 => Command::Config(word),
-                14 => Command::Stage(byte, word),
-                15 => Command::Load(Load {
-                    config: half,
-                    model: byte.into(),
-                }),
-                16 => Command::Word(byte, word),
-                17 => Command::Apply(word),
-                18 => Command::Forget,
-                19 => Command::Restart,
-                20 => Command::Zero(whisker),
-                24 => Command::Frame(whisker),
-                25 => Command::Started,
-                26 => Command::Look(whisker),
-                21 => Command::Scene,
-                22 => Command::Board,
-                _ => Command::Class(byte, whisker.side),
+        let bytes = (0..NAMES.len() as u8, any::<[u8; COMMAND_MOST]>());
+        bytes.prop_filter_map("no command", |(number, mut bytes)| {
+            bytes[0] = number;
+            if number == Command::Stream(true).number() {
+                bytes[1] &= 1;
             }
+            let (command, _) = postcard::take_from_bytes(&bytes).ok()?;
+            Some(command)
         })
     }
 }
