@@ -109,6 +109,6 @@ signed! { i16 i32 }
 /// Every duty is small: only its sign counts.
 impl Bounded for Duty {
     fn lies_within(&self, bound: Bound) -> bool {
-        bound.holds(self.is_reverse(), true)
+        bound.holds(self.q15() < 0, true)
     }
 }

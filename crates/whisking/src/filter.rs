@@ -49,12 +49,10 @@ impl<R: Real> Config<R> {
     /// # Errors
     /// [`Parameter::Corner`] unless 0 < `corner_hz` < `tick_hz`/2.
     pub fn new(corner_hz: f64, tick_hz: f64) -> Result<Self, Error> {
-        let wrong = Error {
-            parameter: Parameter::Corner,
-        };
         let ratio = corner_hz / tick_hz;
         if !(ratio > 0.0 && ratio < 0.5) {
-            return Err(wrong);
+            let parameter = Parameter::Corner;
+            return Err(Error { parameter });
         }
         let g = libm::tan(PI * ratio);
         let a1 = 1.0 / (1.0 + g + g * g);
@@ -83,10 +81,7 @@ impl<R: Real> Config<R> {
         state.second = [next, v2 + rise];
         if !v2.is_within(R::TWO) {
             // Its bits were flipped, or its input was no number.
-            *state = State {
-                first: R::ZERO,
-                second: [R::ZERO; 2],
-            };
+            *state = State::default();
             return R::ZERO;
         }
         v2

@@ -5,8 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::{Integrator, Real};
 
-/// How far contact has raised z of a side above 0, or g of a whisker above its
-/// nominal value.
+/// How far contact has raised z of a side above 0, or g of a whisker above its nominal value.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Gate<R: Real> {
     /// The value that the next tick begins with, not negative.
@@ -55,8 +54,7 @@ pub struct Cia<R: Real> {
     pub gain: R::Coefficient,
 }
 
-/// The fraction that a tick removes, 1 − exp(−T/τ) or its first-order value
-/// T/τ; `ticks` is τ/T.
+/// The fraction that a tick removes, 1 − exp(−T/τ) or its first-order value T/τ; `ticks` is τ/T.
 fn share(ticks: f64, integrator: Integrator) -> f64 {
     match integrator {
         Integrator::Euler => 1.0 / ticks,
@@ -92,8 +90,7 @@ impl<R: Real> Gate<R> {
         }
     }
 
-    /// Decays, but not below `floor`; always within 0..=`top`. A floor of NaN is
-    /// ignored.
+    /// Decays, but not below `floor`; always within 0..=`top`. A floor of NaN is ignored.
     #[inline]
     fn step(&mut self, decay: &Decay<R>, floor: R, top: R) {
         if decay.slow {

@@ -1,10 +1,9 @@
 //! Rat-like whisking: a pattern generator with its muscles and its modulation by
 //! contact, and position control and drivers for the motors.
 //!
-//! Equation numbers are those of BIOTACT (Sullivan et al. 2011), read with the
-//! misprints mended: the mass is m = T_W²/100 (eq. 7), contact lifts the gain
-//! above its nominal value (eq. 12) and the gain returns to it exponentially
-//! (eq. 13).
+//! Equation numbers are those of BIOTACT (Sullivan et al. 2011), read with the misprints mended:
+//! the mass is m = T_W²/100 (eq. 7), contact lifts the gain above its nominal value (eq. 12) and
+//! the gain returns to it exponentially (eq. 13).
 //!
 //! # Glossary
 //!
@@ -35,11 +34,9 @@
 #![cfg_attr(not(test), no_std)]
 
 mod bounded;
-mod elementary;
 mod error;
 pub mod filter;
 pub mod gate;
-mod integrator;
 mod linalg;
 mod list;
 mod math;
@@ -57,11 +54,9 @@ mod step;
 mod voted;
 
 pub use bounded::{Bound, Bounded};
-pub use elementary::Elementary;
 pub use error::{Error, Parameter};
-pub use integrator::Integrator;
 pub use real::{Constant, Factor, FactorRow, Factors, FineFactor, Fix, FormatCode, Real};
-pub use settings::{GateSettings, Settings};
+pub use settings::{GateSettings, Integrator, Settings};
 pub use state::{Side, SideStart, Start, State, WhiskerStart, WhiskerState};
 pub use step::{Config, Number};
 pub use voted::Voted;

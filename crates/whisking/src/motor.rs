@@ -1,12 +1,10 @@
-//! Motor drivers: a signed drive in, switched pins out, faults that keep the
-//! motor off.
+//! Motor drivers: a signed drive in, switched pins out, faults that keep the motor off.
 //!
-//! Two power stages behind one trait, [`MotorDriver`]: a brushed motor on an
-//! H-bridge ([`HBridge`]) and a three-phase brushless motor commutated from
-//! its Hall sensors ([`SixStep`]). The BIOTACT module used the latter: a
-//! Faulhaber 1307BH with an 11:1 gearbox and a custom three-phase bridge
-//! (Sullivan et al. 2011, section II.C). Nothing here names a chip: pins and
-//! timers are embedded-hal 1.0 traits.
+//! Two power stages behind one trait, [`MotorDriver`]: a brushed motor on an H-bridge ([`HBridge`])
+//! and a three-phase brushless motor commutated from its Hall sensors ([`SixStep`]). The BIOTACT
+//! module used the latter: a Faulhaber 1307BH with an 11:1 gearbox and a custom three-phase bridge
+//! (Sullivan et al. 2011, section II.C). Nothing here names a chip: pins and timers are
+//! embedded-hal 1.0 traits.
 //!
 //! Glossary:
 //!
@@ -68,8 +66,7 @@ pub enum Driver {
 pub trait MotorDriver {
     /// Drives with the given duty until the next call.
     ///
-    /// While a fault stands, the outputs are switched off again and the same
-    /// fault is returned.
+    /// While a fault stands, the outputs are switched off again and the same fault is returned.
     ///
     /// # Errors
     /// The fault that stands, or the one just found.
@@ -107,8 +104,7 @@ pub enum Fault {
     Pin,
     /// 2: a PWM channel could not be set.
     Pwm,
-    /// 3 for code 0, 4 for any other: the Hall sensors gave a code that no
-    /// rotor angle has.
+    /// 3 for code 0, 4 for any other: the Hall sensors gave a code that no rotor angle has.
     InvalidHall(u8),
     /// 5: the rotor skipped Hall sectors in too many ticks in succession.
     SkippedSector,
@@ -153,9 +149,8 @@ impl Fault {
         }
     }
 
-    /// The fault with a number, for readers of telemetry; `None` for a number
-    /// not in use. 4 becomes [`Fault::InvalidHall`]`(7)`, the only code it is
-    /// given for in practice.
+    /// The fault with a number, for readers of telemetry; `None` for a number not in use. 4 becomes
+    /// [`Fault::InvalidHall`]`(7)`, the only code it is given for in practice.
     pub const fn from_code(code: u8) -> Option<Self> {
         match code {
             1 => Some(Self::Pin),

@@ -1,21 +1,18 @@
 //! The muscle and mass of one whisker (BIOTACT eqs. 6 to 8).
 //!
-//! m d²θ/dt² = q W − k θ − ν dθ/dt with q = 1.45 (1 − z) g exp(−θ²), k = 1,
-//! m = T_W²/100 and ν = 4 √(k m): natural frequency ω_n = 10 f_W rad/s, damping
-//! ratio 2. With f = W exp(−θ²), the force per gain a = 1.45 (1 − z) g, and
-//! v = (dθ/dt)/ω_n, the equations per tick are θ' = h v, v' = h (a f − θ − 4 v)
-//! with h = ω_n T: linear in (θ, v) with input a f, and every state is near one.
+//! m d²θ/dt² = q W − k θ − ν dθ/dt with q = 1.45 (1 − z) g exp(−θ²), k = 1, m = T_W²/100 and ν = 4
+//! √(k m): natural frequency ω_n = 10 f_W rad/s, damping ratio 2. With f = W exp(−θ²), the force
+//! per gain a = 1.45 (1 − z) g, and v = (dθ/dt)/ω_n, the equations per tick are θ' = h v, v' = h (a
+//! f − θ − 4 v) with h = ω_n T: linear in (θ, v) with input a f, and every state is near one.
 //!
 //! There are two integrators: [`Euler`] is the papers', step for step; [`Exact`]
 //! propagates the linear part exactly.
 
-mod config;
 mod euler;
 mod exact;
 #[cfg(test)]
 mod tests;
 
-pub use config::Config;
 pub use euler::Euler;
 pub use exact::{Exact, Lag};
 
@@ -84,5 +81,33 @@ impl<R: Real> State<R> {
     /// fast lag with [`Exact`]. For checks of its bounds.
     pub const fn kept(&self) -> [R; 2] {
         self.kept
+    }
+}
+
+/// An integrator chosen at run time, with its constants.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(bound = "")]
+pub enum Config<R: Real> {
+    /// Forward Euler.
+    Euler(Euler<R>),
+    /// Exact linear part, fifth-order exponential multistep.
+    Exact(Exact<R>),
+}
+
+impl<R: Real> Config<R> {
+    /// One tick of one whisker: `gain` is 1.45 (1 − z) g, 0 to 2.9; `before` and
+    /// `after` are the drive W at the two ends of the tick.
+    ///
+    /// The force is between 0 and 1, and both integrators are bounded for bounded
+    /// forces: with the drives of an oscillator from the start on, |θ| stays below
+    /// 2.5 and the rest of the state below 5, at any f_W T and for any gains.
+    #[inline]
+    pub fn step(&self, state: &mut State<R>, gain: R, before: R, after: R) {
+        match self {
+            Self::Euler(euler) if cfg!(feature = "euler") => euler.step(state, gain, before),
+            Self::Exact(exact) if cfg!(feature = "exact") => exact.step(state, gain, after),
+            // The program cannot compute it: the whisker rests.
+            Self::Euler(_) | Self::Exact(_) => {}
+        }
     }
 }

@@ -1,9 +1,8 @@
 //! The two coupled oscillators (BIOTACT eqs. 1 to 5).
 //!
-//! In Cartesian form dψ_i/dt = ((1 − r)/(τ_r r)) ψ_i + ω J ψ_i + (ψ_j1 − ψ_i1, 0)/τ_11
-//! with ω = 2π f_W, J = (0, −1; 1, 0) and τ_r = τ_11 = 2 T_W, which needs no
-//! angle, sine or cosine in the tick. At the origin, where eq. 3 has no direction, the radial
-//! force pushes along +ψ_1.
+//! In Cartesian form dψ_i/dt = ((1 − r)/(τ_r r)) ψ_i + ω J ψ_i + (ψ_j1 − ψ_i1, 0)/τ_11 with ω = 2π
+//! f_W, J = (0, −1; 1, 0) and τ_r = τ_11 = 2 T_W, which needs no angle, sine or cosine in the tick.
+//! At the origin, where eq. 3 has no direction, the radial force pushes along +ψ_1.
 //!
 //! There are two integrators: [`Euler`] is the papers', step for step; [`Exact`]
 //! composes parts that are each solved exactly.

@@ -1,8 +1,19 @@
 //! Settings in physical units, and their check.
 
+use serde::{Deserialize, Serialize};
+
 use crate::step::Config;
-use crate::{Error, Integrator, Parameter, Real};
+use crate::{Error, Parameter, Real};
 use crate::{gate, muscle, noise, oscillator, ranges};
+
+/// How oscillators, muscles and gates are stepped.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Integrator {
+    /// The papers' forward Euler, step for step.
+    Euler,
+    /// Structure preserving: exact linear parts, exact decays, fourth-order muscle.
+    Exact,
+}
 
 /// Gain and time constant of a modulation by contact.
 #[derive(Debug, Clone, Copy, PartialEq)]

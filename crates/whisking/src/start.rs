@@ -1,5 +1,4 @@
-//! The start of a run: the given ψ, whiskers at rest, and a past for the
-//! multistep integrator.
+//! The start of a run: the given ψ, whiskers at rest, and a past for the multistep integrator.
 //!
 //! A multistep method needs forces from before the start. The quartic through
 //! the first five forces of the run, computed from the same equations in fine

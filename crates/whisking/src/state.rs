@@ -80,26 +80,6 @@ pub struct State<R: Real> {
     pub(crate) noise: noise::State<R>,
 }
 
-impl<R: Real> From<&SideStart<R>> for Side<R> {
-    fn from(start: &SideStart<R>) -> Self {
-        Self {
-            z: Gate::default(),
-            drive: start.drive,
-        }
-    }
-}
-
-impl<R: Real> From<&WhiskerStart<R>> for WhiskerState<R> {
-    fn from(start: &WhiskerStart<R>) -> Self {
-        Self {
-            side: start.side,
-            muscle: muscle::State::new(start.history),
-            lift: Gate::default(),
-            nominal: Voted::new(start.gain),
-        }
-    }
-}
-
 impl<R: Real> WhiskerState<R> {
     /// Nominal value of g, 0 to 2; 1 should all that is kept of it be lost.
     #[inline]
@@ -126,25 +106,26 @@ impl<R: Real> WhiskerState<R> {
 impl<R: Real> State<R> {
     /// A module at its start. `seed` determines the noise.
     pub fn new(start: &Start<R>, seed: u64) -> Self {
-        Self::of(start, &start.whiskers, seed)
+        Self::of_some(start, 0..start.whiskers.len(), seed)
     }
 
     /// The same with only some of the whiskers; none where there are not so many.
     pub fn of_some(start: &Start<R>, whiskers: Range<usize>, seed: u64) -> Self {
-        Self::of(
-            start,
-            start.whiskers.get(whiskers).unwrap_or_default(),
-            seed,
-        )
-    }
-
-    fn of(start: &Start<R>, whiskers: &[WhiskerStart<R>], seed: u64) -> Self {
+        let whiskers = start.whiskers.get(whiskers).unwrap_or_default();
         let kept: Vec<Psi<R>, MAX_SIDES> = listed(start.sides.iter().map(|side| side.oscillator));
         Self {
             noise: noise::State::new(kept.len(), seed),
             oscillators: oscillator::State::new(kept),
-            sides: listed(start.sides.iter().map(Side::from)),
-            whiskers: listed(whiskers.iter().map(WhiskerState::from)),
+            sides: listed(start.sides.iter().map(|start| Side {
+                z: Gate::default(),
+                drive: start.drive,
+            })),
+            whiskers: listed(whiskers.iter().map(|start| WhiskerState {
+                side: start.side,
+                muscle: muscle::State::new(start.history),
+                lift: Gate::default(),
+                nominal: Voted::new(start.gain),
+            })),
         }
     }
 

@@ -5,8 +5,7 @@
 //! of some forty instructions; there the same numbers, to the last bit, are
 //! composed from products of halves. A tick has more than twenty such products.
 
-/// Whether the processor is a Cortex-M0+: the only supported one without atomic
-/// exchange.
+/// Whether the processor is a Cortex-M0+: the only supported one without atomic exchange.
 const IS_SMALL: bool = cfg!(all(target_arch = "arm", not(target_has_atomic = "32")));
 
 /// ⌊x y / 2^16⌋.
@@ -30,7 +29,7 @@ pub(crate) const fn scaled<const DOWN: u32>(x: i32, y: i16) -> i32 {
 #[inline]
 pub(crate) const fn high(x: i32, y: i32) -> i32 {
     if IS_SMALL {
-        high_in_parts(x, y)
+        sum_of_parts(x, y, 0)
     } else {
         ((x as i64 * y as i64) >> 32) as i32
     }
@@ -39,19 +38,14 @@ pub(crate) const fn high(x: i32, y: i32) -> i32 {
 /// x y / 2^32 for `y` without its lower half, to the nearest, halves upwards.
 #[inline]
 pub(crate) const fn by_top(x: i32, y: i32) -> i32 {
-    let y = y & !0xFFFF;
-    if IS_SMALL {
-        high_rounded_in_parts(x, y)
-    } else {
-        ((x as i64 * y as i64 + (1 << 31)) >> 32) as i32
-    }
+    high_rounded(x, y & !0xFFFF)
 }
 
-/// x y / 2^32, to the nearest, halves upwards, for |y| ≤ 2^30.
+/// x y / 2^32, to the nearest, halves upwards, for |y| ≤ 2^30, or without its lower half.
 #[inline]
 pub(crate) const fn high_rounded(x: i32, y: i32) -> i32 {
     if IS_SMALL {
-        high_rounded_in_parts(x, y)
+        sum_of_parts(x, y, 1 << 15)
     } else {
         ((x as i64 * y as i64 + (1 << 31)) >> 32) as i32
     }
@@ -61,16 +55,6 @@ pub(crate) const fn high_rounded(x: i32, y: i32) -> i32 {
 const fn scaled_in_parts<const DOWN: u32>(x: i32, y: i16) -> i32 {
     let y = y as i32;
     (((x >> 16) * y) << (16 - DOWN)).wrapping_add(((x & 0xFFFF) * y) >> DOWN)
-}
-
-#[inline]
-const fn high_in_parts(x: i32, y: i32) -> i32 {
-    sum_of_parts(x, y, 0)
-}
-
-#[inline]
-const fn high_rounded_in_parts(x: i32, y: i32) -> i32 {
-    sum_of_parts(x, y, 1 << 15)
 }
 
 /// ⌊x y / 2^32 + `more` / 2^16⌋.
@@ -86,10 +70,7 @@ const fn sum_of_parts(x: i32, y: i32, more: i32) -> i32 {
 
 #[cfg(test)]
 mod tests {
-    use super::{
-        by_half, by_top, high, high_in_parts, high_rounded, high_rounded_in_parts, scaled,
-        scaled_in_parts,
-    };
+    use super::{by_half, by_top, high, high_rounded, scaled, scaled_in_parts, sum_of_parts};
     use proptest::prelude::*;
 
     const EDGES: [i32; 9] = [
@@ -105,15 +86,16 @@ mod tests {
     ];
 
     fn same(x: i32, y: i32) {
-        assert_eq!(high_in_parts(x, y), high(x, y), "{x} {y}");
+        let rounded_in_parts = |y| sum_of_parts(x, y, 1 << 15);
+        assert_eq!(sum_of_parts(x, y, 0), high(x, y), "{x} {y}");
         let few = y.clamp(-(1 << 30), 1 << 30);
         let rounded = high_rounded(x, few);
-        assert_eq!(high_rounded_in_parts(x, few), rounded, "{x} {few}");
+        assert_eq!(rounded_in_parts(few), rounded, "{x} {few}");
         assert!(
             (f64::from(x) * f64::from(few) / 4_294_967_296.0 - f64::from(rounded)).abs() <= 0.5
         );
         let top = y & !0xFFFF;
-        assert_eq!(high_rounded_in_parts(x, top), by_top(x, y), "{x} {y}");
+        assert_eq!(rounded_in_parts(top), by_top(x, y), "{x} {y}");
         let y = y as i16;
         assert_eq!(scaled_in_parts::<16>(x, y), by_half(x, y), "{x} {y}");
         let x = x >> 3;

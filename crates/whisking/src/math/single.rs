@@ -1,8 +1,7 @@
 //! Elementary functions in single precision.
 //!
-//! They use additions, multiplications and one division in a fixed order, so
-//! that a PC and a microcontroller give the same bits. `fit/minimax.py` prints
-//! the coefficients.
+//! They use additions, multiplications and one division in a fixed order, so that a PC and a
+//! microcontroller give the same bits. `fit/minimax.py` prints the coefficients.
 
 /// tanh(2x)/2 ≈ x P(x²)/Q(x²), |x| ≤ 1.5.
 const TANH_P: [f32; 3] = [0.999_999_9, 0.477_403_25, 0.029_635_241];

@@ -7,10 +7,9 @@
 //! - Hall sensor k is high while the rotor's magnet is within 90° of axis k,
 //!   so a forward rotor shows the codes 1, 3, 2, 6, 4, 5 (bit 0 is sensor 1).
 //!
-//! Sector s then covers 60 s° ± 30°, and driving the field at 60 s° + 90°
-//! leads the rotor by 60° to 120° throughout: torque within sin 60° = 87 % of
-//! its peak, in the direction of the duty. Reverse drive exchanges the two
-//! phases, which turns the field by 180° and so lags by as much.
+//! Sector s then covers 60 s° ± 30°, and driving the field at 60 s° + 90° leads the rotor by 60° to
+//! 120° throughout: torque within sin 60° = 87 % of its peak, in the direction of the duty. Reverse
+//! drive exchanges the two phases, which turns the field by 180° and so lags by as much.
 //!
 //! A motor's own lettering of windings and sensors may differ; its wiring must
 //! be brought to this convention (the 1307BH's has not been verified).

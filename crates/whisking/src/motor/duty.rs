@@ -38,8 +38,7 @@ impl Duty {
         }
     }
 
-    /// From a fraction of full drive in Q24, −2^24 to 2^24: the step below or the
-    /// nearest.
+    /// From a fraction of full drive in Q24, −2^24 to 2^24: the step below or the nearest.
     #[inline]
     pub(crate) const fn from_q24(fraction: i32) -> Self {
         // Full drive is 32767 steps of 2^9 and not 32768: 2^24 (1 − 2^-15).
@@ -76,12 +75,6 @@ impl Duty {
     #[inline]
     pub const fn is_forward(self) -> bool {
         self.0 > 0
-    }
-
-    /// Whether it drives towards retraction. False for zero.
-    #[inline]
-    pub const fn is_reverse(self) -> bool {
-        self.0 < 0
     }
 
     /// The magnitude in counts of a PWM timer: `magnitude · max / 32767`

@@ -86,9 +86,7 @@ impl GuardSettings {
             heat_shift: libm::round(libm::log2(WINDING_S * tick_hz)).clamp(0.0, 31.0) as u8,
         }
     }
-}
 
-impl GuardSettings {
     /// Counts to which no motor comes in the tick after one in which it stood: [`FASTER`] a/f²,
     /// with the acceleration a that full duty comes to, at f ticks a second, and [`FLICKERS`].
     fn leap(&self, tick_hz: f64) -> u32 {
@@ -127,8 +125,7 @@ pub struct GuardConfig<R: Real> {
     pub heat_shift: u8,
 }
 
-/// What the guards of a motor remember while it runs. The default is that of a motor that was
-/// off.
+/// What the guards of a motor remember while it runs. The default is that of a motor that was off.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Guards<R> {
     expected: Expected<R>,

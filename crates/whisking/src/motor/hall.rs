@@ -14,12 +14,11 @@ use super::{Fault, Sector};
 /// | 2, 4 | +2, −2; a skip |
 /// | 3 | ±3 the way it last moved; a skip, and a wrong guess leaves the count 6 off |
 ///
-/// `skip_limit` skips in succession are a fault. With a limit of N a steady
-/// rotor passes below 2 − 1/N sectors per tick and is caught above; from 5 on the
-/// codes look like slow motion the other way, but a motor must run up through
-/// the speeds between. With one pole pair at 2000 Hz, one sector per tick is
-/// 20 000 turns per minute, and the default N = 4 allows 35 000. A 10 Hz whisk of
-/// ±50° through an 11:1 gear needs at most 5 800 (0.29 sectors per tick).
+/// `skip_limit` skips in succession are a fault. With a limit of N a steady rotor passes below
+/// 2 − 1/N sectors per tick and is caught above; from 5 on the codes look like slow motion the
+/// other way, but a motor must run up through the speeds between. With one pole pair at 2000 Hz,
+/// one sector per tick is 20 000 turns per minute, and the default N = 4 allows 35 000. A 10 Hz
+/// whisk of ±50° through an 11:1 gear needs at most 5 800 (0.29 sectors per tick).
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct HallTracker {
     skip_limit: u8,
@@ -30,8 +29,7 @@ pub struct HallTracker {
 }
 
 impl HallTracker {
-    /// A tracker at count zero that faults at `skip_limit` skips in
-    /// succession; 0 is taken as 1.
+    /// A tracker at count zero that faults at `skip_limit` skips in succession; 0 is taken as 1.
     pub const fn new(skip_limit: u8) -> Self {
         Self {
             skip_limit,

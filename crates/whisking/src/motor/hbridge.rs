@@ -9,9 +9,8 @@ use super::{Duty, Fault, MotorDriver, set_pwm, zero_pwm};
 /// pin its sign (high is protraction). The input pair is called PH/EN or
 /// DIR/PWM in data sheets; IN1/IN2 bridges are not of this kind.
 ///
-/// At a change of direction the PWM goes to zero first, then the pin changes,
-/// then the new duty is set, so that the old duty never acts in the new
-/// direction. A zero duty leaves the pin as it is.
+/// At a change of direction the PWM goes to zero first, then the pin changes, then the new duty is
+/// set, so that the old duty never acts in the new direction. A zero duty leaves the pin as it is.
 ///
 /// With a buffered PWM (see the [module](super)) that order is not enough: the
 /// zero would take effect after the pin has changed. Use

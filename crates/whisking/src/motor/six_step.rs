@@ -1,9 +1,8 @@
 //! A three-phase brushless motor in six steps, commutated from Hall sensors.
 //!
-//! For a power stage like ST's L6230: per phase an input IN (high connects the
-//! phase to the supply, low to ground) and an enable EN (low floats it). The
-//! stage itself must keep its two switches from conducting together and must
-//! tolerate a duty of 100 %, as a stage with a charge pump does.
+//! For a power stage like ST's L6230: per phase an input IN (high connects the phase to the supply,
+//! low to ground) and an enable EN (low floats it). The stage itself must keep its two switches
+//! from conducting together and must tolerate a duty of 100 %, as a stage with a charge pump does.
 //!
 //! Of the driven pair the high phase carries the PWM and the low phase is tied
 //! to ground, so the current circulates through the low switches between
@@ -26,8 +25,7 @@ pub struct SixStepConfig {
 }
 
 impl SixStepConfig {
-    /// For the BIOTACT motor (Faulhaber 1307BH) at 2000 Hz. One pole pair is
-    /// assumed, not verified.
+    /// For the BIOTACT motor (Faulhaber 1307BH) at 2000 Hz. One pole pair is assumed, not verified.
     pub const DEFAULT: Self = Self {
         skip_limit: 4,
         stall: StallConfig::DEFAULT,
@@ -42,9 +40,8 @@ impl SixStepConfig {
 /// lead of 60° to 120° holds at the tick; until the next one it falls by the
 /// angle turned, so torque drops as the speed nears one sector per tick.
 ///
-/// When the step changes, phases that change role are floated first, then their
-/// inputs change, then the enables rise: no intermediate pattern drives. A
-/// duty of zero keeps the last direction.
+/// When the step changes, phases that change role are floated first, then their inputs change, then
+/// the enables rise: no intermediate pattern drives. A duty of zero keeps the last direction.
 #[derive(Debug)]
 pub struct SixStep<PWM, EN, HALL> {
     pwms: [PWM; 3],
@@ -95,10 +92,9 @@ impl<PWM: SetDutyCycle, EN: OutputPin, HALL: InputPin> SixStep<PWM, EN, HALL> {
         motor
     }
 
-    /// For PWMs whose duty takes effect only at their next period. Where a
-    /// phase would go from high straight to low (a reversal, or a skipped
-    /// sector) its old duty would act in the new step for up to a period; the
-    /// motor coasts for one tick instead. The period must not exceed the tick.
+    /// For PWMs whose duty takes effect only at their next period. Where a phase would go from high
+    /// straight to low (a reversal, or a skipped sector) its old duty would act in the new step for
+    /// up to a period; the motor coasts for one tick instead. The period must not exceed the tick.
     #[must_use]
     pub fn with_buffered_pwm(mut self) -> Self {
         self.buffered = true;
@@ -232,8 +228,7 @@ impl<PWM: SetDutyCycle, EN: OutputPin, HALL: InputPin> SixStep<PWM, EN, HALL> {
 }
 
 impl<PWM: SetDutyCycle, EN: OutputPin, HALL: InputPin> MotorDriver for SixStep<PWM, EN, HALL> {
-    /// As in the trait; the count goes on while a fault stands, as far as the
-    /// sensors allow.
+    /// As in the trait; the count goes on while a fault stands, as far as the sensors allow.
     #[inline]
     fn drive(&mut self, duty: Duty) -> Result<(), Fault> {
         if let SixStepState::Faulted { fault } = self.state {

@@ -1,16 +1,14 @@
 //! An integrator that propagates the linear part exactly, and the force by an
 //! exponential multistep method.
 //!
-//! With damping ratio 2 both poles are real, −(2 ∓ √3) ω_n, and the muscle is
-//! the weighted sum of two *lags* that follow the same push a f, a slow one and
-//! a fast one: dy/dt = λ (a f − y), θ = y_slow + c (y_slow − y_fast) with
-//! c = 1/√3 − 1/2. A lag needs no matrix, its equilibrium is the push however
-//! its constants are rounded, and because 0 ≤ f ≤ 1 it cannot grow.
+//! With damping ratio 2 both poles are real, −(2 ∓ √3) ω_n, and the muscle is the weighted sum of
+//! two *lags* that follow the same push a f, a slow one and a fast one: dy/dt = λ (a f − y),
+//! θ = y_slow + c (y_slow − y_fast) with c = 1/√3 − 1/2. A lag needs no matrix, its equilibrium is the
+//! push however its constants are rounded, and because 0 ≤ f ≤ 1 it cannot grow.
 //!
-//! f is interpolated by the quartic through its last values: an exponential
-//! Adams method of fifth order, predicted and corrected once, with one
-//! exponential and one drive per tick. The gain is applied after the differences
-//! are taken, so that a jump of z or g does not enter the history.
+//! f is interpolated by the quartic through its last values: an exponential Adams method of fifth
+//! order, predicted and corrected once, with one exponential and one drive per tick. The gain is
+//! applied after the differences are taken, so that a jump of z or g does not enter the history.
 
 use serde::{Deserialize, Serialize};
 
@@ -43,12 +41,6 @@ pub struct Lag<R: Real> {
     pub correct: R::Coefficient,
 }
 
-/// More than |θ| ever is.
-#[inline]
-fn most<R: Real>() -> R {
-    R::TWO + R::ONE.halved()
-}
-
 impl<R: Real> Lag<R> {
     /// For λ T = `rate`.
     pub(super) fn new(rate: f64) -> Self {
@@ -61,8 +53,7 @@ impl<R: Real> Lag<R> {
         }
         let [response, ..] = exponential(&a);
         let [_, _, power1, power2, power3, power4] = response;
-        // Newton's basis s, s(s+1)/2, s(s+1)(s+2)/6, s(s+1)(s+2)(s+3)/24 in
-        // powers s^k/k!.
+        // Newton's basis s, s(s+1)/2, s(s+1)(s+2)/6, s(s+1)(s+2)(s+3)/24 in powers s^k/k!.
         Self {
             decay: R::fine(-libm::expm1(-rate)),
             predict: R::row([
@@ -90,8 +81,7 @@ impl<R: Real> Exact<R> {
         slow + (slow - fast).times(self.lead)
     }
 
-    /// One tick with the gain of [`Config::step`](super::Config::step) and the drive W at its
-    /// end.
+    /// One tick with the gain of [`Config::step`](super::Config::step) and the drive W at its end.
     #[inline]
     pub fn step(&self, state: &mut State<R>, gain: R, drive: R) {
         let [f, d1, d2, d3] = state.history.force;
@@ -101,8 +91,7 @@ impl<R: Real> Exact<R> {
         let predicted = self.theta([0, 1].map(|i| state.kept[i] + (way[i] + bends[i].rough(gain))));
         let force = super::force(drive, predicted);
         let n1 = force - f;
-        // With fewer than ten ticks per whisk a jump of the gain can make these
-        // as large as eight.
+        // With fewer than ten ticks per whisk a jump of the gain can make these as large as eight.
         let n2 = (n1 - d1).within_half();
         let n3 = (n2 - d2).within_half();
         // The weight comes before the gain: the difference alone may be large.
@@ -114,7 +103,8 @@ impl<R: Real> Exact<R> {
         slow_lag.accumulate(&mut state.carry, slow);
         *fast_lag = *fast_lag + fast;
         state.theta = self.theta(state.kept);
-        if !state.theta.is_within(most::<R>()) {
+        // More than |θ| ever is.
+        if !state.theta.is_within(R::TWO + R::ONE.halved()) {
             // Its bits were flipped. The history is bounded, and forgets by itself.
             *state = State::default();
         }

@@ -17,9 +17,8 @@ pub enum Config<R: Real> {
 }
 
 impl<R: Real> Config<R> {
-    /// One tick. `noise` is T P_i (eq. 5) of each side; each state is limited to ±1.5
-    /// afterwards. From a state that no tick leads to, NaN included, all sides begin
-    /// again together.
+    /// One tick. `noise` is T P_i (eq. 5) of each side; each state is limited to ±1.5 afterwards.
+    /// From a state that no tick leads to, NaN included, all sides begin again together.
     #[inline]
     pub fn step(&self, state: &mut State<R>, noise: Option<&[Psi<R>]>) {
         match self {

@@ -6,10 +6,9 @@
 //!   rotates, the difference rotates and decays (a 2 × 2 exponential).
 //! - *R*: the radial relaxation of each side, r → 1 + (r − 1) exp(−T/τ_r).
 //!
-//! A tick is the symmetric product L½ R L½. Because the last half of L meets the
-//! first half of the next tick, the integrator keeps χ = L½⁻¹ ψ, as modes: a tick
-//! takes it to R L χ, and ψ = L½ χ is computed on demand. Without noise the limit
-//! cycle has radius one, to rounding, at any f_W T.
+//! A tick is the symmetric product L½ R L½. Because the last half of L meets the first half of the
+//! next tick, the integrator keeps χ = L½⁻¹ ψ, as modes: a tick takes it to R L χ, and ψ = L½ χ is
+//! computed on demand. Without noise the limit cycle has radius one, to rounding, at any f_W T.
 
 use heapless::Vec;
 use serde::{Deserialize, Serialize};
@@ -79,17 +78,11 @@ fn dot<R: Real>(a: Psi<R>, b: Psi<R>) -> R {
     a[0] * b[0] + a[1] * b[1]
 }
 
-/// How far r² may be from 1 for [`excess`]: 1/16.
+/// How far r² may be from 1 for the share (r − 1)/r by which a radius exceeds one to be a
+/// polynomial in r² − 1: 1/16.
 #[inline]
 fn near_circle<R: Real>() -> R {
     R::ONE.halved().halved().halved().halved()
-}
-
-/// The share (r − 1)/r by which a radius exceeds one, of `x` = r² − 1 within
-/// ±[`near_circle`].
-#[inline]
-fn excess<R: Real>(x: R) -> R {
-    x.one_minus_inv_sqrt()
 }
 
 #[inline]
@@ -143,17 +136,13 @@ fn growths(cycles: f64, coupling: bool, ticks: f64) -> [Matrix<2>; 2] {
     } else {
         0.0
     };
-    [grown(omega, 0.0, ticks), grown(omega, couple, ticks)]
-}
-
-/// exp(A t) − 1 of the linear field on the mean (`couple` 0) or the difference
-/// (`couple` 2 T/τ_11), `ticks` long.
-fn grown(omega: f64, couple: f64, ticks: f64) -> Matrix<2> {
-    let mut m = exponential(&scaled(&[[-couple, -omega], [omega, 0.0]], ticks));
-    for (x, one) in m.iter_mut().flatten().zip(identity::<2>().iter().flatten()) {
-        *x -= one;
-    }
-    m
+    [0.0, couple].map(|couple| {
+        let mut m = exponential(&scaled(&[[-couple, -omega], [omega, 0.0]], ticks));
+        for (x, one) in m.iter_mut().flatten().zip(identity::<2>().iter().flatten()) {
+            *x -= one;
+        }
+        m
+    })
 }
 
 impl<R: Real, const S: usize> Sides<'_, R, S> {
@@ -194,10 +183,9 @@ impl<R: Real> Exact<R> {
     /// The change by R at `modes` plus `linear`, if every side is near the circle; a state
     /// that is no number, or so large that its square wraps around, is not.
     ///
-    /// The sides are m ± d, and their r² − 1 is e ± 2 m d with e = m² + d² − 1.
-    /// Removing a share h_l of the left and h_r of the right side removes
-    /// (h_l + h_r) m + (h_l − h_r) d from their sum, and the same with m and d
-    /// exchanged from their difference.
+    /// The sides are m ± d, and their r² − 1 is e ± 2 m d with e = m² + d² − 1. Removing a share
+    /// h_l of the left and h_r of the right side removes (h_l + h_r) m + (h_l − h_r) d from their
+    /// sum, and the same with m and d exchanged from their difference.
     #[inline]
     fn near<const S: usize>(
         &self,
@@ -213,7 +201,7 @@ impl<R: Real> Exact<R> {
             if !(near && R::multiplies(modes)) {
                 return None;
             }
-            let (left, right) = (excess(same + cross), excess(same - cross));
+            let [left, right] = [same + cross, same - cross].map(R::one_minus_inv_sqrt);
             let (along, across) = (left + right, left - right);
             for k in 0..2 {
                 on_m[k] = on_m[k] - self.half_pull(along, m[k], across, d[k]);
@@ -225,7 +213,7 @@ impl<R: Real> Exact<R> {
                 if !(e.is_within(near_circle()) && R::multiplies(modes)) {
                     return None;
                 }
-                let along = excess(e);
+                let along = e.one_minus_inv_sqrt();
                 for k in 0..2 {
                     change[k] = change[k] - along.rough(psi[k]).times_fine(self.relax);
                 }

@@ -94,12 +94,6 @@ fn phase_difference_decays_with_two_whisk_periods() {
 }
 
 #[test]
-fn euler_sits_outside_the_circle() {
-    let left = radius(Running::<f64, 2>::euler(5e-3, [[1.0, 0.0]; 2]).run(20_000)[0]);
-    assert!((left - 1.25).abs() < 0.01, "10 Hz at 2 kHz: {left}");
-}
-
-#[test]
 fn the_origin_is_left_along_protraction_in_every_format() {
     fn check<R: Real>() {
         for mut running in [

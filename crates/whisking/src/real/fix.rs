@@ -18,7 +18,6 @@ use factor::{FRACTION, SATURATED};
 pub use factor::{Factor, Factors, FineFactor};
 
 use super::{FormatCode, Real};
-use crate::Elementary;
 use crate::math::fixed;
 use crate::math::product::{by_top, high_rounded};
 
@@ -191,6 +190,26 @@ impl Real for Fix {
         *carry = left;
         self.0 = self.0.wrapping_sub(step);
     }
+
+    #[inline]
+    fn half_tanh(self) -> Self {
+        Self(fixed::half_tanh(self.0))
+    }
+
+    #[inline]
+    fn exp_neg_square(self) -> Self {
+        Self(fixed::exp_neg_square(self.0))
+    }
+
+    #[inline]
+    fn one_minus_inv_sqrt(self) -> Self {
+        Self(fixed::one_minus_inv_sqrt(self.0))
+    }
+
+    #[inline]
+    fn unit(x: Self, y: Self) -> Option<[Self; 2]> {
+        Some(fixed::unit(x.0, y.0)?.map(Self))
+    }
 }
 
 /// `value` times 2^`fraction`, rounded half away from zero, limited to what fits; 0 of no number.
@@ -221,27 +240,5 @@ fn fixed_point(value: f32, fraction: u32) -> i32 {
         magnitude.wrapping_neg().cast_signed()
     } else {
         magnitude.cast_signed()
-    }
-}
-
-impl Elementary for Fix {
-    #[inline]
-    fn half_tanh(self) -> Self {
-        Self(fixed::half_tanh(self.0))
-    }
-
-    #[inline]
-    fn exp_neg_square(self) -> Self {
-        Self(fixed::exp_neg_square(self.0))
-    }
-
-    #[inline]
-    fn one_minus_inv_sqrt(self) -> Self {
-        Self(fixed::one_minus_inv_sqrt(self.0))
-    }
-
-    #[inline]
-    fn unit(x: Self, y: Self) -> Option<[Self; 2]> {
-        Some(fixed::unit(x.0, y.0)?.map(Self))
     }
 }

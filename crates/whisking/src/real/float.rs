@@ -1,7 +1,6 @@
 //! f32 and f64 as number formats of the tick.
 
 use super::{FactorRow, FormatCode, Real};
-use crate::Elementary;
 use crate::math::single;
 
 /// Squared length below which a vector has no direction.
@@ -130,18 +129,7 @@ macro_rules! float {
 impl Real for f32 {
     const FORMAT: FormatCode = FormatCode::Single;
     float!(f32);
-}
 
-#[allow(
-    clippy::cast_lossless,
-    reason = "one macro serves both widths; integers are exact in the wider"
-)]
-impl Real for f64 {
-    const FORMAT: FormatCode = FormatCode::Double;
-    float!(f64);
-}
-
-impl Elementary for f32 {
     #[inline]
     fn half_tanh(self) -> Self {
         single::half_tanh(self)
@@ -167,7 +155,14 @@ impl Elementary for f32 {
     }
 }
 
-impl Elementary for f64 {
+#[allow(
+    clippy::cast_lossless,
+    reason = "one macro serves both widths; integers are exact in the wider"
+)]
+impl Real for f64 {
+    const FORMAT: FormatCode = FormatCode::Double;
+    float!(f64);
+
     #[inline]
     fn half_tanh(self) -> Self {
         0.5 * libm::tanh(2.0 * self)

@@ -14,7 +14,6 @@ use crate::{
 
 const TICK_HZ: f64 = 500.0;
 const HZ: f64 = 4.0;
-/// Ticks of a whisk.
 const WHISK: usize = 125;
 /// Whisks that are looked at before and after.
 const BEFORE: usize = 12;
@@ -153,11 +152,7 @@ struct Bench<R: Real, const S: usize> {
     ends: [[f64; 2]; S],
 }
 
-impl<R, const S: usize> Bench<R, S>
-where
-    R: Number + Bits,
-    R::Carry: Bits,
-{
+impl<R: Number<Carry: Bits> + Bits, const S: usize> Bench<R, S> {
     fn new(integrator: Integrator, full: bool) -> Self {
         let gate = |gain| full.then_some(GateSettings { gain, tau_s: 0.125 });
         let settings = Settings {
@@ -275,11 +270,7 @@ const STATED: [(&str, [usize; 2]); 8] = [
     ("filter", [0, 0]),
 ];
 
-fn check<R, const S: usize>()
-where
-    R: Number + Bits,
-    R::Carry: Bits,
-{
+fn check<R: Number<Carry: Bits> + Bits, const S: usize>() {
     for (n, integrator) in [(0, Integrator::Exact), (1, Integrator::Euler)] {
         for full in [true, false] {
             for (part, whisks) in Bench::<R, S>::new(integrator, full).spoil() {
@@ -309,11 +300,7 @@ const OPPOSED: f64 = 0.2;
 /// Not a word but all of it, at random: within its bounds after a tick, and back.
 #[test]
 fn whatever_bits_all_words_have_whisks_come_back() {
-    fn run<R>()
-    where
-        R: Number + Bits,
-        R::Carry: Bits,
-    {
+    fn run<R: Number<Carry: Bits> + Bits>() {
         for (integrator, most) in [(Integrator::Exact, 10), (Integrator::Euler, 15)] {
             let bench = Bench::<R, 2>::new(integrator, true);
             let mut random = Xoshiro128PlusPlus::seed_from_u64(7);
@@ -346,11 +333,7 @@ fn whatever_bits_all_words_have_whisks_come_back() {
 /// rests, and back at its side it whisks as before.
 #[test]
 fn a_whisker_of_no_side_rests() {
-    fn run<R>()
-    where
-        R: Number + Bits,
-        R::Carry: Bits,
-    {
+    fn run<R: Number<Carry: Bits> + Bits>() {
         let bench = Bench::<R, 2>::new(Integrator::Exact, true);
         for side in 0..=u8::MAX {
             let mut state = bench.start.clone();

@@ -1,5 +1,4 @@
-//! Tests of the pattern generator, the position control and the motor drivers,
-//! by topic.
+//! Tests of the pattern generator, the position control and the motor drivers, by topic.
 
 mod bounds;
 mod module_terms;

@@ -13,13 +13,6 @@ fn q15_is_symmetric() {
 }
 
 #[test]
-fn only_signed_duties_have_a_direction() {
-    assert!(Duty::from_q15(1).is_forward() && !Duty::from_q15(1).is_reverse());
-    assert!(Duty::from_q15(-1).is_reverse() && !Duty::from_q15(-1).is_forward());
-    assert!(!Duty::ZERO.is_forward() && !Duty::ZERO.is_reverse());
-}
-
-#[test]
 fn floats_at_the_edges() {
     for (fraction, q15) in [
         (f32::NAN, 0),

@@ -71,8 +71,7 @@ fn after_a_fault_the_direction_is_written_again() {
     assert_eq!(bridge.drive(Duty::FULL), "PWM=0 DIR=1 PWM=1000");
 }
 
-/// A write that fails may have gone through: the buffered bridge must wait as
-/// if it had.
+/// A write that fails may have gone through: the buffered bridge must wait as if it had.
 #[test]
 fn buffered_bridge_rests_after_a_failed_duty() {
     let mut bridge = bridge("").map(HBridge::with_buffered_pwm);
@@ -108,8 +107,7 @@ proptest! {
         let bridge = bridge("");
         let mut bridge = if buffered { bridge.map(HBridge::with_buffered_pwm) } else { bridge };
         let (mut pwm, mut dir) = (0, 0);
-        // A buffered timer still puts out, during a tick, what it was left at
-        // in the tick before.
+        // A buffered timer still puts out, during a tick, what it was left at in the tick before.
         let mut before = 0;
         for q15 in duties {
             for word in bridge.drive(Duty::from_q15(q15)).split_whitespace() {

@@ -7,7 +7,7 @@
 use crate::pins::{FREE_RUNNING, MAX, Motor, six_step};
 use core::f64::consts::TAU;
 use proptest::prelude::*;
-use whisking::motor::{Duty, Fault, MotorDriver, SixStepConfig, StallConfig};
+use whisking::motor::{Duty, MotorDriver, SixStepConfig};
 
 fn axis(phase: usize) -> f64 {
     TAU * phase as f64 / 3.0
@@ -20,8 +20,7 @@ impl Motor {
         }
     }
 
-    /// The field's components, for a supply of one: two phases at full drive
-    /// make a length of √3.
+    /// The field's components, for a supply of one: two phases at full drive make a length of √3.
     fn field(&self) -> [f64; 2] {
         let value = |n: usize| self.outputs[n].value.get();
         let enabled = || (0..3).filter(|&k| value(3 + k) != 0);
@@ -72,9 +71,8 @@ proptest! {
         prop_assert!((x.hypot(y) - length).abs() < 1e-9);
     }
 
-    /// A rotor with inertia and friction starts from anywhere, runs the way of
-    /// the duty without turning back, reaches the same speed both ways, and
-    /// the count follows it.
+    /// A rotor with inertia and friction starts from anywhere, runs the way of the duty without
+    /// turning back, reaches the same speed both ways, and the count follows it.
     #[test]
     fn rotor_runs_up_both_ways(start in 0.0..TAU, forward: bool) {
         let mut bench = six_step(SixStepConfig::DEFAULT, "");
@@ -100,26 +98,4 @@ proptest! {
         let reached = sign * speed / TAU * 6.0;
         prop_assert!((0.2..0.4).contains(&reached), "{reached} sectors a tick");
     }
-}
-
-#[test]
-fn a_rotor_blocked_after_some_turns_is_stalled() {
-    let stall = StallConfig {
-        ticks: 10,
-        threshold: Duty::from_q15(8_192),
-    };
-    let config = SixStepConfig {
-        stall,
-        ..SixStepConfig::DEFAULT
-    };
-    let mut bench = six_step(config, "");
-    // A sector every fourth tick: two sectors well within the ten ticks.
-    for tick in 0..200 {
-        bench.place(f64::from(tick) * TAU / 24.0 + 0.01);
-        assert_eq!(bench.driver.drive(Duty::FULL), Ok(()), "tick {tick}");
-    }
-    let stalled = (1..100).find(|_| bench.driver.drive(Duty::FULL).is_err());
-    assert!(stalled.is_some_and(|ticks| ticks <= 10), "{stalled:?}");
-    assert_eq!(bench.driver.fault(), Some(Fault::Stall));
-    assert!(bench.outputs.iter().all(|output| output.value.get() == 0));
 }

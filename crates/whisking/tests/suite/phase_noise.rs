@@ -1,10 +1,9 @@
 //! The noise of eq. 5 reaches the oscillators, and as strongly as it should.
 //!
-//! White noise of one standard deviation σ a tick of T₀ = 1/2000 s moves each
-//! state as a random walk, by a variance of σ² T₀ a second (the tick rate does
-//! not matter, and whisks are far below 50 Hz). Across the unit circle ψ is
-//! pulled back; along it nothing does, so the phase of a side alone walks with
-//! that variance, in rad².
+//! White noise of one standard deviation σ a tick of T₀ = 1/2000 s moves each state as a random
+//! walk, by a variance of σ² T₀ a second (the tick rate does not matter, and whisks are far below
+//! 50 Hz). Across the unit circle ψ is pulled back; along it nothing does, so the phase of a side
+//! alone walks with that variance, in rad².
 
 use crate::settings::plain;
 use whisking::{Integrator, Settings, State};

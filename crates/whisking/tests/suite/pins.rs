@@ -148,7 +148,6 @@ impl<D> Bench<D> {
         self.output(name).failing.set(which);
     }
 
-    /// What was written since the last time.
     pub(crate) fn written(&self) -> String {
         self.log.0.take().join(" ")
     }
@@ -172,7 +171,6 @@ impl<D> Bench<D> {
 }
 
 impl<D: MotorDriver> Bench<D> {
-    /// What a drive writes.
     pub(crate) fn drive(&mut self, duty: Duty) -> String {
         self.driver.drive(duty).unwrap();
         self.written()

@@ -10,8 +10,7 @@ pub(super) const FRACTION: u32 = 28;
 /// Where products and readings saturate: 4.
 pub(super) const SATURATED: i32 = 4 << FRACTION;
 
-/// A factor with a scale of its own: `mantissa` · 2^-(16 + `shift`), within
-/// 3.1e-5 of its value.
+/// A factor with a scale of its own: `mantissa` · 2^-(16 + `shift`), within 3.1e-5 of its value.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Factor {
     /// Magnitude 2^14 to 2^15 − 1, or zero.
@@ -71,12 +70,6 @@ const fn lowered(x: i32, shift: i32) -> i32 {
     }
 }
 
-/// x / 2^shift, rounded to the nearest.
-#[inline]
-const fn nearest(x: i64, shift: u32) -> i32 {
-    ((x + (1 << (shift - 1))) >> shift) as i32
-}
-
 /// x · 2^shift, saturated at ±4.
 #[inline]
 fn raised(x: i32, shift: u32) -> i32 {
@@ -86,11 +79,9 @@ fn raised(x: i32, shift: u32) -> i32 {
 }
 
 impl Factor {
-    const LEAST: i32 = -30;
-
     pub(super) fn new(value: f64) -> Self {
         // Casts saturate, and turn NaN into zero.
-        let shift = scale(value * 65_536.0, 32_767.0, Self::LEAST);
+        let shift = scale(value * 65_536.0, 32_767.0, -SHIFT_MAX);
         let mantissa = libm::round(value * libm::exp2(f64::from(16 + shift))) as i16;
         // As of a fine one.
         let is_normal = mantissa.unsigned_abs() >= 1 << 14;
@@ -136,7 +127,7 @@ impl FineFactor {
     pub(super) const fn times(self, x: i32) -> i32 {
         if self.shift < 0 {
             // 64 bits, so that a share close to one takes no more than all of `x`.
-            return nearest(x as i64 * self.mantissa as i64, 31);
+            return ((x as i64 * self.mantissa as i64 + (1 << 30)) >> 31) as i32;
         }
         rounded(high(x, self.mantissa), self.shift.unsigned_abs())
     }
@@ -164,7 +155,6 @@ impl<const K: usize> Factors<K> {
         }
     }
 
-    /// Σ x_k c_k.
     #[inline]
     pub(super) fn dot(&self, x: [i32; K]) -> i32 {
         let sum = x
