@@ -8,7 +8,6 @@ use crate::{Decoder, FRAME_LEN, Frame, FrameError, MASTER_BYTE};
 
 /// Why a read gave no frame. `E` is the bus's own error.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Error<E> {
     /// The SPI peripheral or its chip select failed.
     Bus(E),
@@ -71,7 +70,6 @@ impl<SPI: SpiDevice> Mlx90333<SPI> {
     /// Reads the eight bytes of a frame back to back, without decoding them.
     ///
     /// # Errors
-    ///
     /// [`Error::Bus`] only.
     pub fn read_raw(&mut self) -> Result<[u8; FRAME_LEN], Error<SPI::Error>> {
         let mut bytes = [MASTER_BYTE; FRAME_LEN];
@@ -83,7 +81,6 @@ impl<SPI: SpiDevice> Mlx90333<SPI> {
     /// bytes while /SS stays low.
     ///
     /// # Errors
-    ///
     /// [`Error::Bus`] only; a bus that cannot wait inside a transaction says so
     /// here.
     pub fn read_raw_paced(&mut self, gap_ns: u32) -> Result<[u8; FRAME_LEN], Error<SPI::Error>> {
@@ -104,7 +101,6 @@ impl<SPI: SpiDevice> Mlx90333<SPI> {
     /// that the sensor keeps up.
     ///
     /// # Errors
-    ///
     /// [`Error::Bus`] if the bus failed, [`Error::Frame`] if what came is not a
     /// valid frame.
     pub fn read(&mut self) -> Result<Frame, Error<SPI::Error>> {
@@ -116,7 +112,6 @@ impl<SPI: SpiDevice> Mlx90333<SPI> {
     /// [`BYTE_GAP_SAFE_NS`](crate::timing::BYTE_GAP_SAFE_NS) is safe.
     ///
     /// # Errors
-    ///
     /// As for [`read`](Mlx90333::read).
     pub fn read_paced(&mut self, gap_ns: u32) -> Result<Frame, Error<SPI::Error>> {
         let bytes = self.read_raw_paced(gap_ns)?;

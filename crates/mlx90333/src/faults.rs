@@ -10,103 +10,72 @@ use core::ops::BitOr;
 /// Displays as the names of all set bits, unknown ones in hexadecimal:
 /// `gain too high, field too low, unknown 0x0001`.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Faults(u16);
+
+macro_rules! faults {
+    ($($(#[$about:meta])* $bit:ident = $bits:literal, $name:literal;)+) => {
+        impl Faults {
+            $($(#[$about])* pub const $bit: Faults = Faults($bits);)+
+
+            const KNOWN: [(Faults, &'static str); 10] = [$((Faults::$bit, $name),)+];
+            const KNOWN_BITS: u16 = 0 $(| $bits)+;
+        }
+    };
+}
+
+faults! {
+    /// The converter's self-test failed. Likely cause: supply noise or a
+    /// brown-out; if it stays after a power cycle, a broken part.
+    ADC_MONITOR = 0x0004, "ADC monitor";
+    /// The converter is at its end stop. Likely cause: magnet too close, or
+    /// the gain programmed too high for it.
+    ADC_SATURATED = 0x0008, "ADC saturated";
+    /// The automatic gain is at its lower end. Likely cause: magnet too strong or too close.
+    GAIN_TOO_LOW = 0x0010, "gain too low";
+    /// The automatic gain is at its upper end. Likely cause: magnet too weak, too far, or missing.
+    GAIN_TOO_HIGH = 0x0020, "gain too high";
+    /// The norm of the field vector is below its limit. Likely cause: magnet
+    /// off the sensor's axis or too far.
+    NORM_TOO_LOW = 0x0040, "norm too low";
+    /// The field is too weak to measure. Likely cause: magnet missing or loose.
+    FIELD_TOO_LOW = 0x0080, "field too low";
+    /// The field is too strong to measure. Likely cause: magnet too close, or
+    /// a motor's stray field.
+    FIELD_TOO_HIGH = 0x0100, "field too high";
+    /// The rough offset correction is at its limit. Likely cause: a strong
+    /// constant field besides the magnet's, or a calibration of another part.
+    ROUGH_OFFSET_CLAMP = 0x0200, "rough offset clamp";
+    /// Alpha is in its dead zone. Likely cause: deflection beyond the programmed transfer curve.
+    DEAD_ZONE_ALPHA = 0x0800, "dead zone alpha";
+    /// Beta is in its dead zone. Likely cause: deflection beyond the programmed transfer curve.
+    DEAD_ZONE_BETA = 0x8000, "dead zone beta";
+}
 
 impl Faults {
     /// No bit set: the reading is valid.
     pub const NONE: Faults = Faults(0);
 
-    /// The converter's self-test failed. Likely cause: supply noise or a
-    /// brown-out; if it stays after a power cycle, a broken part.
-    pub const ADC_MONITOR: Faults = Faults(0x0004);
-
-    /// The converter is at its end stop. Likely cause: magnet too close, or
-    /// the gain programmed too high for it.
-    pub const ADC_SATURATED: Faults = Faults(0x0008);
-
-    /// The automatic gain is at its lower end. Likely cause: magnet too strong
-    /// or too close.
-    pub const GAIN_TOO_LOW: Faults = Faults(0x0010);
-
-    /// The automatic gain is at its upper end. Likely cause: magnet too weak,
-    /// too far, or missing.
-    pub const GAIN_TOO_HIGH: Faults = Faults(0x0020);
-
-    /// The norm of the field vector is below its limit. Likely cause: magnet
-    /// off the sensor's axis or too far.
-    pub const NORM_TOO_LOW: Faults = Faults(0x0040);
-
-    /// The field is too weak to measure. Likely cause: magnet missing or
-    /// loose.
-    pub const FIELD_TOO_LOW: Faults = Faults(0x0080);
-
-    /// The field is too strong to measure. Likely cause: magnet too close, or
-    /// a motor's stray field.
-    pub const FIELD_TOO_HIGH: Faults = Faults(0x0100);
-
-    /// The rough offset correction is at its limit. Likely cause: a strong
-    /// constant field besides the magnet's, or a calibration of another part.
-    pub const ROUGH_OFFSET_CLAMP: Faults = Faults(0x0200);
-
-    /// Alpha is in its dead zone. Likely cause: deflection beyond the
-    /// programmed transfer curve.
-    pub const DEAD_ZONE_ALPHA: Faults = Faults(0x0800);
-
-    /// Beta is in its dead zone. Likely cause: deflection beyond the
-    /// programmed transfer curve.
-    pub const DEAD_ZONE_BETA: Faults = Faults(0x8000);
-
-    /// In the order of the bits.
-    const KNOWN: [(Faults, &'static str); 10] = [
-        (Faults::ADC_MONITOR, "ADC monitor"),
-        (Faults::ADC_SATURATED, "ADC saturated"),
-        (Faults::GAIN_TOO_LOW, "gain too low"),
-        (Faults::GAIN_TOO_HIGH, "gain too high"),
-        (Faults::NORM_TOO_LOW, "norm too low"),
-        (Faults::FIELD_TOO_LOW, "field too low"),
-        (Faults::FIELD_TOO_HIGH, "field too high"),
-        (Faults::ROUGH_OFFSET_CLAMP, "rough offset clamp"),
-        (Faults::DEAD_ZONE_ALPHA, "dead zone alpha"),
-        (Faults::DEAD_ZONE_BETA, "dead zone beta"),
-    ];
-
-    const KNOWN_BITS: u16 = {
-        let mut bits = 0;
-        let mut i = 0;
-        while i < Faults::KNOWN.len() {
-            bits |= Faults::KNOWN[i].0.0;
-            i += 1;
-        }
-        bits
-    };
-
     /// The faults of an error word.
-    #[inline]
     pub const fn new(bits: u16) -> Faults {
         Faults(bits)
     }
 
     /// The error word.
-    #[inline]
     pub const fn bits(self) -> u16 {
         self.0
     }
 
     /// Whether no bit is set.
-    #[inline]
     pub const fn is_empty(self) -> bool {
         self.0 == 0
     }
 
     /// Whether every bit of `other` is set.
-    #[inline]
     pub const fn contains(self, other: Faults) -> bool {
         self.0 & other.0 == other.0
     }
 
     /// The set bits that have no name.
-    #[inline]
     pub const fn unknown(self) -> u16 {
         self.0 & !Faults::KNOWN_BITS
     }
@@ -122,7 +91,6 @@ impl Faults {
 impl BitOr for Faults {
     type Output = Faults;
 
-    #[inline]
     fn bitor(self, other: Faults) -> Faults {
         Faults(self.0 | other.0)
     }

@@ -18,7 +18,6 @@ use crate::{FRAME_LEN, Faults, START_BYTE, Word};
 /// What the three words of a frame mean. Set in the sensor's EEPROM; the frame
 /// itself does not tell.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Mode {
     /// Two angles and an error word.
@@ -31,7 +30,6 @@ pub enum Mode {
 
 /// In which order the two bytes of a word come.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum ByteOrder {
     /// The low byte first: four drivers.
@@ -43,7 +41,6 @@ pub enum ByteOrder {
 
 impl ByteOrder {
     /// The number in two bytes as they come.
-    #[inline]
     pub const fn number(self, bytes: [u8; 2]) -> u16 {
         match self {
             Self::Little => u16::from_le_bytes(bytes),
@@ -52,7 +49,6 @@ impl ByteOrder {
     }
 
     /// The bytes of a number as they come.
-    #[inline]
     pub const fn bytes(self, number: u16) -> [u8; 2] {
         match self {
             Self::Little => number.to_le_bytes(),
@@ -67,11 +63,9 @@ impl ByteOrder {
 /// −s in the order below. The first and the fourth, and the second and the
 /// third, agree on the frames with s = 0 or 128; no other two agree on any.
 ///
-/// Each of the four catches every change of one bit, and every burst of up to
-/// eight consecutive bits. It catches 255 in 256 of random frames and does not
-/// see two bytes that changed places.
+/// Each of the four catches every change of one bit, and every burst of up to eight consecutive
+/// bits. It catches 255 in 256 of random frames and does not see two bytes that changed places.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum SumRule {
     /// B7 = B1 + … + B6.
@@ -99,7 +93,6 @@ impl SumRule {
     ];
 
     /// The B7 that the rule wants after B0..B6; `None` if it takes any.
-    #[inline]
     pub const fn expected(self, bytes: &[u8; FRAME_LEN]) -> Option<u8> {
         let [b0, b1, b2, b3, b4, b5, b6, _] = *bytes;
         let inner = b1
@@ -120,7 +113,6 @@ impl SumRule {
 
 /// A valid frame.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Frame {
     /// The words of [`Mode::AlphaBeta`].
     AlphaBeta {
@@ -142,7 +134,6 @@ pub enum Frame {
 
 impl Frame {
     /// Alpha or X.
-    #[inline]
     pub const fn first(&self) -> Word {
         match *self {
             Frame::AlphaBeta { alpha, .. } => alpha,
@@ -151,7 +142,6 @@ impl Frame {
     }
 
     /// Beta or Y.
-    #[inline]
     pub const fn second(&self) -> Word {
         match *self {
             Frame::AlphaBeta { beta, .. } => beta,
@@ -160,7 +150,6 @@ impl Frame {
     }
 
     /// Z; `None` in alpha-beta mode.
-    #[inline]
     pub const fn third(&self) -> Option<Word> {
         match *self {
             Frame::AlphaBeta { .. } => None,
@@ -172,7 +161,6 @@ impl Frame {
 /// Why eight bytes are not a valid frame. The first that applies, in the order
 /// given here, is the one reported.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum FrameError {
     /// All bytes 0xFF: nothing drove the line. Likely cause: /SS or the data
     /// line open, no supply, or the sensor still starting up.
@@ -221,7 +209,6 @@ impl core::error::Error for FrameError {}
 
 /// How to read a frame: fixed settings and no state.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Decoder {
     /// What the words mean.
@@ -234,13 +221,11 @@ pub struct Decoder {
 
 impl Decoder {
     /// Alpha-beta mode with the default sum rule.
-    #[inline]
     pub const fn new() -> Decoder {
         Decoder::with(Mode::AlphaBeta, SumRule::SumB1B6)
     }
 
     /// The given mode and sum rule, and little-endian words.
-    #[inline]
     pub const fn with(mode: Mode, sum_rule: SumRule) -> Decoder {
         Decoder {
             mode,
@@ -252,9 +237,7 @@ impl Decoder {
     /// Decodes a frame. Any eight bytes give an answer.
     ///
     /// # Errors
-    ///
     /// The first [`FrameError`] that applies, in the order they are listed.
-    #[inline]
     pub const fn decode(&self, bytes: &[u8; FRAME_LEN]) -> Result<Frame, FrameError> {
         let [start, b1, b2, b3, b4, b5, b6, found] = *bytes;
         match u64::from_le_bytes(*bytes) {

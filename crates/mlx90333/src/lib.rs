@@ -10,10 +10,9 @@
 //!   itself ([`Faults`]);
 //! - *code*: the 14 bits of a word that carry the reading.
 //!
-//! Where to look: a decoded frame in `frame.rs`, one reading in `word.rs`, the
-//! error word in `faults.rs`, blocking reads in `driver.rs`, reads from an
-//! interrupt in `transfer.rs`, the sensor's side of the wire in `encode.rs`,
-//! every duration and rate in `timing.rs`.
+//! Where to look: a decoded frame in `frame.rs`, one reading in `word.rs`, the error word in
+//! `faults.rs`, blocking reads in `driver.rs`, reads from an interrupt in `transfer.rs`, the
+//! sensor's side of the wire in `encode.rs`, every duration and rate in `timing.rs`.
 //!
 #![doc = include_str!("../README.md")]
 #![no_std]

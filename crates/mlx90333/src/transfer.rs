@@ -8,7 +8,6 @@ use crate::{FRAME_LEN, MASTER_BYTE};
 
 /// What to do after a byte.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[must_use]
 pub enum Step {
     /// Send this byte, after the gap the sensor needs between bytes.
@@ -40,7 +39,6 @@ pub enum Step {
 /// assert_eq!(Decoder::new().decode(&bytes), Err(FrameError::NoSensor));
 /// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Transfer {
     bytes: [u8; FRAME_LEN],
     /// Bytes received so far; `FRAME_LEN` when no frame is under way.
@@ -58,14 +56,12 @@ impl Transfer {
 
     /// Begins a frame and returns the first byte to send. A frame under way is
     /// dropped; its /SS must have been raised.
-    #[inline]
     pub const fn start(&mut self) -> u8 {
         self.received = 0;
         MASTER_BYTE
     }
 
     /// Takes the byte received and says what is next.
-    #[inline]
     pub fn on_byte(&mut self, received: u8) -> Step {
         let Some(slot) = self.bytes.get_mut(self.received) else {
             return Step::Idle;
@@ -79,15 +75,12 @@ impl Transfer {
         }
     }
 
-    /// Gives up the frame under way, if any: on a bus error or a timeout. The
-    /// caller raises /SS.
-    #[inline]
+    /// Gives up the frame under way, if any: on a bus error or a timeout. The caller raises /SS.
     pub const fn abort(&mut self) {
         self.received = FRAME_LEN;
     }
 
     /// Whether a frame is under way.
-    #[inline]
     pub const fn is_busy(&self) -> bool {
         self.received < FRAME_LEN
     }

@@ -12,7 +12,6 @@ use crate::{FRAME_LEN, Register};
 
 /// What a frame does.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Access {
     /// Reads a register; the reply has it in the same frame.
     Read(Register),
@@ -22,7 +21,6 @@ pub enum Access {
 
 /// A frame from the master.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Command {
     /// Which register, and whether to write it.
     pub access: Access,
@@ -97,7 +95,6 @@ impl Command {
 
 /// Why a frame from a master asks for nothing.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum CommandError {
     /// Its check bits are wrong.
     BadCrc,

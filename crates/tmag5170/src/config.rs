@@ -17,7 +17,6 @@ const fn bit(is_set: bool, place: u32) -> u16 {
 
 /// How often and what of the temperature is measured, and when.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct DeviceConfig {
     /// Conversions an average.
     pub average: Average,
@@ -47,7 +46,6 @@ impl DeviceConfig {
 
 /// Which axes are measured, and how far they reach.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct SensorConfig {
     /// The axes that the angle is computed from.
     pub angle: AnglePair,
@@ -74,7 +72,6 @@ impl SensorConfig {
 
 /// What starts a conversion, how replies are laid out, and which checks run.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct SystemConfig {
     /// Checks of the analogue part.
     pub diagnostics: Diagnostics,
@@ -99,10 +96,8 @@ impl SystemConfig {
     }
 }
 
-/// What the ALERT pin, an open drain that pulls low, reports. With everything off that is
-/// nothing.
+/// What the ALERT pin, an open drain that pulls low, reports. With everything off that is nothing.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct AlertConfig {
     /// What kind of pin it is.
     pub mode: AlertMode,
@@ -143,7 +138,6 @@ impl AlertConfig {
 
 /// Two thresholds of an axis, each in 1/128 of its full scale.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct AxisThresholds {
     /// Above this is beyond.
     pub high: i8,
@@ -171,7 +165,6 @@ impl AxisThresholds {
 /// All settings that [`Tmag5170::configure`](crate::Tmag5170::configure) writes. The default
 /// is what the sensor has after a reset, where it measures nothing.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Config {
     /// Averaging and operating mode.
     pub device: DeviceConfig,

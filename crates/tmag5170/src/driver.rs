@@ -11,7 +11,6 @@ use crate::{
 
 /// Why there is no reading. `E` is the bus's own error.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Error<E> {
     /// The SPI peripheral or its chip select failed.
     Bus(E),
@@ -197,8 +196,7 @@ impl<SPI: SpiDevice> Tmag5170<SPI> {
     }
 
     /// What the sensor reports about itself; [`StatusFaults::RESTARTED`] is cleared by that. With
-    /// replies that carry pairs it takes five frames more, and readings are let out
-    /// meanwhile.
+    /// replies that carry pairs it takes five frames more, and readings are let out meanwhile.
     ///
     /// # Errors
     /// [`Error::Bus`], [`Error::Frame`] if a reply did not arrive whole, or

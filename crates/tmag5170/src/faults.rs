@@ -1,9 +1,8 @@
 //! What the sensor reports about itself, each with its likely cause.
 //!
-//! Sources: TI's example code and Kharim234's decoder agree on every bit; of two TI's forum
-//! has said what sets them (a restart, the memory's check). The causes of the others follow
-//! from the names of the checks in the data sheet (SBASAF4, 7.3.7) and are not verified
-//! against its text.
+//! Sources: TI's example code and Kharim234's decoder agree on every bit; of two TI's forum has
+//! said what sets them (a restart, the memory's check). The causes of the others follow from the
+//! names of the checks in the data sheet (SBASAF4, 7.3.7) and are not verified against its text.
 
 use core::fmt;
 use core::ops::BitOr;
@@ -14,7 +13,6 @@ use core::ops::BitOr;
 /// Displays as the names of all set bits, unknown ones in hexadecimal:
 /// `restarted, supply too low, unknown 0x00400000`.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct StatusFaults(u32);
 
 /// A fault with its words.

@@ -10,7 +10,6 @@ macro_rules! registers {
     ($($name:ident = $after_reset:literal, $is_setting:literal, $about:literal;)+) => {
         /// A register. All are 16 bits wide.
         #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-        #[cfg_attr(feature = "defmt", derive(defmt::Format))]
         #[repr(u8)]
         pub enum Register {
             $(#[doc = $about] $name,)+

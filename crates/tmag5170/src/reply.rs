@@ -18,7 +18,6 @@ use crate::value::Field;
 
 /// The status bits of a reply: twelve with a register, the lowest four with a pair.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Status(u16);
 
 impl Status {
@@ -60,10 +59,8 @@ impl Status {
 
 /// Why a reply is no reading. In the order in which they are looked for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum ReplyError {
-    /// All bits one. Likely cause: no sensor, no supply, or a cut wire, on a line with a
-    /// pull-up.
+    /// All bits one. Likely cause: no sensor, no supply, or a cut wire, on a line with a pull-up.
     NoSensor,
     /// All bits zero. Likely cause: the same on a line without one, or SDO shorted.
     LineLow,
@@ -130,7 +127,6 @@ pub const fn check(bytes: &[u8; FRAME_LEN]) -> Result<(), ReplyError> {
 
 /// A reply that carries a register.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Reply {
     /// All twelve status bits.
     pub status: Status,
@@ -170,7 +166,6 @@ impl Reply {
 
 /// A reply that carries two channels.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct ChannelPair {
     /// The lowest four status bits.
     pub status: Status,
@@ -198,9 +193,8 @@ impl ChannelPair {
 
     /// The same, if its status names the expected type and the status has no fault.
     ///
-    /// A sensor that restarted sends registers again, with a status that reads as a type of
-    /// four or more: so [`DataType::Xy`], [`DataType::Xz`] and [`DataType::Zy`] are never
-    /// taken for it.
+    /// A sensor that restarted sends registers again, with a status that reads as a type of four or
+    /// more: so [`DataType::Xy`], [`DataType::Xz`] and [`DataType::Zy`] are never taken for it.
     ///
     /// # Errors
     /// [`ReplyError::OtherType`] or [`ReplyError::Sensor`].

@@ -6,10 +6,8 @@
 
 /// The field along one axis: 16 bits with a sign, full scale of the axis's range at 32,768.
 ///
-/// With one conversion an average the lowest four bits are 0; a pair carries the upper
-/// twelve only.
+/// With one conversion an average the lowest four bits are 0; a pair carries the upper twelve only.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Field(i16);
 
 impl Field {

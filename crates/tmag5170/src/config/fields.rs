@@ -12,7 +12,6 @@ macro_rules! fields {
     )+) => {$(
         $(#[$about])*
         #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
-        #[cfg_attr(feature = "defmt", derive(defmt::Format))]
         #[allow(missing_docs, reason = "names say what they stand for where nothing else does")]
         #[repr(u16)]
         pub enum $name {
@@ -168,7 +167,6 @@ impl Range {
 /// Checks of the analogue part, whose findings are [`StatusFaults`](crate::StatusFaults): the
 /// sensor's own switch (DIAG_EN) and its choice (DIAG_SEL) in one.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Diagnostics {
     /// None.
     #[default]

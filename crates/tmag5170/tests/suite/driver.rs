@@ -47,8 +47,7 @@ fn config(data_type: DataType) -> Config {
     }
 }
 
-/// What `configure` sends up to the system's settings, to a sensor just powered
-/// up.
+/// What `configure` sends up to the system's settings, to a sensor just powered up.
 fn beginning() -> Vec<[Transaction<u8>; 3]> {
     let settings = [
         (0x00, 0x3100),
