@@ -21,38 +21,40 @@ pub struct Unprotected {
 
 pub(crate) fn check(motor: &MotorSection, degrees_per_count: f64) -> Result<(), Unprotected> {
     let within = |key, found: f64, range: RangeInclusive<f64>| {
-        if range.contains(&found) {
-            return Ok(());
-        }
-        let allowed = format!("{} to {}", range.start(), range.end());
-        Err(Unprotected {
+        let allowed = || format!("{} to {}", range.start(), range.end());
+        let is_within = range.contains(&found).then_some(());
+        is_within.ok_or_else(|| Unprotected {
             key,
             found,
-            allowed,
+            allowed: allowed(),
         })
     };
-    within("min_deg", motor.min_deg, allowed::ANGLES_DEG)?;
-    within("max_deg", motor.max_deg, allowed::ANGLES_DEG)?;
-    within(
-        "travel_margin_deg",
-        motor.travel_margin_deg,
-        allowed::MARGIN_DEG,
-    )?;
-    within(
-        "following_limit_deg",
-        motor.following_limit_deg,
-        allowed::FOLLOWING_DEG,
-    )?;
-    within(
-        "top_speed_deg_s",
-        motor.top_speed_deg_s,
-        allowed::TOP_SPEED_DEG_S,
-    )?;
-    within(
-        "continuous_duty",
-        motor.continuous_duty,
-        allowed::CONTINUOUS_DUTY,
-    )?;
+    for (key, found, range) in [
+        ("min_deg", motor.min_deg, allowed::ANGLES_DEG),
+        ("max_deg", motor.max_deg, allowed::ANGLES_DEG),
+        (
+            "travel_margin_deg",
+            motor.travel_margin_deg,
+            allowed::MARGIN_DEG,
+        ),
+        (
+            "following_limit_deg",
+            motor.following_limit_deg,
+            allowed::FOLLOWING_DEG,
+        ),
+        (
+            "top_speed_deg_s",
+            motor.top_speed_deg_s,
+            allowed::TOP_SPEED_DEG_S,
+        ),
+        (
+            "continuous_duty",
+            motor.continuous_duty,
+            allowed::CONTINUOUS_DUTY,
+        ),
+    ] {
+        within(key, found, range)?;
+    }
     let is_gentle = motor.duty_limit <= allowed::GENTLE_DUTY;
     let is_coarse = degrees_per_count > allowed::COARSEST_DEG;
     // Both ways together.

@@ -77,15 +77,3 @@ impl Word {
         Word(((signed + 8192) as u16) << 2)
     }
 }
-
-impl From<u16> for Word {
-    fn from(raw: u16) -> Word {
-        Word(raw)
-    }
-}
-
-impl From<Word> for u16 {
-    fn from(word: Word) -> u16 {
-        word.0
-    }
-}

@@ -20,7 +20,12 @@ pub(crate) fn check(values: &Values, text: &mut Text<'_>) {
                     }
                 }
             }
-            None => absent_section(section, text),
+            None if matches!(section.presence, Presence::Required) => {
+                let keys: Vec<&str> = section.keys().map(|key| key.name).collect();
+                let required = format!("required: a table with the keys {}", keys.join(", "));
+                text.report(0, section.title(), "missing".to_owned(), required);
+            }
+            None => {}
         }
     }
 }
@@ -58,14 +63,6 @@ pub(crate) fn settle(values: &mut Values) {
 fn is_barred(section: &Section, key: &Row, values: &Values) -> bool {
     let fails = |condition| values.holds(section.name, condition) == Some(false);
     !key.only.is_empty() && key.only.iter().all(|condition| fails(*condition))
-}
-
-fn absent_section(section: &Section, text: &mut Text<'_>) {
-    if matches!(section.presence, Presence::Required) {
-        let keys: Vec<&str> = section.keys().map(|key| key.name).collect();
-        let required = format!("required: a table with the keys {}", keys.join(", "));
-        text.report(0, section.title(), "missing".to_owned(), required);
-    }
 }
 
 fn needed_section(section: &Section, given: Given, values: &Values, text: &mut Text<'_>) {

@@ -38,14 +38,13 @@ fn add_section(page: &mut String, section: &Section) {
     };
     let presence = match &section.presence {
         Presence::Required => "Required.".to_owned(),
-        Presence::Optional {
-            without,
-            needs: None,
-        } => format!("Optional. Left out: {without}."),
-        Presence::Optional {
-            without,
-            needs: Some(needed),
-        } => format!("Optional; needs `[{needed}]`. Left out: {without}."),
+        Presence::Optional { without, needs } => {
+            let needs = needs.map(|needed| format!("; needs `[{needed}]`"));
+            format!(
+                "Optional{}. Left out: {without}.",
+                needs.unwrap_or_default()
+            )
+        }
     };
     // Here and below: writing to a String cannot fail.
     let _ = write!(

@@ -1,9 +1,10 @@
 //! The muscle and mass of one whisker (BIOTACT eqs. 6 to 8).
 //!
-//! m d²θ/dt² = q W − k θ − ν dθ/dt with q = 1.45 (1 − z) g exp(−θ²), k = 1, m = T_W²/100 and ν = 4
-//! √(k m): natural frequency ω_n = 10 f_W rad/s, damping ratio 2. With f = W exp(−θ²), the force
-//! per gain a = 1.45 (1 − z) g, and v = (dθ/dt)/ω_n, the equations per tick are θ' = h v, v' = h (a
-//! f − θ − 4 v) with h = ω_n T: linear in (θ, v) with input a f, and every state is near one.
+//! m d²θ/dt² = q W − k θ − ν dθ/dt with q = 1.45 (1 − z) g exp(−θ²), k = 1, m = T_W²/100 and
+//! ν = 4 √(k m): natural frequency ω_n = 10 f_W rad/s, damping ratio 2. With f = W exp(−θ²), the
+//! force per gain a = 1.45 (1 − z) g, and v = (dθ/dt)/ω_n, the equations per tick are θ' = h v,
+//! v' = h (a f − θ − 4 v) with h = ω_n T: linear in (θ, v) with input a f, and every state is near
+//! one.
 //!
 //! There are two integrators: [`Euler`] is the papers', step for step; [`Exact`]
 //! propagates the linear part exactly.

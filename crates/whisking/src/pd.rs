@@ -1,10 +1,10 @@
 //! Position control: proportional to the error, derivative on the measurement
 //! (so that a jump of the setpoint does not kick), limited in size and slew.
 //!
-//! Positions are protractions θ (θ' = 100 θ + 50 degrees); the output is a duty within ±1: u = ⟨k_p
-//! (⟨s⟩ − x) − k_d dx/dt⟩, dx/dt smoothed by a first-order low-pass because the steps of an encoder
-//! are coarse compared with a tick. The duty and its limits are integers in every number format, as
-//! a timer's register takes them.
+//! Positions are protractions θ (θ' = 100 θ + 50 degrees); the output is a duty within ±1:
+//! u = ⟨k_p (⟨s⟩ − x) − k_d dx/dt⟩, dx/dt smoothed by a first-order low-pass because the steps of
+//! an encoder are coarse compared with a tick. The duty and its limits are integers in every number
+//! format, as a timer's register takes them.
 
 mod response;
 
@@ -128,8 +128,8 @@ impl<R: Real> Config<R> {
     }
 
     /// One tick, from the setpoint as a protraction, the measured angle in encoder counts from
-    /// θ = 0, and the counts `moved` since the last tick (0 in the first). The duty is within ±`limit`
-    /// and differs from the last one by at most `slew`.
+    /// θ = 0, and the counts `moved` since the last tick (0 in the first). The duty is within
+    /// ±`limit` and differs from the last one by at most `slew`.
     #[inline]
     pub fn step(&self, state: &mut State<R>, setpoint: R, counts: i32, moved: i32) -> Duty {
         self.follow(state, self.clamp(setpoint), counts, moved)

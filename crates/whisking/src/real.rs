@@ -71,9 +71,12 @@ pub trait Real:
     /// The nearest representable number. For configurations, not for the tick.
     fn from_f64(value: f64) -> Self;
 
-    /// The same from single precision, without a number of double precision in between, which
-    /// links two kilobytes where a core has none.
-    fn from_f32(value: f32) -> Self;
+    /// The same from single precision; in fixed point without a number of double precision in
+    /// between, which links two kilobytes where a core has none.
+    #[inline]
+    fn from_f32(value: f32) -> Self {
+        Self::from_f64(value.into())
+    }
 
     /// The same value in f64. For reports, not for the tick.
     fn to_f64(self) -> f64;
@@ -94,10 +97,16 @@ pub trait Real:
     fn halved(self) -> Self;
 
     /// The number, limited to ±1/2 in a format whose sums would otherwise overflow.
-    fn within_half(self) -> Self;
+    #[inline]
+    fn within_half(self) -> Self {
+        self
+    }
 
     /// The product of a number below 2 with one within ±4 of which four digits are enough.
-    fn rough(self, other: Self) -> Self;
+    #[inline]
+    fn rough(self, other: Self) -> Self {
+        self * other
+    }
 
     /// Σ x_k c_k, which must stay within ±8.
     fn dot<const K: usize>(x: [Self; K], row: &Self::Row<K>) -> Self;
@@ -129,7 +138,10 @@ pub trait Real:
 
     /// Whether no product of these wraps around: of numbers within ±2 none does, and in
     /// floats none at all.
-    fn multiplies<const K: usize>(numbers: &[[Self; 2]; K]) -> bool;
+    #[inline]
+    fn multiplies<const K: usize>(_numbers: &[[Self; 2]; K]) -> bool {
+        true
+    }
 
     /// tanh(2x)/2 for |x| ≤ 1.5; error 6e-7.
     fn half_tanh(self) -> Self;

@@ -74,10 +74,10 @@ impl<R: Real> Config<R> {
     /// tick; a missing one is zero. The muscles move with the z and g that follow from it.
     ///
     /// For any contact, NaN included, the state stays finite and within its bounds: |ψ| ≤ 1.5,
-    /// 0 ≤ z ≤ 1, 0 ≤ g ≤ 2, |θ| ≤ 2.5. Whatever bits its numbers have, a tick leads within them; seven
-    /// whisks after a word was spoilt all is as before. Only sides that are left quite opposed stay
-    /// so until noise parts them, as the equations say. How many sides and whiskers there are, and
-    /// whose whisker is whose, is part of a state's shape: it is taken as it stands.
+    /// 0 ≤ z ≤ 1, 0 ≤ g ≤ 2, |θ| ≤ 2.5. Whatever bits its numbers have, a tick leads within them;
+    /// seven whisks after a word was spoilt all is as before. Only sides that are left quite opposed
+    /// stay so until noise parts them, as the equations say. How many sides and whiskers there are,
+    /// and whose whisker is whose, is part of a state's shape: it is taken as it stands.
     #[inline]
     pub fn step(&self, state: &mut State<R>, contact: &[R])
     where

@@ -182,8 +182,9 @@ mod tests {
     use proptest::prelude::*;
 
     use super::{COMMAND_BYTES, Stop, StopWatch};
+    use crate::request::tests::commands;
     use crate::text::{self, Spoken};
-    use crate::{Command, Piece, Request, Splitter, TaggedCommand, WhiskerId, frame, frame_for};
+    use crate::{Command, Piece, Request, Splitter, TaggedCommand, frame, frame_for};
 
     /// The stops among some bytes, and how many bytes had come with each.
     fn stops(bytes: &[u8]) -> Vec<(usize, Stop)> {
@@ -271,6 +272,10 @@ mod tests {
         }
     }
 
+    fn asked(tag: u16, command: Command) -> Vec<u8> {
+        frame(&TaggedCommand { tag, command }).to_vec()
+    }
+
     fn pieces() -> impl Strategy<Value = Vec<u8>> {
         let words = &[
             "stop", "stop", "st", "op", "gain", "arm", "#", " ", "\r", "\n", "\n", "\n", "\0",
@@ -278,21 +283,10 @@ mod tests {
         ][..];
         prop_oneof![
             6 => prop::sample::select(words).prop_map(|word| word.as_bytes().to_vec()),
-            2 => any::<(u16, Option<u8>)>().prop_map(|(tag, to)| {
-                let command = Command::Stop;
-                match to {
-                    Some(to) => frame_for(to, tag, command).to_vec(),
-                    None => frame(&TaggedCommand { tag, command }).to_vec(),
-                }
-            }),
-            1 => any::<(u16, i32)>().prop_map(|(tag, gain)| {
-                let command = Command::Gain(WhiskerId::default(), gain);
-                frame(&TaggedCommand { tag, command }).to_vec()
-            }),
-            1 => any::<u16>().prop_map(|tag| {
-                let command = Command::Arm;
-                frame(&TaggedCommand { tag, command }).to_vec()
-            }),
+            1 => any::<u16>().prop_map(|tag| asked(tag, Command::Stop)),
+            1 => any::<(u16, u8)>()
+                .prop_map(|(tag, to)| frame_for(to, tag, Command::Stop).to_vec()),
+            2 => (any::<u16>(), commands()).prop_map(|(tag, command)| asked(tag, command)),
             1 => prop::collection::vec(any::<u8>(), 0..100),
             1 => (0..120_usize).prop_map(|count| vec![b'x'; count]),
         ]
@@ -315,8 +309,7 @@ mod tests {
 
         #[test]
         fn a_frame_is_one_by_its_sum_alone(tag: u16, bit in 0..120_usize) {
-            let command = Command::Stop;
-            let mut bytes = frame(&TaggedCommand { tag, command }).to_vec();
+            let mut bytes = asked(tag, Command::Stop);
             let all = bytes.len();
             prop_assert_eq!(stops(&bytes), [(all, Stop::Frame(tag))]);
             bytes[bit / 8 % all] ^= 1 << (bit % 8);

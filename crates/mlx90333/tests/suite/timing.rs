@@ -1,6 +1,5 @@
 //! The time on the wire, and how the durations hang together.
 
-use embedded_hal::spi::{Phase, Polarity};
 use mlx90333::timing::{
     BYTE_GAP_FAST_NS, BYTE_GAP_SAFE_NS, CLOCK_COMFORTABLE_HZ, CLOCK_MAX_HZ, SS_HIGH_US,
     START_UP_US, START_UP_WAIT_US, frame_time_ns,
@@ -23,12 +22,6 @@ fn frame_time_at_the_ends_of_the_range() {
     assert_eq!(frame_time_ns(3, 0), 21_333_333_334);
     let longest = 64_000_000_000 + 7 * u64::from(u32::MAX);
     assert_eq!(frame_time_ns(1, u32::MAX), longest);
-}
-
-#[test]
-fn mode_1() {
-    assert_eq!(mlx90333::SPI_MODE.polarity, Polarity::IdleLow);
-    assert_eq!(mlx90333::SPI_MODE.phase, Phase::CaptureOnSecondTransition);
 }
 
 #[test]

@@ -26,7 +26,7 @@ fn codes() {
     ] {
         assert_eq!(Word::new(raw).code14(), code);
         assert_eq!(Word::new(raw).signed14(), signed);
-        assert_eq!(u16::from(Word::from(raw)), raw);
+        assert_eq!(Word::new(raw).raw(), raw);
     }
 }
 

@@ -3,8 +3,8 @@
 //!
 //! With damping ratio 2 both poles are real, −(2 ∓ √3) ω_n, and the muscle is the weighted sum of
 //! two *lags* that follow the same push a f, a slow one and a fast one: dy/dt = λ (a f − y),
-//! θ = y_slow + c (y_slow − y_fast) with c = 1/√3 − 1/2. A lag needs no matrix, its equilibrium is the
-//! push however its constants are rounded, and because 0 ≤ f ≤ 1 it cannot grow.
+//! θ = y_slow + c (y_slow − y_fast) with c = 1/√3 − 1/2. A lag needs no matrix, its equilibrium is
+//! the push however its constants are rounded, and because 0 ≤ f ≤ 1 it cannot grow.
 //!
 //! f is interpolated by the quartic through its last values: an exponential Adams method of fifth
 //! order, predicted and corrected once, with one exponential and one drive per tick. The gain is

@@ -22,11 +22,6 @@ macro_rules! float {
         }
 
         #[inline]
-        fn from_f32(value: f32) -> Self {
-            value as $float
-        }
-
-        #[inline]
         fn to_f64(self) -> f64 {
             f64::from(self)
         }
@@ -52,16 +47,6 @@ macro_rules! float {
         #[inline]
         fn halved(self) -> Self {
             0.5 * self
-        }
-
-        #[inline]
-        fn within_half(self) -> Self {
-            self
-        }
-
-        #[inline]
-        fn rough(self, other: Self) -> Self {
-            self * other
         }
 
         #[inline]
@@ -92,11 +77,6 @@ macro_rules! float {
         #[inline]
         fn is_within(self, limit: Self) -> bool {
             $float::abs(self) <= limit
-        }
-
-        #[inline]
-        fn multiplies<const K: usize>(_numbers: &[[Self; 2]; K]) -> bool {
-            true
         }
 
         #[inline]

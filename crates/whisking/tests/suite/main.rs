@@ -10,7 +10,6 @@ mod motor_homing;
 mod motor_rotor;
 mod motor_six_step;
 mod motor_stall;
-mod oscillator_terms;
 mod phase_noise;
 mod pins;
 mod same_bits;

@@ -140,19 +140,15 @@ fn a_whisker_that_never_stops_is_given_up_in_time() {
     let endless = Whisker { stops, ..WHISKER };
     assert_eq!(endless.home(as_it_is), Err((Fault::Homing, 3001)));
     // Faster than the motor can be.
-    let fast = Whisker {
-        step: 101,
-        ..WHISKER
-    };
+    let step = 101;
+    let fast = Whisker { step, ..WHISKER };
     assert_eq!(fast.home(as_it_is), Err((Fault::Runaway, 2)));
 }
 
 #[test]
 fn a_hand_is_not_the_stop() {
-    let whisker = Whisker {
-        start: 300,
-        ..WHISKER
-    };
+    let start = 300;
+    let whisker = Whisker { start, ..WHISKER };
     let held_at = |hand| move |tick| if tick < 2000 { hand } else { -700 };
     // It holds the whisker back from a count for two seconds, which leaves it too little range.
     for hand in [-550, -400, 0, 250] {
@@ -190,9 +186,9 @@ fn a_range_without_its_far_stop_is_a_fault() {
 
 #[test]
 fn a_stop_elsewhere_than_before_is_a_fault() {
-    let at = |known| Whisker {
-        known: Some(known),
-        ..WHISKER
+    let at = |known| {
+        let known = Some(known);
+        Whisker { known, ..WHISKER }
     };
     for by in [0, 10, -10] {
         let (home, ticks) = at(-500 + by).home(as_it_is).unwrap();
