@@ -1,6 +1,5 @@
 //! Tests of the driver and the decoder, by topic.
 
-mod common;
 mod driver;
 mod faults;
 mod frame;

@@ -6,16 +6,11 @@ use whisking::muscle::{self, PEAK_GAIN};
 use whisking::{Fix, GateSettings, Integrator, Real, Settings, State};
 
 fn settings(integrator: Integrator) -> Settings {
+    let gate = |gain, tau_s| Some(GateSettings { gain, tau_s });
     Settings {
         coupling: true,
-        rcp: Some(GateSettings {
-            gain: 0.7,
-            tau_s: 0.02,
-        }),
-        cia: Some(GateSettings {
-            gain: 0.5,
-            tau_s: 0.03,
-        }),
+        rcp: gate(0.7, 0.02),
+        cia: gate(0.5, 0.03),
         ..plain(integrator, 200.0, 2.0)
     }
 }

@@ -124,11 +124,7 @@ fn standing_still_is_a_stall_one_way_and_a_silent_encoder_both_ways() {
     // 8 Hz: the drive turns round every 125 ticks, and is hard in two thirds of them.
     let found = trips(1000, |tick| {
         let hard = tick % 125 < 83;
-        let duty = if tick / 125 % 2 == 0 {
-            HARD
-        } else {
-            reversed(HARD)
-        };
+        let duty = [HARD, reversed(HARD)][tick / 125 % 2];
         (if hard { duty } else { Duty::ZERO }, 0.0, 0, 0)
     });
     // Four stretches of 83, and 68 of the fifth.

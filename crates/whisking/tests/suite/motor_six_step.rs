@@ -16,8 +16,8 @@ fn first_step(high: usize, low: usize) -> String {
     format!("EN1=0 EN2=0 EN3=0 {zeros} IN{high}=500 EN{low}=1 EN{high}=1")
 }
 
-fn off(fault: Fault) -> (Fault, String) {
-    (fault, OFF.to_owned())
+fn off(fault: Fault) -> String {
+    format!("{fault:?} {OFF}")
 }
 
 fn stall_after(ticks: u16) -> SixStepConfig {
@@ -140,14 +140,13 @@ fn a_failing_enable_or_pwm_switches_all_off() {
     let mut motor = six_step(SixStepConfig::DEFAULT, "");
     motor.written();
     motor.fail("EN2", 0b10);
-    let written = format!("{}! {OFF}", first_step(2, 3));
-    assert_eq!(motor.fails(HALF), (Fault::Pin, written));
+    let written = format!("Pin {}! {OFF}", first_step(2, 3));
+    assert_eq!(motor.fails(HALF), written);
     // The duty of a later tick fails; the step after clear sets everything.
     let mut motor = six_step(SixStepConfig::DEFAULT, "");
     motor.drive(HALF);
     motor.fail("IN2", 1);
-    let written = format!("IN2=500! {OFF}");
-    assert_eq!(motor.fails(HALF), (Fault::Pwm, written));
+    assert_eq!(motor.fails(HALF), format!("Pwm IN2=500! {OFF}"));
     motor.driver.clear();
     assert_eq!(motor.drive(HALF), first_step(2, 3));
 }

@@ -6,7 +6,7 @@ use embedded_hal_mock::eh1::MockError;
 use std::cell::{Cell, RefCell};
 use std::io::ErrorKind;
 use std::rc::Rc;
-use whisking::motor::{Duty, Fault, HBridge, MotorDriver, SixStep, SixStepConfig, StallConfig};
+use whisking::motor::{Duty, HBridge, MotorDriver, SixStep, SixStepConfig, StallConfig};
 
 /// Counts of a PWM at full drive.
 pub(crate) const MAX: u16 = 1000;
@@ -176,10 +176,10 @@ impl<D: MotorDriver> Bench<D> {
         self.written()
     }
 
-    /// What a drive writes that ends in a fault.
-    pub(crate) fn fails(&mut self, duty: Duty) -> (Fault, String) {
+    /// The fault in which a drive ends, and what it writes.
+    pub(crate) fn fails(&mut self, duty: Duty) -> String {
         let fault = self.driver.drive(duty).unwrap_err();
-        (fault, self.written())
+        format!("{fault:?} {}", self.written())
     }
 
     pub(crate) fn off(&mut self) -> String {
