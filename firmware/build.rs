@@ -51,7 +51,8 @@ fn link(map: &str) -> Result<(), Box<dyn Error>> {
     println!("cargo::rustc-link-search={}", env::var("OUT_DIR")?);
     println!("cargo::rustc-link-search={}", workspace()?.display());
     println!("cargo::rerun-if-changed=../memory.x");
-    for argument in ["--nmagic", "-Tlink.x", "-Tdefmt.x"] {
+    // Functions of the same instructions are one: no program compares where functions are.
+    for argument in ["--nmagic", "--icf=all", "-Tlink.x", "-Tdefmt.x"] {
         println!("cargo::rustc-link-arg-bins={argument}");
     }
     Ok(())
