@@ -41,6 +41,7 @@ pub(crate) mod integrity;
 pub(crate) mod loading;
 pub(crate) mod log;
 pub(crate) mod logger;
+mod memory;
 pub(crate) mod motors;
 pub(crate) mod outputs;
 pub(crate) mod pace;
