@@ -16,7 +16,6 @@ mod bytes;
 mod check;
 mod parts;
 mod protects;
-mod reader;
 mod shape;
 
 use core::ops::Range;

@@ -4,6 +4,7 @@
 use serde::Serialize;
 
 use crate::frame::{Frame, frame, summed};
+use crate::reader::take;
 use crate::request::{Command, TaggedCommand, UnknownCommand};
 
 /// Stands where a command's number does, before the board's number and the command.
@@ -36,13 +37,13 @@ impl Request {
     /// `None` if the frame's sum is not right: then no request was meant, and there is nothing to
     /// answer.
     pub fn read(content: &[u8]) -> Option<Self> {
-        let (tag, rest) = postcard::take_from_bytes(summed(content)?).ok()?;
+        let (tag, rest) = take(summed(content)?)?;
         if let [FOR_NODE, node, command @ ..] = rest {
             return ForNode::of(tag, *node, command).map(Self::For);
         }
         let number = *rest.first()?;
-        Some(Self::Here(match postcard::take_from_bytes(rest) {
-            Ok((command, [])) => Ok(TaggedCommand { tag, command }),
+        Some(Self::Here(match take(rest) {
+            Some((command, [])) => Ok(TaggedCommand { tag, command }),
             _ => Err(UnknownCommand {
                 tag,
                 command: number,
@@ -88,8 +89,8 @@ impl ForNode {
     /// [`UnknownCommand`]: that of a later version, or with parts that it has not.
     pub fn here(&self) -> Result<TaggedCommand, UnknownCommand> {
         let Self { tag, command, .. } = *self;
-        match postcard::take_from_bytes(&command) {
-            Ok((command, rest)) if rest.iter().all(|byte| *byte == 0) => {
+        match take(&command) {
+            Some((command, rest)) if rest.iter().all(|byte| *byte == 0) => {
                 Ok(TaggedCommand { tag, command })
             }
             _ => Err(UnknownCommand {

@@ -20,6 +20,7 @@ mod frame;
 mod line;
 mod loading;
 mod looked;
+mod reader;
 mod record;
 mod request;
 mod splitter;
@@ -37,6 +38,7 @@ pub use frame::{CONTENT_BYTES, FRAME_BYTES, Frame, RECORD_FRAME_BYTES, frame, fr
 pub use line::{Field, LINE_BYTES, Line};
 pub use loading::{Load, LoadedWord};
 pub use looked::Looked;
+pub use reader::{Reader, Unreadable};
 pub use record::{TickRecord, degrees, q13, unit};
 pub use request::{
     CONFIG_CHANGED, Command, HAS_OPINIONS, TaggedCommand, UnknownCommand, WhiskerId,

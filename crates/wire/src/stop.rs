@@ -9,6 +9,7 @@ use heapless::Vec;
 
 use crate::asked::FOR_NODE;
 use crate::frame::summed;
+use crate::reader::take;
 use crate::request::Command;
 
 /// Most bytes of a line that is a command.
@@ -166,7 +167,7 @@ fn tag_of_stop(coded: &[u8]) -> Option<u16> {
     }
     let content = content.get(1..).filter(|_| left == 0)?;
     let (value, _) = content.split_last_chunk::<4>()?;
-    let (tag, rest) = postcard::take_from_bytes(value).ok()?;
+    let (tag, rest) = take(value)?;
     let ([command] | [FOR_NODE, _, command]) = rest else {
         return None;
     };

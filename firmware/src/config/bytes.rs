@@ -6,8 +6,8 @@
 
 use serde::{Deserialize, Serialize};
 use whisking::{Real, Start};
+use wire::Reader;
 
-use super::reader::Reader;
 use super::{Config, ConfigError, MotionConfig, Part};
 use crate::servo::ServoConfig;
 

@@ -4,19 +4,20 @@
 //! each. This one reads zero beyond the end, or where a number is too large, and remembers that
 //! ([`Reader::is_good`]), which takes half of the code (docs/decisions.md, record 5).
 
-use serde::Deserializer;
 use serde::de::{
     DeserializeSeed, EnumAccess, Error, IntoDeserializer, SeqAccess, VariantAccess, Visitor,
 };
+use serde::{Deserialize, Deserializer};
 
-pub(super) struct Reader<'de> {
+/// What is left to read, and whether all was good.
+pub struct Reader<'de> {
     bytes: &'de [u8],
     is_good: bool,
 }
 
 #[derive(Debug, thiserror::Error)]
 #[error("unreadable")]
-pub(super) struct Unreadable;
+pub struct Unreadable;
 
 impl Error for Unreadable {
     fn custom<T: core::fmt::Display>(_: T) -> Self {
@@ -25,7 +26,8 @@ impl Error for Unreadable {
 }
 
 impl<'de> Reader<'de> {
-    pub(super) const fn new(bytes: &'de [u8]) -> Self {
+    /// Of a value's bytes, which may go on behind it.
+    pub const fn new(bytes: &'de [u8]) -> Self {
         Self {
             bytes,
             is_good: true,
@@ -33,7 +35,7 @@ impl<'de> Reader<'de> {
     }
 
     /// Whether all that was read was there, and in range.
-    pub(super) const fn is_good(&self) -> bool {
+    pub const fn is_good(&self) -> bool {
         self.is_good
     }
 
@@ -104,6 +106,13 @@ impl<'de> Reader<'de> {
         self.bytes = rest;
         slice
     }
+}
+
+/// A value, and what stands behind it. `None`: there is no such value.
+pub(crate) fn take<'b, T: Deserialize<'b>>(bytes: &'b [u8]) -> Option<(T, &'b [u8])> {
+    let mut reader = Reader::new(bytes);
+    let value = T::deserialize(&mut reader).ok()?;
+    reader.is_good.then_some((value, reader.bytes))
 }
 
 /// Signs alternate: 0, −1, 1, −2, …
@@ -284,7 +293,7 @@ mod tests {
     use proptest::prelude::*;
     use serde::{Deserialize, Serialize};
 
-    use super::Reader;
+    use super::take;
 
     #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
     enum Kind {
@@ -305,9 +314,7 @@ mod tests {
     }
 
     fn read(bytes: &[u8]) -> Option<(Whole, usize)> {
-        let mut reader = Reader::new(bytes);
-        let whole = Whole::deserialize(&mut reader).ok()?;
-        reader.is_good().then_some((whole, reader.bytes.len()))
+        take(bytes).map(|(whole, rest)| (whole, rest.len()))
     }
 
     fn kinds() -> impl Strategy<Value = Option<Kind>> {
