@@ -2,7 +2,7 @@
 
 use core::sync::atomic::Ordering;
 
-use wire::{Answer, CONTENT_BYTES, Frame, Piece, Request, Splitter};
+use wire::{Answer, COMMAND_BYTES, Frame, Piece, Request, Splitter};
 
 use super::stops::PROBE;
 use crate::board::rtt::{self, DOWN, PACKETS, REQUESTS, UP};
@@ -11,7 +11,8 @@ use crate::board::rtt::{self, DOWN, PACKETS, REQUESTS, UP};
 const KEPT: u32 = 128;
 
 pub(crate) struct ProbeLine {
-    splitter: Splitter<CONTENT_BYTES>,
+    /// That of the serial line, lest its code be there twice.
+    splitter: Splitter<COMMAND_BYTES>,
 }
 
 impl ProbeLine {
