@@ -336,8 +336,7 @@ impl Board {
                 Pins::Ideal(motor) => (motor.counts(), None),
                 Pins::Brushed(pins) => (pins.encoder.counts(), None),
                 Pins::Brushless(pins) => {
-                    let (a, b, c) = &mut pins.halls;
-                    let halls = [a.is_high(), b.is_high(), c.is_high()];
+                    let halls = pins.halls.each_mut().map(InputPin::is_high);
                     (pins.encoder.counts(), Some(halls.map(|Ok(high)| high)))
                 }
             };
@@ -362,12 +361,10 @@ impl Board {
                     let Ok(()) = pins.dir.set_state(directions[side].into());
                 }
                 Pins::Brushless(pins) => {
-                    let (a, b, c) = &mut pins.pwms;
-                    for (pwm, duty) in [a, b, c].into_iter().zip(duties) {
+                    for (pwm, duty) in pins.pwms.iter_mut().zip(duties) {
                         set_pwm(pwm, duty);
                     }
-                    let (a, b, c) = &mut pins.enables;
-                    for (pin, high) in [a, b, c].into_iter().zip(enables) {
+                    for (pin, high) in pins.enables.iter_mut().zip(enables) {
                         let Ok(()) = pin.set_state(high.into());
                     }
                 }

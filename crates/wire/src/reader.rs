@@ -15,6 +15,7 @@ pub struct Reader<'de> {
     is_good: bool,
 }
 
+/// What is no value of its type.
 #[derive(Debug, thiserror::Error)]
 #[error("unreadable")]
 pub struct Unreadable;

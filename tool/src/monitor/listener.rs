@@ -14,7 +14,7 @@ use host_sim::loaded::Loaded;
 use host_sim::{Error, files};
 use mlx90333::Word;
 use scene::Rule;
-use tactile::Decision;
+use tactile::{Deciding, Decision};
 use whisking::{Real, filter};
 use wire::{Flags, TickRecord};
 

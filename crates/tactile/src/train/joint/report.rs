@@ -57,6 +57,8 @@ pub struct AtThreshold {
     pub samples: f64,
     /// Share of decisions that said "unknown".
     pub unknown: Interval,
+    /// Share of trials without a decision.
+    pub undecided: Interval,
 }
 
 /// What was found of a pose when it was held out.
@@ -109,9 +111,10 @@ pub(super) fn silent(said: &[Decided], parts: impl Iterator<Item = usize>) -> [u
 }
 
 impl AtThreshold {
-    pub(super) fn of(threshold: f64, said: &[Decided]) -> Self {
+    pub(super) fn of(threshold: f64, said: &[Decided], parts: usize) -> Self {
         let named = || said.iter().filter(|said| said.is_named);
         let count = named().count();
+        let [undecided, parts] = silent(said, 0..parts);
         let mean = |of: &dyn Fn(&Decided) -> f64| named().map(of).sum::<f64>() / count as f64;
         Self {
             threshold,
@@ -119,6 +122,7 @@ impl AtThreshold {
             found: Interval::of(named().filter(|said| said.is_right()).count(), count),
             samples: mean(&|said| f64::from(said.samples)),
             unknown: Interval::of(said.len() - count, said.len()),
+            undecided: Interval::of(undecided, parts),
         }
     }
 }
@@ -171,11 +175,12 @@ impl Maker<'_> {
         let said = THRESHOLDS.map(|threshold| self.said(rule, threshold));
         let class = |class| self.class(class, &said[USUAL], rule);
         let calibration = THRESHOLDS.iter().zip(&said);
+        let parts = self.folded.pieces.len();
         Report {
             threshold: THRESHOLD,
             classes: (0..self.names.len()).map(class).collect(),
             calibration: calibration
-                .map(|(at, said)| AtThreshold::of(*at, said))
+                .map(|(at, said)| AtThreshold::of(*at, said, parts))
                 .collect(),
             poses: Vec::new(),
             warnings: self.warnings,

@@ -56,7 +56,7 @@ pub(super) fn report(model: &mut JointModel, trials: &[Trial]) -> Result<(), Tra
     let own = &said[USUAL];
     let report = &mut model.report;
     for (at, said) in report.calibration.iter_mut().zip(&said) {
-        *at = AtThreshold::of(at.threshold, said);
+        *at = AtThreshold::of(at.threshold, said, trials.len());
     }
     for (class, report) in report.classes.iter_mut().enumerate() {
         let of_class = (0..trials.len()).filter(|part| trials[*part].label == report.name);
