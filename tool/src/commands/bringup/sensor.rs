@@ -196,6 +196,8 @@ fn set_rate(bench: &mut Bench, scene: &Path, tick_hz: u32) -> Result<(), Error> 
 fn least_answered(bench: &mut Bench) -> Result<(Leaves, usize), Ended> {
     let mut answered = usize::MAX;
     for side in bench.sides() {
+        // The module has just started, and may not have read a frame when it is first asked.
+        read(bench, side, 1)?;
         let frames = read(bench, side, bench.frames)?;
         answered = answered.min(Seen::of(&frames).begun());
     }
