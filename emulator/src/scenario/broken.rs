@@ -139,8 +139,8 @@ pub(super) fn damage(scene: &Scene, program: &Program) -> Result<Vec<Case>, Erro
             flips.push((55, (pwm.address, 4, pwm.size()?)));
         } else {
             let pwms = motor.held("Brushless")?.member("pwms")?;
-            for name in ["__0", "__1", "__2"] {
-                flips.push((55, (pwms.member(name)?.address, 4, pwms.size()?)));
+            for phase in 0..3 {
+                flips.push((55, (pwms.element(phase)?.address, 4, pwms.size()?)));
             }
         }
     }
