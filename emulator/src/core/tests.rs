@@ -1,6 +1,7 @@
 //! What a core must not execute, seen to trap.
 
 mod arithmetic;
+mod copying;
 
 use rsemu::cpu::arm::v7m::sys::{DEMCR_TRCENA, DWT_CTRL_CYCCNTENA};
 

@@ -3,7 +3,7 @@
 
 #[allow(unsafe_code, reason = "compiled code calls them by name")]
 // From the end, in words where the places are of whole words. They change what a call may: r0 to r3
-// and the flags.
+// and the flags. What this is assembled to is tried by emulator/src/core/tests/copying.rs.
 mod names {
     core::arch::global_asm!(
         ".pushsection .text.memory, \"ax\", %progbits",
