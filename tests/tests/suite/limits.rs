@@ -2,7 +2,7 @@
 
 use proptest::prelude::*;
 
-use crate::played::{BOARD, TICK_HZ, alone_with, play};
+use crate::played::{BOARD, TICK_HZ, alone_with, play_until_given_up};
 use firmware::{Config, Event, decode, encode};
 use host_sim::motor::{EncoderFlaws, Wire};
 use scene::Scene;
@@ -75,7 +75,7 @@ proptest! {
         let scene = alone_with(&whisking, &motor);
         prop_assume!(is_taken(&scene));
         let mut duties = Vec::new();
-        let played = play(&scene, 6 * TICK_HZ, |tick, run| {
+        let played = play_until_given_up(&scene, 6 * TICK_HZ, |tick, run| {
             let motor = run.motor_mut(0).unwrap();
             if tick == 0 {
                 motor.cut(Wire::Encoder);

@@ -84,10 +84,33 @@ pub(crate) fn textured(at_deg: f64) -> String {
 }
 
 /// Plays `ticks` of a scene; `act` is called before each.
-pub(crate) fn play(scene: &Scene, ticks: u64, mut act: impl FnMut(u64, &mut Run)) -> Played {
+pub(crate) fn play(scene: &Scene, ticks: u64, act: impl FnMut(u64, &mut Run)) -> Played {
+    play_until(scene, ticks, |_| false, act)
+}
+
+/// A motor that was given up is off for good: it coasts no longer than this.
+const COASTS: u64 = 2 * TICK_HZ;
+
+/// The same, to the end of what the left motor does once it is given up, if it is.
+pub(crate) fn play_until_given_up(
+    scene: &Scene,
+    ticks: u64,
+    act: impl FnMut(u64, &mut Run),
+) -> Played {
+    let ends = |event: &Event| *event == Event::MotorGivenUp(LEFT);
+    play_until(scene, ticks, ends, act)
+}
+
+fn play_until(
+    scene: &Scene,
+    mut ticks: u64,
+    ends: impl Fn(&Event) -> bool,
+    mut act: impl FnMut(u64, &mut Run),
+) -> Played {
     let mut run = Run::new(scene, None).unwrap();
     let mut played = Played::default();
-    for tick in 0..ticks {
+    let mut tick = 0;
+    while tick < ticks {
         act(tick, &mut run);
         played.rows.push(run.tick());
         for event in run.events() {
@@ -101,6 +124,10 @@ pub(crate) fn play(scene: &Scene, ticks: u64, mut act: impl FnMut(u64, &mut Run)
         played
             .heard
             .extend(sample.map(|sample| (tick, sample.codes)));
+        if run.events().iter().any(&ends) {
+            ticks = ticks.min(tick + COASTS);
+        }
+        tick += 1;
     }
     played
 }

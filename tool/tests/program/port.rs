@@ -106,9 +106,9 @@ fn one_key_stops_a_board_on_a_port() {
 #[test]
 fn a_board_that_is_reset_is_asked_for_records_again() {
     let place = Place::new();
-    place.write("off.toml", "[[event]]\nat_s = 10.0\nkind = \"power-off\"\n");
+    place.write("off.toml", "[[event]]\nat_s = 4.0\nkind = \"power-off\"\n");
     let served = Served::with(&place, "--scenario off.toml");
-    let ran = place.done(&format!("records {} --seconds 18 --out r.csv", served.port));
+    let ran = place.done(&format!("records {} --seconds 9 --out r.csv", served.port));
     ran.prints("starts of the module meanwhile: 1");
 }
 
