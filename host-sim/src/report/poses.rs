@@ -76,7 +76,8 @@ pub(crate) fn second_opinion(with: &Evaluation, without: &Evaluation) -> String 
         format!("right {found}{stated}; without a decision {undecided}")
     };
     format!(
-        "second opinion     with:    {}\n                   without: {} (`train --expect same`)",
+        "second opinion     with:    {}\n                   without: {} (`train --expect same`, which \
+         may decide less)",
         of(with),
         of(without)
     )

@@ -7,7 +7,7 @@ use host_sim::decisions::{Decided, UNKNOWN};
 use host_sim::evaluation::{Shown, presentations};
 use host_sim::files;
 use host_sim::recording::{CHANNELS, Stream};
-use host_sim::training::{How, Tables};
+use host_sim::training::{Expected, How, Tables};
 use tactile::ModelBuf;
 use tactile::score::Interval;
 
@@ -58,7 +58,7 @@ pub(super) fn section(page: &mut Page, folder: &Path, extent: &Extent) -> Result
     let others = extent.cores.each("terrain", &places, |&left_out| {
         let known = drives.iter().enumerate().filter(|(n, _)| *n != left_out);
         let recordings = known.map(|(n, drive)| (n.to_string(), vec![drive.clone()]));
-        let model = trained(&recordings.collect::<Vec<_>>())?;
+        let model = trained(&recordings.collect::<Vec<_>>(), Expected::default())?;
         decided(&model, &windows(&drives[left_out]))
     })?;
     let [quarters, again] = [0, 1].map(|n| first.iter().map(|half| cut(half, n)).collect());
@@ -69,11 +69,17 @@ pub(super) fn section(page: &mut Page, folder: &Path, extent: &Extent) -> Result
             ("second quarters".to_owned(), again),
         ],
     ];
-    let known = extent.cores.each("terrain", &known, |recordings| {
-        let model = trained(recordings)?;
-        let drives = second.iter().map(|drive| decided(&model, &windows(drive)));
-        drives.collect::<Result<Vec<Windows>, _>>()
-    })?;
+    let [bench, same] =
+        [Expected::Bench, Expected::Same].map(|e| known.each_ref().map(|of| (of, e)));
+    let known = extent.cores.each(
+        "terrain",
+        &[bench, same].concat(),
+        |(recordings, expected)| {
+            let model = trained(recordings, *expected)?;
+            let drives = second.iter().map(|drive| decided(&model, &windows(drive)));
+            drives.collect::<Result<Vec<Windows>, _>>()
+        },
+    )?;
 
     page.heading(2, "Terrain");
     page.say(format_args!(
@@ -84,7 +90,8 @@ pub(super) fn section(page: &mut Page, folder: &Path, extent: &Extent) -> Result
          model is trained on the rest, a drive a recording. *Known drives*: trained on the first \
          half of each, tried on the second. What training holds out to weigh its tables is, of \
          one recording, a drive, as if others were to come; given as two recordings, a quarter \
-         of each drive in either, another stretch of the same drives, which is what is asked. \
+         of each drive in either, another stretch of the same drives, which is what is asked. With \
+         `--expect same` a model takes use for like its training, as another stretch is. \
          Intervals count a drive as one observation: its windows are alike.",
         others.len()
     ));
@@ -107,7 +114,13 @@ pub(super) fn section(page: &mut Page, folder: &Path, extent: &Extent) -> Result
     line(other, "windows wrong", &others, wrong, AtMost(2.0));
     line(other, "windows decided", &others, decided, none);
     line(other, "right of those", &others, right, none);
-    for (name, drives) in ["one recording", "two recordings"].iter().zip(&known) {
+    let given = [
+        "one recording",
+        "two recordings",
+        "one recording, `--expect same`",
+        "two recordings, `--expect same`",
+    ];
+    for (name, drives) in given.iter().zip(&known) {
         let name = format!("known drives, {name}");
         line(&name, "windows decided", drives, decided, AtLeast(65.0));
         line(&name, "right of those", drives, right, AtLeast(92.0));
@@ -152,8 +165,12 @@ fn windows(drive: &Stream) -> Vec<Stream> {
     drive.samples.chunks_exact(length).map(window).collect()
 }
 
-fn trained(recordings: &[(String, Vec<Stream>)]) -> Result<ModelBuf> {
-    Ok(How::of(Tables::Joint).train(recordings, RATE_HZ)?.model)
+fn trained(recordings: &[(String, Vec<Stream>)], expect: Expected) -> Result<ModelBuf> {
+    let how = How {
+        expect,
+        ..How::of(Tables::Joint)
+    };
+    Ok(how.train(recordings, RATE_HZ)?.model)
 }
 
 fn decided(model: &ModelBuf, windows: &[Stream]) -> Result<Windows> {
