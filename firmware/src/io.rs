@@ -72,7 +72,7 @@ impl<F: FrameSource> WordSource for F {
             decode_otherwise(decoder, bytes)
         };
         let frame = frame.map_err(SensorFault::Frame)?;
-        Ok([frame.first(), frame.second()])
+        Ok([frame.first, frame.second])
     }
 
     #[inline]

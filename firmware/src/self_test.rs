@@ -50,8 +50,8 @@ impl SelfTest {
             let rest_us = match read {
                 Ok(frame) => {
                     found.good += 1;
-                    x.add(frame.first());
-                    y.add(frame.second());
+                    x.add(frame.first);
+                    y.add(frame.second);
                     pacing.rest_us
                 }
                 Err(fault) => {

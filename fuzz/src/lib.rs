@@ -17,7 +17,7 @@ pub use scene::{scene, simulation};
 pub use shards::shards;
 
 use host_sim::recording;
-use mlx90333::{Decoder, Frame, Mode, SumRule, encode};
+use mlx90333::{Decoder, Frame, Mode, SumRule, Word, encode};
 
 /// The decoder of the sensor's frames, with every mode and rule of the sum.
 ///
@@ -27,12 +27,16 @@ pub fn frame(data: &[u8]) {
     for bytes in data.as_chunks().0 {
         for mode in [Mode::AlphaBeta, Mode::Xyz] {
             for sum_rule in SumRule::ALL {
-                let frame = Decoder::with(mode, sum_rule).decode(bytes);
-                let sent = match frame {
-                    Ok(Frame::AlphaBeta { alpha, beta }) => {
-                        encode::alpha_beta(alpha, beta, mlx90333::Faults::NONE, sum_rule)
+                let decoder = Decoder::with(mode, sum_rule);
+                let sent = match decoder.decode(bytes) {
+                    Ok(Frame {
+                        first,
+                        second,
+                        third,
+                    }) => {
+                        let words = [first, second, third.unwrap_or_default()];
+                        encode::words(words.map(Word::raw), decoder)
                     }
-                    Ok(Frame::Xyz { x, y, z }) => encode::xyz(x, y, z, sum_rule),
                     Err(error) => {
                         assert!(!error.to_string().is_empty());
                         continue;

@@ -34,11 +34,6 @@ pub const fn words(words: [u16; 3], decoder: Decoder) -> [u8; FRAME_LEN] {
     frame(swapped, sum_rule)
 }
 
-/// An XYZ frame.
-pub const fn xyz(x: Word, y: Word, z: Word, sum_rule: SumRule) -> [u8; FRAME_LEN] {
-    frame([x.raw(), y.raw(), z.raw()], sum_rule)
-}
-
 const fn frame(words: [u16; 3], sum_rule: SumRule) -> [u8; FRAME_LEN] {
     let [first, second, third] = words;
     let [b1, b2] = first.to_le_bytes();

@@ -113,49 +113,13 @@ impl SumRule {
 
 /// A valid frame.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Frame {
-    /// The words of [`Mode::AlphaBeta`].
-    AlphaBeta {
-        /// First angle.
-        alpha: Word,
-        /// Second angle.
-        beta: Word,
-    },
-    /// The words of [`Mode::Xyz`].
-    Xyz {
-        /// Field along X.
-        x: Word,
-        /// Field along Y.
-        y: Word,
-        /// Field along Z.
-        z: Word,
-    },
-}
-
-impl Frame {
+pub struct Frame {
     /// Alpha or X.
-    pub const fn first(&self) -> Word {
-        match *self {
-            Frame::AlphaBeta { alpha, .. } => alpha,
-            Frame::Xyz { x, .. } => x,
-        }
-    }
-
+    pub first: Word,
     /// Beta or Y.
-    pub const fn second(&self) -> Word {
-        match *self {
-            Frame::AlphaBeta { beta, .. } => beta,
-            Frame::Xyz { y, .. } => y,
-        }
-    }
-
+    pub second: Word,
     /// Z; `None` in alpha-beta mode.
-    pub const fn third(&self) -> Option<Word> {
-        match *self {
-            Frame::AlphaBeta { .. } => None,
-            Frame::Xyz { z, .. } => Some(z),
-        }
-    }
+    pub third: Option<Word>,
 }
 
 /// Why eight bytes are not a valid frame. The first that applies, in the order
@@ -260,14 +224,13 @@ impl Decoder {
             _ if matches!([first.raw(), second.raw()], [0, 0] | [u16::MAX, u16::MAX]) => {
                 Err(FrameError::StuckWords)
             }
-            Mode::AlphaBeta => Ok(Frame::AlphaBeta {
-                alpha: first,
-                beta: second,
-            }),
-            Mode::Xyz => Ok(Frame::Xyz {
-                x: first,
-                y: second,
-                z: Word::new(last),
+            mode => Ok(Frame {
+                first,
+                second,
+                third: match mode {
+                    Mode::AlphaBeta => None,
+                    Mode::Xyz => Some(Word::new(last)),
+                },
             }),
         }
     }

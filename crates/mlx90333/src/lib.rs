@@ -11,8 +11,8 @@
 //! - *code*: the 14 bits of a word that carry the reading.
 //!
 //! Where to look: a decoded frame in `frame.rs`, one reading in `word.rs`, the error word in
-//! `faults.rs`, blocking reads in `driver.rs`, reads from an interrupt in `transfer.rs`, the
-//! sensor's side of the wire in `encode.rs`, every duration and rate in `timing.rs`.
+//! `faults.rs`, blocking reads in `driver.rs`, the sensor's side of the wire in `encode.rs`, every
+//! duration and rate in `timing.rs`.
 //!
 #![doc = include_str!("../README.md")]
 #![no_std]
@@ -22,14 +22,12 @@ pub mod encode;
 mod faults;
 mod frame;
 pub mod timing;
-mod transfer;
 mod word;
 
 pub use driver::{Error, Mlx90333};
 pub use faults::Faults;
 pub use frame::{ByteOrder, Decoder, Frame, FrameError, Mode, SumRule};
 pub use timing::SPI_MODE;
-pub use transfer::{Step, Transfer};
 pub use word::Word;
 
 /// Bytes in a frame, in either mode.

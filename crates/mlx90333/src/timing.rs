@@ -66,8 +66,8 @@ pub const UPDATE_SLOW_US: u32 = 1_500;
 /// `clock_hz` and seven gaps between eight bytes.
 ///
 /// 320 kHz with gaps of 12.5 µs takes 287.5 µs, with gaps of 50 µs 550 µs: more than a 2 kHz tick,
-/// so such a read belongs in an interrupt ([`Transfer`](crate::Transfer)) and not in the tick. Add
-/// what the master's own handling costs. A clock of 0 Hz never ends: `u64::MAX`.
+/// so such a read belongs in interrupts or DMA and not in the tick. Add what the master's own
+/// handling costs. A clock of 0 Hz never ends: `u64::MAX`.
 pub const fn frame_time_ns(clock_hz: u32, gap_ns: u32) -> u64 {
     const BITS_NS: u64 = 64 * 1_000_000_000;
     if clock_hz == 0 {

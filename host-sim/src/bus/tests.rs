@@ -111,7 +111,7 @@ fn noise_changes_every_frame_and_no_code() {
     assert!(frames.windows(2).all(|two| two[0] != two[1]));
     for frame in &frames {
         let frame = Decoder::new().decode(frame).unwrap();
-        let codes = [frame.first(), frame.second()].map(Word::code14);
+        let codes = [frame.first, frame.second].map(Word::code14);
         assert_eq!(codes, [8192; 2]);
     }
     let last = read(&mut noisy);
@@ -120,9 +120,9 @@ fn noise_changes_every_frame_and_no_code() {
     assert_eq!([read(&mut noisy), read(&mut noisy)], [last; 2]);
     noisy.set_fault(None);
     let frame = Decoder::new().decode(&read(&mut noisy)).unwrap();
-    assert_eq!(frame.first().code14(), 8192 + 4096);
+    assert_eq!(frame.first.code14(), 8192 + 4096);
     noisy.inject(WireFault::Shift(0x1000), 1);
     let frame = Decoder::new().decode(&read(&mut noisy)).unwrap();
-    assert_eq!(frame.first().code14(), 8192 + 4096 + 1024);
-    assert_eq!(frame.second().code14(), 8192 + 4096);
+    assert_eq!(frame.first.code14(), 8192 + 4096 + 1024);
+    assert_eq!(frame.second.code14(), 8192 + 4096);
 }

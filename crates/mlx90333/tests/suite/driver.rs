@@ -33,8 +33,8 @@ fn sensor(steps: &[Transaction<u8>]) -> Mlx90333<Mock<u8>> {
 #[test]
 fn a_read_is_one_transaction_at_once_or_with_seven_gaps() {
     let is_good = |frame: Frame| {
-        assert_eq!(frame.first(), Word::new(0x1234));
-        assert_eq!(frame.second(), Word::new(0xABCD));
+        assert_eq!(frame.first, Word::new(0x1234));
+        assert_eq!(frame.second, Word::new(0xABCD));
     };
     let mut sensor = sensor(&[at_once(GOOD), paced(GOOD, 12_500), paced(GOOD, 50_000)].concat());
     is_good(sensor.read().unwrap());
@@ -68,10 +68,10 @@ fn bad_frames_are_frame_errors_and_do_not_stop_the_next_read() {
 #[test]
 fn the_decoder_given_is_the_one_used() {
     let decoder = Decoder::with(Mode::Xyz, SumRule::ComplementB0B6);
-    let bytes = encode::xyz(Word::new(1), Word::new(2), Word::new(3), decoder.sum_rule);
+    let bytes = encode::words([1, 2, 3], decoder);
     let mut sensor = Mlx90333::new(Mock::new(&at_once(bytes)), decoder);
     assert_eq!(sensor.decoder(), decoder);
-    assert_eq!(sensor.read().unwrap().third(), Some(Word::new(3)));
+    assert_eq!(sensor.read().unwrap().third, Some(Word::new(3)));
     sensor.release().done();
 }
 

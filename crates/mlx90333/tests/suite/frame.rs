@@ -21,6 +21,10 @@ fn word() -> impl Strategy<Value = Word> {
     .prop_map(Word::new)
 }
 
+fn xyz(words: [Word; 3], rule: SumRule) -> [u8; 8] {
+    encode::words(words.map(Word::raw), Decoder::with(Mode::Xyz, rule))
+}
+
 fn pair() -> impl Strategy<Value = (Word, Word)> {
     let stuck =
         |pair: &(Word, Word)| matches!((pair.0.raw(), pair.1.raw()), (0, 0) | (0xFFFF, 0xFFFF));
@@ -30,10 +34,16 @@ fn pair() -> impl Strategy<Value = (Word, Word)> {
 #[test]
 fn alpha_beta_by_hand() {
     let frame = Decoder::new().decode(&ALPHA_BETA).unwrap();
-    let (alpha, beta) = (Word::new(0x1234), Word::new(0xABCD));
-    assert_eq!(frame, Frame::AlphaBeta { alpha, beta });
-    assert_eq!((frame.first(), frame.second()), (alpha, beta));
-    assert_eq!(frame.third(), None);
+    let [first, second] = [0x1234, 0xABCD].map(Word::new);
+    let third = None;
+    assert_eq!(
+        frame,
+        Frame {
+            first,
+            second,
+            third
+        }
+    );
 }
 
 #[test]
@@ -61,8 +71,15 @@ fn xyz_by_hand() {
     let decoder = Decoder::with(Mode::Xyz, SumRule::SumB1B6);
     let frame = decoder.decode(&bytes).unwrap();
     let [first, second, third] = [0x1234, 0xABCD, 0x5678].map(Word::new);
-    assert_eq!((frame.first(), frame.second()), (first, second));
-    assert_eq!(frame.third(), Some(third));
+    let third = Some(third);
+    assert_eq!(
+        frame,
+        Frame {
+            first,
+            second,
+            third
+        }
+    );
     // The same bytes in the other mode carry an error word.
     let faults = FrameError::Sensor(Faults::new(0x5678));
     assert_eq!(Decoder::new().decode(&bytes), Err(faults));
@@ -83,7 +100,7 @@ fn each_rule_by_hand() {
             bytes[7] = found;
             let result = decoder.decode(&bytes);
             if found == expected {
-                assert_eq!(result.unwrap().first().raw(), 0x1234, "{rule:?}");
+                assert_eq!(result.unwrap().first.raw(), 0x1234, "{rule:?}");
             } else {
                 assert_eq!(result, Err(FrameError::BadSum { expected, found }));
             }
@@ -149,9 +166,9 @@ proptest! {
         let of = |mode, bytes| Decoder::with(mode, rule).decode(&bytes);
         let faults = Faults::new(bits);
         let decoded = of(Mode::AlphaBeta, encode::alpha_beta(x, y, Faults::NONE, rule));
-        prop_assert_eq!(decoded, Ok(Frame::AlphaBeta { alpha: x, beta: y }));
-        let decoded = of(Mode::Xyz, encode::xyz(x, y, z, rule));
-        prop_assert_eq!(decoded, Ok(Frame::Xyz { x, y, z }));
+        prop_assert_eq!(decoded, Ok(Frame { first: x, second: y, third: None }));
+        let decoded = of(Mode::Xyz, xyz([x, y, z], rule));
+        prop_assert_eq!(decoded, Ok(Frame { first: x, second: y, third: Some(z) }));
         let decoded = of(Mode::AlphaBeta, encode::alpha_beta(x, z, faults, rule));
         prop_assert_eq!(decoded, Err(FrameError::Sensor(faults)));
     }
@@ -167,10 +184,8 @@ proptest! {
             }
             for mode in MODES {
                 match Decoder::with(mode, rule).decode(&bytes) {
-                    Ok(Frame::AlphaBeta { alpha, beta }) => prop_assert_eq!(
-                        encode::alpha_beta(alpha, beta, Faults::NONE, rule), bytes),
-                    Ok(Frame::Xyz { x, y, z }) =>
-                        prop_assert_eq!(encode::xyz(x, y, z, rule), bytes),
+                    Ok(Frame { first, second, third }) => prop_assert_eq!(
+                        xyz([first, second, third.unwrap_or_default()], rule), bytes),
                     Err(FrameError::BadStart(start)) => {
                         prop_assert!(start == bytes[0] && start != 0xFF);
                     }
@@ -195,7 +210,7 @@ proptest! {
         for &rule in SUMMING {
             let frames = [
                 (Mode::AlphaBeta, encode::alpha_beta(x, y, Faults::NONE, rule)),
-                (Mode::Xyz, encode::xyz(x, y, z, rule)),
+                (Mode::Xyz, xyz([x, y, z], rule)),
             ];
             for (mode, sent) in frames {
                 let decoder = Decoder::with(mode, rule);

@@ -4,5 +4,4 @@ mod driver;
 mod faults;
 mod frame;
 mod timing;
-mod transfer;
 mod word;

@@ -60,7 +60,7 @@ impl<R: Real> Channel<R> {
         let Ok(frame) = Decoder::new().decode(frame(number)) else {
             return (1 << 31, strongest);
         };
-        let words = [frame.first(), frame.second()];
+        let words = [frame.first, frame.second];
         let [x, y] = words.map(|word| R::from_code(word.signed14().max(-8191)));
         let [on_x, on_y] = &mut self.filters;
         let felt = [h50.process(on_x, x), h50.process(on_y, y)];

@@ -14,7 +14,7 @@ fn integers() {
         (bytes: &[u8; FRAME_LEN], _: &mut ()) -> u32 {
             match Decoder::new().decode(bytes) {
                 Ok(frame) => {
-                    u32::from(frame.first().raw()) << 16 | u32::from(frame.second().raw())
+                    u32::from(frame.first.raw()) << 16 | u32::from(frame.second.raw())
                 }
                 Err(_) => 0,
             }
