@@ -313,7 +313,7 @@ mod tests {
     #[cfg(feature = "tmag5170")]
     fn tilt_faults() -> Vec<crate::TiltFault> {
         use crate::TiltFault::{NoMagnet, NotWritten, Reply, Reported};
-        use tmag5170::ReplyError::{self, LineLow, NoSensor, OtherType, Rejected, Restarted};
+        use tmag5170::ReplyError::{self, LineLow, NoSensor, Rejected, Restarted};
         use tmag5170::{Register, Status, StatusFaults};
 
         let [expected, found] = [3, 12];
@@ -322,7 +322,7 @@ mod tests {
         let of_lines = [NoSensor, LineLow, Rejected, bad_crc];
         let mut faults = vec![Reported(StatusFaults::NONE), NoMagnet];
         faults.extend(of_lines.map(Reply));
-        faults.extend([Restarted, sensor, OtherType(5)].map(Reply));
+        faults.extend([Restarted, sensor].map(Reply));
         faults.extend(StatusFaults::KNOWN.map(|known| Reported(known.bit)));
         faults.extend(Register::ALL.map(NotWritten));
         faults

@@ -8,8 +8,8 @@
 use embedded_hal::spi::SpiDevice;
 use mlx90333::{Decoder, Word};
 use tmag5170::{
-    Average, Channels, Config, DataType, DeviceConfig, Error, Field, OperatingMode, Range,
-    ReplyError, SensorConfig, StatusFaults, Tmag5170, Version,
+    Average, Channels, Config, DeviceConfig, Error, Field, OperatingMode, Range, ReplyError,
+    SensorConfig, StatusFaults, Tmag5170, Version,
 };
 
 use crate::io::WordSource;
@@ -111,10 +111,8 @@ pub struct TiltSource<SPI> {
 }
 
 impl<SPI: SpiDevice> TiltSource<SPI> {
-    /// Set up as `config` has it, but for its replies, which carry registers.
-    pub fn new(sensor: Tmag5170<SPI>, config: Config, scale: TiltScale) -> Self {
-        let mut config = config;
-        config.system.data_type = DataType::Register;
+    /// Set up as `config` has it.
+    pub const fn new(sensor: Tmag5170<SPI>, config: Config, scale: TiltScale) -> Self {
         Self {
             sensor,
             config,

@@ -1,4 +1,4 @@
-//! What the master sends: a register to read or to write, and two command bits.
+//! What the master sends: a register to read or to write, and a command bit.
 //!
 //! | bits | 31 | 30..24 | 23..8 | 7..6 | 5 | 4 | 3..0 |
 //! |---|---|---|---|---|---|---|---|
@@ -27,28 +27,23 @@ pub struct Command {
     /// CMD0: starts a conversion, where the trigger mode is
     /// [`Trigger::Command`](crate::Trigger::Command) and the operating mode waits for one.
     pub convert: bool,
-    /// CMD1: from the next reply on its lowest status bits are the
-    /// [`DataType`](crate::DataType); otherwise the count of conversions.
-    pub tell_type: bool,
 }
 
 /// Where the bits are in the first and in the last byte.
 const READ: u8 = 0x80;
 const ADDRESS: u8 = 0x7F;
 const CONVERT: u8 = 0x10;
-const TELL_TYPE: u8 = 0x20;
 
 impl Command {
-    /// Reads a register, without command bits.
+    /// Reads a register, and starts no conversion.
     pub const fn read(register: Register) -> Command {
         Command {
             access: Access::Read(register),
             convert: false,
-            tell_type: false,
         }
     }
 
-    /// Writes a register, without command bits.
+    /// Writes a register, and starts no conversion.
     pub const fn write(register: Register, value: u16) -> Command {
         Command {
             access: Access::Write(register, value),
@@ -64,12 +59,12 @@ impl Command {
         };
         let [high, low] = value.to_be_bytes();
         let convert = if self.convert { CONVERT } else { 0 };
-        let tell_type = if self.tell_type { TELL_TYPE } else { 0 };
-        crc::sealed([first, high, low, convert | tell_type])
+        crc::sealed([first, high, low, convert])
     }
 
     /// What a frame from a master asks for, as the sensor takes it. What is to be written in
-    /// a frame that reads does not count.
+    /// a frame that reads does not count, nor does CMD1: with it the lowest bits of the status
+    /// are the type of the reply.
     ///
     /// # Errors
     /// The first [`CommandError`] that applies, in the order they are listed.
@@ -88,7 +83,6 @@ impl Command {
         Ok(Command {
             access,
             convert: last & CONVERT != 0,
-            tell_type: last & TELL_TYPE != 0,
         })
     }
 }

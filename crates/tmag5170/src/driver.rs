@@ -5,8 +5,8 @@ use core::fmt;
 use embedded_hal::spi::SpiDevice;
 
 use crate::{
-    ChannelPair, Command, Config, DataType, FRAME_LEN, Field, OperatingMode, Register, Reply,
-    ReplyError, StatusFaults, SystemConfig, check,
+    Command, Config, FRAME_LEN, Field, OperatingMode, Register, Reply, ReplyError, StatusFaults,
+    SystemConfig, check,
 };
 
 /// Why there is no reading. `E` is the bus's own error.
@@ -40,12 +40,6 @@ impl<E: fmt::Debug> fmt::Display for Error<E> {
 
 impl<E: fmt::Debug> core::error::Error for Error<E> {}
 
-/// Asks for nothing but the data type, which the next reply carries.
-const ASK_TYPE: Command = Command {
-    tell_type: true,
-    ..Command::read(Register::DeviceConfig)
-};
-
 /// A sensor on an SPI bus set to [`SPI_MODE`](crate::SPI_MODE), clocked at no more than
 /// [`CLOCK_MAX_HZ`](crate::timing::CLOCK_MAX_HZ).
 ///
@@ -54,17 +48,12 @@ const ASK_TYPE: Command = Command {
 #[derive(Debug)]
 pub struct Tmag5170<SPI> {
     spi: SPI,
-    /// What was sent last.
-    system: SystemConfig,
 }
 
 impl<SPI> Tmag5170<SPI> {
     /// Takes the bus; sends nothing.
-    pub fn new(spi: SPI) -> Tmag5170<SPI> {
-        Tmag5170 {
-            spi,
-            system: SystemConfig::default(),
-        }
+    pub const fn new(spi: SPI) -> Tmag5170<SPI> {
+        Tmag5170 { spi }
     }
 
     /// The bus, for a simulation that has the sensor behind it.
@@ -89,7 +78,7 @@ impl<SPI: SpiDevice> Tmag5170<SPI> {
         Ok(bytes)
     }
 
-    /// Reads a register, whatever the status says; for replies that carry registers.
+    /// Reads a register, whatever the status says.
     ///
     /// # Errors
     /// [`Error::Bus`], or [`Error::Frame`] if the reply did not arrive whole.
@@ -110,8 +99,8 @@ impl<SPI: SpiDevice> Tmag5170<SPI> {
     }
 
     /// Writes all settings, and reads each back. Leaves the sensor as `config` has it: in its
-    /// operating mode, with replies of its data type. Returns what the sensor reported before;
-    /// after power-up that is [`StatusFaults::RESTARTED`].
+    /// operating mode. Returns what the sensor reported before; after power-up that is
+    /// [`StatusFaults::RESTARTED`].
     ///
     /// Wait [`START_MEASURING_US`](crate::timing::START_MEASURING_US) and a set of
     /// conversions before the first reading.
@@ -120,27 +109,26 @@ impl<SPI: SpiDevice> Tmag5170<SPI> {
     /// [`Error::Bus`], [`Error::Frame`], or [`Error::NotWritten`] with the first setting that
     /// is not what it should be. The sensor is then in configuration mode or as it was.
     pub fn configure(&mut self, config: Config) -> Result<StatusFaults, Error<SPI::Error>> {
-        // Its replies may be of any type, if the master has restarted and it has not.
+        // Its replies may carry no registers, if another master has configured it.
         self.write(Register::SystemConfig, SystemConfig::default().bits())?;
-        self.system = SystemConfig::default();
         let before = self.faults()?;
         let mut idle = config.device;
         idle.mode = OperatingMode::Configuration;
-        let [x, y, z] = config.thresholds;
+        let as_after_reset = |register: Register| (register, register.after_reset());
         let settings = [
             (Register::DeviceConfig, idle.bits()),
             (Register::SensorConfig, config.sensor.bits()),
-            (Register::AlertConfig, config.alert.bits()),
-            (Register::XThresholds, x.bits()),
-            (Register::YThresholds, y.bits()),
-            (Register::ZThresholds, z.bits()),
-            // Last what makes it measure.
+            as_after_reset(Register::AlertConfig),
+            as_after_reset(Register::XThresholds),
+            as_after_reset(Register::YThresholds),
+            as_after_reset(Register::ZThresholds),
+            // What makes it measure.
             (Register::DeviceConfig, config.device.bits()),
+            (Register::SystemConfig, config.system.bits()),
         ];
         for (register, value) in settings {
             self.set(register, value)?;
         }
-        self.set_system(config.system)?;
         Ok(before)
     }
 
@@ -153,26 +141,7 @@ impl<SPI: SpiDevice> Tmag5170<SPI> {
         }
     }
 
-    /// Writes the system's settings while replies carry registers. A new data type shows in
-    /// the second reply from now, whose status names it.
-    fn set_system(&mut self, system: SystemConfig) -> Result<(), Error<SPI::Error>> {
-        let register = Register::SystemConfig;
-        if system.data_type == DataType::Register {
-            self.set(register, system.bits())?;
-        } else {
-            self.write(register, system.bits())?;
-            check(&self.exchange(ASK_TYPE)?)?;
-            let reply = ChannelPair::decode(&self.exchange(ASK_TYPE)?)?;
-            if reply.status.count() != system.data_type as u16 {
-                return Err(Error::NotWritten(register));
-            }
-        }
-        self.system = system;
-        Ok(())
-    }
-
-    /// The fields along X, Y and Z, in three frames; for replies that carry registers. An
-    /// axis that is not measured reads as 0.
+    /// The fields along X, Y and Z, in three frames. An axis that is not measured reads as 0.
     ///
     /// # Errors
     /// [`Error::Bus`], or [`Error::Frame`]: also [`ReplyError::Restarted`] and
@@ -184,37 +153,13 @@ impl<SPI: SpiDevice> Tmag5170<SPI> {
         Ok([axis(Register::X)?, axis(Register::Y)?, axis(Register::Z)?])
     }
 
-    /// Two channels in one frame, as the data type of the last
-    /// [`configure`](Tmag5170::configure) has them.
+    /// What the sensor reports about itself; [`StatusFaults::RESTARTED`] is cleared by that.
     ///
     /// # Errors
-    /// [`Error::Bus`], or [`Error::Frame`]: also [`ReplyError::OtherType`], which is what a
-    /// sensor that restarted gives, and [`ReplyError::Sensor`].
-    pub fn pair(&mut self) -> Result<ChannelPair, Error<SPI::Error>> {
-        let bytes = self.exchange(ASK_TYPE)?;
-        Ok(ChannelPair::decode(&bytes)?.trusted(self.system.data_type)?)
-    }
-
-    /// What the sensor reports about itself; [`StatusFaults::RESTARTED`] is cleared by that. With
-    /// replies that carry pairs it takes five frames more, and readings are let out meanwhile.
-    ///
-    /// # Errors
-    /// [`Error::Bus`], [`Error::Frame`] if a reply did not arrive whole, or
-    /// [`Error::NotWritten`] if replies carry registers still.
+    /// [`Error::Bus`], or [`Error::Frame`] if a reply did not arrive whole.
     pub fn faults(&mut self) -> Result<StatusFaults, Error<SPI::Error>> {
-        let system = self.system;
-        if system.data_type != DataType::Register {
-            let registers = SystemConfig {
-                data_type: DataType::Register,
-                ..system
-            };
-            self.write(Register::SystemConfig, registers.bits())?;
-        }
         let afe_status = self.read(Register::AfeStatus)?.value;
         let sys_status = self.read(Register::SysStatus)?.value;
-        if system.data_type != DataType::Register {
-            self.set_system(system)?;
-        }
         Ok(StatusFaults::new(afe_status, sys_status))
     }
 }

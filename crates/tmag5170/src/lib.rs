@@ -3,8 +3,7 @@
 //! Glossary:
 //! - *frame*: the 32 bits that go both ways while /CS is low: a command from the master
 //!   ([`Command`]), a reply from the sensor;
-//! - *reply*: status bits and the register asked for ([`Reply`]), or two channels at once
-//!   ([`ChannelPair`]), as the *data type* has it ([`DataType`]);
+//! - *reply*: status bits and the register asked for ([`Reply`]);
 //! - *channel*: X, Y, Z or the temperature; a *conversion* measures the enabled ones in turn;
 //! - *CRC*: the last four bits of every frame ([`crc4`]);
 //! - *faults*: what the sensor reports about itself, in two registers ([`StatusFaults`]).
@@ -30,15 +29,14 @@ mod value;
 
 pub use command::{Access, Command, CommandError};
 pub use config::{
-    AlertConfig, AlertMode, AnglePair, Average, AxisThresholds, Channels, Config, DataType,
-    DeviceConfig, Diagnostics, MagnetType, OperatingMode, Range, SensorConfig, SleepTime,
-    SystemConfig, Trigger, Version,
+    AnglePair, Average, Channels, Config, DeviceConfig, Diagnostics, MagnetType, OperatingMode,
+    Range, SensorConfig, SleepTime, SystemConfig, Trigger, Version,
 };
 pub use crc::crc4;
 pub use driver::{Error, Tmag5170};
 pub use faults::{Fault, StatusFaults};
 pub use register::Register;
-pub use reply::{ChannelPair, Reply, ReplyError, Status, check};
+pub use reply::{Reply, ReplyError, Status, check};
 pub use timing::SPI_MODE;
 pub use value::Field;
 

@@ -40,10 +40,9 @@ registers! {
         "Averaging, operating mode, temperature channel: [`DeviceConfig`](crate::DeviceConfig).";
     SensorConfig = 0x0000, true, "Channels and ranges: [`SensorConfig`](crate::SensorConfig).";
     SystemConfig = 0x0000, true,
-        "Triggers, layout of replies, diagnostics: [`SystemConfig`](crate::SystemConfig).";
-    AlertConfig = 0x0000, true,
-        "What the ALERT pin reports: [`AlertConfig`](crate::AlertConfig).";
-    XThresholds = 0x7D83, true, "Thresholds of X: [`AxisThresholds`](crate::AxisThresholds).";
+        "Triggers, diagnostics: [`SystemConfig`](crate::SystemConfig).";
+    AlertConfig = 0x0000, true, "What the ALERT pin reports.";
+    XThresholds = 0x7D83, true, "Thresholds of X, 98 % of full scale both ways after a reset.";
     YThresholds = 0x7D83, true, "Thresholds of Y.";
     ZThresholds = 0x7D83, true, "Thresholds of Z.";
     TemperatureThresholds = 0x6732, true, "Thresholds of the temperature.";

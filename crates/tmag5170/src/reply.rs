@@ -1,22 +1,18 @@
-//! What comes back: status bits and a register, or two channels at once.
+//! What comes back: status bits and a register.
 //!
 //! | bits | 31..28 | 27..24 | 23..20 | 19..16 | 15..12 | 11..8 | 7..4 | 3..0 |
 //! |---|---|---|---|---|---|---|---|---|
 //! | register | S11..S8 | S7..S4 | value 15..12 | 11..8 | 7..4 | 3..0 | S3..S0 | CRC |
-//! | pair | S3..S0 | second 11..8 | second 7..4 | first 11..8 | first 7..4 | second 3..0 | first 3..0 | CRC |
 //!
-//! Certainty: every source agrees on the first row. The second is what TI's example code
-//! (2022) reads and what TI's forum confirms as the part's behaviour; the figure in data
-//! sheets up to 2021, which older drivers follow, has S3..S0 after the channels.
+//! Every source agrees on this. A sensor that is asked to sends two channels at once in another
+//! layout; here none is asked.
 
 use core::fmt;
 
 use crate::FRAME_LEN;
-use crate::config::DataType;
 use crate::crc::{self, crc4};
-use crate::value::Field;
 
-/// The status bits of a reply: twelve with a register, the lowest four with a pair.
+/// The twelve status bits of a reply.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub struct Status(u16);
 
@@ -50,8 +46,7 @@ impl Status {
         self.0 & other.0 == other.0
     }
 
-    /// S2..S0, 0..=7: how many sets have been converted, or the [`DataType`], as the command
-    /// before asked.
+    /// S2..S0, 0..=7: how many sets have been converted.
     pub const fn count(self) -> u16 {
         self.0 & 0x007
     }
@@ -79,9 +74,6 @@ pub enum ReplyError {
     Restarted,
     /// The sensor reports a fault; [`Tmag5170::faults`](crate::Tmag5170::faults) has which.
     Sensor(Status),
-    /// A pair of another data type than the one asked for; 0 is a register. Likely cause:
-    /// the sensor has restarted, or was never configured.
-    OtherType(u16),
 }
 
 impl fmt::Display for ReplyError {
@@ -97,14 +89,13 @@ impl fmt::Display for ReplyError {
             ReplyError::Sensor(Status(bits)) => {
                 write!(f, "the sensor reports a fault: status {bits:#05x}")
             }
-            ReplyError::OtherType(found) => write!(f, "data of another type: {found}"),
         }
     }
 }
 
 impl core::error::Error for ReplyError {}
 
-/// Whether a reply arrived whole, of whatever layout.
+/// Whether a reply arrived whole.
 ///
 /// A single wrong bit that the check bits place as the last one reads as
 /// [`ReplyError::Rejected`] instead of [`ReplyError::BadCrc`]: three of the 32 do.
@@ -161,55 +152,5 @@ impl Reply {
         } else {
             Ok(self.value)
         }
-    }
-}
-
-/// A reply that carries two channels.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub struct ChannelPair {
-    /// The lowest four status bits.
-    pub status: Status,
-    /// The first channel of the [`DataType`], twelve bits.
-    pub first: u16,
-    /// The second.
-    pub second: u16,
-}
-
-impl ChannelPair {
-    /// Decodes a reply, whatever its status says. Any four bytes give an answer; a register
-    /// in the other layout looks like a pair.
-    ///
-    /// # Errors
-    /// As [`check`].
-    pub fn decode(bytes: &[u8; FRAME_LEN]) -> Result<ChannelPair, ReplyError> {
-        check(bytes)?;
-        let [b0, b1, b2, b3] = bytes.map(u16::from);
-        Ok(ChannelPair {
-            status: Status::new(b0 >> 4),
-            first: ((b1 & 0x0F) << 8) | (b2 & 0xF0) | (b3 >> 4),
-            second: ((b0 & 0x0F) << 8) | (b1 & 0xF0) | (b2 & 0x0F),
-        })
-    }
-
-    /// The same, if its status names the expected type and the status has no fault.
-    ///
-    /// A sensor that restarted sends registers again, with a status that reads as a type of four or
-    /// more: so [`DataType::Xy`], [`DataType::Xz`] and [`DataType::Zy`] are never taken for it.
-    ///
-    /// # Errors
-    /// [`ReplyError::OtherType`] or [`ReplyError::Sensor`].
-    pub const fn trusted(self, expected: DataType) -> Result<ChannelPair, ReplyError> {
-        if self.status.count() != expected as u16 {
-            Err(ReplyError::OtherType(self.status.count()))
-        } else if self.status.contains(Status::ERROR) {
-            Err(ReplyError::Sensor(self.status))
-        } else {
-            Ok(self)
-        }
-    }
-
-    /// Both channels as fields, for the types of two axes.
-    pub const fn fields(self) -> [Field; 2] {
-        [Field::from_12(self.first), Field::from_12(self.second)]
     }
 }

@@ -6,7 +6,7 @@
 
 /// The field along one axis: 16 bits with a sign, full scale of the axis's range at 32,768.
 ///
-/// With one conversion an average the lowest four bits are 0; a pair carries the upper twelve only.
+/// With one conversion an average the lowest four bits are 0.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Field(i16);
 
@@ -14,11 +14,6 @@ impl Field {
     /// From the bits of a result register.
     pub const fn new(register: u16) -> Field {
         Field(register as i16)
-    }
-
-    /// From the lower twelve bits, as a pair carries them.
-    pub const fn from_12(bits: u16) -> Field {
-        Field::new(bits << 4)
     }
 
     /// The code, −32,768..=32,767.

@@ -25,9 +25,7 @@ impl TiltFault {
         match self {
             Self::Reply(ReplyError::NoSensor) => number::TILT_NO_SENSOR,
             Self::Reply(ReplyError::LineLow) => number::TILT_LINE_LOW,
-            Self::Reply(
-                ReplyError::Rejected | ReplyError::BadCrc { .. } | ReplyError::OtherType(_),
-            ) => number::TILT_CHECK,
+            Self::Reply(ReplyError::Rejected | ReplyError::BadCrc { .. }) => number::TILT_CHECK,
             Self::Reply(ReplyError::Restarted | ReplyError::Sensor(_))
             | Self::Reported(_)
             | Self::NotWritten(_) => number::TILT_REPORT,
@@ -40,7 +38,6 @@ impl TiltFault {
 mod which {
     pub(super) const REJECTED: u32 = 0;
     pub(super) const BAD_CRC: u32 = 1;
-    pub(super) const OTHER_TYPE: u32 = 2;
     pub(super) const RESTARTED: u32 = 0;
     pub(super) const STATUS: u32 = 1;
     pub(super) const REPORTED: u32 = 2;
@@ -56,7 +53,6 @@ impl TiltFault {
             Self::Reply(ReplyError::BadCrc { expected, found }) => {
                 [which::BAD_CRC, u16::from_le_bytes([expected, found]) as u32]
             }
-            Self::Reply(ReplyError::OtherType(found)) => [which::OTHER_TYPE, found as u32],
             Self::Reply(ReplyError::Restarted) => [which::RESTARTED, 0],
             Self::Reply(ReplyError::Sensor(status)) => [which::STATUS, status.bits() as u32],
             Self::Reported(faults) => {
@@ -78,7 +74,6 @@ impl TiltFault {
                 expected: low,
                 found: high,
             },
-            (number::TILT_CHECK, which::OTHER_TYPE) => ReplyError::OtherType(value as u16),
             (number::TILT_REPORT, which::RESTARTED) => ReplyError::Restarted,
             (number::TILT_REPORT, which::STATUS) => ReplyError::Sensor(Status::new(value as u16)),
             (number::TILT_REPORT, which::REPORTED) => {

@@ -98,18 +98,6 @@ fields! {
         Alert = "A pulse on ALERT.",
     }
 
-    /// What a reply carries: the register asked for, or twelve bits of each of two channels, in
-    /// the order of the name. T is the temperature.
-    DataType at 6, mask 0x01C0 {
-        Register, Xy, Xz, Zy, Xt, Yt, Zt, AngleMagnitude,
-    }
-
-    /// What kind of pin ALERT is.
-    AlertMode at 12, mask 0x1000 {
-        Interrupt = "An interrupt, or the trigger of conversions.",
-        Switch = "A switch that follows the thresholds.",
-    }
-
     /// Which of the two parts it is, in [`TestConfig`](crate::Register::TestConfig).
     Version at 4, mask 0x0030 {
         A1 = "TMAG5170A1: up to ±100 mT.",

@@ -1,18 +1,15 @@
 //! Settings as registers hold them, against values put together from TI's masks.
 
 use tmag5170::{
-    AlertConfig, AlertMode, AnglePair, Average, AxisThresholds, Channels, Config, DataType,
-    DeviceConfig, Diagnostics, MagnetType, OperatingMode, Range, Register, SensorConfig, SleepTime,
-    SystemConfig, Trigger, Version,
+    AnglePair, Average, Channels, Config, DeviceConfig, Diagnostics, MagnetType, OperatingMode,
+    Range, Register, SensorConfig, SleepTime, SystemConfig, Trigger, Version,
 };
 
 #[test]
 fn a_default_is_what_a_reset_leaves() {
     let config = Config::default();
-    let [x, y, z] = config.thresholds.map(AxisThresholds::bits);
     let [device, sensor] = [config.device.bits(), config.sensor.bits()];
-    let [system, alert] = [config.system.bits(), config.alert.bits()];
-    let settings = [device, sensor, system, alert, x, y, z];
+    let settings = [device, sensor, config.system.bits()];
     for (register, bits) in Register::ALL.into_iter().zip(settings) {
         assert_eq!(bits, register.after_reset(), "{register:?}");
     }
@@ -26,9 +23,8 @@ fn registers_by_hand() {
         mode: OperatingMode::Active,
         temperature: true,
         temperature_once: false,
-        temperature_limits: true,
     };
-    assert_eq!(device.bits(), 0x5000 | 0x0300 | 0x0020 | 0x0008 | 0x0002);
+    assert_eq!(device.bits(), 0x5000 | 0x0300 | 0x0020 | 0x0008);
     let once = DeviceConfig {
         temperature_once: true,
         ..DeviceConfig::default()
@@ -54,36 +50,8 @@ fn registers_by_hand() {
     let system = SystemConfig {
         diagnostics: Diagnostics::EnabledInTurn,
         trigger: Trigger::Alert,
-        data_type: DataType::Zy,
-        limits: [true, false, true],
     };
-    assert_eq!(system.bits(), 0x3020 | 0x0400 | 0x00C0 | 0x0004 | 0x0001);
-
-    // TI's 50 % of full scale, both ways.
-    let half = AxisThresholds { high: 64, low: -64 };
-    assert_eq!(half.bits(), 0x40C0);
-}
-
-#[test]
-fn alert_by_hand() {
-    let alert = AlertConfig {
-        mode: AlertMode::Interrupt,
-        latched: true,
-        faults: true,
-        results: true,
-        crossings: 3,
-        thresholds: [false, true, false, true],
-    };
-    let switch = AlertConfig {
-        mode: AlertMode::Switch,
-        thresholds: [true, false, true, false],
-        ..AlertConfig::default()
-    };
-    assert_eq!(switch.bits(), 0x1000 | 0x0001 | 0x0004);
-    let rest = 0x2000 | 0x0800 | 0x0100 | 0x0002 | 0x0008;
-    for (crossings, bits) in [(0, 0), (1, 0), (2, 0x10), (3, 0x20), (4, 0x30), (255, 0x30)] {
-        assert_eq!(AlertConfig { crossings, ..alert }.bits(), rest | bits);
-    }
+    assert_eq!(system.bits(), 0x3020 | 0x0400);
 }
 
 #[test]
@@ -98,8 +66,8 @@ fn fields_come_back_and_others_are_refused() {
     }
     come_back!(
         Average 0x7000, MagnetType 0x0300, OperatingMode 0x0070, AnglePair 0xC000,
-        SleepTime 0x3C00, Channels 0x03C0, Range 0x0003, Trigger 0x0600, DataType 0x01C0,
-        AlertMode 0x1000, Version 0x0030
+        SleepTime 0x3C00, Channels 0x03C0, Range 0x0003, Trigger 0x0600,
+        Version 0x0030
     );
     assert_eq!(Average::of(0x6000), None);
     assert_eq!(OperatingMode::of(0x0070), None);

@@ -4,9 +4,9 @@ use crate::common::{frame, sensor};
 use embedded_hal::spi::{ErrorKind, ErrorType, Operation, SpiDevice};
 use embedded_hal_mock::eh1::spi::Transaction;
 use tmag5170::{
-    Average, Channels, Command, Config, DataType, DeviceConfig, Error, Field, MagnetType,
-    OperatingMode, Range, Register, ReplyError, SensorConfig, Status, StatusFaults, SystemConfig,
-    Tmag5170, encode,
+    Average, Channels, Command, Config, DeviceConfig, Error, Field, MagnetType, OperatingMode,
+    Range, Register, ReplyError, SensorConfig, Status, StatusFaults, SystemConfig, Tmag5170,
+    Trigger, encode,
 };
 
 fn reply(value: u16) -> [u8; 4] {
@@ -21,12 +21,7 @@ fn read(address: u32, value: u16) -> [Transaction<u8>; 3] {
     frame((0x80 | address) << 20, reply(value))
 }
 
-/// A read of register 0 with CMD1 set, answered by `answer`.
-fn ask(answer: [u8; 4]) -> [Transaction<u8>; 3] {
-    frame(0x0800_0002, answer)
-}
-
-fn config(data_type: DataType) -> Config {
+fn config() -> Config {
     Config {
         device: DeviceConfig {
             average: Average::X8,
@@ -40,15 +35,14 @@ fn config(data_type: DataType) -> Config {
             ..SensorConfig::default()
         },
         system: SystemConfig {
-            data_type,
+            trigger: Trigger::ChipSelect,
             ..SystemConfig::default()
         },
-        ..Config::default()
     }
 }
 
-/// What `configure` sends up to the system's settings, to a sensor just powered up.
-fn beginning() -> Vec<[Transaction<u8>; 3]> {
+/// What `configure` sends to a sensor just powered up.
+fn configuring() -> Vec<[Transaction<u8>; 3]> {
     let settings = [
         (0x00, 0x3100),
         (0x01, 0x00C5),
@@ -57,6 +51,7 @@ fn beginning() -> Vec<[Transaction<u8>; 3]> {
         (0x05, 0x7D83),
         (0x06, 0x7D83),
         (0x00, 0x3120),
+        (0x02, 0x0200),
     ];
     let mut frames = vec![write(0x02, 0), read(0x0D, 0x8000), read(0x0E, 0)];
     for (address, value) in settings {
@@ -67,72 +62,21 @@ fn beginning() -> Vec<[Transaction<u8>; 3]> {
 
 #[test]
 fn configure_writes_each_setting_and_reads_it_back() {
-    let mut frames = beginning();
-    frames.extend([write(0x02, 0), read(0x02, 0)]);
-    let mut sensor = sensor(&frames);
-    assert_eq!(
-        sensor.configure(config(DataType::Register)),
-        Ok(StatusFaults::RESTARTED)
-    );
+    let mut sensor = sensor(&configuring());
+    assert_eq!(sensor.configure(config()), Ok(StatusFaults::RESTARTED));
     sensor.release().done();
 }
 
 #[test]
-fn a_sensor_that_sends_pairs() {
-    let mut frames = beginning();
-    frames.extend([
-        write(0x02, 0x0040),
-        // The count still, then the type.
-        ask(encode::pair(Status::new(5), 0, 0)),
-        ask(encode::pair(Status::new(1), 0, 0)),
-        // Two readings, the second with a fault.
-        ask(encode::pair(Status::new(1), 0x123, 0xEDC)),
-        ask(encode::pair(Status::new(9), 0, 0)),
-        // The report, in registers.
-        frame(0x0020_0000, encode::pair(Status::new(1), 1, 2)),
-        read(0x0D, 0x0400),
-        read(0x0E, 0x0210),
-        write(0x02, 0x0040),
-        ask(encode::pair(Status::new(0), 0, 0)),
-        ask(encode::pair(Status::new(1), 0, 0)),
-        ask(encode::pair(Status::new(1), 3, 4)),
-        // It has restarted: register 0 instead.
-        ask(encode::register(Status::new(0x400), 0)),
-    ]);
+fn a_setting_that_does_not_read_back_is_named() {
+    let mut frames = configuring();
+    frames.truncate(6);
+    frames.push(read(0x01, 0x00C4));
     let mut sensor = sensor(&frames);
-    sensor.configure(config(DataType::Xy)).unwrap();
-    let pair = sensor.pair().unwrap();
-    assert_eq!(pair.fields().map(Field::code), [0x1230, -0x1240]);
-    let fault = ReplyError::Sensor(Status::new(9));
-    assert_eq!(sensor.pair(), Err(Error::Frame(fault)));
-    let expected = StatusFaults::HALL_Z | StatusFaults::SUPPLY_LOW;
-    assert_eq!(sensor.faults(), Ok(expected));
-    let pair = sensor.pair().unwrap();
-    assert_eq!((pair.first, pair.second), (3, 4));
-    assert_eq!(sensor.pair(), Err(Error::Frame(ReplyError::OtherType(4))));
+    let error = sensor.configure(config()).unwrap_err();
+    assert_eq!(error, Error::NotWritten(Register::SensorConfig));
+    assert_eq!(error.to_string(), "SensorConfig does not read back");
     sensor.release().done();
-}
-
-#[test]
-fn a_setting_that_does_not_read_back_and_a_data_type_that_does_not_come_are_named() {
-    let mut other = beginning();
-    other.truncate(6);
-    other.push(read(0x01, 0x00C4));
-    let mut silent = beginning();
-    silent.extend([write(0x02, 0x0040), ask(reply(0)), ask(reply(0))]);
-    for (frames, register) in [
-        (other, Register::SensorConfig),
-        (silent, Register::SystemConfig),
-    ] {
-        let mut sensor = sensor(&frames);
-        let error = sensor.configure(config(DataType::Xy)).unwrap_err();
-        assert_eq!(error, Error::NotWritten(register));
-        assert_eq!(
-            error.to_string(),
-            format!("{register:?} does not read back")
-        );
-        sensor.release().done();
-    }
 }
 
 #[test]
@@ -189,8 +133,7 @@ fn bus_errors_come_through() {
     let mut broken = Tmag5170::new(BrokenBus);
     let expected = Error::Bus(ErrorKind::ModeFault);
     assert_eq!(broken.fields(), Err(expected));
-    assert_eq!(broken.pair(), Err(expected));
-    assert_eq!(broken.configure(config(DataType::Register)), Err(expected));
+    assert_eq!(broken.configure(config()), Err(expected));
     assert_eq!(broken.faults(), Err(expected));
     assert_eq!(expected.to_string(), "SPI bus: ModeFault");
 }

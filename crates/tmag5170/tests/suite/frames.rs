@@ -3,10 +3,7 @@
 use crate::common::{crc_by_shifting, sealed};
 use proptest::prelude::*;
 use proptest::sample::select;
-use tmag5170::{
-    Access, ChannelPair, Command, CommandError, DataType, Register, Reply, ReplyError, Status,
-    encode,
-};
+use tmag5170::{Access, Command, CommandError, Register, Reply, ReplyError, Status, encode};
 
 #[test]
 fn commands_by_hand() {
@@ -37,14 +34,6 @@ fn replies_by_hand() {
     // That the command before was rejected is no fault of this reading.
     let status = Status::new(0x8F7);
     assert_eq!(Reply { status, ..reply }.trusted(), Ok(0x1234));
-    // As TI's specialRead: nibbles S, 2, 2, 1, 1, 2, 1.
-    let bytes = sealed(0x0145_7869);
-    let pair = ChannelPair {
-        status: Status::new(1),
-        first: 0x789,
-        second: 0x456,
-    };
-    assert_eq!(ChannelPair::decode(&bytes), Ok(pair));
 }
 
 #[test]
@@ -60,16 +49,6 @@ fn errors_name_what_was_found() {
         ReplyError::Sensor(status),
         "the sensor reports a fault: status 0x108",
     );
-    says(ReplyError::OtherType(4), "data of another type: 4");
-}
-
-/// What a reply decodes to where the sensor has found its command wrong. All bits one is taken
-/// for a line that no sensor drives.
-fn rejection(rejecting: [u8; 4]) -> ReplyError {
-    match rejecting {
-        [0xFF, 0xFF, 0xFF, 0xFF] => ReplyError::NoSensor,
-        _ => ReplyError::Rejected,
-    }
 }
 
 proptest! {
@@ -78,14 +57,13 @@ proptest! {
         register in select(&Register::ALL[..]),
         written: Option<u16>,
         convert: bool,
-        tell_type: bool,
     ) {
         let read = Access::Read(register);
         let access = written.map_or(read, |value| Access::Write(register, value));
-        let command = Command { access, convert, tell_type };
+        let command = Command { access, convert };
         let bytes = command.bytes();
         prop_assert_eq!(bytes[3] & 0x0F, crc_by_shifting(bytes));
-        prop_assert_eq!(bytes[3] & 0xC0, 0);
+        prop_assert_eq!(bytes[3] & 0xE0, 0);
         prop_assert_eq!(Command::decode(&bytes), Ok(command));
     }
 
@@ -95,25 +73,11 @@ proptest! {
         let bytes = encode::register(status, value);
         prop_assert_eq!(Reply::decode(&bytes), Ok(Reply { status, value }));
         let rejecting = encode::rejecting(bytes);
-        prop_assert_eq!(Reply::decode(&rejecting), Err(rejection(rejecting)));
-    }
-
-    #[test]
-    fn pairs_come_back(status in 0_u16..16, first in 0_u16..4096, second in 0_u16..4096) {
-        let status = Status::new(status);
-        let bytes = encode::pair(status, first, second);
-        prop_assert_eq!(ChannelPair::decode(&bytes), Ok(ChannelPair { status, first, second }));
-        let rejecting = encode::rejecting(bytes);
-        prop_assert_eq!(ChannelPair::decode(&rejecting), Err(rejection(rejecting)));
-    }
-
-    #[test]
-    fn a_register_after_a_restart_is_no_pair(status in 0_u16..0x1000, value: u16) {
-        let restarted = Status::new(status | 0x400);
-        let bytes = encode::register(restarted, value);
-        let pair = ChannelPair::decode(&bytes).unwrap();
-        for axes in [DataType::Xy, DataType::Xz, DataType::Zy] {
-            prop_assert!(matches!(pair.trusted(axes), Err(ReplyError::OtherType(4..=7))));
-        }
+        // All bits one is taken for a line that no sensor drives.
+        let error = match rejecting {
+            [0xFF, 0xFF, 0xFF, 0xFF] => ReplyError::NoSensor,
+            _ => ReplyError::Rejected,
+        };
+        prop_assert_eq!(Reply::decode(&rejecting), Err(error));
     }
 }

@@ -40,7 +40,6 @@ proptest! {
     fn codes_come_back(code: i16) {
         let field = Field::new(code as u16);
         prop_assert_eq!(Field::from_mt(field.mt(25.0), 25.0), field);
-        prop_assert_eq!(Field::from_12((code as u16) >> 4).code(), code & !0xF);
     }
 
     #[test]

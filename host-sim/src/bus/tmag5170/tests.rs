@@ -27,7 +27,6 @@ fn config() -> Config {
             diagnostics: Diagnostics::All,
             ..SystemConfig::default()
         },
-        ..Config::default()
     }
 }
 
@@ -162,7 +161,7 @@ fn configure_fails_or_has_configured_whichever_frame_is_hit() {
                 (Register::DeviceConfig, config.device.bits()),
                 (Register::SensorConfig, config.sensor.bits()),
                 (Register::SystemConfig, config.system.bits()),
-                (Register::AlertConfig, config.alert.bits()),
+                (Register::AlertConfig, Register::AlertConfig.after_reset()),
             ];
             for (register, bits) in bits {
                 let held = slave.register(register);
