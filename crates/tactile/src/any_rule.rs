@@ -99,13 +99,6 @@ impl DecisionRule for AnyRule {
         }
     }
 
-    fn interval(&self) -> u32 {
-        match self {
-            Self::Sequential(rule) => rule.interval(),
-            Self::Window(rule) => rule.interval(),
-        }
-    }
-
     fn start(&self) -> AnyEvidence {
         match self {
             Self::Sequential(rule) if SEQUENTIAL => AnyEvidence::Sequential(rule.start()),

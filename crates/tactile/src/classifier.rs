@@ -16,7 +16,7 @@ use crate::naive_bayes::{Posteriors, posteriors};
 use crate::opinion::Pose;
 use crate::rule::DecisionRule;
 use crate::sequential::{SequentialEvidence, SequentialRule};
-use crate::stream::{StreamState, WrongChannels, heard, reason};
+use crate::stream::{StreamState, WrongChannels, reason};
 use crate::words::Words;
 
 /// Which whiskers decide, and by what.
@@ -142,7 +142,7 @@ impl<W: Words> StreamClassifier<W> {
         let Some(one) = self.streams.get_mut(stream) else {
             return Ok(None);
         };
-        if !one.push(model, codes, Some(stream), rule.interval())? {
+        if !one.push(model, codes, Some(stream))? {
             return Ok(None);
         }
         Ok(if is_sum {
@@ -166,8 +166,8 @@ impl<W: Words> StreamClassifier<W> {
     /// How what a stream touches stands, if it is of this class, by the blocks of its touch so far;
     /// none where the model does not say, or not yet. Of a decision it is asked at once.
     pub fn pose(&self, stream: usize, class: usize) -> Option<Pose> {
-        let Constants { model, rule } = &self.constants;
-        self.streams.get(stream)?.pose(heard(model, rule)?, class)
+        let section = self.model().opinion()?;
+        self.streams.get(stream)?.pose(section, class)
     }
 
     /// The number of the touch of a stream, or of its last one.
@@ -323,7 +323,7 @@ impl<W: Words> StreamClassifier<W> {
         };
         let stream = self.streams.get_mut(n)?;
         let touch = stream.touch;
-        let (sums, evidence) = stream.close_block(model, rule);
+        let (sums, evidence) = stream.close_block(model);
         of_sum.gather(sums, evidence.sequential_mut()?);
         if self.elsewhere.is_led() {
             return None;
@@ -338,7 +338,7 @@ impl<W: Words> StreamClassifier<W> {
         let AnyRule::Sequential(of_sum) = rule else {
             return None;
         };
-        let section = heard(model, rule);
+        let section = model.opinion();
         let stream = by.and_then(|(n, _)| self.streams.get(n));
         if stream.is_some_and(|stream| stream.is_early(section)) {
             return None;

@@ -2,7 +2,6 @@
 
 use crate::error::SetupError;
 use crate::model::Model;
-use crate::opinion::Section;
 use crate::rule::DecisionRule;
 use crate::words::{JOINT, OPINION, Words};
 
@@ -22,27 +21,15 @@ impl<R: DecisionRule, W: Words> Constants<R, W> {
         if model.has_opinion() && !OPINION {
             return Err(SetupError::NotBuilt("models that object"));
         }
-        let rule = rule_for(&model, settings)?;
+        let rule = R::new(&model, settings)?;
         Ok(Self { model, rule })
     }
 
     /// Priors and thresholds of classes stay; after an error everything does.
     pub(crate) fn set_rule(&mut self, settings: R::Settings) -> Result<(), SetupError> {
-        let mut rule: R = rule_for(&self.model, settings)?;
+        let mut rule = R::new(&self.model, settings)?;
         rule.set_classes(self.rule.classes());
         self.rule = rule;
         Ok(())
     }
-}
-
-fn rule_for<R: DecisionRule, W: Words>(
-    model: &Model<W>,
-    settings: R::Settings,
-) -> Result<R, SetupError> {
-    let rule = R::new(model, settings)?;
-    let names = model.opinion().is_some_and(Section::names);
-    if names && rule.interval() != model.block() {
-        return Err(SetupError::WindowNames);
-    }
-    Ok(rule)
 }

@@ -8,7 +8,7 @@ use crate::format::MAX_CLASSES;
 use crate::model::Model;
 use crate::opinion::Pose;
 use crate::rule::DecisionRule;
-use crate::stream::{StreamState, WrongChannels, heard};
+use crate::stream::{StreamState, WrongChannels};
 use crate::words::Words;
 
 /// A likelihood model under a rule, with the evidence so far. Reads how many
@@ -62,10 +62,7 @@ impl<R: DecisionRule, W: Words> NaiveBayes<R, W> {
     #[inline]
     pub fn push(&mut self, codes: &[i32]) -> Result<Option<Decision>, WrongChannels> {
         let Constants { model, rule } = &self.constants;
-        if self
-            .stream
-            .push(model, codes, self.whisker, rule.interval())?
-        {
+        if self.stream.push(model, codes, self.whisker)? {
             return Ok(self.stream.end_of_block(model, rule));
         }
         Ok(None)
@@ -98,21 +95,7 @@ impl<R: DecisionRule, W: Words> NaiveBayes<R, W> {
 
     /// As [`StreamClassifier::pose`](crate::StreamClassifier::pose).
     pub fn pose(&self, class: usize) -> Option<Pose> {
-        let Constants { model, rule } = &self.constants;
-        self.stream.pose(heard(model, rule)?, class)
-    }
-
-    /// The end of a whisk or of a recording: rules that wait for it decide here
-    /// (None if there was no sample), the others drop what they have. All
-    /// evidence is then forgotten.
-    pub fn finish(&mut self) -> Option<Decision> {
-        let Constants { model, rule } = &self.constants;
-        let StreamState { sums, evidence, .. } = &self.stream;
-        let samples = rule.interval().saturating_sub(sums.left);
-        let sums = sums.classes.get(..model.classes()).unwrap_or_default();
-        let decision = rule.finish(sums, samples, evidence.clone());
-        self.reset();
-        decision
+        self.stream.pose(self.model().opinion()?, class)
     }
 
     /// Forgets all evidence.

@@ -23,16 +23,10 @@ pub trait DecisionRule: Sized {
     fn new<W: Words>(model: &Model<W>, settings: Self::Settings) -> Result<Self, SetupError>;
 
     /// Takes priors and thresholds of classes; evidence has to start again from these priors.
-    /// Rules that know of none leave them.
-    fn set_classes(&mut self, _classes: &ClassSettings) {}
+    fn set_classes(&mut self, classes: &ClassSettings);
 
     /// Those that it has.
-    fn classes(&self) -> &ClassSettings {
-        &const { ClassSettings::NONE }
-    }
-
-    /// Samples in a block; not zero.
-    fn interval(&self) -> u32;
+    fn classes(&self) -> &ClassSettings;
 
     /// Evidence of the priors, which are equal unless classes have others.
     fn start(&self) -> Self::Evidence;
@@ -49,12 +43,6 @@ pub trait DecisionRule: Sized {
     /// A touch begins: no class is left further behind the leader than `limit`, in
     /// units of [`Self::scale`], and its prior. Rules of the papers know no touches.
     fn limit(&self, _evidence: &mut Self::Evidence, _limit: u32) {}
-
-    /// The end of a whisk or of a recording, with `samples` in the open block.
-    /// Rules that decide on the way drop what is left.
-    fn finish(&self, _sums: &[u32], _samples: u32, _evidence: Self::Evidence) -> Option<Decision> {
-        None
-    }
 
     /// How far each class lies behind the leader, in units of [`Self::scale`];
     /// `deficits` has a place for each class.

@@ -268,10 +268,6 @@ impl DecisionRule for SequentialRule {
         &self.classes
     }
 
-    fn interval(&self) -> u32 {
-        self.block
-    }
-
     fn start(&self) -> SequentialEvidence {
         let mut deficits = [0; MAX_CLASSES];
         if PRIORS {

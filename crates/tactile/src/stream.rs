@@ -48,15 +48,6 @@ fn first_channel<W: Words>(
     }
 }
 
-/// The opinion of a model, where a rule asks it after each of its blocks.
-pub(crate) fn heard<'m, R: DecisionRule, W: Words>(
-    model: &'m Model<W>,
-    rule: &R,
-) -> Option<Section<'m>> {
-    let section = model.opinion()?;
-    (rule.interval() == model.block()).then_some(section)
-}
-
 /// Why a decision names no class: the pose explains the rest.
 pub(crate) fn reason(is_below: bool, objection: Option<Reason>) -> Option<Reason> {
     match objection {
@@ -96,7 +87,7 @@ impl<R: DecisionRule> StreamState<R> {
 
     /// Forgets all that was seen, where it lies: a board's stack has no room for another.
     pub(crate) fn restart<W: Words>(&mut self, model: &Model<W>, rule: &R) {
-        self.sums = Sums::new(rule.interval());
+        self.sums = Sums::new(model.block());
         self.evidence = rule.start();
         self.touch = 0;
         if let [judge, ..] = self.judges.as_mut_slice() {
@@ -108,7 +99,7 @@ impl<R: DecisionRule> StreamState<R> {
     }
 
     /// Takes a sample that counts, of the stream of this number where streams can have tables of
-    /// their own; whether it was the last of its block of `interval`. Where roughness is weighed, one
+    /// their own; whether it was the last of its block. Where roughness is weighed, one
     /// without a difference is of no block: a sum of fewer would be that of a smoother surface.
     #[inline]
     pub(crate) fn push<W: Words>(
@@ -116,7 +107,6 @@ impl<R: DecisionRule> StreamState<R> {
         model: &Model<W>,
         codes: &[i32],
         stream: Option<usize>,
-        interval: u32,
     ) -> Result<bool, WrongChannels> {
         let first = first_channel(model, codes, stream)?;
         self.feel(model, codes, true);
@@ -124,7 +114,7 @@ impl<R: DecisionRule> StreamState<R> {
             self.sums.roughness.push(codes, false);
             return Ok(false);
         }
-        Ok(self.sums.push(model, (codes, first), interval))
+        Ok(self.sums.push(model, (codes, first)))
     }
 
     /// Takes a sample that does not count.
@@ -165,7 +155,7 @@ impl<R: DecisionRule> StreamState<R> {
         }
         let limit = touch.limit.saturating_mul(model.block());
         rule.limit(&mut self.evidence, limit);
-        self.sums.clear(rule.interval());
+        self.sums.clear(model.block());
     }
 
     /// Samples are missing before the next.
@@ -184,13 +174,12 @@ impl<R: DecisionRule> StreamState<R> {
     pub(crate) fn close_block<W: Words>(
         &mut self,
         model: &Model<W>,
-        rule: &R,
     ) -> (&mut [u32], &mut R::Evidence) {
         if model.has_roughness() || model.has_floors() {
             self.sums.end_of_block(model.parts());
         }
-        self.sums.left = rule.interval();
-        if let Some(section) = heard(model, rule)
+        self.sums.left = model.block();
+        if let Some(section) = model.opinion()
             && let [judge, ..] = self.judges.as_mut_slice()
         {
             if judge.opinion.is_full() && section.begins_again() {
@@ -213,8 +202,8 @@ impl<R: DecisionRule> StreamState<R> {
         model: &Model<W>,
         rule: &R,
     ) -> Option<Decision> {
-        let _ = self.close_block(model, rule);
-        let section = heard(model, rule);
+        let _ = self.close_block(model);
+        let section = model.opinion();
         let is_early = self.is_early(section);
         let evidence = &mut self.evidence;
         let sums = self.sums.classes.get_mut(..model.classes());

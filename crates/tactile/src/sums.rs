@@ -40,13 +40,12 @@ impl Sums {
     }
 
     /// Takes a sample, whose codes are of the channels from the `first` on, and its roughness where
-    /// the model has it; whether it was the last of its block of `interval`.
+    /// the model has it; whether it was the last of its block.
     #[inline]
     pub(crate) fn push<W: Words>(
         &mut self,
         model: &Model<W>,
         (codes, first): (&[i32], usize),
-        interval: u32,
     ) -> bool {
         if model.has_roughness() {
             self.roughness.push(codes, true);
@@ -58,9 +57,9 @@ impl Sums {
         }
         if self.left > 1 {
             self.left -= 1;
-            if self.left >= interval {
+            if self.left >= model.block() {
                 // Its bits were flipped: nothing is known of the block.
-                self.clear(interval);
+                self.clear(model.block());
             }
             return false;
         }

@@ -56,10 +56,6 @@ impl DecisionRule for WindowRule {
         &self.classes
     }
 
-    fn interval(&self) -> u32 {
-        self.block
-    }
-
     fn start(&self) -> Totals {
         Totals::of_priors(&self.classes, self.block)
     }

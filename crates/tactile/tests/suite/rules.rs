@@ -144,7 +144,7 @@ fn any_rule_is_the_rule_itself() {
         (0..4).for_each(|_| _ = typed.push(&[500]));
         let even = [1 << 31; 2];
         assert_ne!(typed.posteriors().as_q32(), even);
-        assert_eq!((any.finish(), typed.finish()), (None, None));
+        typed.reset();
         assert_eq!(typed.posteriors().as_q32(), even, "all is forgotten");
     }
     let buf = two_normals(4);
