@@ -174,7 +174,7 @@ impl How {
                     whisked: self.whisked,
                 };
                 let joint = joint(recordings, &options)?;
-                let model = joint.model()?.at_rate(tick_hz)?;
+                let model = joint.model()?.at_rate(tick_hz);
                 let joint = Some(joint);
                 Ok(TrainedModel { model, joint })
             }
@@ -190,7 +190,7 @@ impl How {
                 let whiskers = whiskers.filter(|_| self.each_whisker).unwrap_or(1);
                 let trainer = Trainer::new(2 * whiskers, options)?;
                 let model = single(trainer, streams(), self.least(), whiskers > 1)?;
-                let (model, joint) = (model.at_rate(tick_hz)?, None);
+                let (model, joint) = (model.at_rate(tick_hz), None);
                 Ok(TrainedModel { model, joint })
             }
         }

@@ -41,7 +41,7 @@ macro_rules! include_model {
 /// reads its flash, or `Box<[u32]>` ([`crate::ModelBuf`]).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Model<W = &'static [u32]> {
-    words: W,
+    pub(crate) words: W,
     layout: Layout,
 }
 

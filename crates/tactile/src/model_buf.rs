@@ -10,7 +10,7 @@ use crate::format::{
     OF_ROUGHNESS, OF_SAMPLES, TABLE_WORDS, TableRecord, VERSION, WITHOUT_OPINION, checksum,
     row_words, words,
 };
-use crate::layout::{Layout, TouchRule, check_bins, check_counts};
+use crate::layout::{Layout, RECORDS, TouchRule, check_bins, check_counts};
 use crate::model::{Floors, Model};
 use crate::quantiser::Quantiser;
 
@@ -260,23 +260,17 @@ impl ModelBuf {
 
     /// The same model, which knows the samples a second of its training; of more than 65535 it
     /// knows nothing.
-    ///
-    /// # Errors
-    /// None: a model stays one.
-    pub fn at_rate(&self, rate_hz: u32) -> Result<Self, ModelError> {
-        let mut all = self.as_bytes().to_vec();
-        all.truncate(all.len().saturating_sub(CRC_BYTES));
-        let place = Header::BYTES..Header::BYTES + ChannelRecord::BYTES;
-        if let Some(first) = all.get_mut(place)
-            && let Some(record) = words(first).map(ChannelRecord::of)
-        {
+    #[must_use]
+    pub fn at_rate(&self, rate_hz: u32) -> Self {
+        let mut model = self.clone();
+        // In the first channel's record, above its exponent.
+        let place = RECORDS + ChannelRecord::WORDS - 1;
+        if let Some((sum, words)) = model.words.split_last_mut() {
             let rate_hz = u16::try_from(rate_hz).unwrap_or(0);
-            let record = ChannelRecord { rate_hz, ..record };
-            for (byte, new) in first.iter_mut().zip(le_bytes(record.words())) {
-                *byte = new;
-            }
+            words[place] = u32::from(words[place] as u16) | u32::from(rate_hz) << 16;
+            *sum = checksum(bytemuck::cast_slice(words));
         }
-        Self::summed(all)
+        model
     }
 
     /// The same model without its second opinion: as training makes it where nothing is expected

@@ -123,8 +123,8 @@ fn a_board_has_time_for_so_many_poses() {
 #[test]
 fn a_model_is_for_the_tick_rate_of_its_training() {
     let at = |rate_hz| {
-        let model = ModelBuf::from_bytes(MODEL).and_then(|model| model.at_rate(rate_hz));
-        Place::with(model.unwrap().as_bytes())
+        let model = ModelBuf::from_bytes(MODEL).unwrap().at_rate(rate_hz);
+        Place::with(model.as_bytes())
     };
     let refused = ModelState::Refused(Refusal::Rate);
     for (trained, is_taken) in [(2000, true), (1000, false), (0, true), (65_536, true)] {
