@@ -12,17 +12,14 @@ const MAX_EXPONENT: i16 = 17;
 
 /// Why a scene does not run on a board.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[expect(missing_docs, reason = "the messages say it")]
 pub enum Unfit {
-    /// The board has less than the scene asks for; the text names key, found and allowed.
     #[error("{0}")]
     Board(String),
-    /// The scene's model is not one for a board.
     #[error("classifier.model: {0}")]
     Model(String),
-    /// The board does not compute in this number format.
     #[error(transparent)]
     Format(#[from] NoSuchFormat),
-    /// The scene is wrong whatever the board.
     #[error(transparent)]
     Scene(#[from] Mismatch),
 }

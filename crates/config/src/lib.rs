@@ -33,109 +33,63 @@ use whisking::{Error, Real, filter};
 
 /// What is wrong with a scene for its module.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[expect(missing_docs, reason = "the messages say it")]
 pub enum Mismatch {
-    /// The scene has another number of sides or whiskers.
     #[error("the scene has another number of sides or whiskers")]
     Shape,
-    /// A value is out of range; a checked scene has none.
     #[error(transparent)]
     Value(#[from] Error),
-    /// Its integrator, forward Euler, cannot carry it.
     #[error("{0}")]
     Unstable(Unstable),
-    /// Its motor cannot bear its whisking.
     #[error(transparent)]
     Unbearable(#[from] Unbearable),
-    /// Its motor does not settle under its gains.
     #[error(transparent)]
     Unsettled(#[from] Unsettled),
-    /// A limit of a board's motor does not protect it.
     #[error(transparent)]
     Unprotected(#[from] Unprotected),
-    /// Its encoder is too coarse to find the retracted stop by.
     #[error(
         "motor.counts_per_rev: found {found}; allowed with a gear of {gear} and motor.rest = \
          \"find\": at least {allowed}, or a motor that stands against its stop cannot be told from \
          one that turns slowly"
     )]
-    Coarse {
-        /// Counts a revolution.
-        found: u32,
-        /// The gear.
-        gear: f64,
-        /// The fewest that would do.
-        allowed: f64,
-    },
-    /// Its classifier listens from another contact on than its model was trained from.
+    Coarse { found: u32, gear: f64, allowed: f64 },
     #[error(
         "classifier.contact_min: found {found}; allowed: {gate}, from which the model was trained, \
          or nothing"
     )]
-    Gate {
-        /// The scene's contact π.
-        found: f64,
-        /// The model's.
-        gate: f32,
-    },
-    /// It whisks otherwise than its classifier's model was trained.
+    Gate { found: f64, gate: f32 },
     #[error(
         "classifier.model: found one that was trained {}; the scene whisks {}",
         words(.trained),
         words(.scene)
     )]
-    Whisked {
-        /// The model's.
-        trained: Whisked,
-        /// The scene's.
-        scene: Whisked,
-    },
-    /// Its classifier's model has tables of other whiskers than decide.
+    Whisked { trained: Whisked, scene: Whisked },
     #[error(
         "classifier.model: found one of {found} channels; allowed with {heard} whiskers that \
          decide: 2, x and y, or 2 of each of them"
     )]
-    Whiskers {
-        /// Channels of the model.
-        found: usize,
-        /// Whiskers that are heard.
-        heard: usize,
-    },
-    /// It asks for poses of a model that does not estimate them.
+    Whiskers { found: usize, heard: usize },
     #[error(
         "classifier.pose: found true; allowed with this model: false, because it was not trained \
          from poses (tilt_deg and depth_deg of recordings)"
     )]
     Pose,
-    /// It ticks otherwise than its classifier's model was trained.
     #[error(
         "classifier.model: found one that was trained at {trained} samples a second; the scene has \
          tick_hz = {scene}"
     )]
-    Rate {
-        /// The model's.
-        trained: u32,
-        /// The scene's.
-        scene: u32,
-    },
-    /// No rule can decide by it.
+    Rate { trained: u32, scene: u32 },
     #[error("classifier.threshold: found {found}; {fault}")]
     Threshold {
-        /// The scene's threshold.
         found: f64,
-        /// What is wrong with it.
         fault: tactile::SetupError,
     },
-    /// What it says of classes does not suit its model.
     #[error("classifier.{key}: found {found}; allowed: {allowed}")]
     Classes {
-        /// The key.
         key: &'static str,
-        /// The scene's.
         found: String,
-        /// What is allowed.
         allowed: String,
     },
-    /// The module has no room for it.
     #[error("{0}")]
     Config(#[from] firmware::ConfigError),
 }

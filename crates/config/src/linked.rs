@@ -28,21 +28,16 @@ const ALLOC: u32 = 2;
 
 /// Why a program cannot bring a scene with it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
+#[expect(missing_docs, reason = "the messages say it")]
 pub enum Unlinked {
-    /// It is no ELF file of a board.
     #[error("found no program of a board: no whole ELF file of 32 bits, little-endian")]
     NotElf,
-    /// It brings a scene with it.
     #[error("found a program that brings a scene with it, allowed: one for any scene")]
     HasScene,
-    /// Scene or model are larger than their place in flash.
     #[error("found {found} bytes of {what}, allowed on this board: at most {room}")]
     Room {
-        /// Which.
         what: &'static str,
-        /// Its size.
         found: usize,
-        /// The room that there is.
         room: u32,
     },
 }

@@ -10,12 +10,10 @@ use whisking::motor::MOST_FRICTION;
 /// A key whose value would leave a motor without one of its guards.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[error("motor.{key}: found {found}; allowed on a board: {allowed}")]
+#[expect(missing_docs, reason = "the message says it")]
 pub struct Unprotected {
-    /// The key in `[motor]`.
     pub key: &'static str,
-    /// Its value.
     pub found: f64,
-    /// What it may be.
     pub allowed: String,
 }
 

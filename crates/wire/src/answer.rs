@@ -18,30 +18,19 @@ pub struct Answer {
 /// What became of a request.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
 #[error("{}", self.text())]
+#[expect(missing_docs, reason = "the texts say it")]
 pub enum CommandStatus {
-    /// It is done.
     Done,
-    /// The command has no meaning in this program.
     Unknown,
-    /// There is no such whisker, or it has no motor.
     NoWhisker,
-    /// The value is outside its range; nothing has changed.
     OutOfRange,
-    /// The part that it is for was left out of the program.
     NotHere,
-    /// The serial line cannot carry what was asked for.
     TooSlow,
-    /// A motor is armed.
     Armed,
-    /// The model's flash did not take what was written.
     NotWritten,
-    /// It was asked for before a stop, which has come since.
     Stopped,
-    /// Too many faults: not before a minute after the last time.
     TooManyFaults,
-    /// The head has no such board, or that does not answer.
     NoBoard,
-    /// A number that this version does not know.
     Other(u8),
 }
 

@@ -35,16 +35,12 @@ pub enum Spoken {
 /// Why a line is no command.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
 #[error("{}", self.text())]
+#[expect(missing_docs, reason = "the texts say it")]
 pub enum NotSpoken {
-    /// Its first word is none of the commands.
     Unknown,
-    /// A command without the side that it needs.
     Side,
-    /// One without its number.
     Number,
-    /// One without `on` or `off`.
     Switch,
-    /// There are words after all that it needs.
     More,
 }
 
