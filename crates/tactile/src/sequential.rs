@@ -185,8 +185,9 @@ impl SequentialRule {
         let (mut sums, mut blocks) = ([start; MAX_CLASSES], 0_u32);
         for (n, evidence) in all.enumerate() {
             blocks = blocks.saturating_add(evidence.blocks);
-            for (class, (sum, deficit)) in sums.iter_mut().zip(evidence.deficits).enumerate() {
-                *sum += u64::from(deficit);
+            let deficits = evidence.deficits.iter().take(classes);
+            for (class, (sum, deficit)) in sums.iter_mut().zip(deficits).enumerate() {
+                *sum += u64::from(*deficit);
                 if PRIORS && n > 0 {
                     *sum -= u64::from(self.behind(class));
                 }
@@ -194,11 +195,12 @@ impl SequentialRule {
         }
         // Beyond the model's classes all are zero, and are not looked at.
         let least = sums.iter().take(classes).copied().min().unwrap_or(0);
-        let behind = |sum: u64| u32::try_from(sum.saturating_sub(least)).unwrap_or(MAX_DEFICIT);
-        SequentialEvidence {
-            deficits: sums.map(|sum| behind(sum).min(MAX_DEFICIT)),
-            blocks,
+        let mut deficits = [0; MAX_CLASSES];
+        for (deficit, sum) in deficits.iter_mut().zip(sums).take(classes) {
+            let behind = u32::try_from(sum.saturating_sub(least)).unwrap_or(MAX_DEFICIT);
+            *deficit = behind.min(MAX_DEFICIT);
         }
+        SequentialEvidence { deficits, blocks }
     }
 
     /// Decides by evidence in which no rival is too near.
