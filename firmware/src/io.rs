@@ -67,7 +67,7 @@ impl<F: FrameSource> WordSource for F {
         let bytes = taken.ok_or(SensorFault::NoFrame)?;
         // The usual one is known as this is compiled, which halves what it costs.
         let frame = if decoder == const { Decoder::new() } {
-            const { Decoder::new() }.decode(&bytes)
+            const { Decoder::new() }.decode_here(&bytes)
         } else {
             decode_otherwise(decoder, bytes)
         };
