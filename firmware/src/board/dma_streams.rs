@@ -1,7 +1,7 @@
 //! DMA with streams, which end by themselves (STM32F4): one moves what comes (rx), one what goes
 //! (tx).
 
-use stm32_metapac::dma::regs::Ixr;
+use stm32_metapac::dma::regs::{Cr, Ixr};
 use stm32_metapac::dma::vals::{Dir, Pl};
 use stm32_metapac::dma::{Dma, St};
 
@@ -18,18 +18,25 @@ pub(crate) struct Route {
 /// Where a stream's flags begin in LISR, LIFCR, HISR and HIFCR.
 const FLAGS_AT: [u32; 4] = [0, 6, 16, 22];
 
-/// Of a sensor: what the SPI received, and a byte a request for it.
+/// Of a sensor: what the SPI received, and a byte a request for it. What each frame takes of
+/// registers is put together once.
 pub(crate) struct Transfers {
     dma: Dma,
     rx: Stream,
     tx: Stream,
+    /// Flags that a frame sets.
+    all: Ixr,
+    /// Those that say how it went, and of them those of a whole one.
+    seen: Ixr,
+    whole: Ixr,
+    /// One of them ends the reception.
+    ends: Ixr,
 }
 
-#[derive(Clone, Copy)]
 struct Stream {
     registers: St,
-    channel: u8,
-    flags: u32,
+    /// What starts it.
+    start: Cr,
 }
 
 /// Flags of a stream, from where they begin (RM0390, DMA low interrupt status register).
@@ -43,25 +50,46 @@ mod flag {
 }
 
 impl Stream {
-    fn new(dma: Dma, (number, channel): (u8, u8)) -> Self {
+    /// With the place of its flags.
+    fn new(dma: Dma, (number, channel): (u8, u8), mut start: Cr) -> (Self, u32) {
         let number = usize::from(number % 4);
-        Self {
-            registers: dma.st(number),
-            channel,
-            flags: FLAGS_AT[number],
-        }
+        start.set_chsel(channel);
+        start.set_en(true);
+        let registers = dma.st(number);
+        (Self { registers, start }, FLAGS_AT[number])
     }
 
     #[inline]
-    const fn has(self, found: Ixr, flags: u32) -> bool {
-        found.0 & flags << self.flags != 0
+    fn start(&self, bytes: u16) {
+        self.registers.ndtr().write(|w| w.set_ndt(bytes));
+        self.registers.cr().write_value(self.start);
     }
 }
 
 impl Transfers {
+    /// The rx DMA moves to successive addresses, the tx DMA always from the same one.
     pub(crate) fn new(&Route { dma, rx, tx }: &Route) -> Self {
-        let (rx, tx) = (Stream::new(dma, rx), Stream::new(dma, tx));
-        Self { dma, rx, tx }
+        let mut receives = Cr(0);
+        receives.set_dir(Dir::PERIPHERAL_TO_MEMORY);
+        receives.set_minc(true);
+        receives.set_pl(Pl::VERY_HIGH);
+        receives.set_tcie(true);
+        receives.set_teie(true);
+        let mut sends = Cr(0);
+        sends.set_dir(Dir::MEMORY_TO_PERIPHERAL);
+        let (rx, rx_at) = Stream::new(dma, rx, receives);
+        let (tx, tx_at) = Stream::new(dma, tx, sends);
+        let errors = flag::ERROR | flag::MODE_ERROR;
+        let whole = flag::COMPLETE << rx_at;
+        Self {
+            dma,
+            rx,
+            tx,
+            all: Ixr(flag::ALL << rx_at | flag::ALL << tx_at),
+            seen: Ixr(whole | errors << rx_at | errors << tx_at),
+            whole: Ixr(whole),
+            ends: Ixr(whole | flag::ERROR << rx_at),
+        }
     }
 
     /// `received` has room for as many bytes as each [`start`](Self::start) moves; both are static.
@@ -72,28 +100,11 @@ impl Transfers {
         }
     }
 
-    /// The rx DMA moves to successive addresses, the tx DMA always from the same one.
     #[inline]
     pub(crate) fn start(&self, bytes: u16) {
-        let flags = flag::ALL << self.rx.flags | flag::ALL << self.tx.flags;
-        self.dma.ifcr(0).write_value(Ixr(flags));
-        let Self { rx, tx, .. } = self;
-        rx.registers.ndtr().write(|w| w.set_ndt(bytes));
-        rx.registers.cr().write(|w| {
-            w.set_chsel(rx.channel);
-            w.set_dir(Dir::PERIPHERAL_TO_MEMORY);
-            w.set_minc(true);
-            w.set_pl(Pl::VERY_HIGH);
-            w.set_tcie(true);
-            w.set_teie(true);
-            w.set_en(true);
-        });
-        tx.registers.ndtr().write(|w| w.set_ndt(bytes));
-        tx.registers.cr().write(|w| {
-            w.set_chsel(tx.channel);
-            w.set_dir(Dir::MEMORY_TO_PERIPHERAL);
-            w.set_en(true);
-        });
+        self.dma.ifcr(0).write_value(self.all);
+        self.rx.start(bytes);
+        self.tx.start(bytes);
     }
 
     #[inline]
@@ -103,14 +114,12 @@ impl Transfers {
 
     #[inline]
     pub(crate) fn has_ended(&self) -> bool {
-        self.rx.has(self.flags(), flag::COMPLETE | flag::ERROR)
+        self.flags().0 & self.ends.0 != 0
     }
 
     #[inline]
     pub(crate) fn is_complete(&self) -> bool {
-        let flags = self.flags();
-        let error = |stream: Stream| stream.has(flags, flag::ERROR | flag::MODE_ERROR);
-        self.rx.has(flags, flag::COMPLETE) && !error(self.rx) && !error(self.tx)
+        self.flags().0 & self.seen.0 == self.whole.0
     }
 
     #[inline]
