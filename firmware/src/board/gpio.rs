@@ -14,8 +14,8 @@ use crate::here::gpio::configure;
 #[derive(Clone, Copy)]
 pub(crate) struct PinName {
     port: Gpio,
-    /// 0 to 15.
-    number: u8,
+    /// In the port's registers, one of sixteen.
+    bit: u32,
 }
 
 impl PinName {
@@ -28,26 +28,27 @@ impl PinName {
             'C' => GPIOC,
             _ => panic!("no such port"),
         };
-        Self { port, number }
+        let bit = 1 << number;
+        Self { port, bit }
     }
 
     pub(crate) fn configure(self, config: PinConfig) {
-        configure(self.port, usize::from(self.number % 16), config);
+        configure(self.port, self.bit.trailing_zeros() as usize % 16, config);
     }
 
     #[inline]
     pub(crate) fn low(self) {
-        self.port.bsrr().write_value(Bsrr(1 << (16 + self.number)));
+        self.port.bsrr().write_value(Bsrr(self.bit << 16));
     }
 
     #[inline]
     pub(crate) fn high(self) {
-        self.port.bsrr().write_value(Bsrr(1 << self.number));
+        self.port.bsrr().write_value(Bsrr(self.bit));
     }
 
     #[inline]
     pub(crate) fn is_low(self) -> bool {
-        self.port.idr().read().0 & 1 << self.number == 0
+        self.port.idr().read().0 & self.bit == 0
     }
 }
 
