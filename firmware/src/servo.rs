@@ -81,7 +81,7 @@ pub enum ServoState<R> {
         guards: Guards<R>,
         /// By how much the setpoint is still behind, protraction.
         behind: R,
-        /// Another setpoint was commanded since the last tick.
+        /// Another setpoint was commanded: one that is behind goes there from where it is.
         has_new_aim: bool,
     },
     /// The motor is off after a fault.
@@ -359,15 +359,18 @@ impl<R: Real, M: MotorDriver, A: AngleInput> Servo<R, M, A> {
             has_new_aim,
         } = &mut self.state
         {
-            if core::mem::take(has_new_aim) && *behind != R::ZERO {
-                *behind = setpoint - config.pd.measured(at);
+            // Nearly always it has arrived.
+            if *behind != R::ZERO {
+                if core::mem::take(has_new_aim) {
+                    *behind = setpoint - config.pd.measured(at);
+                }
+                *behind = if behind.is_within(R::TWO + R::TWO) {
+                    toward_zero(*behind, config.approach)
+                } else {
+                    // So far from where it should be no whisker is: its bits were flipped.
+                    R::ZERO
+                };
             }
-            *behind = if behind.is_within(R::TWO + R::TWO) {
-                toward_zero(*behind, config.approach)
-            } else {
-                // So far from where it should be no whisker is: its bits were flipped.
-                R::ZERO
-            };
             config.pd.measure(pd, setpoint - *behind, at, moved);
             let wanted = (pd.p + pd.d).to_q24();
             let wanted = guards.test(&config.guards).unwrap_or(wanted);

@@ -104,14 +104,16 @@ impl<PWM: SetDutyCycle, DIR: OutputPin> HBridge<PWM, DIR> {
 impl<PWM: SetDutyCycle, DIR: OutputPin> MotorDriver for HBridge<PWM, DIR> {
     #[inline]
     fn drive(&mut self, duty: Duty) -> Result<(), Fault> {
-        if self.fault.is_none() {
-            self.fault = self.apply(duty).err();
-        }
-        if let Some(fault) = self.fault {
-            self.off();
-            return Err(fault);
-        }
-        Ok(())
+        let fault = match self.fault {
+            Some(fault) => fault,
+            None => match self.apply(duty) {
+                Ok(()) => return Ok(()),
+                Err(fault) => fault,
+            },
+        };
+        self.fault = Some(fault);
+        self.off();
+        Err(fault)
     }
 
     fn off(&mut self) {
