@@ -18,14 +18,15 @@ fn channel(number: usize) -> Ch {
 
 /// Of a sensor: what the SPI received, and a byte a request for it.
 pub(crate) struct Transfers {
-    rx: Channel,
-    tx: Channel,
-}
-
-#[derive(Clone, Copy)]
-struct Channel {
-    registers: Ch,
-    flags: u32,
+    rx: Ch,
+    tx: Ch,
+    /// Flags that a frame sets.
+    all: Isr,
+    /// Those that say how it went, and of them those of a whole one.
+    seen: Isr,
+    whole: Isr,
+    /// One of them ends the reception.
+    ends: Isr,
 }
 
 /// A channel's, from where they begin (RM0008 and RM0444, DMA interrupt status register).
@@ -35,31 +36,31 @@ mod flag {
     pub(super) const ALL: u32 = 0xF;
 }
 
-impl Channel {
-    fn new(number: usize) -> Self {
-        Self {
-            registers: channel(number),
-            flags: 4 * (number % 7) as u32,
-        }
-    }
-
-    #[inline]
-    const fn has(self, found: Isr, flags: u32) -> bool {
-        found.0 & flags << self.flags != 0
-    }
+/// Where a channel's begin.
+fn flags_at(number: usize) -> u32 {
+    4 * (number % 7) as u32
 }
 
 impl Transfers {
     pub(crate) fn new(&Route { rx, tx }: &Route) -> Self {
-        let (rx, tx) = (Channel::new(rx), Channel::new(tx));
-        Self { rx, tx }
+        let (rx_at, tx_at) = (flags_at(rx), flags_at(tx));
+        let whole = flag::COMPLETE << rx_at;
+        let ends = whole | flag::ERROR << rx_at;
+        Self {
+            rx: channel(rx),
+            tx: channel(tx),
+            all: Isr(flag::ALL << rx_at | flag::ALL << tx_at),
+            seen: Isr(ends | flag::ERROR << tx_at),
+            whole: Isr(whole),
+            ends: Isr(ends),
+        }
     }
 
     /// `received` has room for as many bytes as each [`start`](Self::start) moves; both are static.
     pub(crate) fn set_up(&self, data_register: u32, received: u32, sent: u32) {
         for (channel, memory) in [(&self.rx, received), (&self.tx, sent)] {
-            channel.registers.par().write_value(data_register);
-            channel.registers.mar().write_value(memory);
+            channel.par().write_value(data_register);
+            channel.mar().write_value(memory);
         }
     }
 
@@ -68,9 +69,8 @@ impl Transfers {
     pub(crate) fn start(&self, bytes: u16) {
         // A channel takes a new count only while it is off, and stays on at its end.
         self.stop();
-        let flags = flag::ALL << self.rx.flags | flag::ALL << self.tx.flags;
-        DMA1.ifcr().write_value(Isr(flags));
-        let (rx, tx) = (self.rx.registers, self.tx.registers);
+        DMA1.ifcr().write_value(self.all);
+        let Self { rx, tx, .. } = self;
         rx.ndtr().write(|w| w.set_ndt(bytes));
         rx.cr().write(|w| {
             w.set_dir(Dir::FROM_PERIPHERAL);
@@ -90,19 +90,17 @@ impl Transfers {
     /// Whether the rx DMA has ended, with or without an error.
     #[inline]
     pub(crate) fn has_ended(&self) -> bool {
-        self.rx.has(DMA1.isr().read(), flag::COMPLETE | flag::ERROR)
+        DMA1.isr().read().0 & self.ends.0 != 0
     }
 
     #[inline]
     pub(crate) fn is_complete(&self) -> bool {
-        let flags = DMA1.isr().read();
-        let error = |channel: Channel| channel.has(flags, flag::ERROR);
-        self.rx.has(flags, flag::COMPLETE) && !error(self.rx) && !error(self.tx)
+        DMA1.isr().read().0 & self.seen.0 == self.whole.0
     }
 
     #[inline]
     pub(crate) fn acknowledge(&self) {
-        self.rx.registers.cr().modify(|w| {
+        self.rx.cr().modify(|w| {
             w.set_tcie(false);
             w.set_teie(false);
         });
@@ -111,7 +109,7 @@ impl Transfers {
     #[inline]
     pub(crate) fn stop(&self) {
         for channel in [&self.rx, &self.tx] {
-            channel.registers.cr().write(|_| {});
+            channel.cr().write(|_| {});
         }
     }
 }
