@@ -237,7 +237,9 @@ pub(crate) const fn row_words(classes: usize) -> usize {
 /// CRC-32 as in zip and Ethernet. Without a lookup table: it runs once at
 /// start, and a kilobyte of flash is dearer than those milliseconds.
 pub fn checksum(bytes: &[u8]) -> u32 {
-    const CRC: crc::Crc<u32, crc::NoTable> =
-        crc::Crc::<u32, crc::NoTable>::new(&crc::CRC_32_ISO_HDLC);
-    CRC.checksum(bytes)
+    !bytes.iter().fold(!0, |sum, byte| {
+        (0..8).fold(sum ^ u32::from(*byte), |sum, _| {
+            sum >> 1 ^ 0xEDB8_8320 & (sum & 1).wrapping_neg()
+        })
+    })
 }

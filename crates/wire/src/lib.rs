@@ -34,7 +34,9 @@ struct Readme;
 pub use answer::{Answer, CommandStatus};
 pub use asked::{COMMAND_MOST, ForNode, Request, frame_for};
 pub use flags::Flags;
-pub use frame::{CONTENT_BYTES, FRAME_BYTES, Frame, RECORD_FRAME_BYTES, frame, frame_of, open};
+pub use frame::{
+    CONTENT_BYTES, FRAME_BYTES, Frame, RECORD_FRAME_BYTES, crc32, frame, frame_of, open,
+};
 pub use line::{Field, LINE_BYTES, Line};
 pub use loading::{Load, LoadedWord};
 pub use looked::Looked;

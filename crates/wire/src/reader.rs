@@ -97,8 +97,9 @@ impl<'de> Reader<'de> {
         u32::from_le_bytes(bytes)
     }
 
+    /// The bytes of a text, which may be of any, or of a list of bytes.
     #[inline(never)]
-    fn slice(&mut self) -> &'de [u8] {
+    pub fn slice(&mut self) -> &'de [u8] {
         let length = self.word() as usize;
         let (slice, rest) = self.bytes.split_at_checked(length).unwrap_or_else(|| {
             self.is_good = false;

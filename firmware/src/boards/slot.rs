@@ -66,9 +66,7 @@ pub fn has_armed(bytes: &[u8]) -> bool {
 }
 
 fn sum(words: [u32; 3]) -> u32 {
-    const CRC: crc::Crc<u32, crc::NoTable> =
-        crc::Crc::<u32, crc::NoTable>::new(&crc::CRC_32_ISO_HDLC);
-    CRC.checksum(words.map(u32::to_le_bytes).as_flattened())
+    wire::crc32(0, words.map(u32::to_le_bytes).as_flattened())
 }
 
 /// Newest first, as a start looks at them. One whose header is none comes last.

@@ -4,9 +4,10 @@
 //! then the parts in their order, each by postcard. The sum covers everything behind it. Integers
 //! of the header are little-endian.
 
+use heapless::string::StringView;
 use serde::{Deserialize, Serialize};
 use whisking::{Real, Start};
-use wire::Reader;
+use wire::{Reader, crc32};
 
 use super::{Config, ConfigError, MotionConfig, Part};
 use crate::servo::ServoConfig;
@@ -24,8 +25,6 @@ const MAGIC: u32 = u32::from_le_bytes(*b"WCFG");
 
 /// A word of flash that nothing was written to.
 pub(crate) const ERASED: u32 = u32::MAX;
-
-const CRC: crc::Crc<u32, crc::NoTable> = crc::Crc::<u32, crc::NoTable>::new(&crc::CRC_32_ISO_HDLC);
 
 /// Which program a configuration is for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -93,11 +92,9 @@ impl Header {
     }
 
     fn sum(&self, body: &[u8]) -> u32 {
-        let mut digest = CRC.digest();
         let bytes = self.bytes();
-        digest.update(bytes.get(4..12).unwrap_or_default());
-        digest.update(body);
-        digest.finalize()
+        let fields = crc32(0, bytes.get(4..12).unwrap_or_default());
+        crc32(fields, body)
     }
 }
 
@@ -125,6 +122,20 @@ impl<'b> Parts<'b> {
         }
     }
 
+    /// What is no ASCII becomes what a check refuses: to look for UTF-8 takes 624 bytes of flash.
+    fn text(&mut self, place: &mut StringView) -> Result<(), Refused> {
+        place.clear();
+        let mut bytes = self.reader.slice().iter();
+        let ascii = |byte: u8| if byte.is_ascii() { byte } else { 0 };
+        let fits = bytes.all(|byte| place.push(ascii(*byte).into()).is_ok());
+        if fits && self.reader.is_good() {
+            Ok(())
+        } else {
+            self.refused = ConfigError::Unreadable(Part::Head);
+            Err(Refused)
+        }
+    }
+
     /// Whether a part is there. An image that was built without it has no code to read it.
     fn has(&mut self, part: Part) -> Result<bool, Refused> {
         let is_there = self.take(part)?;
@@ -145,8 +156,8 @@ impl<'b> Parts<'b> {
 
     fn all<R: Real>(&mut self, config: &mut Config<R>) -> Result<(), Refused> {
         let head = &mut config.head;
-        head.name = self.take(Part::Head)?;
-        head.overrides = self.take(Part::Head)?;
+        self.text(&mut head.name)?;
+        self.text(&mut head.overrides)?;
         head.tick_hz = self.take(Part::Head)?;
         head.sides = self.take(Part::Head)?;
         head.whiskers_per_side = self.take(Part::Head)?;
