@@ -54,12 +54,11 @@ pub struct FaultRow {
 }
 
 macro_rules! rows {
-    ($($number:literal $constant:ident: $name:literal, $causes:literal, $check:literal,
-        $reaction:ident, $recovery:ident;)*) => {
+    ($($number:literal $constant:ident: $text:literal, $check:literal, $reaction:ident, $recovery:ident;)*) => {
         /// The number of each.
         pub mod number {
             $(
-                #[doc = $name]
+                #[doc = $text]
                 pub const $constant: u8 = $number;
             )*
         }
@@ -67,10 +66,10 @@ macro_rules! rows {
         /// What is wrong, and likely causes, of a number, where there is no room for the rest.
         // Once in the program.
         #[inline(never)]
-        pub const fn texts(number: u8) -> [&'static str; 2] {
+        pub const fn text(number: u8) -> &'static str {
             match number {
-                $($number if can_occur($number) => [$name, $causes],)*
-                _ => ["not in the table", "an older table"],
+                $($number if can_occur($number) => $text,)*
+                _ => "not in the table (an older table?)",
             }
         }
 
@@ -78,8 +77,8 @@ macro_rules! rows {
         pub const TABLE: &[FaultRow] = &[$(
             FaultRow {
                 number: $number,
-                name: $name,
-                causes: $causes,
+                name: parts($text)[0],
+                causes: parts($text)[1],
                 check: $check,
                 reaction: Reaction::$reaction,
                 recovery: Recovery::$recovery,
@@ -88,6 +87,19 @@ macro_rules! rows {
     };
 }
 crate::fault_table!(rows);
+
+/// What is wrong, and likely causes, of `what is wrong (likely causes?)`.
+const fn parts(text: &'static str) -> [&'static str; 2] {
+    let mut at = 0;
+    while text.as_bytes()[at] != b'(' {
+        at += 1;
+    }
+    let (name, causes) = text.split_at(at);
+    [
+        name.split_at(at - 1).0,
+        causes.split_at(causes.len() - 2).0.split_at(1).1,
+    ]
+}
 
 /// Whether it can occur in an image of these parts: what cannot has no text there.
 pub const fn can_occur(number: u8) -> bool {

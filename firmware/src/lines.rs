@@ -8,16 +8,16 @@ use mlx90333::FRAME_LEN;
 use tactile::Reason;
 use wire::{Field, Line};
 
-use crate::faults::texts;
+use crate::faults::text;
 use crate::{Event, NotArmed, StartCause, Startup};
 
 /// Says what an [`Event`] is by `$say!(LEVEL, TEXT, VALUES...)`: the level in the log, a text of
-/// defmt, and the values in it. `$texts` gives name and likely causes of a fault's number,
+/// defmt, and the values in it. `$text` gives name and likely causes of a fault's number,
 /// `$class` the name of a class, `$load` the length of a tick in microseconds and how many lines
 /// found no room. What an image is built without has no line.
 #[macro_export]
 macro_rules! say_event {
-    ($say:ident, $event:expr, $texts:ident, $class:expr, $load:expr) => {
+    ($say:ident, $event:expr, $text:ident, $class:expr, $load:expr) => {
         match $event {
             $crate::Event::Touch { place, number } if $crate::Part::Classifier.is_built() => {
                 $say!(info, "touch {=str} {=u16}", place.side_name(), number);
@@ -75,7 +75,7 @@ macro_rules! say_event {
                 );
             }
             $crate::Event::SensorLost(place, why) => {
-                $crate::say_fault!($say, $texts, place, why.code());
+                $crate::say_fault!($say, $text, place, why.code());
             }
             $crate::Event::Frame(place, bytes) => {
                 let [high, low] = $crate::lines::halves(bytes);
@@ -92,7 +92,7 @@ macro_rules! say_event {
                 $say!(info, "zero {=str} {=i16} {=i16}", place.side_name(), x, y);
             }
             $crate::Event::MotorFault(place, why) if $crate::Part::Motion.is_built() => {
-                $crate::say_fault!($say, $texts, place, why.code());
+                $crate::say_fault!($say, $text, place, why.code());
             }
             $crate::Event::MotorRetry(place) if $crate::Part::Motion.is_built() => {
                 $say!(info, "retry {=str}", place.side_name());
@@ -108,7 +108,7 @@ macro_rules! say_event {
                 }
                 $crate::NodeEvent::Lost(other) => $say!(warn, "node {=u8} lost {=u8}", node, other),
                 $crate::NodeEvent::Twin => {
-                    $crate::say_board_fault!($say, $texts, $crate::faults::number::TWIN);
+                    $crate::say_board_fault!($say, $text, $crate::faults::number::TWIN);
                 }
             },
             $crate::Event::Stopped if $crate::Part::Motion.is_built() => $say!(info, "stopped"),
@@ -127,8 +127,8 @@ macro_rules! say_event {
                 );
             }
             $crate::Event::Limit(number) => {
-                let [name, causes] = $texts(number);
-                $say!(warn, "limit {=u8} {=istr} ({=istr}?)", number, name, causes);
+                let text = $text(number);
+                $say!(warn, "limit {=u8} {=istr}", number, text);
             }
             _ => {}
         }
@@ -138,15 +138,14 @@ macro_rules! say_event {
 #[doc(hidden)]
 #[macro_export]
 macro_rules! say_fault {
-    ($say:ident, $texts:ident, $place:expr, $number:expr) => {{
-        let [name, causes] = $texts($number);
+    ($say:ident, $text:ident, $place:expr, $number:expr) => {{
+        let text = $text($number);
         $say!(
             error,
-            "fault {=str} {=u8} {=istr} ({=istr}?)",
+            "fault {=str} {=u8} {=istr}",
             $place.side_name(),
             $number,
-            name,
-            causes
+            text
         );
     }};
 }
@@ -155,7 +154,7 @@ macro_rules! say_fault {
 /// scene and the ticks a second, `$start` is the [`Startup`] and its [`StartCause`].
 #[macro_export]
 macro_rules! say_start {
-    ($say:ident, $texts:ident, $what:expr, $start:expr) => {{
+    ($say:ident, $text:ident, $what:expr, $start:expr) => {{
         let (version, scene, tick_hz) = $what;
         let (start, cause) = $start;
         $say!(
@@ -169,7 +168,7 @@ macro_rules! say_start {
             start.fault
         );
         if start.fault != 0 {
-            $crate::say_board_fault!($say, $texts, start.fault);
+            $crate::say_board_fault!($say, $text, start.fault);
         }
     }};
 }
@@ -177,32 +176,20 @@ macro_rules! say_start {
 /// Says which fault the board has, or has started after.
 #[macro_export]
 macro_rules! say_board_fault {
-    ($say:ident, $texts:ident, $number:expr) => {{
-        let [name, causes] = $texts($number);
-        $say!(
-            error,
-            "fault board {=u8} {=istr} ({=istr}?)",
-            $number,
-            name,
-            causes
-        );
+    ($say:ident, $text:ident, $number:expr) => {{
+        let text = $text($number);
+        $say!(error, "fault board {=u8} {=istr}", $number, text);
     }};
 }
 
 /// Says why no motor is driven until somebody arms it.
 #[macro_export]
 macro_rules! say_not_armed {
-    ($say:ident, $texts:ident, $reason:expr) => {
+    ($say:ident, $text:ident, $reason:expr) => {
         match $reason {
             $crate::NotArmed::After(number) => {
-                let [name, causes] = $texts(number);
-                $say!(
-                    warn,
-                    "not-armed {=u8} {=istr} ({=istr}?)",
-                    number,
-                    name,
-                    causes
-                );
+                let text = $text(number);
+                $say!(warn, "not-armed {=u8} {=istr}", number, text);
             }
             $crate::NotArmed::Unknown => $say!(warn, "not-armed 0 cause of the reset unknown"),
             $crate::NotArmed::OnCommand => $say!(info, "not-armed 0 the scene waits for a command"),
@@ -304,7 +291,7 @@ pub fn event<'n>(
         period_us,
         lost,
     } = context;
-    crate::say_event!(say, *event, texts, class_name, [period_us, lost]);
+    crate::say_event!(say, *event, text, class_name, [period_us, lost]);
     level
 }
 
@@ -321,7 +308,7 @@ pub fn start(
             end(line().word("").form($text, &[$(Field::from($value)),*]))
         };
     }
-    crate::say_start!(say, texts, what, start);
+    crate::say_start!(say, text, what, start);
 }
 
 /// Appends why no motor is driven until somebody arms it.
@@ -331,7 +318,7 @@ pub fn not_armed(line: &mut Line, reason: NotArmed) {
             _ = line.word("").form($text, &[$(Field::from($value)),*])
         };
     }
-    crate::say_not_armed!(say, texts, reason);
+    crate::say_not_armed!(say, text, reason);
 }
 
 #[cfg(test)]

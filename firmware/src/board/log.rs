@@ -53,7 +53,7 @@ pub(crate) fn start(cause: StartCause, start: &Startup, found: &Scene) {
         NO_SCENE
     };
     let what = (env!("CARGO_PKG_VERSION"), scene_name, pace::tick_hz());
-    firmware::say_start!(say, texts, what, (start, cause));
+    firmware::say_start!(say, text, what, (start, cause));
     if found.deployed.is_none() && Part::Deploy.is_built() {
         defmt::warn!("no scene: whisker deploy brings one");
     }
@@ -197,19 +197,13 @@ pub(crate) fn self_test(place: Place, found: &SelfTest) {
         y % 10
     );
     for (number, count) in found.faults() {
-        let [name, causes] = texts(number);
-        defmt::warn!(
-            "- {=u8}: fault {=u8}, {=istr} ({=istr}?)",
-            count,
-            number,
-            name,
-            causes
-        );
+        let text = text(number);
+        defmt::warn!("- {=u8}: fault {=u8}, {=istr}", count, number, text);
     }
 }
 
 pub(crate) fn not_armed(reason: NotArmed) {
-    firmware::say_not_armed!(say, texts, reason);
+    firmware::say_not_armed!(say, text, reason);
 }
 
 /// A PC asks for what a reader of the log should know of.
@@ -232,24 +226,23 @@ pub(crate) fn tuned(differ: bool) {
     }
 }
 
-macro_rules! texts {
-    ($($number:literal $constant:ident: $name:literal, $causes:literal, $check:literal,
-        $reaction:ident, $recovery:ident;)*) => {
+macro_rules! fault_text {
+    ($($number:literal $constant:ident: $text:literal, $check:literal, $reaction:ident, $recovery:ident;)*) => {
         /// What is wrong, and likely causes, of each row of the table of faults.
         // Once in the program, as it takes nearly a kilobyte.
         #[inline(never)]
-        fn texts(number: u8) -> [defmt::Str; 2] {
+        fn text(number: u8) -> defmt::Str {
             match number {
-                $($number if can_occur($number) => [intern!($name), intern!($causes)],)*
-                _ => [intern!("not in the table"), intern!("an older table")],
+                $($number if can_occur($number) => intern!($text),)*
+                _ => intern!("not in the table (an older table?)"),
             }
         }
     };
 }
-firmware::fault_table!(texts);
+firmware::fault_table!(fault_text);
 
 pub(crate) fn fatal(number: u8) {
-    firmware::say_board_fault!(say, texts, number);
+    firmware::say_board_fault!(say, text, number);
 }
 
 pub(crate) fn no_clock() {
@@ -260,7 +253,7 @@ pub(crate) fn event(event: &Event, names: &Names) {
     firmware::say_event!(
         say,
         *event,
-        texts,
+        text,
         |class| names.class(class),
         [pace::period_us(), serial::lost()]
     );
@@ -286,13 +279,8 @@ fn sensor_lost(of: SensorFault) {
             sensor_reports(faults);
         }
         SensorFault::Often(last) => {
-            let [name, causes] = texts(last);
-            defmt::error!(
-                "- the last: fault {=u8}, {=istr} ({=istr}?)",
-                last,
-                name,
-                causes
-            );
+            let text = text(last);
+            defmt::error!("- the last: fault {=u8}, {=istr}", last, text);
         }
         #[cfg(feature = "tmag5170")]
         SensorFault::Tilt(fault) => tilt_lost(fault),
