@@ -11,7 +11,7 @@ use crate::motion::{Command, Motion, NoActiveWhisker, NotDone};
 use crate::perception::{Perception, SampleClassifier};
 use crate::sensing::{Reading, Sensor, SensorLimits, Swing};
 use crate::servo::Servo;
-use crate::{Config, Event, HeadConfig, MotionConfig, Place, Timing, ZeroLimits};
+use crate::{Config, Event, MotionConfig, Place, Timing, ZeroLimits};
 
 /// What a module is made of: a board's, or a simulation's.
 pub trait Hardware {
@@ -123,7 +123,7 @@ impl<R: Real, H: Hardware> Module<R, H> {
         Self::of_node(config, 0, parts, classifier, clock)
     }
 
-    /// That of a board of a head, whose whiskers are those [of its node](HeadConfig::of_node).
+    /// That of a board of a head, whose whiskers are those [of its node](crate::HeadConfig::of_node).
     pub fn of_node(
         config: &Config<R>,
         number: u8,
@@ -162,19 +162,10 @@ impl<R: Real, H: Hardware> Module<R, H> {
     ) {
         let finds_zero = config.sensor.limits.zero.is_some();
         let rate = config.sensor.self_motion.unwrap_or_default();
-        let HeadConfig {
-            sides,
-            whiskers_per_side,
-            tick_hz,
-            ..
-        } = config.head;
-        let places = (0..sides)
-            .flat_map(|side| (0..whiskers_per_side).map(move |number| Place::new(side, number)));
         let own = config.head.of_node(number);
-        let places = (0..)
-            .zip(places)
-            .filter(|(n, _)| !Part::Bus.is_built() || own.contains(n));
-        for ((_, place), WhiskerParts { source, motor }) in places.zip(parts) {
+        let a_side = usize::from(config.head.whiskers_per_side).max(1);
+        for (n, WhiskerParts { source, motor }) in own.clone().zip(parts) {
+            let place = Place::new((n / a_side) as u8, (n % a_side) as u8);
             // As many as a checked configuration has, there is room for.
             let _ = self.whiskers.push(Whisker {
                 place,
@@ -196,7 +187,7 @@ impl<R: Real, H: Hardware> Module<R, H> {
             self.motion = config.motion.as_ref().map(of_own);
         }
         if Part::Classifier.is_built() {
-            let perceives = |classifier| Perception::new(classifier, count, tick_hz);
+            let perceives = |classifier| Perception::new(classifier, count, config.head.tick_hz);
             self.perception = classifier.map(perceives);
         }
     }
