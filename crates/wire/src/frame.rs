@@ -47,17 +47,14 @@ pub fn frame_of(bytes: &[u8]) -> Frame {
 }
 
 fn enclose(bytes: &[u8]) -> Option<Frame> {
-    let mut content = [0; CONTENT_BYTES];
-    let length = bytes.len();
+    let mut content = Vec::<u8, CONTENT_BYTES>::new();
+    content.extend_from_slice(bytes).ok()?;
     let sum = crc32(0, bytes).to_le_bytes();
-    let room = content.get_mut(..length + SUM_BYTES)?;
-    for (place, byte) in room.iter_mut().zip(bytes.iter().chain(&sum)) {
-        *place = *byte;
-    }
+    content.extend_from_slice(&sum).ok()?;
     let mut frame = Frame::new();
     frame.resize(FRAME_BYTES, 0).ok()?;
     let inner = frame.get_mut(1..FRAME_BYTES - 1)?;
-    let coded = cobs::try_encode(content.get(..length + SUM_BYTES)?, inner).ok()?;
+    let coded = cobs::try_encode(&content, inner).ok()?;
     frame.truncate(1 + coded);
     frame.push(0).ok()?;
     Some(frame)

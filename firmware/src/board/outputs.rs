@@ -21,7 +21,7 @@ pub(crate) fn off() {
         w.set_ossi(Ossi::IDLE_LEVEL);
     });
     clock_ports();
-    for pin in PWMS.into_iter().chain(ENABLES) {
+    for pin in [PWMS, ENABLES].as_flattened() {
         pin.low();
         pin.configure(PinConfig::OUTPUT);
     }

@@ -340,9 +340,9 @@ fn of_start<R: Real>(start: &Start<R>, head: &HeadConfig) -> Checked {
         within(field, &side.oscillator, STATE)?;
         within(field, &[side.drive], SHARE)?;
     }
-    let sides = (0..head.sides).flat_map(|side| (0..head.whiskers_per_side).map(move |_| side));
-    for (whisker, side) in start.whiskers.iter().zip(sides) {
-        require(field, whisker.side == side)?;
+    let a_side = usize::from(head.whiskers_per_side).max(1);
+    for (n, whisker) in start.whiskers.iter().enumerate() {
+        require(field, usize::from(whisker.side) == n / a_side)?;
         within(field, &[whisker.gain], Bound::positive(1))?;
         within(field, &whisker.history.force, STATE)?;
     }
