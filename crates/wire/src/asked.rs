@@ -63,7 +63,9 @@ impl Request {
     /// Whether it is a stop, of whatever board.
     pub fn is_stop(&self) -> bool {
         match self {
-            Self::Here(request) => request.is_ok_and(|request| request.command == Command::Stop),
+            Self::Here(request) => {
+                request.is_ok_and(|request| matches!(request.command, Command::Stop))
+            }
             Self::For(request) => request.number() == Command::Stop.number(),
         }
     }

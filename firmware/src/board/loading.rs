@@ -130,7 +130,7 @@ pub(crate) fn run(mut line: Line<'_>, order: Order) -> ! {
             answer.sequence,
             (status, values),
         ));
-        if request.command == Command::Restart {
+        if matches!(request.command, Command::Restart) {
             break;
         }
     }

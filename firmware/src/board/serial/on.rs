@@ -210,7 +210,7 @@ impl Serial {
         }
         // Another board sends fewer.
         if let Request::Here(Ok(request)) = asked.what
-            && request.command == Command::Stream(true)
+            && matches!(request.command, Command::Stream(true))
             && !self.carries_records()
         {
             self.refuse_records(asked.origin, request);

@@ -188,7 +188,8 @@ impl Telemetry {
                 .link
                 .carry_out(module, settings, request, self.about, tick),
         };
-        let arms = request.command == Command::Arm && answer.status == CommandStatus::Done;
+        let is_done = answer.status == CommandStatus::Done;
+        let arms = is_done && matches!(request.command, Command::Arm);
         if arms {
             retained::set_stopped(false);
         }
