@@ -1,8 +1,9 @@
 //! Training a model from recordings.
 
 use scene::Scene;
+pub use tactile::train::Expect as Expected;
 use tactile::train::joint::{self, JointModel, Trial};
-use tactile::train::{Expect, Options, TrainError, Trainer};
+use tactile::train::{Options, TrainError, Trainer};
 use tactile::{ModelBuf, Whisked};
 
 use crate::doubts::outliers;
@@ -38,34 +39,41 @@ pub struct How {
     #[cfg_attr(feature = "cli", arg(long))]
     pub each_whisker: bool,
     /// How much may differ between training and use, of joint tables
-    #[cfg_attr(feature = "cli", arg(long, value_enum, default_value_t = Expected::Bench))]
+    #[cfg_attr(feature = "cli", arg(long, value_parser = expected(), default_value = "bench"))]
     pub expect: Expected,
     /// How it was whisked, which the model keeps.
     #[cfg_attr(feature = "cli", arg(skip))]
     pub whisked: Whisked,
 }
 
-/// How much may differ between training and use.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-#[cfg_attr(feature = "cli", derive(clap::ValueEnum))]
-pub enum Expected {
-    /// Nothing: what is stated holds in the pose of training only
-    Same,
-    /// What a hand on a bench makes: some degrees of tilt and place, a fifth of scale
-    #[default]
-    Bench,
-    /// Another mounting: half to twice of scale
-    Other,
-}
+/// How much may differ between training and use: its words, and what they mean to a user.
+pub const EXPECTED: [(&str, Expected, &str); 3] = [
+    (
+        "same",
+        Expected::Same,
+        "Nothing: what is stated holds in the pose of training only",
+    ),
+    (
+        "bench",
+        Expected::Bench,
+        "What a hand on a bench makes: some degrees of tilt and place, a fifth of scale",
+    ),
+    (
+        "other",
+        Expected::Other,
+        "Another mounting: half to twice of scale",
+    ),
+];
 
-impl From<Expected> for Expect {
-    fn from(expected: Expected) -> Self {
-        match expected {
-            Expected::Same => Self::Same,
-            Expected::Bench => Self::Bench,
-            Expected::Other => Self::Other,
-        }
-    }
+#[cfg(feature = "cli")]
+fn expected() -> impl clap::builder::TypedValueParser<Value = Expected> {
+    use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
+
+    let values = EXPECTED.map(|(word, _, help)| PossibleValue::new(word).help(help));
+    PossibleValuesParser::new(values).map(|found| {
+        let meant = EXPECTED.iter().find(|(word, ..)| *word == found);
+        meant.map_or_else(Expected::default, |(_, meant, _)| *meant)
+    })
 }
 
 /// The tables of a model.
@@ -114,12 +122,6 @@ impl How {
         self.gate.unwrap_or(GATE)
     }
 
-    /// Samples without contact that end a touch, at least one.
-    fn gap_samples(&self, tick_hz: u32) -> u32 {
-        let samples = self.gap.unwrap_or(GAP_S) * f64::from(tick_hz);
-        (samples.round() as u32).max(1)
-    }
-
     /// Whether gate and gap are in their ranges, and of use to these tables.
     ///
     /// # Errors
@@ -164,13 +166,14 @@ impl How {
         match self.tables {
             Tables::Joint => {
                 let default = joint::Options::default();
+                let gap = self.gap.unwrap_or(GAP_S) * f64::from(tick_hz);
                 let options = joint::Options {
                     bins: self.bins.unwrap_or(default.bins),
                     smooth: self.smooth.unwrap_or(default.smooth),
                     block: self.block.unwrap_or(default.block),
                     gate: self.least(),
-                    gap: self.gap_samples(tick_hz),
-                    expect: self.expect.into(),
+                    gap: (gap.round() as u32).max(1),
+                    expect: self.expect,
                     whisked: self.whisked,
                 };
                 let joint = joint(recordings, &options)?;
@@ -203,10 +206,7 @@ const GAP_S: f64 = 0.1;
 /// The papers' model of `streams`, of the samples whose contact is at least `gate`; classes
 /// in the order in which they first appear. Each whisker has tables of its own (BIOTACT eq. 15),
 /// or all have one set.
-///
-/// # Errors
-/// What the trainer refuses.
-pub fn single<'s>(
+pub(crate) fn single<'s>(
     mut trainer: Trainer,
     streams: impl IntoIterator<Item = &'s Stream>,
     gate: f64,

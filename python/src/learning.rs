@@ -8,7 +8,7 @@ use host_sim::rate;
 use host_sim::recording::{self, Recorder, Stream};
 use host_sim::replay::Replay;
 use host_sim::run::Run;
-use host_sim::training::{Expected, How, Tables};
+use host_sim::training::{EXPECTED, How, Tables};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use scene::Rule;
@@ -72,11 +72,7 @@ pub(crate) fn train(
 ) -> PyResult<Model> {
     let known = [("joint", Tables::Joint), ("single", Tables::Single)];
     let tables = outside::one_of("tables", tables, &known)?;
-    let known = [
-        ("same", Expected::Same),
-        ("bench", Expected::Bench),
-        ("other", Expected::Other),
-    ];
+    let known = EXPECTED.map(|(word, meant, _)| (word, meant));
     let expect = outside::one_of("expect", expect, &known)?;
     let how = How {
         bins,
