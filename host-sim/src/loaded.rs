@@ -99,19 +99,6 @@ impl Loaded {
         self.model.as_ref().map(|(_, model)| model)
     }
 
-    /// Its bytes.
-    pub fn model_bytes(&self) -> Option<&[u8]> {
-        self.model().map(ModelBuf::as_bytes)
-    }
-
-    /// The bytes of the model that is deployed to it, not linked; none where there is none.
-    pub fn deployed(&self) -> &[u8] {
-        match &self.model {
-            Some((_, model)) if self.scene.awaits_model() => model.as_bytes(),
-            _ => &[],
-        }
-    }
-
     /// What its user should know of a classifier that has no model yet.
     pub fn without_model(&self) -> Option<String> {
         (self.scene.awaits_model() && self.model.is_none()).then(|| {

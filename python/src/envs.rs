@@ -18,7 +18,7 @@ use rayon::{ThreadPool, ThreadPoolBuilder};
 use scene::Scene;
 
 use crate::outside::{self, wrong};
-use crate::recipe::{Parts, Recipe};
+use crate::recipe::{self, Parts};
 use crate::scenes::{Given, raised};
 
 /// What is observed of a whisker: angle, x, y, contact.
@@ -88,7 +88,12 @@ impl Member {
 
     /// Acts for so many ticks.
     fn step(&mut self, action: Action, values: &[f64], ticks: u64) -> Result<(), Error> {
-        self.act(action, values)?;
+        for (n, value) in values.iter().enumerate() {
+            match action {
+                Action::Setpoint => self.run.set_setpoint_deg(n, Some(*value))?,
+                Action::Gain => self.run.set_gain(n, *value)?,
+            }
+        }
         if self.left > 0 {
             self.acts.extend_from_slice(values);
         }
@@ -98,16 +103,6 @@ impl Member {
             self.run.pass();
         }
         self.left -= ticks;
-        Ok(())
-    }
-
-    fn act(&mut self, action: Action, values: &[f64]) -> Result<(), Error> {
-        for (n, value) in values.iter().enumerate() {
-            match action {
-                Action::Setpoint => self.run.set_setpoint_deg(n, Some(*value))?,
-                Action::Gain => self.run.set_gain(n, *value)?,
-            }
-        }
         Ok(())
     }
 
@@ -127,10 +122,10 @@ pub(crate) struct Envs {
     members: Mutex<Vec<Member>>,
     action: Action,
     ticks: u64,
-    scene: Scene,
+    given: Given,
+    loaded: Loaded,
     count: usize,
     limits: [f64; 2],
-    recipe: Recipe,
 }
 
 /// What makes a copy: the function and its arguments, the last being the seed of each environment
@@ -140,17 +135,17 @@ type Reduced<'py> = (Bound<'py, PyAny>, (Parts<'py>, String, u64, Vec<Did>));
 /// A seed, and actions one after the other.
 type Did = (u64, Vec<f64>);
 
-/// Environments as others were that were made from `recipe`.
+/// Environments as others were that were made from `parts`.
 #[pyfunction]
 pub(crate) fn restored_envs(
     py: Python<'_>,
-    recipe: Parts<'_>,
+    parts: Parts<'_>,
     action: &str,
     ticks: u64,
     did: Vec<Did>,
 ) -> PyResult<Envs> {
-    let (given, loaded) = Recipe::loaded(recipe, py)?;
-    let envs = Envs::of(py, &given, &loaded, did.len(), action, ticks)?;
+    let recipe = recipe::loaded(py, parts)?;
+    let envs = Envs::of(py, recipe, did.len(), action, ticks)?;
     let pool = pool()?;
     let replayed = py.detach(|| {
         let mut members = envs.members.lock();
@@ -173,8 +168,7 @@ impl Envs {
     /// So many of a scene, before their first tick.
     fn of(
         py: Python<'_>,
-        given: &Given,
-        loaded: &Loaded,
+        (given, loaded): (Given, Loaded),
         count: usize,
         action: &str,
         ticks: u64,
@@ -209,10 +203,10 @@ impl Envs {
             members: Mutex::new(members.map_err(raise)?),
             action,
             ticks,
-            scene: loaded.scene.clone(),
+            given,
+            loaded,
             count,
             limits,
-            recipe: Recipe::new(given, loaded),
         })
     }
 }
@@ -232,7 +226,7 @@ impl Envs {
     ) -> PyResult<Self> {
         let given = Given::new(scene, set)?;
         let loaded = given.loaded(py, None, model)?;
-        Self::of(py, &given, &loaded, count, action, ticks)
+        Self::of(py, (given, loaded), count, action, ticks)
     }
 
     /// For other processes, and for copies, which go on apart: the scene, and of each environment
@@ -244,13 +238,8 @@ impl Envs {
             did.collect::<Vec<Did>>()
         });
         let make = py.import("vibrissa._core")?.getattr("restored_envs")?;
-        let [(setpoint, _), (gain, _)] = ACTIONS;
-        let action = if self.action == Action::Gain {
-            gain
-        } else {
-            setpoint
-        };
-        let parts = self.recipe.parts(py);
+        let (action, _) = ACTIONS[usize::from(self.action == Action::Gain)];
+        let parts = recipe::parts(py, &self.given, &self.loaded);
         Ok((make, (parts, action.to_owned(), self.ticks, did)))
     }
 
@@ -319,19 +308,19 @@ impl Envs {
     /// Actions a second.
     #[getter]
     fn rate_hz(&self) -> f64 {
-        f64::from(self.scene.tick_hz) / self.ticks as f64
+        f64::from(self.loaded.scene.tick_hz) / self.ticks as f64
     }
 
     /// How many whiskers a side has.
     #[getter]
     const fn whiskers_per_side(&self) -> usize {
-        self.scene.head.whiskers_per_side
+        self.loaded.scene.head.whiskers_per_side
     }
 
     /// How many whiskers each has.
     #[getter]
     fn whiskers(&self) -> usize {
-        self.scene.whiskers()
+        self.loaded.scene.whiskers()
     }
 
     /// The least and the largest action.

@@ -5,20 +5,12 @@ use host_sim::loaded::Loaded;
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
 use scene::Override;
+use tactile::ModelBuf;
 
 use crate::scenes::Given;
 
-/// A scene as it was given, with the model that it decides by, and no file.
-#[derive(Clone)]
-pub(crate) struct Recipe {
-    file: String,
-    text: String,
-    set: Vec<Override>,
-    model: Option<Vec<u8>>,
-}
-
-/// A [`Recipe`] in Python: the name and the text of the scene, keys and values in place of its
-/// own, and the model's bytes.
+/// A scene with its model in Python, and no file: the name and the text of the scene, keys and
+/// values in place of its own, and the model's bytes.
 pub(crate) type Parts<'py> = (
     String,
     String,
@@ -26,40 +18,29 @@ pub(crate) type Parts<'py> = (
     Option<Bound<'py, PyBytes>>,
 );
 
-impl Recipe {
-    /// Of a scene and what was read of it.
-    pub(crate) fn new(given: &Given, loaded: &Loaded) -> Self {
-        Self {
-            file: given.file.clone(),
-            text: given.text.clone(),
-            set: given.set.clone(),
-            model: loaded.model_bytes().map(<[u8]>::to_vec),
-        }
-    }
+/// A scene as it was given, and what was read of it, as Python has them.
+pub(crate) fn parts<'py>(py: Python<'py>, given: &Given, loaded: &Loaded) -> Parts<'py> {
+    let set = given.set.iter();
+    let set = set.map(|one| (one.key().to_owned(), one.value().to_owned()));
+    let model = loaded.model().map(ModelBuf::as_bytes);
+    let model = model.map(|bytes| PyBytes::new(py, bytes));
+    (given.file.clone(), given.text.clone(), set.collect(), model)
+}
 
-    /// As Python has it.
-    pub(crate) fn parts<'py>(&self, py: Python<'py>) -> Parts<'py> {
-        let set = self.set.iter();
-        let set = set.map(|one| (one.key().to_owned(), one.value().to_owned()));
-        let model = self.model.as_ref().map(|bytes| PyBytes::new(py, bytes));
-        (self.file.clone(), self.text.clone(), set.collect(), model)
-    }
-
-    /// The scene with its model, as they were read.
-    pub(crate) fn loaded(parts: Parts<'_>, py: Python<'_>) -> PyResult<(Given, Loaded)> {
-        let (file, text, set, model) = parts;
-        let set = set.iter();
-        let set = set.map(|(key, value)| Override::new("scene".to_owned(), key, value));
-        let given = Given {
-            file,
-            text,
-            set: set.collect(),
-            folder: std::path::PathBuf::new(),
-        };
-        let model = model.map(Bound::into_any);
-        let loaded = given.loaded(py, None, model.as_ref())?;
-        Ok((given, loaded))
-    }
+/// The same from Python.
+pub(crate) fn loaded(py: Python<'_>, parts: Parts<'_>) -> PyResult<(Given, Loaded)> {
+    let (file, text, set, model) = parts;
+    let set = set.iter();
+    let set = set.map(|(key, value)| Override::new("scene".to_owned(), key, value));
+    let given = Given {
+        file,
+        text,
+        set: set.collect(),
+        folder: std::path::PathBuf::new(),
+    };
+    let model = model.map(Bound::into_any);
+    let loaded = given.loaded(py, None, model.as_ref())?;
+    Ok((given, loaded))
 }
 
 /// Something that was done to a run: before which tick, what, to which whisker, and its number.

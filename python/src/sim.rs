@@ -19,7 +19,7 @@ use scene::{Scene, Texture};
 use tactile::Posteriors;
 
 use crate::outside::{self, wrong};
-use crate::recipe::{Call, GAIN, LAY, Parts, Recipe, SETPOINT, Script};
+use crate::recipe::{self, Call, GAIN, LAY, Parts, SETPOINT, Script};
 use crate::scenes::{Given, raised};
 use crate::table::{self, Kind, Layout, RunTables};
 
@@ -110,14 +110,14 @@ pub(crate) struct Sim {
     state: Mutex<State>,
     tables: RunTables,
     classes: Vec<String>,
-    scene: Scene,
+    given: Given,
+    loaded: Loaded,
     posteriors: Layout,
-    recipe: Recipe,
 }
 
 impl Sim {
     /// Before its first tick.
-    fn of(py: Python<'_>, given: &Given, loaded: &Loaded) -> PyResult<Self> {
+    fn of(py: Python<'_>, given: Given, loaded: Loaded) -> PyResult<Self> {
         let raised = |error| raised(py, error);
         let scene = &loaded.scene;
         let run = Run::new(scene, loaded.classifier().map_err(raised)?);
@@ -127,7 +127,6 @@ impl Sim {
         let columns = iter::once("t_s").chain(classes.iter().map(String::as_str));
         Ok(Self {
             tables: RunTables::of(scene, &classes),
-            scene: scene.clone(),
             posteriors: Layout::new(columns.map(|name| (name, Kind::Number))),
             classes,
             state: Mutex::new(State {
@@ -140,7 +139,8 @@ impl Sim {
                 posteriors: Vec::new(),
                 script: Script::default(),
             }),
-            recipe: Recipe::new(given, loaded),
+            given,
+            loaded,
         })
     }
 
@@ -167,6 +167,10 @@ impl Sim {
 
     fn state(&self) -> MutexGuard<'_, State> {
         self.state.lock()
+    }
+
+    const fn scene(&self) -> &Scene {
+        &self.loaded.scene
     }
 
     /// Makes so many ticks, in parts: between two of them handlers of signals run, and whoever
@@ -211,7 +215,7 @@ impl Sim {
         bent.ok_or_else(|| {
             let fault = format!(
                 "whisker {whisker}, counted from 0, left side first: scene {:?} has none that bends",
-                self.scene.name
+                self.scene().name
             );
             wrong(fault)
         })
@@ -231,7 +235,7 @@ impl Sim {
     ) -> PyResult<Self> {
         let given = Given::new(scene, set)?;
         let loaded = given.loaded(py, seed, model)?;
-        Self::of(py, &given, &loaded)
+        Self::of(py, given, loaded)
     }
 
     /// For other processes, and for copies, which go on apart: the scene, the seed and what was
@@ -247,7 +251,8 @@ impl Sim {
             return Err(PyRuntimeError::new_err(fault));
         };
         let make = py.import("vibrissa._core")?.getattr("restored_sim")?;
-        Ok((make, (self.recipe.parts(py), seed, calls.to_vec(), done)))
+        let parts = recipe::parts(py, &self.given, &self.loaded);
+        Ok((make, (parts, seed, calls.to_vec(), done)))
     }
 
     /// Advances by `n` ticks, beyond the scene's end too, and returns every `every`th row of
@@ -291,7 +296,7 @@ impl Sim {
     /// counted from 0, left side first.
     #[pyo3(signature = (degrees, whisker=0))]
     fn setpoint(&self, py: Python<'_>, degrees: Option<f64>, whisker: usize) -> PyResult<()> {
-        if let (Some(degrees), Some(motor)) = (degrees, &self.scene.motor) {
+        if let (Some(degrees), Some(motor)) = (degrees, &self.scene().motor) {
             outside::within("setpoint", degrees, motor.min_deg, motor.max_deg)?;
         }
         let value = degrees.unwrap_or(f64::NAN);
@@ -309,9 +314,12 @@ impl Sim {
 
     /// Has a texture laid in place of the present one, once that is not touched, and left there.
     fn lay(&self, py: Python<'_>, texture: &str) -> PyResult<()> {
-        let textures = self.scene.plant.textures_to_lay();
+        let textures = self.scene().plant.textures_to_lay();
         if textures.is_empty() {
-            let fault = format!("texture: scene {:?} has none to exchange", self.scene.name);
+            let fault = format!(
+                "texture: scene {:?} has none to exchange",
+                self.scene().name
+            );
             return Err(wrong(fault));
         }
         let place = Texture::NAMES.iter().position(|name| *name == texture);
@@ -337,8 +345,7 @@ impl Sim {
     /// trace has them of the first whiskers; None in the air.
     #[pyo3(signature = (whisker=0))]
     fn touch_at(&self, py: Python<'_>, whisker: usize) -> PyResult<Option<(f64, f64)>> {
-        let [first, _] = self.bent(py, whisker)?.contacts;
-        Ok(first.map(|at| (at.arc_m, at.plate_m[0])))
+        Ok(self.touches_at(py, whisker)?.first().copied())
     }
 
     /// All places in which a whisker touches now, as `touch_at` has them: none, one or two. The
@@ -388,13 +395,13 @@ impl Sim {
     /// The scene's name.
     #[getter]
     fn name(&self) -> &str {
-        &self.scene.name
+        &self.scene().name
     }
 
     /// Ticks a second.
     #[getter]
     const fn tick_hz(&self) -> u32 {
-        self.scene.tick_hz
+        self.scene().tick_hz
     }
 
     /// The seed of this run.
@@ -406,7 +413,7 @@ impl Sim {
     /// How many ticks the scene lasts.
     #[getter]
     fn ticks(&self) -> u64 {
-        self.scene.ticks()
+        self.scene().ticks()
     }
 
     /// How many ticks have passed.
@@ -423,7 +430,7 @@ impl Sim {
 
     fn __repr__(&self, py: Python<'_>) -> String {
         let done = py.detach(|| self.state().done);
-        let (name, ticks) = (&self.scene.name, self.scene.ticks());
+        let (name, ticks) = (&self.scene().name, self.scene().ticks());
         format!("<vibrissa.Sim {name:?}: tick {done} of {ticks}>")
     }
 }
@@ -431,19 +438,19 @@ impl Sim {
 /// What makes a copy: the function, and its arguments.
 type Reduced<'py> = (Bound<'py, PyAny>, (Parts<'py>, u64, Vec<Call>, u64));
 
-/// A simulation as another one was that was made from `recipe` with `seed`, `calls` being what was
+/// A simulation as another one was that was made from `parts` with `seed`, `calls` being what was
 /// done to it in `done` ticks.
 #[pyfunction]
 pub(crate) fn restored_sim(
     py: Python<'_>,
-    recipe: Parts<'_>,
+    parts: Parts<'_>,
     seed: u64,
     calls: Vec<Call>,
     done: u64,
 ) -> PyResult<Sim> {
-    let (given, mut loaded) = Recipe::loaded(recipe, py)?;
+    let (given, mut loaded) = recipe::loaded(py, parts)?;
     loaded.scene.seed = seed;
-    let sim = Sim::of(py, &given, &loaded)?;
+    let sim = Sim::of(py, given, loaded)?;
     py.detach(|| sim.replay(&calls, done))?;
     Ok(sim)
 }
