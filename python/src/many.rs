@@ -6,11 +6,11 @@ use std::thread::{self, ScopedJoinHandle};
 use std::time::Duration;
 
 use host_sim::Error;
+use host_sim::classifier::Classifier;
 use host_sim::decisions::Decided;
 use host_sim::run::Run;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
-use scene::Scene;
 
 use crate::outside::{self, wrong};
 use crate::scenes::{Given, raised};
@@ -78,23 +78,14 @@ pub(crate) fn run_many<'py>(
     let loaded = Given::new(scene, set)?.loaded(py, None, model)?;
     let raise = |error| raised(py, error);
     let classifier = loaded.classifier().map_err(raise)?;
-    let classes = classifier
-        .as_ref()
-        .map(|classifier| classifier.classes().to_vec());
-    let tables = RunTables::of(&loaded.scene, &classes.unwrap_or_default());
+    let classes = classifier.as_ref().map(Classifier::classes);
+    let tables = RunTables::of(&loaded.scene, classes.unwrap_or_default());
     let count = loaded.scene.ticks().checked_div(every).unwrap_or(0) as usize;
     let each = count * tables.trace.bytes();
     let Some(size) = each.checked_mul(seeds.len()) else {
         return Err(wrong("seeds: more rows than there is memory"));
     };
     let mut rows = outside::zeros(size)?;
-    let new = |seed: u64| {
-        let scene = Scene {
-            seed,
-            ..loaded.scene.clone()
-        };
-        Run::new(&scene, classifier.clone())
-    };
     // No rows: still a place for each run.
     let places: Vec<&mut [u8]> = match each {
         0 => seeds.iter().map(|_| Default::default()).collect(),
@@ -112,12 +103,13 @@ pub(crate) fn run_many<'py>(
             let Some(((seed, place), decided)) = job else {
                 return Ok(());
             };
-            let run = match &mut run {
-                Some(run) => {
-                    run.reset(*seed)?;
-                    run
-                }
-                None => run.insert(new(*seed)?),
+            let run = if let Some(run) = &mut run {
+                run.reset(*seed)?;
+                run
+            } else {
+                let mut scene = loaded.scene.clone();
+                scene.seed = *seed;
+                run.insert(Run::new(&scene, classifier.clone())?)
             };
             *decided = fill(run, (&tables, every), place, &is_over);
         }

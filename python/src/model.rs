@@ -10,7 +10,7 @@ use pyo3::prelude::*;
 use pyo3::types::PyBytes;
 use scene::file;
 use tactile::ModelBuf;
-use tactile::train::joint::Report;
+use tactile::train::joint::{AtThreshold, Report};
 
 use crate::outside::{self, file_error};
 use crate::table::{Kind, Layout};
@@ -36,6 +36,21 @@ impl Model {
         self.model.as_bytes()
     }
 }
+
+type Figure = (&'static str, Kind, fn(&AtThreshold) -> f64);
+
+/// The columns of [`Model::calibration`].
+const FIGURES: [Figure; 9] = [
+    ("threshold", Kind::Number, |at| at.threshold),
+    ("stated", Kind::Number, |at| at.stated),
+    ("found", Kind::Number, |at| at.found.share),
+    ("low", Kind::Number, |at| at.found.low),
+    ("high", Kind::Number, |at| at.found.high),
+    ("decisions", Kind::Whole, |at| at.found.count as f64),
+    ("samples", Kind::Number, |at| at.samples),
+    ("unknown", Kind::Number, |at| at.unknown.share),
+    ("undecided", Kind::Number, |at| at.undecided.share),
+];
 
 #[pymethods]
 impl Model {
@@ -76,31 +91,10 @@ impl Model {
         let Some(report) = &self.report else {
             return Ok(None);
         };
-        let names = [
-            "threshold",
-            "stated",
-            "found",
-            "low",
-            "high",
-            "samples",
-            "unknown",
-            "undecided",
-        ];
-        let mut columns = names.map(|name| (name, Kind::Number)).to_vec();
-        columns.insert(5, ("decisions", Kind::Whole));
+        let columns = FIGURES.map(|(name, kind, _)| (name, kind));
         let (layout, mut rows) = (Layout::new(columns), Vec::new());
         for at in &report.calibration {
-            let found = [
-                at.threshold,
-                at.stated,
-                at.found.share,
-                at.found.low,
-                at.found.high,
-                at.found.count as f64,
-                at.samples,
-                at.unknown.share,
-                at.undecided.share,
-            ];
+            let found = FIGURES.map(|(.., figure)| figure(at));
             layout.row(&mut rows).numbers(&found, 0);
         }
         layout.array(py, rows).map(Some)

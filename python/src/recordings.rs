@@ -43,10 +43,16 @@ impl Prepared<'_> {
         };
         let samples: &[f64] = self.samples.as_slice()?;
         let (samples, _) = samples.as_chunks::<2>();
-        let contact = self.contact.as_ref().map(PyReadonlyArray1::as_slice);
-        let contact = contact.transpose()?;
-        let touch = self.touch.as_ref().map(PyReadonlyArray1::as_slice);
-        let touch = touch.transpose()?;
+        let contact = self
+            .contact
+            .as_ref()
+            .map(PyReadonlyArray1::as_slice)
+            .transpose()?;
+        let touch = self
+            .touch
+            .as_ref()
+            .map(PyReadonlyArray1::as_slice)
+            .transpose()?;
         if let Some(row) = samples
             .iter()
             .position(|xy| !xy.iter().all(|v| v.is_finite()))
@@ -160,15 +166,19 @@ pub(crate) fn array<'py>(
     let trial = Kind::text(streams.iter().map(|stream| stream.trial.as_str()));
     let poses = || streams.iter().filter_map(|stream| stream.pose.as_deref());
     let pose = Kind::text(poses());
-    let stands = has(streams, |stream| stream.stands.is_some()).then_some(Kind::Number);
+    let if_any = |kind: Kind, has: fn(&Stream) -> bool| {
+        let is_there = streams.iter().any(has);
+        if is_there { kind } else { Kind::Absent }
+    };
+    let stands = if_any(Kind::Number, |stream| stream.stands.is_some());
     let mut kinds = [
-        Some(label),
-        Some(trial),
-        Some(Kind::Number),
-        Some(Kind::Number),
-        has(streams, |stream| stream.contact.is_some()).then_some(Kind::Number),
-        has(streams, |stream| stream.touch.is_some()).then_some(Kind::Whole),
-        has(streams, |stream| stream.pose.is_some()).then_some(pose),
+        label,
+        trial,
+        Kind::Number,
+        Kind::Number,
+        if_any(Kind::Number, |stream| stream.contact.is_some()),
+        if_any(Kind::Whole, |stream| stream.touch.is_some()),
+        if_any(pose, |stream| stream.pose.is_some()),
         stands,
         stands,
     ];
@@ -177,46 +187,25 @@ pub(crate) fn array<'py>(
     // A channel may be another column too, which is there once.
     for (n, kind) in kinds.iter_mut().enumerate() {
         if names[..n].contains(&names[n]) {
-            *kind = None;
+            *kind = Kind::Absent;
         }
     }
-    let columns = names.into_iter().zip(kinds);
-    let layout = Layout::new(columns.filter_map(|(name, kind)| Some((name, kind?))));
+    let layout = Layout::new(names.into_iter().zip(kinds));
     let mut rows = Vec::new();
     for stream in streams {
         for (n, [x, y]) in stream.samples.iter().enumerate() {
             let mut row = layout.row(&mut rows);
             row.text(&stream.label);
             row.text(&stream.trial);
-            for (at, value) in [(2, x), (3, y)] {
-                if kinds[at].is_some() {
-                    row.number(*value, 0);
-                }
-            }
-            if kinds[4].is_some() {
-                let contact = stream.contact.as_ref().and_then(|all| all.get(n));
-                row.number(contact.copied().unwrap_or(1.0), 0);
-            }
-            if kinds[5].is_some() {
-                let touch = stream.touch.as_ref().and_then(|all| all.get(n));
-                row.number(touch.copied().unwrap_or(0).into(), 0);
-            }
-            if kinds[6].is_some() {
-                row.text(stream.pose.as_deref().unwrap_or_default());
-            }
-            let stands = stream.stands.unwrap_or([f64::NAN; 2]);
-            for (at, value) in [(7, stands[0]), (8, stands[1])] {
-                if kinds[at].is_some() {
-                    row.number(value, 0);
-                }
-            }
+            let contact = stream.contact.as_ref().and_then(|all| all.get(n));
+            let touch = stream.touch.as_ref().and_then(|all| all.get(n));
+            row.numbers(&[*x, *y, contact.copied().unwrap_or(1.0)], 0);
+            row.number(touch.copied().unwrap_or(0).into(), 0);
+            row.text(stream.pose.as_deref().unwrap_or_default());
+            row.numbers(&stream.stands.unwrap_or([f64::NAN; 2]), 0);
         }
     }
     layout.array(py, rows)
-}
-
-fn has(streams: &[Stream], column: impl Fn(&Stream) -> bool) -> bool {
-    streams.iter().any(column)
 }
 
 /// Reads a recording's file, as `host-sim record` and `whisker capture` write it: its rows, as

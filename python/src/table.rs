@@ -22,6 +22,8 @@ pub(crate) enum Kind {
     Seed,
     /// Text of up to so many characters.
     Text(usize),
+    /// The column is not there: its cells are left out.
+    Absent,
 }
 
 impl Kind {
@@ -35,6 +37,7 @@ impl Kind {
         match self {
             Self::Number | Self::Whole | Self::Seed => 8,
             Self::Text(width) => 4 * width,
+            Self::Absent => 0,
         }
     }
 }
@@ -89,6 +92,7 @@ impl Layout {
                 Kind::Whole => fields.append((name, "i8"))?,
                 Kind::Seed => fields.append((name, "u8"))?,
                 Kind::Text(width) => fields.append((name, format!("U{width}")))?,
+                Kind::Absent => {}
             }
         }
         let dtype = py.import("numpy")?.getattr("dtype")?.call1((fields,))?;
@@ -116,6 +120,7 @@ impl Cells for Row<'_> {
             [(_, Kind::Text(_)), ..] => {
                 return self.text(&format!("{value:.*}", decimals as usize));
             }
+            [(_, Kind::Absent), ..] => {}
             [(_, Kind::Whole), ..] => self.bytes.extend((value as i64).to_ne_bytes()),
             _ => self.bytes.extend(value.to_ne_bytes()),
         }
@@ -188,33 +193,20 @@ pub(crate) fn decisions<'py>(
     columns: Columns,
 ) -> PyResult<Bound<'py, PyAny>> {
     let all = || runs.iter().flat_map(|(_, decided)| decided.iter());
-    let label = Kind::text(all().map(|d| d.label.as_str()));
-    let trial = Kind::text(all().map(|d| d.trial.as_str()));
-    let decision = Kind::text(all().map(|d| d.decision.as_str()));
-    let side = Kind::Text(6);
-    // The longest is "unknown".
-    let reason = Kind::Text(8);
     let pairs: Vec<String> = all().map(|d| d.why()[1].clone()).collect();
-    let among = Kind::text(pairs.iter().map(String::as_str));
-    let kinds = [
-        label,
-        trial,
-        decision,
-        Kind::Whole,
-        Kind::Number,
-        Kind::Whole,
-        Kind::Number,
-        side,
-        Kind::Whole,
-        reason,
-        among,
-        Kind::Number,
-        Kind::Number,
-        Kind::Number,
-        Kind::Number,
-    ];
-    let indices = columns.indices();
-    let layout = Layout::new(indices.map(|index| (COLUMNS[index].name, kinds[index])));
+    let kind = |name| match name {
+        "label" => Kind::text(all().map(|d| d.label.as_str())),
+        "trial" => Kind::text(all().map(|d| d.trial.as_str())),
+        "decision" => Kind::text(all().map(|d| d.decision.as_str())),
+        "among" => Kind::text(pairs.iter().map(String::as_str)),
+        "side" => Kind::Text(6),
+        // The longest is "unknown".
+        "reason" => Kind::Text(8),
+        "samples" | "touch" | "whisker" => Kind::Whole,
+        _ => Kind::Number,
+    };
+    let names = columns.indices().map(|index| COLUMNS[index].name);
+    let layout = Layout::new(names.map(|name| (name, kind(name))));
     let layout = match runs {
         [(Some(_), _), ..] => layout.after("seed", Kind::Seed),
         _ => layout,
