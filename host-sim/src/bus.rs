@@ -136,7 +136,7 @@ impl Slave {
     /// A wire fault in every frame from now on; `None` mends it. It takes
     /// precedence over [`Slave::inject`], and that over [`Slave::disturb`].
     pub const fn set_fault(&mut self, fault: Option<WireFault>) {
-        self.injected.stand(fault);
+        self.injected.standing = fault;
     }
 
     /// A wire fault in the next `frames` frames; replaces what is left of the last.

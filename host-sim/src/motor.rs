@@ -4,10 +4,7 @@
 //! Glossary:
 //!
 //! - *stage*: what the pins switch. Brushed: an H-bridge with PWM and
-//!   direction. Brushless: three half-bridges with enables, and three Halls;
-//! - *drive torque*: what the winding would give at standstill;
-//! - *damping*: torque lost per unit of speed, by back-EMF and viscous friction;
-//! - *electrical turn*: equal to a mechanical one (one pole pair);
+//!   direction. Brushless: three half-bridges with enables, and three Halls, of one pole pair;
 //! - *reflected*: seen through the gear of ratio G: inertia and torque of the
 //!   whisker appear at the rotor divided by G² and G.
 //!
@@ -35,6 +32,7 @@ mod settings;
 mod stage;
 
 use std::sync::Arc;
+use std::sync::atomic::Ordering::Relaxed;
 
 use physics::BadSetting;
 
@@ -143,11 +141,10 @@ impl SimMotor {
         }
     }
 
-    /// Starts again as newly made, without load and with every wire intact. Returns
-    /// new pins; the old ones are no longer connected.
-    pub fn restart(&mut self) -> Pins {
+    /// Starts again as newly made, without load and with every wire intact; pins that it had are
+    /// no longer connected.
+    pub(crate) fn restart(&mut self) {
         *self = Self::at_rest(self.settings, self.stage);
-        self.pins()
     }
 
     /// The ends of its wires that a board has.
@@ -191,12 +188,17 @@ impl SimMotor {
         if !(dt_s > 0.0 && dt_s.is_finite()) {
             return;
         }
-        self.wires.set_jitter(self.jitter.next(self.flaws.jitter));
+        let jitter = self.jitter.next(self.flaws.jitter);
+        self.wires.jitter.store(jitter, Relaxed);
         if self.blocked {
             self.rotor.speed = 0.0;
             return;
         }
-        let s = &self.supplied();
+        let supply_v = self.supply_v;
+        let s = &MotorSettings {
+            supply_v,
+            ..self.settings
+        };
         let both = s.inertia_kg_m2();
         let stops = self.stops();
         let steps = self.stage.substeps(s, self.rotor.speed, dt_s);
@@ -210,14 +212,14 @@ impl SimMotor {
             };
             let before = self.rotor;
             self.rotor.advance(&law(self.load_nm, both), step_s);
-            if !self.play.is_none() {
+            if self.play.half > 0.0 {
                 let coupled = Coupled {
                     load_nm: self.load_nm,
                     whisker_kg_m2: both - s.rotor_kg_m2,
                     both_kg_m2: both,
                 };
                 if self.play.is_pushed(coupled, before, self.rotor, step_s) {
-                    self.play.follow(self.rotor);
+                    self.play.speed = self.rotor.speed;
                 } else {
                     self.rotor = before;
                     self.rotor.advance(&law(0.0, s.rotor_kg_m2), step_s);
@@ -233,13 +235,6 @@ impl SimMotor {
     fn stops(&self) -> [f64; 2] {
         let stops_deg = self.settings.stops_deg;
         stops_deg.map(|stop| self.settings.rotor_angle(stop))
-    }
-
-    const fn supplied(&self) -> MotorSettings {
-        MotorSettings {
-            supply_v: self.supply_v,
-            ..self.settings
-        }
     }
 
     /// Turns the whisker by hand to θ′ = `angle_deg`, or to the stop before it, and holds it
@@ -317,7 +312,7 @@ impl SimMotor {
 
     /// By how much the whisker is displaced from where the encoder says it is, degrees.
     pub fn displaced_deg(&self) -> f64 {
-        (self.wires.missed() / self.settings.gear).to_degrees()
+        (self.wires.missed.get() / self.settings.gear).to_degrees()
     }
 
     /// What its driver's pins ask for, 0 to 1: 0 is off, whatever the wires behind them do.

@@ -318,14 +318,9 @@ impl<B: Bench + ?Sized> Run<B> {
         for (n, last) in self.deflections.iter_mut().enumerate() {
             *last = self.world.plant.deflection(n);
         }
-        self.sensed.clone_from(&self.deflections);
-        if self.flaws.are_there() {
-            let t_s = self.t_s();
-            for (n, sensed) in self.sensed.iter_mut().enumerate() {
-                *sensed = self.flaws.sensed(n, t_s, &self.deflections);
-            }
-        }
-        for (n, sensed) in self.sensed.iter().enumerate() {
+        let t_s = self.t_s();
+        for (n, sensed) in self.sensed.iter_mut().enumerate() {
+            *sensed = self.flaws.sensed(n, t_s, &self.deflections);
             if let Some(sensor) = self.bench.sensor_mut(n) {
                 sensor.bend(*sensed);
             }
@@ -351,7 +346,7 @@ impl<B: Bench + ?Sized> Run<B> {
         };
         if let Some(pose) = self.poses.take() {
             self.world.plant.stand(pose);
-            self.flaws.scale(pose.gain);
+            self.flaws.gain = pose.gain;
         }
         self.world.plant.present(texture);
     }

@@ -1,6 +1,6 @@
 //! Motors and plant: what is on the far side of the module's wires.
 
-use scene::{Driver, PlantKind, Presentation, Rest, Scene, ShaftName};
+use scene::{Driver, MotorSection, PlantKind, Presentation, Rest, Scene, ShaftName};
 
 use crate::Error;
 use crate::motor::{IdealMotor, MotorSettings, Pins, SimMotor};
@@ -20,10 +20,18 @@ pub struct World {
 
 #[derive(Debug)]
 enum Motors {
-    /// Angles are θ' exactly.
     Ideal(Vec<IdealMotor>),
     /// None where whiskers are passive: the angles stay.
     Real(Vec<SimMotor>),
+}
+
+impl Motors {
+    fn pins(&self) -> Vec<Pins> {
+        match self {
+            Self::Ideal(motors) => motors.iter().cloned().map(Pins::Ideal).collect(),
+            Self::Real(motors) => motors.iter().map(SimMotor::pins).collect(),
+        }
+    }
 }
 
 impl World {
@@ -82,10 +90,17 @@ impl World {
                 Box::new(Elastic::new(head, settings, scene.seed).map_err(refused)?)
             }
         };
-        let (motors, pins) = match scene.plant.kind {
-            PlantKind::Ideal => ideal_motors(scene),
-            PlantKind::Textured | PlantKind::Whisker => real_motors(scene, pwm_counts)?,
+        let count = scene.whiskers();
+        let motors = match (&scene.motor, scene.plant.kind) {
+            (None, _) => Motors::Real(Vec::new()),
+            (Some(motor), PlantKind::Ideal) => {
+                let counts_per_deg = f64::from(motor.counts_per_rev) * motor.gear / 360.0;
+                let motor = |_| IdealMotor::new(counts_per_deg);
+                Motors::Ideal((0..count).map(motor).collect())
+            }
+            (Some(motor), _) => real_motors(motor, count, pwm_counts)?,
         };
+        let pins = motors.pins();
         let world = Self {
             plant,
             motors,
@@ -103,13 +118,13 @@ impl World {
         self.speeds_deg_s.fill(0.0);
         match &mut self.motors {
             Motors::Ideal(motors) => {
-                for motor in &*motors {
+                for motor in motors {
                     motor.set_deg(whisking::REST_DEG);
                 }
-                motors.iter().cloned().map(Pins::Ideal).collect()
             }
-            Motors::Real(motors) => motors.iter_mut().map(SimMotor::restart).collect(),
+            Motors::Real(motors) => motors.iter_mut().for_each(SimMotor::restart),
         }
+        self.motors.pins()
     }
 
     /// The speed of whisker `n` now, degrees a second; 0 of one that is not there.
@@ -247,23 +262,12 @@ fn own_surfaces(textured: &Presentation, all: &mut [Surface; 4]) {
     }
 }
 
-fn ideal_motors(scene: &Scene) -> (Motors, Vec<Pins>) {
-    let Some(motor) = &scene.motor else {
-        return (Motors::Real(Vec::new()), Vec::new());
-    };
-    let counts_per_deg = f64::from(motor.counts_per_rev) * motor.gear / 360.0;
-    let motors = (0..scene.whiskers()).map(|_| IdealMotor::new(counts_per_deg));
-    let motors: Vec<_> = motors.collect();
-    let pins = motors.iter().cloned().map(Pins::Ideal).collect();
-    (Motors::Ideal(motors), pins)
-}
-
 /// How far beyond the travel that is no fault the end stops are, degrees.
 const STOP_MARGIN_DEG: f64 = 5.0;
 
 /// Where the end stops are: where the scene says, if they are to be found;
 /// otherwise a little beyond the travel in which the whisker may be.
-fn stops_deg(motor: &scene::MotorSection) -> [f64; 2] {
+fn stops_deg(motor: &MotorSection) -> [f64; 2] {
     let margin = motor.travel_margin_deg + STOP_MARGIN_DEG;
     let retracted = match motor.rest {
         Rest::AtStart => motor.min_deg.min(whisking::REST_DEG) - margin,
@@ -276,10 +280,7 @@ fn stops_deg(motor: &scene::MotorSection) -> [f64; 2] {
     [retracted, protracted]
 }
 
-fn real_motors(scene: &Scene, pwm_counts: u16) -> Result<(Motors, Vec<Pins>), Error> {
-    let Some(motor) = &scene.motor else {
-        return Ok((Motors::Real(Vec::new()), Vec::new()));
-    };
+fn real_motors(motor: &MotorSection, count: usize, pwm_counts: u16) -> Result<Motors, Error> {
     let settings = MotorSettings {
         gear: motor.gear,
         counts_per_rev: motor.counts_per_rev,
@@ -291,10 +292,8 @@ fn real_motors(scene: &Scene, pwm_counts: u16) -> Result<(Motors, Vec<Pins>), Er
         Driver::HBridge => SimMotor::brushed(settings).map(|(motor, _)| motor),
         Driver::SixStep => SimMotor::brushless(settings).map(|(motor, _)| motor),
     };
-    let motors: Result<Vec<SimMotor>, _> = (0..scene.whiskers()).map(motor).collect();
+    let motors: Result<_, _> = (0..count).map(motor).collect();
     let bad =
         |BadSetting(name)| Error::Work(format!("motor: motor setting {name} is out of range"));
-    let motors = motors.map_err(bad)?;
-    let pins = motors.iter().map(SimMotor::pins).collect();
-    Ok((Motors::Real(motors), pins))
+    Ok(Motors::Real(motors.map_err(bad)?))
 }

@@ -51,13 +51,13 @@ pub(super) struct Board<R: Number> {
     pub(super) node: Option<Node>,
     /// Its whiskers among all of the head.
     pub(super) own: Range<usize>,
-    pins: Vec<Pins>,
+    pub(super) pins: Vec<Pins>,
     /// Ticks since its start: its own clock.
     pub(super) ticks: u64,
 }
 
 /// Those of `own`; none where whiskers are passive.
-fn pins_of(own: &Range<usize>, pins: &[Pins]) -> Vec<Pins> {
+pub(super) fn pins_of(own: &Range<usize>, pins: &[Pins]) -> Vec<Pins> {
     pins.get(own.clone()).unwrap_or_default().to_vec()
 }
 
@@ -135,12 +135,6 @@ impl<R: Number> Board<R> {
         })
     }
 
-    /// Puts its motors on those of all pins that are its own.
-    pub(super) fn rewire(&mut self, pins: &[Pins]) {
-        self.pins = pins_of(&self.own, pins);
-    }
-
-    /// Starts again with another seed.
     pub(super) fn restart(&mut self, seed: u64) -> Result<(), Error> {
         self.config.clone_from(&self.built_with);
         if let Some(motion) = &mut self.config.motion {

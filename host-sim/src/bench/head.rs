@@ -8,7 +8,7 @@ use scene::{Deciding, Scene};
 use whisking::Number;
 use wire::TaggedCommand;
 
-use super::board::{Board, Mock};
+use super::board::{Board, Mock, pins_of};
 use super::{Bench, HostModule, Snapshot};
 use crate::Error;
 use crate::bus::OnWire;
@@ -250,7 +250,7 @@ where
     fn restart(&mut self, seed: u64, pins: Vec<Pins>) -> Result<(), Error> {
         self.done = 0;
         for board in &mut self.boards {
-            board.rewire(&pins);
+            board.pins = pins_of(&board.own, &pins);
             board.restart(seed)?;
         }
         self.bus = bus_of(&self.boards);
@@ -293,7 +293,7 @@ where
         let talking = self.talking;
         let boards = self.boards.iter_mut().enumerate();
         let packets = boards.flat_map(|(n, board)| {
-            let mut packets = board.line.take();
+            let mut packets = std::mem::take(&mut board.line.sent);
             packets.retain(|packet| n == talking || matches!(packet, Packet::Answer(_)));
             packets
         });

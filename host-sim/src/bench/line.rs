@@ -9,12 +9,12 @@ use wire::{Command, CommandStatus, TaggedCommand};
 
 use super::board::Mock;
 
-/// A module's end of the link.
 pub(super) struct Line {
     link: Link,
     tuning: Tuning<ConfigBytes>,
     ticks: u32,
-    sent: Vec<Packet>,
+    /// Since it was last taken.
+    pub(super) sent: Vec<Packet>,
     model: ModelState,
     classes: Vec<String>,
 }
@@ -112,9 +112,5 @@ impl Line {
                 Some(applied(taken))
             }
         }
-    }
-
-    pub(super) fn take(&mut self) -> Vec<Packet> {
-        std::mem::take(&mut self.sent)
     }
 }

@@ -73,11 +73,9 @@ pub struct TmagSlave {
     field_mt: [f64; 3],
     /// Field or settings are new since the last conversion.
     due: bool,
-    /// Sets converted.
     sets: u16,
     standing: StatusFaults,
     happened: StatusFaults,
-    /// The command before was wrong.
     refused: bool,
     noise: Option<Noise>,
     injected: Injected<LineFault>,
@@ -135,7 +133,7 @@ impl TmagSlave {
     /// A line fault in every frame from now on; `None` mends it. It takes precedence over
     /// [`TmagSlave::inject`].
     pub const fn set_fault(&mut self, fault: Option<LineFault>) {
-        self.injected.stand(fault);
+        self.injected.standing = fault;
     }
 
     /// A line fault in the next `frames` frames; replaces what is left of the last.

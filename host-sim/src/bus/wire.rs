@@ -69,7 +69,8 @@ fn transfer(read: &mut [u8], write: &[u8], byte: &mut impl FnMut(u8) -> u8) {
 /// A fault that stays until it is mended, or for some frames.
 #[derive(Debug, Clone)]
 pub(super) struct Injected<F> {
-    standing: Option<F>,
+    /// In every frame; none: mended.
+    pub(super) standing: Option<F>,
     passing: Option<(F, u32)>,
 }
 
@@ -78,11 +79,6 @@ impl<F: Copy> Injected<F> {
         standing: None,
         passing: None,
     };
-
-    /// In every frame from now on; `None` mends it.
-    pub(super) const fn stand(&mut self, fault: Option<F>) {
-        self.standing = fault;
-    }
 
     /// In the next `frames` frames; replaces what is left of the last.
     pub(super) fn pass(&mut self, fault: F, frames: u32) {

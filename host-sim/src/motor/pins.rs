@@ -9,7 +9,7 @@ use core::f64::consts::TAU;
 use core::sync::atomic::{AtomicBool, AtomicI32, AtomicU16, AtomicU64, Ordering::Relaxed};
 use std::sync::Arc;
 
-use embedded_hal::digital::{self, InputPin, OutputPin};
+use embedded_hal::digital::{self, InputPin, OutputPin, PinState};
 use embedded_hal::pwm::{self, SetDutyCycle};
 use firmware::AngleInput;
 
@@ -67,9 +67,9 @@ pub(super) struct Wires {
     /// Rotor angle, rad.
     angle: Level,
     /// Angle that the encoder has not seen, rad.
-    missed: Level,
+    pub(super) missed: Level,
     /// Counts that are read beside those of the angle.
-    jitter: AtomicI32,
+    pub(super) jitter: AtomicI32,
     counts_per_rad: f64,
     pwm_counts: u16,
 }
@@ -100,18 +100,10 @@ impl Wires {
         self.angle.set(angle);
     }
 
-    pub(super) fn set_jitter(&self, counts: i32) {
-        self.jitter.store(counts, Relaxed);
-    }
-
     pub(super) fn set_cut(&self, wire: Wire, cut: bool) {
         if let Some(place) = self.cut.get(wire.place()) {
             place.store(cut, Relaxed);
         }
-    }
-
-    pub(super) fn missed(&self) -> f64 {
-        self.missed.get()
     }
 
     /// Duty of a PWM, 0 to 1.
@@ -122,11 +114,6 @@ impl Wires {
 
     pub(super) fn is_high(&self, i: usize) -> bool {
         self.high.get(i).is_some_and(|high| high.load(Relaxed))
-    }
-
-    /// Whether the driver of a brushed motor pulls terminal 0 up.
-    pub(super) fn is_forward(&self) -> bool {
-        self.is_high(0) != self.is_cut(Wire::Windings)
     }
 
     pub(super) fn is_cut(&self, wire: Wire) -> bool {
@@ -159,14 +146,6 @@ pub struct SimHall(pub(super) End);
 #[derive(Debug, Clone)]
 pub struct SimEncoder(pub(super) Arc<Wires>);
 
-impl SimPin {
-    fn set(&self, high: bool) {
-        if let Some(place) = self.0.wires.high.get(self.0.i) {
-            place.store(high, Relaxed);
-        }
-    }
-}
-
 impl pwm::ErrorType for SimPwm {
     type Error = Infallible;
 }
@@ -190,12 +169,17 @@ impl digital::ErrorType for SimPin {
 
 impl OutputPin for SimPin {
     fn set_low(&mut self) -> Result<(), Infallible> {
-        self.set(false);
-        Ok(())
+        self.set_state(PinState::Low)
     }
 
     fn set_high(&mut self) -> Result<(), Infallible> {
-        self.set(true);
+        self.set_state(PinState::High)
+    }
+
+    fn set_state(&mut self, state: PinState) -> Result<(), Infallible> {
+        if let Some(place) = self.0.wires.high.get(self.0.i) {
+            place.store(state == PinState::High, Relaxed);
+        }
         Ok(())
     }
 }

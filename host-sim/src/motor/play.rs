@@ -6,10 +6,10 @@ use super::rotor::Rotor;
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Play {
     /// Play either side of the middle, rad; 0: none.
-    half: f64,
+    pub(super) half: f64,
     /// The whisker's angle less the rotor's, rad, and its speed, rad/s.
     pub(super) lag: f64,
-    speed: f64,
+    pub(super) speed: f64,
 }
 
 /// What a tick without play comes to: the push on both, and what each weighs.
@@ -28,19 +28,11 @@ impl Play {
         Self { half, ..none }
     }
 
-    pub(super) const fn is_none(&self) -> bool {
-        self.half == 0.0
-    }
-
     /// Whether the whisker goes with the rotor, which `together` would move on to: it is pushed,
     /// and not left behind.
     pub(super) fn is_pushed(&self, of: Coupled, before: Rotor, together: Rotor, dt: f64) -> bool {
         let force = of.whisker_kg_m2 * (together.speed - before.speed) / dt - of.load_nm;
         (self.lag <= -self.half && force > 0.0) || (self.lag >= self.half && force < 0.0)
-    }
-
-    pub(super) const fn follow(&mut self, rotor: Rotor) {
-        self.speed = rotor.speed;
     }
 
     /// The rotor has moved without the whisker, which meets it where the play ends; neither

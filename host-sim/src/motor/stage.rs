@@ -65,12 +65,10 @@ impl Stage {
         }
         let (factor, ohm) = (s.torque_nm_per_a / 2.0, s.resistance_ohm / 2.0);
         let drive_nm = factor * (s.supply_v * wires.duty(0)) / ohm;
+        // Whether the driver pulls terminal 0 up.
+        let is_forward = wires.is_high(0) != wires.is_cut(Wire::Windings);
         Winding {
-            drive_nm: if wires.is_forward() {
-                drive_nm
-            } else {
-                -drive_nm
-            },
+            drive_nm: if is_forward { drive_nm } else { -drive_nm },
             damping_nm_s: 2.0 * (factor * factor / ohm),
         }
     }

@@ -12,8 +12,8 @@ pub(super) struct Flaws {
     whiskers: usize,
     /// Sine and cosine of the angle by which sensors are turned about their shafts.
     turn: [f64; 2],
-    /// Of x and y, while the present surface is there.
-    gain: f64,
+    /// Of x and y alike, while the present surface is there.
+    pub(super) gain: f64,
     gain_y: f64,
     /// Share of a neighbour's deflection.
     cross_talk: f64,
@@ -60,15 +60,6 @@ impl Flaws {
         self.gain = 1.0;
     }
 
-    /// Multiplies what sensors read, x and y alike, from here on.
-    pub(super) const fn scale(&mut self, gain: f64) {
-        self.gain = gain;
-    }
-
-    pub(super) const fn are_there(&self) -> bool {
-        self.are_there
-    }
-
     /// What the sensor of whisker `n`, left side first, reads `t_s` after the start, of the
     /// deflections of `all`. In the first tick it is the deflection itself: no frame has come by
     /// then, and a module takes its sensors to be at mid-scale.
@@ -82,7 +73,7 @@ impl Flaws {
         ) else {
             return own;
         };
-        if t_s <= 0.0 {
+        if t_s <= 0.0 || !self.are_there {
             return own;
         }
         let mut read = own;
@@ -152,7 +143,7 @@ mod tests {
     #[test]
     fn a_presentation_s_gain_is_of_x_and_y_alike_until_the_restart() {
         let mut scaled = flaws("gain_y = 2.0");
-        scaled.scale(1.05);
+        scaled.gain = 1.05;
         close(scaled.sensed(1, 0.5, &ALL), [0.42, -0.42]);
         scaled.restart();
         close(scaled.sensed(1, 0.5, &ALL), [0.4, -0.4]);

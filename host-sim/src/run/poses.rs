@@ -17,10 +17,8 @@ pub(super) struct Poses {
     /// None: all presentations have the scene's own.
     spread: Option<PoseSpread>,
     random: Noise,
-    /// That of the next presentation.
     next: SurfacePose,
     taken: u64,
-    /// That of the present one.
     present: SurfacePose,
     /// Of each whisker the tilt of its surface and how far its whisk goes beyond it, both of the
     /// scene's own pose, degrees; none where nobody asks.
