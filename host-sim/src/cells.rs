@@ -23,7 +23,6 @@ pub trait Cells {
 pub(crate) struct Line(Vec<u8>);
 
 impl Line {
-    /// Writes its cells, and begins the next line.
     pub(crate) fn write(&mut self, table: &mut impl Write) -> io::Result<()> {
         // In place of the comma behind the last cell.
         self.0.pop();

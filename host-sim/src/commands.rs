@@ -44,7 +44,6 @@ fn any_picture(text: &str) -> Result<PathBuf, String> {
     ending(text, &["svg", "png"])
 }
 
-/// The same scene with another seed.
 fn with_seed(scene: &Scene, seed: u64) -> Scene {
     let mut scene = scene.clone();
     scene.seed = seed;

@@ -285,7 +285,8 @@ pub struct Score {
     /// How many the model has.
     classes: usize,
     confusion: Confusion,
-    reasons: Reasons,
+    /// Why those decisions name no class that name none, whatever they were on.
+    pub reasons: Reasons,
     /// Of the decisions that count the sum of their samples, and of those that name a class the sum
     /// of their posteriors.
     samples: u64,
@@ -339,11 +340,6 @@ impl Score {
     pub fn refused(&self) -> u64 {
         let known = 0..self.classes;
         known.map(|truth| self.confusion.missed(truth)).sum()
-    }
-
-    /// Why those decisions name no class that name none, whatever they were on.
-    pub const fn reasons(&self) -> Reasons {
-        self.reasons
     }
 
     /// Of each label that the model does not know: its name, how many decisions said

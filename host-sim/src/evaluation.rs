@@ -252,19 +252,10 @@ impl Candidate {
         let found = self.evaluation.by_presentation;
         [1.0 - found.high, 1.0 - found.low]
     }
-
-    /// The upper end of the 95 % interval of the mean samples of a decision; not a number without
-    /// two decisions.
-    fn samples_at_most(&self) -> f64 {
-        self.evaluation.samples + Z * self.evaluation.samples_error
-    }
 }
 
 /// A model and a recording at each of [`THRESHOLDS`]; `done` hears how many are.
-///
-/// # Errors
-/// As [`presentations`].
-pub fn scan(
+pub(crate) fn scan(
     model: &ModelBuf,
     streams: &[Stream],
     mut done: impl FnMut(u64),
@@ -323,6 +314,7 @@ pub fn for_samples(scan: &[Candidate], samples: f64) -> Suggestion<'_> {
     let as_wanted: Vec<_> = scan.iter().take_while(fast).collect();
     Suggestion::of(as_wanted.into_iter().rev(), |at| {
         let [low, high] = at.wrong_interval();
-        at.samples_at_most() <= samples && high - low < WIDEST
+        let at_most = at.evaluation.samples + Z * at.evaluation.samples_error;
+        at_most <= samples && high - low < WIDEST
     })
 }

@@ -50,7 +50,6 @@ pub fn write_recording(output: Output, streams: &[Stream], tick_hz: u32) -> Resu
     })
 }
 
-/// Writes `decisions.csv`, and finishes.
 pub(crate) fn write_decisions(
     output: Output,
     decisions: &[Decided],

@@ -513,19 +513,6 @@ mod tests {
         assert_eq!(super::lines(below.as_bytes()), [4]);
     }
 
-    #[test]
-    fn rows_that_follow_each_other_are_a_stream() {
-        let text = "y,extra,label,x,trial\n1,a,ice,2,1\n3,b,ice,4,1\n5,c,ice,6,2\n7,d,ice,8,1\n";
-        let streams = parse(text.as_bytes()).unwrap();
-        let trials = streams.iter().map(|stream| stream.trial.as_str());
-        assert!(trials.eq(["1", "2", "1"]));
-        assert_eq!(streams[0].samples, [[2.0, 1.0], [4.0, 3.0]]);
-        assert_eq!(
-            [&streams[1].samples[0], &streams[2].samples[0]],
-            [&[6.0, 5.0], &[8.0, 7.0]]
-        );
-    }
-
     /// Those that the page of recordings does not have.
     #[test]
     fn faults_name_their_line() {

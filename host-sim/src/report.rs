@@ -208,7 +208,7 @@ pub(crate) fn summary(score: &Score, tick_hz: Option<u32>) -> String {
              nor wrong"
         ));
     }
-    let reasons = score.reasons().apart();
+    let reasons = score.reasons.apart();
     let each: Vec<String> = reasons
         .map(|(reason, count)| format!("{count} {reason}"))
         .collect();

@@ -45,7 +45,6 @@ pub(super) struct Arguments {
     plot: Option<PathBuf>,
 }
 
-/// The figures of a model on a recording, and the thresholds that were asked for.
 pub(super) fn evaluate(asked: &Arguments, verbosity: Verbosity) -> Result<String, Error> {
     let Arguments { data, plot, .. } = asked;
     let threshold = asked.threshold;

@@ -62,6 +62,9 @@ impl Arguments {
     }
 }
 
+/// About how many bytes a cell of a trace has, as of the scenes of the project.
+const CELL_BYTES: u64 = 7;
+
 /// Runs a scene; writes `trace.csv`, `decisions.csv` where its module has a model, and
 /// pictures of the first ten seconds. Returns what was done: the score of the decisions,
 /// where there are any to score, and where all of it is.
@@ -109,7 +112,7 @@ pub fn run(arguments: &Arguments, verbosity: Verbosity) -> Result<String, Error>
     let pictures: Vec<&Path> = pictures.chain(plot).collect();
     let drawn = pictures.iter().map(|path| Output::create(path));
     let drawn: Vec<Output> = drawn.collect::<Result<_, Error>>()?;
-    let row_bytes = TraceShape::of(scene).row_bytes();
+    let row_bytes = CELL_BYTES * TraceShape::of(scene).names().len() as u64;
     ahead::tell(scene, 1, Some(("the trace", row_bytes)), verbosity);
     let mut film = Film::default();
     let mut carried = None;

@@ -40,7 +40,6 @@ pub(super) struct Arguments {
     how: How,
 }
 
-/// Trains on one run of a scene and scores others.
 pub(super) fn score(arguments: &Arguments, verbosity: Verbosity) -> Result<String, Error> {
     let Arguments { scene, seeds, .. } = arguments;
     let SceneChoice { file: path, set } = scene;

@@ -40,7 +40,6 @@ pub(super) struct Arguments {
 
 const MOST_RUNS: usize = 1_000_000;
 
-/// One combination, checked.
 struct Setting {
     values: Vec<String>,
     scene: Scene,

@@ -53,11 +53,7 @@ pub struct Arguments {
 /// # Errors
 /// [`Error::Input`] for a recording or an option that is wrong, [`Error::Write`].
 pub fn train(asked: &Arguments) -> Result<String, Error> {
-    let scene = asked
-        .scene
-        .as_deref()
-        .map(|path| Scene::load_with(path, &[]));
-    let scene = scene.transpose()?.map(|(scene, _)| scene);
+    let scene = asked.scene.as_deref().map(Scene::load).transpose()?;
     let mut said = vec![("--rate".to_owned(), asked.rate)];
     let of_scene = scene.as_ref().map(|scene| scene.tick_hz);
     said.push(("the scene".to_owned(), of_scene));
@@ -95,7 +91,12 @@ pub fn train(asked: &Arguments) -> Result<String, Error> {
     let names = channels.each_ref().map(String::as_str);
     let odd = oddities(data, names, &recordings);
     let trained = how.train(&recordings, rate).map_err(|error| {
-        with_doubts(&refusal(data, channels, &error), &error, &recordings, &odd)
+        let mut lines = vec![refusal(data, channels, &error).to_string()];
+        if matches!(error, TrainError::TooShort { .. }) {
+            lines.push(doubts::short(&recordings));
+        }
+        lines.extend_from_slice(&odd);
+        Error::Input(lines.join("\n"))
     })?;
     // Opened first: nothing is written where one of them cannot be.
     let picture = plot.map(Output::create).transpose()?;
@@ -119,20 +120,6 @@ pub fn train(asked: &Arguments) -> Result<String, Error> {
         picture.whole(plot::calibration("trials that were held out", &points)?.as_bytes())?;
     }
     Ok(format!("{summary}\n\n{}{odd}", report::training(joint)))
-}
-
-fn with_doubts(
-    refused: &Error,
-    why: &TrainError,
-    recordings: &[(String, Vec<Stream>)],
-    odd: &[String],
-) -> Error {
-    let mut lines = vec![refused.to_string()];
-    if matches!(why, TrainError::TooShort { .. }) {
-        lines.push(doubts::short(recordings));
-    }
-    lines.extend_from_slice(odd);
-    Error::Input(lines.join("\n"))
 }
 
 fn leave_out(recordings: &mut [(String, Vec<Stream>)], label: &str) -> Result<(), Error> {
@@ -198,7 +185,6 @@ fn read(
     data.iter().map(read).collect()
 }
 
-/// A setting that is refused is called as its option is.
 pub(super) fn of_option(fault: &str) -> Error {
     Error::Input(format!("--{fault}"))
 }

@@ -6,7 +6,6 @@ use std::collections::{BTreeMap, HashMap};
 use super::Doubt;
 use crate::recording::{GATE, Stream};
 
-/// Samples that must be equal, one after the other.
 const STRETCH: usize = 16;
 /// Steps between them in which they must change: what rests is equal by chance.
 const CHANGES: usize = STRETCH / 2;
@@ -16,7 +15,6 @@ const SHARE: f64 = 0.1;
 /// A stream: of which recording it is, and at which of its samples it begins, both from 0.
 type Placed<'s> = (usize, usize, &'s Stream);
 
-/// Both channels of a sample, bit by bit.
 type Bits = [u64; 2];
 
 /// Every stretch of a stream that counts and changes, with the place of its first sample.

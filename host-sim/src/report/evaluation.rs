@@ -33,7 +33,6 @@ pub(super) fn refused(of: &Evaluation) -> String {
     format!("refused            {}\n{reasons}", percent(of.refused))
 }
 
-/// The figures of an evaluation; times by samples a second.
 pub(crate) fn figures(of: &Evaluation, tick_hz: f64) -> String {
     let mut said = vec![format!("{}\n", of.score)];
     let widths = of.classes.iter().map(|class| class.name.chars().count());

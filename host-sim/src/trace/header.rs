@@ -116,13 +116,6 @@ impl TraceShape {
         if self.is_elastic { self.sides } else { 0 }
     }
 
-    /// About how many bytes a row has.
-    pub fn row_bytes(self) -> u64 {
-        /// A cell, as of the scenes of the project; of a side that is not there less.
-        const CELL: u64 = 7;
-        CELL * self.names().len() as u64
-    }
-
     /// The names of the columns, in order.
     pub fn names(self) -> Vec<String> {
         let right: &[Column] = if self.hears_right { &OF_RIGHT } else { &[] };
