@@ -10,11 +10,12 @@ const TRAINING: &str = "b,0,100,0\nb,0,100,100\nb,0,100,0\nb,0,100,100\nb,0,100,
     b,0,100,0\nb,0,0,100\na,0,0,0\na,0,0,100\na,0,0,0\na,0,0,100\na,0,0,0\na,0,0,100\na,0,0,0\n\
     a,0,100,100\n";
 
-/// A model whose posterior after one sample is 7/8, and a recording of `test`.
-fn evaluating(test: &str) -> Place {
+/// A model of `training`, whose posterior after one sample of [`TRAINING`] is 7/8, and a recording of
+/// `test`.
+fn evaluating(training: &str, test: &str) -> Place {
     let header = "label,trial,x,y\n";
     let place = Place::with(&[
-        ("training.csv", &format!("{header}{TRAINING}")),
+        ("training.csv", &format!("{header}{training}")),
         ("test.csv", &format!("{header}{test}")),
     ]);
     let options = "--tables single --bins 2 --smooth 0 --block 1";
@@ -26,7 +27,7 @@ fn evaluating(test: &str) -> Place {
 fn evaluate_states_finds_and_counts() {
     // Three of four right on a, all on b; nothing on c, which the model does not know.
     let test = "a,0,0,0\na,0,0,0\na,0,0,0\na,0,100,0\nb,0,100,0\nb,0,100,0\nc,0,0,0\n";
-    let place = evaluating(test);
+    let place = evaluating(TRAINING, test);
     let evaluate = "evaluate --model m --data test.csv --rate 1000 --threshold";
     let printed = place.done(&format!("{evaluate} 0.8")).stdout;
     for (name, what) in [
@@ -66,15 +67,9 @@ fn evaluate_judges_texture_and_distance_apart() {
         let rows = felt.iter().map(|(_, at)| format!("{name},0,{}", of(*at)));
         rows.collect::<String>()
     });
-    let header = "label,trial,x,y\n".to_owned();
-    let place = Place::with(&[
-        ("training.csv", &(header.clone() + &training.concat())),
-        ("test.csv", &(header + &felt.concat())),
-    ]);
-    place.done("train --data training.csv --out m --tables single --bins 2 --smooth 0 --block 1");
-    let printed = place
-        .done("evaluate --model m --data test.csv --threshold 0.6")
-        .stdout;
+    let place = evaluating(&training.concat(), &felt.concat());
+    let evaluate = "evaluate --model m --data test.csv --threshold 0.6";
+    let printed = place.done(evaluate).stdout;
     says(line(&printed, "- before the @"), &[" 83.3 % (", " of 6"]);
     says(line(&printed, "- after it"), &[" 66.7 % (", " of 6"]);
     says(line(&printed, "found"), &[" 50.0 % (", " of 6"]);
@@ -85,7 +80,7 @@ fn evaluate_suggests_a_threshold() {
     // One sample is wrong in a fifth of cases, two that agree never.
     let trial = |n: usize| [0, 0, 100, 0, 0].map(|x| format!("a,{n},{x},0\n")).concat();
     let test = |trials| (0..trials).map(trial).collect::<String>();
-    let place = evaluating(&test(40));
+    let place = evaluating(TRAINING, &test(40));
     let evaluate = "evaluate --model m --data test.csv";
     let suggested = |place: &Place, wish: &str| {
         let printed = place.done(&format!("{evaluate} {wish}")).stdout;
@@ -102,19 +97,19 @@ fn evaluate_suggests_a_threshold() {
     assert_eq!(both, ["--threshold 0.9", "--threshold 0.85"]);
 
     // In ten presentations none is wrong, which a quarter may be.
-    let few = evaluating(&test(10));
+    let few = evaluating(TRAINING, &test(10));
     assert_eq!(suggested(&few, "--error-rate 0.3"), ["--threshold 0.9"]);
     let chance = |place: &Place, wish: &str| suggested(place, wish).concat();
     let found = chance(&few, "--error-rate 0.1");
     line(&found, "no threshold, as of decisions at 0.9 0.0 to ");
     // What is right or wrong together counts once: in half of twenty presentations all are wrong.
     let together = (0..20).map(|n| format!("a,{n},{},0\n", 100 * (n % 2)).repeat(20));
-    let together = evaluating(&together.collect::<String>());
+    let together = evaluating(TRAINING, &together.collect::<String>());
     let found = chance(&together, "--error-rate 0.55");
     let half = "no threshold, as of decisions at 0.5 29.5 to 70.5 %";
     line(&found, half);
     // One decision: all may be wrong, however fast it was.
-    let found = chance(&evaluating("a,0,0,0\na,0,0,0\n"), "--time 0.1");
+    let found = chance(&evaluating(TRAINING, "a,0,0,0\na,0,0,0\n"), "--time 0.1");
     assert!(found.ends_with("record more"), "{found}");
 }
 
@@ -170,7 +165,10 @@ fn a_texture_that_was_not_trained_is_presented_all_the_same() {
 
 #[test]
 fn evaluate_warns_and_draws() {
-    let place = evaluating("a,0,0,0\na,0,0,0\na,1,0,0\na,2,100,0\nc,0,900,0\n");
+    let place = evaluating(
+        TRAINING,
+        "a,0,0,0\na,0,0,0\na,1,0,0\na,2,100,0\nc,0,900,0\n",
+    );
     let evaluate = "evaluate --model m --data test.csv --rate 1000 --threshold 0.8";
     let printed = place.done(&format!("{evaluate} --plot p.svg")).stdout;
     assert!(line(&printed, "a: ").contains("right 75.0 % (30.1 to 95.4) of 4; after 1 ± 0.0 ms"));

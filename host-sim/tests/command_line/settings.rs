@@ -31,13 +31,11 @@ fn a_run_is_as_if_the_file_said_so() {
 fn a_run_says_what_costs_come_to() {
     let place = Place::classifying();
     let keys = "cost_error = 20\ncost_delay_per_s = 1";
-    place.write(
-        "costs.toml",
-        place.text("s.toml").replace("threshold = 0.9", keys),
-    );
-    let ran = place.done("run costs.toml --out o --no-plot");
+    let scene = place.text("s.toml").replace("threshold = 0.9", keys);
+    place.write("costs.toml", scene);
+    let said = place.done("run costs.toml --out o --no-plot").stdout;
     says(
-        &ran.stdout,
+        &said,
         &["thresholds by costs: smooth 0.99", ", carpet 0.99"],
     );
 }

@@ -99,19 +99,18 @@ fn together(name: &str, boards: usize, has_bus: bool, (missed, seed): (f64, u64)
 fn boards_decide_together() {
     let of = |has_bus: bool, missed: f64| {
         let said = (11..17).map(|seed| together("textures", 4, has_bus, (missed, seed)));
-        said.fold([0.0; 4], |sum, said| {
-            let one = [said.right as f64, said.named as f64, said.decisions as f64];
-            [
-                sum[0] + one[0],
-                sum[1] + one[1],
-                sum[2] + one[2],
-                sum[3] + said.samples,
-            ]
-        })
+        let said: Vec<Said> = said.collect();
+        let sum = |of: fn(&Said) -> usize| said.iter().map(of).sum::<usize>() as f64;
+        let counts = [
+            sum(|of| of.right),
+            sum(|of| of.named),
+            sum(|of| of.decisions),
+        ];
+        (counts, said.iter().map(|of| of.samples).sum::<f64>())
     };
-    let [_, _, of_one, samples_of_one] = of(false, 0.0);
+    let ([_, _, of_one], samples_of_one) = of(false, 0.0);
     for missed in [0.0, 0.5] {
-        let [right, named, decisions, samples] = of(true, missed);
+        let ([right, named, decisions], samples) = of(true, missed);
         assert!(right > 0.98 * named, "{right} of {named}");
         assert!(named > 0.9 * decisions, "{named} of {decisions}");
         assert!(2.0 * decisions > of_one, "{decisions} of {of_one}");

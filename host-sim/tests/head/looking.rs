@@ -18,8 +18,8 @@ fn a_look_says_what_a_whisker_has_decided_last() {
         let keys = [&head[..], &["duration_s=10.0", &whiskers]].concat();
         let scene = scene("textures.toml", &keys);
         let model = shipped("textures");
-        let names: Vec<String> = model.names().map(str::to_owned).collect();
         let mut run = Run::new(&scene, Some(Classifier::of_scene(model, &scene).unwrap())).unwrap();
+        let names = run.classes().to_vec();
         let mut made = [(0_u8, None); 2];
         for tick in 1..=run.ticks() {
             run.tick();

@@ -11,11 +11,13 @@ use scene::{Override, Scene};
 
 const ROOT: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../scenes");
 
-fn scene(name: &str, overrides: &[&str]) -> Scene {
-    let overrides = overrides.iter().map(|one| one.parse().unwrap());
-    let overrides: Vec<Override> = overrides.collect();
-    let loaded = Scene::load_with(Path::new(ROOT).join(name), &overrides);
+fn scene(name: &str, set: &[&str]) -> Scene {
+    let loaded = Scene::load_with(Path::new(ROOT).join(name), &overrides(set));
     loaded.unwrap().0
+}
+
+fn overrides(set: &[&str]) -> Vec<Override> {
+    set.iter().map(|one| one.parse().unwrap()).collect()
 }
 
 const TWO: &str = "head.nodes=2";
@@ -88,8 +90,8 @@ fn whole(nodes: u8, hz: f64, more: &[&str]) -> Scene {
          [rcp]\ngain = 0.7\ntau_s = 0.125\n[cia]\ngain = 0.5\ntau_s = 0.125\n\
          [plant]\nkind = \"ideal\"\nobstacle_deg = [100.0, 125.0]\nstiffness = 0.1\n"
     );
-    let more: Vec<Override> = more.iter().map(|one| one.parse().unwrap()).collect();
-    Scene::from_str_with("test", &text, &more).unwrap().0
+    let made = Scene::from_str_with("test", &text, &overrides(more));
+    made.unwrap().0
 }
 
 /// From contact of one board's whiskers to more drive of another's there are 4 ms, for which the

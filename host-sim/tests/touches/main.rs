@@ -7,11 +7,11 @@
 
 use host_sim::classifier::Classifier;
 use host_sim::plant::{Elastic, ElasticSettings, Head, Plant, Textured};
-use host_sim::recording::{GATE, Recorder, Stream};
+use host_sim::recording::Recorder;
 use host_sim::run::Run;
+use host_sim::training::{How, Tables};
 use physics::{Biotact, Shaft};
-use scene::{ClassifierSection, Deciding, PlantKind, Rule, Scene, Texture};
-use tactile::train::joint::{Options, Trial, train};
+use scene::{PlantKind, Scene, Texture};
 
 const TEXTURES: &str = include_str!("../../../scenes/textures.toml");
 const WHISKER: &str = include_str!("../../../scenes/whisker.toml");
@@ -220,30 +220,13 @@ fn nothing_is_decided_in_the_air() {
         run.tick();
         recorder.take(&mut run);
     }
-    let trial = |stream: Stream| Trial {
-        touches: stream.touches(GATE, Options::default().gap).collect(),
-        label: stream.label,
-        recording: "run".to_owned(),
-        pose: None,
-        stands: None,
-        samples: stream.samples,
-    };
-    let trials: Vec<_> = recorder.into_streams().into_iter().map(trial).collect();
-    let trained = train(&trials, &Options::default()).unwrap();
-    let model = trained.model().unwrap();
-    let rule = Rule::Sequential { threshold: 0.99 };
+    let recordings = [("run".to_owned(), recorder.into_streams())];
+    let trained = How::of(Tables::Joint).train(&recordings, 2000).unwrap();
+    let own = Scene::from_str("s.toml", WHISKER).unwrap().classifier;
     for (limit_deg, hz) in [(300.0, 2.0), (300.0, 8.0), (100.0, 2.0)] {
         let mut scene = scene(WHISKER, hz, limit_deg, 20.0, 3302);
-        scene.classifier = Some(ClassifierSection {
-            rule,
-            model: Some(String::new()),
-            thresholds: None,
-            prior: None,
-            contact_min: None,
-            pose: false,
-            whiskers: Deciding::First,
-        });
-        let classifier = Classifier::new(model.clone(), rule).unwrap();
+        scene.classifier.clone_from(&own);
+        let classifier = Classifier::of_scene(trained.model.clone(), &scene).unwrap();
         let mut run = Run::new(&scene, Some(classifier)).unwrap();
         let decisions = (0..run.ticks()).filter(|_| {
             run.tick();
