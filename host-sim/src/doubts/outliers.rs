@@ -20,13 +20,17 @@ struct Usual {
 }
 
 impl Usual {
-    /// Of a channel; none of too few samples, and of one that hardly ever changes.
-    fn of(recordings: &[(String, Vec<Stream>)], channel: usize) -> Option<Self> {
+    /// Of a channel; of too few samples, and of one that hardly ever changes, all are usual.
+    fn of(recordings: &[(String, Vec<Stream>)], channel: usize) -> Self {
+        let all = Self {
+            low: f64::NEG_INFINITY,
+            high: f64::INFINITY,
+        };
         let streams = recordings.iter().flat_map(|(_, streams)| streams);
         let samples = streams.flat_map(|stream| &stream.samples);
         let mut values: Vec<f64> = samples.map(|sample| sample[channel]).collect();
         if values.len() < LEAST {
-            return None;
+            return all;
         }
         let left_out = (values.len() / OF).max(1);
         let last = values.len() - 1 - left_out;
@@ -34,7 +38,7 @@ impl Usual {
         let low = *low;
         let (_, high, _) = values.select_nth_unstable_by(last, f64::total_cmp);
         let high = *high;
-        (high > low).then_some(Self { low, high })
+        if high > low { Self { low, high } } else { all }
     }
 
     fn has_apart(&self, value: f64) -> bool {
@@ -44,22 +48,14 @@ impl Usual {
     }
 }
 
-fn usual(recordings: &[(String, Vec<Stream>)]) -> [Option<Usual>; 2] {
-    [0, 1].map(|channel| Usual::of(recordings, channel))
-}
-
-fn is_apart(usual: Option<Usual>, value: f64) -> bool {
-    usual.is_some_and(|usual| usual.has_apart(value))
-}
-
 /// The same recordings, in which what stands apart is the nearest value that does not; none where
 /// nothing does.
 pub fn tamed(recordings: &[(String, Vec<Stream>)]) -> Option<Vec<(String, Vec<Stream>)>> {
-    let usual = usual(recordings);
+    let usual = [0, 1].map(|channel| Usual::of(recordings, channel));
     let streams = recordings.iter().flat_map(|(_, streams)| streams);
     let samples = || streams.clone().flat_map(|stream| &stream.samples);
     let apart =
-        |channel: usize| move |sample: &&[f64; 2]| is_apart(usual[channel], sample[channel]);
+        |channel: usize| move |sample: &&[f64; 2]| usual[channel].has_apart(sample[channel]);
     if !(0..2).any(|channel| samples().any(|sample| apart(channel)(&sample))) {
         return None;
     }
@@ -81,13 +77,11 @@ pub fn tamed(recordings: &[(String, Vec<Stream>)]) -> Option<Vec<(String, Vec<St
 
 /// Of each channel of each recording the first value that stands apart, and how many do.
 pub(super) fn doubts(recordings: &[(String, Vec<Stream>)], channels: [&str; 2]) -> Vec<Doubt> {
-    let usual = usual(recordings);
+    let usual = [0, 1].map(|channel| Usual::of(recordings, channel));
     let mut found = Vec::new();
     for (recording, (_, streams)) in recordings.iter().enumerate() {
         for (channel, name) in channels.iter().enumerate() {
-            let Some(usual) = usual[channel] else {
-                continue;
-            };
+            let usual = usual[channel];
             let samples = streams.iter().flat_map(|stream| &stream.samples);
             let values = samples.map(|sample| sample[channel]).enumerate();
             let mut apart = values.filter(|(_, value)| usual.has_apart(*value));
