@@ -13,7 +13,7 @@ use tactile::MAX_STREAMS;
 
 use crate::Error;
 pub use crate::classifier::GATE;
-use crate::columns::{self, Column, columns};
+use crate::columns::{Column, columns};
 use crate::origin::{self, Origin};
 use crate::run::Run;
 
@@ -286,34 +286,30 @@ pub fn write(table: impl Write, streams: &[Stream]) -> io::Result<()> {
 pub fn write_from(mut table: impl Write, origin: &Origin, streams: &[Stream]) -> io::Result<()> {
     origin.write(&mut table)?;
     let mut table = csv::Writer::from_writer(table);
-    let has_contact = streams.iter().any(|stream| stream.contact.is_some());
-    let has_touch = streams.iter().any(|stream| stream.touch.is_some());
-    let count = match (has_contact, has_touch) {
-        (_, true) => 6,
-        (true, false) => 5,
-        (false, false) => 4,
+    let any = |has: fn(&Stream) -> bool| streams.iter().any(has);
+    let touch = any(|stream| stream.touch.is_some());
+    // Whoever reads touches asks for contact beside them.
+    let contact = touch || any(|stream| stream.contact.is_some());
+    let pose = any(|stream| stream.pose.is_some());
+    let stands = any(|stream| stream.stands.is_some());
+    let are_there = [true, true, true, true, contact, touch, pose, stands, stands];
+    let mut write = |cells: [&str; 9]| {
+        let cells = cells.into_iter().zip(are_there);
+        table.write_record(cells.filter_map(|(cell, is_there)| is_there.then_some(cell)))
     };
-    let has_pose = streams.iter().any(|stream| stream.pose.is_some());
-    let mut header = columns::names(&COLUMNS[..count]);
-    header.extend(has_pose.then_some(COLUMNS[6].name));
-    let stands = streams.iter().any(|stream| stream.stands.is_some());
-    header.extend(COLUMNS[7..].iter().filter(|_| stands).map(|of| of.name));
-    table.write_record(header)?;
+    write(COLUMNS.map(|column| column.name))?;
     for stream in streams {
         let pose = stream.pose.as_deref().unwrap_or_default();
         let stood = stream.stands.map(|stands| stands.map(|of| of.to_string()));
-        let stood = stood.unwrap_or_default();
+        let [tilt, depth] = stood.unwrap_or_default();
         for (n, [x, y]) in stream.samples.iter().enumerate() {
             let contact = stream.contact.as_ref().and_then(|contact| contact.get(n));
-            let contact = contact.map_or(1.0, |contact| *contact) as f32;
+            let contact = (contact.map_or(1.0, |contact| *contact) as f32).to_string();
             let touch = stream.touch.as_ref().and_then(|touch| touch.get(n));
             let touch = touch.copied().unwrap_or(0).to_string();
-            let numbers = [x.to_string(), y.to_string(), contact.to_string(), touch];
-            let numbers = numbers.iter().map(String::as_str);
-            let cells = [stream.label.as_str(), &stream.trial];
-            let cells = cells.into_iter().chain(numbers).take(count);
-            let cells = cells.chain(has_pose.then_some(pose));
-            table.write_record(cells.chain(stood.iter().map(String::as_str).filter(|_| stands)))?;
+            let Stream { label, trial, .. } = stream;
+            let [x, y] = [x, y].map(f64::to_string);
+            write([label, trial, &x, &y, &contact, &touch, pose, &tilt, &depth])?;
         }
     }
     table.flush()
