@@ -35,9 +35,11 @@ use std::sync::Arc;
 use std::sync::atomic::Ordering::Relaxed;
 
 use physics::BadSetting;
+use rand_core::SeedableRng;
+use rand_xoshiro::Xoshiro256PlusPlus;
 
 pub use flaws::EncoderFlaws;
-use flaws::Jitter;
+use flaws::jitter;
 pub use ideal::IdealMotor;
 use pins::{End, Wires};
 pub use pins::{SimEncoder, SimHall, SimPin, SimPwm, Wire};
@@ -93,7 +95,7 @@ pub struct SimMotor {
     /// Outer torque at the rotor, N·m.
     load_nm: f64,
     flaws: EncoderFlaws,
-    jitter: Jitter,
+    random: Xoshiro256PlusPlus,
     /// Its supply now, and how many times its Coulomb friction it has.
     supply_v: f64,
     friction: f64,
@@ -134,7 +136,7 @@ impl SimMotor {
             blocked: false,
             load_nm: 0.0,
             flaws: EncoderFlaws::NONE,
-            jitter: Jitter::default(),
+            random: Xoshiro256PlusPlus::seed_from_u64(0),
             supply_v: settings.supply_v,
             friction: 1.0,
             play: Play::default(),
@@ -188,7 +190,7 @@ impl SimMotor {
         if !(dt_s > 0.0 && dt_s.is_finite()) {
             return;
         }
-        let jitter = self.jitter.next(self.flaws.jitter);
+        let jitter = jitter(&mut self.random, self.flaws.jitter);
         self.wires.jitter.store(jitter, Relaxed);
         if self.blocked {
             self.rotor.speed = 0.0;

@@ -1,6 +1,6 @@
 //! What can be wrong with an encoder that still counts.
 
-use rand_core::{Rng, SeedableRng};
+use rand_core::Rng;
 use rand_xoshiro::Xoshiro256PlusPlus;
 
 /// Flaws of an encoder, from the moment on at which they are set: its count does not jump then.
@@ -33,21 +33,10 @@ impl EncoderFlaws {
     }
 }
 
-#[derive(Debug, Clone)]
-pub(super) struct Jitter(Xoshiro256PlusPlus);
-
-impl Default for Jitter {
-    fn default() -> Self {
-        Self(Xoshiro256PlusPlus::seed_from_u64(0))
-    }
-}
-
-impl Jitter {
-    /// The next, within `most` counts either way.
-    pub(super) fn next(&mut self, most: u16) -> i32 {
-        let values = 2 * u64::from(most) + 1;
-        (self.0.next_u64() % values) as i32 - i32::from(most)
-    }
+/// The next count by which it is off, within `most` either way.
+pub(super) fn jitter(random: &mut Xoshiro256PlusPlus, most: u16) -> i32 {
+    let values = 2 * u64::from(most) + 1;
+    (random.next_u64() % values) as i32 - i32::from(most)
 }
 
 #[cfg(test)]
