@@ -60,9 +60,8 @@ impl Film {
     ) -> Picture<'a> {
         Picture {
             title,
-            rows: &self.rows,
+            film: self,
             classes,
-            presented: &self.presented,
             decided,
         }
     }
@@ -88,10 +87,9 @@ struct Presented {
 #[derive(Debug)]
 pub struct Picture<'a> {
     title: &'a str,
-    rows: &'a [Row],
+    film: &'a Film,
     /// Names of the classes, from below.
     classes: &'a [String],
-    presented: &'a [Presented],
     decided: &'a [Decided],
 }
 

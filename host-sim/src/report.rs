@@ -76,13 +76,11 @@ pub fn program(program: &str, work: impl FnOnce() -> Result<(), Error>) -> ExitC
 
 /// The exit status of a program that has ended so; what went wrong it says on standard error.
 pub fn ended(program: &str, done: Result<(), Error>) -> ExitCode {
-    let unsaid = || {
-        UNSAID
-            .get()
-            .cloned()
-            .map_or(Ok(()), |why| Err(Error::Work(why)))
-    };
-    match done.and_then(|()| unsaid()) {
+    let done = done.and_then(|()| match UNSAID.get() {
+        Some(why) => Err(Error::Work(why.clone())),
+        None => Ok(()),
+    });
+    match done {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
             warn(format_args!("{program}: {error}"));

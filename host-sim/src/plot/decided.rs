@@ -63,7 +63,7 @@ pub(super) fn decisions<DB: DrawingBackend<ErrorType: 'static>>(
     for Presented {
         span_s: (start, end),
         label,
-    } in picture.presented
+    } in &picture.film.presented
     {
         let height = row(label).unwrap_or(picture.classes.len()) as f64;
         let corners = [(*start, height - 0.4), (end.min(to), height + 0.4)];

@@ -41,7 +41,7 @@ impl Picture<'_> {
         let [angle, sensor, contact, classes @ ..] = areas.as_slice() else {
             return Err("the drawing area does not split".into());
         };
-        let rows = self.rows;
+        let rows = &self.film.rows;
         let span = (
             rows.first().map_or(0.0, |row| row.t_s),
             rows.last().map_or(1.0, |row| row.t_s),
