@@ -134,10 +134,21 @@ mod tests {
     }
 
     #[test]
-    fn an_eighth_of_a_turn_takes_x_to_y_and_gains_come_behind_it() {
-        let mut turned = flaws("misaligned_deg = 45\ngain_y = 2.0");
+    fn what_is_turned_or_near_is_read_as_geometry_has_it() {
         let half = 0.5_f64.sqrt();
-        close(turned.sensed(2, 0.5, &ALL), [0.6 * half, 2.0 * 0.6 * half]);
+        for (keys, n, expected) in [
+            // An eighth of a turn takes x to y, and gains come behind it.
+            (
+                "misaligned_deg = 45\ngain_y = 2.0",
+                2,
+                [0.6 * half, 1.2 * half],
+            ),
+            // Neighbours of a side are felt, and those of the other are not.
+            ("cross_talk = 0.1", 1, [0.41, -0.18]),
+            ("cross_talk = 0.1", 2, [0.6, 0.08]),
+        ] {
+            close(flaws(keys).sensed(n, 0.5, &ALL), expected);
+        }
     }
 
     #[test]
@@ -147,13 +158,6 @@ mod tests {
         close(scaled.sensed(1, 0.5, &ALL), [0.42, -0.42]);
         scaled.restart();
         close(scaled.sensed(1, 0.5, &ALL), [0.4, -0.4]);
-    }
-
-    #[test]
-    fn neighbours_of_a_side_are_felt_and_those_of_the_other_are_not() {
-        let mut near = flaws("cross_talk = 0.1");
-        close(near.sensed(1, 0.5, &ALL), [0.41, -0.18]);
-        close(near.sensed(2, 0.5, &ALL), [0.6, 0.08]);
     }
 
     #[test]
