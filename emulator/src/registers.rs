@@ -10,28 +10,25 @@ use crate::chip::{Fact, FactKind, MODELS, Model, facts};
 const HEAD: &str = include_str!("registers/head.md");
 
 struct Chip {
-    program: &'static str,
     title: &'static str,
     /// Who says the same of its pins, and of its requests.
     pins: &'static str,
     requests: &'static str,
 }
 
+/// In the order of [`MODELS`].
 const CHIPS: [Chip; 3] = [
     Chip {
-        program: "nucleo_f446re",
         title: "NUCLEO-F446RE: STM32F446RE (RM0390)",
         pins: "stm32f4xx-hal `src/gpio/alt/f4.rs`",
         requests: "stm32f4xx-hal `src/dma/traits/f4.rs`",
     },
     Chip {
-        program: "nucleo_f103rb",
         title: "NUCLEO-F103RB: STM32F103RB (RM0008)",
         pins: "stm32f1xx-hal `src/afio.rs`, in place 0",
         requests: "stm32f1xx-hal `src/spi/dma.rs` of SPI1, `src/serial.rs` of USART2, none of TIM4",
     },
     Chip {
-        program: "nucleo_g071rb",
         title: "NUCLEO-G071RB: STM32G071RB (RM0444)",
         pins: "stm32g0xx-hal `src/spi.rs` and `src/timer/pins.rs`",
         requests: "stm32g0xx-hal `src/dmamux.rs`",
@@ -68,77 +65,56 @@ pub(crate) fn table(board: &str) -> Result<String, Error> {
 }
 
 pub(crate) fn page() -> String {
-    let mut text = format!(
-        "<!-- written by cargo xtask descriptions -->\n{}",
-        HEAD.trim_end()
-    );
-    for chip in &CHIPS {
-        let model = MODELS.iter().find(|model| model.program == chip.program);
-        if let Some(model) = model {
-            text += &of_chip(chip, model);
-        }
-    }
-    text + "\n"
+    let chips = MODELS.iter().zip(&CHIPS);
+    let chips: String = chips.map(|(model, chip)| of_chip(chip, model)).collect();
+    let head = HEAD.trim_end();
+    format!("<!-- written by cargo xtask descriptions -->\n{head}{chips}\n")
 }
 
 fn of_chip(chip: &Chip, model: &Model) -> String {
     let facts = facts(model);
     let of = |kind: FactKind| facts.iter().filter(move |fact| fact.kind == kind);
-    let mut text = format!("\n\n## {}\n", chip.title);
-    let mut line = |line: String| {
-        // Writing to a string does not fail.
-        let _ = write!(text, "\n{line}");
-    };
-    let sizes: Vec<u32> = of(FactKind::Chip).map(|fact| fact.value[0]).collect();
-    if let [flash, ram, bits] = sizes[..] {
-        let (flash, ram) = (flash / 1024, ram / 1024);
-        line(format!(
-            "{flash} KiB of flash, {ram} KiB of RAM, {bits} bits of a priority."
-        ));
-    }
-    line(
-        "\n| peripheral | base | gate: RCC +, bit | reset: RCC +, bit |\n|---|---|---|---|"
-            .to_owned(),
+    let peripherals = of(FactKind::Address).map(
+        |Fact {
+             of: name, value, ..
+         }| {
+            let cell = |kind| cell(model, of(kind).find(|fact| fact.of == *name));
+            let (gate, reset) = (cell(FactKind::Gate), cell(FactKind::Reset));
+            format!("| {name} | {} | {gate} | {reset} |", hex(value[0]))
+        },
     );
-    for address in of(FactKind::Address) {
-        let cell = |kind| cell(model, of(kind).find(|fact| fact.of == address.of));
-        let (gate, reset) = (cell(FactKind::Gate), cell(FactKind::Reset));
-        line(format!(
-            "| {} | {} | {gate} | {reset} |",
-            address.of,
-            hex(address.value[0])
-        ));
-    }
-    let others = |others| format!("\nThe same say {others}.\n");
-    let (pins, requests) = (others(chip.pins), others(chip.requests));
-    for (kind, before, title) in [
-        (FactKind::Interrupt, String::new(), "interrupt | number"),
-        (FactKind::Pin, pins, "pin | alternate function"),
-        (
-            FactKind::Request,
-            requests,
-            "DMA request | channel or number",
-        ),
-    ] {
-        line(format!("{before}\n| {title} |\n|---|---|"));
-        for fact in of(kind) {
-            line(format!("| {} {} | {} |", fact.of, fact.part, fact.value[0]));
-        }
-    }
-    line("\n| register | offset | bits |\n|---|---|---|".to_owned());
+    let numbers = |kind| {
+        lines(of(kind).map(
+            |Fact {
+                 of, part, value, ..
+             }| format!("| {of} {part} | {} |", value[0]),
+        ))
+    };
     let bits: Vec<&Fact> = of(FactKind::Bits).collect();
-    for register in bits.chunk_by(|a, b| a.of == b.of && register(a) == register(b)) {
-        if let [first, ..] = register {
-            let names: Vec<String> = register.iter().map(|fact| places(fact)).collect();
-            let (of, name) = (&first.of, self::register(first));
-            let offset = first.value[0];
-            line(format!(
-                "| {of} {name} | 0x{offset:02X} | {} |",
-                names.join(", ")
-            ));
-        }
-    }
-    text
+    let registers = bits.chunk_by(|a, b| a.of == b.of && register(a) == register(b));
+    let registers = registers.map(|facts| {
+        let names: Vec<String> = facts.iter().map(|fact| places(fact)).collect();
+        let (of, name, offset) = (&facts[0].of, register(facts[0]), facts[0].value[0]);
+        format!("| {of} {name} | 0x{offset:02X} | {} |", names.join(", "))
+    });
+    format!(
+        include_str!("registers/chip.md"),
+        title = chip.title,
+        flash = model.flash / 1024,
+        ram = model.ram / 1024,
+        bits = model.priority_bits,
+        peripherals = lines(peripherals),
+        interrupts = numbers(FactKind::Interrupt),
+        same_pins = chip.pins,
+        pins = numbers(FactKind::Pin),
+        same_requests = chip.requests,
+        requests = numbers(FactKind::Request),
+        registers = lines(registers),
+    )
+}
+
+fn lines(lines: impl Iterator<Item = String>) -> String {
+    lines.collect::<Vec<_>>().join("\n")
 }
 
 fn cell(model: &Model, fact: Option<&Fact>) -> String {

@@ -1,7 +1,6 @@
 //! `docs/measured/reliability.md`: what became of all runs.
 
 use std::collections::{BTreeMap, BTreeSet};
-use std::fmt::Write as _;
 
 use super::injection::Kind;
 use super::table::{Ending, RunRow};
@@ -30,12 +29,13 @@ fn with(rows: &[RunRow], outcome: Ending) -> impl Iterator<Item = &RunRow> {
     rows.iter().filter(move |row| row.outcome == outcome)
 }
 
-fn cells(rows: &[&RunRow]) -> String {
+/// The first cells of a row: what is counted, all runs, and those with each outcome.
+fn counted(name: &str, rows: &[&RunRow]) -> String {
     let counts = OUTCOMES.map(|outcome| {
         let count = rows.iter().filter(|row| row.outcome == outcome).count();
-        format!("{count} |")
+        format!(" {count} |")
     });
-    counts.join(" ")
+    format!("| {name} | {} |{}", rows.len(), counts.concat())
 }
 
 /// Middle and largest time until something was reported, ms.
@@ -74,78 +74,50 @@ fn reason(place: &str, reasons: &BTreeMap<String, String>) -> Option<String> {
 pub fn page(rows: &[RunRow]) -> Result<String, String> {
     let reasons: BTreeMap<String, String> =
         toml::from_str(REASONS).map_err(|error| error.to_string())?;
-    let mut text = String::new();
-    // Writing to a string does not fail.
-    let _ = writeln!(text, "{}", include_str!("page.md").trim_end());
-    let _ = writeln!(
-        text,
-        "\n## By where it ran\n\n| | runs | masked | noticed | silent | harmful | not followed |\n\
-         |---|---|---|---|---|---|---|"
-    );
     let subjects: BTreeSet<&str> = rows.iter().map(|row| row.subject.as_str()).collect();
-    for subject in subjects {
-        let of: Vec<&RunRow> = rows.iter().filter(|row| row.subject == subject).collect();
-        let _ = writeln!(text, "| {subject} | {} | {}", of.len(), cells(&of));
-    }
-    let all: Vec<&RunRow> = rows.iter().collect();
-    let _ = writeln!(text, "| all | {} | {}", all.len(), cells(&all));
-
-    let _ = writeln!(
-        text,
-        "\n## By what was injected\n\n| | runs | masked | noticed | silent | harmful | not followed \
-         | noticed after, ms: middle | most |\n|---|---|---|---|---|---|---|---|---|"
-    );
+    let subjects = subjects.into_iter().map(|subject| {
+        let of = rows.iter().filter(|row| row.subject == subject);
+        counted(subject, &of.collect::<Vec<_>>())
+    });
+    let all = counted("all", &rows.iter().collect::<Vec<_>>());
     let (two, one): (Vec<&RunRow>, _) = rows.iter().partition(|row| row.and.is_some());
     let mut kinds: BTreeMap<Kind, Vec<&RunRow>> = BTreeMap::new();
     for row in one {
         kinds.entry(row.kind).or_default().push(row);
     }
     let kinds = kinds.into_iter().map(|(kind, of)| (name(kind), of));
-    for (kind, of) in kinds.chain([(TWO.to_owned(), two)]) {
-        let (cells, noticed) = (cells(&of), noticed(&of));
-        let _ = writeln!(text, "| {kind} | {} | {cells} {noticed}", of.len());
-    }
-
-    let _ = writeln!(text, "\n## Harmful\n");
-    list(&mut text, rows, Ending::Harmful);
-
-    let _ = writeln!(
-        text,
-        "\n## Silent, by what was hit\n\n| | runs | how it ends | why nothing is said |\n\
-         |---|---|---|---|"
-    );
+    let kinds = kinds.chain([(TWO.to_owned(), two)]);
+    let kinds = kinds.map(|(kind, of)| format!("{} {}", counted(&kind, &of), noticed(&of)));
     let mut silent: BTreeMap<String, Vec<&RunRow>> = BTreeMap::new();
     for row in with(rows, Ending::Silent) {
         silent.entry(place(row)).or_default().push(row);
     }
-    for (place, of) in &silent {
+    let silent = silent.into_iter().map(|(place, of)| {
         let ends: BTreeSet<&str> = of.iter().map(|row| row.reason.as_str()).collect();
-        let ends: Vec<&str> = ends.into_iter().collect();
-        let reason = reason(place, &reasons).unwrap_or_else(|| {
+        let ends = ends.into_iter().collect::<Vec<_>>().join(", ");
+        let reason = reason(&place, &reasons).unwrap_or_else(|| {
             let runs: Vec<String> = of.iter().map(|row| row.run.to_string()).collect();
             format!("**not known**: runs {}", runs.join(", "))
         });
-        let _ = writeln!(
-            text,
-            "| `{place}` | {} | {} | {reason} |",
-            of.len(),
-            ends.join(", ")
-        );
-    }
-
-    let _ = writeln!(text, "\n## Not followed\n");
-    list(&mut text, rows, Ending::Unfollowed);
-    Ok(text)
+        format!("| `{place}` | {} | {ends} | {reason} |\n", of.len())
+    });
+    Ok(format!(
+        include_str!("page.md"),
+        subjects = subjects.chain([all]).collect::<Vec<_>>().join("\n"),
+        kinds = kinds.collect::<Vec<_>>().join("\n"),
+        harmful = list(rows, Ending::Harmful),
+        silent = silent.collect::<String>(),
+        unfollowed = list(rows, Ending::Unfollowed),
+    ))
 }
 
-fn list(text: &mut String, rows: &[RunRow], outcome: Ending) {
-    let mut rows = with(rows, outcome).peekable();
-    if rows.peek().is_none() {
-        let _ = writeln!(text, "None.");
+fn list(rows: &[RunRow], outcome: Ending) -> String {
+    let lines = with(rows, outcome).map(|row| format!("- {}", described(row)));
+    let lines: Vec<String> = lines.collect();
+    if lines.is_empty() {
+        return "None.".to_owned();
     }
-    for row in rows {
-        let _ = writeln!(text, "- {}", described(row));
-    }
+    lines.join("\n")
 }
 
 /// A run in a line.

@@ -1,7 +1,5 @@
 //! `docs/measured/endurance.md`: what ran, for how long, and how fast.
 
-use std::fmt::Write as _;
-
 use super::{ShardRow, on_pc};
 use crate::counters;
 
@@ -49,98 +47,53 @@ fn made(groups: &[Group<'_>]) -> (usize, f64, f64) {
 }
 
 pub(super) fn page(rows: &[ShardRow]) -> String {
-    let mut page = String::from(HEAD);
     let is_on_pc = |row: &ShardRow| row.subject == on_pc::NAME;
-    on_the_pc(&mut page, &groups(rows, is_on_pc));
-    on_boards(&mut page, &groups(rows, |row| !is_on_pc(row)));
-    page.push_str(COUNTERS);
-    for (what, bits, left) in counters::described() {
-        // Writing to a string does not fail.
-        let _ = writeln!(page, "| {what} | {bits} | {left} |");
-    }
-    page
+    let [on_pc, on_boards] = [groups(rows, is_on_pc), groups(rows, |row| !is_on_pc(row))];
+    let (pc_shards, pc_hours, pc_speed) = made(&on_pc);
+    let (shards, hours, speed) = made(&on_boards);
+    let counters = counters::described();
+    let counters = counters.map(|(what, bits, left)| format!("| {what} | {bits} | {left} |"));
+    format!(
+        include_str!("page.md"),
+        pc_hours = pc_hours,
+        pc_shards = pc_shards,
+        pc_speed = pc_speed,
+        week_h = WEEK_H / pc_speed / 60.0,
+        on_pc = on_pc.iter().map(row_of_pc).collect::<String>(),
+        hours = hours,
+        shards = shards,
+        speed = speed,
+        day_h = DAY_H / speed / 60.0,
+        on_boards = on_boards.iter().map(row_of_board).collect::<String>(),
+        counters = counters.collect::<Vec<_>>().join("\n"),
+    )
 }
 
-fn on_the_pc(page: &mut String, groups: &[Group<'_>]) {
-    let (shards, hours, speed) = made(groups);
-    // Writing to a string does not fail.
-    let _ = write!(
-        page,
-        "\n## On the PC\n\n{hours:.1} simulated hours in {shards} shards, {speed:.1} hours in a minute: one \
-         shard after the other, a week takes {:.1} h.\n\n{ON_PC}",
-        WEEK_H / speed / 60.0
-    );
-    for group in groups {
-        let percent = |value: Option<f64>| cell(value.map(|share| 100.0 * share), 2);
-        let _ = writeln!(
-            page,
-            "| {} | {} | {:.1} | {:.0} | {} | {} | {} | {} | {:.0} | {:.0} |",
-            group[0].scene,
-            group.len(),
-            sum(group, |row| row.hours),
-            sum(group, |row| row.decisions as f64),
-            cell(mean(group, |row| row.first_rate), 0),
-            cell(mean(group, |row| row.last_rate), 0),
-            percent(mean(group, |row| row.first_right)),
-            percent(mean(group, |row| row.last_right)),
-            sum(group, |row| row.touches as f64),
-            sum(group, |row| row.wrapped as f64),
-        );
-    }
+fn row_of_pc(group: &Group<'_>) -> String {
+    let percent = |value: Option<f64>| cell(value.map(|share| 100.0 * share), 2);
+    format!(
+        "| {} | {} | {:.1} | {:.0} | {} | {} | {} | {} | {:.0} | {:.0} |\n",
+        group[0].scene,
+        group.len(),
+        sum(group, |row| row.hours),
+        sum(group, |row| row.decisions as f64),
+        cell(mean(group, |row| row.first_rate), 0),
+        cell(mean(group, |row| row.last_rate), 0),
+        percent(mean(group, |row| row.first_right)),
+        percent(mean(group, |row| row.last_right)),
+        sum(group, |row| row.touches as f64),
+        sum(group, |row| row.wrapped as f64),
+    )
 }
 
-fn on_boards(page: &mut String, groups: &[Group<'_>]) {
-    let (shards, hours, speed) = made(groups);
-    // Writing to a string does not fail.
-    let _ = write!(
-        page,
-        "\n## On the emulated boards\n\n{hours:.2} simulated hours in {shards} shards, {speed:.3} hours in a minute: \
-         one shard after the other, a day takes {:.1} h.\n\n{ON_BOARDS}",
-        DAY_H / speed / 60.0
-    );
-    for group in groups {
-        let ShardRow { subject, scene, .. } = group[0];
-        let _ = writeln!(
-            page,
-            "| {subject} | {scene} | {} | {:.0} | {:.0} | {:.0} | {:.0} |",
-            group.len(),
-            sum(group, |row| 3_600.0 * row.hours),
-            sum(group, |row| row.ticks as f64),
-            sum(group, |row| row.decisions as f64),
-            sum(group, |row| row.wrapped as f64),
-        );
-    }
+fn row_of_board(group: &Group<'_>) -> String {
+    let ShardRow { subject, scene, .. } = group[0];
+    format!(
+        "| {subject} | {scene} | {} | {:.0} | {:.0} | {:.0} | {:.0} |\n",
+        group.len(),
+        sum(group, |row| 3_600.0 * row.hours),
+        sum(group, |row| row.ticks as f64),
+        sum(group, |row| row.decisions as f64),
+        sum(group, |row| row.wrapped as f64),
+    )
 }
-
-const HEAD: &str = "\
-# Endurance
-
-Made by `cargo xtask endurance`: scenes for hours, in shards of one scene with one seed. A shard
-that does not end well has no row here, and the command fails. Speeds are by the clock of the
-machine that made the page, with whatever else it did.
-";
-
-const ON_PC: &str = "\
-In every tick every number is one, and no sensor and no motor has a fault; memory does not grow.
-The last hour is as the first (the last quarter as the first, where a shard has less than four
-hours): whiskers range within 5 degrees of the same, decisions are as many and as right, but for
-5 standard deviations of chance and 1 %. A decision for unknown counts as one that is not right.
-
-| scene | shards | hours | decisions | an hour, first | last | right, %, first | last | touches | wraps of their number |
-|---|---|---|---|---|---|---|---|---|---|
-";
-
-const ON_BOARDS: &str = "\
-The board starts with every counter just below its wrap, the PC at zero; every tick and every
-decision is the same, to the last bit, and no tick is missed.
-
-| board | scene | shards | seconds | ticks | decisions | counters that wrapped |
-|---|---|---|---|---|---|---|
-";
-
-const COUNTERS: &str = "
-## Counters that wrap
-
-| what is counted | bits | starts so many counts before its wrap, at 2,000 ticks a second |
-|---|---|---|
-";
