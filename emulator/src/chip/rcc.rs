@@ -1,12 +1,12 @@
 //! RCC: the clock tree, clock gates and peripheral resets, and why the chip
-//! was reset. What differs between the chips is in a file each.
+//! was reset. What differs between the chips is in [`layout`].
 //!
 //! Oscillators and the PLL are ready at once. Frequencies are worked out from
 //! the registers, so a wrong divider makes a wrong time everywhere.
 
-pub(super) mod f1;
-pub(super) mod f4;
-pub(super) mod g0;
+mod layout;
+
+pub(super) use layout::{F1, F4, G0, Layout};
 
 use super::fields::{Field, field};
 use super::{Fault, Ps, ResetCause};
@@ -20,13 +20,6 @@ const CR: u32 = 0x00;
 const CSSON: u32 = 1 << 19;
 const HSEON: u32 = 1 << 16;
 const PLLON: u32 = 1 << 24;
-/// On the STM32F1 and F4, with the switches there and their ready flags.
-const HSION: u32 = 1 << 0;
-const SWITCHES: [(u32, u32); 3] = [
-    (HSION, HSION << 1),
-    (HSEON, HSEON << 1),
-    (PLLON, PLLON << 1),
-];
 /// In the register of clock interrupts: HSE has failed, and that is cleared.
 const CSSF: u32 = 1 << 7;
 const CSSC: u32 = 1 << 23;
@@ -112,38 +105,6 @@ const fn divider(bits: u32) -> u64 {
     }
 }
 
-#[derive(Debug)]
-pub(super) struct Layout {
-    /// Registers that keep what is written, and their values after a reset; CR first.
-    kept: &'static [(u32, u32)],
-    /// In CR: switches of HSI, HSE and the PLL, as they are selected, and their ready flags.
-    switches: &'static [(u32, u32)],
-    /// The register that selects the system clock, the mask of the selection, and how far
-    /// above stands what is selected.
-    selection: (u32, u32, u32),
-    resets: &'static [(Bus, u32)],
-    /// Registers of clock gates, and their values after a reset.
-    gates: &'static [(Bus, u32, u32)],
-    /// The register of the causes of a reset, and the bit that clears them.
-    csr: (u32, u32),
-    /// The flag of a brown-out, which the supply sets too as it comes, where there is one.
-    brown_out: Option<u32>,
-    /// Where the clock security system tells of its interrupt, and is answered; nothing where
-    /// it is not used.
-    security: Option<u32>,
-    hsi_hz: u64,
-    /// In CR: a divider of HSI, which is not modelled.
-    hsi_divider: u32,
-    /// Of the PLL, if it runs.
-    pll_hz: fn(&Rcc) -> Option<u64>,
-    /// The core's highest clock, Hz, and what a higher one is called.
-    most: (u64, &'static str),
-    /// Where the register that selects has what divides the core's clock.
-    ahb: u32,
-    /// Likewise of both peripheral buses, with their highest clocks, Hz.
-    apb: [(u32, u64); 2],
-}
-
 /// Switches and ready flags of oscillators and PLL, in the order of [`Layout::switches`].
 const SWITCH_NAMES: [[&str; 2]; 3] = [
     ["HSION", "HSIRDY"],
@@ -165,7 +126,6 @@ impl Layout {
             }
     }
 
-    /// The registers of gates, or of resets, of a peripheral's bus.
     pub(super) fn gate(&self, bus: Bus) -> Option<u32> {
         let mut gates = self.gates.iter();
         gates.find(|gate| gate.0 == bus).map(|gate| gate.1)
@@ -203,8 +163,6 @@ pub(super) struct Rcc {
     resets: [u32; BUSES],
     gates: [u32; BUSES],
     csr: u32,
-    /// Bits of reset registers that have just been set.
-    pulsed: [u32; BUSES],
     /// There is nothing on the HSE input.
     stopped: bool,
     /// The clock security system has found that out.
@@ -223,7 +181,6 @@ impl Rcc {
             resets: [0; BUSES],
             gates,
             csr: layout.flags(ResetCause::Power),
-            pulsed: [0; BUSES],
             stopped: false,
             has_failed: false,
         }
@@ -261,17 +218,8 @@ impl Rcc {
         self.gates[bus as usize] & (1 << bit) != 0
     }
 
-    /// Whether a peripheral is, or since the last call was, held in reset.
-    pub(super) fn take_reset(&mut self, bus: Bus, bit: u32) -> bool {
-        let mask = 1 << bit;
-        let pulsed = self.pulsed[bus as usize] & mask != 0;
-        self.pulsed[bus as usize] &= !mask;
-        pulsed || self.resets[bus as usize] & mask != 0
-    }
-
-    /// Whether some peripheral has been reset since the last [`Self::take_reset`].
-    pub(super) fn has_pulsed(&self) -> bool {
-        self.pulsed != [0; BUSES]
+    pub(super) fn is_in_reset(&self, bus: Bus, bit: u32) -> bool {
+        self.resets[bus as usize] & (1 << bit) != 0
     }
 
     fn place(&self, offset: u32) -> Option<usize> {
@@ -326,7 +274,6 @@ impl Rcc {
             }
         } else if let Some((bus, _)) = layout.resets.iter().find(|(_, at)| *at == offset) {
             self.resets[*bus as usize] = value;
-            self.pulsed[*bus as usize] |= value;
         } else if let Some((bus, ..)) = layout.gates.iter().find(|(_, at, _)| *at == offset) {
             self.gates[*bus as usize] = value;
         } else if layout.security == Some(offset) {

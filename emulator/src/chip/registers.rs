@@ -138,12 +138,8 @@ impl Chip {
     }
 
     fn reset_peripherals(&mut self) {
-        if !self.rcc.has_pulsed() {
-            return;
-        }
         for &(unit, _, gate) in self.model.map {
-            let Some((bus, bit)) = gate else { continue };
-            if !self.rcc.take_reset(bus, bit) {
+            if !gate.is_some_and(|(bus, bit)| self.rcc.is_in_reset(bus, bit)) {
                 continue;
             }
             match unit {

@@ -4,7 +4,7 @@ use firmware::boards;
 
 use crate::chip::gpio::Reset;
 use crate::chip::model::{CoreKind, Model, Unit};
-use crate::chip::rcc::{Bus, f1};
+use crate::chip::rcc::{self, Bus};
 use crate::chip::timer::Kind;
 use crate::chip::wiring::{ByteSignal, LEFT_PINS, Request, SerialPort, Side, Wiring};
 use crate::chip::{dma, flash, lines, power, spi, usart};
@@ -46,7 +46,7 @@ pub(crate) static F103: Model = Model {
     ],
     power: &power::F1,
     lines: &lines::V1,
-    rcc: &f1::LAYOUT,
+    rcc: &rcc::F1,
     timers: &[
         (Kind::General, Bus::Apb1),
         (Kind::General, Bus::Apb1),

@@ -4,7 +4,7 @@ use firmware::boards;
 
 use crate::chip::gpio::Reset;
 use crate::chip::model::{CoreKind, Model, Unit};
-use crate::chip::rcc::{Bus, f4};
+use crate::chip::rcc::{self, Bus};
 use crate::chip::timer::Kind;
 use crate::chip::wiring::{
     ByteSignal, LEFT_PINS, Pin, Request, SerialPort, Side, SidePins, Wiring,
@@ -52,7 +52,7 @@ pub(crate) static F446: Model = Model {
     ],
     power: &power::F4,
     lines: &lines::V1,
-    rcc: &f4::LAYOUT,
+    rcc: &rcc::F4,
     timers: &[
         (Kind::Wide, Bus::Apb1),
         (Kind::General, Bus::Apb1),

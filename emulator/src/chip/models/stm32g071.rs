@@ -4,7 +4,7 @@ use firmware::boards;
 
 use crate::chip::gpio::Reset;
 use crate::chip::model::{CoreKind, Model, Unit};
-use crate::chip::rcc::{Bus, g0};
+use crate::chip::rcc::{self, Bus};
 use crate::chip::timer::Kind;
 use crate::chip::wiring::{ByteSignal, LEFT_PINS, Request, SerialPort, Side, Wiring};
 use crate::chip::{dma, flash, lines, power, spi, usart};
@@ -43,7 +43,7 @@ pub(crate) static G071: Model = Model {
     ],
     power: &power::G0,
     lines: &lines::G0,
-    rcc: &g0::LAYOUT,
+    rcc: &rcc::G0,
     timers: &[
         (Kind::Wide, Bus::Apb1),
         (Kind::General, Bus::Apb1),
