@@ -24,12 +24,12 @@ use mlx90333::Decoder;
 use rtt::LogDecoder;
 use scene::{Scene, SensorMode, SensorModel};
 
-use crate::chip::{Fault, Ps, ResetCause, WELL_MV};
+use crate::chip::{Fault, Needs, Ps, ResetCause, WELL_MV};
 use crate::machine::{Machine, Stop};
 use crate::meter::Meter;
 use crate::notice::Notice;
 use crate::program::Program;
-use crate::watch::{Said, Watch};
+use crate::watch::Watch;
 use crate::wired::Wired;
 
 /// The emulated board and what hangs on it, as host-sim's runs see it. What goes wrong is kept for
@@ -69,13 +69,9 @@ fn set_pwm(pwm: &mut SimPwm, (on, period): (u32, u32)) {
 }
 
 impl Board {
-    /// Started, and before its first tick.
-    pub(crate) fn new(program: &Program, scene: &Scene, pins: Vec<Pins>) -> Result<Self, Fault> {
-        Self::of_node(program, scene, (0, 0..scene.head.sides.count()), pins)
-    }
-
-    /// Board `number` of a head, with those of the scene's whiskers, the first on its left side.
-    pub(crate) fn of_node(
+    /// Board `number` of a head, or the only one, with those of the scene's whiskers, the first on its
+    /// left side: started, and before its first tick.
+    pub(crate) fn new(
         program: &Program,
         scene: &Scene,
         (number, own): (u8, Range<usize>),
@@ -103,14 +99,15 @@ impl Board {
             bears_resets: false,
             fault: None,
         };
-        match (scene.sensor.model, scene.sensor.mode) {
-            (SensorModel::Mlx90333, SensorMode::Fast) => {}
-            (SensorModel::Mlx90333, SensorMode::Slow) => board.machine.chip().slow_sensors(),
-            (SensorModel::Tmag5170, _) => board.machine.chip().tilt_sensors(),
-        }
+        let needs = match (scene.sensor.model, scene.sensor.mode) {
+            (SensorModel::Mlx90333, SensorMode::Fast) => Needs::FAST,
+            (SensorModel::Mlx90333, SensorMode::Slow) => Needs::SLOW,
+            (SensorModel::Tmag5170, _) => Needs::TILT,
+        };
         board.machine.chip().set_number(number);
         for side in 0..sides {
-            board.program_sensor(side, config::decoder(&scene.sensor), 0);
+            board.machine.chip().lines[side].needs = needs;
+            board.program_sensor(side, config::decoder(&scene.sensor), 0, None);
         }
         match board.machine.run(PATIENCE, &mut board.sensors, None)? {
             Stop::Ready => {}
@@ -124,18 +121,19 @@ impl Board {
         Ok(board)
     }
 
-    pub(crate) fn program_sensor(&mut self, side: usize, decoder: Decoder, rest_us: u32) {
-        if let Some(slave) = self.sensor_mut(side).and_then(OnWire::mlx) {
-            slave.program(decoder);
+    /// The sensor of a side has so many new readings a second; none: one in each frame. It is silent
+    /// in frames that come sooner than `rest_us` after the last.
+    pub(crate) fn program_sensor(
+        &mut self,
+        side: usize,
+        decoder: Decoder,
+        rest_us: u32,
+        update_hz: Option<u16>,
+    ) {
+        if let Some(sensor) = self.sensors.get_mut(side) {
+            sensor.program(decoder, update_hz);
         }
         self.machine.chip().lines[side].program(decoder, rest_us);
-    }
-
-    /// The sensor of a side has so many new readings a second; none: one in each frame.
-    pub(crate) fn update_sensor(&mut self, side: usize, update_hz: Option<u16>) {
-        if let Some(sensor) = self.sensors.get_mut(side) {
-            sensor.update_at(update_hz);
-        }
     }
 
     /// Power comes without a clock from outside, as on a supply without a PC; or that clock is
@@ -401,14 +399,7 @@ impl Board {
         }
         let Machine { rtt, memories, .. } = &self.machine;
         self.meter.logged(rtt.log().writer(memories)?);
-        for (place, said) in self.watch.said(memories)? {
-            match said {
-                Said::Decision(decision) => events.push(Event::Decision(place, decision)),
-                Said::Pose(pose) => events.push(Event::Pose(place, pose)),
-                Said::Notice(notice) => self.notices.push((place, notice)),
-            }
-        }
-        Ok(())
+        self.watch.take(memories, events, &mut self.notices)
     }
 }
 

@@ -43,7 +43,7 @@ pub(crate) use fault::{Fault, ResetCause};
 pub(crate) use model::{CoreKind, Model};
 pub(crate) use models::MODELS;
 pub(crate) use power::WELL_MV;
-pub(crate) use sensor_lines::SensorEnd;
+pub(crate) use sensor_lines::{Needs, SensorEnd};
 pub(crate) use wiring::SIDE_NAMES;
 
 use crate::memory::Memories;
@@ -127,7 +127,7 @@ impl Chip {
             watchdog: Watchdog::new(1_000_000_000_000 / model.lsi_hz, model.has_window),
             usart: Usart::new(model.usart),
             serial: SerialLine::default(),
-            can: BxCan::default(),
+            can: BxCan::new(),
             lines: SIDE_NAMES.map(SensorLines::new),
             fault: None,
         })
@@ -256,12 +256,6 @@ impl Chip {
                 self.spis[side].end(answer, now, clock);
             }
         }
-    }
-
-    /// A side's sensor has said this so far, and nothing else: where the DMA has put it. None
-    /// of a frame in which the sensor was not connected all the time.
-    pub(crate) fn say_again(&mut self, side: usize, said: &[u8]) -> Vec<u32> {
-        self.lines[side].say_again(said)
     }
 
     fn spi_clock(&self, side: usize) -> Ps {

@@ -18,7 +18,7 @@ use scene::Numbers;
 use wire::{Flags, TickRecord};
 
 use crate::counters::Started;
-use crate::deployment::{flashed, image};
+use crate::deployment::image;
 use crate::emulate::pwm_counts;
 use crate::program::Program;
 use crate::session::Session;
@@ -212,7 +212,7 @@ impl fmt::Display for Agreement {
     }
 }
 
-/// Runs the scene in `path` on the PC, in the board's number format, and on the
+/// Runs the scene that messages call `path` on the PC, in the board's number format, and on the
 /// board under these circumstances; every number of every row of the trace and every decision
 /// must be the same, to the last bit, but that touches may be numbered from elsewhere. The
 /// board's ticks must come at the scene's rate.
@@ -221,16 +221,6 @@ impl fmt::Display for Agreement {
 /// wherever there is an obstacle, the board computes it only for RCP, CIA or a
 /// classifier that listens during contact.
 pub(crate) fn compare(
-    path: &Path,
-    program: &Path,
-    circumstances: Circumstances,
-) -> Result<Agreement, Error> {
-    let (loaded, program) = flashed(path, program)?;
-    compare_loaded(loaded, path, &program, circumstances)
-}
-
-/// The same of a scene that messages call `path`, and its model, and what is flashed.
-pub(crate) fn compare_loaded(
     mut loaded: Loaded,
     path: &Path,
     program: &Program,

@@ -31,23 +31,15 @@ struct Kernel {
 
 impl Kernel {
     fn read(at: u32, memories: &Memories) -> Result<Self, Fault> {
-        let byte = |at| {
-            let outside = || Fault::Memory(format!("{at:#010x} is not in memory"));
-            memories.get(at).ok_or_else(outside)
-        };
-        let word = |n: u32| -> Result<u32, Fault> {
-            let at = at + 4 * n;
-            let bytes = [byte(at)?, byte(at + 1)?, byte(at + 2)?, byte(at + 3)?];
-            Ok(u32::from_le_bytes(bytes))
-        };
-        let text = |at: u32, length: u32| -> Result<String, Fault> {
-            let bytes: Result<Vec<u8>, _> = (at..at + length).map(byte).collect();
-            Ok(String::from_utf8_lossy(&bytes?).into_owned())
-        };
-        let [name, format] = [text(word(0)?, word(1)?)?, text(word(2)?, word(3)?)?];
+        let words = memories.bytes_at(at, 20)?;
+        let mut words = words.as_chunks().0.iter().copied().map(u32::from_le_bytes);
+        let mut word = || words.next().unwrap_or_default();
+        let [name, name_len, format, format_len, body] = [(); 5].map(|()| word());
+        let text = |at, length: u32| memories.bytes_at(at, length as usize);
+        let name = [text(name, name_len)?, text(format, format_len)?].join(&b',');
         Ok(Self {
-            name: format!("{name},{format}"),
-            body: word(4)? & !THUMB,
+            name: String::from_utf8_lossy(&name).into_owned(),
+            body: body & !THUMB,
             calls: Tally::default(),
         })
     }

@@ -4,6 +4,7 @@
 use std::path::Path;
 
 use config::Image;
+use firmware::Header;
 use firmware::boards::{BoardFacts, SlotHeader};
 use host_sim::loaded::Loaded;
 use host_sim::{Error, files};
@@ -96,6 +97,12 @@ impl Deployment {
             LoadedWord::Model(n) => model.get(usize::from(n)).copied(),
         })
     }
+}
+
+/// The CRC in the header of a configuration.
+pub(crate) fn crc_of(config: &[u8]) -> Result<u32, Error> {
+    let header = Header::of(config).map_err(|fault| format!("the configuration: {fault}"));
+    Ok(header.map_err(Error::Work)?.crc)
 }
 
 /// The requests by which a board is given a configuration: it is put aside, and then taken.

@@ -46,7 +46,8 @@ pub(crate) fn start(
     // What hangs on the board, by whichever model it decides.
     image(&without_class_settings(scene), None, model.facts)?;
     let (world, pins) = World::wired(scene, pwm_counts(scene, model))?;
-    let board = Board::new(program, scene, pins)?;
+    let sides = 0..scene.head.sides.count();
+    let board = Board::new(program, scene, (0, sides), pins)?;
     let mut chip = board.machine.chip();
     chip.attach_serial(scene.telemetry.serial_baud);
     drop(chip);

@@ -13,11 +13,11 @@ use std::time::Instant;
 
 use clap::Args;
 use host_sim::Error;
-use host_sim::loaded::Loaded;
 use host_sim::output::{self, write_whole};
 use serde::{Deserialize, Serialize};
 
 use crate::compare::{Circumstances, compare};
+use crate::deployment::flashed;
 
 /// A long run.
 #[derive(Debug, Args)]
@@ -103,21 +103,22 @@ fn row(path: &Path) -> Result<ShardRow, Error> {
 /// must be the same, no tick may be missed, and every counter must wrap.
 fn on_board(path: &Path, program: &Path, subject: &str, hours: f64) -> Result<ShardRow, Error> {
     let begun = Instant::now();
-    let scene = Loaded::new(path)?.scene;
+    let (loaded, program) = flashed(path, program)?;
+    let (name, seed) = (loaded.scene.name.clone(), loaded.scene.seed);
     let circumstances = Circumstances {
         wraps: true,
         duration_s: Some(3_600.0 * hours),
         ..Circumstances::default()
     };
-    let agreed = compare(path, program, circumstances)?;
+    let agreed = compare(loaded, path, &program, circumstances)?;
     if agreed.missed > 0 {
         let fault = format!("{}: {} ticks missed", path.display(), agreed.missed);
         return Err(Error::Work(fault));
     }
     Ok(ShardRow {
         subject: subject.to_owned(),
-        scene: scene.name,
-        seed: scene.seed,
+        scene: name,
+        seed,
         hours,
         ticks: agreed.ticks,
         decisions: agreed.decisions,

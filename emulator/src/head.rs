@@ -116,7 +116,7 @@ impl Head {
             let pins = pins.get(own.clone()).unwrap_or_default().to_vec();
             let sides = scene.head.sides.count();
             Ok(Node {
-                board: Board::of_node(program, scene, (number, own.clone()), pins)?,
+                board: Board::new(program, scene, (number, own.clone()), pins)?,
                 crystal: Crystal {
                     ppm: if number.is_multiple_of(2) { ppm } else { -ppm },
                     since: 0,

@@ -76,7 +76,7 @@ pub(crate) struct Machine {
 impl Machine {
     pub(crate) fn new(program: &Program) -> Result<Self, Fault> {
         let model = program.model()?;
-        let memories = Memories::new(program, model)?;
+        let memories = Memories::flashed(program.segments(), model.flash, model.ram)?;
         let shared = Shared::new(Chip::new(model)?);
         let core = Core::new(model, &memories, memories.space(&shared)?);
         let cycle = shared.chip().cycle();
@@ -137,7 +137,7 @@ impl Machine {
     }
 
     pub(crate) fn say_again(&mut self, side: usize, said: &[u8]) -> Result<(), Fault> {
-        let places = self.shared.chip().say_again(side, said);
+        let places = self.shared.chip().lines[side].say_again(said);
         let mut bytes = places.into_iter().zip(said);
         bytes.try_for_each(|(place, byte)| self.memories.write(place, &[*byte]))
     }

@@ -9,8 +9,7 @@ use rsemu::core::space::{
     UnassignedPolicy,
 };
 
-use crate::chip::{Chip, Fault, Model, Ps};
-use crate::program::Program;
+use crate::chip::{Chip, Fault, Ps};
 
 pub(crate) const FLASH: u32 = 0x0800_0000;
 /// A byte of flash that is erased.
@@ -179,11 +178,7 @@ pub(crate) struct Memories {
 }
 
 impl Memories {
-    /// Memories with the program flashed; the rest of flash is erased, RAM is zero.
-    pub(crate) fn new(program: &Program, model: &Model) -> Result<Self, Fault> {
-        Self::flashed(program.segments(), model.flash, model.ram)
-    }
-
+    /// With a program's segments flashed; the rest of flash is erased, RAM is zero.
     pub(crate) fn flashed<'s>(
         segments: impl Iterator<Item = (u32, &'s [u8])>,
         flash_len: u32,
@@ -287,14 +282,14 @@ impl Memories {
 
     /// Programs bytes of flash, which can clear bits and set none.
     pub(crate) fn program(&self, address: u32, bytes: &[u8]) -> Result<(), Fault> {
-        let there = self.flashed_bytes(address, bytes.len())?;
+        let there = self.bytes_at(address, bytes.len())?;
         let left: Vec<u8> = there.iter().zip(bytes).map(|(a, b)| a & b).collect();
         self.flash.write(address, &left)
     }
 
-    pub(crate) fn flashed_bytes(&self, address: u32, length: usize) -> Result<Vec<u8>, Fault> {
+    pub(crate) fn bytes_at(&self, address: u32, length: usize) -> Result<Vec<u8>, Fault> {
         let mut bytes = vec![0; length];
-        self.flash.read(address, &mut bytes)?;
+        self.store(address).read(address, &mut bytes)?;
         Ok(bytes)
     }
 

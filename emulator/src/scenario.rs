@@ -109,13 +109,10 @@ pub(crate) const ALL: [Scenario; 14] = [
                 duration_s: given.duration,
                 ..Circumstances::default()
             };
-            compare::compare(scene, program, circumstances).map(|agreed| {
-                let scene = scene.display();
-                vec![format!(
-                    "{scene}: {agreed}; {} bytes of stack",
-                    agreed.stack
-                )]
-            })
+            let (loaded, program) = flashed(scene, program)?;
+            let agreed = compare::compare(loaded, scene, &program, circumstances)?;
+            let (scene, stack) = (scene.display(), agreed.stack);
+            Ok(vec![format!("{scene}: {agreed}; {stack} bytes of stack")])
         }),
     },
     Scenario {

@@ -163,7 +163,7 @@ impl Session {
     pub fn flash(&mut self) -> Result<Vec<u8>, Error> {
         let place = self.place.clone();
         let memories = &self.machine().memories;
-        let mut bytes = memories.flashed_bytes(place.start, place.len())?;
+        let mut bytes = memories.bytes_at(place.start, place.len())?;
         for mark in self.slots.map(Slot::mark) {
             let from = (mark.start - place.start) as usize;
             let marked = bytes.iter_mut().skip(from).take(mark.bytes as usize);

@@ -14,7 +14,7 @@ use wire::{Answer, CONFIG_CHANGED, Command, CommandStatus, TaggedCommand};
 
 use crate::compare::Pair;
 use crate::damaged;
-use crate::deployment::{flashed, image, model_of, staged, words};
+use crate::deployment::{crc_of, flashed, image, model_of, staged, words};
 use crate::talk::{Talk, wrong};
 
 /// For how long both run beside each other before and after a change, s.
@@ -151,7 +151,7 @@ fn refuses(talk: &mut Talk, bytes: &[u8], error: ConfigError) -> Result<(), Erro
 
 /// The board must say that it runs by these bytes, which are others than at the start.
 fn runs_by(talk: &mut Talk, bytes: &[u8]) -> Result<(), Error> {
-    let crc = words(bytes).get(3).map_or(0, |crc| crc.cast_signed());
+    let crc = crc_of(bytes)?.cast_signed();
     let length = bytes.len() as i32 | CONFIG_CHANGED;
     let scene = talk.ask_board(Command::Scene)?;
     if scene.values != [crc, length] {

@@ -6,7 +6,7 @@
 
 mod servos;
 
-use firmware::Place as Whisker;
+use firmware::{Event, Place as Whisker};
 use host_sim::bench::Snapshot;
 use scene::Scene;
 use tactile::{Decision, Estimate, Pose};
@@ -61,13 +61,6 @@ struct Queue {
     notices: Vec<(u8, Notice)>,
     /// The place of the first that was not seen.
     seen: u32,
-}
-
-#[derive(Debug, Clone, Copy)]
-pub(crate) enum Said {
-    Decision(Decision),
-    Pose(Pose),
-    Notice(Notice),
 }
 
 #[derive(Debug)]
@@ -154,9 +147,43 @@ impl Watch {
         self.queue.seen = 0;
     }
 
-    /// The decisions, faults and ends of faults that have been queued since the last call.
-    pub(crate) fn said(&mut self, ram: &Memories) -> Result<Vec<(Whisker, Said)>, Fault> {
-        self.queue.take(ram)
+    /// Adds what has been queued since the last call: decisions and poses to `events`, faults and ends
+    /// of faults to `notices`.
+    pub(crate) fn take(
+        &mut self,
+        ram: &Memories,
+        events: &mut Vec<Event>,
+        notices: &mut Vec<(Whisker, Notice)>,
+    ) -> Result<(), Fault> {
+        let queue = &mut self.queue;
+        // A flipped bit may have led it out of the ring.
+        let tail = ram.word(queue.tail)? % queue.length;
+        while queue.seen != tail {
+            let at = queue.events + queue.seen * queue.stride;
+            let [tag] = ram.bytes(at + queue.tag.0)?;
+            let [side] = ram.bytes(at + queue.whisker[0])?;
+            let [whisker] = ram.bytes(at + queue.whisker[1])?;
+            let place = Whisker::new(side, whisker);
+            if let Some((_, notice)) = queue.notices.iter().find(|(value, _)| tag == *value) {
+                notices.push((place, *notice));
+            } else if tag == queue.tag.1 {
+                let [samples, packed, touch] = queue.words.map(|word| ram.word(at + word));
+                let decision = Decision::from_memory(samples?, packed?, touch?);
+                events.extend(decision.map(|decision| Event::Decision(place, decision)));
+            } else if tag == queue.pose.0 {
+                let half = |n: usize| ram.bytes(at + queue.pose.1[n]);
+                let estimate = |n| -> Result<Estimate, Fault> {
+                    Ok(Estimate {
+                        hundredths: half(n).map(i16::from_le_bytes)?,
+                        error_hundredths: half(n + 1).map(u16::from_le_bytes)?,
+                    })
+                };
+                let (tilt, depth) = (estimate(0)?, estimate(2)?);
+                events.push(Event::Pose(place, Pose { tilt, depth }));
+            }
+            queue.seen = (queue.seen + 1) % queue.length;
+        }
+        Ok(())
     }
 }
 
@@ -205,45 +232,5 @@ impl Queue {
             notices: notices.collect::<Result<_, Fault>>()?,
             seen: 0,
         })
-    }
-
-    fn take(&mut self, ram: &Memories) -> Result<Vec<(Whisker, Said)>, Fault> {
-        // A flipped bit may have led it out of the ring.
-        let tail = ram.word(self.tail)? % self.length;
-        let mut said = Vec::new();
-        while self.seen != tail {
-            let event = self.events + self.seen * self.stride;
-            let tag = ram.bytes(event + self.tag.0)?;
-            let [side] = ram.bytes(event + self.whisker[0])?;
-            let [whisker] = ram.bytes(event + self.whisker[1])?;
-            let notice = self.notices.iter().find(|(value, _)| tag == [*value]);
-            let found = match notice {
-                Some((_, notice)) => Some(Said::Notice(*notice)),
-                None if tag == [self.tag.1] => {
-                    let [samples, packed, touch] = self.words;
-                    let decision = Decision::from_memory(
-                        ram.word(event + samples)?,
-                        ram.word(event + packed)?,
-                        ram.word(event + touch)?,
-                    );
-                    decision.map(Said::Decision)
-                }
-                None if tag == [self.pose.0] => {
-                    let half = |n: usize| ram.bytes(event + self.pose.1[n]);
-                    let estimate = |n| -> Result<Estimate, Fault> {
-                        Ok(Estimate {
-                            hundredths: half(n).map(i16::from_le_bytes)?,
-                            error_hundredths: half(n + 1).map(u16::from_le_bytes)?,
-                        })
-                    };
-                    let (tilt, depth) = (estimate(0)?, estimate(2)?);
-                    Some(Said::Pose(Pose { tilt, depth }))
-                }
-                None => None,
-            };
-            said.extend(found.map(|found| (Whisker::new(side, whisker), found)));
-            self.seen = (self.seen + 1) % self.length;
-        }
-        Ok(said)
     }
 }

@@ -2,7 +2,7 @@
 
 use host_sim::bus::tmag5170::{BelowMagnet, Frame};
 use host_sim::bus::{Exchange, OnWire, Slave, WireFault};
-use mlx90333::FRAME_LEN;
+use mlx90333::{Decoder, FRAME_LEN};
 use scene::{Scene, SensorModel};
 
 use crate::chip::{Ps, SensorEnd};
@@ -64,8 +64,9 @@ impl Wired {
     }
 
     /// An MLX90333 has so many new readings a second from now on; none: one in each frame.
-    pub(crate) fn update_at(&mut self, update_hz: Option<u16>) {
+    pub(crate) fn program(&mut self, decoder: Decoder, update_hz: Option<u16>) {
         if let Kind::Mlx90333(mlx) = &mut self.kind {
+            mlx.slave.program(decoder);
             let hz = update_hz.map(Ps::from).filter(|hz| *hz > 0);
             mlx.period = hz.map_or(0, |hz| 1_000_000_000_000 / hz);
         }

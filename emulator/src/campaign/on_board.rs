@@ -43,6 +43,18 @@ pub(super) fn words(program: &Program) -> Result<Vec<(u32, String)>, Fault> {
     Ok(words)
 }
 
+/// Which bit, which byte or register, whether within a tick, and before which instruction of
+/// it, of the first 1,500: longer ticks are not interrupted later.
+const fn parts(detail: u64) -> [u32; 4] {
+    let drawn = (detail >> 32) as u32;
+    [
+        drawn % 32,
+        (drawn >> 5) % 1024,
+        (drawn >> 15) % 2,
+        1 + (drawn >> 16) % 1_500,
+    ]
+}
+
 pub(super) struct OnBoard<'p> {
     pub(super) session: Session,
     words: &'p [(u32, String)],
@@ -69,21 +81,7 @@ impl<'p> OnBoard<'p> {
             changed: None,
         })
     }
-}
 
-/// Which bit, which byte or register, whether within a tick, and before which instruction of
-/// it, of the first 1,500: longer ticks are not interrupted later.
-const fn parts(detail: u64) -> [u32; 4] {
-    let drawn = (detail >> 32) as u32;
-    [
-        drawn % 32,
-        (drawn >> 5) % 1024,
-        (drawn >> 15) % 2,
-        1 + (drawn >> 16) % 1_500,
-    ]
-}
-
-impl OnBoard<'_> {
     pub(super) fn tick(&mut self) -> Result<Seen, Fault> {
         self.session.pass_tick()?;
         let mut seen = seen(&self.session.run, 1);

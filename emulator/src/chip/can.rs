@@ -153,7 +153,7 @@ pub(crate) enum Request {
     Drop(Frame),
 }
 
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Default)]
 pub(crate) struct BxCan {
     mcr: u32,
     ier: u32,
@@ -167,24 +167,6 @@ pub(crate) struct BxCan {
     filter: [u32; 6],
     arriving: VecDeque<(Ps, Arrival)>,
     requests: Vec<(Ps, Request)>,
-}
-
-impl Default for BxCan {
-    fn default() -> Self {
-        Self {
-            mcr: MCR_RESET,
-            ier: 0,
-            btr: BTR_RESET,
-            errors: ErrorCounts::default(),
-            mailboxes: [Mailbox::default(); MAILBOXES],
-            received: VecDeque::new(),
-            overrun: false,
-            filter_mode: FMR_RESET,
-            filter: [0; 6],
-            arriving: VecDeque::new(),
-            requests: Vec::new(),
-        }
-    }
 }
 
 const fn transmit(offset: u32) -> Option<(usize, usize)> {
@@ -212,8 +194,17 @@ fn filter(offset: u32) -> Option<usize> {
 }
 
 impl BxCan {
+    pub(super) fn new() -> Self {
+        Self {
+            mcr: MCR_RESET,
+            btr: BTR_RESET,
+            filter_mode: FMR_RESET,
+            ..Self::default()
+        }
+    }
+
     pub(super) fn reset(&mut self) {
-        *self = Self::default();
+        *self = Self::new();
     }
 
     pub(super) const fn is_on(&self) -> bool {

@@ -9,7 +9,7 @@ use super::model::Unit;
 use super::rcc::Bus;
 use super::timer::Kind;
 use super::wiring::{CAN, CAN_IRQS, PWM, Pin, Request, SERIAL, SERIAL_DMA};
-use super::{Model, SUPPLY_IRQ, can, flash, lines, mux, power, remap, spi, timer, usart, watchdog};
+use super::{Model, SUPPLY_IRQ, can, lines, mux, power, remap, spi, timer, usart, watchdog};
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum FactKind {
@@ -94,7 +94,7 @@ fn fields(model: &Model, unit: Unit) -> Vec<Field> {
         Unit::Rcc => model.rcc.fields(),
         Unit::Flash => power::options(model.power)
             .into_iter()
-            .chain(flash::fields(model.flash_interface))
+            .chain(model.flash_interface.fields())
             .collect(),
         Unit::Power => power::fields(model.power),
         Unit::Lines => lines::fields(model.lines),

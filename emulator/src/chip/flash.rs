@@ -7,7 +7,6 @@ mod layout;
 use std::ops::Range;
 
 use super::Ps;
-use super::fields::Field;
 use super::plain::Plain;
 use crate::memory::FLASH;
 use layout::{ACR, WIDTH, WORDS};
@@ -18,10 +17,6 @@ const KEYS: [u32; 2] = [0x4567_0123, 0xCDEF_89AB];
 /// Selects writing, and erasing.
 const PG: u32 = 1 << 0;
 const ERASES: u32 = 1 << 1;
-
-pub(super) fn fields(layout: &Layout) -> Vec<Field> {
-    layout.fields()
-}
 
 #[derive(Debug, Clone)]
 pub(crate) struct Flash {

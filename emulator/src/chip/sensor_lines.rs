@@ -33,8 +33,8 @@ const fn ps(nanoseconds: u32) -> Ps {
 }
 
 /// What a sensor needs, in one of its modes.
-#[derive(Debug, Clone)]
-struct Needs {
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Needs {
     clock_max_hz: u32,
     /// From the supply to the first byte.
     start_up: Ps,
@@ -59,7 +59,7 @@ impl Default for Needs {
 }
 
 impl Needs {
-    const FAST: Self = Self {
+    pub(crate) const FAST: Self = Self {
         clock_max_hz: CLOCK_MAX_HZ,
         start_up: ps(START_UP_US * 1_000),
         gap: ps(BYTE_GAP_FAST_NS),
@@ -74,14 +74,14 @@ impl Needs {
         mode: 1,
         is_joined: true,
     };
-    const SLOW: Self = Self {
+    pub(crate) const SLOW: Self = Self {
         clock_max_hz: CLOCK_SLOW_MAX_HZ,
         gap: ps(BYTE_GAP_SAFE_NS),
         lead: ps(SS_LEAD_SLOW_NS),
         lag: ps(SS_LAG_SLOW_NS),
         ..Self::FAST
     };
-    const TILT: Self = Self {
+    pub(crate) const TILT: Self = Self {
         clock_max_hz: timing::CLOCK_MAX_HZ,
         start_up: ps(timing::START_UP_US * 1_000),
         gap: 0,
@@ -97,7 +97,7 @@ impl Needs {
 
 #[derive(Debug, Clone, Default)]
 pub(crate) struct SensorLines {
-    needs: Needs,
+    pub(crate) needs: Needs,
     /// How its frames are read.
     decoder: Decoder,
     /// In a frame that comes sooner after the last it is silent.
@@ -138,10 +138,6 @@ impl SensorLines {
         }
     }
 
-    pub(super) fn slow_down(&mut self) {
-        self.needs = Needs::SLOW;
-    }
-
     /// Its frames are read by `decoder`; it is silent in those that come sooner than `rest_us` after
     /// the last.
     pub(crate) fn program(&mut self, decoder: Decoder, rest_us: u32) {
@@ -151,10 +147,6 @@ impl SensorLines {
 
     pub(crate) const fn stick(&mut self, is_stuck: bool) {
         self.stuck = if is_stuck { Some(false) } else { None };
-    }
-
-    pub(super) fn tilt(&mut self) {
-        self.needs = Needs::TILT;
     }
 
     /// The SPI mode that the sensor needs, and whether its lines of data are joined.
@@ -246,8 +238,9 @@ impl SensorLines {
         self.put.push(place);
     }
 
-    /// The sensor has said this so far, and nothing else: where it was put.
-    pub(super) fn say_again(&mut self, said: &[u8]) -> Vec<u32> {
+    /// The sensor has said this so far, and nothing else: where the DMA has put it. None of a frame
+    /// in which the sensor was not connected all the time.
+    pub(crate) fn say_again(&mut self, said: &[u8]) -> Vec<u32> {
         if self.is_silent() || said.len() != self.read.len() || said.len() != self.put.len() {
             return Vec::new();
         }

@@ -1,7 +1,6 @@
 //! What befalls supply, clocks and registers from outside, and what the chip makes of it by itself.
 
 use super::model::Unit;
-use super::sensor_lines::SensorLines;
 use super::{Chip, Fault, ResetCause};
 
 /// Bits of the wait states in the flash interface's first register.
@@ -32,14 +31,6 @@ impl Chip {
     /// Has the option bytes set to the highest brown-out level; whether there is any.
     pub(crate) fn set_brown_out(&mut self) -> bool {
         self.power.set_brown_out(HIGHEST)
-    }
-
-    pub(crate) fn slow_sensors(&mut self) {
-        self.lines.iter_mut().for_each(SensorLines::slow_down);
-    }
-
-    pub(crate) fn tilt_sensors(&mut self) {
-        self.lines.iter_mut().for_each(SensorLines::tilt);
     }
 
     /// Returns whether the chip runs by the clock from outside.

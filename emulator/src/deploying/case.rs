@@ -4,16 +4,16 @@
 use std::path::Path;
 
 use firmware::boards::BoardFacts;
-use firmware::{ConfigError, Header, Part, Refusal, refusal_code};
+use firmware::{ConfigError, Part, Refusal, refusal_code};
 use host_sim::loaded::Loaded;
 use host_sim::{Error, files};
 use scene::{Integrator, SensorModel};
 use tactile::ModelBuf;
 use wire::{Command, CommandStatus, WhiskerId};
 
-use crate::compare::{Agreement, Circumstances, compare_loaded};
+use crate::compare::{Agreement, Circumstances, compare};
 use crate::damaged;
-use crate::deployment::{Deployment, flashed_for, staged};
+use crate::deployment::{Deployment, crc_of, flashed_for, staged};
 use crate::program::Program;
 use crate::scenario;
 use crate::session::{PATIENCE, Session};
@@ -95,9 +95,7 @@ impl Flashed {
     }
 
     pub(super) fn crc(&self) -> Result<u32, Error> {
-        let header = Header::of(&self.deployment.config);
-        let header = header.map_err(|error| Error::Work(error.to_string()))?;
-        Ok(header.crc)
+        crc_of(&self.deployment.config)
     }
 }
 
@@ -143,7 +141,7 @@ impl<'p> Case<'p> {
             ..Circumstances::default()
         };
         let program = self.with(flash)?;
-        compare_loaded(scene.loaded.clone(), self.path, &program, circumstances)
+        compare(scene.loaded.clone(), self.path, &program, circumstances)
     }
 
     /// Configurations that a board must refuse; to one whose image has the parts of its scene alone,

@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 use std::path::Path;
 
-use firmware::{Header, Packet, RELAYED_HZ, Relay};
+use firmware::{Packet, RELAYED_HZ, Relay};
 use host_sim::Error;
 use host_sim::loaded::Loaded;
 use host_sim::run::Run;
@@ -15,7 +15,7 @@ use wire::{
 
 use super::HeadSession;
 use crate::compare::{plain, same_numbers};
-use crate::deployment::{Deployment, flashed, staged, words};
+use crate::deployment::{Deployment, crc_of, flashed, staged, words};
 use crate::emulate::pwm_counts;
 use crate::program::Program;
 use crate::session::answer_to;
@@ -168,7 +168,7 @@ impl Talk {
         }
         let config = &case.runs.config;
         for node in [self.far, 0] {
-            if self.runs_by(node)? != [crc(config)?, config.len() as i32] {
+            if self.runs_by(node)? != [crc_of(config)?.cast_signed(), config.len() as i32] {
                 return wrong(format!("board {node} runs by another scene"));
             }
         }
@@ -258,7 +258,8 @@ impl Talk {
         })?;
         let config = &tuned.config;
         staged(config).try_for_each(|command| self.done(command))?;
-        if self.runs_by(self.far)? == [crc(config)?, config.len() as i32 | CONFIG_CHANGED] {
+        let length = config.len() as i32 | CONFIG_CHANGED;
+        if self.runs_by(self.far)? == [crc_of(config)?.cast_signed(), length] {
             return Ok(());
         }
         wrong("another configuration was taken, and does not run")
@@ -306,8 +307,10 @@ impl Talk {
                 return wrong("it does not start again");
             }
         }
-        let [by, [first, _]] = [self.runs_by(self.far)?, self.runs_by(0)?];
-        if by[0] != crc(&other.config)? || first != crc(&case.runs.config)? {
+        for (node, runs) in [(self.far, &other), (0, &case.runs)] {
+            if self.runs_by(node)?[0] == crc_of(&runs.config)?.cast_signed() {
+                continue;
+            }
             return wrong("the scene that was deployed is not the one that runs");
         }
         let [_, missed] = self.ask(0, Command::Status)?.values;
@@ -344,10 +347,4 @@ impl Talk {
     fn pass(&mut self, ticks: u32) -> Result<(), Error> {
         (0..ticks).try_for_each(|_| self.tick().map(drop))
     }
-}
-
-fn crc(config: &[u8]) -> Result<i32, Error> {
-    let header = Header::of(config);
-    let crc = header.map(|header| header.crc.cast_signed());
-    crc.map_err(|fault| Error::Work(format!("the configuration: {fault}")))
 }

@@ -142,8 +142,8 @@ impl Hands {
                 surround(session, side, around, had_restarted);
                 let part = around.part.unwrap_or(self.own);
                 let board = session.board_mut();
-                board.program_sensor(side, part.decoder, part.rest_us.into());
-                board.update_sensor(side, part.update_hz);
+                let rest_us = part.rest_us.into();
+                board.program_sensor(side, part.decoder, rest_us, part.update_hz);
                 board.machine.chip().lines[side].stick(around.is_stuck);
                 if let Some(slave) = session.run.slave_mut(side) {
                     slave.set_error_word(Faults::new(part.report));

@@ -144,7 +144,7 @@ impl Layout {
         Some(first..first + self.unit)
     }
 
-    pub(super) fn fields(&self) -> Vec<Field> {
+    pub(in crate::chip) fn fields(&self) -> Vec<Field> {
         let mut fields = vec![whole("ACR", ACR), whole("KEYR", self.keyr)];
         let status = self.errors.iter().copied().chain([("BSY", self.bsy)]);
         fields.extend(status.map(|(name, bits)| field("SR", self.sr, name, bits)));

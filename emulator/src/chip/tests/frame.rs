@@ -2,7 +2,7 @@
 
 use super::side::{ANSWERS, BYTE, LEFT, RIGHT, Registers, SIDES, SLOT};
 use super::{GPIOA, GPIOB, MS, RCC, Rig, US, why};
-use crate::chip::Fault;
+use crate::chip::{Fault, Needs};
 
 #[test]
 fn eight_bytes_reach_memory_without_the_core() {
@@ -81,7 +81,7 @@ fn a_slow_sensor_asks_for_more() {
     let begun = |divider, slot| {
         let mut rig = RIGHT.rig(divider);
         rig.write(RCC + 0x08, 2 | 5 << 10 | 4 << 13 | 8 << 4);
-        rig.chip.slow_sensors();
+        rig.chip.lines[RIGHT.side].needs = Needs::SLOW;
         RIGHT.begin(&mut rig, slot / 2);
         rig.try_pass(MS).map(drop)
     };

@@ -2,7 +2,7 @@
 
 use super::side::{LEFT, RIGHT, Registers, SIDES};
 use super::{GPIOA, GPIOB, Rig, US, why};
-use crate::chip::{Fault, Ps};
+use crate::chip::{Fault, Needs, Ps};
 
 const NS: Ps = 1_000;
 /// From the core's clock of 160 MHz that the rigs have, SPI1's and SPI2's to 5 MHz.
@@ -16,7 +16,7 @@ const ANSWERS: [u8; 4] = [0x12, 0x34, 0x56, 0x78];
 /// push-pull or not.
 fn rig(on: &Registers, mode: u32, is_joined: bool, faster: u32) -> Rig {
     let mut rig = on.rig(on.divider);
-    rig.chip.tilt_sensors();
+    rig.chip.lines[on.side].needs = Needs::TILT;
     rig.sensors[on.side].answers = ANSWERS.to_vec();
     on.set_up_spi(&mut rig, mode, on.divider - faster);
     if !is_joined {
