@@ -120,7 +120,7 @@ impl Chip {
             debug: Plain::new(model.debug_registers),
             gpio: model.ports.map(Gpio::new),
             remap: Remap::default(),
-            timers: timers.map(|(kind, _)| Timer::new(*kind)).collect(),
+            timers: timers.map(|(_, kind, _)| Timer::new(*kind)).collect(),
             spis: spis.map(|_| Spi::new(model.spi_version)).collect(),
             dmas: model.dmas.iter().map(|layout| Dma::new(layout)).collect(),
             mux: Mux::default(),
@@ -263,7 +263,7 @@ impl Chip {
     }
 
     fn timer_clock(&self, n: usize) -> Ps {
-        let (_, bus) = self.model.timers[n];
+        let (.., bus) = self.model.timers[n];
         self.clocks.timer(bus)
     }
 

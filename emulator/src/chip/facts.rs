@@ -47,25 +47,10 @@ fn fact(kind: FactKind, of: &str, part: impl Into<String>, value: [u32; 2]) -> F
     }
 }
 
-fn base(model: &Model, unit: Unit) -> u32 {
-    let mut map = model.map.iter();
-    map.find(|(found, ..)| *found == unit)
-        .map_or(0, |entry| entry.1)
-}
-
-/// The manuals' name of a unit. Timers have that of their place.
+/// The manuals' name of a unit.
 fn name(model: &Model, unit: Unit) -> &'static str {
     match unit {
-        Unit::Tim(_) => match base(model, unit) {
-            0x4000_0000 => "TIM2",
-            0x4000_0400 => "TIM3",
-            0x4000_0800 => "TIM4",
-            0x4000_0C00 => "TIM5",
-            0x4000_1000 => "TIM6",
-            0x4000_1400 => "TIM7",
-            0x4001_0400 => "TIM8",
-            _ => "TIM1",
-        },
+        Unit::Tim(n) => model.timers[n].0,
         Unit::Watchdog => "IWDG",
         Unit::Spi(n) => ["SPI1", "SPI2"][n],
         Unit::Gpio(n) => ["GPIOA", "GPIOB", "GPIOC"][n],
@@ -87,7 +72,7 @@ fn name(model: &Model, unit: Unit) -> &'static str {
 
 fn fields(model: &Model, unit: Unit) -> Vec<Field> {
     match unit {
-        Unit::Tim(n) => timer::fields(model.timers[n].0),
+        Unit::Tim(n) => timer::fields(model.timers[n].1),
         Unit::Watchdog => watchdog::FIELDS.to_vec(),
         Unit::Spi(_) => spi::fields(model.spi_version),
         Unit::Gpio(n) => model.ports[n].layout.fields.to_vec(),
@@ -145,7 +130,7 @@ fn kinds(model: &Model) -> Vec<Fact> {
         let bus = bus.map_or(0, |bus| if bus == Bus::Apb2 { 2 } else { 1 });
         fact(FactKind::Kind, name(model, unit), kind, [bus, 0])
     };
-    let timers = model.timers.iter().enumerate().map(|(n, (of, bus))| {
+    let timers = model.timers.iter().enumerate().map(|(n, (_, of, bus))| {
         let word = match of {
             Kind::Basic => "TIM_BASIC",
             Kind::General => "TIM_GP16",

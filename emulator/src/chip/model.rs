@@ -56,8 +56,8 @@ pub(crate) struct Model {
     pub(super) power: &'static power::Layout,
     pub(super) lines: &'static lines::Layout,
     pub(super) rcc: &'static Layout,
-    /// What each timer can do, and the bus whose clock it counts.
-    pub(super) timers: &'static [(Kind, Bus)],
+    /// The manuals' name of each timer, what it can do, and the bus whose clock it counts.
+    pub(super) timers: &'static [(&'static str, Kind, Bus)],
     pub(super) spi_version: spi::Version,
     pub(super) usart: &'static usart::Layout,
     pub(super) spis: &'static [Bus],
