@@ -40,13 +40,11 @@ pub(crate) enum Probe {
     Pulled,
 }
 
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub(crate) struct Circumstances {
     pub probe: Probe,
     /// Whether every counter that wraps starts just below its wrap, and must pass it.
     pub wraps: bool,
-    /// How long the scene lasts, s, whatever it says itself.
-    pub duration_s: Option<f64>,
 }
 
 /// After what time of the scene the ring is full, s: early enough for short scenes, and
@@ -67,10 +65,9 @@ impl Pair {
     /// Both before their first tick; the scene gets the board's number format.
     pub(crate) fn new(loaded: &mut Loaded, program: &Program) -> Result<Self, Error> {
         let model = program.model()?;
-        let classifier = loaded.classifier()?;
-        let feels = same_numbers(loaded, classifier.as_ref(), model.facts)?;
+        let feels = same_numbers(loaded, model.facts)?;
         let scene = &loaded.scene;
-        let host = Run::with_pwm(scene, classifier, pwm_counts(scene, model))?;
+        let host = Run::with_pwm(scene, loaded.classifier()?, pwm_counts(scene, model))?;
         let target = Session::running(scene, host.classes().to_vec(), program)?;
         Ok(Self {
             host,
@@ -170,12 +167,9 @@ pub(crate) fn plain(record: &TickRecord, feels: bool) -> TickRecord {
 }
 
 /// Gives a scene the number format of a board; whether it uses contact.
-pub(crate) fn same_numbers(
-    loaded: &mut Loaded,
-    classifier: Option<&Classifier>,
-    facts: &BoardFacts,
-) -> Result<bool, Error> {
-    let touch = classifier.and_then(Classifier::touch_rule);
+pub(crate) fn same_numbers(loaded: &mut Loaded, facts: &BoardFacts) -> Result<bool, Error> {
+    let classifier = loaded.classifier()?;
+    let touch = classifier.as_ref().and_then(Classifier::touch_rule);
     let least = config::contact_min(&loaded.scene, touch.map(|touch| touch.gate));
     let listens = matches!(least, Ok(Some(_)));
     let feels = matches!(config::contact::<f32>(&loaded.scene, listens), Ok(Some(_)));
@@ -227,9 +221,6 @@ pub(crate) fn compare(
     circumstances: Circumstances,
 ) -> Result<Agreement, Error> {
     let probe = circumstances.probe;
-    if let Some(duration_s) = circumstances.duration_s {
-        loaded.scene.duration_s = duration_s;
-    }
     let mut pair = Pair::new(&mut loaded, program)?;
     let scene = &loaded.scene;
     let named = |fault: &dyn std::fmt::Display| Error::Work(format!("{}: {fault}", path.display()));

@@ -38,11 +38,11 @@ pub(crate) fn cost(
     prices: impl FnOnce(&Scene, &BoardFacts) -> Vec<Price>,
 ) -> Result<Vec<String>, Error> {
     let (mut loaded, program) = flashed(path, program)?;
-    let scene = &mut loaded.scene;
-    scene.duration_s = MEASURED_S;
-    let mut silent = scene.clone();
-    silence(&mut silent);
-    let programs = [&program, &flashed_for(&silent, path, without)?];
+    loaded.scene.duration_s = MEASURED_S;
+    let mut silent = loaded.clone();
+    silence(&mut silent.scene);
+    let programs = [&program, &flashed_for(&silent, without)?];
+    let scene = &loaded.scene;
     let mut said = Vec::new();
     for (what, asks, most) in prices(scene, program.model()?.facts) {
         let [with, without] = [0, 1].map(|n| mean(scene, programs[n], asks[n]));

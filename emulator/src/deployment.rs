@@ -6,8 +6,8 @@ use std::path::Path;
 use config::Image;
 use firmware::Header;
 use firmware::boards::{BoardFacts, SlotHeader};
+use host_sim::Error;
 use host_sim::loaded::Loaded;
-use host_sim::{Error, files};
 use scene::Scene;
 use tactile::ModelBuf;
 use wire::{Command, Load, LoadedWord};
@@ -22,28 +22,20 @@ pub(crate) struct Deployment {
 
 pub(crate) fn flashed(scene: &Path, program: &Path) -> Result<(Loaded, Program), Error> {
     let loaded = Loaded::new(scene)?;
-    let program = flashed_for(&loaded.scene, scene, program)?;
+    let program = flashed_for(&loaded, program)?;
     Ok((loaded, program))
 }
 
-/// A program as it is flashed for `scene`, which stands in the file `path`: one that brings no
-/// scene with it has this one in its first slot.
-pub(crate) fn flashed_for(scene: &Scene, path: &Path, program: &Path) -> Result<Program, Error> {
+/// A program as it is flashed for a scene: one that brings none with it has this one in its first
+/// slot.
+pub(crate) fn flashed_for(loaded: &Loaded, program: &Path) -> Result<Program, Error> {
     let mut program = Program::load(program)?;
-    program.check_of(scene)?;
+    program.check_of(&loaded.scene)?;
     if !program.brings_scene()? {
-        let model = model_of(scene, path)?;
         let facts = program.model()?.facts;
-        Deployment::of(scene, model.as_ref(), facts)?.flash(&mut program)?;
+        Deployment::of(&loaded.scene, loaded.model(), facts)?.flash(&mut program)?;
     }
     Ok(program)
-}
-
-pub(crate) fn model_of(scene: &Scene, path: &Path) -> Result<Option<ModelBuf>, Error> {
-    let folder = path.parent().unwrap_or(Path::new("."));
-    let path = scene.model_path(folder);
-    let model = path.map(|path| files::load_model(&path));
-    Ok(model.transpose()?.map(|(_, model)| model))
 }
 
 pub(crate) fn image(

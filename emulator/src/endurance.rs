@@ -103,11 +103,11 @@ fn row(path: &Path) -> Result<ShardRow, Error> {
 /// must be the same, no tick may be missed, and every counter must wrap.
 fn on_board(path: &Path, program: &Path, subject: &str, hours: f64) -> Result<ShardRow, Error> {
     let begun = Instant::now();
-    let (loaded, program) = flashed(path, program)?;
+    let (mut loaded, program) = flashed(path, program)?;
+    loaded.scene.duration_s = 3_600.0 * hours;
     let (name, seed) = (loaded.scene.name.clone(), loaded.scene.seed);
     let circumstances = Circumstances {
         wraps: true,
-        duration_s: Some(3_600.0 * hours),
         ..Circumstances::default()
     };
     let agreed = compare(loaded, path, &program, circumstances)?;

@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 use std::path::Path;
-use std::sync::{Arc, OnceLock};
+use std::sync::Arc;
 
 use firmware::{BoardCode, ConfigError, HEADER_BYTES, HeadConfig, Header, decode};
 use object::elf::{FileHeader32, PT_LOAD};
@@ -19,8 +19,9 @@ pub(crate) struct Program {
     bytes: Arc<[u8]>,
     /// Where in memory what stands, by load address.
     segments: Vec<(u32, Vec<u8>)>,
-    /// Kept, as it is found by a search through megabytes of debug information.
-    model: OnceLock<&'static Model>,
+    /// The board that it was built for: its main source file is called after it, as the debug
+    /// information says.
+    model: Option<&'static Model>,
 }
 
 fn bad(what: impl std::fmt::Display) -> Fault {
@@ -49,31 +50,26 @@ impl Program {
                 segments.push((segment.p_paddr(endian), contents.to_vec()));
             }
         }
-        Ok(Self {
-            bytes: bytes.into(),
-            segments,
-            model: OnceLock::new(),
-        })
-    }
-
-    /// The board that it was built for: its main source file is called after it, as the
-    /// debug information says.
-    pub(crate) fn model(&self) -> Result<&'static Model, Fault> {
-        if let Some(model) = self.model.get() {
-            return Ok(model);
-        }
-        let file = object::File::parse(&*self.bytes).map_err(bad)?;
+        let file = object::File::parse(data).map_err(bad)?;
         let names = file.section_by_name(".debug_str");
         let names = names.and_then(|names| names.uncompressed_data().ok());
         let names = names.unwrap_or_default();
-        let is_named = |model: &&&Model| {
+        let is_named = |model: &&Model| {
             let main = format!("src/bin/{}.rs", model.program);
             let mut names = names.windows(main.len());
             names.any(|found| found == main.as_bytes())
         };
-        let model = MODELS.iter().find(is_named).copied();
-        let model = model.ok_or_else(|| bad("it is of no board that is emulated"))?;
-        Ok(self.model.get_or_init(|| model))
+        let model = MODELS.into_iter().find(is_named);
+        Ok(Self {
+            bytes: bytes.into(),
+            segments,
+            model,
+        })
+    }
+
+    pub(crate) fn model(&self) -> Result<&'static Model, Fault> {
+        let unknown = || bad("it is of no board that is emulated");
+        self.model.ok_or_else(unknown)
     }
 
     pub(crate) fn bytes(&self) -> &[u8] {

@@ -106,10 +106,10 @@ pub(crate) const ALL: [Scenario; 14] = [
         how: What::Work(|given, scene, program| {
             let circumstances = Circumstances {
                 probe: given.probe,
-                duration_s: given.duration,
                 ..Circumstances::default()
             };
-            let (loaded, program) = flashed(scene, program)?;
+            let (mut loaded, program) = flashed(scene, program)?;
+            loaded.scene.duration_s = given.duration.unwrap_or(loaded.scene.duration_s);
             let agreed = compare::compare(loaded, scene, &program, circumstances)?;
             let (scene, stack) = (scene.display(), agreed.stack);
             Ok(vec![format!("{scene}: {agreed}; {stack} bytes of stack")])

@@ -192,7 +192,7 @@ fn garbage(talk: &mut Talk) -> Result<String, Error> {
 fn refuse_records(path: &Path, program: &Path) -> Result<String, Error> {
     let mut loaded = Loaded::new(path)?;
     loaded.scene.telemetry.serial_baud = Some(SLOW_BAUD);
-    let program = flashed_for(&loaded.scene, path, program)?;
+    let program = flashed_for(&loaded, program)?;
     let mut talk = Talk::new(Pair::new(&mut loaded, &program)?, true);
     talk.pass(talk.part)?;
     let replies = say(&mut talk, "stream on")?;

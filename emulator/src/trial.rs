@@ -18,7 +18,7 @@ use host_sim::output::{self, write_whole};
 use scene::{PlantKind, Scene};
 use serde::Serialize;
 
-use crate::deployment::{flashed, model_of};
+use crate::deployment::flashed;
 use crate::session::Session;
 use crate::watch::Servos;
 use figures::{Figures, Outcome};
@@ -65,8 +65,7 @@ impl Choice {
         let session = Session::running(&loaded.scene, loaded.classes()?, &program)?;
         let servos = Servos::new(&program, &loaded.scene)?;
         let facts = program.model()?.facts;
-        let model = model_of(&loaded.scene, &self.scene)?;
-        let stage = |change| staging::frames(change, &loaded.scene, model.as_ref(), facts);
+        let stage = |change| staging::frames(change, &loaded, facts);
         let links = Links::new(&scenario, &loaded.scene, stage)?;
         self.write(&run(session, &servos, &loaded.scene, (&scenario, links))?)
     }

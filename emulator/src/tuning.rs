@@ -14,7 +14,7 @@ use wire::{Answer, CONFIG_CHANGED, Command, CommandStatus, TaggedCommand};
 
 use crate::compare::Pair;
 use crate::damaged;
-use crate::deployment::{crc_of, flashed, image, model_of, staged, words};
+use crate::deployment::{crc_of, flashed, image, staged, words};
 use crate::talk::{Talk, wrong};
 
 /// For how long both run beside each other before and after a change, s.
@@ -36,9 +36,8 @@ pub(crate) fn tune(path: &Path, program: &Path) -> Result<Vec<String>, Error> {
     let gate = classifier.as_ref().and_then(Classifier::touch_rule);
     let gate = gate.map(|touch| touch.gate);
     let known = (gate, classifier.as_ref().map(Classifier::settings));
-    let model = model_of(&loaded.scene, path)?;
     let bytes_of = |scene: &Scene| -> Result<Vec<u8>, Error> {
-        Ok(image(scene, model.as_ref(), facts)?.bytes.to_vec())
+        Ok(image(scene, loaded.model(), facts)?.bytes.to_vec())
     };
     talk.pass(part)?;
     let mut refused = Vec::new();
@@ -49,7 +48,7 @@ pub(crate) fn tune(path: &Path, program: &Path) -> Result<Vec<String>, Error> {
 
     let other = other(&loaded.scene);
     let on_board = bytes_of(&other)?;
-    let on_pc = match image(&other, model.as_ref(), facts)?.config {
+    let on_pc = match image(&other, loaded.model(), facts)?.config {
         AnyConfig::Single(_) => simulated(&config_of::<f32>(&other, known, false, "")?)?,
         AnyConfig::Fixed(_) => simulated(&config_of::<whisking::Fix>(&other, known, false, "")?)?,
     };

@@ -5,10 +5,9 @@ use std::path::Path;
 
 use firmware::boards::BoardFacts;
 use firmware::{ConfigError, Part, Refusal, refusal_code};
+use host_sim::Error;
 use host_sim::loaded::Loaded;
-use host_sim::{Error, files};
 use scene::{Integrator, SensorModel};
-use tactile::ModelBuf;
 use wire::{Command, CommandStatus, WhiskerId};
 
 use crate::compare::{Agreement, Circumstances, compare};
@@ -79,12 +78,9 @@ pub(super) fn stop(session: &mut Session) -> Result<(), Error> {
 }
 
 impl Flashed {
-    pub(super) fn new(
-        loaded: Loaded,
-        model: Option<&ModelBuf>,
-        program: &Program,
-    ) -> Result<Self, Error> {
-        let deployment = Deployment::of(&loaded.scene, model, program.model()?.facts)?;
+    pub(super) fn new(loaded: Loaded, program: &Program) -> Result<Self, Error> {
+        let facts = program.model()?.facts;
+        let deployment = Deployment::of(&loaded.scene, loaded.model(), facts)?;
         let mut program = program.clone();
         deployment.flash(&mut program)?;
         Ok(Self {
@@ -108,13 +104,12 @@ impl<'p> Case<'p> {
         let path = &on.scene;
         let old = Loaded::new(path)?.in_world(world)?;
         let new = old.clone().with_model(model)?;
-        let (_, model) = files::load_model(model)?;
-        let program = flashed_for(&old.scene, path, &on.program)?;
+        let program = flashed_for(&old, &on.program)?;
         Ok(Self {
             path,
             is_lean: Program::load(&on.program)?.brings_scene()?,
-            old: Flashed::new(old, None, &program)?,
-            new: Flashed::new(new, Some(&model), &program)?,
+            old: Flashed::new(old, &program)?,
+            new: Flashed::new(new, &program)?,
             program,
         })
     }
@@ -136,12 +131,10 @@ impl<'p> Case<'p> {
         flash: &[u8],
         seconds: f64,
     ) -> Result<Agreement, Error> {
-        let circumstances = Circumstances {
-            duration_s: Some(seconds),
-            ..Circumstances::default()
-        };
+        let mut loaded = scene.loaded.clone();
+        loaded.scene.duration_s = seconds;
         let program = self.with(flash)?;
-        compare(scene.loaded.clone(), self.path, &program, circumstances)
+        compare(loaded, self.path, &program, Circumstances::default())
     }
 
     /// Configurations that a board must refuse; to one whose image has the parts of its scene alone,

@@ -62,8 +62,8 @@ pub(crate) fn compare(
         loaded.scene.duration_s = duration_s;
     }
     let model = program.model()?;
+    let feels = same_numbers(&mut loaded, model.facts)?;
     let classifier = loaded.classifier()?;
-    let feels = same_numbers(&mut loaded, classifier.as_ref(), model.facts)?;
     let scene = &loaded.scene;
     let pwm = pwm_counts(scene, model);
     let mut host = Run::with_pwm(scene, classifier.clone(), pwm)?;

@@ -18,14 +18,11 @@ use crate::compare::{plain, same_numbers};
 use crate::deployment::{Deployment, crc_of, flashed, staged, words};
 use crate::emulate::pwm_counts;
 use crate::program::Program;
-use crate::session::answer_to;
+use crate::session::{PATIENCE, answer_to};
 use crate::talk::{records, wrong};
 
 /// For how long records are compared, s.
 const COMPARED_S: f64 = 0.5;
-
-/// Ticks that an answer may take: flash is erased in a second or two.
-const PATIENCE: u32 = 10_000;
 
 /// In how many ticks a stop takes effect on every board: that of the first, a message that waits
 /// for one which is under way, and that of the other.
@@ -120,8 +117,7 @@ impl Case<'_> {
 pub(crate) fn relay(path: &Path, program: &Path) -> Result<Vec<String>, Error> {
     let (mut loaded, program) = flashed(path, program)?;
     let facts = program.model()?.facts;
-    let classifier = loaded.classifier()?;
-    let feels = same_numbers(&mut loaded, classifier.as_ref(), facts)?;
+    let feels = same_numbers(&mut loaded, facts)?;
     let Some(bus) = config::bus(&loaded.scene) else {
         return wrong(format!("{}: no head of several boards", path.display()));
     };

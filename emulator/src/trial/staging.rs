@@ -5,8 +5,7 @@ use config::AnyConfig;
 use firmware::boards::BoardFacts;
 use firmware::{Config, encode};
 use host_sim::Error;
-use scene::Scene;
-use tactile::ModelBuf;
+use host_sim::loaded::Loaded;
 use whisking::Real;
 use whisking::motor::GuardSettings;
 use wire::{Frame, TaggedCommand, frame};
@@ -17,11 +16,10 @@ use crate::deployment::{image, staged};
 /// The frames by which the board of a scene is given its configuration with a change.
 pub(super) fn frames(
     change: Change,
-    scene: &Scene,
-    model: Option<&ModelBuf>,
+    loaded: &Loaded,
     facts: &BoardFacts,
 ) -> Result<Vec<Frame>, Error> {
-    let bytes = match image(scene, model, facts)?.config {
+    let bytes = match image(&loaded.scene, loaded.model(), facts)?.config {
         AnyConfig::Single(config) => encode(&changed(*config, change), facts.code),
         AnyConfig::Fixed(config) => encode(&changed(*config, change), facts.code),
     };
