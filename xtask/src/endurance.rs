@@ -6,7 +6,6 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use clap::Args;
-use scene::Scene;
 
 use crate::emulate::{self, variants};
 use crate::firmware::{self, Board};
@@ -99,7 +98,7 @@ fn on_pc(scenes: &[PathBuf], hours: f64) -> Vec<Shard> {
 
 /// Whether every counter counts in a scene: whiskers move, and decide by touches.
 fn counts_all(scene: &Path) -> Result<bool, Fault> {
-    let scene = Scene::load(scene).map_err(|problems| problems.to_string())?;
+    let scene = variants::load(scene)?;
     Ok(scene.motor.is_some() && scene.classifier.is_some() && scene.plant.obstacle.is_some())
 }
 

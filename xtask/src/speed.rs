@@ -10,7 +10,6 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::time::Instant;
 
-use scene::Scene;
 use serde_json::Value;
 
 use crate::emulate::variants;
@@ -51,7 +50,7 @@ pub(crate) fn speed(choice: &Choice) -> Result<(), Fault> {
         other.as_ref().map_or("", |_| ", the other, times as fast")
     );
     for path in SCENES {
-        let scene = Scene::load(top().join(path)).map_err(|error| error.to_string())?;
+        let scene = variants::load(&top().join(path))?;
         let (mut ours, mut theirs) = (Vec::new(), Vec::new());
         for _ in 0..choice.rounds {
             if let Some(other) = &other {

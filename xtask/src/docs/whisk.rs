@@ -3,6 +3,7 @@
 
 use std::fmt::Write as _;
 
+use crate::emulate::variants;
 use crate::run::{Fault, output, target, top, workspace_program};
 
 /// Where the whisker is, and how long it is, px.
@@ -34,7 +35,7 @@ struct Decision {
 
 pub(super) fn picture() -> Result<String, Fault> {
     let path = top().join("scenes/textures.toml");
-    let scene = scene::Scene::load(&path).map_err(|error| error.to_string())?;
+    let scene = variants::load(&path)?;
     let out = target().join("whisk");
     let mut run = workspace_program("host-sim");
     run.args(["--quiet", "run", "--no-plot"]).arg(path);
