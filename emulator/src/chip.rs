@@ -1,12 +1,10 @@
 //! A chip but for its core: peripherals and the time in which they run.
 //!
 //! Each peripheral is a file; `models` has a file a chip, with its peripherals' versions,
-//! addresses, clock gates and wires. Here are the lines between them: requests,
-//! interrupts, pins.
+//! addresses, clock gates and wires. Here are the lines between them: requests, interrupts, pins.
 //!
-//! A register that no peripheral knows, or a setting that it does not model,
-//! ends the run with a [`Fault`]; a peripheral without its clock reads zero and
-//! ignores writes, as on the chip.
+//! A register that no peripheral knows, or a setting that it does not model, ends the run with a
+//! [`Fault`]; a peripheral without its clock reads zero and ignores writes, as on the chip.
 
 mod can;
 mod can_bus;
@@ -115,7 +113,7 @@ impl Chip {
             clocks,
             power: Power::new(model.power),
             exti: Lines::new(model.lines),
-            flash: Flash::new(model.flash_registers, model.flash_interface),
+            flash: Flash::new(model.flash_interface),
             system: Plain::new(&[(0x00, 0)]),
             debug: Plain::new(model.debug_registers),
             gpio: model.ports.map(Gpio::new),
@@ -133,24 +131,11 @@ impl Chip {
         })
     }
 
-    /// A reset: every peripheral as after power-up, but for what outlives it.
     pub(crate) fn reset(&mut self, cause: ResetCause) -> Result<(), Fault> {
         self.rcc.reset(cause);
         self.clocks = self.rcc.clocks()?;
-        self.power.reset();
-        self.exti.reset();
-        self.flash.reset();
-        self.system.reset();
-        self.debug.reset();
-        self.gpio.iter_mut().for_each(Gpio::reset);
-        self.remap = Remap::default();
-        self.timers.iter_mut().for_each(Timer::reset);
-        self.spis.iter_mut().for_each(Spi::reset);
-        self.dmas.iter_mut().for_each(Dma::reset);
-        self.mux = Mux::default();
-        self.watchdog.reset();
-        self.usart.reset();
-        self.can.reset();
+        let map = self.model.map.iter();
+        map.for_each(|(unit, ..)| self.reset_unit(*unit));
         // /SS floats, with the sensor's own pull-up.
         self.select_sensors();
         Ok(())
@@ -187,13 +172,13 @@ impl Chip {
             (0..self.timers.len()).filter_map(|n| self.timers[n].next(self.timer_clock(n)));
         let bytes = self.spis.iter().filter_map(|spi| spi.shift);
         let bytes = bytes.map(|shift| shift.ends);
-        let serial = [
+        let others = [
+            self.watchdog.bites(),
             self.usart.sends_until(),
             self.serial.next(),
             self.can.next(),
         ];
-        let serial = serial.into_iter().flatten();
-        let others = self.watchdog.bites().into_iter().chain(serial);
+        let others = others.into_iter().flatten();
         timers.chain(bytes).chain(others).min()
     }
 

@@ -25,7 +25,6 @@ use crate::memory::{FLASH, Memories};
 pub(crate) const EXCEPTION: u32 = 0x1FF;
 /// What is left of an IT block, in xPSR.
 pub(crate) const IT_BLOCK: u32 = 0x3F << 10 | 3 << 25;
-/// Where an exception's frame has xPSR.
 const FRAME_XPSR: u32 = 28;
 /// CPUID of a Cortex-M0+, r0p1.
 const CPUID_M0_PLUS: u32 = 0x410C_C601;

@@ -297,7 +297,6 @@ impl Machine {
         Ok(false)
     }
 
-    /// The count of instructions in an exception.
     fn spent_in(&mut self, exception: u32) -> &mut u64 {
         match exception {
             tick if tick == self.tick => &mut self.spent.tick,

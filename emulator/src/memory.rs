@@ -12,7 +12,6 @@ use rsemu::core::space::{
 use crate::chip::{Chip, Fault, Ps};
 
 pub(crate) const FLASH: u32 = 0x0800_0000;
-/// A byte of flash that is erased.
 const ERASED: u8 = 0xFF;
 pub(crate) const RAM: u32 = 0x2000_0000;
 

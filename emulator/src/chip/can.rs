@@ -8,7 +8,7 @@ use std::collections::VecDeque;
 use can::Frame;
 
 use super::Ps;
-use super::can_errors::{BOFF, ErrorCounts, REC, TEC};
+use super::can_errors::{BOFF, ESR, ErrorCounts, REC, TEC};
 use super::fields::{Field, field, whole};
 
 const MCR: u32 = 0x00;
@@ -16,7 +16,6 @@ const MSR: u32 = 0x04;
 const TSR: u32 = 0x08;
 const RF0R: u32 = 0x0C;
 const IER: u32 = 0x14;
-const ESR: u32 = 0x18;
 const BTR: u32 = 0x1C;
 /// The first mailbox: identifier, length, data; the next follows.
 const TI0R: u32 = 0x180;
@@ -68,31 +67,21 @@ const DEPTH: usize = 3;
 
 /// What is known of its registers: of mailboxes those of the first.
 pub(super) fn fields() -> Vec<Field> {
-    let errors = [
-        field("ESR", ESR, "BOFF", BOFF),
-        field("ESR", ESR, "TEC", TEC),
-        field("ESR", ESR, "REC", REC),
+    let mut fields = vec![
+        INRQ, SLEEP, INAK, SLAK, RQCP, TXOK, ABRQ, TME, FMP, FULL, FOVR, RFOM, TMEIE, FMPIE0, BOFF,
+        TEC, REC, BRP, TS1, TS2, SJW, TXRQ, RTR, IDE, STID, DLC,
     ];
-    let data = [whole("TDL0R", TI0R + 8), whole("TDH0R", TI0R + 12)];
-    let received = [
+    fields.extend([
+        whole("TDL0R", TI0R + 8),
+        whole("TDH0R", TI0R + 12),
         field("RI0R", RI0R, "STID", STID.bits),
         field("RDT0R", RI0R + 4, "DLC", DLC.bits),
         whole("RDL0R", RI0R + 8),
         whole("RDH0R", RI0R + 12),
-    ];
-    let filters = FILTERS.map(|(name, offset, _)| whole(name, offset));
-    [
-        &[
-            INRQ, SLEEP, INAK, SLAK, RQCP, TXOK, ABRQ, TME, FMP, FULL, FOVR, RFOM, TMEIE, FMPIE0,
-        ][..],
-        &errors,
-        &[BRP, TS1, TS2, SJW, TXRQ, RTR, IDE, STID, DLC],
-        &data,
-        &received,
-        &[FINIT],
-        &filters,
-    ]
-    .concat()
+        FINIT,
+    ]);
+    fields.extend(FILTERS.map(|(name, offset, _)| whole(name, offset)));
+    fields
 }
 
 /// A transmit mailbox: identifier, length, data, and what became of its last request.
@@ -114,10 +103,8 @@ impl Mailbox {
         let [id, length, low, high] = self.words;
         let [low, high] = [low, high].map(u32::to_le_bytes);
         let data = [low, high].concat();
-        Frame::new(
-            (id >> 21) as u16,
-            &data[..DLC.number_in(length).min(8) as usize],
-        )
+        let length = DLC.number_in(length).min(8) as usize;
+        Frame::new((id >> 21) as u16, &data[..length])
     }
 
     const fn complete(&mut self, is_sent: bool) {
@@ -169,13 +156,9 @@ pub(crate) struct BxCan {
     requests: Vec<(Ps, Request)>,
 }
 
-const fn transmit(offset: u32) -> Option<(usize, usize)> {
-    let place = offset.wrapping_sub(TI0R) as usize / 4;
-    if place < 4 * MAILBOXES {
-        Some((place / 4, place % 4))
-    } else {
-        None
-    }
+fn transmit(offset: u32) -> Option<(usize, usize)> {
+    let place = offset.checked_sub(TI0R)? as usize / 4;
+    (place < 4 * MAILBOXES).then_some((place / 4, place % 4))
 }
 
 /// The registers of a filter, and the bits of each that may be set: it is one of 32 bits with a mask,
@@ -338,11 +321,8 @@ impl BxCan {
                 let word = offset.wrapping_sub(RI0R) / 4;
                 let frame = self.received.front().copied();
                 let frame = frame.unwrap_or_else(|| Frame::new(0, &[]));
-                let mut data = [0; 8];
-                for (place, byte) in data.iter_mut().zip(frame.bytes()) {
-                    *place = *byte;
-                }
-                let data = u64::from_le_bytes(data);
+                let bytes = frame.bytes().iter().rev();
+                let data = bytes.fold(0, |data, byte| data << 8 | u64::from(*byte));
                 match word {
                     0 => u32::from(frame.id()) << 21,
                     1 => frame.bytes().len() as u32,

@@ -2,6 +2,8 @@
 //! register in which a bxCAN shows them. Thresholds are from secondary pages: neither manual was at
 //! hand.
 
+use super::fields::{Field, field};
+
 /// A node whose counter is beyond this no longer destroys the frames of others.
 const MOST_ACTIVE: u16 = 127;
 /// One whose transmit counter is beyond this is off the bus.
@@ -11,11 +13,12 @@ const WARNING: u16 = 96;
 /// It comes back after so many times eleven recessive bits.
 const SILENCES: u32 = 128;
 
-const EWGF: u32 = 1 << 0;
-const EPVF: u32 = 1 << 1;
-pub(super) const BOFF: u32 = 1 << 2;
-pub(super) const TEC: u32 = 0xFF << 16;
-pub(super) const REC: u32 = 0xFF << 24;
+pub(super) const ESR: u32 = 0x18;
+const EWGF: Field = field("ESR", ESR, "EWGF", 1 << 0);
+const EPVF: Field = field("ESR", ESR, "EPVF", 1 << 1);
+pub(super) const BOFF: Field = field("ESR", ESR, "BOFF", 1 << 2);
+pub(super) const TEC: Field = field("ESR", ESR, "TEC", 0xFF << 16);
+pub(super) const REC: Field = field("ESR", ESR, "REC", 0xFF << 24);
 
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub(crate) struct ErrorCounts {
@@ -83,11 +86,10 @@ impl ErrorCounts {
 
     /// ESR.
     pub(super) fn status(&self) -> u32 {
-        let flag = |on: bool, bit: u32| if on { bit } else { 0 };
         let most = self.transmit.max(self.receive);
-        flag(most >= WARNING, EWGF)
-            | flag(self.is_passive(), EPVF)
-            | flag(self.is_off, BOFF)
+        EWGF.when(most >= WARNING)
+            | EPVF.when(self.is_passive())
+            | BOFF.when(self.is_off)
             | u32::from(self.transmit & 0xFF) << 16
             | u32::from(self.receive) << 24
     }
@@ -104,7 +106,7 @@ mod tests {
         let mut counts = ErrorCounts::default();
         for n in 1..=32_u32 {
             counts.failed(false);
-            let found = [EWGF, EPVF, BOFF].map(|bit| counts.status() & bit != 0);
+            let found = [EWGF, EPVF, BOFF].map(|bit| bit.is_in(counts.status()));
             assert_eq!(found, [n >= 12, n >= 16, n >= 32], "{n}");
         }
     }
@@ -116,7 +118,7 @@ mod tests {
         (0..1_000).for_each(|_| counts.failed(true));
         assert_eq!((counts.transmit, counts.is_off), (128, false));
         counts.sent();
-        assert_eq!(counts.status() & EPVF, 0);
+        assert!(!EPVF.is_in(counts.status()));
         (0..1_000).for_each(|_| counts.missed());
         assert_eq!((counts.receive, counts.is_off), (128, false));
         counts.heard();

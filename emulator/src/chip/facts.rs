@@ -93,15 +93,11 @@ fn fields(model: &Model, unit: Unit) -> Vec<Field> {
 }
 
 pub(crate) fn facts(model: &Model) -> Vec<Fact> {
+    let levels = model.priority_bits.into();
     let mut facts = vec![
         fact(FactKind::Chip, "flash", "", [model.flash, 0]),
         fact(FactKind::Chip, "RAM", "", [model.ram, 0]),
-        fact(
-            FactKind::Chip,
-            "NVIC",
-            "priority bits",
-            [model.priority_bits.into(), 0],
-        ),
+        fact(FactKind::Chip, "NVIC", "priority bits", [levels, 0]),
     ];
     for &(unit, base, gate) in model.map {
         let of = name(model, unit);
@@ -193,13 +189,13 @@ fn wired(model: &Model) -> Vec<Fact> {
         let function = side.encoder_function;
         facts.extend(pins(encoder, &["CH1", "CH2"], &side.pins.encoder, function));
     }
-    let (serial, usart) = (&wiring.serial, name(model, Unit::Usart));
-    let dma = name(model, Unit::Dma(SERIAL_DMA));
-    for (signal, request) in [("RX", serial.rx_request), ("TX", serial.tx_request)] {
+    let (usart, dma) = (name(model, Unit::Usart), name(model, Unit::Dma(SERIAL_DMA)));
+    for (signal, request) in [("RX", wiring.serial_rx), ("TX", wiring.serial_tx)] {
         let part = format!("{signal} on {dma}_{}", channel(model, SERIAL_DMA, request));
         facts.push(fact(FactKind::Request, usart, part, [request.channel, 0]));
     }
-    facts.extend(pins(usart, &["TX", "RX"], &SERIAL, serial.function));
+    let function = wiring.serial_function;
+    facts.extend(pins(usart, &["TX", "RX"], &SERIAL, function));
     if let Some(function) = wiring.can_function {
         let can = name(model, Unit::Can);
         let parts = ["RX0", "TX"].into_iter().zip(CAN_IRQS);

@@ -3,8 +3,7 @@
 /// Why an emulated run ended early.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub(crate) enum Fault {
-    /// The program touched a register that is not modelled: to carry on would
-    /// be to guess.
+    /// The program touched a register that is not modelled: to carry on would be to guess.
     #[error("{} of {address:#010x} at pc {pc:#010x}: not modelled", if *.write { "write" } else { "read" })]
     Unmodelled { address: u32, write: bool, pc: u32 },
     #[error("clock tree: {0}")]

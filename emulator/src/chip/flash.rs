@@ -7,7 +7,6 @@ mod layout;
 use std::ops::Range;
 
 use super::Ps;
-use super::plain::Plain;
 use crate::memory::FLASH;
 use layout::{ACR, WIDTH, WORDS};
 pub(super) use layout::{F1, F4, G0, Layout};
@@ -20,7 +19,8 @@ const ERASES: u32 = 1 << 1;
 
 #[derive(Debug, Clone)]
 pub(crate) struct Flash {
-    waits: Plain,
+    /// ACR, which only keeps what is written.
+    waits: u32,
     layout: &'static Layout,
     /// How many of the keys have come; more than there are: none will do until the next reset.
     keys: usize,
@@ -35,14 +35,9 @@ pub(crate) struct Flash {
 }
 
 impl Flash {
-    /// With registers that only keep what is written.
-    pub(super) fn new(registers: &'static [(u32, u32)], layout: &'static Layout) -> Self {
-        Self::of(Plain::new(registers), layout)
-    }
-
-    fn of(waits: Plain, layout: &'static Layout) -> Self {
+    pub(super) const fn new(layout: &'static Layout) -> Self {
         Self {
-            waits,
+            waits: layout.acr,
             layout,
             keys: 0,
             control: layout.lock,
@@ -55,14 +50,13 @@ impl Flash {
     }
 
     pub(super) fn reset(&mut self) {
-        self.waits.reset();
-        *self = Self::of(self.waits.clone(), self.layout);
+        *self = Self::new(self.layout);
     }
 
     pub(super) fn read(&self, offset: u32, now: Ps) -> Option<u32> {
         let layout = self.layout;
         Some(match offset {
-            _ if offset == ACR => return self.waits.read(offset),
+            ACR => self.waits,
             _ if offset == layout.keyr => 0,
             _ if offset == layout.sr && now < self.busy_until => layout.bsy | self.errors,
             _ if offset == layout.sr => self.errors,
@@ -77,7 +71,10 @@ impl Flash {
         let layout = self.layout;
         let is_ready = self.control & layout.lock == 0 && now >= self.busy_until;
         match offset {
-            _ if offset == ACR => self.waits.write(offset, value),
+            ACR => {
+                self.waits = value;
+                true
+            }
             _ if offset == layout.keyr => {
                 let fits = KEYS.get(self.keys) == Some(&value);
                 self.keys = if fits { self.keys + 1 } else { usize::MAX };
@@ -154,11 +151,11 @@ impl Flash {
 
 #[cfg(test)]
 mod tests {
-    use super::{ACR, F1, F4, Flash, G0, KEYS, Layout, PG, WORDS};
+    use super::{F1, F4, Flash, G0, KEYS, Layout, PG, WORDS};
 
     /// One that is unlocked, with this written into CR.
     fn ready(layout: &'static Layout, control: u32) -> Flash {
-        let mut flash = Flash::new(&[(ACR, 0)], layout);
+        let mut flash = Flash::new(layout);
         assert!(KEYS.iter().all(|key| flash.write(layout.keyr, *key, 0)));
         flash.write(layout.cr, control, 0);
         flash
@@ -167,7 +164,7 @@ mod tests {
     #[test]
     fn nothing_is_written_without_both_keys() {
         for layout in [&F1, &F4, &G0] {
-            let mut flash = Flash::new(&[(ACR, 0)], layout);
+            let mut flash = Flash::new(layout);
             assert!(!flash.write(layout.cr, PG, 0));
             assert!(!flash.store(0, layout.bytes, 0));
             assert_eq!(flash.read(layout.sr, 0), Some(layout.refused));

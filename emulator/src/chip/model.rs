@@ -62,8 +62,6 @@ pub(crate) struct Model {
     pub(super) usart: &'static usart::Layout,
     pub(super) spis: &'static [Bus],
     pub(super) dmas: &'static [&'static dma::Layout],
-    /// Whether a DMAMUX says which request a channel listens to.
-    pub(super) has_mux: bool,
     /// Ports A, B and C after a reset.
     pub(super) ports: [gpio::Reset; 3],
     /// The watchdog's oscillator, nominal, Hz, and whether it has a window.
@@ -73,9 +71,7 @@ pub(crate) struct Model {
     /// the highest supply first.
     pub(super) flash_hz: &'static [(u32, u64)],
     pub(super) flash_interface: &'static flash::Layout,
-    /// Registers that only keep what is written, and their values after a reset: of the
-    /// flash interface and of the debug unit.
-    pub(super) flash_registers: &'static [(u32, u32)],
+    /// Registers of the debug unit, which only keep what is written, and their values after a reset.
     pub(super) debug_registers: &'static [(u32, u32)],
     pub(super) wiring: Wiring,
 }

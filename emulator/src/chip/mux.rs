@@ -4,7 +4,6 @@
 use super::fields::{Field, field};
 
 const CHANNELS: u32 = 7;
-/// The request of a channel.
 const DMAREQ_ID: u32 = 0x3F;
 
 pub(super) const FIELDS: [Field; 2] = [

@@ -1,5 +1,4 @@
-//! Registers that only keep what is written: the flash interface's ACR, whose wait states are
-//! not modelled, and the debug unit's freeze bits.
+//! Registers that only keep what is written, such as the debug unit's freeze bits.
 
 /// A block of registers at these offsets, with these values after a reset.
 #[derive(Debug, Clone)]

@@ -186,12 +186,12 @@ impl Power {
         (self.supply_mv < *level_mv).then_some(ResetCause::BrownOut)
     }
 
-    /// Whether there is such a level to set.
-    pub(super) const fn set_brown_out(&mut self, level: u32) -> bool {
+    /// To the highest level, which is 0; whether there is any.
+    pub(super) const fn set_brown_out(&mut self) -> bool {
         let Some(BrownOut { shift, .. }) = self.layout.brown_out else {
             return false;
         };
-        self.options = self.options & !(3 << shift) | level << shift;
+        self.options &= !(3 << shift);
         true
     }
 

@@ -43,14 +43,12 @@ pub(super) enum Bus {
 
 const BUSES: usize = 4;
 
-/// Periods of the clocks that peripherals run by.
+/// Periods of the clocks that the core and, by their bus, peripherals and timers run by.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct Clocks {
     pub(super) core: Ps,
-    apb1_timer: Ps,
-    apb2_timer: Ps,
-    apb1: Ps,
-    apb2: Ps,
+    buses: [Ps; BUSES],
+    timers: [Ps; BUSES],
 }
 
 /// The period of a clock to the nearest picosecond: 8e-6 too long at 72 MHz, 64e-6 too short at 144.
@@ -71,29 +69,21 @@ impl Clocks {
     /// From the core's clock and what divides it for the buses. Each is rounded by itself, lest
     /// timers have the error of the core's.
     const fn new(core_hz: u64, apb1: u64, apb2: u64) -> Self {
+        let core = period(core_hz);
+        let [slow, fast] = [period(core_hz / apb1), period(core_hz / apb2)];
         Self {
-            core: period(core_hz),
-            apb1_timer: timer(core_hz, apb1),
-            apb2_timer: timer(core_hz, apb2),
-            apb1: period(core_hz / apb1),
-            apb2: period(core_hz / apb2),
+            core,
+            buses: [core, slow, fast, core],
+            timers: [core, timer(core_hz, apb1), timer(core_hz, apb2), core],
         }
     }
 
     pub(super) const fn bus(&self, bus: Bus) -> Ps {
-        match bus {
-            Bus::Apb1 => self.apb1,
-            Bus::Apb2 => self.apb2,
-            Bus::Ahb | Bus::Ports => self.core,
-        }
+        self.buses[bus as usize]
     }
 
     pub(super) const fn timer(&self, bus: Bus) -> Ps {
-        match bus {
-            Bus::Apb1 => self.apb1_timer,
-            Bus::Apb2 => self.apb2_timer,
-            Bus::Ahb | Bus::Ports => self.core,
-        }
+        self.timers[bus as usize]
     }
 }
 

@@ -1,5 +1,4 @@
-//! The registers of all peripherals by address: reads, writes, clock gates and
-//! peripheral resets.
+//! The registers of all peripherals by address: reads, writes, clock gates and peripheral resets.
 
 use super::model::Unit;
 use super::mux::Mux;
@@ -57,20 +56,14 @@ impl Chip {
                 Unit::Debug => self.debug.read(offset),
             }
         });
-        found.ok_or(Fault::Unmodelled {
-            address,
-            write: false,
-            pc: 0,
-        })
+        let (write, pc) = (false, 0);
+        found.ok_or(Fault::Unmodelled { address, write, pc })
     }
 
     pub(crate) fn write(&mut self, address: u32, value: u32, mask: u32) -> Result<(), Fault> {
         let now = self.now;
-        let unmodelled = Fault::Unmodelled {
-            address,
-            write: true,
-            pc: 0,
-        };
+        let (write, pc) = (true, 0);
+        let unmodelled = Fault::Unmodelled { address, write, pc };
         let Some((unit, clocked, offset)) = self.find(address) else {
             return Err(unmodelled);
         };
@@ -139,23 +132,30 @@ impl Chip {
 
     fn reset_peripherals(&mut self) {
         for &(unit, _, gate) in self.model.map {
-            if !gate.is_some_and(|(bus, bit)| self.rcc.is_in_reset(bus, bit)) {
-                continue;
+            if gate.is_some_and(|(bus, bit)| self.rcc.is_in_reset(bus, bit)) {
+                self.reset_unit(unit);
             }
-            match unit {
-                Unit::Tim(n) => self.timers[n].reset(),
-                Unit::Spi(n) => self.spis[n].reset(),
-                Unit::Gpio(n) => self.gpio[n].reset(),
-                Unit::Dma(n) => self.dmas[n].reset(),
-                Unit::Requests => self.mux = Mux::default(),
-                Unit::Remap => self.remap = Remap::default(),
-                Unit::System => self.system.reset(),
-                Unit::Debug => self.debug.reset(),
-                Unit::Power => self.power.reset(),
-                Unit::Usart => self.usart.reset(),
-                Unit::Can => self.can.reset(),
-                Unit::Watchdog | Unit::Rcc | Unit::Flash | Unit::Lines => {}
-            }
+        }
+    }
+
+    /// A peripheral as after power-up, but for what outlives a reset. RCC is apart: it keeps why.
+    pub(super) fn reset_unit(&mut self, unit: Unit) {
+        match unit {
+            Unit::Tim(n) => self.timers[n].reset(),
+            Unit::Watchdog => self.watchdog.reset(),
+            Unit::Spi(n) => self.spis[n].reset(),
+            Unit::Gpio(n) => self.gpio[n].reset(),
+            Unit::Rcc => {}
+            Unit::Flash => self.flash.reset(),
+            Unit::Dma(n) => self.dmas[n].reset(),
+            Unit::Requests => self.mux = Mux::default(),
+            Unit::Remap => self.remap = Remap::default(),
+            Unit::System => self.system.reset(),
+            Unit::Debug => self.debug.reset(),
+            Unit::Power => self.power.reset(),
+            Unit::Lines => self.exti.reset(),
+            Unit::Usart => self.usart.reset(),
+            Unit::Can => self.can.reset(),
         }
     }
 }

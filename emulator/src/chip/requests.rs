@@ -1,6 +1,7 @@
 //! The DMA's requests: which peripheral asks for a byte, and who moves it.
 
 use super::dma::Move;
+use super::model::Unit;
 use super::wiring::{Request, Side};
 use super::{Chip, Fault};
 use crate::memory::Memories;
@@ -44,7 +45,8 @@ impl Chip {
 
     /// What a request moves, if the stream or channel that it is wired to listens to it.
     pub(super) fn moves(&mut self, dma: usize, of: Request) -> Option<Move> {
-        if self.model.has_mux && self.mux.request(of.stream) != Some(of.channel) {
+        let has_mux = self.has(Unit::Requests);
+        if has_mux && self.mux.request(of.stream) != Some(of.channel) {
             return None;
         }
         self.dmas[dma].request(of.stream, of.channel)

@@ -1,12 +1,11 @@
 //! The sensor's wires as the chip drives them, and whether the sensor bears it.
 //!
-//! The driver's waits are held against the sensor's data: start-up, clock,
-//! gaps between bytes, and the time for which /SS must be high before the first
-//! frame. A sensor that has lost its place in a frame is taken to need the same
-//! time, so it is asked for after every frame that was broken off, or that the
-//! master cannot have taken for good. What it needs between good frames is not known: nothing,
-//! unless it is made to be silent in frames that come sooner. A TMAG5170 ([`Needs::TILT`]) asks for
-//! other times, mode and pins.
+//! The driver's waits are held against the sensor's data: start-up, clock, gaps between bytes, and
+//! the time for which /SS must be high before the first frame. A sensor that has lost its place in
+//! a frame is taken to need the same time, so it is asked for after every frame that was broken
+//! off, or that the master cannot have taken for good. What it needs between good frames is not
+//! known: nothing, unless it is made to be silent in frames that come sooner. A TMAG5170
+//! ([`Needs::TILT`]) asks for other times, mode and pins.
 
 use mlx90333::timing::{
     BYTE_GAP_FAST_NS, BYTE_GAP_SAFE_NS, CLOCK_MAX_HZ, CLOCK_SLOW_MAX_HZ, SS_HIGH_US,

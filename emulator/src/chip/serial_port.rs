@@ -72,10 +72,10 @@ impl Chip {
 
     pub(super) fn carry_serial(&mut self) -> Result<(), Fault> {
         let now = self.now;
-        let wires = &self.model.wiring.serial;
+        let wires = &self.model.wiring;
         let clock = self.serial_clock();
         if let Some(byte) = self.usart.sent(now, clock)
-            && self.drives(&SERIAL[..1], wires.function)
+            && self.drives(&SERIAL[..1], wires.serial_function)
             && let Some(bit) = self.serial.bit
         {
             self.agrees(bit)?;
@@ -89,7 +89,7 @@ impl Chip {
         };
         self.serial.ends += BITS * bit;
         let is_clocked = self.is_clocked(Unit::Usart);
-        if is_clocked && self.usart.listens() && self.hears(&SERIAL[1..], wires.function) {
+        if is_clocked && self.usart.listens() && self.hears(&SERIAL[1..], wires.serial_function) {
             self.agrees(bit)?;
             self.usart.receive(byte);
         }
@@ -98,12 +98,12 @@ impl Chip {
 
     /// Moves bytes between memory and the USART; whether it has moved one.
     pub(super) fn serve_serial(&mut self, memories: &Memories) -> Result<bool, Fault> {
-        let wires = &self.model.wiring.serial;
+        let wires = &self.model.wiring;
         let fetched = self.usart.requests_fetch();
-        let fetched = fetched.then(|| self.moves(SERIAL_DMA, wires.rx_request));
+        let fetched = fetched.then(|| self.moves(SERIAL_DMA, wires.serial_rx));
         let moved = fetched.flatten().or_else(|| {
             let brought = self.usart.requests_byte();
-            brought.then(|| self.moves(SERIAL_DMA, wires.tx_request))?
+            brought.then(|| self.moves(SERIAL_DMA, wires.serial_tx))?
         });
         let Some(moved) = moved else {
             return Ok(false);

@@ -1,7 +1,6 @@
-//! A timer, TIM1 to TIM8 (RM0390, chapters 16 to 19; RM0008, chapters 14 to 17; RM0444,
-//! chapters 20 to 23): counting up, updates with
-//! interrupt and DMA request, DMA requests by matches of channel 1, PWM mode 1 and encoder
-//! mode 3.
+//! A timer, TIM1 to TIM8 (RM0390, chapters 16 to 19; RM0008, chapters 14 to 17; RM0444, chapters 20
+//! to 23): counting up, updates with interrupt and DMA request, DMA requests by matches of channel
+//! 1, PWM mode 1 and encoder mode 3.
 //!
 //! The count is worked out when somebody looks; only updates that interrupt, and what makes
 //! a DMA request, are events. Compare values act at once: the buffering of
@@ -46,6 +45,10 @@ const CC1E: Field = field("CCER", CCER, "CC1E", 1 << 0);
 const CC2E: Field = field("CCER", CCER, "CC2E", CC1E.bits << 4);
 const MOE: Field = field("BDTR", BDTR, "MOE", 1 << 15);
 
+/// The places of what can ask for a byte.
+const UPDATE: usize = ByteSignal::Update as usize;
+const MATCH: usize = ByteSignal::Compare as usize;
+
 /// What a timer can do.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub(super) enum Kind {
@@ -81,9 +84,8 @@ pub(super) struct Timer {
     since: Ps,
     /// When the last update was.
     pub(super) updated: Ps,
-    /// Whether an update, and whether a match of channel 1, waits for the DMA.
-    update_waits: bool,
-    match_waits: bool,
+    /// Which signals wait for the DMA.
+    waits: [bool; 2],
     /// The encoder's position outside, counts.
     position: i32,
 }
@@ -162,7 +164,7 @@ impl Timer {
             let compare = Ps::from(self.at(CCR1));
             let first = (compare + period - Ps::from(self.count) % period) % period;
             let first = if first == 0 { period } else { first };
-            self.match_waits |= compare < period && first <= steps;
+            self.waits[MATCH] |= compare < period && first <= steps;
         }
         if wraps > 0 {
             let wrapped = wraps * period - Ps::from(self.count);
@@ -182,7 +184,7 @@ impl Timer {
             return;
         }
         self.registers[SR as usize / 4] |= UIF.bits;
-        self.update_waits |= self.is_on(UDE);
+        self.waits[UPDATE] |= self.is_on(UDE);
     }
 
     pub(super) fn next(&self, clock: Ps) -> Option<Ps> {
@@ -201,17 +203,11 @@ impl Timer {
     }
 
     pub(super) const fn requests(&self, signal: ByteSignal) -> bool {
-        match signal {
-            ByteSignal::Update => self.update_waits,
-            ByteSignal::Compare => self.match_waits,
-        }
+        self.waits[signal as usize]
     }
 
     pub(super) const fn serve(&mut self, signal: ByteSignal) {
-        match signal {
-            ByteSignal::Update => self.update_waits = false,
-            ByteSignal::Compare => self.match_waits = false,
-        }
+        self.waits[signal as usize] = false;
     }
 
     pub(super) const fn interrupts(&self) -> bool {
@@ -280,8 +276,8 @@ impl Timer {
         };
         match offset {
             DIER => {
-                self.update_waits &= UDE.is_in(value);
-                self.match_waits &= CC1DE.is_in(value);
+                self.waits[UPDATE] &= UDE.is_in(value);
+                self.waits[MATCH] &= CC1DE.is_in(value);
             }
             EGR if UG.is_in(value) => {
                 (self.count, self.since) = (0, now);

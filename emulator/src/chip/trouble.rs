@@ -5,8 +5,6 @@ use super::{Chip, Fault, ResetCause};
 
 /// Bits of the wait states in the flash interface's first register.
 const LATENCY: u32 = 15;
-/// As option bytes have it: the highest brown-out level.
-const HIGHEST: u32 = 0;
 /// Offsets within a unit that hold settings or counts.
 const OFFSETS: u32 = 0x80;
 
@@ -30,7 +28,7 @@ impl Chip {
 
     /// Has the option bytes set to the highest brown-out level; whether there is any.
     pub(crate) fn set_brown_out(&mut self) -> bool {
-        self.power.set_brown_out(HIGHEST)
+        self.power.set_brown_out()
     }
 
     /// Returns whether the chip runs by the clock from outside.

@@ -78,14 +78,6 @@ impl ByteSignal {
     }
 }
 
-/// The serial port that the ST-LINK is on: USART2, whose bytes DMA1 moves.
-#[derive(Debug)]
-pub(super) struct SerialPort {
-    pub(super) function: u32,
-    pub(super) rx_request: Request,
-    pub(super) tx_request: Request,
-}
-
 #[derive(Debug)]
 pub(super) struct Wiring {
     pub(super) sides: &'static [Side],
@@ -97,7 +89,10 @@ pub(super) struct Wiring {
     /// The alternate functions of the pins of PWM and SPIs.
     pub(super) pwm_function: u32,
     pub(super) spi_function: u32,
-    pub(super) serial: SerialPort,
+    /// Of the serial port that the ST-LINK is on: USART2, whose bytes DMA1 moves.
+    pub(super) serial_function: u32,
+    pub(super) serial_rx: Request,
+    pub(super) serial_tx: Request,
     /// Of the pins of a head's bus, where the chip has one.
     pub(super) can_function: Option<u32>,
 }

@@ -93,20 +93,6 @@ fn every_opcode_of_32_bits_that_v6m_lacks_traps() {
 }
 
 #[test]
-fn what_v6m_has_runs() {
-    // movs r0, #7; muls r0, r0; rev r0, r0; dsb; mrs r1, primask; cpsid i; bl to the nop
-    let code = [
-        0x2007, 0x4340, 0xBA00, 0xF3BF, 0x8F4F, 0xF3EF, 0x8110, 0xB672, 0xF000, 0xF800, 0xBF00,
-    ];
-    let mut core = core(CoreKind::M0Plus, &code);
-    for _ in 0..7 {
-        core.step();
-    }
-    assert_eq!((core.pc(), core.reg(0)), (CODE + 20, 49_u32.swap_bytes()));
-    assert_eq!(core.reg(14), (CODE + 20) | 1);
-}
-
-#[test]
 fn no_access_of_v6m_but_an_aligned_one() {
     // ldr, str, ldrh, strh, ldrsh of r1 at r0 or r0 + r2; ldm and stm at r0.
     for (what, code, bytes) in [

@@ -40,22 +40,21 @@ impl Place<'_> {
         }
     }
 
-    /// The member of that name; cells and other wrappers around it are seen
-    /// through.
+    /// The member of that name; cells and other wrappers around it are seen through.
     pub(crate) fn member(self, name: &str) -> Result<Self, Fault> {
         self.find(name)?
             .ok_or_else(|| bad(format!("no member {name}")))
     }
 
-    /// As [`Self::member`]; `None` if there is none.
     pub(crate) fn find(self, name: &str) -> Result<Option<Self>, Fault> {
         if let Some((offset, of)) = self.info.member(self.of, name)? {
             return Ok(Some(self.part(offset, of)));
         }
-        match self.unwrapped()? {
-            Some(inner) => inner.find(name),
-            None => Ok(None),
-        }
+        self.unwrapped()?.map_or(Ok(None), |inner| inner.find(name))
+    }
+
+    fn inner(self, what: impl std::fmt::Display) -> Result<Self, Fault> {
+        self.unwrapped()?.ok_or_else(|| bad(what))
     }
 
     fn unwrapped(self) -> Result<Option<Self>, Fault> {
@@ -97,10 +96,7 @@ impl Place<'_> {
 
     pub(crate) fn element(self, index: u32) -> Result<Self, Fault> {
         if self.tag()? != DW_TAG_array_type {
-            return match self.unwrapped()? {
-                Some(inner) => inner.element(index),
-                None => Err(bad("not an array")),
-            };
+            return self.inner("not an array")?.element(index);
         }
         let unit = &self.info.units[self.of.unit];
         let entry = unit.entry(self.of.at).map_err(bad)?;
@@ -125,17 +121,13 @@ impl Place<'_> {
                 }
             }
             tag if tag == DW_TAG_structure_type || tag == DW_TAG_union_type => {
-                match self.unwrapped()? {
-                    Some(inner) => inner.scalar(),
-                    None => Err(bad("not a number")),
-                }
+                self.inner("not a number")?.scalar()
             }
             _ => Err(bad("not a number")),
         }
     }
 
-    /// The variant of that name of an enum: its tag's place and value, and
-    /// what it holds.
+    /// The variant of that name of an enum: its tag's place and value, and what it holds.
     pub(crate) fn variant(self, name: &str) -> Result<(u32, u8, Self), Fault> {
         let (tag, value, held) = self.any_variant(name)?;
         let value = value.ok_or_else(|| bad(format!("variant {name} has no tag")))?;
@@ -151,10 +143,8 @@ impl Place<'_> {
         if let Some(found) = self.own_variant(name)? {
             return Ok(found);
         }
-        match self.unwrapped()? {
-            Some(inner) => inner.any_variant(name),
-            None => Err(bad(format!("no variant {name}"))),
-        }
+        let inner = self.inner(format_args!("no variant {name}"))?;
+        inner.any_variant(name)
     }
 
     /// Of itself; a variant that is every other tag has no value of its own.

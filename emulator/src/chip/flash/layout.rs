@@ -16,6 +16,8 @@ const US: Ps = 1_000_000;
 
 #[derive(Debug)]
 pub(in crate::chip) struct Layout {
+    /// ACR after a reset.
+    pub(super) acr: u32,
     pub(super) keyr: u32,
     pub(super) sr: u32,
     pub(super) cr: u32,
@@ -46,6 +48,7 @@ pub(in crate::chip) struct Layout {
 /// Pages of 1 KiB, selected by their address; 16 bits at a time. Times: STM32F103x8/B datasheet,
 /// flash memory characteristics.
 pub(in crate::chip) static F1: Layout = Layout {
+    acr: 0x30,
     keyr: 0x04,
     sr: 0x0C,
     cr: 0x10,
@@ -70,6 +73,7 @@ pub(in crate::chip) static F1: Layout = Layout {
 /// Sectors (RM0390, flash module organization), of which those of 128 KiB are erased; 32 bits at a
 /// time. Times: STM32F446xC/E datasheet, flash memory programming.
 pub(in crate::chip) static F4: Layout = Layout {
+    acr: 0,
     keyr: 0x04,
     sr: 0x0C,
     cr: 0x10,
@@ -100,6 +104,7 @@ pub(in crate::chip) static F4: Layout = Layout {
 /// Pages of 2 KiB, selected by their number; 64 bits at a time. Times: STM32G071x8/xB datasheet,
 /// flash memory characteristics.
 pub(in crate::chip) static G0: Layout = Layout {
+    acr: 0x0004_0600,
     keyr: 0x08,
     sr: 0x10,
     cr: 0x14,

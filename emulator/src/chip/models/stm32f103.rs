@@ -6,7 +6,7 @@ use crate::chip::gpio::Reset;
 use crate::chip::model::{CoreKind, Model, Unit};
 use crate::chip::rcc::{self, Bus};
 use crate::chip::timer::Kind;
-use crate::chip::wiring::{ByteSignal, LEFT_PINS, Request, SerialPort, Side, Wiring};
+use crate::chip::wiring::{ByteSignal, LEFT_PINS, Request, Side, Wiring};
 use crate::chip::{dma, flash, lines, power, spi, usart};
 
 const TIM2: usize = 0;
@@ -57,12 +57,10 @@ pub(crate) static F103: Model = Model {
     usart: &usart::ONE,
     spis: &[Bus::Apb2],
     dmas: &[&dma::CHANNELS],
-    has_mux: false,
     ports: [Reset::V1; 3],
     lsi_hz: 40_000,
     has_window: false,
     flash_interface: &flash::F1,
-    flash_registers: &[(0x00, 0x30)],
     // RM0008, chapter 3.3.3.
     flash_hz: &[(2_000, 24_000_000)],
     debug_registers: &[(0x04, 0)],
@@ -73,11 +71,9 @@ pub(crate) static F103: Model = Model {
         pwm_timer: TIM1,
         pwm_function: 0,
         spi_function: 0,
-        serial: SerialPort {
-            function: 0,
-            rx_request: Request::new(5, WIRED),
-            tx_request: Request::new(6, WIRED),
-        },
+        serial_function: 0,
+        serial_rx: Request::new(5, WIRED),
+        serial_tx: Request::new(6, WIRED),
         can_function: Some(0),
     },
 };

@@ -6,9 +6,7 @@ use crate::chip::gpio::Reset;
 use crate::chip::model::{CoreKind, Model, Unit};
 use crate::chip::rcc::{self, Bus};
 use crate::chip::timer::Kind;
-use crate::chip::wiring::{
-    ByteSignal, LEFT_PINS, Pin, Request, SerialPort, Side, SidePins, Wiring,
-};
+use crate::chip::wiring::{ByteSignal, LEFT_PINS, Pin, Request, Side, SidePins, Wiring};
 use crate::chip::{dma, flash, lines, power, spi, usart};
 
 const TIM2: usize = 0;
@@ -66,7 +64,6 @@ pub(crate) static F446: Model = Model {
     usart: &usart::ONE,
     spis: &[Bus::Apb2, Bus::Apb1],
     dmas: &[&dma::STREAMS; 2],
-    has_mux: false,
     ports: [
         Reset::v2([0xA800_0000, 0x0C00_0000, 0x6400_0000]),
         Reset::v2([0x0000_0280, 0x0000_00C0, 0x0000_0100]),
@@ -75,7 +72,6 @@ pub(crate) static F446: Model = Model {
     lsi_hz: 32_000,
     has_window: false,
     flash_interface: &flash::F4,
-    flash_registers: &[(0x00, 0)],
     // RM0390, table 5.
     flash_hz: &[
         (2_700, 30_000_000),
@@ -91,11 +87,9 @@ pub(crate) static F446: Model = Model {
         pwm_timer: TIM1,
         pwm_function: 1,
         spi_function: 5,
-        serial: SerialPort {
-            function: 7,
-            rx_request: Request::new(5, 4),
-            tx_request: Request::new(6, 4),
-        },
+        serial_function: 7,
+        serial_rx: Request::new(5, 4),
+        serial_tx: Request::new(6, 4),
         can_function: Some(9),
     },
 };

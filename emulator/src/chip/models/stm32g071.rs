@@ -6,7 +6,7 @@ use crate::chip::gpio::Reset;
 use crate::chip::model::{CoreKind, Model, Unit};
 use crate::chip::rcc::{self, Bus};
 use crate::chip::timer::Kind;
-use crate::chip::wiring::{ByteSignal, LEFT_PINS, Request, SerialPort, Side, Wiring};
+use crate::chip::wiring::{ByteSignal, LEFT_PINS, Request, Side, Wiring};
 use crate::chip::{dma, flash, lines, power, spi, usart};
 
 const TIM2: usize = 0;
@@ -54,7 +54,6 @@ pub(crate) static G071: Model = Model {
     usart: &usart::TWO,
     spis: &[Bus::Apb2],
     dmas: &[&dma::CHANNELS],
-    has_mux: true,
     ports: [
         Reset::v2([0xEBFF_FFFF, 0x0C00_0000, 0x2400_0000]),
         Reset::v2([0xFFFF_FFFF, 0, 0]),
@@ -63,7 +62,6 @@ pub(crate) static G071: Model = Model {
     lsi_hz: 32_000,
     has_window: true,
     flash_interface: &flash::G0,
-    flash_registers: &[(0x00, 0x0004_0600)],
     // RM0444, table of the wait states in range 1.
     flash_hz: &[(1_700, 24_000_000)],
     debug_registers: &[(0x04, 0), (0x08, 0), (0x0C, 0)],
@@ -74,11 +72,9 @@ pub(crate) static G071: Model = Model {
         pwm_timer: TIM1,
         pwm_function: 2,
         spi_function: 0,
-        serial: SerialPort {
-            function: 1,
-            rx_request: Request::new(2, 52),
-            tx_request: Request::new(3, 53),
-        },
+        serial_function: 1,
+        serial_rx: Request::new(2, 52),
+        serial_tx: Request::new(3, 53),
         can_function: None,
     },
 };

@@ -136,7 +136,6 @@ pub(in crate::chip) static G0: Layout = {
 
     const HSION: u32 = 1 << 8;
     const HSIRDY: u32 = 1 << 10;
-    /// A divider of the internal oscillator.
     const HSIDIV: u32 = 7 << 11;
 
     /// In PLLCFGR: the output towards the core is on.

@@ -88,8 +88,7 @@ impl Registers {
         rig.write(self.spi, mode | 1 << 2 | divider << 3 | 1 << 6 | 3 << 8);
     }
 
-    /// A chip that has been up for 20 ms, the side's pins and SPI set up as the driver
-    /// does.
+    /// A chip that has been up for 20 ms, the side's pins and SPI set up as the driver does.
     pub(super) fn rig(&self, divider: u32) -> Rig {
         self.rig_after(20 * MS, divider)
     }
