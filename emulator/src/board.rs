@@ -1,15 +1,14 @@
 //! The machine with host-sim's sensors and motors on its pins, as a module that
 //! host-sim's runs can drive. A whisker a side; a scene with one side has the left.
 //!
-//! A tick of the simulation is from the return of the tick's handler to its
-//! next return. Between two, the core asleep, the world moves on by a tick at
-//! once, as in host-sim: the motors follow the pins as the tick left them, the
-//! plant follows the motors, and the sensors are set. A frame that was begun in
-//! the tick before is latched again then, and what was clocked of it meanwhile is
-//! put right, where the DMA has put it; the next tick uses it. So tick n uses the
-//! deflection after tick n − 1 on the board as on the PC, as long as a tick is
-//! shorter than a frame. (A TMAG5170 is read within the tick.) In the first tick there is no frame yet, and the
-//! module takes its sensor to be at rest, which in host-sim's first tick it is.
+//! A tick of the simulation is from the return of the tick's handler to its next return. Between
+//! two, the core asleep, the world moves on by a tick at once, as in host-sim: the motors follow
+//! the pins as the tick left them, the plant follows the motors, and the sensors are set. A frame
+//! that was begun in the tick before is latched again then, and what was clocked of it meanwhile is
+//! put right, where the DMA has put it; the next tick uses it. So tick n uses the deflection after
+//! tick n − 1 on the board as on the PC, as long as a tick is shorter than a frame. (A TMAG5170 is
+//! read within the tick.) In the first tick there is no frame yet, and the module takes its sensor
+//! to be at rest, which in host-sim's first tick it is.
 
 use std::ops::Range;
 

@@ -198,10 +198,10 @@ pub(crate) struct Agreement {
 
 impl fmt::Display for Agreement {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let (ticks, decisions) = (self.ticks, self.decisions);
         write!(
             f,
-            "PC and board agree to the last bit in {} ticks, {} decisions",
-            self.ticks, self.decisions
+            "PC and board agree to the last bit in {ticks} ticks, {decisions} decisions"
         )
     }
 }
@@ -211,9 +211,8 @@ impl fmt::Display for Agreement {
 /// must be the same, to the last bit, but that touches may be numbered from elsewhere. The
 /// board's ticks must come at the scene's rate.
 ///
-/// Contact is compared where the scene uses it: host-sim's trace shows it
-/// wherever there is an obstacle, the board computes it only for RCP, CIA or a
-/// classifier that listens during contact.
+/// Contact is compared where the scene uses it: host-sim's trace shows it wherever there is an
+/// obstacle, the board computes it only for RCP, CIA or a classifier that listens during contact.
 pub(crate) fn compare(
     mut loaded: Loaded,
     path: &Path,

@@ -83,7 +83,6 @@ impl Counter {
         self.wrap().wrapping_add(after) & self.mask()
     }
 
-    /// Whether a count is beyond the wrap, and not before it.
     const fn is_beyond(&self, count: u32) -> bool {
         count.wrapping_sub(self.wrap()) & self.mask() <= self.mask() / 2
     }

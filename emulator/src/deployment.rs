@@ -91,7 +91,6 @@ impl Deployment {
     }
 }
 
-/// The CRC in the header of a configuration.
 pub(crate) fn crc_of(config: &[u8]) -> Result<u32, Error> {
     let header = Header::of(config).map_err(|fault| format!("the configuration: {fault}"));
     Ok(header.map_err(Error::Work)?.crc)

@@ -42,7 +42,6 @@ pub(crate) struct Choice {
 }
 
 impl Choice {
-    /// Makes the long run of a shard, and writes its row.
     pub(crate) fn run(&self) -> Result<(), Error> {
         output::check(&self.out)?;
         let row = match (&self.program, &self.subject) {
@@ -53,7 +52,6 @@ impl Choice {
     }
 }
 
-/// The page of these shards.
 pub(crate) fn write_page(shards: &[PathBuf], out: &Path) -> Result<(), Error> {
     let rows: Result<Vec<_>, _> = shards.iter().map(|shard| row(shard)).collect();
     write_whole(out, page::page(&rows?).as_bytes())

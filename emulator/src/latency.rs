@@ -60,11 +60,9 @@ fn once(scene: &Scene, program: &Program) -> Result<(usize, String), Error> {
         // Its frame was begun in the tick before this one.
         let (latched, now) = (session.board_mut().latched(side), session.machine().now);
         let us = (now - latched) as f64 / 1e6;
+        let (own, other, before) = (SIDE_NAMES[side], SIDE_NAMES[1 - side], n - 1);
         let said = format!(
-            "contact {}, latched in tick {}, excites the {} after 1 tick, {us:.1} us",
-            SIDE_NAMES[side],
-            n - 1,
-            SIDE_NAMES[1 - side]
+            "contact {own}, latched in tick {before}, excites the {other} after 1 tick, {us:.1} us"
         );
         return Ok((side, said));
     }
@@ -108,10 +106,7 @@ mod tests {
         assert_eq!(touching(&touch).unwrap(), Some(1));
         assert!(excites(1, &before, &touch));
         let own = row([REST, REST - 1.0], [1.0, 0.75]);
-        assert!(
-            !excites(1, &before, &own),
-            "its own side's g does not count"
-        );
+        assert!(!excites(1, &before, &own), "its own g does not count");
         let left = row([REST + 3.0, REST], [1.0, 0.5]);
         assert_eq!(touching(&left).unwrap(), Some(0));
         assert!(touching(&row([0.0, 0.0], [1.0, 0.5])).is_err());

@@ -1,5 +1,4 @@
-//! The emulated board's command line; `cargo xtask emulate` builds the program
-//! and calls it.
+//! The emulated board's command line; `cargo xtask emulate` builds the program and calls it.
 
 fn main() -> std::process::ExitCode {
     emulator::main()

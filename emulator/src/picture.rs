@@ -35,12 +35,8 @@ fn panel(path: &Path, program: &Path) -> Result<Panel, Error> {
         rows.push(*session.run.row());
     }
     let on = |part: bool| if part { "with" } else { "without" };
-    let title = format!(
-        "{}: {} RCP, {} CIA",
-        scene.name,
-        on(scene.rcp.is_some()),
-        on(scene.cia.is_some())
-    );
+    let (rcp, cia) = (on(scene.rcp.is_some()), on(scene.cia.is_some()));
+    let title = format!("{}: {rcp} RCP, {cia} CIA", scene.name);
     Ok(Panel {
         title,
         rows,

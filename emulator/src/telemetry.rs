@@ -80,9 +80,8 @@ fn script(scene: &Scene) -> Vec<(Command, CommandStatus)> {
     script
 }
 
-/// A scene on a board that is asked for this and that: the answers must be right, the
-/// records those of the same module on the PC, and where they are not read whole records be lost,
-/// and counted.
+/// A scene on a board that is asked for this and that: the answers must be right, the records those
+/// of the same module on the PC, and where they are not read whole records be lost, and counted.
 fn converse(path: &Path, program: &Path) -> Result<Vec<String>, Error> {
     let (mut loaded, program) = flashed(path, program)?;
     let mut talk = Talk::new(Pair::new(&mut loaded, &program)?, false);
@@ -128,11 +127,9 @@ fn converse(path: &Path, program: &Path) -> Result<Vec<String>, Error> {
     let expected = talk.follow()?;
     let whiskers = scene.whiskers();
     let [records, events] = talk.same([&talk.packets, &expected], whiskers, true)?;
+    let requests = talk.requests.len();
     Ok(vec![
-        format!(
-            "{} requests answered, {records} records and {events} events as on the PC",
-            talk.requests.len()
-        ),
+        format!("{requests} requests answered, {records} records and {events} events as on the PC"),
         format!("{lost} records lost while none were read, and counted"),
     ])
 }

@@ -48,7 +48,6 @@ pub(crate) struct Choice {
 }
 
 impl Choice {
-    /// Runs it, and writes what became of it.
     pub(crate) fn run(&self) -> Result<(), Error> {
         let scenario = Scenario::load(&self.scenario)?;
         output::check(&self.json)?;

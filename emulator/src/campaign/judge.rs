@@ -10,8 +10,7 @@ use crate::notice::Notice;
 
 /// Within how many ticks of a fault's report its motor is off.
 const OFF_TICKS: u32 = 2;
-/// For how long a whisker may be further from its setpoint than the scene allows, and be
-/// driven, s.
+/// For how long a whisker may be further from its setpoint than the scene allows, and be driven, s.
 const AWAY_S: f64 = 0.05;
 /// For how long it may be driven into an end stop, s.
 const AT_STOP_S: f64 = 0.1;
@@ -71,8 +70,7 @@ struct Whisker {
     last_displaced_deg: f64,
     /// The same when it was homed last, which knows it.
     homed_deg: f64,
-    /// Ticks left in which the setpoint that is followed approaches that of the pattern
-    /// generator.
+    /// Ticks left in which the setpoint that is followed approaches that of the pattern generator.
     approaches: u32,
 }
 
@@ -144,10 +142,8 @@ impl Judge {
         // A core that has noticed a fault, and is reset again and again or waits for a probe
         // with its motors off, is not hung.
         let waits = is_noticed && seen.motors.iter().all(|motor| motor.effort == 0.0);
-        count(
-            &mut self.late_for,
-            seen.is_late && seen.reset.is_none() && !waits,
-        );
+        let is_late = seen.is_late && seen.reset.is_none() && !waits;
+        count(&mut self.late_for, is_late);
         if f64::from(self.late_for) > HUNG_S * self.tick_hz {
             return Some(Harm::LockedUp);
         }

@@ -78,10 +78,8 @@ impl Prepared {
 
     fn subject(&self) -> Result<Subject<'_>, Error> {
         let board = self.board.as_ref();
-        Subject::new(
-            &self.loaded,
-            board.map(|(program, words)| (program, &**words)),
-        )
+        let board = board.map(|(program, words)| (program, &**words));
+        Subject::new(&self.loaded, board)
     }
 
     fn tick(&self, subject: &mut Subject<'_>, tick: u64) -> Result<Seen, Fault> {

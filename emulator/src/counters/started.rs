@@ -14,7 +14,6 @@ struct Seen {
     is_beyond: bool,
 }
 
-/// The counters of a program that were started below their wraps.
 pub(crate) struct Started {
     seen: Vec<Seen>,
     /// Touches that the program takes for reported before the first.

@@ -39,11 +39,8 @@ fn cell(value: Option<f64>, decimals: usize) -> String {
 fn made(groups: &[Group<'_>]) -> (usize, f64, f64) {
     let rows = groups.concat();
     let hours = sum(&rows, |row| row.hours);
-    (
-        rows.len(),
-        hours,
-        hours * 60.0 / sum(&rows, |row| row.took_s),
-    )
+    let speed = hours * 60.0 / sum(&rows, |row| row.took_s);
+    (rows.len(), hours, speed)
 }
 
 pub(super) fn page(rows: &[ShardRow]) -> String {

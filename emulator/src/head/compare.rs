@@ -27,7 +27,6 @@ fn expected(bus: Option<&Bus>, number: u8) -> Vec<String> {
     said.map(|(_, said)| said).collect()
 }
 
-/// How busy the bus was, and its boards.
 fn cost(head: &Head, run_s: f64) -> String {
     let lengths = head.nodes.iter().map(|node| {
         let length = node.board.meter.length;
@@ -44,9 +43,8 @@ fn cost(head: &Head, run_s: f64) -> String {
 }
 
 /// The head on the PC and on boards, in their number format: every number of every row of the
-/// trace, every decision, and what each board says of the others must be the same, to the last
-/// bit. The crystals of every other board are by `ppm` millionths faster, those between as much
-/// slower.
+/// trace, every decision, and what each board says of the others must be the same, to the last bit.
+/// The crystals of every other board are by `ppm` millionths faster, those between as much slower.
 pub(crate) fn compare(
     path: &Path,
     program: &Path,

@@ -40,7 +40,6 @@ impl Head {
         Ok(())
     }
 
-    /// Takes a board off the bus, or puts it on again.
     pub(crate) fn cut(&mut self, n: usize, is_cut: bool) {
         let now_us = self.now as f64 / US;
         self.wires.iter_mut().for_each(|wire| wire.clear(n));

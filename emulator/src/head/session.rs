@@ -98,7 +98,6 @@ impl HeadSession {
         Ok(self.last()?.request(&wire::frame(&request))?)
     }
 
-    /// Whether the last board drives a motor.
     pub(crate) fn last_drives(&mut self) -> Result<bool, Error> {
         Ok(self.last()?.machine.chip().drives_a_motor())
     }

@@ -187,7 +187,6 @@ impl Runner {
         self.session.machine().planned.plan(MIDDLE, upset);
     }
 
-    /// The user button is held down so long, ms.
     pub(super) fn press(&mut self, ms: u32) -> Done {
         for (is_down, ms) in [(false, 50), (true, ms), (false, 50)] {
             self.session.machine().chip().set_button(is_down);
@@ -200,7 +199,6 @@ impl Runner {
         Ok(self.session.board_mut().reset_now(cause)?)
     }
 
-    /// The supply changes, mV.
     pub(super) fn supply(&mut self, mv: u32) -> Done {
         Ok(self.session.machine().set_supply(mv).map(drop)?)
     }
@@ -262,7 +260,6 @@ impl Runner {
         }
     }
 
-    /// The log has lines with this text.
     pub(super) fn says(&mut self, text: &str) -> Done {
         let line = self.line(text)?;
         self.said.push(line);
@@ -302,9 +299,7 @@ impl Runner {
     }
 
     fn not_said(&self, text: &str) -> String {
-        format!(
-            "the log does not say \"{text}\":\n  {}",
-            self.log.join("\n  ")
-        )
+        let log = self.log.join("\n  ");
+        format!("the log does not say \"{text}\":\n  {log}")
     }
 }

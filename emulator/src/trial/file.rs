@@ -59,7 +59,7 @@ pub(super) enum What {
 pub(super) struct Asked(pub(super) Command);
 
 /// A sensor that is another part, or programmed otherwise, than the scene has it.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Deserialize)]
 #[serde(try_from = "WrittenPart")]
 pub(super) struct Part {
     pub(super) decoder: Decoder,

@@ -111,9 +111,7 @@ impl Hands {
         Self {
             own: Part {
                 decoder: config::decoder(&scene.sensor),
-                rest_us: 0,
-                update_hz: None,
-                report: 0,
+                ..Part::default()
             },
             events: scenario.events.clone(),
             around: Vec::new(),

@@ -29,6 +29,18 @@ pub(super) struct Listed {
     pub(super) text: String,
 }
 
+impl Listed {
+    fn new(t_s: f64, kind: &str, text: &str) -> Self {
+        let [kind, text] = [kind, text].map(str::to_owned);
+        Self {
+            t_s,
+            kind,
+            text,
+            ..Self::default()
+        }
+    }
+}
+
 #[derive(Debug, Default)]
 pub(super) struct Lister {
     line: Receiver,
@@ -77,12 +89,7 @@ fn in_words(answer: &Answer) -> String {
 
 impl Lister {
     pub(super) fn list_reset(&mut self, t_s: f64) {
-        self.listed.push(Listed {
-            t_s,
-            kind: "reset".to_owned(),
-            text: "reset".to_owned(),
-            ..Listed::default()
-        });
+        self.listed.push(Listed::new(t_s, "reset", "reset"));
     }
 
     /// What a board says that has logged these lines.
@@ -114,12 +121,7 @@ impl Lister {
     fn answered(&mut self, t_s: f64, text: String) {
         let about = text.split([' ', ':']).nth(1);
         if matches!(about, Some("stop" | "arm")) {
-            self.list(Listed {
-                t_s,
-                kind: "answer".to_owned(),
-                text: text.clone(),
-                ..Listed::default()
-            });
+            self.list(Listed::new(t_s, "answer", &text));
         }
         // Behind what is done stand values.
         let counted = match text.strip_prefix("ok ") {
