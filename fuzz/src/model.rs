@@ -51,7 +51,6 @@ fn read(bytes: &[u8]) {
     }
 }
 
-/// Whiskers that are heard.
 const WHISKERS: usize = 2;
 
 /// Classifies codes taken from the bytes themselves, with touches and pauses among them.

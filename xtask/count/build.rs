@@ -59,7 +59,6 @@ fn model(classes: u32, block: u32) -> Result<Vec<u8>, Box<dyn Error>> {
     Ok(trainer.train()?.as_bytes().to_vec())
 }
 
-/// A joint model of the same.
 fn joint_model(classes: u32) -> Result<Vec<u8>, Box<dyn Error>> {
     let mut sample = samples();
     let mut trials = Vec::new();

@@ -61,8 +61,7 @@ pub(crate) fn deadlines() -> Result<(), Fault> {
     write_page(false)
 }
 
-/// Writes docs/measured/cost.md from the committed tables, or checks that it is up
-/// to date.
+/// Writes docs/measured/cost.md from the committed tables, or checks that it is up to date.
 pub(crate) fn write_page(check: bool) -> Result<(), Fault> {
     let deadlines = read(&top().join(DEADLINES))?;
     let page = page::page(&TABLE.read(None)?, &deadlines, &size::TABLE.read(None)?)?;

@@ -24,9 +24,6 @@ pub(crate) const TABLE: Table = Table {
 
 const PROGRAMS: [&str; 5] = ["computation", "functions", "integers", "parts", "whisking"];
 
-/// Of these the one that also counts twenty-four whiskers, where there is an FPU.
-const ARRAY: (&[&str], &[&str]) = (&["computation"], &["--features", "array"]);
-
 /// Counts everything and writes the table (to `csv`, where one is named), or checks
 /// that no kernel has become dearer than it says.
 pub(crate) fn all(csv: Option<&Path>, check: bool) -> Result<(), Fault> {
@@ -34,7 +31,9 @@ pub(crate) fn all(csv: Option<&Path>, check: bool) -> Result<(), Fault> {
     for processor in PROCESSORS {
         found.extend(count(processor, &PROGRAMS, &[])?);
     }
-    found.extend(count(PROCESSORS[0], ARRAY.0, ARRAY.1)?);
+    // Of twenty-four whiskers too, where there is an FPU.
+    let array = ["--features", "array"];
+    found.extend(count(PROCESSORS[0], &["computation"], &array)?);
     TABLE.take(&found, csv, check)
 }
 

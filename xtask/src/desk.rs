@@ -36,11 +36,8 @@ pub(crate) fn measure() -> Result<(), Fault> {
     let page: OfPage = read(&run::read(&python::place("page.json"))?)?;
     let said = python::figures()?;
     let python: OfPython = serde_json::from_str(&said).map_err(|error| error.to_string())?;
-    document(
-        "docs/measured/desk.md",
-        written(&python, &page).as_bytes(),
-        false,
-    )
+    let page = written(&python, &page);
+    document("docs/measured/desk.md", page.as_bytes(), false)
 }
 
 fn written(python: &OfPython, page: &OfPage) -> String {

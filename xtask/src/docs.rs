@@ -19,11 +19,8 @@ pub(crate) fn quick(check: bool) -> Result<(), Fault> {
     document("docs/whisk.svg", whisk::picture()?.as_bytes(), check)?;
     document("docs/scenes.md", scene::reference().as_bytes(), check)?;
     document("docs/faults.md", faults::page().as_bytes(), check)?;
-    document(
-        "docs/files.md",
-        output(workspace_program("host-sim").arg("columns"))?.as_bytes(),
-        check,
-    )
+    let columns = output(workspace_program("host-sim").arg("columns"))?;
+    document("docs/files.md", columns.as_bytes(), check)
 }
 
 pub(crate) fn all(check: bool) -> Result<(), Fault> {

@@ -168,10 +168,8 @@ pub(crate) fn compare_all(on: &Emulated) -> Result<(), Fault> {
         };
         let parts = linked.image.features;
         if on.any_scene.is_some() && parts.contains(&Part::Tmag5170.feature()) {
-            println!(
-                "not by the program for any scene: {path}: {}",
-                Part::Tmag5170
-            );
+            let part = Part::Tmag5170;
+            println!("not by the program for any scene: {path}: {part}");
             continue;
         }
         on.run(taken, COMPARE)?;

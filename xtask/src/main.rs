@@ -65,8 +65,7 @@ enum Command {
     /// Builds the Python module and tests it in clean environments of the oldest and the newest
     /// Python of this machine
     Python,
-    /// Measures the Python module and the page, and writes docs/measured/desk.md and
-    /// docs/page.png
+    /// Measures the Python module and the page, and writes docs/measured/desk.md and docs/page.png
     Desk,
     /// Builds the firmware of a scene and prints its flash and RAM bytes
     Firmware {
@@ -114,9 +113,8 @@ enum Command {
         #[arg(long, conflicts_with_all = ["csv", "check"])]
         deadlines: bool,
     },
-    /// Builds the firmware of every scene for every board that takes it, and
-    /// prints flash, static RAM, stack, and the time that host-sim takes; writes
-    /// docs/measured/sizes.csv
+    /// Builds the firmware of every scene for every board that takes it, and prints flash, static
+    /// RAM, stack, and the time that host-sim takes; writes docs/measured/sizes.csv
     Size(OfTable),
     /// Shows from the binaries that no panic can be reached: from the interrupts of the
     /// tick none at all, from the start and idle none but the logger's own check

@@ -29,7 +29,6 @@ pub(crate) fn parts(page: &str) -> Result<[(&'static str, Vec<u8>); 2], Fault> {
     ])
 }
 
-/// Letters and millimetres of the table.
 pub(crate) fn dimensions(page: &str) -> BTreeMap<String, f64> {
     let rows = page.split_once("| | dimension | mm | from |\n");
     let rows = rows.map_or("", |(_, rows)| rows).lines();

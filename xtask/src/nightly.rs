@@ -1,5 +1,4 @@
-//! The long runs: what CI checks in part, in full. A failure does not keep the others
-//! from running.
+//! The long runs: what CI checks in part, in full. A failure does not keep the others from running.
 
 use ::firmware::boards::InHead;
 use std::path::{Path, PathBuf};

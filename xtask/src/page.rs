@@ -36,7 +36,6 @@ pub(crate) fn count_frames(picture: Option<&Path>) -> Result<(), Fault> {
     run(tests.args(["-n0", "-malone"]))
 }
 
-/// Its tests, without a choice.
 fn tests() -> Result<Command, Fault> {
     let python = python::with_browser()?;
     let mut axe = python::pip(&python);

@@ -86,13 +86,11 @@ fn maturin(python: &Path, package: &Path, wheels: &Path) -> Result<Command, Faul
 
 const BUILT_NONE: &str = "no wheel was built";
 
-/// The file of this kind in a folder, or that there is none.
 fn only(folder: &Path, extension: &str, none: &str) -> Result<PathBuf, Fault> {
     let first = listing(folder, extension)?.into_iter().next();
     first.ok_or_else(|| none.to_owned())
 }
 
-/// The Python side's tests, in this environment.
 fn tests(inside: &Path) -> Result<Command, Fault> {
     let mut tests = Command::new(inside);
     tests.args(["-m", "pytest", "--quiet"]);
@@ -182,7 +180,6 @@ impl Measured {
         Ok(Self { inside, script })
     }
 
-    /// Of this tree.
     pub(crate) fn own() -> Result<Self, Fault> {
         Self::with(&release()?, &top(), "speeds")
     }
@@ -192,14 +189,10 @@ impl Measured {
         let python = newest()?;
         let mut build = maturin(&python, &tree.join("python"), &built.join("wheels"))?;
         run(build.args(RELEASE).env("CARGO_TARGET_DIR", built))?;
-        Self::with(
-            &only(&built.join("wheels"), "whl", BUILT_NONE)?,
-            tree,
-            "speeds-other",
-        )
+        let wheel = only(&built.join("wheels"), "whl", BUILT_NONE)?;
+        Self::with(&wheel, tree, "speeds-other")
     }
 
-    /// Its figures, as JSON.
     pub(crate) fn figures(&self) -> Result<String, Fault> {
         output(Command::new(&self.inside).arg(&self.script))
     }

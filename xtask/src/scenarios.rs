@@ -107,14 +107,11 @@ impl Table {
         toml::from_str(&table).map_err(|error| error.to_string())
     }
 
-    /// Which bounds of a row are broken.
     fn broken(&self, row: &Row, json: &Value) -> Result<Vec<String>, Fault> {
-        let alone = |bound| {
-            self.bounds
-                .get(bound)
-                .map_or(std::slice::from_ref(bound), Vec::as_slice)
-        };
-        let bounds = row.bounds.iter().flat_map(alone);
+        let bounds = row.bounds.iter().flat_map(|bound| {
+            let named = self.bounds.get(bound).map(Vec::as_slice);
+            named.unwrap_or(std::slice::from_ref(bound))
+        });
         let broken = bounds.map(|bound| broken(bound, json));
         broken.filter_map(Result::transpose).collect()
     }
@@ -222,11 +219,8 @@ mod tests {
             ("nodes/0 never fault", false),
             ("nodes/1 fault number 24", false),
         ] {
-            assert_eq!(
-                broken(bound, &json).map(|found| found.is_none()),
-                Ok(is_so),
-                "{bound}"
-            );
+            let found = broken(bound, &json).map(|found| found.is_none());
+            assert_eq!(found, Ok(is_so), "{bound}");
         }
         assert!(broken("soonest", &json).is_err());
     }

@@ -1,5 +1,4 @@
-//! The stages of a tick and why some miss their goals: the rows of stages.csv and
-//! reasons.toml.
+//! The stages of a tick and why some miss their goals: the rows of stages.csv and reasons.toml.
 
 use serde::Deserialize;
 

@@ -27,8 +27,7 @@ impl ManyRuns {
     }
 }
 
-/// The page of the main job: what it printed at the end, and what `decisions` tells of
-/// many runs.
+/// The page of the main job: what it printed at the end, and what `decisions` tells of many runs.
 pub(super) fn page(said: &str, decisions: &str) -> Result<String, Fault> {
     let score = said.split_once("\n\n").map(|(_, score)| score.trim_end());
     let score = score.ok_or("the main job printed no score")?;

@@ -1,5 +1,4 @@
-//! Which function of a program calls which, from its instructions, and where its
-//! interrupts begin.
+//! Which function of a program calls which, from its instructions, and where its interrupts begin.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
@@ -13,7 +12,6 @@ use crate::run::Fault;
 
 /// Words of the vector table before the chip's interrupts.
 const CORE_VECTORS: usize = 16;
-/// The word of the reset.
 const RESET: usize = 1;
 
 pub(crate) struct Function {

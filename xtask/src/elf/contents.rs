@@ -1,7 +1,6 @@
-//! What code is in a program: the functions that have instructions in flash,
-//! by name. Whole-program optimisation inlines nearly all of them, so symbols
-//! alone prove little; the debug information says where each instruction came
-//! from, whether its function stands by itself or inside another.
+//! What code is in a program: the functions that have instructions in flash, by name. Whole-program
+//! optimisation inlines nearly all of them, so symbols alone prove little; the debug information
+//! says where each instruction came from, whether its function stands by itself or inside another.
 
 use std::collections::BTreeSet;
 use std::path::Path;

@@ -84,8 +84,7 @@ fn is_named(part: &str, named: Named<'_>, board: &BoardFacts) -> Result<bool, Fa
 pub(super) struct Seen(BTreeMap<String, [bool; 2]>);
 
 impl Seen {
-    /// Compares a program with its scene, and says what is there or absent
-    /// against the scene.
+    /// Compares a program with its scene, and says what is there or absent against the scene.
     pub(super) fn compare(
         &mut self,
         functions: &BTreeSet<String>,
@@ -118,8 +117,7 @@ impl Seen {
         Ok(wrong)
     }
 
-    /// Parts that were never there or never absent: their comparison has proved
-    /// nothing.
+    /// Parts that were never there or never absent: their comparison has proved nothing.
     pub(super) fn unproven(&self) -> impl Iterator<Item = &str> {
         let seen = self.0.iter();
         seen.filter_map(|(part, both)| (*both != [true; 2]).then_some(part.as_str()))

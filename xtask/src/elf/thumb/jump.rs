@@ -23,20 +23,14 @@ impl Code<'_> {
             let is_here = |word| self.has((u32::from_le_bytes(word) & !1).into());
             all(self.table(code), is_here)
         };
+        // A table that stands behind constants has its address taken just before.
+        let is_known = |base: &str| {
+            let base = base.trim_start_matches('[');
+            base == "pc" || last.last().is_some_and(|code| code.is_address_to(base))
+        };
         match (&*code.name, first) {
-            ("tbb" | "tbh", base) => {
-                // A table that stands behind constants has its address taken just before.
-                let base = base.trim_start_matches('[');
-                let is_known = base == "pc" || last.last().is_some_and(|l| l.is_address_to(base));
-                Some(
-                    is_known
-                        && if code.name == "tbb" {
-                            by_bytes()
-                        } else {
-                            by_halves()
-                        },
-                )
-            }
+            ("tbb", base) => Some(is_known(base) && by_bytes()),
+            ("tbh", base) => Some(is_known(base) && by_halves()),
             // To an address, or to one of the branches that follow, whose own addresses are read: the
             // choice is added to the first's.
             (name, "pc") if name.starts_with("mov") => {
