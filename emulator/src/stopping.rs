@@ -289,7 +289,7 @@ impl Flooded<'_> {
             By::Line | By::SerialFrame => self.written,
             By::Probe | By::Button => 0,
         };
-        let mut late = self.until_off(end)?;
+        let late = self.until_off(end)?;
         if self.flood.by == By::Button {
             self.session.machine().chip().set_button(false);
         }
@@ -304,11 +304,8 @@ impl Flooded<'_> {
         for _ in 0..OFF {
             self.tick()?;
             if !self.flood.arms() && self.session.drives() {
-                late = u32::MAX;
+                return wrong("a motor is driven after a stop");
             }
-        }
-        if late == u32::MAX {
-            return wrong("a motor is driven after a stop");
         }
         Ok((late, answered))
     }

@@ -129,31 +129,29 @@ impl<'s> Links<'s> {
         let end_s = t_s + self.tick_s;
         let (mut held, mut requests) = (vec![false; self.senders.len()], 0);
         while let Some(n) = self.first_due(end_s, &held) {
-            let Some(sender) = self.senders.get(n) else {
-                break;
-            };
-            let is_sent = match &sender.event.what {
-                What::Serial { text } => self.write(text, sender.is_flood, session),
+            let sender = &self.senders[n];
+            let (event, is_flood) = (sender.event, sender.is_flood);
+            let is_sent = match &event.what {
+                What::Serial { text } => self.write(text, is_flood, session),
                 What::Probe { request } => {
                     requests += 1;
                     requests <= MOST_A_TICK && self.ask(request.0, session)?
                 }
                 _ => {
-                    let next = sender.sent as usize % sender.frames.len().max(1);
-                    let frame = sender.frames.get(next).cloned().unwrap_or_default();
+                    let next = sender.sent as usize % sender.frames.len();
+                    let frame = &sender.frames[next];
                     self.written += frame.len() as u64;
-                    session.serial_write(&frame);
+                    session.serial_write(frame);
                     true
                 }
             };
-            if let Some(sender) = self.senders.get_mut(n) {
-                if is_sent {
-                    sender.sent += 1;
-                } else {
-                    // Sent once, it is tried again in the next tick.
-                    sender.skip_to(end_s);
-                    held[n] = true;
-                }
+            let sender = &mut self.senders[n];
+            if is_sent {
+                sender.sent += 1;
+            } else {
+                // Sent once, it is tried again in the next tick.
+                sender.skip_to(end_s);
+                held[n] = true;
             }
         }
         Ok(())
@@ -178,27 +176,15 @@ impl<'s> Links<'s> {
         if waiting > own {
             return false;
         }
-        for part in line.split_inclusive('\n') {
-            let is_ended = part.ends_with('\n');
+        let text = format!("{line}\n");
+        for part in text.split_inclusive('\n') {
             self.written += part.len() as u64;
-            if is_ended {
-                self.note(part);
+            if let Ok(Spoken::Command(command)) = wire::text::parse(part.as_bytes()) {
+                self.on_the_way.push_back((self.written, command));
             }
-            session.serial_write(part.as_bytes());
         }
-        session.serial_write(b"\n");
-        self.written += 1;
-        if !line.ends_with('\n') {
-            let last = line.split('\n').next_back();
-            self.note(last.unwrap_or_default());
-        }
+        session.serial_write(text.as_bytes());
         true
-    }
-
-    fn note(&mut self, line: &str) {
-        if let Ok(Spoken::Command(command)) = wire::text::parse(line.as_bytes()) {
-            self.on_the_way.push_back((self.written, command));
-        }
     }
 
     /// Writes a request into the probe's ring; whether there was room.
