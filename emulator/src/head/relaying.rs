@@ -304,10 +304,9 @@ impl Talk {
             }
         }
         for (node, runs) in [(self.far, &other), (0, &case.runs)] {
-            if self.runs_by(node)?[0] == crc_of(&runs.config)?.cast_signed() {
-                continue;
+            if self.runs_by(node)?[0] != crc_of(&runs.config)?.cast_signed() {
+                return wrong("the scene that was deployed is not the one that runs");
             }
-            return wrong("the scene that was deployed is not the one that runs");
         }
         let [_, missed] = self.ask(0, Command::Status)?.values;
         if missed != 0 {
