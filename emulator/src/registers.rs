@@ -74,22 +74,14 @@ pub(crate) fn page() -> String {
 fn of_chip(chip: &Chip, model: &Model) -> String {
     let facts = facts(model);
     let of = |kind: FactKind| facts.iter().filter(move |fact| fact.kind == kind);
-    let peripherals = of(FactKind::Address).map(
-        |Fact {
-             of: name, value, ..
-         }| {
-            let cell = |kind| cell(model, of(kind).find(|fact| fact.of == *name));
-            let (gate, reset) = (cell(FactKind::Gate), cell(FactKind::Reset));
-            format!("| {name} | {} | {gate} | {reset} |", hex(value[0]))
-        },
-    );
-    let numbers = |kind| {
-        lines(of(kind).map(
-            |Fact {
-                 of, part, value, ..
-             }| format!("| {of} {part} | {} |", value[0]),
-        ))
-    };
+    let peripherals = of(FactKind::Address).map(|address| {
+        let cell = |kind| cell(model, of(kind).find(|fact| fact.of == address.of));
+        let (gate, reset) = (cell(FactKind::Gate), cell(FactKind::Reset));
+        let (name, base) = (&address.of, hex(address.value[0]));
+        format!("| {name} | {base} | {gate} | {reset} |")
+    });
+    let number = |fact: &Fact| format!("| {} {} | {} |", fact.of, fact.part, fact.value[0]);
+    let numbers = |kind| lines(of(kind).map(number));
     let bits: Vec<&Fact> = of(FactKind::Bits).collect();
     let registers = bits.chunk_by(|a, b| a.of == b.of && register(a) == register(b));
     let registers = registers.map(|facts| {
