@@ -69,13 +69,14 @@ impl Network {
         Ok(outputs)
     }
 
-    /// The class: the output that is largest, the first of equals.
     pub(crate) fn classify(&self, inputs: &[f64]) -> Result<usize> {
-        let outputs = self.outputs(inputs)?;
-        let places = 1..outputs.len();
-        let larger = |best: usize, k: usize| if outputs[k] > outputs[best] { k } else { best };
-        Ok(places.fold(0, larger))
+        Ok(largest(&self.outputs(inputs)?))
     }
+}
+
+/// The place of the largest, the first of equals.
+pub(crate) fn largest<T: PartialOrd>(all: &[T]) -> usize {
+    (1..all.len()).fold(0, |best, k| if all[k] > all[best] { k } else { best })
 }
 
 fn scaled(inputs: &[f64], scales: &[(f64, f64)]) -> Vec<f64> {
@@ -121,92 +122,62 @@ struct Samples {
 
 /// E = 1/(2 N) Σ_n Σ_k (y_k − t_k)² + λ/2 Σ w², t_k being one for the sample's class and nought
 /// for the others; the sum of squares that LEP12 section 5.2 takes the root of. λ weighs all
-/// weights but no biases.
-fn cost(shape: Shape, weights: &[f64], samples: &Samples, decay: f64) -> f64 {
-    cost_and_gradient(shape, weights, samples, decay, None)
-}
-
-/// The cost, and its gradient into `gradient`, which has a place for each weight.
+/// weights but no biases. And its gradient, a number a weight.
 fn cost_and_gradient(
     shape: Shape,
     weights: &[f64],
     samples: &Samples,
     decay: f64,
-    mut gradient: Option<&mut [f64]>,
-) -> f64 {
+) -> (f64, Vec<f64>) {
+    let [input, hidden_bias, output] = shape.ends();
+    let mut gradient = vec![0.0; weights.len()];
+    let (to_input, rest) = gradient.split_at_mut(input);
+    let (to_hidden_bias, rest) = rest.split_at_mut(shape.hidden);
+    let (to_output, to_output_bias) = rest.split_at_mut(output - hidden_bias);
     let mut hidden = vec![0.0; shape.hidden];
     let mut outputs = vec![0.0; shape.outputs];
     let mut sum = 0.0;
     let rows = samples.inputs.chunks_exact(shape.inputs);
     for (inputs, &class) in rows.zip(&samples.classes) {
         forward(shape, weights, inputs, &mut hidden, &mut outputs);
-        let target = |k| if k == class { 1.0 } else { 0.0 };
-        let errors = outputs.iter().enumerate().map(|(k, y)| y - target(k));
-        let errors: Vec<f64> = errors.collect();
-        sum = errors.iter().fold(sum, |sum, error| sum + error * error);
-        if let Some(gradient) = &mut gradient {
+        let mut blame = vec![0.0; shape.hidden];
+        for (k, y) in outputs.iter().enumerate() {
+            let error = y - if k == class { 1.0 } else { 0.0 };
+            sum += error * error;
             // σ′ = σ (1 − σ).
-            let deltas = errors.iter().zip(&outputs).map(|(e, y)| e * y * (1.0 - y));
-            let deltas: Vec<f64> = deltas.collect();
-            add_slopes(shape, weights, inputs, &hidden, &deltas, gradient);
+            let delta = error * y * (1.0 - y);
+            for (j, h) in hidden.iter().enumerate() {
+                let place = k * shape.hidden + j;
+                to_output[place] += delta * h;
+                blame[j] += delta * weights[hidden_bias + place];
+            }
+            to_output_bias[k] += delta;
         }
-    }
-    let scale = 1.0 / samples.classes.len().max(1) as f64;
-    let [input, hidden_bias, output] = shape.ends();
-    let penalised = [0..input, hidden_bias..output];
-    if let Some(gradient) = gradient {
-        for slope in gradient.iter_mut() {
-            *slope *= scale;
+        for ((blame, h), to_bias) in blame.iter_mut().zip(&hidden).zip(&mut *to_hidden_bias) {
+            *blame *= h * (1.0 - h);
+            *to_bias += *blame;
         }
-        for range in penalised.clone() {
-            for (slope, weight) in gradient[range.clone()].iter_mut().zip(&weights[range]) {
-                *slope += decay * weight;
+        for (&z, row) in inputs.iter().zip(to_input.chunks_exact_mut(shape.hidden)) {
+            for (to_weight, &blame) in row.iter_mut().zip(&blame) {
+                *to_weight += blame * z;
             }
         }
     }
-    let squares = penalised.into_iter().flat_map(|range| &weights[range]);
-    let squares: f64 = squares.map(|w| w * w).sum();
-    0.5 * sum * scale + 0.5 * decay * squares
-}
-
-/// Adds a sample's part of the gradient: `deltas` are ∂cost/∂drive of the outputs.
-fn add_slopes(
-    shape: Shape,
-    weights: &[f64],
-    inputs: &[f64],
-    hidden: &[f64],
-    deltas: &[f64],
-    gradient: &mut [f64],
-) {
-    let [input, hidden_bias, output] = shape.ends();
-    let (to_input, rest) = gradient.split_at_mut(input);
-    let (to_hidden_bias, rest) = rest.split_at_mut(shape.hidden);
-    let (to_output, to_output_bias) = rest.split_at_mut(output - hidden_bias);
-    let mut blame = vec![0.0; shape.hidden];
-    for (k, &delta) in deltas.iter().enumerate() {
-        let row = k * shape.hidden..(k + 1) * shape.hidden;
-        let of_output = &weights[hidden_bias..output][row.clone()];
-        let to_weights = &mut to_output[row];
-        for (j, h) in hidden.iter().enumerate() {
-            to_weights[j] += delta * h;
-            blame[j] += delta * of_output[j];
-        }
-        to_output_bias[k] += delta;
+    let scale = 1.0 / samples.classes.len().max(1) as f64;
+    for slope in &mut gradient {
+        *slope *= scale;
     }
-    for ((blame, h), to_bias) in blame.iter_mut().zip(hidden).zip(to_hidden_bias) {
-        *blame *= h * (1.0 - h);
-        *to_bias += *blame;
+    let mut squares = 0.0;
+    for place in (0..input).chain(hidden_bias..output) {
+        gradient[place] += decay * weights[place];
+        squares += weights[place] * weights[place];
     }
-    for (&z, row) in inputs.iter().zip(to_input.chunks_exact_mut(shape.hidden)) {
-        for (to_weight, &blame) in row.iter_mut().zip(&blame) {
-            *to_weight += blame * z;
-        }
-    }
+    (0.5 * sum * scale + 0.5 * decay * squares, gradient)
 }
 
 #[cfg(test)]
 mod tests {
-    use super::{Network, Samples, Shape, cost, cost_and_gradient};
+    use super::{Network, Samples, Shape, cost_and_gradient};
 
     /// The networks of reference/network.py, which printed the outputs.
     #[test]
@@ -265,15 +236,12 @@ mod tests {
         };
         for decay in [0.0, 0.3] {
             let mut weights = numbers(shape.weights(), 1000);
-            let mut gradient = vec![0.0; shape.weights()];
-            let all = Some(&mut gradient[..]);
-            let value = cost_and_gradient(shape, &weights, &samples, decay, all);
-            assert_eq!(value, cost(shape, &weights, &samples, decay));
+            let (_, gradient) = cost_and_gradient(shape, &weights, &samples, decay);
             for i in 0..weights.len() {
                 let at = weights[i];
                 let mut beside = |h: f64| {
                     weights[i] = at + h;
-                    cost(shape, &weights, &samples, decay)
+                    cost_and_gradient(shape, &weights, &samples, decay).0
                 };
                 // Fourth order: the rest is below 1e-12 for such smooth functions.
                 let h = 1e-3;

@@ -14,15 +14,12 @@
 use std::cell::RefCell;
 
 use anyhow::{Result, bail, ensure};
-use argmin::core::{
-    CostFunction, Executor, Gradient, IterState, KV, Problem, Solver, State, TerminationReason,
-    TerminationStatus,
-};
+use argmin::core::{CostFunction, Gradient, IterState, Problem, Solver, State as _};
 use argmin::solver::linesearch::MoreThuenteLineSearch;
 use argmin::solver::quasinewton::LBFGS;
 use tactile::score::Confusion;
 
-use super::{Network, Samples, Shape, cost, cost_and_gradient, scaled};
+use super::{Network, Samples, Shape, cost_and_gradient, scaled};
 use crate::rigs::Chance;
 
 /// Differences of weights and slopes that L-BFGS remembers.
@@ -123,51 +120,69 @@ pub(crate) fn train(rows: &[Row], options: &Options) -> Result<Network> {
     bail!("no start of a network named every class well enough")
 }
 
-/// The best weights on the way from a start; none if no finite error was met.
+type Search = MoreThuenteLineSearch<Vec<f64>, Vec<f64>, f64>;
+type State = IterState<Vec<f64>, Vec<f64>, (), (), (), f64>;
+
+/// The best weights on the way from a start, which ends when the samples held out are named no better
+/// any more; none if no finite error was met.
 fn session(
     (shape, start): (Shape, Vec<f64>),
     options: &Options,
     [training, held_out]: &[Samples; 2],
 ) -> Option<Vec<f64>> {
-    let best = RefCell::new((f64::INFINITY, None, 0));
-    let solver = Stopping {
-        inner: LBFGS::new(MoreThuenteLineSearch::new(), MEMORY),
-        shape,
-        held_out,
-        patience: options.patience,
-        best: &best,
-    };
-    let batch = Batch {
+    let stops = !held_out.classes.is_empty();
+    let mut problem = Problem::new(Batch {
         shape,
         samples: training,
         decay: options.decay,
         last: RefCell::default(),
-    };
-    // An error is a line search that finds nothing lower any more: the best weights so far are the
-    // result all the same.
-    let _ = Executor::new(batch, solver)
-        .configure(|state| state.param(start).max_iters(options.iterations))
-        .ctrlc(false)
-        .run();
-    best.into_inner().1
+    });
+    let mut solver: LBFGS<Search, _, _, _> = LBFGS::new(Search::new(), MEMORY);
+    let (mut state, _) = solver.init(&mut problem, State::new().param(start)).ok()?;
+    let (mut least, mut best, mut since) = (f64::INFINITY, None, 0);
+    // A search that finds nothing lower any more ends it: the best weights so far are the result all
+    // the same.
+    while let Some(weights) = state.get_param() {
+        let error = if stops {
+            cost_and_gradient(shape, weights, held_out, 0.0).0
+        } else {
+            state.get_cost()
+        };
+        since += 1;
+        if error < least {
+            (least, best, since) = (error, Some(weights.clone()), 0);
+        }
+        let has_converged = Solver::<Batch<'_>, State>::terminate(&mut solver, &state);
+        let is_over = stops && since >= options.patience || state.get_iter() >= options.iterations;
+        if is_over || has_converged.terminated() {
+            break;
+        }
+        let Ok((next, _)) = solver.next_iter(&mut problem, state) else {
+            break;
+        };
+        state = next;
+        state.increment_iter();
+    }
+    best
 }
+
+/// Weights, their cost and its gradient.
+type Evaluated = (Vec<f64>, (f64, Vec<f64>));
 
 struct Batch<'s> {
     shape: Shape,
     samples: &'s Samples,
     decay: f64,
-    /// The last weights, their cost and their gradient: the solver asks for both one after the
-    /// other, and one pass through the samples gives them.
-    last: RefCell<(Vec<f64>, f64, Vec<f64>)>,
+    /// The last: the solver asks for cost and gradient one after the other, and one pass through the
+    /// samples gives both.
+    last: RefCell<Evaluated>,
 }
 
 impl Batch<'_> {
-    fn at(&self, weights: &[f64]) -> std::cell::Ref<'_, (Vec<f64>, f64, Vec<f64>)> {
+    fn at(&self, weights: &[f64]) -> std::cell::Ref<'_, Evaluated> {
         if self.last.borrow().0 != weights {
-            let mut gradient = vec![0.0; weights.len()];
-            let (shape, samples, decay) = (self.shape, self.samples, self.decay);
-            let cost = cost_and_gradient(shape, weights, samples, decay, Some(&mut gradient));
-            self.last.replace((weights.to_vec(), cost, gradient));
+            let found = cost_and_gradient(self.shape, weights, self.samples, self.decay);
+            self.last.replace((weights.to_vec(), found));
         }
         self.last.borrow()
     }
@@ -178,7 +193,7 @@ impl CostFunction for Batch<'_> {
     type Output = f64;
 
     fn cost(&self, weights: &Vec<f64>) -> Result<f64> {
-        Ok(self.at(weights).1)
+        Ok(self.at(weights).1.0)
     }
 }
 
@@ -187,59 +202,7 @@ impl Gradient for Batch<'_> {
     type Gradient = Vec<f64>;
 
     fn gradient(&self, weights: &Vec<f64>) -> Result<Vec<f64>> {
-        Ok(self.at(weights).2.clone())
-    }
-}
-
-/// The lowest error so far, its weights, and iterations since.
-type Best = (f64, Option<Vec<f64>>, u32);
-
-type Search = MoreThuenteLineSearch<Vec<f64>, Vec<f64>, f64>;
-type Weights = IterState<Vec<f64>, Vec<f64>, (), (), (), f64>;
-type Stepped = Result<(Weights, Option<KV>)>;
-
-/// L-BFGS that keeps the best weights, and ends when the samples held out are named no better any
-/// more.
-struct Stopping<'s> {
-    inner: LBFGS<Search, Vec<f64>, Vec<f64>, f64>,
-    shape: Shape,
-    held_out: &'s Samples,
-    patience: u32,
-    /// Outside, as a solver that fails takes everything with it.
-    best: &'s RefCell<Best>,
-}
-
-impl<'s> Solver<Batch<'s>, Weights> for Stopping<'_> {
-    fn name(&self) -> &'static str {
-        "L-BFGS with early stopping"
-    }
-
-    fn init(&mut self, problem: &mut Problem<Batch<'s>>, state: Weights) -> Stepped {
-        self.inner.init(problem, state)
-    }
-
-    fn next_iter(&mut self, problem: &mut Problem<Batch<'s>>, state: Weights) -> Stepped {
-        self.inner.next_iter(problem, state)
-    }
-
-    fn terminate(&mut self, state: &Weights) -> TerminationStatus {
-        let Some(weights) = state.get_param() else {
-            return TerminationStatus::NotTerminated;
-        };
-        let stops = !self.held_out.classes.is_empty();
-        let held_out = || cost(self.shape, weights, self.held_out, 0.0);
-        let error = if stops { held_out() } else { state.get_cost() };
-        let mut best = self.best.borrow_mut();
-        if error < best.0 {
-            *best = (error, Some(weights.clone()), 0);
-        } else {
-            best.2 = best.2.saturating_add(1);
-        }
-        if stops && best.2 >= self.patience {
-            let why = TerminationReason::SolverExit("held-out error rises".into());
-            return TerminationStatus::Terminated(why);
-        }
-        Solver::<Batch<'s>, Weights>::terminate(&mut self.inner, state)
+        Ok(self.at(weights).1.1.clone())
     }
 }
 
