@@ -148,7 +148,6 @@ fn costs(page: &mut Page, counts: &Counts) {
     );
 }
 
-/// Goals beside what was measured, and the errors of every combination.
 pub(super) fn section(page: &mut Page, near: &[Errors], counts: &Counts) -> Result<()> {
     page.heading(2, "Integrators");
     costs(page, counts);

@@ -43,7 +43,6 @@ fn moved(state: State, h: f64, rate: State) -> State {
     core::array::from_fn(|n| state[n] + h * rate[n])
 }
 
-/// One step of `h` whisks by the classical Runge-Kutta method.
 fn runge_kutta(state: State, h: f64, push: f64) -> State {
     let k1 = rate(state, push);
     let k2 = rate(moved(state, h / 2.0, k1), push);
@@ -62,7 +61,6 @@ fn force(psi_1: f64, theta: f64) -> f64 {
 pub(super) struct Truth(Vec<[f64; 2]>);
 
 impl Truth {
-    /// [`WHISKS`] whisks of `case`.
     pub(super) fn solve(case: &Case) -> Self {
         let [[a, b], [c, d]] = case.psi;
         let mut state = [a, b, c, d, 0.0, 0.0, 0.0, 0.0];

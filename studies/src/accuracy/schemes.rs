@@ -19,14 +19,6 @@ pub(super) enum Format {
 
 impl Format {
     pub(super) const ALL: [Self; 3] = [Self::F64, Self::F32, Self::Fixed];
-
-    pub(super) const fn name(self) -> &'static str {
-        match self {
-            Self::F64 => "f64",
-            Self::F32 => "f32",
-            Self::Fixed => "fixed",
-        }
-    }
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -43,11 +35,8 @@ impl Scheme {
     }
 
     pub(super) fn name(self) -> String {
-        let integrator = match self.integrator {
-            Integrator::Euler => "euler",
-            Integrator::Exact => "exact",
-        };
-        format!("{integrator} {}", self.format.name())
+        let Self { integrator, format } = self;
+        format!("{integrator:?} {format:?}").to_lowercase()
     }
 
     /// Largest error of θ' in degrees over ten whisks of `case`, coupled and without noise and
@@ -100,7 +89,6 @@ fn error<R: Number>(settings: &Settings, case: &Case, truth: &Truth) -> Result<f
     Ok(worst)
 }
 
-/// Names of targets, and what the table of instructions calls them.
 pub(crate) const TARGETS: [(&str, &str); 2] =
     [("Cortex-M4F", "cortex-m4f"), ("Cortex-M0+", "cortex-m0")];
 
@@ -113,7 +101,6 @@ struct Row {
     worst: f64,
 }
 
-/// A row of `instructions.csv` a kernel, format and target.
 pub(crate) struct Counts(Vec<Row>);
 
 impl Counts {
@@ -138,7 +125,8 @@ impl Counts {
         };
         let format = match scheme.format {
             Format::Fixed => "fix",
-            format => format.name(),
+            Format::F32 => "f32",
+            Format::F64 => "f64",
         };
         Some(self.mean_and_worst([kernel, format, target])?.0)
     }
