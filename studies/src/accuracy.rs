@@ -1,15 +1,5 @@
 //! The accuracy report: `docs/measured/accuracy.md` and its pictures, generated.
 //!
-//! # Glossary
-//!
-//! - **work-precision diagram**: error against run time; the lower left corner is best.
-//! - **largest error**: of θ' in degrees, over ten whisks from the first tick
-//!   and both sides, against the continuous equations.
-//! - **instructions**: of a tick on a microcontroller, counted in
-//!   an emulator (`docs/measured/instructions.csv`, from `cargo xtask count`).
-//! - **exact**, **euler**: the product's integrators; **f64**, **f32**,
-//!   **fixed**: its number formats.
-//!
 //! Each section is a module that measures and appends its text, tables and
 //! pictures. All of it is the same, byte for byte, in every run.
 

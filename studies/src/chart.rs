@@ -1,6 +1,6 @@
 //! Panels of curves with linear or logarithmic axes, as SVG documents.
 
-use anyhow::{Result, bail};
+use anyhow::{Result, anyhow};
 use std::ops::Range;
 
 use plotters::coord::Shift;
@@ -69,10 +69,8 @@ impl Ranged for Axis {
         }
         let [from, to] = [self.low, self.high].map(|x| libm::log10(x).round() as i32);
         let every = ((to - from) as usize).div_ceil(most.min(12)).max(1);
-        (from..=to)
-            .step_by(every)
-            .map(|exponent| libm::pow(10.0, f64::from(exponent)))
-            .collect()
+        let exponents = (from..=to).step_by(every).map(f64::from);
+        exponents.map(|power| libm::pow(10.0, power)).collect()
     }
 
     fn range(&self) -> Range<f64> {
@@ -211,10 +209,8 @@ pub(crate) fn svg(
         Ok(root.present()?)
     };
     let drawn = all(SVGBackend::with_string(&mut svg, size).into_drawing_area());
-    match drawn {
-        Ok(()) => Ok(svg),
-        Err(fault) => bail!("a picture: {fault}"),
-    }
+    drawn.map_err(|fault| anyhow!("a picture: {fault}"))?;
+    Ok(svg)
 }
 
 /// Pictures of `size` pixels each in so many columns, by what draws one.
@@ -241,12 +237,8 @@ pub(crate) fn draw(panels: &[Panel]) -> Result<String> {
 
 pub(crate) fn draw_in(columns: usize, panels: &[Panel]) -> Result<String> {
     let rows = panels.len().div_ceil(columns).max(1);
-    let named = |series: &&Series| !series.name.is_empty();
-    let first = panels.first().into_iter();
-    let legend: Vec<&Series> = first
-        .flat_map(|panel| &panel.series)
-        .filter(named)
-        .collect();
+    let first = panels.first().into_iter().flat_map(|panel| &panel.series);
+    let legend: Vec<&Series> = first.filter(|series| !series.name.is_empty()).collect();
     let legend_height = LEGEND_ROW as u32 * (legend.len().div_ceil(LEGEND_COLUMNS) as u32) + 12;
     let height = PANEL_HEIGHT * rows as u32;
     svg((WIDTH, height + legend_height), |root| {

@@ -7,7 +7,6 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use host_sim::progress::{Progress, Verbosity};
 use rayon::prelude::*;
 
-/// All cores, and whether they show their progress.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Cores(pub(crate) Verbosity);
 

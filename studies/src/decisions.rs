@@ -1,17 +1,9 @@
 //! The page of decisions: `docs/measured/decisions.md`, its table and its pictures, generated.
 //!
-//! # Glossary
-//!
-//! - **training**: a model made from one run of a scene, as `host-sim train` does; the
-//!   first of them is the one that is shipped.
-//! - **scored runs**: runs of the scene with other seeds, as `host-sim score` has them.
-//! - **stated, found**: the mean posterior of decisions for a class, and the share of
-//!   them that was right.
-//! - **refused**: decided to be "unknown".
-//!
-//! Each section is a module that measures and appends its text, tables and pictures; the
-//! figures of each model stand in `decisions.csv`, too. All of it is the same, byte for byte, in every
-//! run and on any number of cores.
+//! Each section is a module that measures and appends its text, tables and pictures; the figures of
+//! each model stand in `decisions.csv`, too: the mean posterior that is *stated*, and the share of right
+//! decisions that is *found*. All of it is the same, byte for byte, in every run and on any number of
+//! cores.
 
 mod air;
 pub(crate) mod figures;
@@ -89,8 +81,7 @@ pub(crate) fn page(docs: &Path, terrain: &Path, extent: &Extent) -> Result<Files
 }
 
 fn introduction(page: &mut Page, extent: &Extent) {
-    let made_by = "cargo run --release --manifest-path studies/Cargo.toml -- decisions";
-    page.title("Decisions", made_by);
+    page.title_of_command("Decisions");
     page.say(
         "What the classifier's decisions are worth, each figure beside its goal. All are \
          measured with the code behind `host-sim train`, `score` and `evaluate`, whose \
@@ -117,7 +108,5 @@ fn introduction(page: &mut Page, extent: &Extent) {
          goals, [the detector's source](../../crates/tactile/src/touch.rs) how soon a touch is \
          reported.",
     );
-    if extent.is_quick {
-        page.say("**In short form:** fewer runs, trainings and settings (`--quick`).");
-    }
+    page.say_if_quick(extent.is_quick, "runs, trainings and settings");
 }

@@ -39,7 +39,7 @@ use recording::{Job, Recordings, of_set};
 use request::{Arm, Name};
 pub(crate) use request::{Extent, Request};
 pub(crate) use runs::run;
-use verdicts::{Bodies, Both, Judged, Verdict, all_judged, digits, margins};
+use verdicts::{Bodies, Both, Judged, VERDICTS, all_judged, digits, margins};
 
 #[cfg(test)]
 mod tests;

@@ -1,13 +1,8 @@
 //! The page of poses: `docs/measured/poses.md` and `poses.csv`, generated: what decisions are
 //! worth where use differs from training.
 //!
-//! # Glossary
-//!
-//! - **training**: a model, made as `host-sim train` does, of one recording or of one a pose.
-//! - **condition**: by what a scene differs from the pose of training; **cell**: what comes of it
-//!   over all trainings, each with presentations of its own.
-//! - **named**: a decision for a class; **decided**: a presentation with one.
-//! - **short**: by how many points right lies below stated.
+//! A *condition* is what a scene differs by from the pose of training, a *cell* what comes of it over
+//! all trainings; [`introduction`] has the other words.
 //!
 //! Trainings have seeds from 8001 on and 8501 on, tests from 8101 on: nothing else has them, and
 //! nothing is chosen by what comes of them.
@@ -32,7 +27,7 @@ use bound::Case;
 use condition::{Change, SPREAD, SURFACES, Setting, TEXTURES, WHISKER};
 use five::{Five, TILTS};
 use one::One;
-use output::{COLUMNS, Output, cells, found};
+use output::{Output, cells, found};
 use tally::{Asked, REASONS, Tally, mean_within, missed, said};
 use trained::{Relabel, THRESHOLD, TICK_HZ, Trained, as_felt, judge, model};
 
@@ -103,27 +98,20 @@ fn cases<'c>(
     spread: (&'c Trained<'static>, &'c [ModelBuf]),
 ) -> [Case<'c>; 9] {
     use Change::{CrossTalk, Friction, Obstacle, Turned};
+    let [slippery, rough] = [0.7, 1.3].map(|by| Some(Friction(by)));
+    let [near, far] = [96.0, 104.0].map(|to| Some(Obstacle(to)));
+    let mixed = Some(CrossTalk(0.03));
     let one = (&one.trained, &one.bench[..]);
     let five = (&five.trained, &five.models[..]);
     let all = [
         ("one pose, as trained", one, None, 80.0),
-        ("one pose, friction × 0.7", one, Some(Friction(0.7)), 5.0),
-        ("one pose, friction × 1.3", one, Some(Friction(1.3)), 5.0),
+        ("one pose, friction × 0.7", one, slippery, 5.0),
+        ("one pose, friction × 1.3", one, rough, 5.0),
         ("five poses, tilt 20°", five, None, 90.0),
         ("five poses, turned +5°", five, Some(Turned(5.0)), 70.0),
-        (
-            "five poses, cross-talk +3 %",
-            five,
-            Some(CrossTalk(0.03)),
-            70.0,
-        ),
-        ("five poses, obstacle 96°", five, Some(Obstacle(96.0)), 5.0),
-        (
-            "five poses, obstacle 104°",
-            five,
-            Some(Obstacle(104.0)),
-            5.0,
-        ),
+        ("five poses, cross-talk +3 %", five, mixed, 70.0),
+        ("five poses, obstacle 96°", five, near, 5.0),
+        ("five poses, obstacle 104°", five, far, 5.0),
         ("`bench-textures`", spread, None, 85.0),
     ];
     all.map(|(name, (trained, models), change, asked)| Case {
@@ -136,8 +124,7 @@ fn cases<'c>(
 }
 
 fn introduction(page: &mut Page, extent: &Extent) {
-    let made_by = "cargo run --release --manifest-path studies/Cargo.toml -- poses";
-    page.title("Poses", made_by);
+    page.title_of_command("Poses");
     page.say(
         "What decisions are worth where the pose, the sensor or the whisking is not that of the \
          training, each figure beside its goal. All are measured with the code behind `host-sim \
@@ -156,7 +143,5 @@ fn introduction(page: &mut Page, extent: &Extent) {
          8001 on and 8501 on; nothing else has them, and nothing was chosen by them. The figures \
          of each training are in [poses.csv](poses.csv).",
     );
-    if extent.is_quick {
-        page.say("**In short form:** fewer trainings, conditions and presentations (`--quick`).");
-    }
+    page.say_if_quick(extent.is_quick, "trainings, conditions and presentations");
 }

@@ -40,11 +40,8 @@ pub(crate) struct Rigs {
     pub(crate) floor: Floor,
     pub(crate) head: WhiskingHead,
     pub(crate) table: Table,
-    /// PSIK, fixed head.
     pub(crate) pad: Pad,
-    /// PSIK, mobile robot.
     pub(crate) corridor: Corridor,
-    /// PSIK, the mobile robot's maze.
     pub(crate) maze: Maze,
     pub(crate) surfaces: Surfaces,
 }
@@ -69,9 +66,8 @@ impl Rigs {
     pub(crate) fn load(folder: Option<&Path>, settings: &[Setting]) -> Result<Self, Error> {
         let mut all = Document::from_iter([("surfaces".to_owned(), whiskers::defaults().into())]);
         for (name, text) in FILES {
-            let file: Document = text
-                .parse()
-                .map_err(|error| Error::file(Path::new(name), error))?;
+            let file: Result<Document, _> = text.parse();
+            let file = file.map_err(|error| Error::file(Path::new(name), error))?;
             all.insert(name.to_owned(), file.into());
         }
         if let Some(folder) = folder {

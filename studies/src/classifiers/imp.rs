@@ -33,7 +33,7 @@ fn root(square: u32) -> u32 {
 }
 
 /// The peaks of one vibrissa so far.
-#[derive(Debug, Clone, Copy)]
+#[derive(Default)]
 struct Peaks {
     /// The square of the deflection at the last sample.
     last: u32,
@@ -50,17 +50,13 @@ struct Peaks {
 
 impl Peaks {
     /// As if falling from above all squares: what the first sample begins with is no peak.
-    const NEW: Self = Self {
-        last: u32::MAX,
-        is_rising: false,
-        age: 0,
-        since: 0,
-        any: false,
-        sum: 0,
-        count: 0,
-    };
+    fn new() -> Self {
+        Self {
+            last: u32::MAX,
+            ..Self::default()
+        }
+    }
 
-    /// Takes a sample in codes.
     fn push(&mut self, codes: [i16; 2]) {
         let [x, y] = codes.map(|code| u32::from(code.unsigned_abs()));
         let square = x * x + y * y;
@@ -88,7 +84,6 @@ impl Peaks {
     }
 }
 
-/// The IMP of all vibrissae of a pad, window by window.
 pub(crate) struct Imp {
     window: u32,
     vibrissae: [Peaks; VIBRISSAE],
@@ -96,10 +91,10 @@ pub(crate) struct Imp {
 }
 
 impl Imp {
-    pub(crate) const fn new(window: u32) -> Self {
+    pub(crate) fn new(window: u32) -> Self {
         Self {
             window,
-            vibrissae: [Peaks::NEW; VIBRISSAE],
+            vibrissae: std::array::from_fn(|_| Peaks::new()),
             open: 0,
         }
     }
@@ -130,7 +125,7 @@ mod tests {
 
     /// The IMP of a signal in codes a sample, and the peaks that it is the mean of.
     fn imp_of(codes: impl Iterator<Item = [i16; 2]>) -> (f64, u32) {
-        let mut peaks = Peaks::NEW;
+        let mut peaks = Peaks::new();
         codes.for_each(|codes| peaks.push(codes));
         let count = peaks.count;
         (f64::from(peaks.take()) / 65536.0, count)
@@ -177,7 +172,6 @@ mod tests {
     }
 
     proptest! {
-        /// A walk with momentum, in any direction.
         #[test]
         fn integers_are_within_their_bound_of_the_definition(
             steps in prop::collection::vec((-90_i16..90, -90_i16..90), 3..400),

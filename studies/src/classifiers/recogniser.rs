@@ -1,12 +1,6 @@
 //! One way to ask any classifier, for experiments on a PC: samples in, the
 //! name of a class out, whatever the method.
 //!
-//! # Glossary
-//!
-//! - **sample**: one real number a channel, in the units of training.
-//! - **segment**: the samples of one trial, whisk or window.
-//! - **outcome**: the class that a recogniser names, and after how many samples.
-//!
 //! [`Bayes`] wraps naive Bayes under any rule. [`Sprt`] is the sequential probability ratio test
 //! between two classes (LEP12 eqs. 1 and 2), on the tables of a model of naive Bayes:
 //! log PR = log HR + Σ log LR, with the prior ratio HR = P(H₁)/P(H₂) and the likelihood ratio LR
@@ -26,7 +20,6 @@ pub(crate) struct Outcome {
     pub(crate) samples: u32,
 }
 
-/// Anything that names a class from a stream of samples.
 pub(crate) trait Recogniser {
     /// Takes one sample of all channels; gives an outcome where one falls.
     /// A sample of another number of channels is not taken.
@@ -80,9 +73,6 @@ impl From<Decision> for Outcome {
 
 impl<R: DecisionRule> Recogniser for Bayes<'_, R> {
     fn push(&mut self, sample: &[f64]) -> Option<Outcome> {
-        if sample.len() != self.quantisers.len() {
-            return None;
-        }
         self.codes.clear();
         let codes = self.quantisers.iter().zip(sample);
         self.codes.extend(codes.map(|(q, &x)| q.code_from_f64(x)));
@@ -160,9 +150,8 @@ impl Recogniser for Sprt {
         }
         for (channel, x) in self.channels.iter().zip(sample) {
             let code = channel.quantiser.code_from_f64(*x);
-            let bin = channel
-                .binner
-                .bin(code, channel.ratios.len().saturating_sub(1));
+            let last = channel.ratios.len().saturating_sub(1);
+            let bin = channel.binner.bin(code, last);
             self.sum += channel.ratios.get(bin).copied().unwrap_or(0.0);
         }
         self.samples = self.samples.saturating_add(1);
@@ -181,7 +170,6 @@ impl Recogniser for Sprt {
         Some(outcome)
     }
 
-    /// What is undecided stays so.
     fn finish(&mut self) -> Option<Outcome> {
         (self.ratio, self.sum, self.samples) = (self.prior, 0.0, 0);
         None

@@ -83,18 +83,14 @@ impl Regression {
         let solved = svd.solve(&targets, RANK * most);
         let coefficients = solved.map_err(anyhow::Error::msg)?;
         ensure!(coefficients.iter().all(|x| x.is_finite()), singular);
-        fitted.terms = powers
-            .into_iter()
-            .zip(coefficients.iter().copied())
-            .collect();
+        let terms = powers.into_iter().zip(coefficients.iter().copied());
+        fitted.terms = terms.collect();
         Ok(fitted)
     }
 
     fn scaled(&self, features: &[f64]) -> Vec<f64> {
-        let parts = features.iter().zip(&self.scales);
-        parts
-            .map(|(x, (centre, scale))| (x - centre) * scale)
-            .collect()
+        let part = |(x, (centre, scale)): (&f64, &(f64, f64))| (x - centre) * scale;
+        features.iter().zip(&self.scales).map(part).collect()
     }
 
     pub(crate) fn value(&self, features: &[f64]) -> f64 {

@@ -81,7 +81,6 @@ impl Spectrum {
         Ok(self.complex(block)?.iter().map(measure).collect())
     }
 
-    /// X(k) itself.
     pub(crate) fn complex(&self, block: impl Iterator<Item = f64>) -> Result<Vec<Complex<f64>>> {
         let mut input: Vec<f64> = block.collect();
         let is_short = input.len() <= self.bins.points;

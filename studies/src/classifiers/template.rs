@@ -8,11 +8,9 @@ use tactile::Quantiser;
 
 /// The codes of some values, saturated to 16 bits: their squares add up without rounding.
 fn coded(quantiser: &Quantiser, values: &[f64]) -> Vec<f64> {
-    let code = |x: &f64| quantiser.code_from_f64(*x);
-    let codes = values.iter().map(code);
-    codes
-        .map(|code| f64::from(code.clamp(quantiser.low, quantiser.high)))
-        .collect()
+    let codes = values.iter().map(|x| quantiser.code_from_f64(*x));
+    let inside = codes.map(|code| code.clamp(quantiser.low, quantiser.high));
+    inside.map(f64::from).collect()
 }
 
 pub(crate) struct Templates {

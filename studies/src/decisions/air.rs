@@ -4,7 +4,7 @@ use anyhow::Result;
 use firmware::Event;
 use host_sim::classifier::Classifier;
 use host_sim::run::Run;
-use scene::{Rule, Scene};
+use scene::Rule;
 
 use super::{Extent, Ground};
 use crate::page::{Page, verdict};
@@ -16,16 +16,11 @@ const SEED: u64 = 400;
 
 /// Each plant with its shipped model, the obstacle out of reach.
 pub(super) fn section(page: &mut Page, grounds: &[Ground], extent: &Extent) -> Result<()> {
-    let jobs = grounds
-        .iter()
-        .flat_map(|ground| FREQUENCIES_HZ.map(|hz| (ground, hz)));
-    let jobs: Vec<(&Ground, f64)> = jobs.collect();
+    let at_each = |ground| FREQUENCIES_HZ.map(|hz| (ground, hz));
+    let jobs: Vec<(&Ground, f64)> = grounds.iter().flat_map(at_each).collect();
     let found = extent.cores.each("free air", &jobs, |&(ground, hz)| {
-        let mut scene = Scene {
-            seed: SEED,
-            duration_s: extent.air_s,
-            ..ground.scene.clone()
-        };
+        let mut scene = ground.scene.clone();
+        (scene.seed, scene.duration_s) = (SEED, extent.air_s);
         if let Some(whisking) = &mut scene.whisking {
             whisking.frequency_hz = hz;
         }
@@ -62,10 +57,7 @@ pub(super) fn section(page: &mut Page, grounds: &[Ground], extent: &Extent) -> R
             verdict(f64::from(touches) < minutes).to_owned(),
         ]
     });
-    let rows: Vec<_> = rows.collect();
-    page.table(
-        "scene | decisions (goal: 0) | | touches a minute (goal: below 1) |",
-        rows,
-    );
+    let header = "scene | decisions (goal: 0) | | touches a minute (goal: below 1) |";
+    page.table(header, rows);
     Ok(())
 }

@@ -51,11 +51,12 @@ impl Figures {
         let cell = |x: f64| cell(x, 3);
         let percent = |x: f64| cell(100.0 * x);
         let found = self.all.calibration.found;
+        let (hit_rate, error) = self.hits();
         let figures = [
             seed.to_string(),
             self.hits.len().to_string(),
-            cell(self.hit_rate()),
-            percent(mean_of(self.hits.iter().copied()).1),
+            cell(hit_rate),
+            cell(error),
             cell(self.worst()),
             percent(self.all.calibration.stated),
             percent(found.share),
@@ -71,9 +72,10 @@ impl Figures {
         page.keep(&of, &figures);
     }
 
-    /// Mean hit rate over the runs, percent.
-    pub(super) fn hit_rate(&self) -> f64 {
-        100.0 * mean_of(self.hits.iter().copied()).0
+    /// Mean hit rate over the runs, and its error, percent.
+    pub(super) fn hits(&self) -> (f64, f64) {
+        let (mean, error) = mean_of(self.hits.iter().copied());
+        (100.0 * mean, 100.0 * error)
     }
 
     /// Hit rate of the worst run, percent; infinite without one.
@@ -92,7 +94,6 @@ pub(super) fn strange(figures: &Figures) -> f64 {
     100.0 * figures.all.strange.share
 }
 
-/// Those on known ones.
 pub(super) fn known_refused(figures: &Figures) -> f64 {
     100.0 * figures.all.refused.share
 }

@@ -42,152 +42,126 @@ pub(super) fn measure(ground: &Ground, extent: &Extent) -> Result<Vec<Trained>> 
     })
 }
 
-/// A line: what is measured of a model, and how that is written.
-struct Line {
-    name: String,
-    goal: Goal,
-    value: fn(&Figures) -> f64,
-    text: fn(&Figures) -> String,
-    /// At which of [`THRESHOLDS`], and decimals of the other trainings' mean.
-    at: usize,
-    decimals: usize,
+/// How a figure of a model is written: with so many decimals, or as a share with its interval.
+#[derive(Clone, Copy)]
+enum Text {
+    Number(fn(&Figures) -> f64, usize),
+    Share(fn(&Figures) -> Interval),
+    /// A mean with its error.
+    Mean(fn(&Figures) -> (f64, f64)),
+    /// How far stated and found lie apart.
+    Apart,
 }
 
-fn above(figures: &Figures) -> f64 {
-    figures.hits.iter().filter(|hits| **hits > 0.94).count() as f64
+impl Text {
+    fn value(self, figures: &Figures) -> f64 {
+        match self {
+            Self::Number(of, _) => of(figures),
+            Self::Share(of) => 100.0 * of(figures).share,
+            Self::Mean(of) => of(figures).0,
+            Self::Apart => figures.overstated().abs(),
+        }
+    }
+
+    fn of(self, figures: &Figures) -> String {
+        match self {
+            Self::Number(of, decimals) => number(of(figures), decimals),
+            Self::Share(of) => percent(of(figures)),
+            Self::Mean(of) => plus_minus(of(figures), 2),
+            Self::Apart => {
+                let calibration = &figures.all.calibration;
+                let (apart, stated) = (self.value(figures), 100.0 * calibration.stated);
+                let found = percent(calibration.found);
+                format!("{apart:.2}: stated {stated:.2}, found {found}")
+            }
+        }
+    }
 }
 
-fn below(figures: &Figures) -> f64 {
-    figures.hits.iter().filter(|hits| **hits < 0.9).count() as f64
+/// A line: what is measured of a model at which of [`THRESHOLDS`], its goal, and decimals of the
+/// other trainings' mean.
+struct Line(String, Goal, Text, usize, usize);
+
+fn runs(figures: &Figures, is_meant: fn(f64) -> bool) -> f64 {
+    figures.hits.iter().filter(|hits| is_meant(**hits)).count() as f64
 }
 
 fn lines(ground: &Ground) -> Vec<Line> {
+    use Goal::{AtLeast, AtMost};
+    use Text::{Apart, Mean, Number, Share};
     let goals = ground.goals;
     // Of single runs no goal is set but on the first scene.
     let of_runs = |goal| match goal {
         _ if goals.of_runs => goal,
-        Goal::AtLeast(_) => Goal::AtLeast(f64::NEG_INFINITY),
-        Goal::AtMost(_) => Goal::AtMost(f64::INFINITY),
+        AtLeast(_) => AtLeast(f64::NEG_INFINITY),
+        AtMost(_) => AtMost(f64::INFINITY),
     };
     let count = ground.runs.len();
-    let line = |name: &str, goal, value, text, decimals| Line {
-        name: name.to_owned(),
-        goal,
-        value,
-        text,
-        at: USUAL,
-        decimals,
-    };
-    let mut lines = vec![
-        line(
-            "hit rate, mean over runs",
-            Goal::AtLeast(98.5),
-            Figures::hit_rate,
-            |f| {
-                let (mean, error) = mean_of(f.hits.iter().copied());
-                plus_minus((100.0 * mean, 100.0 * error), 2)
-            },
-            2,
-        ),
-        line(
-            "hit rate of the worst run",
-            of_runs(Goal::AtLeast(90.0)),
-            Figures::worst,
-            |f| number(f.worst(), 1),
-            1,
-        ),
-        line(
-            &format!("runs above 94 %, of {count}"),
-            of_runs(Goal::AtLeast((0.95 * count as f64).floor())),
-            above,
-            |f| number(above(f), 0),
-            1,
-        ),
-        line(
-            &format!("runs below 90 %, of {count}"),
-            of_runs(Goal::AtMost(0.0)),
-            below,
-            |f| number(below(f), 0),
-            1,
-        ),
+    let least = (0.95 * count as f64).floor();
+    let names = [
+        "hit rate, mean over runs".to_owned(),
+        "hit rate of the worst run".to_owned(),
+        format!("runs above 94 %, of {count}"),
+        format!("runs below 90 %, of {count}"),
     ];
-    for (at, (threshold, apart)) in THRESHOLDS.into_iter().enumerate() {
-        lines.push(Line {
-            name: format!("stated and found at {threshold}, points apart"),
-            goal: Goal::AtMost(apart),
-            value: |f| f.overstated().abs(),
-            text: |f| {
-                let (apart, stated) = (f.overstated().abs(), 100.0 * f.all.calibration.stated);
-                let found = percent(f.all.calibration.found);
-                format!("{apart:.2}: stated {stated:.2}, found {found}")
-            },
-            at,
-            decimals: 2,
-        });
-    }
-    lines.extend([
-        line(
-            "decisions these are of, at 0.99",
-            Goal::AtLeast(2000.0),
-            |f| f.all.calibration.found.count as f64,
-            |f| f.all.calibration.found.count.to_string(),
-            0,
-        ),
-        line(
-            "time of contact to a decision, ms",
-            Goal::AtMost(goals.contact_ms),
-            |f| f.contact_ms,
-            |f| number(f.contact_ms, 0),
-            0,
-        ),
-        line(
-            "the same by the clock, from the first sample that counted, ms",
-            Goal::AtMost(f64::INFINITY),
-            |f| f.wall_ms,
-            |f| number(f.wall_ms, 0),
-            0,
-        ),
-        line(
-            "presentations without a decision",
-            Goal::AtMost(goals.undecided),
-            |f| 100.0 * f.all.undecided.share,
-            |f| percent(f.all.undecided),
-            1,
-        ),
-        line(
-            "refused of known textures",
-            Goal::AtMost(6.0),
-            |f| 100.0 * f.all.refused.share,
-            |f| percent(f.all.refused),
-            1,
-        ),
-    ]);
-    lines
+    let above = Number(|f| runs(f, |hits| hits > 0.94), 0);
+    let below = Number(|f| runs(f, |hits| hits < 0.9), 0);
+    let asked = [
+        (AtLeast(98.5), Mean(Figures::hits), 2),
+        (of_runs(AtLeast(90.0)), Number(Figures::worst, 1), 1),
+        (of_runs(AtLeast(least)), above, 1),
+        (of_runs(AtMost(0.0)), below, 1),
+    ];
+    let others = [
+        "decisions these are of, at 0.99",
+        "time of contact to a decision, ms",
+        "the same by the clock, from the first sample that counted, ms",
+        "presentations without a decision",
+        "refused of known textures",
+    ];
+    let count = Number(|f| f.all.calibration.found.count as f64, 0);
+    let of_others = [
+        (AtLeast(2000.0), count, 0),
+        (AtMost(goals.contact_ms), Number(|f| f.contact_ms, 0), 0),
+        (AtMost(f64::INFINITY), Number(|f| f.wall_ms, 0), 0),
+        (AtMost(goals.undecided), Share(|f| f.all.undecided), 1),
+        (AtMost(6.0), Share(|f| f.all.refused), 1),
+    ];
+    let usual = |(name, (goal, text, decimals))| Line(name, goal, text, USUAL, decimals);
+    let apart = THRESHOLDS.into_iter().enumerate();
+    let apart = apart.map(|(at, (threshold, apart))| {
+        let name = format!("stated and found at {threshold}, points apart");
+        Line(name, AtMost(apart), Apart, at, 2)
+    });
+    let first = names.into_iter().zip(asked).map(usual);
+    let others = others.map(str::to_owned).into_iter().zip(of_others);
+    first.chain(apart).chain(others.map(usual)).collect()
 }
 
 impl Line {
-    /// Name, goal, the shipped model and whether that keeps it, the others.
     fn row(&self, trained: &[Trained]) -> Vec<String> {
-        let value = |trained: &Trained| (self.value)(&trained.at[self.at]);
+        let Self(name, goal, text, at, decimals) = self;
+        let value = |trained: &Trained| text.value(&trained.at[*at]);
         let Some((shipped, others)) = trained.split_first() else {
             return Vec::new();
         };
         let values: Vec<f64> = others.iter().map(value).collect();
-        let worst = values.iter().copied().reduce(|a, b| self.goal.worse(a, b));
-        let decimals = self.decimals;
-        let mean = plus_minus(mean_of(values), decimals);
-        let of_others = worst.map_or_else(String::new, |x| format!("{mean}; {x:.decimals$}"));
-        let met = trained.iter().filter(|one| self.goal.met(value(one)));
-        let of_all = if self.goal.is_asked() {
+        let worst = values.iter().copied().reduce(|a, b| goal.worse(a, b));
+        let mean = plus_minus(mean_of(values), *decimals);
+        let of_others = worst.map_or_else(String::new, |x| {
+            format!("{mean}; {x:.decimals$}", decimals = *decimals)
+        });
+        let met = trained.iter().filter(|one| goal.met(value(one)));
+        let of_all = if goal.is_asked() {
             format!("{} of {}", met.count(), trained.len())
         } else {
             String::new()
         };
         vec![
-            self.name.clone(),
-            self.goal.text(),
-            (self.text)(&shipped.at[self.at]),
-            self.goal.verdict(value(shipped)).to_owned(),
+            name.clone(),
+            goal.text(),
+            text.of(&shipped.at[*at]),
+            goal.verdict(value(shipped)).to_owned(),
             of_others,
             of_all,
         ]
@@ -233,10 +207,8 @@ pub(super) fn calibration(page: &mut Page, grounds: &[Ground]) -> Result<()> {
          below it decisions are right more often than they say, above it less often. Bars are \
          95 % intervals; where none was wrong only the bar is drawn, from the bottom.",
     );
-    let panels: Vec<Panel> = grounds
-        .iter()
-        .map(|ground| stated_and_found(ground.name, &ground.trained))
-        .collect();
+    let panel = |ground: &Ground| stated_and_found(ground.name, &ground.trained);
+    let panels: Vec<Panel> = grounds.iter().map(panel).collect();
     page.panels("calibration.svg", "stated against found", &panels)?;
     let (at, (threshold, _)) = (0, THRESHOLDS[0]);
     for ground in grounds {
@@ -258,10 +230,8 @@ pub(super) fn calibration(page: &mut Page, grounds: &[Ground]) -> Result<()> {
 
 fn pooled(trained: &[Trained], at: usize) -> Vec<CalibrationBin> {
     let mut pooled: Vec<CalibrationBin> = Vec::new();
-    let bins = trained
-        .iter()
-        .flat_map(|one| &one.at[at].all.calibration.bins);
-    for bin in bins {
+    let calibrations = trained.iter().map(|one| &one.at[at].all.calibration);
+    for bin in calibrations.flat_map(|of| &of.bins) {
         match pooled.iter_mut().find(|other| other.low == bin.low) {
             Some(other) => *other = both(other, bin),
             None => pooled.push(*bin),

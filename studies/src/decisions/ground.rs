@@ -22,7 +22,6 @@ pub(super) struct Goals {
     pub(super) contact_ms: f64,
     pub(super) undecided: f64,
     pub(super) strange: f64,
-    /// Whether there is a goal for single runs.
     pub(super) of_runs: bool,
 }
 
@@ -62,33 +61,33 @@ pub(super) struct Ground {
 
 impl Ground {
     pub(super) fn all(extent: &Extent) -> Result<Vec<Self>> {
-        SCENES
-            .into_iter()
-            .map(|(name, text, goals)| {
-                let scene = Scene::from_str(&format!("scenes/{name}.toml"), text)?;
-                let recorded = extent
-                    .cores
-                    .each("training runs", &extent.trainings, |&seed| {
-                        let scene = Scene {
-                            seed,
-                            duration_s: LONGEST_S,
-                            ..scene.clone()
-                        };
-                        Ok((seed, record::streams(&scene, Verbosity::Quiet)?))
-                    })?;
-                let seeds: Vec<u64> = extent.scored.clone().collect();
-                let mut ground = Self {
-                    name,
-                    goals,
-                    recorded,
-                    runs: record_all(&scene, &seeds, extent)?,
-                    trained: Vec::new(),
-                    scene,
-                };
-                ground.trained = measure(&ground, extent)?;
-                Ok(ground)
-            })
-            .collect()
+        let seeds: Vec<u64> = extent.scored.clone().collect();
+        let one = |(name, text, goals): (&'static str, &str, Goals)| {
+            let scene = Scene::from_str(&format!("scenes/{name}.toml"), text)?;
+            let record = |&seed: &u64| {
+                let mut scene = scene.clone();
+                (scene.seed, scene.duration_s) = (seed, LONGEST_S);
+                Ok((seed, record::streams(&scene, Verbosity::Quiet)?))
+            };
+            let cores = extent.cores;
+            let mut ground = Self {
+                name,
+                goals,
+                recorded: cores.each("training runs", &extent.trainings, record)?,
+                runs: record_all(&scene, &seeds, extent)?,
+                trained: Vec::new(),
+                scene,
+            };
+            ground.trained = measure(&ground, extent)?;
+            Ok(ground)
+        };
+        SCENES.into_iter().map(one).collect()
+    }
+
+    pub(super) fn textures(&self) -> Vec<&str> {
+        let textured = self.scene.plant.textured.iter();
+        let textures = textured.flat_map(|textured| &textured.textures);
+        textures.map(|texture| texture.name()).collect()
     }
 
     pub(super) fn shipped(&self) -> &Trained {
@@ -99,7 +98,6 @@ impl Ground {
         self.recorded.iter().map(|(seed, _)| *seed)
     }
 
-    /// The first seconds of the run that a training is of.
     pub(super) fn recording(&self, seed: u64, seconds: f64) -> Vec<Stream> {
         let mut left = (seconds * f64::from(self.scene.tick_hz)).round() as usize;
         let recorded = self.recorded.iter().find(|(of, _)| *of == seed);
@@ -157,10 +155,8 @@ pub(super) fn score_on(
 
 pub(super) fn record_all(scene: &Scene, seeds: &[u64], extent: &Extent) -> Result<Vec<Heard>> {
     extent.cores.each("scored runs", seeds, |&seed| {
-        let scene = Scene {
-            seed,
-            ..scene.clone()
-        };
+        let mut scene = scene.clone();
+        scene.seed = seed;
         Ok(Heard::record(&scene)?)
     })
 }

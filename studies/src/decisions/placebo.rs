@@ -34,9 +34,7 @@ pub(super) fn section(page: &mut Page, grounds: &[Ground], extent: &Extent) -> R
     );
     let mut rows = Vec::new();
     for ground in grounds {
-        let textured = ground.scene.plant.textured.as_ref();
-        let textures = textured.map_or(&[][..], |textured| &textured.textures);
-        let names: Vec<&str> = textures.iter().map(|texture| texture.name()).collect();
+        let names = ground.textures();
         let mut runs = ground.runs.clone();
         for shown in runs.iter_mut().flat_map(|run| &mut run.presentations) {
             shown.label = permuted(&names, &shown.label, shown.trial);
@@ -59,15 +57,13 @@ pub(super) fn section(page: &mut Page, grounds: &[Ground], extent: &Extent) -> R
             }
             let all = |figure: fn(&Figures) -> f64| over(found.iter(), figure);
             let share = over(found.iter(), |figures| 100.0 * count(figures) / true_count);
+            let decided = all(|figures| 100.0 * (1.0 - figures.all.undecided.share));
             let cells = [
                 setting,
                 format!("{:.0}", 100.0 / names.len().max(1) as f64),
-                plus_minus(all(Figures::hit_rate), 1),
+                plus_minus(all(|figures| figures.hits().0), 1),
                 number(all(|figures| 100.0 * figures.all.calibration.stated).0, 1),
-                plus_minus(
-                    all(|figures| 100.0 * (1.0 - figures.all.undecided.share)),
-                    1,
-                ),
+                plus_minus(decided, 1),
                 plus_minus(share, 1),
             ];
             rows.push(row(ground.name, cells));
@@ -103,23 +99,18 @@ pub(super) fn unknown(page: &mut Page, grounds: &[Ground], extent: &Extent) -> R
          noticed: its vibration lies among those of what the model knows.",
     );
     for ground in grounds {
-        let textured = ground.scene.plant.textured.as_ref();
-        let textures = textured.map_or(&[][..], |textured| &textured.textures);
-        let labels = textures.iter().map(|texture| texture.name());
-        let labels: Vec<&str> = labels.take(extent.values.max(1)).collect();
+        let mut labels = ground.textures();
+        labels.truncate(extent.values.max(1));
         let seeds: Vec<u64> = ground.seeds().collect();
-        let jobs: Vec<(&str, u64)> = labels
-            .iter()
-            .flat_map(|&label| seeds.iter().map(move |&seed| (label, seed)))
-            .collect();
-        let found = extent
-            .cores
-            .each("unknown textures", &jobs, |&(label, seed)| {
-                let mut streams = ground.recording(seed, ground.scene.duration_s);
-                streams.retain(|stream| stream.label != label);
-                let model = ground.train(streams)?.model()?;
-                ground.score(&model, 0.99)
-            })?;
+        let of_label = |&label| seeds.iter().map(move |&seed| (label, seed));
+        let jobs: Vec<(&str, u64)> = labels.iter().flat_map(of_label).collect();
+        let of_job = |&(label, seed): &(&str, u64)| {
+            let mut streams = ground.recording(seed, ground.scene.duration_s);
+            streams.retain(|stream| stream.label != label);
+            let model = ground.train(streams)?.model()?;
+            ground.score(&model, 0.99)
+        };
+        let found = extent.cores.each("unknown textures", &jobs, of_job)?;
         for ((label, seed), figures) in jobs.iter().zip(&found) {
             let setting = format!("without {label}");
             figures.keep(page, ["unknown", ground.name, &setting], *seed);

@@ -29,11 +29,10 @@ pub(super) fn section(
         .each("settings", &jobs, |&(setting, value, ground)| {
             let (mut figures, mut bytes) = (Vec::new(), 0);
             for one in &ground.trained {
-                let Some(model) = (setting.model)(value, ground, one)? else {
-                    continue;
-                };
-                bytes = model.as_bytes().len();
-                figures.push((one.seed, ground.score(&model, 0.99)?));
+                if let Some(model) = (setting.model)(value, ground, one)? {
+                    bytes = model.as_bytes().len();
+                    figures.push((one.seed, ground.score(&model, 0.99)?));
+                }
             }
             Ok(Tried {
                 setting,
@@ -331,7 +330,7 @@ type Figure = fn(&Figures) -> f64;
 type Drawn = (&'static str, Figure);
 
 const FIGURES: [Drawn; 3] = [
-    ("errors, %", |f| 100.0 - f.hit_rate()),
+    ("errors, %", |f| 100.0 - f.hits().0),
     ("stated and found apart, points", |f| f.overstated().abs()),
     ("contact to a decision, ms", |f| f.contact_ms),
 ];

@@ -48,11 +48,8 @@ impl Windows {
 }
 
 pub(super) fn section(page: &mut Page, folder: &Path, extent: &Extent) -> Result<()> {
-    let [first, second] = ["terrain-train.csv", "terrain-test.csv"].map(|name| {
-        let path = folder.join(name);
-        files::read_recording(&path, CHANNELS)
-    });
-    let (first, second) = (first?, second?);
+    let read = |name| files::read_recording(&folder.join(name), CHANNELS);
+    let (first, second) = (read("terrain-train.csv")?, read("terrain-test.csv")?);
     let drives = drives(&first, &second);
     let places: Vec<usize> = (0..drives.len()).take(extent.drives).collect();
     let others = extent.cores.each("terrain", &places, |&left_out| {
@@ -132,7 +129,6 @@ pub(super) fn section(page: &mut Page, folder: &Path, extent: &Extent) -> Result
 /// Some of the windows, and of which.
 type Share = (fn(Windows) -> usize, fn(Windows) -> usize);
 
-/// The first or the second half of a stream.
 fn cut(stream: &Stream, half: usize) -> Stream {
     let middle = stream.samples.len() / 2;
     let (first, second) = stream.samples.split_at(middle);
@@ -148,9 +144,8 @@ fn drives(first: &[Stream], second: &[Stream]) -> Vec<Stream> {
         let is_rest = |of: &&Stream| (&of.label, &of.trial) == (&half.label, &half.trial);
         let rest = second.iter().find(is_rest);
         let mut drive = half.clone();
-        drive
-            .samples
-            .extend(rest.into_iter().flat_map(|rest| &rest.samples));
+        let samples = rest.into_iter().flat_map(|rest| &rest.samples);
+        drive.samples.extend(samples);
         drive
     };
     first.iter().map(whole).collect()

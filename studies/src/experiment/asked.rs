@@ -61,12 +61,11 @@ fn named(text: &str) -> Result<Named, String> {
     let one = place.and_then(|place| Name::ALL.get(place..=place));
     let all = (text == "all").then_some(Name::ALL);
     one.or(all).ok_or_else(|| {
-        let names: Vec<&str> = Name::ALL.iter().map(|name| name.text()).collect();
+        let names: Vec<String> = Name::ALL.iter().map(|name| name.text()).collect();
         format!("there are {} and all", names.join(", "))
     })
 }
 
-/// What is cut short, and on how many seeds.
 #[derive(Debug, Clone)]
 pub(super) struct Short {
     names: Named,
@@ -137,34 +136,29 @@ impl Asked {
         first..first.saturating_add(self.changes)
     }
 
-    pub(super) fn request(&self, part: &Part, seed: u64, arm: Arm) -> anyhow::Result<Request> {
-        Ok(Request {
-            names: part.names.clone(),
-            extent: part.extent,
-            seed,
-            rigs: self.rigs_with(arm.protocol.keys())?,
-            arm,
-            is_whole: arm == Arm::MAIN,
-        })
-    }
-
-    pub(super) fn changed(
+    /// By an arm; or as in the papers, cut short and with the keys of a change.
+    pub(super) fn request(
         &self,
         part: &Part,
         seed: u64,
-        keys: &[String],
+        arm: Arm,
+        change: Option<&[String]>,
     ) -> anyhow::Result<Request> {
+        let kept = arm.protocol.keys().iter().copied();
+        let changed = change.into_iter().flatten().map(String::as_str);
         Ok(Request {
-            extent: Extent::QUICK,
-            rigs: self.rigs_with(keys)?,
-            is_whole: false,
-            ..self.request(part, seed, Arm::MAIN)?
+            names: part.names.clone(),
+            extent: change.map_or(part.extent, |_| Extent::QUICK),
+            seed,
+            rigs: self.rigs_with(kept.chain(changed))?,
+            arm,
+            is_whole: change.is_none() && arm == Arm::MAIN,
         })
     }
 
     /// The rigs with some keys, and with those that were asked for after them.
-    fn rigs_with(&self, keys: &[impl AsRef<str>]) -> anyhow::Result<Rigs> {
-        let keys = keys.iter().map(|text| text.as_ref().parse());
+    fn rigs_with<'k>(&self, keys: impl Iterator<Item = &'k str>) -> anyhow::Result<Rigs> {
+        let keys = keys.map(str::parse);
         let keys: Result<Vec<Setting>, String> = keys.collect();
         let mut settings = keys.map_err(anyhow::Error::msg)?;
         settings.extend(self.set.iter().cloned());

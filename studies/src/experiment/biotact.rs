@@ -11,7 +11,7 @@ use rayon::prelude::*;
 
 use super::{Dataset, Recordings, Request, ranges};
 use crate::chart::{Mark, Series, linear, panel, percent};
-use crate::page::{Page, figure, row};
+use crate::page::{Page, bold, figure};
 use crate::paper::biotact::{
     DISTANCES_MM, FIG10_RCP7_SEVEN, FIG11_TEXTURE, MOST_TRAINING, SAID, STRATEGIES, TEXTURES,
 };
@@ -117,6 +117,7 @@ fn figure_10(
     (method, number): (Method, &str),
     most: usize,
 ) -> Result<()> {
+    let (what, in_scores) = method.names();
     let (mut panels, mut rows) = (Vec::new(), Vec::new());
     for task in Task::ALL {
         let mut curves = Vec::new();
@@ -125,16 +126,15 @@ fn figure_10(
             let points = curve.iter().enumerate();
             let points = points.map(|(n, hit)| ((n + 1) as f64, *hit));
             curves.push(Series::curve(name, points.collect()));
-            let cells = curve.iter().map(|hit| format!("**{}**", figure(*hit, 0)));
-            rows.push(row(format!("{} | {name}", task.text()), cells));
+            let shown = curve.iter().map(|hit| figure(*hit, 0));
+            rows.push(bold(format!("{} | {name}", task.text()), shown));
         }
         let x = linear("training whisks", 0.0, most as f64 + 1.0);
         panels.push(panel(task.text(), x, percent("%"), &curves, Mark::Dot));
-        let what = format!("{}, RCP7, {most} whisks", task.text());
+        let on = format!("{}, RCP7, {most} whisks", task.text());
         let hit = hits.at(method, task, 1, most);
-        page.score(method.score_name(), what, hit, task.chance());
+        page.score(in_scores, on, hit, task.chance());
     }
-    let what = method.text();
     page.say(format_args!("**Fig. {number}**: {what}, hit rate in %."));
     let name = format!("biotact-fig{number}.svg");
     page.panels(&name, &format!("Hit rate of {what}"), &panels)?;
@@ -144,79 +144,68 @@ fn figure_10(
 }
 
 fn claims(page: &mut Page, hits: &Hits, most: usize) {
-    let one = |value: f64| figure(value, 1);
+    let by_strategy = |method, task, count| [0, 1, 2].map(|n| hits.at(method, task, n, count));
+    let said = |rates: [f64; 3]| {
+        let [plain, rcp7, rcp9] = rates.map(|rate| figure(rate, 1));
+        format!("unmodulated {plain}, RCP7 {rcp7}, RCP9 {rcp9} %")
+    };
     for method in Method::ALL {
+        let (how, _) = method.names();
         for count in [1, 2] {
-            let [plain, rcp7, rcp9] = [0, 1, 2].map(|n| hits.at(method, Task::Both, n, count));
+            let rates @ [plain, rcp7, rcp9] = by_strategy(method, Task::Both, count);
             page.claim(
                 format_args!(
                     "BIOTACT: after {count} training whisk(s) RCP7 is best and unmodulated \
-                         whisking worst (texture and distance, {})",
-                    method.text()
+                     whisking worst (texture and distance, {how})"
                 ),
                 "so",
-                format_args!(
-                    "unmodulated {}, RCP7 {}, RCP9 {} %",
-                    one(plain),
-                    one(rcp7),
-                    one(rcp9)
-                ),
+                said(rates),
                 ((rcp7 - rcp9).min(rcp9 - plain), "points"),
             )
             .rests_on_both(rcp7, Task::Both.chance());
         }
     }
-    let bayes = |task, strategy, count| hits.at(Method::Bayes, task, strategy, count);
     let whisks = 7.min(most);
-    let seven = bayes(Task::Both, 1, whisks);
+    let seven = hits.at(Method::Bayes, Task::Both, 1, whisks);
     page.claim(
         format_args!(
             "BIOTACT: naive Bayes with RCP7 reaches {NEARLY_ALL} % after {whisks} training whisks"
         ),
         format_args!("{FIG10_RCP7_SEVEN:.0} %"),
-        format_args!("{} %", one(seven)),
+        format_args!("{} %", figure(seven, 1)),
         (seven - NEARLY_ALL, "points"),
     )
     .rests_on_both(seven, Task::Both.chance());
-    let [joint, texture, distance] = Task::ALL.map(|task| bayes(task, 0, most));
+    let [joint, texture, distance] = Task::ALL.map(|task| hits.at(Method::Bayes, task, 0, most));
     let product = texture * distance / 100.0;
+    let template = hits.at(Method::Template, Task::Texture, 0, most);
+    let [of_joint, of_texture, of_distance, of_product, of_template] =
+        [joint, texture, distance, product, template].map(|rate| figure(rate, 1));
     page.claim(
         format_args!(
-            "BIOTACT: the joint hit rate is within {NEARLY} points of the product of \
-                 texture's and distance's (naive Bayes, unmodulated)"
+            "BIOTACT: the joint hit rate is within {NEARLY} points of the product of texture's and \
+             distance's (naive Bayes, unmodulated)"
         ),
         "about equal",
-        format_args!(
-            "{} against {} x {} = {} %",
-            one(joint),
-            one(texture),
-            one(distance),
-            one(product)
-        ),
+        format_args!("{of_joint} against {of_texture} x {of_distance} = {of_product} %"),
         (NEARLY - (joint - product).abs(), "points"),
     )
     .rests_on_both(joint, Task::Both.chance());
-    let template = hits.at(Method::Template, Task::Texture, 0, most);
     page.claim(
         "BIOTACT: on texture alone naive Bayes beats the template (unmodulated)",
         format_args!("about 100 against {FIG11_TEXTURE:.0} %"),
-        format_args!("{} against {} %", one(texture), one(template)),
+        format_args!("{of_texture} against {of_template} %"),
         (texture - template, "points"),
     )
     .rests_on_both(texture, Task::Texture.chance());
-    let [plain, rcp7, rcp9] = [0, 1, 2].map(|n| hits.at(Method::Template, Task::Distance, n, most));
+    let rates @ [plain, rcp7, rcp9] = by_strategy(Method::Template, Task::Distance, most);
     page.claim(
         format_args!(
             "BIOTACT: with the template, RCP is worse than unmodulated whisking on distance \
-                 ({most} training whisks)"
+             ({most} training whisks)"
         ),
         "so, after more than three",
-        format_args!(
-            "unmodulated {}, RCP7 {}, RCP9 {} %",
-            one(plain),
-            one(rcp7),
-            one(rcp9)
-        ),
+        said(rates),
         (plain - rcp7.max(rcp9), "points"),
     )
     .rests_on_both(plain, Task::Distance.chance());

@@ -7,7 +7,6 @@ use crate::moments::Summary;
 use crate::page::{Claim, Page};
 use crate::paper::printed;
 
-/// A change, and the keys of rigs that it sets.
 #[derive(Deserialize)]
 pub(super) struct Change {
     name: String,

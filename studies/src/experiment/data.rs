@@ -87,7 +87,6 @@ fn columns(dataset: Dataset, count: usize) -> Vec<String> {
     (0..count).map(name).collect()
 }
 
-/// Every recording of a seed, each in a file of its own.
 pub(super) fn recordings(asked: &Asked, seed: u64, all: &Recordings) -> Result<Files> {
     let origin = origin(asked, seed);
     let one = |(job, recording): (&Job, &Recording)| {

@@ -28,7 +28,6 @@ pub(super) struct Stream {
 }
 
 impl Stream {
-    /// Some of its channels, sample by sample.
     fn picked(&self, channels: &[usize]) -> Vec<f64> {
         let samples = self.samples.chunks_exact(CHANNELS);
         samples
@@ -46,7 +45,6 @@ pub(super) struct Floors<'a> {
 }
 
 impl<'a> Floors<'a> {
-    /// With so many trials of natural motion.
     pub(super) fn new(request: &Request, recordings: &'a Recordings, natural: usize) -> Self {
         Self {
             recordings: of_set(recordings, Dataset::Floor),
@@ -56,7 +54,6 @@ impl<'a> Floors<'a> {
         }
     }
 
-    /// The halves of every trial of the `motions`, floor by floor.
     pub(super) fn halves(&self, motions: &[RobotMotion]) -> [Vec<Stream>; 2] {
         let mut halves = [Vec::new(), Vec::new()];
         let trials = trials(self.extent).into_iter().zip(&self.recordings);
@@ -135,7 +132,6 @@ impl Tally {
         Ok(tally)
     }
 
-    /// What the best floor of each window is.
     pub(super) fn of_windows(
         streams: &[Stream],
         channels: &[usize],

@@ -3,7 +3,7 @@
 
 use super::{Dataset, Floors, Recordings, Request, Stream, Tally, hit_curves, ranges, train};
 use crate::chart::{Series, over_windows};
-use crate::page::{Page, confusion, figure, row};
+use crate::page::{Page, bold, confusion, figure};
 use crate::paper::lep10::{FIG4_KNEE_S, FIG4_LONG, FLOORS, TABLES, WINDOW_S};
 use crate::rigs::RobotMotion;
 use anyhow::Result;
@@ -99,8 +99,10 @@ fn figure_4(
     };
     let knee = [at(0.0), at(FIG4_KNEE_S), at(f64::INFINITY)];
     let header = "mean hit rate, % | 0.5 ms | 10 ms | 100 ms | 0.5 s | 1 s";
-    let hit = |curve: &Series, n: usize| format!("**{}**", figure(curve.points[n].1, 0));
-    let line = |curve: &Series| row(&*curve.name, [0, 4, 7, 9, 10].map(|n| hit(curve, n)));
+    let line = |curve: &Series| {
+        let shown = [0, 4, 7, 9, 10].map(|n| figure(curve.points[n].1, 0));
+        bold(&*curve.name, shown)
+    };
     let rows: Vec<Vec<String>> = means.iter().map(line).collect();
     let mean = over_windows("mean hit rate, %", &means);
     page.say(format_args!(
@@ -116,43 +118,37 @@ fn figure_4(
 }
 
 fn claims(page: &mut Page, means: &[f64; 5], hits: &[[f64; 4]; 5], knee: [f64; 3]) {
-    let [x, y, both, transfer, natural] = *means;
-    let one = |value: f64| figure(value, 1);
+    let [x, y, both, transfer, _] = *means;
+    let [of_x, of_y, of_both, of_transfer, of_natural] = means.map(|mean| figure(mean, 1));
     page.claim(
         "LEP10: x and y together beat either alone (0.5 s)",
         "79, 82: 92 %",
-        format_args!("{}, {}: {} %", one(x), one(y), one(both)),
+        format_args!("{of_x}, {of_y}: {of_both} %"),
         (both - x.max(y), "points"),
     )
     .rests_on(both, CHANCE);
     let share = 100.0 * (knee[1] - knee[0]) / (knee[2] - knee[0]);
+    let [first, middle, last] = knee.map(|hit| figure(hit, 1));
+    let of_gain = figure(share, 0);
     page.claim(
         "LEP10: most of the gain comes within 100 ms",
         "substantial up to 100 ms, modest after",
         format_args!(
-            "{} % at one sample, {} % at 100 ms, {} % at 1 s: {} % of the gain",
-            one(knee[0]),
-            one(knee[1]),
-            one(knee[2]),
-            figure(share, 0)
+            "{first} % at one sample, {middle} % at 100 ms, {last} % at 1 s: {of_gain} % of the gain"
         ),
         (share - 50.0, "points over half of the gain"),
     )
     .rests_on(knee[2], CHANCE);
-    let [_, _, artificial, natural_by_artificial, _] = hits;
-    let falls: [f64; 4] = core::array::from_fn(|k| artificial[k] - natural_by_artificial[k]);
+    let [_, _, artificial, by_artificial, _] = hits;
+    let falls: [f64; 4] = core::array::from_fn(|k| artificial[k] - by_artificial[k]);
     let others = falls.iter().take(VINYL).copied().fold(f64::MIN, f64::max);
+    let [from, to] = [artificial, by_artificial].map(|hits| figure(hits[VINYL], 0));
     page.claim(
         "LEP10: the hit rate falls from artificial training to natural validation, that of \
-             vinyl the most",
+         vinyl the most",
         "92 to 68 %, vinyl 98 to 20; natural training 81 %",
         format_args!(
-            "{} to {} %, vinyl {} to {}; natural training {} %",
-            one(both),
-            one(transfer),
-            figure(artificial[VINYL], 0),
-            figure(natural_by_artificial[VINYL], 0),
-            one(natural)
+            "{of_both} to {of_transfer} %, vinyl {from} to {to}; natural training {of_natural} %"
         ),
         ((both - transfer).min(falls[VINYL] - others), "points"),
     )

@@ -66,7 +66,6 @@ pub(super) fn evaluate(page: &mut Page, request: &Request, recordings: &Recordin
     Ok(())
 }
 
-/// The product's own rule, on each group of trials.
 fn product(page: &mut Page, groups: &[Group], rate_hz: f64) -> Result<()> {
     let streams = |streams: &[Stream]| -> Result<Vec<_>> {
         let all = streams.iter().enumerate();
@@ -100,17 +99,14 @@ fn tables(page: &mut Page, rows: &[Vec<[f64; 5]>; 4], times: &[(f64, f64)]) {
         };
         page.table(&header, ours.iter().enumerate().map(line));
         if table.number == 2 {
-            let said = MOTIONS
-                .iter()
-                .zip(times)
-                .map(|(motion, (threshold, time))| {
-                    let time = figure(1000.0 * time, 0);
-                    format!("{motion} {time} ms at {}", figure(*threshold, 4))
-                });
-            let said: Vec<String> = said.collect();
+            let said = |(motion, (threshold, time)): (&&str, &(f64, f64))| {
+                let time = figure(1000.0 * time, 0);
+                format!("{motion} {time} ms at {}", figure(*threshold, 4))
+            };
+            let said: Vec<String> = MOTIONS.iter().zip(times).map(said).collect();
+            let said = said.join("; ");
             page.say(format_args!(
-                "Mean decision times nearest to 200 ms, and their thresholds: {}.",
-                said.join("; ")
+                "Mean decision times nearest to 200 ms, and their thresholds: {said}."
             ));
         }
         if table.number == 3 {
@@ -122,62 +118,47 @@ fn tables(page: &mut Page, rows: &[Vec<[f64; 5]>; 4], times: &[(f64, f64)]) {
 }
 
 fn claims(page: &mut Page, rows: &[Vec<[f64; 5]>; 4], curves: &[Curves]) {
-    let [window, sequential, template, network] = rows;
     // A placebo may decide nothing, and then hits nothing: it has no rate.
     let decided = |hit: f64| if hit > 0.0 { hit } else { f64::NAN };
     for (m, motion) in MOTIONS.iter().enumerate() {
-        let at = |table: &Vec<[f64; 5]>| table[m][4];
+        let ours = rows.each_ref().map(|table| table[m][4]);
+        let [window, sequential, template, network] = ours;
+        let [a, b, c, d] = ours.map(|rate| figure(rate, 1));
+        let printed = [0, 1, 2, 3].map(|n| TABLES[n].mean[m]);
         let time_s = curves[m].nearest().map_or(TIME_S, |point| point.time_s);
         let fixed = interpolate(&curves[m].window, time_s);
-        let gain = at(sequential) - fixed;
-        let printed = TABLES[1].mean[m] - TABLES[0].mean[m];
-        let one = |value: f64| figure(value, 1);
+        let gain = sequential - fixed;
+        let [of_fixed, of_gain] = [fixed, gain].map(|rate| figure(rate, 1));
+        let (least, _) = SEQUENTIAL_GAIN;
         page.claim(
             format_args!(
-                "LEP12, {motion}: sequential beats the window by {:.0} points or more at \
-                     equal mean time",
-                SEQUENTIAL_GAIN.0
+                "LEP12, {motion}: sequential beats the window by {least:.0} points or more at \
+                 equal mean time"
             ),
-            format_args!("{printed:+.0} points"),
-            format_args!(
-                "{} against {} %: {:+} points",
-                one(at(sequential)),
-                one(fixed),
-                one(gain)
-            ),
-            (gain - SEQUENTIAL_GAIN.0, "points over those"),
+            format_args!("{:+.0} points", printed[1] - printed[0]),
+            format_args!("{b} against {of_fixed} %: {of_gain:+} points"),
+            (gain - least, "points over those"),
         )
-        .rests_on(decided(at(sequential)), CHANCE);
-        let best = at(template).max(at(network));
+        .rests_on(decided(sequential), CHANCE);
+        let [w, x, y, z] = printed;
         page.claim(
             format_args!("LEP12, {motion}: both beat the spectral template and the network"),
-            format_args!(
-                "{:.0} and {:.0} against {:.0} and {:.0} %",
-                TABLES[0].mean[m], TABLES[1].mean[m], TABLES[2].mean[m], TABLES[3].mean[m]
-            ),
-            format_args!(
-                "{} and {} against {} and {} %",
-                one(at(window)),
-                one(at(sequential)),
-                one(at(template)),
-                one(at(network))
-            ),
-            (at(window).min(at(sequential)) - best, "points"),
+            format_args!("{w:.0} and {x:.0} against {y:.0} and {z:.0} %"),
+            format_args!("{a} and {b} against {c} and {d} %"),
+            (window.min(sequential) - template.max(network), "points"),
         )
-        .rests_on(at(window), CHANCE);
+        .rests_on(window, CHANCE);
     }
     let at = |time: f64| interpolate(&curves[ROTATING].sequential, time);
     let (first, knee, last) = (at(0.0), at(KNEE_S), at(1.0));
     let share = 100.0 * (knee - first) / (last - first);
+    let [a, b, c] = [first, knee, last].map(|rate| figure(rate, 1));
+    let of_gain = figure(share, 0);
     page.claim(
         "LEP12, rotating: most of the gain of the sequential rule comes within 100 ms",
         "dramatic up to 100 ms, slow after",
         format_args!(
-            "{} % at the shortest, {} % at 100 ms, {} % at the longest: {} % of the gain",
-            figure(first, 1),
-            figure(knee, 1),
-            figure(last, 1),
-            figure(share, 0)
+            "{a} % at the shortest, {b} % at 100 ms, {c} % at the longest: {of_gain} % of the gain"
         ),
         (share - 50.0, "points over half of the gain"),
     )

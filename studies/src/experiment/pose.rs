@@ -31,17 +31,12 @@ pub(super) fn evaluate(page: &mut Page, request: &Request, recordings: &Recordin
     rules::kappas(page, &rows);
     rules::matrices(page, &rows)?;
     rules::table_of_features(page, &by_features.textures);
-    let alone = [
-        Nearest::Signal.textures(&sets)?,
-        Nearest::Spectrum.textures(&sets)?,
-    ];
+    let [template, spectral] = TEXTURE_ALONE;
+    let by_signal = figure(Nearest::Signal.textures(&sets)?, 2);
+    let by_spectrum = figure(Nearest::Spectrum.textures(&sets)?, 2);
     page.say(format_args!(
-        "κ of texture alone, whatever the pose (one template a texture): template {:.2} / \
-         **{}**, spectral template {:.2} / **{}**.",
-        TEXTURE_ALONE[0],
-        figure(alone[0], 2),
-        TEXTURE_ALONE[1],
-        figure(alone[1], 2)
+        "κ of texture alone, whatever the pose (one template a texture): template {template:.2} / \
+         **{by_signal}**, spectral template {spectral:.2} / **{by_spectrum}**."
     ));
     claims(page, &rows);
     product(page, &sets)?;

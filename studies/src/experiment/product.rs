@@ -7,7 +7,7 @@ use host_sim::recording::Stream;
 use host_sim::training::{How, Tables};
 use whisking::filter;
 
-use crate::page::{Page, figure, row};
+use crate::page::{Page, bold, figure};
 
 const THRESHOLD: f64 = 0.99;
 
@@ -27,10 +27,8 @@ pub(super) fn stream(
     let contact = in_the_air.map(|rate_hz| {
         let h50 = filter::Config::<f64>::new(filter::CORNER_HZ, rate_hz)?;
         let mut state = filter::State::default();
-        let pi = samples
-            .iter()
-            .map(|[x, _]| h50.process(&mut state, x / 8192.0).abs());
-        anyhow::Ok(pi.collect())
+        let mut pi = |[x, _]: &[f64; 2]| h50.process(&mut state, x / 8192.0).abs();
+        anyhow::Ok(samples.iter().map(&mut pi).collect())
     });
     Ok(Stream {
         label: label.to_owned(),
@@ -43,7 +41,6 @@ pub(super) fn stream(
     })
 }
 
-/// A table of some tasks.
 pub(super) fn section(page: &mut Page, rate_hz: f64, tasks: Vec<Task>) -> Result<()> {
     page.say(
         "**The product's own rule** on the same recordings: joint tables, weighted by what \
@@ -69,7 +66,7 @@ pub(super) fn section(page: &mut Page, rate_hz: f64, tasks: Vec<Task>) -> Result
             figure(1000.0 * found.samples / rate_hz, 0),
             figure(model.as_bytes().len() as f64, 0),
         ];
-        rows.push(row(name, cells.map(|cell| format!("**{cell}**"))));
+        rows.push(bold(name, cells));
     }
     page.table(
         "on | right of what was decided, % | stated, % | with a decision, % | time, ms | tables, bytes",

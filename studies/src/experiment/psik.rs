@@ -13,7 +13,7 @@ use tactile::score::Confusion;
 use super::{Dataset, Recording, Recordings, Request, of_set, product, ranges};
 use crate::chart::{Mark, Series, linear, panel, percent};
 use crate::classifiers::network::{self, Network, Options, Row};
-use crate::page::{Page, confusion, figure, row};
+use crate::page::{Page, bold, confusion, figure};
 use crate::paper::psik::{ARCS, CORRIDORS, FIG6_THREE_ARCS, RATE_HZ, TABLE_2, VIBRISSAE};
 use crate::rigs::corridor::{COLUMNS, FELT, place as in_corridor};
 use crate::rigs::pad::{PAPERS, place as on_paper};
@@ -47,14 +47,12 @@ pub(super) fn evaluate(page: &mut Page, request: &Request, recordings: &Recordin
 
     let borders = borders();
     let seed = |n: usize| seed_of(request.seed, &[33, n as u64]);
-    let more = (1..=ARCS.len())
-        .into_par_iter()
-        .map(|arcs| score(&rows, 0..borders[arcs], seed(arcs)))
-        .collect::<Result<Vec<Confusion>>>()?;
-    let single = (0..5)
-        .into_par_iter()
-        .map(|arc| score(&rows, borders[arc]..borders[arc + 1], seed(100 + arc)))
-        .collect::<Result<Vec<Confusion>>>()?;
+    let more = |arcs: usize| score(&rows, 0..borders[arcs], seed(arcs));
+    let single = |arc: usize| score(&rows, borders[arc]..borders[arc + 1], seed(100 + arc));
+    let more = (1..=ARCS.len()).into_par_iter().map(more);
+    let more = more.collect::<Result<Vec<Confusion>>>()?;
+    let single = (0..5).into_par_iter().map(single);
+    let single = single.collect::<Result<Vec<Confusion>>>()?;
     let all = more.last().context("no arcs")?;
 
     let mean = mean_hit(&TABLE_2);
@@ -63,7 +61,7 @@ pub(super) fn evaluate(page: &mut Page, request: &Request, recordings: &Recordin
          {mean:.1} % in the paper, **{} %** here of its own grades, P50 to P180, and **{} %** of P40. \
          Rates below are of its own grades, among all eight.",
         figure(hit(all), 1),
-        figure(hit_of_p40(all), 1)
+        figure(hit_of(all, 0), 1)
     ));
     let paper = |truth: usize, named: usize| TABLE_2[truth][named];
     confusion(page, &NAMES, &paper, all);
@@ -98,69 +96,51 @@ fn figures(
     let what = "Performance over the number of vibrissae";
     page.panels("psik-fig6.svg", what, &panels)?;
     let header: Vec<String> = (1..=ARCS.len()).map(|n| n.to_string()).collect();
-    let cells = more.iter().map(|score| figure(hit(score), 1));
-    let line = row("hit rate, %", cells.map(|cell| format!("**{cell}**")));
+    let line = bold(
+        "hit rate, %",
+        more.iter().map(|score| figure(hit(score), 1)),
+    );
     page.table(&format!("arcs | {}", header.join(" | ")), [line]);
 
     page.say(
         "**Fig. 7**: each of the five longer arcs alone, percent of each paper. Here as there \
          arcs differ in which papers they tell.",
     );
-    let rows = single
-        .iter()
-        .zip(ARCS)
-        .enumerate()
-        .map(|(arc, (score, (_, mm)))| {
-            let rates = (0..PAPERS).map(|class| score.hit_rate_of(class).unwrap_or(0.0));
-            let mean = figure(hit(score), 1);
-            let cells = rates.map(|rate| figure(100.0 * rate, 0)).chain([mean]);
-            row(
-                format!("{} ({mm:.0} mm)", arc + 1),
-                cells.map(|cell| format!("**{cell}**")),
-            )
-        });
+    let line = |(arc, (score, (_, mm))): (usize, (&Confusion, (usize, f64)))| {
+        let rates = (0..PAPERS).map(|class| figure(hit_of(score, class), 0));
+        let mean = figure(hit(score), 1);
+        bold(format!("{} ({mm:.0} mm)", arc + 1), rates.chain([mean]))
+    };
     let header = format!("arc | {} | mean", NAMES.join(" | "));
-    page.table(&header, rows);
+    page.table(&header, single.iter().zip(ARCS).enumerate().map(line));
     Ok(())
 }
 
 fn claims(page: &mut Page, more: &[Confusion]) {
     let rates: Vec<f64> = more.iter().map(hit).collect();
+    let least = rates.iter().skip(2).copied().fold(100.0, f64::min);
     let [one, two, three, all] = [0, 1, 2, 7].map(|n| rates[n]);
-    let text = |rate: f64| figure(rate, 1);
+    let [a, b, c, d, e] = [one, two, three, all, least].map(|rate| figure(rate, 1));
+    let (low, high) = FIG6_THREE_ARCS;
     page.claim(
         "PSIK: more arcs help",
         "quickly rising with the number of vibrissae",
-        format_args!(
-            "{} % with one arc, {} with two, {} with three, {} with all",
-            text(one),
-            text(two),
-            text(three),
-            text(all)
-        ),
+        format_args!("{a} % with one arc, {b} with two, {c} with three, {d} with all"),
         ((two - one).min(three - two).min(all - one), "points"),
     )
     .rests_on(all, CHANCE);
-    let least = rates.iter().skip(2).copied().fold(100.0, f64::min);
     page.claim(
         format_args!("PSIK: {ENOUGH:.0} % or more from three arcs on"),
-        format_args!("{:.0} to {:.0} %", FIG6_THREE_ARCS.0, FIG6_THREE_ARCS.1),
-        format_args!(
-            "{} % with three, at least {} % from there on",
-            text(three),
-            text(least)
-        ),
+        format_args!("{low:.0} to {high:.0} %"),
+        format_args!("{c} % with three, at least {e} % from there on"),
         (least - ENOUGH, "points"),
     )
     .rests_on(three, CHANCE);
 }
 
 fn pairs(samples: &[f32]) -> impl Iterator<Item = [f64; 2]> + '_ {
-    samples
-        .as_chunks()
-        .0
-        .iter()
-        .map(|pair: &[f32; 2]| pair.map(f64::from))
+    let (pairs, _) = samples.as_chunks();
+    pairs.iter().map(|pair: &[f32; 2]| pair.map(f64::from))
 }
 
 /// The product's own rule on papers and corridors, by one vibrissa: the middle one of the longest
@@ -265,14 +245,8 @@ fn hit(score: &Confusion) -> f64 {
     100.0 * own.sum::<f64>() / (PAPERS - 1) as f64
 }
 
-fn hit_of_p40(score: &Confusion) -> f64 {
-    100.0 * score.hit_rate_of(0).unwrap_or(0.0)
-}
-
-/// The class with the most votes, the first of equals.
-fn most(votes: &[u32; 4]) -> usize {
-    let places = 1..votes.len();
-    places.fold(0, |best, k| if votes[k] > votes[best] { k } else { best })
+fn hit_of(score: &Confusion, class: usize) -> f64 {
+    100.0 * score.hit_rate_of(class).unwrap_or(0.0)
 }
 
 fn mean_hit<const N: usize>(table: &[[f64; N]; N]) -> f64 {

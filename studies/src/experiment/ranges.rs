@@ -10,12 +10,13 @@ pub(super) fn say(
     (dataset, channels): (Dataset, usize),
     most: f32,
 ) {
-    if !request.is_whole {
+    let all = of_set(recordings, dataset);
+    if !request.is_whole || all.iter().all(|one| one.values.is_empty()) {
         return;
     }
     let of_axis = |axis: usize| {
         let mut codes = Vec::new();
-        for recording in of_set(recordings, dataset) {
+        for recording in &all {
             for sample in recording.values.chunks_exact(recording.channels.max(1)) {
                 let axis = sample.iter().take(channels).skip(axis).step_by(2);
                 codes.extend(axis.map(|code| code.abs()));
@@ -26,17 +27,9 @@ pub(super) fn say(
         let place = (0.999 * codes.len() as f64) as usize;
         let place = place.min(codes.len().saturating_sub(1));
         let nearly_all = codes.select_nth_unstable_by(place, f32::total_cmp).1;
-        (
-            figure(clipped, 2),
-            figure(f64::from(100.0 * *nearly_all / most), 0),
-        )
+        let reach = f64::from(100.0 * *nearly_all / most);
+        (figure(clipped, 2), figure(reach, 0))
     };
-    if of_set(recordings, dataset)
-        .iter()
-        .all(|one| one.values.is_empty())
-    {
-        return;
-    }
     let [(clipped_x, reach_x), (clipped_y, reach_y)] = [0, 1].map(of_axis);
     page.is_alone = true;
     page.say(format_args!(

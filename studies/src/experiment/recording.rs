@@ -23,15 +23,9 @@ pub(crate) enum Dataset {
 }
 
 impl Dataset {
-    pub(crate) const fn text(self) -> &'static str {
-        match self {
-            Self::Floor => "floor",
-            Self::Head => "head",
-            Self::Table => "table",
-            Self::Pad => "pad",
-            Self::Corridor => "corridor",
-            Self::Vibrissa => "vibrissa",
-        }
+    /// Its name in lower case.
+    pub(crate) fn text(self) -> String {
+        format!("{self:?}").to_lowercase()
     }
 
     /// The data set whose chance it has.
@@ -119,7 +113,7 @@ fn one(request: &Request, job: Job) -> Result<Recording> {
     let drawn = dataset.drawn_as() as u64;
     let seed = seed_of(request.seed, &[drawn, number as u64]);
     let (_, record) = rig(dataset, request.extent);
-    record(request, number, seed).context(dataset.text())
+    record(request, number, seed).with_context(|| dataset.text())
 }
 
 /// The result depends on neither the order of jobs nor the number of cores.

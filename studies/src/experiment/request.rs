@@ -4,7 +4,7 @@
 
 use super::recording::Dataset;
 use crate::rigs::{Chance, Rigs, seed_of};
-use physics::{Material, Surface};
+use physics::Surface;
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum Name {
@@ -24,14 +24,9 @@ impl Name {
         Self::Psikharpax,
     ];
 
-    pub(crate) const fn text(self) -> &'static str {
-        match self {
-            Self::Lep10 => "lep10",
-            Self::Lep12 => "lep12",
-            Self::Biotact => "biotact",
-            Self::Pose => "pose",
-            Self::Psikharpax => "psikharpax",
-        }
+    /// As the command line has it.
+    pub(crate) fn text(self) -> String {
+        format!("{self:?}").to_lowercase()
     }
 
     pub(crate) const fn datasets(self) -> &'static [Dataset] {
@@ -178,7 +173,7 @@ pub(crate) struct Request {
 
 impl Request {
     /// What is felt for a texture of some: itself, or that of all in a placebo.
-    pub(crate) fn surface(&self, all: &[Material], texture: usize, of_placebo: usize) -> Surface {
+    pub(crate) fn surface(&self, all: &[&str], texture: usize, of_placebo: usize) -> Surface {
         let felt = self.arm.placebo.map_or(texture, |_| of_placebo);
         self.rigs.surfaces.of(all[felt])
     }

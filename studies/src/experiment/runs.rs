@@ -9,9 +9,10 @@ use host_sim::output::write_whole;
 use host_sim::progress::{Progress, Verbosity};
 
 use super::recording::{jobs, record};
+use super::verdicts::Recognised;
 use super::{
-    Arm, Asked, Bodies, Both, Extent, Judged, Name, Part, Recordings, Request, Verdict, all_judged,
-    biotact, changes, data, lep10, lep12, pose, psik, verdicts,
+    Arm, Asked, Bodies, Both, Extent, Judged, Name, Part, Recordings, Request, VERDICTS,
+    all_judged, biotact, changes, data, lep10, lep12, pose, psik, verdicts,
 };
 use crate::page::{Files, Page, beside_others};
 
@@ -42,7 +43,7 @@ pub(crate) fn run(asked: &Asked, verbosity: Verbosity) -> Result<PathBuf> {
         let mut bodies = Bodies::default();
         for seed in part.seeds.clone() {
             for &arm in asked.arms() {
-                let request = asked.request(&part, seed, arm)?;
+                let request = asked.request(&part, seed, arm, None)?;
                 let recordings = record(&request, &jobs(&request))?;
                 if let Some(folder) = asked.data.as_ref().filter(|_| asked.recordings)
                     && arm == Arm::MAIN
@@ -60,7 +61,7 @@ pub(crate) fn run(asked: &Asked, verbosity: Verbosity) -> Result<PathBuf> {
         for change in changes::of(&part) {
             let mut bodies = Bodies::default();
             for seed in asked.seeds_of_changes() {
-                let request = asked.changed(&part, seed, &change.keys)?;
+                let request = asked.request(&part, seed, Arm::MAIN, Some(&change.keys))?;
                 let recordings = record(&request, &jobs(&request))?;
                 bodies.add(Arm::MAIN, evaluate(&request, &recordings)?);
                 ran();
@@ -83,7 +84,7 @@ pub(super) fn evaluate(request: &Request, recordings: &Recordings) -> Result<Pag
             Name::Pose => pose::evaluate,
             Name::Psikharpax => psik::evaluate,
         };
-        evaluate(&mut body, request, recordings).context(name.text())?;
+        evaluate(&mut body, request, recordings).with_context(|| name.text())?;
     }
     Ok(body)
 }
@@ -122,12 +123,8 @@ fn report(asked: &Asked, all: &[Done]) -> Result<Files> {
 fn command(asked: &Asked) -> String {
     let names = asked.names();
     let is_all = names == Name::ALL;
-    let names: Vec<&str> = names.into_iter().map(Name::text).collect();
-    let name = if is_all {
-        "all".to_owned()
-    } else {
-        names.join(" ")
-    };
+    let names: Vec<String> = names.into_iter().map(Name::text).collect();
+    let name = if is_all { "all" } else { &names.join(" ") };
     let Asked { seed, seeds, .. } = asked;
     let mut said = format!("studies experiment {name} --seed {seed} --seeds {seeds}");
     if asked.quick {
@@ -175,7 +172,7 @@ fn introduction(page: &mut Page, asked: &Asked, all: &[Done]) {
             extent,
         } = &done.0;
         if *extent == Extent::QUICK {
-            let names: Vec<&str> = names.iter().map(|name| name.text()).collect();
+            let names: Vec<String> = names.iter().map(|name| name.text()).collect();
             page.say(format_args!(
                 "Cut short: {}, to seeds {} to {} and to fewer trials, whisks, contacts, sweeps and \
                  runs than the paper's, on the same physics. Hit rates of these are rough.",
@@ -187,7 +184,7 @@ fn introduction(page: &mut Page, asked: &Asked, all: &[Done]) {
     }
     let is_left_out = |name: &&Name| !all.iter().any(|done| done.0.names.contains(name));
     let left_out = Name::ALL.iter().filter(is_left_out);
-    let left_out: Vec<&str> = left_out.map(|name| name.text()).collect();
+    let left_out: Vec<String> = left_out.map(|name| name.text()).collect();
     if !left_out.is_empty() {
         page.say(format_args!("Not in this run: {}.", left_out.join(", ")));
     }
@@ -195,14 +192,8 @@ fn introduction(page: &mut Page, asked: &Asked, all: &[Done]) {
 
 /// How many claims have which verdict.
 fn counts(judged: &[&Judged]) -> String {
-    let all = [
-        Verdict::Met,
-        Verdict::NotMet,
-        Verdict::WithinNoise,
-        Verdict::DoesNotCount,
-    ];
     let [met, not_met, within_noise, do_not_count] =
-        all.map(|verdict| judged.iter().filter(|of| of.verdict() == verdict).count());
+        VERDICTS.map(|verdict| judged.iter().filter(|of| of.verdict() == verdict).count());
     format!(
         "of {} claims {met} are met, {not_met} are not met, {within_noise} are within noise, and \
          {do_not_count} do not count",
@@ -213,15 +204,11 @@ fn counts(judged: &[&Judged]) -> String {
 fn table_of_claims(page: &mut Page, claims: &[Both]) {
     page.heading(2, "What must come out");
     let kept: Vec<&Judged> = claims.iter().map(|claim| &claim.kept).collect();
-    let again: Vec<&Judged> = claims
-        .iter()
-        .filter_map(|claim| claim.again.as_ref())
-        .collect();
+    let again: Vec<&Judged> = claims.iter().flat_map(|claim| &claim.again).collect();
+    let [kept, again] = [kept, again].map(|judged| counts(&judged));
     page.say(format_args!(
-        "As in the paper, {}; drawn again, {}. A claim is met or not met if zero is outside the \
-         95 % interval of its margin's mean (Student's t).",
-        counts(&kept),
-        counts(&again)
+        "As in the paper, {kept}; drawn again, {again}. A claim is met or not met if zero is outside \
+         the 95 % interval of its margin's mean (Student's t)."
     ));
     page.say(
         "Three placebos; chance is in brackets. **Labels**, by either protocol: one texture at one \
@@ -232,47 +219,42 @@ fn table_of_claims(page: &mut Page, claims: &[Both]) {
          without a placebo do not rest on telling textures apart, or are of PSIK's maze, which runs \
          once.",
     );
-    let are_spots: Vec<&Both> = claims
-        .iter()
-        .filter(|claim| claim.may_be_the_spot())
-        .collect();
-    let tested = claims.iter().filter(|claim| claim.spots.is_some()).count();
-    let are_told = claims.iter().filter_map(|claim| claim.spots.as_ref());
-    let are_told = are_told.filter(|spots| !spots.is_at_chance()).count();
+    let are_spots = claims.iter().filter(|claim| claim.may_be_the_spot());
+    let are_spots = are_spots.count();
+    let spots = || claims.iter().flat_map(|claim| &claim.spots);
+    let are_told = spots().filter(|spots| !spots.is_at_chance()).count();
+    let tested = spots().count();
     page.say(format_args!(
         "Of {tested} claims on textures, spots of one texture are told apart in {are_told}, and in \
-         {} as well as textures are. There our figure as in the paper may be recognition of the spot \
-         and not of the texture. That holds for our rigs: whether the papers' surfaces were met at \
-         one spot, they do not say.",
-        are_spots.len()
+         {are_spots} as well as textures are. There our figure as in the paper may be recognition of \
+         the spot and not of the texture. That holds for our rigs: whether the papers' surfaces were \
+         met at one spot, they do not say."
     ));
+    let none = || "–".to_owned();
     let judged = |judged: Option<&Judged>| {
-        let ours = judged.map_or("–".to_owned(), |judged| judged.ours.clone());
-        [ours, judged.map_or("–".to_owned(), Judged::margin_text)]
+        let Some(judged) = judged else {
+            return [(); 4].map(|()| none());
+        };
+        let labels = judged.labels.as_ref();
+        let labels = labels.map_or_else(none, |found| found.text(!found.is_at_chance()));
+        let verdict = judged.verdict().to_owned();
+        [judged.ours.clone(), judged.margin_text(), labels, verdict]
     };
-    let labels = |judged: Option<&Judged>| {
-        let labels = judged.and_then(|judged| judged.labels.as_ref());
-        labels.map_or("–".to_owned(), |found| found.text(!found.is_at_chance()))
+    let line = |claim: &Both| {
+        let [ours, margin, labels, verdict] = judged(Some(&claim.kept));
+        let [again, margin_again, labels_again, verdict_again] = judged(claim.again.as_ref());
+        let text = |spots: &Recognised| spots.text(claim.may_be_the_spot());
+        let spots = claim.spots.as_ref().map_or_else(none, text);
+        let (what, paper) = (claim.what.clone(), claim.paper.clone());
+        let found = [ours, margin, again, margin_again];
+        let placebos = [labels, spots, labels_again];
+        let verdicts = [verdict, verdict_again];
+        [&[what, paper][..], &found, &placebos, &verdicts].concat()
     };
     page.table(
         "claim | paper | as in the paper | margin | drawn again | margin | labels | spots | labels, \
          drawn again | as in the paper | drawn again",
-        claims.iter().map(|claim| {
-            let again = claim.again.as_ref();
-            let spots = claim.spots.as_ref();
-            let verdict = |judged: &Judged| judged.verdict().text().to_owned();
-            let mut cells = vec![claim.what.clone(), claim.paper.clone()];
-            cells.extend(judged(Some(&claim.kept)));
-            cells.extend(judged(again));
-            cells.extend([
-                labels(Some(&claim.kept)),
-                spots.map_or("–".to_owned(), |spots| spots.text(claim.may_be_the_spot())),
-                labels(again),
-                verdict(&claim.kept),
-                again.map_or("–".to_owned(), verdict),
-            ]);
-            cells
-        }),
+        claims.iter().map(line),
     );
 }
 

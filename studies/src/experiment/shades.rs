@@ -104,11 +104,7 @@ pub(super) fn spectrograms(all: &[Spectrogram], columns: usize) -> Result<String
         frame(area, [(left, top), (right, bottom)])?;
         write(area, &format!("{:.0} Hz", one.highest_hz), (2, top), 13)?;
         write(area, "0", (left - 14, bottom - 14), 13)?;
-        write(
-            area,
-            &format!("{:.1} s", one.time_s),
-            (right - 30, bottom + 6),
-            13,
-        )
+        let time = format!("{:.1} s", one.time_s);
+        write(area, &time, (right - 30, bottom + 6), 13)
     })
 }

@@ -50,13 +50,10 @@ fn in_a_placebo_a_label_is_all_that_differs() {
         ..request.clone()
     };
     let extent = request.extent;
+    let trials = floor::trials(extent);
     let of_floor = |of| (of, RobotMotion::Clockwise, 0);
-    let spot = |of| {
-        floor::trials(extent)
-            .iter()
-            .position(|trial| *trial == of_floor(of))
-            .unwrap()
-    };
+    let spot = |of| trials.iter().position(|trial| *trial == of_floor(of));
+    let spot = |of| spot(of).unwrap();
     let sweeps = pad::jobs(extent) / pad::PAPERS;
     let runs = corridor::jobs(extent) / 4;
     let all: [(Record, [usize; 2]); 7] = [

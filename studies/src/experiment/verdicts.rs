@@ -23,26 +23,9 @@ impl Bodies {
     }
 }
 
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Verdict {
-    Met,
-    NotMet,
-    /// The seeds do not say which.
-    WithinNoise,
-    /// Labels alone are recognised too, so that it says nothing.
-    DoesNotCount,
-}
-
-impl Verdict {
-    pub(super) const fn text(self) -> &'static str {
-        match self {
-            Self::Met => "met",
-            Self::NotMet => "**not met**",
-            Self::WithinNoise => "within noise",
-            Self::DoesNotCount => "**does not count**",
-        }
-    }
-}
+/// A claim is met, is not, its seeds do not say which, or labels alone are recognised too, so that it
+/// says nothing.
+pub(super) const VERDICTS: [&str; 4] = ["met", "**not met**", "within noise", "**does not count**"];
 
 /// How well something is recognised over the seeds, and how well by chance.
 pub(super) struct Recognised {
@@ -63,14 +46,10 @@ impl Recognised {
         })
     }
 
-    fn rate(&self) -> Summary {
-        Summary::of(&self.rates)
-    }
-
     /// Whether it is recognised no better and no worse than by chance. Very sure, as a page has
     /// dozens of placebos: of a hundred that are at chance one is taken for none.
     pub(super) fn is_at_chance(&self) -> bool {
-        let rate = self.rate();
+        let rate = Summary::of(&self.rates);
         // Rates that are all chance's to the last bit but for rounding have no error.
         (rate.mean - self.chance).abs() <= rate.half_interval(&VERY_SURE) + 1e-9
     }
@@ -87,11 +66,8 @@ impl Recognised {
     pub(super) fn text(&self, is_bold: bool) -> String {
         // κ has another scale than percent.
         let digits = if self.chance > 1.0 { 1 } else { 2 };
-        let text = format!(
-            "{} ({:.digits$})",
-            self.rate().text(digits, false),
-            self.chance
-        );
+        let rate = Summary::of(&self.rates).text(digits, false);
+        let text = format!("{rate} ({:.digits$})", self.chance);
         if is_bold { format!("**{text}**") } else { text }
     }
 }
@@ -105,38 +81,33 @@ pub(super) struct Judged {
 }
 
 impl Judged {
-    pub(super) fn verdict(&self) -> Verdict {
+    pub(super) fn verdict(&self) -> &'static str {
         let labels = self.labels.as_ref();
-        if labels.is_some_and(|labels| !labels.is_at_chance()) {
-            return Verdict::DoesNotCount;
-        }
-        match self.margin.side() {
-            1 => Verdict::Met,
-            -1 => Verdict::NotMet,
-            _ => Verdict::WithinNoise,
-        }
+        let do_not_count = labels.is_some_and(|labels| !labels.is_at_chance());
+        VERDICTS[match self.margin.side() {
+            _ if do_not_count => 3,
+            1 => 0,
+            -1 => 1,
+            _ => 2,
+        }]
     }
 
     /// The margin; without its error where no chance is in it.
     pub(super) fn margin_text(&self) -> String {
-        let is_certain = self.rate.is_none() && self.margin.error <= 0.0;
-        let count = if is_certain { 1 } else { self.margin.count };
-        let margin = Summary {
-            count,
-            ..self.margin
-        };
+        let mut margin = self.margin;
+        if self.rate.is_none() && margin.error <= 0.0 {
+            margin.count = 1;
+        }
         format!("{} {}", margin.text(digits(self.unit), true), self.unit)
     }
 }
 
 /// Digits behind the point of a margin in this unit.
 pub(super) fn digits(unit: &str) -> usize {
-    if unit.contains('θ') {
-        4
-    } else if unit.contains('κ') {
-        2
-    } else {
-        1
+    match unit {
+        _ if unit.contains('θ') => 4,
+        _ if unit.contains('κ') => 2,
+        _ => 1,
     }
 }
 
@@ -211,14 +182,12 @@ fn hits(pages: &[Page], n: usize) -> String {
     let hits = scores().map(|score| score.recognition.rate);
     let hits: Vec<f64> = hits.filter(|hit| hit.is_finite()).collect();
     let decided: Vec<f64> = scores().filter_map(|score| score.decided).collect();
-    let share = match decided.len() {
-        0 => String::new(),
-        _ => format!(" of {} decided", Summary::of(&decided).text(0, false)),
-    };
-    if hits.is_empty() {
-        return "nothing decided".to_owned();
+    let hit = Summary::of(&hits).text(1, false);
+    match (hits.len(), decided.len()) {
+        (0, _) => "nothing decided".to_owned(),
+        (_, 0) => hit,
+        _ => format!("{hit} of {} decided", Summary::of(&decided).text(0, false)),
     }
-    format!("{}{share}", Summary::of(&hits).text(1, false))
 }
 
 pub(super) fn scores(bodies: &Bodies) -> Vec<Vec<String>> {
@@ -227,18 +196,15 @@ pub(super) fn scores(bodies: &Bodies) -> Vec<Vec<String>> {
     let row = |(n, score): (usize, &Score)| {
         let recognised = |arm| {
             let scores = of(arm).iter().filter_map(|page| page.scores.get(n));
-            Recognised::of(scores.map(|score| score.recognition), |found| {
-                found.of_textures
-            })
+            let found = scores.map(|score| score.recognition);
+            Recognised::of(found, |found| found.of_textures)
         };
-        let spots = hits(of(Arm::SPOTS), n);
         let both = recognised(Arm::SPOTS).zip(recognised(Arm::MAIN));
-        let spots = match score.recognition.of_textures {
-            None => "–".to_owned(),
-            Some(_) if both.is_some_and(|(spots, all)| spots.is_as_good_as(&all)) => {
-                format!("**{spots}**")
-            }
-            Some(_) => spots,
+        let are_told = both.is_some_and(|(spots, all)| spots.is_as_good_as(&all));
+        let spots = match (score.recognition.of_textures, hits(of(Arm::SPOTS), n)) {
+            (None, _) => "–".to_owned(),
+            (_, spots) if are_told => format!("**{spots}**"),
+            (_, spots) => spots,
         };
         vec![
             // |DFT| must not end the cell.
@@ -273,7 +239,7 @@ pub(super) fn table_of_scores(page: &mut Page, rows: Vec<Vec<String>>) {
 
 #[cfg(test)]
 mod tests {
-    use super::{Arm, Bodies, Both, Verdict, all_judged};
+    use super::{Arm, Bodies, Both, all_judged};
     use crate::page::{Page, figure};
 
     fn bodies(arms: &[(Arm, [f64; 5], [f64; 5])]) -> Bodies {
@@ -299,25 +265,21 @@ mod tests {
     #[test]
     fn a_claim_is_met_beyond_its_noise_and_counts_if_labels_alone_are_at_chance() {
         let verdict = |margins: [f64; 5], labels: [f64; 5]| {
-            let arms = [
-                (Arm::MAIN, margins, [90.0; 5]),
-                (Arm::LABELS, [0.0; 5], labels),
-            ];
-            both(&arms).kept.verdict()
+            let main = (Arm::MAIN, margins, [90.0; 5]);
+            both(&[main, (Arm::LABELS, [0.0; 5], labels)])
+                .kept
+                .verdict()
         };
         // Errors of the means: 0.32; the interval is 2.776 times as wide.
         let margins = [1.0, 2.0, 2.0, 3.0, 2.0];
-        assert_eq!(verdict(margins, CHANCE), Verdict::Met);
-        assert_eq!(
-            verdict(margins.map(|m| m - 1.5), CHANCE),
-            Verdict::WithinNoise
-        );
-        assert_eq!(verdict(margins.map(|m| m - 4.0), CHANCE), Verdict::NotMet);
+        assert_eq!(verdict(margins, CHANCE), "met");
+        assert_eq!(verdict(margins.map(|m| m - 1.5), CHANCE), "within noise");
+        assert_eq!(verdict(margins.map(|m| m - 4.0), CHANCE), "**not met**");
         let leak = [29.0, 30.0, 31.0, 30.0, 29.0];
-        assert_eq!(verdict(margins, leak), Verdict::DoesNotCount);
+        assert_eq!(verdict(margins, leak), "**does not count**");
         // Whoever is worse than chance knows the classes too.
         let worse = [20.0, 21.0, 20.0, 21.0, 20.0];
-        assert_eq!(verdict(margins, worse), Verdict::DoesNotCount);
+        assert_eq!(verdict(margins, worse), "**does not count**");
     }
 
     #[test]

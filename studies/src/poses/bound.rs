@@ -137,7 +137,6 @@ fn surest(answers: &[Answer]) -> Vec<Answer> {
     surest.collect()
 }
 
-/// Percent right.
 fn right(answers: &[Answer]) -> String {
     let right = answers.iter().filter(|answer| answer.is_right).count();
     number(100.0 * right as f64 / answers.len() as f64, 1)

@@ -9,7 +9,6 @@ use host_sim::recording::Stream;
 use physics::{Grit, Material, Surface};
 use scene::{Override, Scene};
 
-/// One thing that is not as in training.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Change {
     /// To this tilt, degrees.

@@ -6,8 +6,8 @@ use host_sim::training::Expected;
 use tactile::ModelBuf;
 
 use super::{
-    Asked, COLUMNS, Change, Extent, Output, SPREAD, Setting, TEXTURES, THRESHOLD, Tally, Trained,
-    WHISKER, as_felt, found, said,
+    Asked, Change, Extent, Output, SPREAD, Setting, TEXTURES, THRESHOLD, Tally, Trained, WHISKER,
+    as_felt, found, said,
 };
 
 const SEED: u64 = 8011;
@@ -21,29 +21,24 @@ pub(super) const TILTS: [[Change; 1]; 5] = [
     [Change::Tilt(26.0)],
 ];
 
-const MIDDLE: Asked = Asked::known(90.0, Some(200.0));
-const BETWEEN: Asked = Asked::known(70.0, None);
-const OUTSIDE: Asked = Asked::Honest { short: 2.0 };
+const MIDDLE: Asked = Asked::Known(90.0, Some(200.0));
+const BETWEEN: Asked = Asked::Known(70.0, None);
+const OUTSIDE: Asked = Asked::Honest(2.0);
 
 /// Between the poses of training, in the middle one with another sensor, and outside.
 fn conditions() -> [(&'static str, Asked, Vec<Change>); 3] {
     use Change::{CrossTalk, Obstacle, ScaleY, Tilt, Turned, Zero};
     let between = [15.5, 18.5, 21.5, 24.5].map(Tilt);
-    let sensor = [
-        ScaleY(0.85),
-        ScaleY(1.15),
-        Turned(5.0),
-        Turned(-5.0),
-        Zero([100.0, 100.0]),
-        Zero([-100.0, -100.0]),
-        CrossTalk(0.03),
-        CrossTalk(-0.03),
-    ];
+    let scales = [0.85, 1.15].map(ScaleY);
+    let turned = [5.0, -5.0].map(Turned);
+    let zeros = [100.0, -100.0].map(|zero| Zero([zero; 2]));
+    let mixed = [0.03, -0.03].map(CrossTalk);
+    let sensor = [scales, turned, zeros, mixed].concat();
     let tilts = [4.0, 10.0, 30.0, 35.0].map(Tilt);
     let obstacles = [96.0, 104.0, 107.0].map(Obstacle);
     [
         ("between", BETWEEN, between.to_vec()),
-        ("another sensor", BETWEEN, sensor.to_vec()),
+        ("another sensor", BETWEEN, sensor),
         ("outside", OUTSIDE, [&tilts[..], &obstacles].concat()),
     ]
 }
@@ -104,9 +99,7 @@ impl Five {
                 said(&missed),
             );
         }
-        output
-            .page
-            .table(&format!("condition | {COLUMNS} | goal | "), rows);
+        output.table("condition", "goal | ", rows);
         Ok(())
     }
 }
@@ -137,7 +130,7 @@ pub(super) fn scenes(
     let mut rows = Vec::new();
     let mut last = None;
     for (setting, [seed, fresh], (decided, ms)) in scenes {
-        let asked = Asked::known(decided, ms);
+        let asked = Asked::Known(decided, ms);
         let trained = Trained::record((extent, 1), (&[setting], seed..), (setting, fresh))?;
         let models = trained.models(Expected::Bench, &as_felt)?;
         let tallies = trained.fresh(&models, THRESHOLD)?;
@@ -146,8 +139,6 @@ pub(super) fn scenes(
         output.asked(&format!("scene `{name}`"), asked, &Tally::sum(&tallies));
         last = Some((trained, models));
     }
-    output
-        .page
-        .table(&format!("scene | {COLUMNS} | goal | "), rows);
+    output.table("scene", "goal | ", rows);
     last.ok_or_else(|| anyhow::anyhow!("no scene"))
 }

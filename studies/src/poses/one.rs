@@ -6,8 +6,8 @@ use host_sim::training::Expected;
 use tactile::ModelBuf;
 
 use super::{
-    Asked, COLUMNS, Change, Extent, Five, Output, Setting, THRESHOLD, Tally, Trained, WHISKER,
-    as_felt, cells, found, mean_within, missed, said,
+    Asked, Change, Extent, Five, Output, Setting, THRESHOLD, Tally, Trained, WHISKER, as_felt,
+    cells, found, mean_within, missed, said,
 };
 use crate::decisions::figures::{mean_of, number, percent};
 use crate::page::row;
@@ -17,32 +17,23 @@ const FRESH: u64 = 8101;
 /// Below those of the other section.
 const CHANGED: u64 = 8111;
 
-const TRAINED: Asked = Asked::known(80.0, Some(200.0));
+const TRAINED: Asked = Asked::Known(80.0, Some(200.0));
 /// In the worst cell and, to be aimed at, in each; in the mean of all.
-const WORST: Asked = Asked::Honest { short: 4.0 };
-const AIM: Asked = Asked::Honest { short: 1.0 };
+const WORST: Asked = Asked::Honest(4.0);
+const AIM: Asked = Asked::Honest(1.0);
 const MEAN_SHORT: f64 = 1.0;
 
-/// What differs in the pose, and in the whisking.
 fn conditions() -> [Vec<Change>; 2] {
     use Change::{CrossTalk, Friction, NoRcp, Obstacle, ScaleX, ScaleY, Tilt, Turned, Whisk, Zero};
     let tilts = [18.0, 22.0, 15.0, 25.0, 10.0, 30.0, 0.0].map(Tilt);
     let obstacles = [95.0, 102.0, 105.0, 110.0].map(Obstacle);
-    let sensor = [
-        ScaleY(0.85),
-        ScaleY(1.15),
-        ScaleX(0.85),
-        Zero([200.0, 200.0]),
-        Zero([-200.0, -200.0]),
-        Zero([200.0, -200.0]),
-        Zero([-200.0, 200.0]),
-        Turned(5.0),
-        Turned(-5.0),
-        CrossTalk(0.03),
-        CrossTalk(-0.03),
-    ];
-    let surface = [Friction(0.7), Friction(1.3)];
-    let pose = [&tilts[..], &obstacles, &sensor, &surface].concat();
+    let scales = [ScaleY(0.85), ScaleY(1.15), ScaleX(0.85)];
+    let zeros = [[1.0, 1.0], [-1.0, -1.0], [1.0, -1.0], [-1.0, 1.0]];
+    let zeros = zeros.map(|zero| Zero(zero.map(|sign| 200.0 * sign)));
+    let (turned, mixed) = ([5.0, -5.0].map(Turned), [0.03, -0.03].map(CrossTalk));
+    let surface = [0.7, 1.3].map(Friction);
+    let place = [&tilts[..], &obstacles].concat();
+    let pose = [&place[..], &scales, &zeros, &turned, &mixed, &surface].concat();
     let whisking = [1.5, 1.8, 2.2, 3.0].map(Whisk).into_iter().chain([NoRcp]);
     [pose, whisking.collect()]
 }
@@ -105,15 +96,11 @@ impl One {
                 output.keep(["one pose", name, model], &self.trained, tallies);
             }
         }
-        output.page.table(
-            &format!(
-                "condition | {COLUMNS} | as trained: {}; else {} | `same`: right | decided | \
-                 `other`: right | decided",
-                TRAINED.text(),
-                WORST.text()
-            ),
-            rows,
+        let [trained, worst] = [TRAINED, WORST].map(Asked::text);
+        let last = format!(
+            "as trained: {trained}; else {worst} | `same`: right | decided | `other`: right | decided"
         );
+        output.table("condition", &last, rows);
         let first = Tally::sum(&all[0][0]);
         output.asked("one pose: as trained", TRAINED, &first);
         let (pose, whisking) = all[1..].split_at(lists[0].len());
@@ -134,16 +121,13 @@ impl One {
         let mean = |kind| mean_within((0..trainings).map(|training| of_cells(kind, training)));
         let shown = |[low, mean, high]: [f64; 3]| format!("{mean:.1} ({low:.1} to {high:.1})");
         let [bench, same, other] = [0, 1, 2].map(mean);
+        let is_missed = bench[0] > MEAN_SHORT;
+        let [bench, same, other] = [bench, same, other].map(shown);
         output.goal(
             &format!("one pose: {what}, mean of cells"),
             &format!("right ≥ stated − {MEAN_SHORT}"),
-            format!(
-                "short by {} points; with `same` {}, with `other` {}",
-                shown(bench),
-                shown(same),
-                shown(other)
-            ),
-            said(&missed([("right", bench[0] > MEAN_SHORT)])),
+            format!("short by {bench} points; with `same` {same}, with `other` {other}"),
+            said(&missed([("right", is_missed)])),
         );
         let sums: Vec<Tally> = all.iter().map(|cell| Tally::sum(&cell[0])).collect();
         let missing = |asked: Asked| {
@@ -158,20 +142,16 @@ impl One {
         let least = least.map_or_else(String::new, |(name, tally)| {
             format!("{name}: {}; ", found(tally))
         });
+        let all = sums.len();
+        let [kept, aimed] = [&worst, &aim].map(|missing| all - missing.len());
         output.goal(
             &format!("one pose: {what}, worst cell"),
             &WORST.text(),
-            format!(
-                "{least}{} of {} cells keep it, {} the aim of − 1",
-                sums.len() - worst.len(),
-                sums.len(),
-                sums.len() - aim.len()
-            ),
+            format!("{least}{kept} of {all} cells keep it, {aimed} the aim of − 1"),
             said(&worst),
         );
     }
 
-    /// Errors cluster by training.
     fn trainings(&self, output: &mut Output, names: &[String], all: &[Vec<Vec<Tally>>]) {
         output.page.say(
             "Errors cluster by training. Of each training the pose it was trained in, the mean \
@@ -182,21 +162,17 @@ impl One {
             let own = all[0][0][n];
             let (mean, _) = mean_of(all.iter().skip(1).map(|cell| cell[0][n].short()));
             let loud = names.iter().zip(all).map(|(name, cell)| (name, cell[0][n]));
-            let worst = loud
-                .filter(|(_, tally)| tally.decided >= 20)
-                .max_by(|a, b| a.1.short().total_cmp(&b.1.short()));
-            let worst = worst.map_or_else(
-                || "–".to_owned(),
-                |(name, tally)| {
-                    let decided = percent(tally.decided_share());
-                    format!("{name}: {:.1}, decided {decided}", tally.short())
-                },
-            );
+            let loud = loud.filter(|(_, tally)| tally.decided >= 20);
+            let worst = loud.max_by(|a, b| a.1.short().total_cmp(&b.1.short()));
+            let worst = worst.map(|(name, tally)| {
+                let decided = percent(tally.decided_share());
+                format!("{name}: {:.1}, decided {decided}", tally.short())
+            });
             let cells = [
                 percent(own.right_share()),
                 percent(own.decided_share()),
                 number(mean, 2),
-                worst,
+                worst.unwrap_or("–".to_owned()),
             ];
             row(seed.to_string(), cells)
         });

@@ -11,7 +11,7 @@ pub(super) struct Output {
 }
 
 /// The columns of [`cells`].
-pub(super) const COLUMNS: &str = "right | stated | short by | decided | presentations | contact, ms \
+const COLUMNS: &str = "right | stated | short by | decided | presentations | contact, ms \
     | silent: unknown / pose / between";
 
 impl Output {
@@ -34,7 +34,6 @@ impl Output {
         self.goal(condition, &asked.text(), found(tally), asked.verdict(tally));
     }
 
-    /// Keeps the figures of each training.
     pub(super) fn keep(&mut self, of: [&str; 3], trained: &Trained<'_>, tallies: &[Tally]) {
         let [part, condition, model] = of;
         // As a cell: pages have commas and quotes.
@@ -47,6 +46,12 @@ impl Output {
             figures.extend(tally.silent.map(|count| count.to_string()));
             self.page.keep(&[part, &condition, model], &figures);
         }
+    }
+
+    /// A table with [`COLUMNS`] between others.
+    pub(super) fn table(&mut self, first: &str, last: &str, rows: Vec<Vec<String>>) {
+        let header = format!("{first} | {COLUMNS} | {last}");
+        self.page.table(&header, rows);
     }
 
     /// Keeps them and gives the row of all trainings together: its name, [`COLUMNS`] and what is
@@ -65,7 +70,6 @@ impl Output {
     }
 }
 
-/// The cells of a row, as [`COLUMNS`] has them.
 pub(super) fn cells(tally: &Tally) -> Vec<String> {
     vec![
         percent(tally.right_share()),

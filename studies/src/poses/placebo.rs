@@ -7,8 +7,8 @@ use host_sim::training::Expected;
 use tactile::ModelBuf;
 
 use super::{
-    COLUMNS, Change, Extent, Output, Relabel, SURFACES, Setting, THRESHOLD, TILTS, Tally, Trained,
-    WHISKER, cells, judge, missed, model, said,
+    Change, Extent, Output, Relabel, SURFACES, Setting, THRESHOLD, TILTS, Tally, Trained, WHISKER,
+    cells, judge, missed, model, said,
 };
 use crate::decisions::{percent, permuted};
 use crate::page::row;
@@ -78,9 +78,7 @@ pub(super) fn section(
             rows.push(line(output, &name, Expected::Bench, trained, &tallies));
         }
     }
-    output
-        .page
-        .table(&format!("placebo | {COLUMNS} | decided ≤ {GOAL} % "), rows);
+    output.table("placebo", &format!("decided ≤ {GOAL} % "), rows);
     Ok(())
 }
 
@@ -116,10 +114,8 @@ fn twins(
     first: u64,
     trained: &Trained<'_>,
 ) -> Result<Vec<ModelBuf>> {
-    let seeds: Vec<u64> = (first..)
-        .step_by(settings.len())
-        .take(trained.seeds.len())
-        .collect();
+    let seeds = (first..).step_by(settings.len());
+    let seeds: Vec<u64> = seeds.take(trained.seeds.len()).collect();
     trained.cores.each("placebos", &seeds, |&seed| {
         let recordings = settings.iter().zip(seed..).map(|(changes, seed)| {
             let setting = Setting {
@@ -179,16 +175,13 @@ pub(super) fn unknown(
             ("refused", 100.0 * unknown.high < REFUSED),
             ("false", 100.0 * known.low > FALSE),
         ];
-        let [of_unknown, of_known] = sums.map(|tally| tally.undecided_share());
+        let [unknown, known] = [unknown, known].map(percent);
+        let [of_unknown, of_known] = sums.map(|tally| percent(tally.undecided_share()));
         output.goal(
             &format!("unknown texture: {poses}"),
             &format!("refused ≥ {REFUSED} of decisions, of known ≤ {FALSE}"),
             format!(
-                "refused {}, of known {}; of presentations {} and {}",
-                percent(unknown),
-                percent(known),
-                percent(of_unknown),
-                percent(of_known)
+                "refused {unknown}, of known {known}; of presentations {of_unknown} and {of_known}"
             ),
             said(&missed(is_missed)),
         );

@@ -40,18 +40,12 @@ struct Cell {
 
 fn conditions() -> Vec<Option<Change>> {
     use Change::{CrossTalk, Friction, ScaleX, ScaleY, Turned, Whisk, Zero};
-    let changes = [
-        Friction(0.7),
-        Friction(1.3),
-        ScaleY(0.85),
-        ScaleX(0.85),
-        Zero([200.0, -200.0]),
-        CrossTalk(0.03),
-        Turned(2.0),
-        Turned(5.0),
-        Whisk(2.2),
-    ];
-    [None].into_iter().chain(changes.map(Some)).collect()
+    let [less, more] = [0.7, 1.3].map(Friction);
+    let sensor = [ScaleY(0.85), ScaleX(0.85), Zero([200.0, -200.0])];
+    let turned = [CrossTalk(0.03), Turned(2.0), Turned(5.0), Whisk(2.2)];
+    let changes = [&[less, more], &sensor[..], &turned].concat();
+    let changes = changes.into_iter().map(Some);
+    [None].into_iter().chain(changes).collect()
 }
 
 fn record(change: Option<Change>, seconds: f64, seed: u64) -> Result<Vec<Stream>> {
@@ -73,15 +67,12 @@ pub(crate) fn page(extent: &Extent) -> Result<Files> {
     })?;
     let mut conditions = conditions();
     conditions.truncate(extent.conditions.saturating_add(1));
-    let jobs: Vec<(usize, usize)> = (0..conditions.len())
-        .flat_map(|condition| (0..trainings).map(move |training| (condition, training)))
-        .collect();
-    let cells = extent
-        .cores
-        .each("conditions", &jobs, |&(condition, training)| {
-            let seed = TESTED + (condition * trainings + training) as u64;
-            cell(&models[training], conditions[condition], test_s, seed)
-        })?;
+    let jobs: Vec<usize> = (0..conditions.len() * trainings).collect();
+    let cells = extent.cores.each("conditions", &jobs, |&job| {
+        let (condition, training) = (job / trainings, job % trainings);
+        let seed = TESTED + job as u64;
+        cell(&models[training], conditions[condition], test_s, seed)
+    })?;
 
     let header = "condition,class,training,decisions,tilt_rms,tilt_stated,depth_rms,depth_stated";
     let mut page = Page::with_table("standing", header);
@@ -92,8 +83,7 @@ pub(crate) fn page(extent: &Extent) -> Result<Files> {
 }
 
 fn introduction(page: &mut Page, extent: &Extent, [trained_s, test_s]: [f64; 2]) {
-    let made_by = "cargo run --release --manifest-path studies/Cargo.toml -- standing";
-    page.title("How what is touched stands", made_by);
+    page.title_of_command("How what is touched stands");
     page.say(format_args!(
         "With `classifier.pose` a decision for a class is followed by an estimate of the tilt of what \
          is touched and of the depth of contact: how far the whisk would go beyond where the shaft \
@@ -110,9 +100,7 @@ fn introduction(page: &mut Page, extent: &Extent, [trained_s, test_s]: [f64; 2])
          surface whose own friction varies, as the carpet's does from piece to piece, the tilt is \
          hardly known: its stated error says so.",
     );
-    if extent.is_quick {
-        page.say("**In short form:** fewer trainings, conditions and presentations (`--quick`).");
-    }
+    page.say_if_quick(extent.is_quick, "trainings, conditions and presentations");
 }
 
 fn by_contact(page: &mut Page, models: &[TrainedModel]) -> Result<()> {

@@ -122,23 +122,19 @@ const APART: f64 = 1.0;
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Asked {
     /// Right and stated rightly, and so much decided, percent, within so many ms of contact.
-    Known { decided: f64, ms: Option<f64> },
+    Known(f64, Option<f64>),
     /// Right is no more points below stated than this, or next to nothing is decided.
-    Honest { short: f64 },
+    Honest(f64),
 }
 
 impl Asked {
-    pub(super) const fn known(decided: f64, ms: Option<f64>) -> Self {
-        Self::Known { decided, ms }
-    }
-
     pub(super) fn text(self) -> String {
         match self {
-            Self::Known { decided, ms } => {
+            Self::Known(decided, ms) => {
                 let ms = ms.map_or_else(String::new, |ms| format!(", within {ms} ms"));
                 format!("right ≥ {RIGHT}, gap ≤ {APART}, decided ≥ {decided}{ms}")
             }
-            Self::Honest { short } => format!("right ≥ stated − {short}, or decided ≤ {SILENT}"),
+            Self::Honest(short) => format!("right ≥ stated − {short}, or decided ≤ {SILENT}"),
         }
     }
 
@@ -146,13 +142,13 @@ impl Asked {
         let [least, most] = tally.short_within();
         let [right, decided] = [tally.right_share(), tally.decided_share()];
         match self {
-            Self::Known { decided: goal, ms } => missed([
+            Self::Known(goal, ms) => missed([
                 ("right", 100.0 * right.high < RIGHT),
                 ("gap", least > APART || most < -APART),
                 ("decided", 100.0 * decided.high < goal),
                 ("time", ms.is_some_and(|ms| tally.contact_ms(TICK_HZ) > ms)),
             ]),
-            Self::Honest { short } => {
+            Self::Honest(short) => {
                 let is_loud = 100.0 * decided.low > SILENT;
                 missed([("right", is_loud && least > short)])
             }

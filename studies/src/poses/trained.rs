@@ -44,10 +44,8 @@ impl<'s> Trained<'s> {
             ..test
         };
         let seeds: Vec<u64> = seeds.take(extent.trainings[kind]).collect();
-        let jobs: Vec<(&Setting<'_>, u64)> = seeds
-            .iter()
-            .flat_map(|&seed| poses.iter().zip(seed..))
-            .collect();
+        let jobs = seeds.iter().flat_map(|&seed| poses.iter().zip(seed..));
+        let jobs: Vec<(&Setting<'_>, u64)> = jobs.collect();
         let made = cores.each("trainings", &jobs, |(pose, seed)| {
             Ok((seed.to_string(), pose.record(*seed)?))
         })?;
@@ -75,7 +73,6 @@ impl<'s> Trained<'s> {
         })
     }
 
-    /// Presentations with these changes.
     pub(super) fn presentations(&self, changes: &[Change], seed: u64) -> Result<Vec<Stream>> {
         Setting {
             changes,
@@ -112,12 +109,10 @@ impl<'s> Trained<'s> {
         first_test: u64,
     ) -> Result<Vec<Vec<Vec<Tally>>>> {
         let trainings = self.seeds.len();
-        let jobs: Vec<(usize, usize)> = (0..conditions.len())
-            .flat_map(|condition| (0..trainings).map(move |training| (condition, training)))
-            .collect();
-        let cores = self.cores;
-        let found = cores.each("conditions", &jobs, |&(condition, training)| {
-            let seed = first_test + (condition * trainings + training) as u64;
+        let jobs: Vec<usize> = (0..conditions.len() * trainings).collect();
+        let found = self.cores.each("conditions", &jobs, |&job| {
+            let (condition, training) = (job / trainings, job % trainings);
+            let seed = first_test + job as u64;
             let streams = self.presentations(&conditions[condition..=condition], seed)?;
             let judged = |models: &&[ModelBuf]| judge(&models[training], THRESHOLD, &streams);
             kinds.iter().map(judged).collect::<Result<Vec<Tally>>>()

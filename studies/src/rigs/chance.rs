@@ -10,9 +10,8 @@ pub(crate) struct Chance(Xoshiro256PlusPlus);
 /// The seed of a part: `parts` name it within what `seed` belongs to. Two different lists of parts
 /// give unrelated seeds (splitmix64's finaliser after each part).
 pub(crate) fn seed_of(seed: u64, parts: &[u64]) -> u64 {
-    parts
-        .iter()
-        .fold(mix(seed), |state, part| mix(state ^ mix(*part)))
+    let parts = parts.iter().map(|part| mix(*part));
+    parts.fold(mix(seed), |state, part| mix(state ^ part))
 }
 
 fn mix(x: u64) -> u64 {
@@ -40,7 +39,6 @@ impl Chance {
         ((self.unit() * count as f64) as usize).min(count.saturating_sub(1))
     }
 
-    /// Standard normal (Box and Muller).
     pub(crate) fn normal(&mut self) -> f64 {
         let [normal, _] = box_muller([1.0 - self.unit(), self.unit()]);
         normal

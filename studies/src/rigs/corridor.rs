@@ -83,7 +83,6 @@ impl Corridor {
 /// heading, radians, and D of both sides, mm. Behind them are x and y of one vibrissa of the left
 /// pad, tick by tick.
 pub(crate) const FELT: usize = INPUTS + 4;
-/// Numbers of a sample.
 pub(crate) const COLUMNS: usize = FELT + 2 * WINDOW as usize;
 
 const PLACEBO: usize = 1;
@@ -133,11 +132,11 @@ pub(crate) fn record(request: &Request, job: usize, seed: u64) -> Result<Recordi
     let rig = &request.rigs.corridor;
     let (case, _) = place(request.extent, job);
     let mut chance = Chance::new(seed_of(seed, &[0]));
+    let aside = chance.between(-rig.start_spread_m, rig.start_spread_m);
+    let turned_deg = chance.between(-rig.start_spread_deg, rig.start_spread_deg);
     let mut robot = Robot {
-        neck_m: [0.0, chance.between(-rig.start_spread_m, rig.start_spread_m)],
-        heading: chance
-            .between(-rig.start_spread_deg, rig.start_spread_deg)
-            .to_radians(),
+        neck_m: [0.0, aside],
+        heading: turned_deg.to_radians(),
     };
     let seeds = [1, 2].map(|side| seed_of(seed, &[side]));
     // The walls are the same pieces in every run, met from either end.
@@ -166,7 +165,6 @@ pub(crate) fn record(request: &Request, job: usize, seed: u64) -> Result<Recordi
     Ok(Recording::new(COLUMNS, values))
 }
 
-/// Inputs of the network: the vibrissae of both sides.
 pub(crate) const INPUTS: usize = 2 * VIBRISSAE;
 const BITS: usize = 8;
 /// Window of the IMP's mean, samples (50 ms; chosen).
@@ -187,6 +185,7 @@ pub(crate) struct Pads {
     keep_window: f32,
 }
 
+#[derive(Default)]
 pub(crate) struct Felt {
     /// D of the left and the right (PSIK eq. 1), mm.
     pub(crate) distance_mm: [f64; 2],
@@ -221,11 +220,7 @@ impl Pads {
         robot: &Robot,
         wall: impl Fn(usize, &Pose) -> Option<Plate>,
     ) -> Felt {
-        let mut felt = Felt {
-            distance_mm: [0.0; 2],
-            one: [0.0; 2],
-            window: None,
-        };
+        let mut felt = Felt::default();
         let (keep, keep_window) = (self.keep, self.keep_window);
         for (number, side) in self.sides.iter_mut().enumerate() {
             let mut codes = [[0; 2]; VIBRISSAE];

@@ -1,14 +1,6 @@
 //! The floor robot of LEP10 and LEP12: a passive whisker on the front of a
 //! small cleaning robot, dragged over the floor.
 //!
-//! # Glossary
-//!
-//! - **mount**: where the whisker's base is fixed, on the rim of the robot.
-//! - **press**: how far below the floor the tip of a straight whisker would be.
-//! - **spot**: the robot turning about its own centre.
-//! - **autonomous**: turns either way and forward runs, in an order that the
-//!   whisker cannot foresee.
-//!
 //! World frame: x and y along the floor, z up, the floor at z = 0. The sensor's x is parallel to
 //! the floor and y normal to it as far as the whisker's slope allows (LEP12 section 2).
 
@@ -50,6 +42,7 @@ keys! {
 pub(crate) enum RobotMotion {
     Anticlockwise,
     Clockwise,
+    /// Turns either way and forward runs, in an order that the whisker cannot foresee.
     Autonomous,
 }
 
@@ -111,7 +104,6 @@ impl Floor {
 }
 
 impl Drive<'_> {
-    /// What the wheels shall do next.
     fn choose(&mut self) {
         let rig = self.rig;
         let way = match self.motion {

@@ -20,7 +20,7 @@ use crate::paper::biotact::{
     DISTANCES_MM, OBSTACLES_DEG, STRATEGIES, STRONG, TAU_Z_PERIODS, TEXTURES, WHISKERS,
 };
 use physics::vector::add;
-use physics::{Plate, Pose, SensorSettings, Shaft, Surface, TouchingWhisker};
+use physics::{Biotact, Plate, Pose, SensorSettings, Shaft, Surface, TouchingWhisker};
 
 /// Channels: x and y of every whisker, left side first.
 pub(crate) const CHANNELS: usize = 2 * SIDES * EACH;
@@ -230,7 +230,9 @@ pub(crate) fn record(request: &Request, job: usize, seed: u64) -> Result<Recordi
         seed,
     };
     let sensor = whiskers::sensor([rig.full_scale_rad; 2]);
-    let felt = rig.visit(&whiskers::head(rig.follicle), &sensor, &visit)?;
+    // The front one first.
+    let shafts = Biotact::ALL.map(|length| whiskers::held(Shaft::biotact(length), rig.follicle));
+    let felt = rig.visit(&shafts, &sensor, &visit)?;
     Ok(Recording::new(COLUMNS, felt))
 }
 
@@ -312,9 +314,8 @@ mod tests {
         };
         let flat = Surface::of(Material::Flat);
         let visit = visit(&flat, 4);
-        let felt = rig
-            .visit(&Biotact::ALL.map(Shaft::biotact), &sensor, &visit)
-            .unwrap();
+        let shafts = Biotact::ALL.map(Shaft::biotact);
+        let felt = rig.visit(&shafts, &sensor, &visit).unwrap();
         let whisks = felt.chunks(COLUMNS * rig.whisk_ticks());
         let x = |whisk: &[f32]| -> f32 {
             let x = whisk.iter().step_by(COLUMNS);
@@ -336,10 +337,8 @@ mod tests {
         let elsewhere = peaks(0.0, 0.005);
         assert!(apart(&elsewhere) < 20.0, "{elsewhere:?}");
         let moved = peaks(0.001, 0.0);
-        let pairs = moved
-            .windows(2)
-            .filter(|pair| (pair[0] - pair[1]).abs() > 100.0);
-        assert!(pairs.count() >= 2, "{moved:?}");
+        let differ = |pair: &&[f32]| (pair[0] - pair[1]).abs() > 100.0;
+        assert!(moved.windows(2).filter(differ).count() >= 2, "{moved:?}");
     }
 
     #[test]

@@ -5,10 +5,6 @@
 //!
 //! - **arc**: vibrissae of one length, from back (longest) to front.
 //! - **row**: from top (0) to bottom (4); short arcs have the lower rows only (PSIK Table 1).
-//! - **pan**: the angle of the neck, anticlockwise from where the middle of the
-//!   pad faces the sheet.
-//! - **lean**: how far a vibrissa points back from the radius through its tip,
-//!   against the sweep, so that its tip trails.
 //!
 //! Frame of the neck: its axis is z, upwards, at the origin. All tips of a pad
 //! lie at one distance from the origin, as fits "an appropriate angle to

@@ -138,7 +138,6 @@ pub(super) fn line_of(text: &str, key: &str) -> usize {
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Setting {
     pub(super) rig: String,
-    /// The keys of the rig that it sets.
     pub(super) keys: Table,
     text: String,
 }

@@ -167,9 +167,8 @@ fn approach(
             plate.point_m[0] = origin[0] + way * carriage.x_m;
             whisker.step(&pose, Some(&plate), dt_s);
             let deflected = whisker.reading()[0].abs() > rig.threshold;
-            left = left
-                .map(|left| left - dt_s)
-                .or(deflected.then_some(latency));
+            let begins = deflected.then_some(latency);
+            left = left.map(|left| left - dt_s).or(begins);
         }
         codes.extend(whisker.codes());
         withdrawn += usize::from(left.is_some_and(|left| left <= 0.0));

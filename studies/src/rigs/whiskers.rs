@@ -6,7 +6,7 @@ use std::collections::BTreeMap;
 use std::sync::{Arc, Mutex, PoisonError};
 
 use anyhow::Result;
-use physics::{Biotact, Grit, Material, Modes, SensorSettings, Shaft, Surface, TouchingWhisker};
+use physics::{Grit, Material, Modes, SensorSettings, Shaft, Surface, TouchingWhisker};
 use serde::Deserialize;
 use toml::{Table, Value};
 
@@ -25,52 +25,19 @@ pub(crate) fn held(mut shaft: Shaft, follicle: f64) -> Shaft {
     shaft
 }
 
-/// The whiskers of a side of the head, the front one first.
-pub(crate) fn head(follicle: f64) -> [Shaft; 3] {
-    Biotact::ALL.map(|length| held(Shaft::biotact(length), follicle))
-}
-
-/// The floors of LEP10's tables.
-pub(crate) const FLOORS: [Material; 4] = [
-    Material::RoughCarpet,
-    Material::SmoothCarpet,
-    Material::Tarmac,
-    Material::Vinyl,
-];
-
-/// The textures of the head's experiment, and those at the table, as the papers list them.
-pub(crate) const ABRASIVES: [Material; 3] = [
-    Material::Sandpaper(Grit::P240),
-    Material::Sandpaper(Grit::P600),
-    Material::SmoothPlastic,
-];
-pub(crate) const TABLE: [Material; 4] = [
-    Material::Sandpaper(Grit::P80),
-    Material::Sandpaper(Grit::P180),
-    Material::Sandpaper(Grit::P600),
-    Material::Aluminium,
-];
+/// The surfaces of each rig by their names: the floors of LEP10's tables, the textures of the head's
+/// experiment, and those at the table, as the papers list them.
+pub(crate) const FLOORS: [&str; 4] = ["rough_carpet", "smooth_carpet", "tarmac", "vinyl"];
+pub(crate) const ABRASIVES: [&str; 3] = ["p240", "p600", "smooth_plastic"];
+pub(crate) const TABLE: [&str; 4] = ["p80", "p180", "p600", "aluminium"];
 
 /// The eight sandpapers of PSIK Table 2, from coarse to fine. The paper says "from P180 to P50" and
 /// eight of them; FEPA has seven grades in that range, so P40 is added.
-pub(crate) const SANDPAPERS: [Material; 8] = [
-    Material::Sandpaper(Grit::P40),
-    Material::Sandpaper(Grit::P50),
-    Material::Sandpaper(Grit::P60),
-    Material::Sandpaper(Grit::P80),
-    Material::Sandpaper(Grit::P100),
-    Material::Sandpaper(Grit::P120),
-    Material::Sandpaper(Grit::P150),
-    Material::Sandpaper(Grit::P180),
-];
+pub(crate) const SANDPAPERS: [&str; 8] =
+    ["p40", "p50", "p60", "p80", "p100", "p120", "p150", "p180"];
 
 /// The four walls of relief plexiglass; their periods differ (chosen; PSIK Fig. 8 has no extent).
-pub(crate) const WALLS: [Material; 4] = [
-    Material::Relief(30),
-    Material::Relief(60),
-    Material::Relief(100),
-    Material::Relief(160),
-];
+pub(crate) const WALLS: [&str; 4] = ["relief_30", "relief_60", "relief_100", "relief_160"];
 
 type Arcs = Arc<Vec<(Shaft, Modes)>>;
 
@@ -117,12 +84,8 @@ pub(crate) fn pad(
         let whisker = TouchingWhisker::with_modes(shaft, modes, &sensor, seed)?;
         Ok((of, whisker))
     };
-    layout
-        .vibrissae()
-        .into_iter()
-        .enumerate()
-        .map(make)
-        .collect()
+    let vibrissae = layout.vibrissae().into_iter();
+    vibrissae.enumerate().map(make).collect()
 }
 
 keys! {
@@ -166,20 +129,20 @@ const ALL: [(&str, Material); 21] = [
 ];
 
 impl Surfaces {
-    /// The surface of a material, with what is said of it.
-    pub(crate) fn of(&self, material: Material) -> Surface {
-        let usual = Surface::of(material);
-        let name = ALL.iter().find(|(_, other)| *other == material);
-        let said = name.and_then(|(name, _)| self.0.get(*name));
-        said.map_or(usual, |said| Surface {
+    /// A surface by its name in [`ALL`], with what is said of it.
+    pub(crate) fn of(&self, name: &str) -> Surface {
+        let material = ALL.iter().find(|(other, _)| *other == name);
+        let (_, material) = material.expect("rigs name surfaces that there are");
+        let said = &self.0[name];
+        Surface {
             height_m: said.height_m,
             grain_m: said.grain_m,
             stiffness_n_m: said.stiffness_n_m,
             damping: said.damping,
             friction: said.friction,
             hold: said.hold,
-            seed: usual.seed,
-        })
+            seed: Surface::of(*material).seed,
+        }
     }
 }
 
@@ -189,7 +152,6 @@ impl Keys for Surfaces {
     }
 }
 
-/// What the physics has.
 pub(super) fn defaults() -> Table {
     let table = |(name, material): (&str, Material)| {
         let surface = Surface::of(material);

@@ -48,7 +48,6 @@ fn contacts(touching: &[f64], least: usize) -> usize {
     count
 }
 
-/// One column of a visit from tick `from` to `to`.
 fn column(visit: &Recording, from: usize, to: usize, column: usize) -> Vec<f64> {
     let rows = visit.part(from, to).chunks_exact(COLUMNS);
     rows.filter_map(|row| row.get(column).map(|x| f64::from(*x)))
@@ -75,12 +74,15 @@ fn movement(visit: &Recording, ticks: usize) -> [f64; 6] {
         deflection += most(&bent);
     }
     let share = 1.0 / whisks as f64;
+    let spread = spread(visit, ticks, whisks);
+    let (touching, biphasic) = (100.0 * share * touching, 100.0 * share * biphasic);
+    let (peak_deg, deflection) = (share * peak_deg, share * deflection);
     [
-        share * peak_deg,
-        100.0 * share * touching,
-        share * deflection,
-        spread(visit, ticks, whisks),
-        100.0 * share * biphasic,
+        peak_deg,
+        touching,
+        deflection,
+        spread,
+        biphasic,
         share * touches,
     ]
 }
@@ -88,9 +90,8 @@ fn movement(visit: &Recording, ticks: usize) -> [f64; 6] {
 /// Root mean square, over the whisk, of the standard deviation between whisks
 /// of x of the left front whisker.
 fn spread(visit: &Recording, ticks: usize, whisks: usize) -> f64 {
-    let x: Vec<Vec<f64>> = (0..whisks)
-        .map(|whisk| column(visit, whisk * ticks, (whisk + 1) * ticks, 0))
-        .collect();
+    let x = (0..whisks).map(|whisk| column(visit, whisk * ticks, (whisk + 1) * ticks, 0));
+    let x: Vec<Vec<f64>> = x.collect();
     let mut sum = 0.0;
     for tick in 0..ticks {
         let now = || x.iter().filter_map(|whisk| whisk.get(tick));

@@ -11,7 +11,7 @@ use whisking::{GateSettings, Integrator, Settings, State, degrees, filter};
 use crate::chart::{Mark, Series, linear, panel};
 use crate::experiment::Request;
 use crate::moments::range;
-use crate::page::{Page, figure, row};
+use crate::page::{Page, bold, figure};
 use crate::paper::biotact::{
     FIG6_GAINS, FIG9_CIA, GENTLE, Gate, OBSTACLES_DEG, OVERLAP_GAIN, STRONG,
 };
@@ -264,8 +264,7 @@ pub(super) fn whole_head(page: &mut Page, request: &Request) -> Result<()> {
     ));
     let line = |((what, ..), [peak_deg, contacts]): (&Case, &Moved)| {
         let cells = peak_deg.map(|deg| figure(deg, 1)).into_iter();
-        let cells = cells.chain(contacts.map(|count| figure(count, 2)));
-        row(*what, cells.map(|cell| format!("**{cell}**")))
+        bold(*what, cells.chain(contacts.map(|count| figure(count, 2))))
     };
     let header = format!(
         "before | left up to, degrees | right up to, degrees | left past {LEFT_DEG} degrees, times a \
@@ -274,28 +273,20 @@ pub(super) fn whole_head(page: &mut Page, request: &Request) -> Result<()> {
     );
     page.table(&header, CASES.iter().zip(&moved).map(line));
     let [free, [left, right]] = [0, 2].map(|n| moved[n][0]);
+    let [a, b, c, d] = [left, right, free[LEFT], free[RIGHT]].map(|deg| figure(deg, 1));
     page.claim(
         "BIOTACT section III-D, 24 whiskers with bodies: an obstacle on the left holds the left \
          back and lets the right protract more",
         "so",
-        format_args!(
-            "left up to {}, right up to {}; free {} and {} degrees",
-            figure(left, 1),
-            figure(right, 1),
-            figure(free[LEFT], 1),
-            figure(free[RIGHT], 1)
-        ),
+        format_args!("left up to {a}, right up to {b}; free {c} and {d} degrees"),
         ((free[LEFT] - left).min(right - free[RIGHT]), "degrees"),
     );
     let [missed, found] = [3, 4].map(|n| moved[n][1][RIGHT]);
+    let [without, with] = [missed, found].map(|count| figure(count, 2));
     page.claim(
         "BIOTACT Fig. 9, 24 whiskers with bodies: with CIA the right finds its obstacle",
         "1 contact a whisk, none without CIA",
-        format_args!(
-            "{} contacts a whisk, {} without CIA",
-            figure(found, 2),
-            figure(missed, 2)
-        ),
+        format_args!("{with} contacts a whisk, {without} without CIA"),
         ((found - 0.5).min(0.5 - missed), "contacts a whisk"),
     );
     Ok(())

@@ -10,7 +10,7 @@ use crate::experiment::{Dataset, Recordings, Request, of_set, product};
 use crate::page::Page;
 use crate::paper::biotact::{DISTANCES_MM, STRATEGIES, TEXTURES};
 use crate::rigs::CHANNELS;
-use crate::rigs::head::{COLUMNS, number};
+use crate::rigs::head::COLUMNS;
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Method {
@@ -24,17 +24,14 @@ pub(super) enum Method {
 impl Method {
     pub(super) const ALL: [Self; 2] = [Self::Bayes, Self::Template];
 
-    pub(super) const fn text(self) -> &'static str {
+    /// In text, and as a score has it.
+    pub(super) const fn names(self) -> (&'static str, &'static str) {
         match self {
-            Self::Bayes => "naive Bayes",
-            Self::Template => "the template by sum of squares",
-        }
-    }
-
-    pub(super) const fn score_name(self) -> &'static str {
-        match self {
-            Self::Bayes => "stationary naive Bayes, 12 channels",
-            Self::Template => "template by sum of squares, 12 channels",
+            Self::Bayes => ("naive Bayes", "stationary naive Bayes, 12 channels"),
+            Self::Template => (
+                "the template by sum of squares",
+                "template by sum of squares, 12 channels",
+            ),
         }
     }
 }
@@ -96,18 +93,19 @@ impl Visits {
         let all = of_set(recordings, Dataset::Head);
         let ticks = request.rigs.head.whisk_ticks();
         let mut whisks = vec![vec![Vec::new(); request.extent.whisks]; STRATEGIES.len()];
-        for (strategy, whisks) in whisks.iter_mut().enumerate() {
-            for texture in 0..TEXTURES.len() {
-                for distance in 0..DISTANCES_MM.len() {
-                    let visit = all[number(strategy, texture, distance)];
-                    for (n, whisk) in whisks.iter_mut().enumerate() {
-                        let samples = visit.part(n * ticks, (n + 1) * ticks);
-                        let felt = samples.chunks_exact(COLUMNS);
-                        let felt = felt.flat_map(|row| row.iter().take(CHANNELS));
-                        let felt = felt.map(|x| f64::from(*x)).collect();
-                        whisk.push((texture, distance, felt));
-                    }
-                }
+        let of_strategy = TEXTURES.len() * DISTANCES_MM.len();
+        let classified = all.iter().take(of_strategy * STRATEGIES.len());
+        for (job, visit) in classified.enumerate() {
+            let (strategy, condition) = (job / of_strategy, job % of_strategy);
+            let (texture, distance) = (
+                condition / DISTANCES_MM.len(),
+                condition % DISTANCES_MM.len(),
+            );
+            for (n, whisk) in whisks[strategy].iter_mut().enumerate() {
+                let felt = visit.part(n * ticks, (n + 1) * ticks).chunks_exact(COLUMNS);
+                let felt = felt.flat_map(|row| row.iter().take(CHANNELS));
+                let felt = felt.map(|x| f64::from(*x)).collect();
+                whisk.push((texture, distance, felt));
             }
         }
         let options = Options {
@@ -132,46 +130,36 @@ impl Visits {
         method: Method,
         task: Task,
         strategy: usize,
-        split: Split<'_>,
-    ) -> Result<f64> {
-        match method {
-            Method::Bayes => self.bayes(task, strategy, split),
-            Method::Template => self.template(task, strategy, split),
-        }
-    }
-
-    fn template(
-        &self,
-        task: Task,
-        strategy: usize,
         (training, validation): Split<'_>,
     ) -> Result<f64> {
+        let class = |whisk: &Whisk| task.class(whisk.0, whisk.1);
         let known = self.some(strategy, training);
-        let known = known.map(|(texture, distance, x)| (task.class(*texture, *distance), &x[..]));
-        let templates = Templates::of(known, true)?;
         let validation = self.some(strategy, validation);
-        Ok(share(task, validation, |x| Some(templates.classify(x))))
-    }
-
-    fn bayes(&self, task: Task, strategy: usize, (training, validation): Split<'_>) -> Result<f64> {
-        let mut trainer = Trainer::new(CHANNELS, self.options)?;
-        // Classes are numbered as they first appear: put them in order.
-        let mut sorted: Vec<&Whisk> = self.some(strategy, training).collect();
-        sorted.sort_by_key(|(texture, distance, _)| task.class(*texture, *distance));
-        for (texture, distance, samples) in sorted {
-            let name = format!("class {}", task.class(*texture, *distance));
-            for sample in samples.chunks_exact(CHANNELS) {
-                trainer.add(&name, sample)?;
+        match method {
+            Method::Template => {
+                let known = known.map(|whisk| (class(whisk), &whisk.2[..]));
+                let templates = Templates::of(known, true)?;
+                Ok(share(task, validation, |x| Some(templates.classify(x))))
+            }
+            Method::Bayes => {
+                let mut trainer = Trainer::new(CHANNELS, self.options)?;
+                // Classes are numbered as they first appear: put them in order.
+                let mut sorted: Vec<&Whisk> = known.collect();
+                sorted.sort_by_key(|whisk| class(whisk));
+                for whisk in sorted {
+                    let name = format!("class {}", class(whisk));
+                    for sample in whisk.2.chunks_exact(CHANNELS) {
+                        trainer.add(&name, sample)?;
+                    }
+                }
+                let buf = trainer.train()?;
+                let mut bayes = Bayes::<WindowRule>::new(buf.view(), self.ticks as u32)?;
+                Ok(share(task, validation, |whisk| {
+                    let found = bayes.outcomes(whisk, CHANNELS);
+                    found.first().map(|outcome| outcome.class)
+                }))
             }
         }
-        let buf = trainer.train()?;
-        let model = buf.view();
-        let mut bayes = Bayes::<WindowRule>::new(model, self.ticks as u32)?;
-        let validation = self.some(strategy, validation);
-        Ok(share(task, validation, |whisk| {
-            let found = bayes.outcomes(whisk, CHANNELS);
-            found.first().map(|outcome| outcome.class)
-        }))
     }
 }
 

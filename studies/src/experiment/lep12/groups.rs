@@ -22,7 +22,6 @@ const DOUBTS: [f64; 22] = [
 /// Windows of Fig. 5, samples: 10 ms to 1 s.
 const WINDOWS: [u32; 10] = [20, 40, 60, 100, 140, 200, 300, 400, 1000, 2000];
 
-/// A group of trials that is trained and validated by itself.
 pub(super) struct Group {
     pub(super) name: &'static str,
     pub(super) training: Vec<Stream>,
@@ -97,9 +96,8 @@ impl Curves {
     /// The sequential point whose mean time is nearest to Table 2's.
     pub(super) fn nearest(&self) -> Option<&Point> {
         let off = |point: &&Point| (point.time_s / TIME_S).ln().abs();
-        self.sequential
-            .iter()
-            .min_by(|a, b| off(a).total_cmp(&off(b)))
+        let points = self.sequential.iter();
+        points.min_by(|a, b| off(a).total_cmp(&off(b)))
     }
 }
 

@@ -8,7 +8,7 @@ use tactile::{SequentialRule, Threshold};
 use super::groups::{BLOCK, BOTH, Group};
 use crate::classifiers::recogniser::{Bayes, Outcome, Recogniser, Sprt};
 use crate::experiment::floors::{CHANNELS, Stream, train};
-use crate::page::{Page, figure, row};
+use crate::page::{Page, bold, figure};
 use crate::paper::lep10::FLOORS;
 
 /// Threshold on the probability: the middle one of Fig. 8.
@@ -19,38 +19,19 @@ const PRIOR_RATIO: f64 = 4.0;
 /// by rounding).
 const ALIKE: f64 = 99.9;
 
-#[derive(Debug, Default, Clone, Copy)]
-struct Decisions {
-    wrong: f64,
-    count: f64,
-    samples: f64,
-}
-
-impl Decisions {
-    /// Percent; no number where nothing is decided.
-    fn error(&self) -> f64 {
-        100.0 * self.wrong / self.count
-    }
-
-    fn time(&self) -> f64 {
-        self.samples / self.count.max(1.0)
-    }
-}
-
 /// What a rule makes of all streams of a floor, stream by stream.
 fn each(rule: &mut impl Recogniser, streams: &[Stream], floor: usize) -> Vec<Vec<Outcome>> {
     let of = streams.iter().filter(|stream| stream.floor == floor);
     of.map(|of| rule.outcomes(&of.samples, CHANNELS)).collect()
 }
 
-fn decisions(found: &[Vec<Outcome>], class: usize) -> Decisions {
-    let mut sum = Decisions::default();
-    for one in found.iter().flatten() {
-        sum.wrong += f64::from(u8::from(one.class != class));
-        sum.count += 1.0;
-        sum.samples += f64::from(one.samples);
-    }
-    sum
+/// Errors, percent, and mean samples; no number of errors where nothing is decided.
+fn decisions(found: &[Vec<Outcome>], class: usize) -> [f64; 2] {
+    let count = found.iter().flatten().count() as f64;
+    let wrong = found.iter().flatten().filter(|one| one.class != class);
+    let samples = found.iter().flatten().map(|one| f64::from(one.samples));
+    let error = 100.0 * wrong.count() as f64 / count;
+    [error, samples.sum::<f64>() / count.max(1.0)]
 }
 
 struct Pair {
@@ -82,7 +63,7 @@ impl Pair {
         let mut eq8 = Bayes::<SequentialRule>::new(model, threshold)?;
         let mut flat = Sprt::new(model, THETA, 1.0)?;
         let (mut same, mut all) = (0.0, 0.0);
-        let mut plain = [Decisions::default(); 2];
+        let mut plain = [[0.0; 2]; 2];
         for (class, floor) in floors.into_iter().enumerate() {
             let ours = each(&mut flat, &group.validation, floor);
             let theirs = each(&mut eq8, &group.validation, floor);
@@ -98,9 +79,9 @@ impl Pair {
             for (class, floor) in floors.into_iter().enumerate() {
                 let weight = 0.5 * if class == likely { share } else { 1.0 - share };
                 let known = decisions(&each(&mut knowing, &group.validation, floor), class);
-                for (place, of) in [plain[class], known].into_iter().enumerate() {
-                    error[place] += weight * of.error();
-                    time[place] += weight * of.time();
+                for (place, [wrong, samples]) in [plain[class], known].into_iter().enumerate() {
+                    error[place] += weight * wrong;
+                    time[place] += weight * samples;
                 }
             }
         }
@@ -130,14 +111,8 @@ pub(super) fn section(page: &mut Page, group: &Group, rate_hz: f64) -> Result<()
     let ms = |samples: f64| figure(1000.0 * samples / rate_hz, 0);
     let line = |pair: &Pair| {
         let name = pair.floors.map(|floor| FLOORS[floor]).join(" or ");
-        let cells = [
-            figure(pair.alike, 1),
-            figure(pair.error[0], 1),
-            figure(pair.error[1], 1),
-            ms(pair.time[0]),
-            ms(pair.time[1]),
-        ];
-        row(name, cells.map(|cell| format!("**{cell}**")))
+        let shares = [pair.alike, pair.error[0], pair.error[1]].map(|share| figure(share, 1));
+        bold(name, shares.into_iter().chain(pair.time.map(ms)))
     };
     page.table(
         "floors | decided as by eq. 8, % | errors with HR = 1, % | with HR known, % | time with \

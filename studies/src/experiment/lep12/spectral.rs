@@ -22,7 +22,6 @@ const HIGHEST_HZ: f64 = 120.0;
 /// Length of the network's transform, s.
 const TRANSFORM_S: f64 = 0.5;
 
-/// What `of` makes of every segment.
 fn rows(
     streams: &[Stream],
     rate_hz: f64,
@@ -56,7 +55,6 @@ pub(super) fn template(group: &Group, rate_hz: f64) -> Result<[f64; 4]> {
     Ok(tally.hits())
 }
 
-/// The power spectrum of a channel of a segment, without its mean.
 pub(super) fn power(spectrum: &Spectrum, segment: &[f64], channel: usize) -> Result<Vec<f64>> {
     let line = || segment.iter().skip(channel).step_by(CHANNELS);
     let mean = line().sum::<f64>() / (segment.len() / CHANNELS) as f64;

@@ -26,7 +26,6 @@ pub(super) enum Nearest {
 }
 
 impl Nearest {
-    /// What of a signal is held against templates.
     fn vectors(self, signals: &[Signal]) -> Result<Vec<Vec<f64>>> {
         let length = signals.first().map_or(0, |(_, x)| x.len());
         let spectrum = Spectrum::new(Bins::all(length));
@@ -101,12 +100,9 @@ pub(super) fn features(sets: &Sets) -> Result<ByFeatures> {
         let some = |features: &[f64; 5]| -> Vec<f64> {
             chosen.iter().map(|&feature| features[feature]).collect()
         };
-        let examples: Vec<(Vec<f64>, f64)> = sets
-            .training
-            .iter()
-            .zip(&training)
-            .map(|((contact, _), features)| (some(features), contact[property] as f64))
-            .collect();
+        let examples = sets.training.iter().zip(&training);
+        let examples = examples.map(|((contact, _), of)| (some(of), contact[property] as f64));
+        let examples: Vec<(Vec<f64>, f64)> = examples.collect();
         let regression = Regression::fit(degree, &examples)?;
         let last = classes.saturating_sub(1) as f64;
         let named = testing.iter().map(|features| {
@@ -161,9 +157,8 @@ impl Scores {
     }
 
     pub(super) fn hit(&self) -> [f64; 3] {
-        self.0
-            .each_ref()
-            .map(|score| 100.0 * score.hit_rate().unwrap_or(0.0))
+        let hit = |score: &Confusion| 100.0 * score.hit_rate().unwrap_or(0.0);
+        self.0.each_ref().map(hit)
     }
 
     pub(super) fn errors(&self) -> [Option<Statistics>; 3] {
@@ -193,7 +188,6 @@ pub(super) fn kappas(page: &mut Page, rows: &[&Scores; 3]) {
         }
         cells
     });
-    let lines: Vec<_> = lines.collect();
     page.say(
         "**κ and errors** (sections III-A to III-C, Table I, Figs. 7 and 8): paper / **ours**; \
          errors are the mean (and the spread) in degrees, mm/s and classes.",
@@ -211,21 +205,16 @@ pub(super) fn table_of_features(page: &mut Page, found: &[Confusion]) {
         let ours = errors.map_or("none".to_owned(), |s| {
             format!("{} ({})", figure(s.mean, 2), figure(s.sd, 2))
         });
-        let alone = feature
-            .alone
-            .map_or("–".to_owned(), |kappa| format!("{kappa:.2}"));
+        let alone = feature.alone.map(|kappa| format!("{kappa:.2}"));
+        let (mean, spread) = feature.error;
         vec![
             feature.name.clone(),
             format!("{:.2}", feature.together),
-            alone,
+            alone.unwrap_or("–".to_owned()),
             format!("**{}**", figure(score.kappa().unwrap_or(0.0), 2)),
-            format!(
-                "{:.2} ({:.2}) / **{ours}**",
-                feature.error.0, feature.error.1
-            ),
+            format!("{mean:.2} ({spread:.2}) / **{ours}**"),
         ]
     });
-    let lines: Vec<_> = lines.collect();
     page.say("**Texture by features** (section III-C and Table I).");
     page.table(
         "feature | κ in the paper, together | κ in the paper, alone | κ here | error, classes",
@@ -233,7 +222,6 @@ pub(super) fn table_of_features(page: &mut Page, found: &[Confusion]) {
     );
 }
 
-/// The picture; classifiers one below the other.
 pub(super) fn matrices(page: &mut Page, rows: &[&Scores; 3]) -> Result<()> {
     let numbers = |values: &[f64]| values.iter().map(|value| format!("{value:.0}")).collect();
     let classes: [(&str, Vec<String>); 3] = [

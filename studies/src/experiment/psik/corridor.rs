@@ -4,8 +4,8 @@
 use anyhow::Result;
 use tactile::score::Confusion;
 
-use super::{PENALTIES, maze, mean_hit, most, train};
-use crate::classifiers::network::Row;
+use super::{PENALTIES, maze, mean_hit, train};
+use crate::classifiers::network::{Row, largest};
 use crate::experiment::{Dataset, Recording, Recordings, Request, of_set};
 use crate::page::{Page, confusion, figure};
 use crate::paper::psik::{CORRIDORS, TABLE_3};
@@ -51,7 +51,7 @@ pub(super) fn section(page: &mut Page, request: &Request, recordings: &Recording
         if number < training {
             continue;
         }
-        by_run.add(case, Some(most(&votes)))?;
+        by_run.add(case, Some(largest(&votes)))?;
         finished += 1;
         for row in run.part(0, run.len()).chunks_exact(COLUMNS) {
             let aside = f64::from(row[INPUTS]);

@@ -5,15 +5,14 @@
 use core::f64::consts::{PI, TAU};
 
 use anyhow::Result;
-use physics::{Material, Plate, Pose};
+use physics::{Plate, Pose};
 use rayon::prelude::*;
 
-use super::most;
 use crate::chart::{Mark, Series, linear, panel};
-use crate::classifiers::network::Network;
+use crate::classifiers::network::{Network, largest};
 use crate::experiment::{Dataset, Request};
 use crate::moments::range;
-use crate::page::{Page, figure, row};
+use crate::page::{Page, bold, figure};
 use crate::paper::psik::RATE_HZ;
 use crate::rigs::{Chance, Felt, Made, Maze, Pads, Robot, Wall, plane, relief, seed_of};
 
@@ -87,7 +86,7 @@ fn plate(request: &Request, wall: &Wall) -> Plate {
         // Cardboard, as smooth as plastic (chosen).
         Made::Plain => {
             let along = [wall.along[0], wall.along[1], 0.0];
-            let smooth = request.rigs.surfaces.of(Material::SmoothPlastic);
+            let smooth = request.rigs.surfaces.of("smooth_plastic");
             ([begin_x, begin_y, 0.0], along, smooth)
         }
         // The piece that was trained on, which begins where a robot that goes around clockwise
@@ -145,7 +144,7 @@ impl Behaviour<'_> {
                     later[named] += u32::from(self.inside_s >= self.maze.least_s);
                 }
                 if is_over {
-                    let (case, by_later) = (most(votes), most(later));
+                    let (case, by_later) = (largest(votes), largest(later));
                     self.other_s = 0.0;
                     if self.inside_s < self.maze.least_s {
                         self.doing = Doing::Following;
@@ -235,14 +234,9 @@ pub(super) fn section(page: &mut Page, request: &Request, network: &Network) -> 
     ));
     let names = ["to the right", "to the left"];
     let rows = names.iter().zip(&tours).map(|(name, tour)| {
-        let cells = [
-            figure(tour.laps, 2),
-            figure(f64::from(tour.passed), 1),
-            figure(f64::from(tour.right), 1),
-            figure(f64::from(tour.right_later), 1),
-            figure(f64::from(tour.false_alarms), 1),
-        ];
-        row(*name, cells.map(|cell| format!("**{cell}**")))
+        let counts = [tour.passed, tour.right, tour.right_later, tour.false_alarms];
+        let counts = counts.map(|count| figure(count.into(), 1));
+        bold(*name, [figure(tour.laps, 2)].into_iter().chain(counts))
     });
     page.table(
         "start | tours around | corridors passed | turned as they say | by the later votes | taken for one",
