@@ -12,7 +12,7 @@ use crate::sections::{
 use crate::text::Text;
 use crate::values::{Read, Values};
 
-const DIVIDES: &str = "allowed: a number that divides that of the whiskers";
+const DIVIDES: &str = "allowed: a number that divides that of the whiskers, or no such key";
 
 pub(crate) fn apply(values: &Values, text: &mut Text<'_>) {
     let mut rules = Rules { values, text };
@@ -178,6 +178,12 @@ impl Rules<'_, '_> {
         };
         let finds = self.get::<Rest>("motor", "rest") == Some(Rest::Find);
         if !finds || homing > 0.0 && homing <= limit / 2.0 {
+            return;
+        }
+        if limit <= 0.0 {
+            let found = "found 0 with rest = \"find\"";
+            let allowed = "allowed: above 0, as the stop is found by the motor";
+            self.refuse("motor", "duty_limit", found, allowed);
             return;
         }
         let offset = |key| self.values.offset("motor", key);
