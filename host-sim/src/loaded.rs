@@ -63,6 +63,7 @@ impl Loaded {
         let all = of_module.into_iter().chain(world::caution(&self.scene));
         let all: Vec<String> = all
             .map(|caution| Error::file(&self.path, caution).to_string())
+            .chain(self.places.idle())
             .collect();
         (!all.is_empty()).then(|| all.join("\n"))
     }

@@ -20,6 +20,8 @@ pub(crate) struct Row {
     pub(crate) need: Need,
     /// The key is an error unless one of these holds; empty: it never is.
     pub(crate) only: &'static [Condition],
+    /// The key has no effect unless one of these holds; empty: it always has.
+    pub(crate) used: &'static [Condition],
     pub(crate) meaning: &'static str,
 }
 
@@ -82,6 +84,7 @@ impl<T> Key<T> {
             unit: "",
             need: Need::Always,
             only: &[],
+            used: &[],
             meaning: "",
         };
         Self::from_row(row)
@@ -121,6 +124,10 @@ impl<T> Key<T> {
 
     pub(crate) const fn only_if(self, only: &'static [Condition]) -> Self {
         Self::from_row(Row { only, ..self.row })
+    }
+
+    pub(crate) const fn used_if(self, used: &'static [Condition]) -> Self {
+        Self::from_row(Row { used, ..self.row })
     }
 
     /// Another type reads the same values.

@@ -67,7 +67,7 @@ impl Scene {
             text.report(0, "scene".to_owned(), found, String::new());
             return Err(text.into_problems());
         };
-        let mut places = Places::new(file);
+        let mut places = Places::new(file, presence::idle(&values));
         for (key, offset) in values.offsets() {
             places.add(key, text.place_in_words(offset));
         }

@@ -9,14 +9,21 @@ use std::fmt::Display;
 pub struct Places {
     file: String,
     at: BTreeMap<String, String>,
+    idle: Vec<(String, String)>,
 }
 
 impl Places {
-    pub(crate) fn new(file: &str) -> Self {
+    pub(crate) fn new(file: &str, idle: Vec<(String, String)>) -> Self {
         Self {
             file: file.to_owned(),
             at: BTreeMap::new(),
+            idle,
         }
+    }
+
+    /// The keys that were given without effect, a line each.
+    pub fn idle(&self) -> impl Iterator<Item = String> {
+        self.idle.iter().map(|(key, said)| self.fault(key, said))
     }
 
     /// A key, or a section under its name alone, stands there.

@@ -1,6 +1,6 @@
 //! What the declarations ask for: which sections and keys are there, and how long lists are.
 
-use crate::key::{Need, Row};
+use crate::key::{Condition, Need, Row};
 use crate::kind::Kind;
 use crate::section::{Presence, Section};
 use crate::sections::{Arm, Sides, Texture, sections};
@@ -61,8 +61,24 @@ pub(crate) fn settle(values: &mut Values) {
 
 /// Whether the key is an error: where none of the conditions under which it is allowed holds.
 fn is_barred(section: &Section, key: &Row, values: &Values) -> bool {
+    none_holds(section, key.only, values)
+}
+
+fn none_holds(section: &Section, conditions: &[Condition], values: &Values) -> bool {
     let fails = |condition| values.holds(section.name, condition) == Some(false);
-    !key.only.is_empty() && key.only.iter().all(|condition| fails(*condition))
+    !conditions.is_empty() && conditions.iter().all(|condition| fails(*condition))
+}
+
+/// The keys that are given without effect, each with what would give it one.
+pub(crate) fn idle(values: &Values) -> Vec<(String, String)> {
+    let keys = sections().flat_map(|section| section.keys().map(move |key| (section, key)));
+    let idle = keys.filter_map(|(section, key)| {
+        values.offset(section.name, key.name)?;
+        let used: Vec<String> = key.used.iter().map(ToString::to_string).collect();
+        let said = format!("has no effect; used only where {}", used.join(" or "));
+        none_holds(section, key.used, values).then(|| (section.path(key.name), said))
+    });
+    idle.collect()
 }
 
 fn needed_section(section: &Section, given: Given, values: &Values, text: &mut Text<'_>) {

@@ -4,6 +4,7 @@ use whisking::motor::Driver;
 use whisking::ranges;
 
 use crate::choice::choice;
+use crate::key::Condition::{self, Is};
 use crate::key::{integer, number, positive, word};
 use crate::keys::keys;
 
@@ -38,6 +39,8 @@ choice! {
         Find = "find",
     }
 }
+
+const FIND: &[Condition] = &[Is("rest", Rest::Find.name())];
 
 keys! {
     /// Motor, gear, encoder and the proportional-derivative position control.
@@ -120,16 +123,18 @@ keys! {
 
         /// Angle of the retracted stop.
         stop_deg: Option<f64> = number(-360.0..=whisking::REST_DEG).unit("degrees")
-            .optional("`min_deg`, at most 50"),
+            .optional("`min_deg`, at most 50")
+            .used_if(FIND),
 
         /// Angle of the other stop. Home is right if that stop is found within 3 degrees of it;
         /// where it is not known, if the whisker reaches `max_deg` and meets nothing.
         far_stop_deg: Option<f64> = number(whisking::REST_DEG..=360.0).unit("degrees")
-            .optional("not known"),
+            .optional("not known")
+            .used_if(FIND),
 
         /// How often the stop is looked for again, while the whisker touches nothing: elsewhere by
         /// more than a degree is a fault.
-        home_every_s: f64 = number(1.0..=86_400.0).unit("s").default("20.0"),
+        home_every_s: f64 = number(1.0..=86_400.0).unit("s").default("20.0").used_if(FIND),
 
         /// Soft start: how fast the setpoint comes from where the whisker is to where it should be,
         /// whenever the motor has been off.

@@ -209,7 +209,7 @@ keys! {
 
         /// Stiffness σ_x: contact signal per degree of overlap (BIOTACT eq. 11). Of a `whisker` above 0,
         /// and in the range that its shaft allows.
-        stiffness: f64 = number(0.0..=100.0).unit("1/degree").required_if(STIFF, "not used"),
+        stiffness: f64 = number(0.0..=100.0).unit("1/degree").required_if(STIFF, "not used").used_if(STIFF),
     }
 }
 

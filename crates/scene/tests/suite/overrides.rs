@@ -95,4 +95,8 @@ fn keys_are_found_again_where_they_stand() {
     // Left out: its section's line, or the file's first.
     let left_out = format!("s.toml:{}: plant.shaft: no", line_of("[plant]"));
     assert_eq!(places.fault("plant.shaft", "no"), left_out);
+    let (_, places) = read(&["motor.stop_deg=20"]).expect("a scene");
+    let idle =
+        "--set motor.stop_deg=20: motor.stop_deg: has no effect; used only where rest = \"find\"";
+    assert!(places.idle().eq([idle]));
 }
