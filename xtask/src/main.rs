@@ -1,5 +1,14 @@
 //! Everything CI does, by name: `cargo xtask ci`, `firmware`, `docs`.
 
+/// As those of std, but that standard output that takes no line, as on a full disk, is no panic.
+macro_rules! print {
+    ($($text:tt)*) => { $crate::run::say(format_args!($($text)*)) };
+}
+macro_rules! println {
+    () => { print!("\n") };
+    ($($text:tt)*) => { $crate::run::say(format_args!("{}\n", format_args!($($text)*))) };
+}
+
 #[cfg(test)]
 mod arrows;
 mod book;

@@ -1,11 +1,10 @@
 //! Running other programs from the top of the workspace, and its files.
 
-use std::fs;
-use std::io::ErrorKind;
+use std::io::{self, ErrorKind, Write};
 use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::sync::{Mutex, OnceLock, PoisonError};
-use std::thread;
+use std::{fmt, fs, thread};
 
 use scene::file;
 
@@ -14,6 +13,16 @@ pub(crate) type Fault = String;
 
 /// How much is done at once where each keeps a processor busy: as many as CI's machine has.
 pub(crate) const AT_ONCE: usize = 2;
+
+/// Writes to standard output; what keeps a line from it, but a closed pipe, ends all.
+pub(crate) fn say(text: fmt::Arguments<'_>) {
+    if let Err(fault) = io::stdout().lock().write_fmt(text)
+        && fault.kind() != ErrorKind::BrokenPipe
+    {
+        eprintln!("standard output: {fault}");
+        std::process::exit(1);
+    }
+}
 
 /// The top of the workspace.
 pub(crate) fn top() -> PathBuf {
