@@ -73,6 +73,7 @@ def test_an_unknown_place_is_refused(monkeypatch):
     [
         ({"seeds": [1, 1]}, "seeds: found one twice"),
         ({"keys": {"seed": [5]}}, "keys: found seed"),
+        ({"keys": {"rcp.gain": [0.5, 0.5]}}, "rcp.gain has a value twice"),
         ({"batch": 0}, "batch: found 0"),
     ],
 )

@@ -106,6 +106,7 @@ fn sweeps_that_cannot_be() {
          sweep s.toml --key rcp.gain=0.5,-1 | --key rcp.gain=-1: rcp.gain: found -1
          sweep s.toml --key rcp.gain=1,,2 | KEY=VALUE
          sweep s.toml --key rcp.gain=1 --key rcp.gain=2 | rcp.gain is given twice
+         sweep s.toml --key rcp.gain=0.5,0.50 | 0.50 is there twice
          sweep s.toml --key seed=1,2 | seed has a column of its own
          sweep s.toml --key rcp.gain=0.5,0.6 --seeds 0..600000 | more than 1000000
          sweep s.toml --seeds 5 | --seeds | A..B

@@ -102,6 +102,9 @@ def sweep(
         raise ValueError("seeds: found one twice, allowed: each once")
     if "seed" in keys:
         raise ValueError("keys: found seed, which has a column of its own; allowed: seeds")
+    for key, values in keys.items():
+        if len(set(map(str, values))) < len(values):
+            raise ValueError(f"keys: {key} has a value twice, allowed: each once")
     if batch is not None and batch < 1:
         raise ValueError(f"batch: found {batch}, allowed: above 0")
     settings = [dict(zip(keys, values)) for values in itertools.product(*keys.values())]

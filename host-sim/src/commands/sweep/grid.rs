@@ -1,5 +1,6 @@
 //! Keys, their values, and every combination of these.
 
+use std::collections::HashSet;
 use std::str::FromStr;
 
 use scene::Override;
@@ -19,6 +20,13 @@ impl FromStr for Axis {
         let values = split(values);
         if key.trim().is_empty() || values.iter().any(String::is_empty) {
             return Err(allowed());
+        }
+        // Be it written as another number.
+        let number = |value: &String| value.parse::<f64>().map(|number| number.to_string());
+        let mut seen = HashSet::new();
+        let mut all = values.iter();
+        if let Some(twice) = all.find(|one| !seen.insert(number(one).unwrap_or((*one).clone()))) {
+            return Err(format!("{twice} is there twice, allowed: once"));
         }
         let key = key.trim().to_owned();
         Ok(Self { key, values })
@@ -76,7 +84,7 @@ mod tests {
         assert_eq!(values("rcp.gain = 0, 0.5,1 "), ["0", "0.5", "1"]);
         assert_eq!(values("a=[80, 90],[1, 2]"), ["[80, 90]", "[1, 2]"]);
         assert_eq!(values("a='x,y',\"[\",z"), ["'x,y'", "\"[\"", "z"]);
-        for wrong in ["", "a", "a=", "=1", "a=1,,2", "a=1,"] {
+        for wrong in ["", "a", "a=", "=1", "a=1,,2", "a=1,", "a=1,2,1.0"] {
             assert!(axis(wrong).is_err(), "{wrong}");
         }
     }
