@@ -44,7 +44,7 @@ pub(crate) fn check(path: &Path) -> Result<(), Error> {
 /// The same, and there is no such file yet.
 pub(crate) fn check_new(path: &Path) -> Result<(), Error> {
     check(path)?;
-    if path.exists() {
+    if !is_stdout(path) && path.exists() {
         let fault = "is there already, and is not overwritten; name another file";
         return Err(Error::file(path, fault));
     }

@@ -27,7 +27,8 @@ pub(crate) struct Arguments {
     #[arg(long, value_name = "S", value_parser = seconds)]
     seconds: Option<f64>,
     /// Where to write the table; - is standard output. A name that ends in .mcap has all that
-    /// the module says, its log and its answers too, as messages that Foxglove reads
+    /// the module says, its log and its answers too, as messages that Foxglove reads. An existing
+    /// file is not overwritten
     #[arg(
         long,
         value_name = "FILE.csv|FILE.mcap",
@@ -61,7 +62,7 @@ pub(crate) fn records(arguments: &Arguments, verbosity: Verbosity) -> Result<(),
     let Some(out) = &arguments.out else {
         return Err(Error::Input("--out is missing".to_owned()));
     };
-    record_file::check(out)?;
+    record_file::check_new(out)?;
     // Where the table goes to standard output, nothing else does.
     let say = |line: String| {
         if is_stdout(out) {

@@ -88,6 +88,7 @@ fn what_is_wrong_is_said() {
     place.refuses("records --sim bench.toml", "--out");
     place.refuses("records --sim bench.toml --out /", "/: not a file name");
     place.done("records --sim bench.toml --seconds 0.01 --out r.mcap");
+    place.refuses("records --sim bench.toml --out r.mcap", "is there already");
     place.refuses("records --file r.mcap", "r.mcap: messages (.mcap) are not");
     // Nothing is accepted that would have no effect.
     for line in [

@@ -28,8 +28,8 @@ fn a_key_that_is_set_before_the_motor_runs_is_the_scene_s() {
     place.write("set.txt", "0.1 set motor.kp 0.08\n0.4 arm\n");
     let table = |scene: &str, script: &str| {
         let records = format!("records --sim {scene}.toml --script {script}.txt");
-        let ran = place.done(&format!("{records} --seconds 2 --out r.csv"));
-        (ran.stdout, place.text("r.csv"))
+        let ran = place.done(&format!("{records} --seconds 2 --out {scene}-{script}.csv"));
+        (ran.stdout, place.text(&format!("{scene}-{script}.csv")))
     };
     let (_, expected) = table("new", "arm");
     let (said, found) = table("old", "set");
