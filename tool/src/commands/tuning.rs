@@ -4,8 +4,9 @@ use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
 use clap::Args;
+use config::{Mismatch, RunsOn, Target};
 use host_sim::{Error, output, report};
-use scene::{Override, file, key_facts};
+use scene::{Override, Scene, file, key_facts};
 use similar::TextDiff;
 
 use crate::configuration::RunsBy;
@@ -167,6 +168,12 @@ pub(crate) fn save(arguments: &SaveArguments) -> Result<(), Error> {
     }
     let name = path.display().to_string();
     let edited = scene_file::edit(&name, &text, &values)?;
+    if let Ok(scene) = Scene::from_str(&name, &edited)
+        && let Err(fault) = config::build::<f32>(&scene, Target::of(RunsOn::Board))
+        && matches!(fault, Mismatch::Unsettled(_) | Mismatch::Unprotected(_))
+    {
+        report::warn(format_args!("warning: no board takes it: {fault}"));
+    }
     let diff = TextDiff::from_lines(&text, &edited);
     let mut diff = diff.unified_diff();
     let diff = diff.context_radius(1).header(&name, &name).to_string();

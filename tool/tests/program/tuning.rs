@@ -193,6 +193,8 @@ fn what_is_saved_is_the_scene_s_from_then_on() {
     let ran = place.done("get motor.kp --sim bench.toml");
     ran.prints("0.08        0.08");
 
+    let ran = place.done("save motor.kp=9 --scene bench.toml --dry-run");
+    ran.warns("warning: no board takes it: motor.kp: found kp 9");
     place.refuses("save motor.kp=11 --scene bench.toml", "motor.kp: found 11");
     let ran = place.done("save --all --sim bench.toml");
     ran.prints("nothing to save");
