@@ -24,7 +24,7 @@ pub(crate) use testing::{
 use firmware::{Links, Packet};
 use host_sim::Error;
 use host_sim::origin::Origin;
-use scene::{Scene, Texture};
+use scene::{PlantKind, Scene, Texture};
 use wire::{TaggedCommand, TickRecord};
 
 use crate::deployment::Deployment;
@@ -45,6 +45,9 @@ impl Incoming {
         })
     }
 }
+
+const NO_MOTOR: &str =
+    "no motor turns a whisker where plant.kind is \"ideal\"; allowed: \"textured\" or \"whisker\"";
 
 pub(crate) trait Source {
     /// Waits for what comes next, and takes it. Nothing may have come after a while.
@@ -69,10 +72,20 @@ pub(crate) trait Source {
         None
     }
 
-    /// Whether it has a sample of that name; on a real bench any name will do.
+    /// Whether motors turn its whiskers.
+    fn has_motors(&self) -> Result<(), String> {
+        match self.scene() {
+            Some(scene) if scene.plant.kind == PlantKind::Ideal => Err(NO_MOTOR.to_owned()),
+            _ => Ok(()),
+        }
+    }
+
+    /// Whether it has the sample of a label; on a real bench any name will do.
     fn has(&self, sample: &str) -> Result<(), Error> {
-        let found = self.scene().map(|scene| texture(sample, scene));
-        found.transpose().map(drop)
+        let or = ", or LABEL=TEXTURE with one of them";
+        let found = self.scene().map(|scene| texture(sample, scene, or));
+        let found = found.transpose().map(drop);
+        found.map_err(|fault| Error::Input(format!("--label: {fault}")))
     }
 
     /// Has a sample laid before the whisker, in place of what lies there.
@@ -133,8 +146,8 @@ pub(crate) fn framed(node: Option<u8>, request: TaggedCommand) -> Vec<u8> {
     }
 }
 
-/// A sample in a simulated world, which is one of the scene's textures.
-pub(crate) fn texture(sample: &str, scene: &Scene) -> Result<Texture, Error> {
+/// A sample in a simulated world, which is one of the scene's textures, `or` what else is allowed.
+pub(crate) fn texture(sample: &str, scene: &Scene, or: &str) -> Result<Texture, Error> {
     let Some(textured) = &scene.plant.textured else {
         let fault = "the scene has no textures to lay before the whisker; allowed: plant.kind = \
                      \"textured\" or \"whisker\", with plant.textures, or --world SCENE with such \
@@ -146,8 +159,7 @@ pub(crate) fn texture(sample: &str, scene: &Scene) -> Result<Texture, Error> {
     found.copied().ok_or_else(|| {
         let names: Vec<_> = textured.textures.iter().map(|of| of.name()).collect();
         Error::Input(format!(
-            "--label: found {sample:?}, which is none of the scene's textures; allowed: {}, or \
-             LABEL=TEXTURE with one of them",
+            "found {sample:?}, which is none of the scene's textures; allowed: {}{or}",
             names.join(", ")
         ))
     })

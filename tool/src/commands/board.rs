@@ -161,7 +161,7 @@ pub(crate) fn board(arguments: &Arguments) -> Result<(), Error> {
         }
         while let Ok(Some(line)) = commands.line() {
             let laid = match line.split_whitespace().collect::<Vec<_>>()[..] {
-                ["lay", name] => texture(name, scene).map(|found| session.lay(found)),
+                ["lay", name] => texture(name, scene, "").map(|found| session.lay(found)),
                 [] => Ok(()),
                 _ => Err(Error::Input(format!("found {line:?}, allowed: lay NAME"))),
             };

@@ -61,6 +61,7 @@ pub(crate) fn calibrate(arguments: &Arguments) -> Result<(), Error> {
     let (svg, png) = (file("steps.svg")?, file("steps.png")?);
     let side = arguments.side.number();
     let mut module = arguments.which.source.module()?;
+    module.source().has_motors().map_err(Error::Input)?;
     interrupt::heed()?;
     let mut whisker = Listening::new(&mut module, side)?;
     report::warn(format_args!(

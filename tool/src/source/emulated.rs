@@ -88,7 +88,7 @@ impl Source for Emulated {
     }
 
     fn lay(&mut self, sample: &str) -> Result<(), Error> {
-        let texture = texture(sample, &self.loaded.scene)?;
+        let texture = texture(sample, &self.loaded.scene, "")?;
         match &mut self.boards {
             Boards::One(board, _) => board.lay(texture),
             Boards::Head(head) => head.lay(texture),

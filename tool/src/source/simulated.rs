@@ -125,7 +125,7 @@ impl Source for Simulated {
     }
 
     fn lay(&mut self, sample: &str) -> Result<(), Error> {
-        self.run.lay(texture(sample, &self.loaded.scene)?);
+        self.run.lay(texture(sample, &self.loaded.scene, "")?);
         Ok(())
     }
 

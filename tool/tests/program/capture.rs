@@ -139,5 +139,11 @@ fn what_is_wrong_is_said_before_anything_is_captured() {
     }
     let ideal = "capture --sim ideal.toml --out c.csv --label smooth";
     place.refuses(ideal, "has no textures");
+    place.refuses(
+        "calibrate --sim ideal.toml --out c",
+        "no motor turns a whisker",
+    );
+    let motor = "bringup --sim ideal.toml --motor --yes --steps motor";
+    place.done(motor).prints("not done: no motor turns");
     assert!(!place.path("c.csv").exists());
 }

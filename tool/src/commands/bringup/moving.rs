@@ -75,6 +75,9 @@ pub(super) fn motor(bench: &mut Bench, side: u8) -> Done {
     if bench.counts_up[usize::from(side)] == Some(false) {
         return not_done("not done: the encoder must be right before a motor follows it");
     }
+    if let Err(why) = bench.module.source().has_motors() {
+        return not_done(format!("not done: {why}"));
+    }
     bench.stream()?;
     let warning = "the motor is to turn the whisker by three degrees, at a fifth of its duty: bring the \
                    whisker to rest, keep fingers and things away, set the supply's current limit low and \
