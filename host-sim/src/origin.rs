@@ -68,8 +68,9 @@ impl Origin {
 }
 
 /// Takes the lines that begin with `# ` from the top of a file. Returns what they say, how many
-/// there are, and the table below them. A line without `=` is a remark, which says nothing. What a
-/// spreadsheet adds is left out: a byte-order mark, quotation marks, and commas behind the text.
+/// there are, and the table below them. A line without `=` is a remark, which says nothing, as a
+/// blank one. What a spreadsheet adds is left out: a byte-order mark, quotation marks, and commas
+/// behind the text.
 pub fn split(file: &[u8]) -> (Origin, u64, &[u8]) {
     let file = file.strip_prefix(BYTE_ORDER_MARK).unwrap_or(file);
     let (mut origin, mut lines, mut rest) = (Origin::default(), 0, file);
@@ -82,6 +83,10 @@ pub fn split(file: &[u8]) -> (Origin, u64, &[u8]) {
             .strip_prefix('"')
             .and_then(|line| line.strip_suffix('"'));
         let line = quoted.map_or(line.to_owned(), |line| line.replace("\"\"", "\""));
+        if line.is_empty() && !below.trim_ascii().is_empty() {
+            (lines, rest) = (lines + 1, below);
+            continue;
+        }
         let Some(said) = line.strip_prefix(MARK) else {
             break;
         };

@@ -208,11 +208,12 @@ impl Tokens<'_> {
             if text.starts_with('"') {
                 // A reader of CSV takes marks away that stand right behind a comma.
                 return Err(format!(
-                    "{name} {text:?} has quotation marks behind a blank"
+                    "{name} {} has quotation marks behind a blank",
+                    excerpt(text)
                 ));
             }
             let checked = tactile::name::check(text);
-            checked.map_err(|reason| format!("{name} {text:?} {reason}"))
+            checked.map_err(|reason| format!("{name} {} {reason}", excerpt(text)))
         })
     }
 }
@@ -345,8 +346,13 @@ pub fn broken(error: &csv::Error, table: &[u8], above: u64) -> String {
             expected_len,
             len,
         } => format!(
-            "line {}: {len} cells; the header has {expected_len}",
-            line_of(table, above, Some(at))
+            "line {}: {len} cells; the header has {expected_len}{}",
+            line_of(table, above, Some(at)),
+            if len > expected_len {
+                " (a comma within a number?)"
+            } else {
+                ""
+            }
         ),
         csv::ErrorKind::Utf8 { pos: Some(at), .. } => {
             let line = line_of(table, above, Some(at));
@@ -356,14 +362,23 @@ pub fn broken(error: &csv::Error, table: &[u8], above: u64) -> String {
     }
 }
 
+/// A cell in a message, cut where a quotation mark has made it long.
+fn excerpt(cell: &str) -> String {
+    let begin: String = cell.chars().take(80).collect();
+    let is_cut = begin.len() < cell.len();
+    let more = is_cut.then_some("… (a quotation mark that is not closed?)");
+    format!("{begin:?}{}", more.unwrap_or_default())
+}
+
 fn finite(text: &str, name: &str, line: u64) -> Result<f64, String> {
+    let shown = excerpt(text);
     match text.parse::<f64>() {
         Ok(value) if value.is_finite() => Ok(value),
-        _ if text.contains(',') => Err(format!(
-            "line {line}: {name} is {text:?}, not a finite number; a point is needed, no comma"
+        _ if text.contains([',', '\'', ' ', '\u{a0}', '\u{202f}']) => Err(format!(
+            "line {line}: {name} is {shown}, not a finite number; write it like 1000 or 0.5"
         )),
         _ => Err(format!(
-            "line {line}: {name} is {text:?}, not a finite number"
+            "line {line}: {name} is {shown}, not a finite number"
         )),
     }
 }
@@ -417,8 +432,8 @@ fn parse(file: &[u8], channels: [&str; 2]) -> Result<Recording, String> {
         let contact_at = |place: usize| match number("contact", place)? {
             contact if (contact as f32).is_finite() => Ok(contact),
             _ => Err(format!(
-                "line {line}: contact is {:?}, beyond single precision",
-                cell(place)
+                "line {line}: contact is {}, beyond single precision",
+                excerpt(cell(place))
             )),
         };
         let whole = |place: usize| {
@@ -503,8 +518,12 @@ mod tests {
         let below = format!("# scene = bench\n# a remark\n{table}");
         assert_eq!(parse(below.as_bytes()), parse(table.as_bytes()));
         assert_eq!(parse(table.as_bytes()).unwrap()[0].label, "#1");
-        let fault = parse(b"# a remark\nlabel,trial,x\n").unwrap_err();
-        assert!(fault.starts_with("line 2: no column"), "{fault}");
+        let fault = parse(b"\n# a remark\r\n,,\r\nlabel,trial,x\n").unwrap_err();
+        assert!(fault.starts_with("line 4: no column"), "{fault}");
+        let fault = parse(b"\n\nlabel;trial;x;y\n").unwrap_err();
+        assert!(fault.starts_with("line 3: semicolons"), "{fault}");
+        let blank = format!("\n \n{table}");
+        assert_eq!(parse(blank.as_bytes()), parse(table.as_bytes()));
         #[cfg(feature = "cli")]
         assert_eq!(super::lines(below.as_bytes()), [4]);
     }
@@ -528,6 +547,21 @@ mod tests {
         let missing = "line 4: the label is missing: \"<NA>\"";
         fails("# a\nHEADER\na,1,2,3\n<NA>,1,2,3\n", missing);
         fails("# a\nHEADER\na,1,2,3\n\na,1\n", "line 5: 2 cells");
+        fails("\n\nHEADER\n\na,1,2,\n", "line 5: y is \"\"");
+        let comma = "line 2: 5 cells; the header has 4 (a comma within a number?)";
+        fails("HEADER\na,1,1,000,3\n", comma);
+        let open = format!("HEADER\na,1,2,\"3\n{}", "a,1,2,3\n".repeat(20));
+        let begin = "line 2: y is \"3\\na,1,2,3\\n";
+        let fault = parse(open.replace("HEADER", "label,trial,x,y").as_bytes()).unwrap_err();
+        assert!(fault.starts_with(begin) && fault.len() < 200, "{fault}");
+        assert!(
+            fault.contains("… (a quotation mark that is not closed?)"),
+            "{fault}"
+        );
+        fails(
+            "HEADER\na,1,\"1,000\",3\n",
+            "line 2: x is \"1,000\", not a finite number; write",
+        );
         fails(&many, "line 1002: label \"l1000\" is one of more than 1000");
         let hidden = r#"line 2: pose "\u{202e}b" has the character '\u{202e}'"#;
         fails("HEADER,pose\na,1,2,3,\u{202e}b\n", hidden);

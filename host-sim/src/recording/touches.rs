@@ -1,6 +1,6 @@
 //! The touches of a recording, by their numbers.
 
-use super::Stream;
+use super::{Stream, excerpt};
 
 /// A whole number, also as 3.0 or 3e0, which other programs write, or `true` or `false`.
 pub(super) fn number(cell: &str) -> Result<u16, String> {
@@ -11,7 +11,10 @@ pub(super) fn number(cell: &str) -> Result<u16, String> {
     };
     let is_whole = |number: &f64| number.trunc() == *number && (0.0..=65_535.0).contains(number);
     let number = number.filter(is_whole).map(|number| number as u16);
-    number.ok_or_else(|| format!("touch is {cell:?}, not a whole number from 0 to 65535"))
+    number.ok_or_else(|| {
+        let cell = excerpt(cell);
+        format!("touch is {cell}, not a whole number from 0 to 65535")
+    })
 }
 
 /// Numbers touches that have no numbers of their own: where all that is not 0 is the same, as in a

@@ -30,7 +30,7 @@ fn usual() -> String {
 const REFUSED: &str = r#"
 label,trial,x\na,1,2 | line 1: no column "y"; a recording has label,trial,x,y
 label;trial;x;y\na;1;2;3 | line 1: semicolons stand between the columns; allowed: commas, and points in numbers
-HEADER\na,1,"0,5",3 | line 2: x is "0,5", not a finite number; a point is needed, no comma
+HEADER\na,1,"0,5",3 | line 2: x is "0,5", not a finite number; write it like 1000 or 0.5
 HEADER\na,1,nan,3 | line 2: x is "nan", not a finite number
 HEADER\na,1,2 | line 2: 3 cells; the header has 4
 HEADER\n,1,2,3 | line 2: the label is empty
