@@ -43,6 +43,8 @@ pub struct Recording {
     pub tick_hz: Option<u32>,
     /// What was recorded.
     pub streams: Vec<Stream>,
+    /// The column of tilt or depth that is there without the other.
+    pub alone: Option<&'static str>,
 }
 
 /// The columns of a recording, in the order in which one is written.
@@ -472,7 +474,14 @@ fn parse(file: &[u8], channels: [&str; 2]) -> Result<Recording, String> {
     }
     touches::tell_apart(&mut streams);
     let tick_hz = origin.tick_hz()?;
-    Ok(Recording { tick_hz, streams })
+    let alone = stands.iter().position(Option::is_some);
+    let alone = alone.filter(|_| stands.contains(&None));
+    let alone = alone.map(|n| COLUMNS[7 + n].name);
+    Ok(Recording {
+        tick_hz,
+        streams,
+        alone,
+    })
 }
 
 #[cfg(test)]

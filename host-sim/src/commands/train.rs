@@ -13,7 +13,7 @@ use crate::misfit::oddities;
 use crate::output::{self, Output, write_whole};
 use crate::rate::{self, Said};
 use crate::recording::Stream;
-use crate::training::{How, Tables};
+use crate::training::{Expected, How, Tables};
 use crate::{Error, doubts, files, plot, report};
 
 /// What to train from, and how.
@@ -73,7 +73,8 @@ pub fn train(asked: &Arguments) -> Result<String, Error> {
         output::check(plot)?;
         output::check_apart(plot, inputs().chain([out.as_path()]))?;
     }
-    let mut recordings = read(data, &asked.channels, &mut said)?;
+    let mut odd = Vec::new();
+    let mut recordings = read(data, &asked.channels, &mut said, &mut odd)?;
     let [ahead, of_data] = [&said[..ahead], &said[ahead..]];
     if ahead.iter().all(|(_, hz)| hz.is_none()) {
         rate::complete(of_data).map_err(Error::Input)?;
@@ -89,7 +90,7 @@ pub fn train(asked: &Arguments) -> Result<String, Error> {
     }
     let channels = &asked.channels;
     let names = channels.each_ref().map(String::as_str);
-    let odd = oddities(data, names, &recordings);
+    odd.extend(oddities(data, names, &recordings));
     let trained = how.train(&recordings, rate).map_err(|error| {
         let mut lines = vec![refusal(data, channels, &error).to_string()];
         if matches!(error, TrainError::TooShort { .. }) {
@@ -102,6 +103,11 @@ pub fn train(asked: &Arguments) -> Result<String, Error> {
     let picture = plot.map(Output::create).transpose()?;
     write_whole(out, trained.model.as_bytes())?;
     let streams = || recordings.iter().flat_map(|(_, streams)| streams);
+    let learns_none = how.tables == Tables::Single || how.expect == Expected::Same;
+    if learns_none && streams().any(|stream| stream.stands.is_some()) {
+        let said = "warning: no poses are estimated, as by single tables or with --expect same";
+        odd.push(said.to_owned());
+    }
     let counts = streams().flat_map(|stream| stream.counts(how.least()));
     let samples = counts.filter(|counts| *counts).count();
     let odd = odd.iter().flat_map(|line| ["\n", line]).collect::<String>();
@@ -170,17 +176,22 @@ fn whiskers(data: &[PathBuf], recordings: &[(String, Vec<Stream>)]) -> Result<()
     })
 }
 
-/// Recordings, each with its name, and what they say of the samples a second.
+/// Recordings, each with its name, what they say of the samples a second, and what is `odd`.
 fn read(
     data: &[PathBuf],
     channels: &[String; 2],
     said: &mut Vec<Said>,
+    odd: &mut Vec<String>,
 ) -> Result<Vec<(String, Vec<Stream>)>, Error> {
     let channels = channels.each_ref().map(String::as_str);
     let read = |path: &PathBuf| {
         let recording = files::whole_recording(path, channels)?;
         said.push(files::rate_of(path, &recording));
-        Ok((path.display().to_string(), recording.streams))
+        let name = path.display().to_string();
+        odd.extend(recording.alone.map(|column| {
+            format!("warning: {name}: {column} alone: poses need tilt_deg and depth_deg")
+        }));
+        Ok((name, recording.streams))
     };
     data.iter().map(read).collect()
 }

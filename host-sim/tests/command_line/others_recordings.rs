@@ -144,6 +144,19 @@ fn what_is_odd_is_warned_of_with_its_line() {
     let copied = ["warning: r.csv:2: 100 % of trial", "in copy.csv too"];
     says(&printed.stdout, &copied);
     assert!(!place.done(TRAINED).stdout.contains("warning"));
+    for (columns, cells, said) in [
+        (",tilt_deg", ",5", "warning: r.csv: tilt_deg alone"),
+        (
+            ",tilt_deg,depth_deg",
+            ",5,6",
+            "warning: no poses are estimated",
+        ),
+    ] {
+        let rows = table.lines().skip(1).map(|row| format!("{row}{cells}\n"));
+        let rows = format!("label,trial,x,y{columns}\n{}", rows.collect::<String>());
+        place.write("r.csv", rows);
+        says(&place.done(TRAINED).stdout, &[said]);
+    }
     // What rests is equal by chance.
     let rests = |trial| format!("low,{trial},8192,8192\n").repeat(200);
     place.write("r.csv", [table, rests(7), rests(8)].concat());
