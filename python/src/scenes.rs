@@ -73,9 +73,8 @@ impl Given {
                 continue;
             }
             let source = format!("set[{key:?}]");
-            given
-                .set
-                .push(Override::new(source, &key, &literal(&value)?));
+            let value = literal(&source, &value)?;
+            given.set.push(Override::new(source, &key, &value));
         }
         Ok(given)
     }
@@ -193,7 +192,8 @@ fn flatten(
         if let Ok(table) = value.cast::<PyDict>() {
             flatten(table, &place, &key, set)?;
         } else if !value.is_none() {
-            set.push(Override::new(place, &key, &literal(&value)?));
+            let value = literal(&place, &value)?;
+            set.push(Override::new(place, &key, &value));
         }
     }
     Ok(())
@@ -201,7 +201,7 @@ fn flatten(
 
 /// A value as TOML has it. NumPy's truths, numbers and arrays are taken as Python's own, and paths
 /// as text.
-fn literal(value: &Bound<'_, PyAny>) -> PyResult<String> {
+fn literal(place: &str, value: &Bound<'_, PyAny>) -> PyResult<String> {
     if let Ok(truth) = value.extract::<bool>() {
         return Ok(truth.to_string());
     }
@@ -222,7 +222,7 @@ fn literal(value: &Bound<'_, PyAny>) -> PyResult<String> {
     }
     let is_list = value.is_instance_of::<PyList>() || value.is_instance_of::<PyTuple>();
     if is_list || value.hasattr("tolist")? {
-        let items = value.try_iter()?.map(|item| literal(&item?));
+        let items = value.try_iter()?.map(|item| literal(place, &item?));
         return Ok(format!(
             "[{}]",
             items.collect::<PyResult<Vec<_>>>()?.join(", ")
@@ -230,6 +230,6 @@ fn literal(value: &Bound<'_, PyAny>) -> PyResult<String> {
     }
     let found = value.get_type();
     Err(PyTypeError::new_err(format!(
-        "found {found}, allowed: a number, text, truth or list"
+        "{place}: found {found}, allowed: a number, text, truth or list"
     )))
 }

@@ -220,6 +220,8 @@ def test_problems_are_reported_with_line_or_place():
     assert text.splitlines()[caught.value.problems[0].line - 1].startswith("tick_hz")
     with pytest.raises(vibrissa.SceneError, match=r'set\["rcp.gain"\]: rcp.gain: found -1'):
         vibrissa.Sim(TEXTURES, set={"rcp.gain": -1})
+    with pytest.raises(TypeError, match=r'set\["rcp"\]: found .*dict'):
+        vibrissa.Sim(TEXTURES, set={"rcp": {"gain": 1}})
     with pytest.raises(FileNotFoundError, match="nowhere.toml"):
         vibrissa.Sim("nowhere.toml")
     with pytest.raises(TypeError, match="allowed: a name, a path, TOML text or a dict"):
