@@ -218,14 +218,18 @@ impl Envs {
     fn new(
         py: Python<'_>,
         scene: &Bound<'_, PyAny>,
-        count: usize,
+        count: i64,
         action: &str,
-        ticks: u64,
+        ticks: i64,
         model: Option<&Bound<'_, PyAny>>,
         set: Option<&Bound<'_, PyDict>>,
     ) -> PyResult<Self> {
         let given = Given::new(scene, set)?;
         let loaded = given.loaded(py, None, model)?;
+        let (count, ticks) = (
+            outside::whole("count", count)?,
+            outside::whole("ticks", ticks)?,
+        );
         Self::of(py, (given, loaded), count, action, ticks)
     }
 

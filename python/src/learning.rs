@@ -30,9 +30,10 @@ use crate::table;
 pub(crate) fn record<'py>(
     py: Python<'py>,
     scene: &Bound<'py, PyAny>,
-    seed: Option<u64>,
+    seed: Option<&Bound<'_, PyAny>>,
     set: Option<&Bound<'py, PyDict>>,
 ) -> PyResult<Bound<'py, PyAny>> {
+    let seed = seed.map(|n| outside::seed("seed", n)).transpose()?;
     let scene = Given::new(scene, set)?.scene(py, seed)?;
     let run = Run::new(&scene, None);
     let mut run = run.map_err(|error| raised(py, error))?;
@@ -62,22 +63,23 @@ pub(crate) fn train(
     data: Vec<Prepared<'_>>,
     channels: [String; 2],
     tables: &str,
-    bins: Option<usize>,
+    bins: Option<i64>,
     smooth: Option<f64>,
-    block: Option<u32>,
+    block: Option<i64>,
     gate: Option<f64>,
     gap: Option<f64>,
     expect: &str,
-    rate: u32,
+    rate: i64,
 ) -> PyResult<Model> {
+    let rate = outside::whole("rate", rate)?;
     let known = [("joint", Tables::Joint), ("single", Tables::Single)];
     let tables = outside::one_of("tables", tables, &known)?;
     let known = EXPECTED.map(|(word, meant, _)| (word, meant));
     let expect = outside::one_of("expect", expect, &known)?;
     let how = How {
-        bins,
+        bins: bins.map(|n| outside::whole("bins", n)).transpose()?,
         smooth,
-        block,
+        block: block.map(|n| outside::whole("block", n)).transpose()?,
         gate,
         gap,
         expect,
@@ -122,10 +124,10 @@ pub(crate) fn classify<'py>(
     data: Prepared<'py>,
     channels: [String; 2],
     threshold: f64,
-    window: Option<u32>,
+    window: Option<i64>,
     rate: Option<u32>,
 ) -> PyResult<Bound<'py, PyAny>> {
-    let (name, rule) = match window {
+    let (name, rule) = match window.map(|n| outside::whole("window", n)).transpose()? {
         Some(samples) => ("window", Rule::Window { samples }),
         None => ("threshold", Rule::Sequential { threshold }),
     };

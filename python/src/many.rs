@@ -67,14 +67,15 @@ pub(crate) fn run_many<'py>(
     py: Python<'py>,
     scene: &Bound<'py, PyAny>,
     seeds: &Bound<'py, PyAny>,
-    every: u64,
+    every: i64,
     model: Option<&Bound<'py, PyAny>>,
     set: Option<&Bound<'py, PyDict>>,
 ) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyAny>)> {
     let seeds: Vec<u64> = seeds
         .try_iter()?
-        .map(|seed| seed?.extract())
+        .map(|seed| outside::seed("seeds", &seed?))
         .collect::<PyResult<_>>()?;
+    let every = outside::whole("every", every)?;
     let loaded = Given::new(scene, set)?.loaded(py, None, model)?;
     let raise = |error| raised(py, error);
     let classifier = loaded.classifier().map_err(raise)?;

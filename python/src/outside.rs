@@ -2,8 +2,8 @@
 
 use std::path::Path;
 
-use pyo3::exceptions::{PyMemoryError, PyValueError};
-use pyo3::{PyErr, PyResult, Python};
+use pyo3::exceptions::{PyMemoryError, PyOverflowError, PyValueError};
+use pyo3::prelude::*;
 
 /// Ticks after which it is seen whether an interrupt has come: some hundredths of a second.
 pub(crate) const HEEDED: u64 = 1 << 13;
@@ -62,6 +62,22 @@ pub(crate) fn one_of<T: Clone>(name: &str, found: &str, allowed: &[(&str, T)]) -
         let words: Vec<&str> = allowed.iter().map(|(word, _)| *word).collect();
         let words = words.join(", ");
         wrong(format_args!("{name}: found {found:?}, allowed: {words}"))
+    })
+}
+
+/// A whole number that was given; a `ValueError` has its range.
+pub(crate) fn whole<T: TryFrom<i64>>(name: &str, found: i64) -> PyResult<T> {
+    let most = u64::MAX >> (64 - 8 * size_of::<T>()).max(1);
+    let refused = |_| wrong(format_args!("{name}: found {found}, allowed: 0 to {most}"));
+    found.try_into().map_err(refused)
+}
+
+/// The same of a seed, which may be larger.
+pub(crate) fn seed(name: &str, given: &Bound<'_, PyAny>) -> PyResult<u64> {
+    given.extract().map_err(|error: PyErr| {
+        let fault = format_args!("{name}: found {given}, allowed: 0 to {}", u64::MAX);
+        let is_beyond = error.is_instance_of::<PyOverflowError>(given.py());
+        if is_beyond { wrong(fault) } else { error }
     })
 }
 

@@ -124,7 +124,9 @@ impl Sim {
         let mut run = run.map_err(raised)?;
         let last = run.posteriors();
         let classes = run.classes().to_vec();
-        let columns = iter::once("t_s").chain(classes.iter().map(String::as_str));
+        let name = |class| if class == "t_s" { "t_s_" } else { class };
+        let of_class = classes.iter().map(|class| name(class.as_str()));
+        let columns = iter::once("t_s").chain(of_class);
         Ok(Self {
             tables: RunTables::of(scene, &classes),
             posteriors: Layout::new(columns.map(|name| (name, Kind::Number))),
@@ -210,7 +212,8 @@ impl Sim {
         Ok(rows)
     }
 
-    fn bent(&self, py: Python<'_>, whisker: usize) -> PyResult<Bent> {
+    fn bent(&self, py: Python<'_>, whisker: i64) -> PyResult<Bent> {
+        let whisker = outside::whole("whisker", whisker)?;
         let bent = py.detach(|| self.state().run.bent(whisker));
         bent.ok_or_else(|| {
             let fault = format!(
@@ -229,11 +232,12 @@ impl Sim {
     fn new(
         py: Python<'_>,
         scene: &Bound<'_, PyAny>,
-        seed: Option<u64>,
+        seed: Option<&Bound<'_, PyAny>>,
         model: Option<&Bound<'_, PyAny>>,
         set: Option<&Bound<'_, PyDict>>,
     ) -> PyResult<Self> {
         let given = Given::new(scene, set)?;
+        let seed = seed.map(|n| outside::seed("seed", n)).transpose()?;
         let loaded = given.loaded(py, seed, model)?;
         Self::of(py, given, loaded)
     }
@@ -258,7 +262,8 @@ impl Sim {
     /// Advances by `n` ticks, beyond the scene's end too, and returns every `every`th row of
     /// the trace as a structured array.
     #[pyo3(signature = (n=1, *, every=1))]
-    fn step<'py>(&self, py: Python<'py>, n: u64, every: u64) -> PyResult<Bound<'py, PyAny>> {
+    fn step<'py>(&self, py: Python<'py>, n: i64, every: i64) -> PyResult<Bound<'py, PyAny>> {
+        let (n, every) = (outside::whole("n", n)?, outside::whole("every", every)?);
         if every == 0 {
             return Err(wrong("every: found 0, allowed: above 0"));
         }
@@ -268,15 +273,16 @@ impl Sim {
 
     /// Advances to the scene's end and returns every `every`th row of the trace.
     #[pyo3(signature = (*, every=1))]
-    fn run<'py>(&self, py: Python<'py>, every: u64) -> PyResult<Bound<'py, PyAny>> {
+    fn run<'py>(&self, py: Python<'py>, every: i64) -> PyResult<Bound<'py, PyAny>> {
         let left = py.detach(|| self.state().left());
-        self.step(py, left, every)
+        self.step(py, left.cast_signed(), every)
     }
 
     /// Starts again, with another seed if one is given: from here on all is as of a new Sim.
     /// Setpoints and gains that were set are undone.
     #[pyo3(signature = (seed=None))]
-    fn reset(&self, py: Python<'_>, seed: Option<u64>) -> PyResult<()> {
+    fn reset(&self, py: Python<'_>, seed: Option<&Bound<'_, PyAny>>) -> PyResult<()> {
+        let seed = seed.map(|n| outside::seed("seed", n)).transpose()?;
         py.detach(|| {
             let state = &mut *self.state();
             state.seed = seed.unwrap_or(state.seed);
@@ -295,7 +301,8 @@ impl Sim {
     /// `motor.min_deg` and `motor.max_deg`; None: the pattern generator's again. Whiskers are
     /// counted from 0, left side first.
     #[pyo3(signature = (degrees, whisker=0))]
-    fn setpoint(&self, py: Python<'_>, degrees: Option<f64>, whisker: usize) -> PyResult<()> {
+    fn setpoint(&self, py: Python<'_>, degrees: Option<f64>, whisker: i64) -> PyResult<()> {
+        let whisker = outside::whole("whisker", whisker)?;
         if let (Some(degrees), Some(motor)) = (degrees, &self.scene().motor) {
             outside::within("setpoint", degrees, motor.min_deg, motor.max_deg)?;
         }
@@ -306,7 +313,8 @@ impl Sim {
 
     /// Sets the nominal gain g of a whisker from the next tick on, 0 to 2.
     #[pyo3(signature = (gain, whisker=0))]
-    fn gain(&self, py: Python<'_>, gain: f64, whisker: usize) -> PyResult<()> {
+    fn gain(&self, py: Python<'_>, gain: f64, whisker: i64) -> PyResult<()> {
+        let whisker = outside::whole("whisker", whisker)?;
         outside::within("gain", gain, 0.0, 2.0)?;
         let set = py.detach(|| self.state().call(GAIN, whisker, gain));
         set.map_err(wrong)
@@ -336,7 +344,7 @@ impl Sim {
     /// (13, 3) with the columns x (against protraction), y (across it) and z (along the shaft as
     /// it is without a bend). Only with `plant.kind = "whisker"`.
     #[pyo3(signature = (whisker=0))]
-    fn shaft<'py>(&self, py: Python<'py>, whisker: usize) -> PyResult<Bound<'py, PyArray2<f64>>> {
+    fn shaft<'py>(&self, py: Python<'py>, whisker: i64) -> PyResult<Bound<'py, PyArray2<f64>>> {
         let points = self.bent(py, whisker)?.points_m.map(Vec::from);
         Ok(PyArray2::from_vec2(py, &points)?)
     }
@@ -344,14 +352,14 @@ impl Sim {
     /// Where a whisker touches now: arc length from the base and place on the surface, m, as the
     /// trace has them of the first whiskers; None in the air.
     #[pyo3(signature = (whisker=0))]
-    fn touch_at(&self, py: Python<'_>, whisker: usize) -> PyResult<Option<(f64, f64)>> {
+    fn touch_at(&self, py: Python<'_>, whisker: i64) -> PyResult<Option<(f64, f64)>> {
         Ok(self.touches_at(py, whisker)?.first().copied())
     }
 
     /// All places in which a whisker touches now, as `touch_at` has them: none, one or two. The
     /// second is where the rest of the shaft whips onto a plate that lies nearly along it.
     #[pyo3(signature = (whisker=0))]
-    fn touches_at(&self, py: Python<'_>, whisker: usize) -> PyResult<Vec<(f64, f64)>> {
+    fn touches_at(&self, py: Python<'_>, whisker: i64) -> PyResult<Vec<(f64, f64)>> {
         let contacts = self.bent(py, whisker)?.contacts;
         let places = contacts.iter().flatten();
         Ok(places.map(|at| (at.arc_m, at.plate_m[0])).collect())
@@ -378,8 +386,8 @@ impl Sim {
         table::decisions(py, &[(None, &decided)], self.tables.decisions)
     }
 
-    /// `t_s` and, under the name of each of `classes`, its posterior: a row whenever a block has
-    /// changed them, of the first whisker or of all together.
+    /// `t_s` and, under the name of each of `classes` (of one called t_s: `t_s_`), its posterior: a
+    /// row whenever a block has changed them, of the first whisker or of all together.
     #[getter]
     fn posteriors<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         let bytes = py.detach(|| self.state().posteriors.clone());

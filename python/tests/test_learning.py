@@ -83,6 +83,29 @@ def test_what_is_wrong_is_said(heard):
         vibrissa.train(heard, gate=2.0)
 
 
+def test_a_negative_number_is_refused_by_name(heard):
+    sim = vibrissa.Sim("textures")
+    for name, call in {
+        "seed": lambda: vibrissa.Sim("textures", seed=-1),
+        "n": lambda: sim.step(-1),
+        "whisker": lambda: sim.shaft(-1),
+        "seeds": lambda: vibrissa.run_many("textures", [1, -1]),
+        "bins": lambda: vibrissa.train(heard, bins=-1),
+        "window": lambda: vibrissa.classify(SHIPPED, heard, window=-1),
+        "count": lambda: vibrissa._core.Envs("textures", -1),
+    }.items():
+        with pytest.raises(ValueError, match=f"^{name}: found -1, allowed: 0 to"):
+            call()
+
+
+def test_posteriors_of_a_class_that_is_called_as_their_time(heard):
+    columns = {name: heard[name] for name in heard.dtype.names}
+    label = np.where(heard["label"] == "smooth", "t_s", heard["label"])
+    model = vibrissa.train({**columns, "label": label}, expect="same", rate=2000)
+    sim = vibrissa.Sim("textures", model=model)
+    assert list(sim.posteriors.dtype.names) == ["t_s", "t_s_", "p600", "p240", "carpet"]
+
+
 def test_labels_may_be_bytes(heard):
     columns = {name: heard[name] for name in heard.dtype.names}
     of_bytes = {**columns, "label": np.char.encode(columns["label"])}

@@ -115,8 +115,8 @@ class Sim:
         """The decisions since the start, with the columns of `decisions.csv`."""
     @property
     def posteriors(self) -> NDArray[np.void]:
-        """`t_s` and, under the name of each of `classes`, its posterior: a row whenever a block has
-        changed them, of the first whisker or of all together.
+        """`t_s` and, under the name of each of `classes` (of one called t_s: `t_s_`), its posterior: a
+        row whenever a block has changed them, of the first whisker or of all together.
         """
     @property
     def classes(self) -> list[str]:
