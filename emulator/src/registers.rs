@@ -7,7 +7,7 @@ use host_sim::Error;
 
 use crate::chip::{Fact, FactKind, MODELS, Model, facts};
 
-const HEAD: &str = include_str!("registers/head.md");
+const HEAD: &str = include_str!("registers/head.md.in");
 
 struct Chip {
     title: &'static str,
@@ -90,7 +90,7 @@ fn of_chip(chip: &Chip, model: &Model) -> String {
         format!("| {of} {name} | 0x{offset:02X} | {} |", names.join(", "))
     });
     format!(
-        include_str!("registers/chip.md"),
+        include_str!("registers/chip.md.in"),
         title = chip.title,
         flash = model.flash / 1024,
         ram = model.ram / 1024,

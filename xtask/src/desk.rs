@@ -45,7 +45,7 @@ fn written(python: &OfPython, page: &OfPage) -> String {
         format!("{median:.digits$} ({least:.digits$} to {most:.digits$})")
     };
     format!(
-        include_str!("desk.md"),
+        include_str!("desk.md.in"),
         python = python.python,
         first_trace_s = spread(python.first_trace_s, 2),
         run_s = spread(python.run_s, 3),

@@ -69,7 +69,7 @@ pub(crate) fn all(names: &[String], minutes: f64, page: bool) -> Result<(), Faul
     let compiler = output(Command::new("rustc").arg("--version"))?;
     let rows: Vec<String> = found.iter().map(Found::row).collect();
     let page = format!(
-        include_str!("fuzz/page.md"),
+        include_str!("fuzz/page.md.in"),
         compiler = compiler.trim(),
         rows = rows.join("\n"),
     );

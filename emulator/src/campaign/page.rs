@@ -102,7 +102,7 @@ pub fn page(rows: &[RunRow]) -> Result<String, String> {
         format!("| `{place}` | {} | {ends} | {reason} |\n", of.len())
     });
     Ok(format!(
-        include_str!("page.md"),
+        include_str!("page.md.in"),
         subjects = subjects.chain([all]).collect::<Vec<_>>().join("\n"),
         kinds = kinds.collect::<Vec<_>>().join("\n"),
         harmful = list(rows, Ending::Harmful),

@@ -51,7 +51,7 @@ pub(super) fn page(rows: &[ShardRow]) -> String {
     let counters = counters::described();
     let counters = counters.map(|(what, bits, left)| format!("| {what} | {bits} | {left} |"));
     format!(
-        include_str!("page.md"),
+        include_str!("page.md.in"),
         pc_hours = pc_hours,
         pc_shards = pc_shards,
         pc_speed = pc_speed,

@@ -100,7 +100,7 @@ pub(super) fn page(figures: &[Figure], deadlines: &str, sizes: &[Figure]) -> Res
         return Err(fault);
     }
     Ok(format!(
-        include_str!("page.md"),
+        include_str!("page.md.in"),
         stages = rows.collect::<Vec<_>>().join("\n"),
         reasons = missed(&stages, figures)?.trim_end(),
         deadlines = shown.join("\n"),

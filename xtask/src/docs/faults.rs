@@ -13,7 +13,7 @@ pub(super) fn page() -> String {
         format!("| {number} | {name} | {causes} | {check} | {reaction} | {recovery} |")
     });
     format!(
-        include_str!("faults.md"),
+        include_str!("faults.md.in"),
         rows = rows.collect::<Vec<_>>().join("\n"),
         retry_s = RETRY_S,
         faults = FAULTS,

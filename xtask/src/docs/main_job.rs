@@ -33,7 +33,7 @@ pub(super) fn page(said: &str, decisions: &str) -> Result<String, Fault> {
     let score = score.ok_or("the main job printed no score")?;
     let many = ManyRuns::read(decisions)?;
     Ok(format!(
-        include_str!("main_job.md"),
+        include_str!("main_job.md.in"),
         score = score,
         runs = many.runs,
         hit_rate = many.hit_rate,
