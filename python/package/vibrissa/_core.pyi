@@ -182,13 +182,13 @@ class Envs:
 _Recipe = tuple[str, str, list[tuple[str, str]], bytes | None]
 
 def restored_envs(
-    recipe: _Recipe, action: str, ticks: int, did: list[tuple[int, list[float]]]
+    parts: _Recipe, action: str, ticks: int, did: list[tuple[int, list[float]]]
 ) -> Envs:
-    """Environments as others were that were made from `recipe`."""
+    """Environments as others were that were made from `parts`."""
 def restored_sim(
-    recipe: _Recipe, seed: int, calls: list[tuple[int, int, int, float]], done: int
+    parts: _Recipe, seed: int, calls: list[tuple[int, int, int, float]], done: int
 ) -> Sim:
-    """A simulation as another one was that was made from `recipe` with `seed`, `calls` being what was
+    """A simulation as another one was that was made from `parts` with `seed`, `calls` being what was
     done to it in `done` ticks.
     """
 def columns(table: str) -> dict[str, tuple[str, str]]:
